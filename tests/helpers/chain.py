@@ -7,11 +7,12 @@ from typing import Any
 
 import xarray as xr
 
-from colonnade.campaign import Campaign, Test
+from colonnade.campaign import Campaign, Test, load
 from colonnade.readers.recording import Recording
 from colonnade.stages.compare import CompareInputs, compare
 from colonnade.stages.condition import ConditionInputs, condition
 from colonnade.stages.ingest import IngestInputs, ingest
+from colonnade.stages.ingesting.quality import ChannelInputs
 from colonnade.stages.predict import PredictInputs, predict
 from colonnade.stages.restitution import RestitutionInputs, restitution
 from colonnade.stages.rocking import RockingInputs, rocking
@@ -22,6 +23,23 @@ Recordings = Mapping[str, Recording]
 
 def _of(campaign: Campaign, test: str | Test) -> Test:
     return campaign.tests[test] if isinstance(test, str) else test
+
+
+def changed(campaign: Campaign, *changes: tuple[str, str]) -> Campaign:
+    """The campaign after changes of its file, each of its first place only."""
+    text = campaign.path.read_text(encoding="utf-8")
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new, 1)
+    campaign.path.write_text(text, encoding="utf-8")
+    return load(campaign.path)
+
+
+def plain_channel(quantity: str, **changes: Any) -> ChannelInputs:
+    """A channel of the main recorder on the specimen, along x, without unit, gain and range if none are given."""
+    unset = dict.fromkeys(("time", "unit", "gain", "full_scale", "range_recorded"))
+    fixed = {"column": "a", "recorder": "main", "factor": 1.0, "offset": 0.0, "on": "specimen", "direction": (1, 0, 0)}
+    return ChannelInputs(quantity=quantity, **unset | fixed | changes)
 
 
 def ingested(campaign: Campaign, test: str | Test, recordings: Recordings, **changes: Any) -> xr.Dataset:

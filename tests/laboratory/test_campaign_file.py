@@ -1,8 +1,7 @@
 """A plan of a virtual campaign and its file: loaded back as planned, whose specimen, and where its raw files are."""
 
-from __future__ import annotations
-
 import tomllib
+from dataclasses import replace
 
 import pytest
 
@@ -29,6 +28,10 @@ def plan(gravity=9.81, **recorders):
     return Plan("virtual-1", 'A "title"', {"prism.a": Specimen(SHAPE, block, 0.93)}, {"frame": setup}, (shaken,))
 
 
+def written_channels():
+    return tomllib.loads(campaign_text(plan()))["setups"]["frame"]["channels"]
+
+
 @pytest.fixture
 def loaded(tmp_path):
     def write(planned):
@@ -49,19 +52,19 @@ def test_it_is_loaded_as_it_was_planned(loaded):
 
 
 def test_a_reading_in_volts_has_the_gain_of_its_full_scale_and_its_offset():
-    top = tomllib.loads(campaign_text(plan()))["setups"]["frame"]["channels"]["top"]
+    top = written_channels()["top"]
     assert (top["unit"], top["gain"], top["offset"], top["range"]) == ("V", "10 mm/V", "4 mm", "10 V")
     assert top["at"] == ["43 mm", "0 mm", "440 mm"]
 
 
 def test_a_direct_reading_has_no_gain():
-    low = tomllib.loads(campaign_text(plan()))["setups"]["frame"]["channels"]["low"]
+    low = written_channels()["low"]
     assert (low["unit"], low["range"]) == ("mm", "50 mm")
     assert low.keys().isdisjoint({"gain", "offset"})
 
 
 def test_a_channel_of_the_table_is_relative_to_nothing():
-    channels = tomllib.loads(campaign_text(plan()))["setups"]["frame"]["channels"]
+    channels = written_channels()
     assert "relative_to" not in channels["table"]
     assert channels["top"]["relative_to"] == "table"
     assert channels["table"]["column"] == 'ACC "x"'
@@ -100,37 +103,29 @@ def test_a_campaign_file_of_another_hand_is_not_replaced(tmp_path, content):
     refuse_foreign(tmp_path)
 
 
-SPECIMEN = Specimen({"shape": "prism"}, PRISM, 0.93)
+FREE = Trial("free-01", "free-vibration", "frame", 9.0)
 
 
 def plan_with(*specimens):
-    return Plan("one", "One", dict.fromkeys(specimens, SPECIMEN), {"frame": Setup({})}, ())
+    specimen = Specimen({"shape": "prism"}, PRISM, 0.93)
+    return Plan("one", "One", dict.fromkeys(specimens, specimen), {"frame": Setup({})}, ())
 
 
 def test_the_only_specimen_needs_no_name():
-    assert plan_with("prism").specimen_of(Trial("free-01", "free-vibration", "frame", 9.0)) == "prism"
+    assert plan_with("prism").specimen_of(FREE) == "prism"
 
 
 def test_of_several_specimens_one_is_named():
-    trial = Trial("free-01", "free-vibration", "frame", 9.0)
     with pytest.raises(ValueError, match="free-01: one of prism, statue was expected"):
-        plan_with("prism", "statue").specimen_of(trial)
-    named = Trial("free-01", "free-vibration", "frame", 9.0, specimen="statue")
-    assert plan_with("prism", "statue").specimen_of(named) == "statue"
+        plan_with("prism", "statue").specimen_of(FREE)
+    assert plan_with("prism", "statue").specimen_of(replace(FREE, specimen="statue")) == "statue"
 
 
 def test_a_trial_stands_on_a_table_at_rest_unless_it_is_shaken():
-    table = Trial("free-01", "free-vibration", "frame", 9.0).table
-    assert table.acceleration([0.0, 1.0, 8.5]).tolist() == [0.0, 0.0, 0.0]
+    assert FREE.table.acceleration([0.0, 1.0, 8.5]).tolist() == [0.0, 0.0, 0.0]
 
 
-@pytest.mark.parametrize(
-    ("recorder", "flavour", "path"),
-    [
-        (MAIN, Flavour(), "raw/free-01.csv"),
-        (MAIN, Tdms(), "raw/free-01.tdms"),
-        ("daq2", Tdms(), "raw/free-01-daq2.tdms"),
-    ],
-)
-def test_each_recorder_writes_a_file_of_its_own(recorder, flavour, path):
-    assert raw_path(Trial("free-01", "sine", "frame", 9.0), recorder, Recorder((), 200.0, flavour)) == path
+def test_each_recorder_writes_a_file_of_its_own():
+    flavours = (MAIN, Flavour()), (MAIN, Tdms()), ("daq2", Tdms())
+    paths = [raw_path(FREE, recorder, Recorder((), 200.0, flavour)) for recorder, flavour in flavours]
+    assert paths == ["raw/free-01.csv", "raw/free-01.tdms", "raw/free-01-daq2.tdms"]

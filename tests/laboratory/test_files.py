@@ -1,9 +1,6 @@
 """TDMS and MATLAB files read back as they were written, and are the same bytes every time."""
 
-from __future__ import annotations
-
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,7 +18,7 @@ def sheet() -> Sheet:
 
 
 @pytest.mark.parametrize(("flavour", "unit"), FORMATS)
-def test_what_was_written_is_read_with_its_clock(flavour, unit, tmp_path: Path) -> None:
+def test_what_was_written_is_read_with_its_clock(flavour, unit, tmp_path):
     path = tmp_path / f"record{flavour.suffix}"
     path.write_bytes(flavour.content(sheet()))
     declared = dict(flavour.declaration())
@@ -35,14 +32,14 @@ def test_what_was_written_is_read_with_its_clock(flavour, unit, tmp_path: Path) 
 
 
 @pytest.mark.parametrize(("flavour", "unit"), FORMATS)
-def test_its_format_is_recognised_without_being_told(flavour, unit, tmp_path: Path) -> None:
+def test_its_format_is_recognised_without_being_told(flavour, unit, tmp_path):
     path = tmp_path / "record.dat"
     path.write_bytes(flavour.content(sheet()))
     np.testing.assert_array_equal(read(path).channel("lvdt_top").values, sheet().columns["lvdt_top"][1])
 
 
 @pytest.mark.parametrize(("flavour", "unit"), FORMATS)
-def test_the_same_sheet_gives_the_same_bytes_at_another_time(flavour, unit, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_same_sheet_gives_the_same_bytes_at_another_time(flavour, unit, monkeypatch):
     first = flavour.content(sheet())
     monkeypatch.setattr(time, "asctime", lambda *_: "Thu Jan  1 00:00:00 1970")
     assert flavour.content(sheet()) == first

@@ -1,16 +1,11 @@
 """Transducers read what they should, with the errors that are stated and no others, and within their ranges."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 from colonnade.laboratory.experiment import MAIN
 from colonnade.laboratory.instruments import STEP, Imperfections, Transducer, measure
-from colonnade.laboratory.programme import (
-    RIGS,
-    setups,
-)
+from colonnade.laboratory.programme import RIGS, setups
 from colonnade.laboratory.table import ramped_sine, still
 from every import every
 from prism import PRISM
@@ -26,7 +21,7 @@ def rotated(point: complex, pole: complex, angle: float) -> complex:
 
 @every("angle", [-0.28, -1e-3, 1e-3, 0.1, 0.28])
 @every(("direction", "part"), [((1.0, 0.0, 0.0), "real"), ((0.0, 0.0, 1.0), "imag"), ((-1.0, 0.0, 0.0), "back")])
-def test_a_transducer_reads_the_exact_rotation_of_its_point(angle: float, direction: tuple, part: str) -> None:
+def test_a_transducer_reads_the_exact_rotation_of_its_point(angle, direction, part):
     transducer = Transducer("c", "C", "displacement", "specimen", 0.2, "mm", at=(0.03, 0.01, 0.4), direction=direction)
     reading = transducer.sense(PRISM, still(), np.zeros(1), np.array([angle]))[0]
     point, pole = 0.03 + 0.4j, np.copysign(0.043, angle)
@@ -34,7 +29,7 @@ def test_a_transducer_reads_the_exact_rotation_of_its_point(angle: float, direct
     assert reading == pytest.approx({"real": moved.real, "imag": moved.imag, "back": -moved.real}[part], abs=1e-15)
 
 
-def test_a_transducer_on_the_ground_sees_the_table_too() -> None:
+def test_a_transducer_on_the_ground_sees_the_table_too():
     table = ramped_sine(2.0, 3.0, start=0.0, cycles=3, ramp=2)
     time = np.linspace(0.0, 2.0, 50)
     angle = 0.1 * np.sin(time)
@@ -44,13 +39,13 @@ def test_a_transducer_on_the_ground_sees_the_table_too() -> None:
     np.testing.assert_allclose(difference, table.displacement(time), atol=1e-15)
 
 
-def test_an_accelerometer_on_the_specimen_is_not_at_hand() -> None:
+def test_an_accelerometer_on_the_specimen_is_not_at_hand():
     transducer = Transducer("a", "A", "acceleration", "specimen", 20.0, "g", at=(0.0, 0.0, 0.4))
     with pytest.raises(ValueError, match="acceleration at"):
         transducer.sense(PRISM, still(), np.zeros(1), np.zeros(1))
 
 
-def test_a_perfect_chain_differs_by_half_a_step_at_most() -> None:
+def test_a_perfect_chain_differs_by_half_a_step_at_most():
     value = np.linspace(-0.149, 0.149, 10001)
     volts, _ = measure(value, LVDT, PERFECT, np.random.default_rng(1))
     assert np.abs(volts - value / 0.150 * 10).max() <= STEP / 2 * (1 + 1e-9)
@@ -58,7 +53,7 @@ def test_a_perfect_chain_differs_by_half_a_step_at_most() -> None:
     np.testing.assert_allclose(volts / STEP, np.rint(volts / STEP), atol=1e-9)
 
 
-def test_noise_drift_and_zero_offset_are_as_stated() -> None:
+def test_noise_drift_and_zero_offset_are_as_stated():
     volts, errors = measure(np.zeros(200_000), LVDT, Imperfections(), np.random.default_rng(2))
     line = errors["zero_volts"] + errors["drift_volts"] * np.linspace(0.0, 1.0, volts.size)
     assert abs(errors["drift_volts"]) == pytest.approx(0.010)  # 0.1 % of 10 V
@@ -67,18 +62,18 @@ def test_noise_drift_and_zero_offset_are_as_stated() -> None:
     assert abs(np.mean(volts - line)) < 5e-5
 
 
-def test_a_spike_stands_out_at_its_sample_alone() -> None:
+def test_a_spike_stands_out_at_its_sample_alone():
     volts, errors = measure(np.zeros(1000), LVDT, Imperfections(), np.random.default_rng(3), spikes=(400,))
     assert errors["spikes"] == [400]
     assert np.flatnonzero(np.abs(volts - np.median(volts)) > 0.1).tolist() == [400]
 
 
-def test_what_is_beyond_the_range_is_clipped_to_it() -> None:
+def test_what_is_beyond_the_range_is_clipped_to_it():
     volts, _ = measure(np.array([-0.2, 0.0, 0.2]), LVDT, PERFECT, np.random.default_rng(4))
     assert volts.tolist() == [-10.0, 0.0, 10.0 - STEP]
 
 
-def test_gain_and_offset_give_the_physical_value_back() -> None:
+def test_gain_and_offset_give_the_physical_value_back():
     transducer = Transducer("t", "C", "displacement", "specimen", 0.1, "mm", offset=-0.00013, at=(0.0, 0.0, 0.4))
     volts, _ = measure(np.array([0.05]), transducer, PERFECT, np.random.default_rng(5))
     assert volts[0] * 0.1 / 10 - 0.00013 == pytest.approx(0.05, abs=2e-6)
@@ -86,7 +81,7 @@ def test_gain_and_offset_give_the_physical_value_back() -> None:
     assert in_millimetres.written(volts)[0] == pytest.approx(50.0, abs=2e-3)
 
 
-def test_no_transducer_on_the_prism_reaches_its_range_before_the_catch() -> None:
+def test_no_transducer_on_the_prism_reaches_its_range_before_the_catch():
     assert RIGS["prism"].catch / PRISM.critical_angle == pytest.approx(1.5, rel=0.02)
     angle = np.linspace(-RIGS["prism"].catch, RIGS["prism"].catch, 101)
     for transducer in setups(RIGS["prism"], table_range=0.050)["bench"].recorders[MAIN].transducers:

@@ -1,7 +1,5 @@
 """The site of a virtual campaign: motions of known strength, columns and questions that load, a hazard that falls."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -10,18 +8,10 @@ import pytest
 from colonnade.assessment.measures import intensity_measures
 from colonnade.campaign import load
 from colonnade.dynamics.motion import Motion
+from colonnade.laboratory import site
 from colonnade.laboratory.campaign_file import FILE_NAME, campaign_text
 from colonnade.laboratory.programme import prism_programme
-from colonnade.laboratory.site import (
-    LEVELS,
-    LIST,
-    LOWEST,
-    add_site,
-    annual_rate,
-    broad_band,
-    synthetic_records,
-    write_suite,
-)
+from colonnade.laboratory.site import LEVELS, LIST, LOWEST, broad_band, synthetic_records
 from colonnade.readers.ground_motions.hazard import read_hazard
 from colonnade.readers.ground_motions.record_set import read_record_set
 
@@ -81,7 +71,7 @@ def test_every_third_has_a_pulse_that_is_found(suite):
 
 
 def test_the_files_and_their_list_are_read_back(suite, tmp_path):
-    path = write_suite(tmp_path / "records", suite)
+    path = site.write_suite(tmp_path / "records", suite)
     assert path == tmp_path / "records" / LIST
     found = read_record_set(path)
     assert [each.name for each in found.records] == [each.name for each in suite]
@@ -99,7 +89,7 @@ def campaign(tmp_path_factory):
     folder = tmp_path_factory.mktemp("site")
     plan = prism_programme("pulse", Motion(np.sin(np.linspace(0.0, 6.0, 600)), 0.01))
     (folder / FILE_NAME).write_text(campaign_text(plan), encoding="utf-8")
-    add_site(plan, folder / FILE_NAME, seed=3)
+    site.add_site(plan, folder / FILE_NAME, seed=3)
     return load(folder)
 
 
@@ -117,5 +107,5 @@ def test_its_records_and_its_hazard_can_be_read(campaign):
     assert not records.left_out
     assert all(each.magnitude and each.distance for each in records.records)
     hazard = read_hazard(asked.hazard, measure="pgv", unit="m/s")
-    assert hazard.rate == pytest.approx([annual_rate(each) for each in LEVELS], rel=1e-3)
+    assert hazard.rate == pytest.approx([site.annual_rate(each) for each in LEVELS], rel=1e-3)
     assert (np.diff(hazard.slopes) >= -0.1).all()

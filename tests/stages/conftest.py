@@ -1,73 +1,38 @@
 """A small campaign whose recordings are made in memory, with every number of the truth in sight."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import chain
 from colonnade import campaign as campaigns
 from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.stages import condition, ingest, rocking
-from prism import PRISM
+from prism import PRISM, SPECIMEN, entry
 
-TEXT = """
+ON_SPECIMEN = 'quantity = "displacement", on = "specimen", direction = [1, 0, 0], relative_to = "table"'
+TEXT = f"""
 schema = 1
 campaign = "small"
 title = "Small"
 
 [specimens]
-prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}
+{SPECIMEN}
 
 [setups.frame]
 catch = "0.28 rad"
 
-[setups.frame.channels.top]
-column = "LVDT 1"
-quantity = "displacement"
-unit = "V"
-gain = "12 mm/V"
-offset = "3 mm"
-range = "10 V"
-on = "specimen"
-at = ["43 mm", "0 mm", "400 mm"]
-direction = [1, 0, 0]
-relative_to = "table"
+[setups.frame.channels]
+top = {{column = "LVDT 1", unit = "V", gain = "12 mm/V", offset = "3 mm", range = "10 V", \
+at = ["43 mm", "0 mm", "400 mm"], {ON_SPECIMEN}}}
+bottom = {{column = "LVDT 2", unit = "mm", at = ["43 mm", "0 mm", "20 mm"], {ON_SPECIMEN}}}
+table_acceleration = {{column = "ACC", quantity = "acceleration", on = "table", direction = [1, 0, 0], unit = "g"}}
 
-[setups.frame.channels.bottom]
-column = "LVDT 2"
-quantity = "displacement"
-unit = "mm"
-on = "specimen"
-at = ["43 mm", "0 mm", "20 mm"]
-direction = [1, 0, 0]
-relative_to = "table"
-
-[setups.frame.channels.table_acceleration]
-column = "ACC"
-quantity = "acceleration"
-unit = "g"
-on = "table"
-direction = [1, 0, 0]
-
-[[tests]]
-id = "free-01"
-kind = "free-vibration"
-specimen = "prism"
-setup = "frame"
-file = "free.csv"
-
-[[tests]]
-id = "shake-01"
-kind = "earthquake"
-specimen = "prism"
-setup = "frame"
-file = "shake.csv"
-observed_outcome = "not-overturned"
+{entry("free-01", "free-vibration")}
+{entry("shake-01", "earthquake", 'observed_outcome = "not-overturned"')}
 """
 
 RATE = 500.0
@@ -144,16 +109,11 @@ def _shaken():
 @pytest.fixture
 def shaken_upwards(small_campaign, shaken):
     """The small campaign with a vertical table accelerometer, and its test shaken along z as well: truth and record."""
-    top = 'unit = "g"\non = "table"\ndirection = [1, 0, 0]\n'
-    vertical_channel = '[setups.frame.channels.table_vertical]\ncolumn = "ACZ"\nquantity = "acceleration"\n'
-    text = small_campaign.path.read_text(encoding="utf-8")
-    text = text.replace(top, f'{top}\n{vertical_channel}unit = "g"\non = "table"\ndirection = [0, 0, 1]\n')
-    small_campaign.path.write_text(text, encoding="utf-8")
-    campaign = campaigns.load(small_campaign.path)
+    vertical = 'vertical = {column = "ACZ", quantity = "acceleration", on = "table", direction = [0, 0, 1], unit = "g"}'
+    campaign = chain.changed(small_campaign, ("\n[[tests]]", f"{vertical}\n\n[[tests]]"))
     _, time, _, base = shaken
-    rate = 1 / (time[1] - time[0])
     vertical = 0.35 * 9.81 * np.sin(2 * np.pi * 5.3 * time) * np.clip(np.minimum(time - 1, 7 - time), 0, 1)
-    angle = rock(PRISM, Motion(base, 1 / rate, vertical), restitution=0.93).angle
+    angle = rock(PRISM, Motion(base, 1 / RATE, vertical), restitution=0.93).angle
     recordings = recorded(time, angle, base)["main"]
     noisy = vertical / 9.80665 + np.random.default_rng(5).normal(0, 1e-4, time.size)
     channel = RecordedChannel("ACZ", "g", noisy, time)
@@ -165,8 +125,5 @@ def conditioned_and_measured(tmp_path_factory):
     """Both tests of the small campaign up to the rocking angle: conditioned, measured; look only."""
     campaign, found = _load(tmp_path_factory.mktemp("small")), {}
     for name, recordings in (("free-01", _free_vibration()[0]), ("shake-01", _shaken()[0])):
-        test = campaign.tests[name]
-        read = ingest.ingest(recordings, ingest.IngestInputs.of(campaign, test))
-        ready = condition.condition(read, condition.ConditionInputs.of(campaign, test))
-        found[name] = ready, rocking.rocking(ready, rocking.RockingInputs.of(campaign, test))
+        found[name] = chain.measured(campaign, name, recordings)
     return found

@@ -1,7 +1,5 @@
 """The answer of an assessment, and the real column that it is of."""
 
-from __future__ import annotations
-
 import json
 from math import sqrt
 
@@ -12,18 +10,23 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import norm, t
 
+from assessing import RATE, ground_motion
 from colonnade.assessment.cases import run_cases
 from colonnade.campaign.assessing.assessed import UNCORRECTED, AssessmentSummary
+from colonnade.campaign.assessing.assessment import Assessment
 from colonnade.campaign.assessing.prototype import Prototype
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import StageError
 from colonnade.readers.ground_motions.record_set import GroundMotion, RecordSet
 from colonnade.stages.assessing.column import ColumnInputs, real_column
-from colonnade.stages.assessing.plan import plan_assessment
+from colonnade.stages.assessing.plan import AssessmentInputs, plan_assessment
 from colonnade.stages.assessment import assessment
+from colonnade.stages.specimen import SpecimenInputs, taken
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from every import every
+from prism import PRISM
 
 
 @pytest.fixture(scope="module")
@@ -82,34 +85,27 @@ def test_without_records_there_is_no_answer():
 
 
 def _plan(records, restitution="rigid-body", **keys):
-    from colonnade.campaign.assessing.assessment import Assessment
-    from colonnade.campaign.assessing.prototype import Prototype
-    from colonnade.dynamics.block import Block
-    from colonnade.stages.assessing.plan import AssessmentInputs
-    from colonnade.stages.specimen import SpecimenInputs, taken
-
-    block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.1)
-    asked = Assessment.model_validate({"specimen": "prism", "records": "records", **keys})
+    asked = Assessment.model_validate({"specimen": "prism", "records": "records", "draws": 1, "resamples": 100, **keys})
     prototype = Prototype.model_validate({"restitution": restitution})
-    inputs = AssessmentInputs(block=block, scale=20.0, prototype=prototype, specimen="prism", asked=asked)
-    return plan_assessment(taken(None, SpecimenInputs(block=block, given=None, level=0.95)), records, None, inputs)
+    inputs = AssessmentInputs(block=PRISM, scale=20.0, prototype=prototype, specimen="prism", asked=asked)
+    return plan_assessment(taken(None, SpecimenInputs(block=PRISM, given=None, level=0.95)), records, None, inputs)
 
 
-def _records(offset, count=6):
-    from assessing import RATE, ground_motion
+def _answered(plan):
+    outcomes = {name: run_cases(study.cases) for name, study in plan.studies.items()}
+    return AssessmentSummary.model_validate_json(assessment(plan, outcomes).attrs["answer"])
 
-    motions = (Motion(ground_motion(seed) + offset * (seed > 0), 1 / RATE) for seed in range(count))
-    return RecordSet(
-        tuple(GroundMotion(f"r{seed}", each, ("x",), ()) for seed, each in enumerate(motions)), (), ("cut",)
-    )
+
+def _records(offset):
+    motions = [Motion(ground_motion(seed) + offset * (seed > 0), 1 / RATE) for seed in range(6)]
+    records = (GroundMotion(f"r{seed}", each, ("x",), ()) for seed, each in enumerate(motions))
+    return RecordSet(tuple(records), (), ("cut",))
 
 
 def test_records_that_drift_have_an_answer_when_corrected_and_a_reason_as_they_are():
-    keys = {"levels": ["1 m/s", "2 m/s", "4 m/s"], "draws": 1, "resamples": 100}
-    plan = _plan(_records(0.05), "identified", baseline="linear", **keys)
+    plan = _plan(_records(0.05), "identified", baseline="linear", levels=["1 m/s", "2 m/s", "4 m/s"])
     assert "1 ground motion with a peak ground velocity; at least 2" in plan.without_correction
-    outcomes = {name: run_cases(study.cases) for name, study in plan.studies.items()}
-    found = AssessmentSummary.model_validate_json(assessment(plan, outcomes).attrs["answer"])
+    found = _answered(plan)
     assert found.baseline == "linear"
     assert (found.variants[-1].name, found.variants[-1].reason) == (UNCORRECTED, plan.without_correction)
     assert "cut" in found.notes
@@ -122,30 +118,18 @@ def test_without_enough_records_with_the_measure_there_is_no_answer():
         _plan(_records(0.05))
 
 
-def test_what_is_beyond_the_levels_is_so_on_its_side():
-    plan = _plan(_records(0.0), levels=["0.01 m/s", "0.02 m/s"], draws=1, resamples=100)
-    outcomes = {name: run_cases(study.cases) for name, study in plan.studies.items()}
-    found = AssessmentSummary.model_validate_json(assessment(plan, outcomes).attrs["answer"])
-    assert (found.five_percent.value, found.five_percent.beyond) == (None, "above")
-    plan = _plan(_records(0.0), levels=["80 m/s", "90 m/s"], draws=1, resamples=100)
-    outcomes = {name: run_cases(study.cases) for name, study in plan.studies.items()}
-    found = AssessmentSummary.model_validate_json(assessment(plan, outcomes).attrs["answer"])
-    assert (found.five_percent.value, found.five_percent.beyond) == (None, "below")
-    assert not any("resamples" in said for said in found.warnings)
-
-
-MODEL = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.1)
+@every(("levels", "side"), [(["0.01 m/s", "0.02 m/s"], "above"), (["80 m/s", "90 m/s"], "below")])
+def test_what_is_beyond_the_levels_is_so_on_its_side(levels, side):
+    found = _answered(_plan(_records(0.0), levels=levels))
+    assert (found.five_percent.value, found.five_percent.beyond) == (None, side)
+    assert side == "above" or not any("resamples" in said for said in found.warnings)
 
 
 def pooled(e=(0.976, 0.976), tests=(0.975, 0.977), source="identified"):
-    return xr.Dataset(
-        {
-            "side_restitution": ("side", np.array(e)),
-            "level": ((), 0.95),
-            "test_restitution": ("test", np.array(tests)),
-            "test_restitution_standard_error": ("test", np.full(len(tests), 1e-6)),
-        },
-        attrs={"restitution_source": source},
+    of_tests = {"test_restitution": ("test", np.array(tests))}
+    of_tests["test_restitution_standard_error"] = ("test", np.full(len(tests), 1e-6))
+    return xr.Dataset({"side_restitution": ("side", np.array(e)), "level": 0.95} | of_tests).assign_attrs(
+        restitution_source=source
     )
 
 
@@ -155,7 +139,7 @@ OF_ONE = norm.ppf(0.975) * 0.005  # the usual scatter between tests
 
 
 def column(scale=20.0, stored=None, **written):
-    inputs = ColumnInputs(block=MODEL, scale=scale, prototype=Prototype.model_validate(written))
+    inputs = ColumnInputs(block=PRISM, scale=scale, prototype=Prototype.model_validate(written))
     return real_column(inputs, pooled() if stored is None else stored)
 
 
@@ -165,19 +149,18 @@ def test_a_larger_column_is_the_one_of_its_own_dimensions(scale):
     same = Block.prism(width=0.086 * scale, depth=0.086 * scale, height=0.456 * scale, mass=26.1 * scale**3)
     assert found.block.critical_angle == pytest.approx(same.critical_angle)
     assert found.block.p == pytest.approx(same.p)
-    assert found.block.p == pytest.approx(MODEL.p / sqrt(scale))
+    assert found.block.p == pytest.approx(PRISM.p / sqrt(scale))
     assert found.block.inertia == pytest.approx(same.inertia)
 
 
 def test_what_is_given_replaces_what_follows_from_the_model():
-    found, _ = column(
-        restitution=0.9, critical_angle="0.17 rad", p="1.3 rad/s", friction=0.6, friction_range=[0.5, 0.7]
-    )
+    given_friction = {"friction": 0.6, "friction_range": [0.5, 0.7]}
+    found, _ = column(restitution=0.9, critical_angle="0.17 rad", p="1.3 rad/s", **given_friction)
     assert (found.block.critical_angle, found.block.p) == pytest.approx((0.17, 1.3))
     assert (found.friction, found.friction_range) == (0.6, (0.5, 0.7))
 
 
-@pytest.mark.parametrize(
+@every(
     ("written", "stored", "value", "limits", "source"),
     [
         ({"restitution": "identified"}, pooled(), 0.976, (0.976 - OF_TWO, 0.976 + OF_TWO), "identified"),
@@ -186,7 +169,7 @@ def test_what_is_given_replaces_what_follows_from_the_model():
         ({"restitution": "identified", "restitution_range": [0.9, 0.99]}, pooled(), 0.976, (0.9, 0.99), "identified"),
         ({"restitution": 0.95}, pooled(), 0.95, (0.93, 0.97), "given"),
         ({"restitution": 0.99}, pooled(), 0.99, (0.97, 1.0), "given"),
-        ({"restitution": "rigid-body"}, pooled(), MODEL.restitution, None, "rigid-body"),
+        ({"restitution": "rigid-body"}, pooled(), PRISM.restitution, None, "rigid-body"),
     ],
 )
 def test_e_is_the_one_that_is_stated(written, stored, value, limits, source):

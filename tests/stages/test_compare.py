@@ -1,7 +1,5 @@
 """Measured and predicted histories that are written by hand, compared in numbers that are known."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -21,21 +19,14 @@ def history(ratio, *, outcome="rocking", zero_offset=0.0):
     """A rocking angle given in α, with what both `rocking` and `predict` say of it."""
     ratio = np.asarray(ratio, dtype=float)
     largest = int(np.nanargmax(np.abs(ratio)))
-    return xr.Dataset(
-        {
-            "rocking_angle": ("elapsed", ALPHA * ratio + zero_offset),
-            "peak_ratio": float(np.abs(ratio[largest])),
-            "peak_time": float(TIME[largest]),
-            "zero_offset": zero_offset,
-        },
-        coords={"elapsed": ("elapsed", TIME)},
-        attrs={"outcome": outcome},
-    )
+    peak = {"peak_ratio": float(np.abs(ratio[largest])), "peak_time": float(TIME[largest])}
+    angle = "elapsed", ALPHA * ratio + zero_offset
+    return unmeasured().assign(rocking_angle=angle, zero_offset=zero_offset, **peak).assign_attrs(outcome=outcome)
 
 
 def unmeasured():
     """What `rocking` gives without transducers."""
-    return xr.Dataset(coords={"elapsed": ("elapsed", TIME)}, attrs={"outcome": ""})
+    return xr.Dataset(coords={"elapsed": TIME}, attrs={"outcome": ""})
 
 
 def inputs(**changes):
@@ -47,7 +38,7 @@ def against(measured, predicted, **changes):
     return compare(measured, {"linear": predicted}, inputs(**changes)).isel(model=0)
 
 
-@pytest.mark.parametrize("shift", [-0.2, 0.0, 0.05])
+@every("shift", [-0.2, 0.0, 0.05])
 def test_a_constant_error_is_the_nrmse_over_the_whole_record(shift):
     found = against(history(SWING), history(SWING + shift))
     assert float(found["nrmse"]) == pytest.approx(abs(shift), abs=1e-12)
@@ -59,7 +50,7 @@ def test_the_nrmse_of_a_sine_against_rest_is_its_root_mean_square():
     assert float(against(history(whole), history(0 * whole))["nrmse"]) == pytest.approx(0.4 / np.sqrt(2))
 
 
-@pytest.mark.parametrize("measured_falls", [True, False])
+@every("measured_falls", [True, False])
 def test_nothing_counts_from_where_either_first_passes_the_critical_angle(measured_falls):
     falling = np.where(np.arange(TIME.size) < 120, SWING, 1.5)
     pair = (falling, SWING + 0.1) if measured_falls else (SWING + 0.1, falling)
@@ -111,10 +102,8 @@ def test_the_measured_angle_is_not_changed_in_place():
 
 def test_models_stand_in_order_each_with_its_own_numbers():
     shares = {"nonlinear": 0.5, "contact": 1.25, "linear": 1.0}
-    predicted = {
-        model: history(share * SWING, outcome="overturned" if model == "contact" else "rocking")
-        for model, share in shares.items()
-    }
+    predicted = {model: history(share * SWING) for model, share in shares.items()}
+    predicted["contact"].attrs["outcome"] = "overturned"
     found = compare(history(SWING), predicted, inputs())
     order = ["contact", "linear", "nonlinear"]
     assert found["model"].to_numpy().tolist() == order
@@ -164,11 +153,8 @@ def test_the_transducers_and_the_log_agree_or_it_is_serious(measured, observed, 
     warnings = found.attrs["warnings"]
     assert (warnings == []) is agree
     if not agree:
-        assert (warnings[0].kind, warnings[0].severity, warnings[0].follows) == (
-            "outcome",
-            Severity.SERIOUS,
-            MEASUREMENT,
-        )
+        found = warnings[0]
+        assert (found.kind, found.severity, found.follows) == ("outcome", Severity.SERIOUS, MEASUREMENT)
         assert f"The transducers show {measured}, the test log says {observed}" in warnings[0].text
 
 

@@ -39,24 +39,14 @@ def _delayed(read, delays):
     return read.model_copy(update={"channels": read.channels | changed})
 
 
-def _set(read, **changes):
-    """The same inputs with other settings."""
-    return read.model_copy(update={"settings": read.settings.model_copy(update=changes)})
-
-
 @pytest.fixture
 def linked(small_campaign):
     """Inputs for the two recorders above."""
     read = conditioning.ConditionInputs.of(small_campaign, small_campaign.tests["shake-01"])
-    return read.model_copy(
-        update={
-            "channels": {
-                name: ChannelOnClock(quantity="acceleration", on="table", recorder=recorder)
-                for name, recorder in (("first", "main"), ("second", "daq2"))
-            },
-            "links": {"daq2": ("first", "second", 1.0)},
-        }
-    )
+    recorders = {"first": "main", "second": "daq2"}
+    table = {"quantity": "acceleration", "on": "table"}
+    channels = {name: ChannelOnClock(recorder=recorder, **table) for name, recorder in recorders.items()}
+    return read.model_copy(update={"channels": channels, "links": {"daq2": ("first", "second", 1.0)}})
 
 
 @pytest.mark.parametrize(("of_first", "of_second"), [(0.0, 0.0), (0.0, 0.01), (0.004, 0.0), (0.004, 0.01)])
@@ -79,12 +69,9 @@ def test_an_offset_that_a_steady_sine_leaves_open_is_warned_of(linked):
 def test_a_channel_of_another_quantity_links_recorders_but_is_not_conditioned(linked):
     pulse = np.where((FIRST > 3) & (FIRST < 3.5), 5.0, 0.0), np.where((SECOND > 3.02) & (SECOND < 3.52), 5.0, 0.0)
     recorded = _two_recorders(*pulse)
-    for name, dimension, values in (
-        ("base", "elapsed", _shaking(FIRST)),
-        ("late", "elapsed_daq2", _shaking(SECOND - OFFSET)),
-    ):
-        recorded[name] = (dimension, values)
-        recorded[f"{name}_quality"] = (dimension, np.full(values.size, Flag.GOOD, dtype=np.int8))
+    shaken = _two_recorders(_shaking(FIRST), _shaking(SECOND - OFFSET), noise=0.0)
+    names = {"first": "base", "second": "late", "first_quality": "base_quality", "second_quality": "late_quality"}
+    recorded = recorded.merge(shaken.rename(names))
     unused = {"quantity": "other", "on": None}
     channels = {name: channel.model_copy(update=unused) for name, channel in linked.channels.items()}
     channels |= {"base": linked.channels["first"], "late": linked.channels["second"]}
@@ -95,16 +82,26 @@ def test_a_channel_of_another_quantity_links_recorders_but_is_not_conditioned(li
 
 def test_nothing_above_the_cut_off_is_folded_into_a_lower_sampling_rate(linked):
     recorded = _two_recorders(_shaking(FIRST) + 0.3 * np.sin(2 * np.pi * 195 * FIRST), _shaking(SECOND - OFFSET))
-    result = condition(recorded, _set(linked, sampling_rate=200.0))
+    slow = linked.model_copy(update={"settings": linked.settings.model_copy(update={"sampling_rate": 200.0})})
+    result = condition(recorded, slow)
     error = result["first"].to_numpy() - _shaking(result["elapsed"].to_numpy())
     assert np.sqrt(np.mean(error[50:-50] ** 2)) < 5e-3
 
 
-def test_shaking_before_the_table_is_at_rest_is_warned_of(small_campaign, shaken):
-    recordings, time, _, _ = shaken
-    recordings["main"].channel("ACC").values[:] += np.where(time > 0.1, 0.05 * np.sin(20 * time), 0.0)
-    result = conditioned(small_campaign, "shake-01", recordings)
-    (told,) = [found for found in result.attrs["warnings"] if found.kind == "zero"]
+@pytest.fixture
+def zeros(small_campaign, shaken):
+    """Findings on the zero with something added to the table's acceleration, g."""
+
+    def found(added=None, **changes):
+        shaken[0]["main"].channel("ACC").values[:] += 0.0 if added is None else added(shaken[1])
+        result = conditioned(small_campaign, "shake-01", shaken[0], **changes)
+        return [each for each in result.attrs["warnings"] if each.kind == "zero"]
+
+    return found
+
+
+def test_shaking_before_the_table_is_at_rest_is_warned_of(zeros):
+    (told,) = zeros(lambda time: np.where(time > 0.1, 0.05 * np.sin(20 * time), 0.0))
     assert told.severity == "warning"
     size = float(re.search(r"The zero of the base acceleration is uncertain by ([\d.]+) m/s²", told.text)[1])
     # The mean of a sine over half a second less that over a part of it, of 0.49 m/s²: at most its amplitude.
@@ -112,63 +109,64 @@ def test_shaking_before_the_table_is_at_rest_is_warned_of(small_campaign, shaken
     assert "of the acceleration that uplifts the specimen: table_acceleration moves from 0 to 0.5 s" in told.text
 
 
-def test_a_zero_that_moves_too_little_to_matter_is_not_told(small_campaign, shaken):
-    recordings, time, _, _ = shaken
-    recordings["main"].channel("ACC").values[:] += 0.002 * np.sin(20 * time)  # 16 times its noise
-    result = conditioned(small_campaign, "shake-01", recordings)
-    assert [found for found in result.attrs["warnings"] if found.kind == "zero"] == []
+def test_a_zero_that_moves_too_little_to_matter_is_not_told(zeros):
+    assert zeros(lambda time: 0.002 * np.sin(20 * time)) == []  # 16 times its noise
 
 
-def test_only_a_stretch_that_is_at_rest_is_advised(small_campaign, shaken):
-    recordings, time, _, _ = shaken
-    recordings["main"].channel("ACC").values[:] += np.where(time < 0.6, 0.05 * np.sin(20 * time), 0.0)
-    result = conditioned(small_campaign, "shake-01", recordings)
-    (told,) = [found.text for found in result.attrs["warnings"] if found.kind == "zero"]
-    start, stop = map(float, re.search(r'zero = \["([\d.]+) s", "([\d.]+) s"\] avoids it', told).groups())
+def test_only_a_stretch_that_is_at_rest_is_advised(zeros):
+    (told,) = zeros(lambda time: np.where(time < 0.6, 0.05 * np.sin(20 * time), 0.0))
+    start, stop = map(float, re.search(r'zero = \["([\d.]+) s", "([\d.]+) s"\] avoids it', told.text).groups())
     assert start >= 0.6
     assert stop - start == pytest.approx(0.5, abs=0.01)
-    advised = conditioned(small_campaign, "shake-01", recordings, zero=(start, stop))
-    assert [found for found in advised.attrs["warnings"] if found.kind == "zero"] == []
-    recordings["main"].channel("ACC").values[:] += 0.05 * np.sin(20 * time)
-    result = conditioned(small_campaign, "shake-01", recordings)
-    assert "No part of the record is quieter" in " ".join(map(str, result.attrs["warnings"]))
+    assert zeros(zero=(start, stop)) == []
+    (told,) = zeros(lambda time: 0.05 * np.sin(20 * time))
+    assert "No part of the record is quieter" in told.text
 
 
-def test_missing_cells_stay_missing(small_campaign, free_vibration):
-    recordings, _, _, _ = free_vibration
-    recordings["main"].channel("LVDT 1").values[1500:1680] = np.nan
-    recordings["main"].channel("LVDT 1").values[2000:2003] = np.nan
-    result = conditioned(small_campaign, "free-01", recordings)
+@pytest.fixture
+def free(small_campaign, free_vibration):
+    """Condition a free vibration."""
+    return lambda test="free-01", **changes: conditioned(small_campaign, test, free_vibration[0], **changes)
+
+
+@pytest.fixture
+def top(free_vibration):
+    """Values of its upper transducer, V."""
+    return free_vibration[0]["main"].channel("LVDT 1").values
+
+
+def test_missing_cells_stay_missing(free, top):
+    top[1500:1680] = np.nan
+    top[2000:2003] = np.nan
+    result = free()
     assert np.flatnonzero(np.isnan(result["top"])).tolist() == list(range(1500, 1680))
     assert (result["top_quality"][1500:1680] == Flag.MISSING).all()
     assert (result["top_quality"][2000:2003] == Flag.SUSPECT).all()
     assert np.isfinite(result["bottom"]).all()
 
 
-def test_a_channel_without_values_where_zero_is_taken_is_left_out(small_campaign, free_vibration):
-    recordings, _, _, _ = free_vibration
-    recordings["main"].channel("LVDT 1").values[-300:] = np.nan
-    result = conditioned(small_campaign, "free-01", recordings)
+def test_a_channel_without_values_where_zero_is_taken_is_left_out(free, top):
+    top[-300:] = np.nan
+    result = free()
     assert "top" not in result
     assert any("channel top is left out: it has no value from" in warning.text for warning in result.attrs["warnings"])
     assert result["elapsed"][-1] == pytest.approx(11.998)
 
 
-def test_rounded_times_give_the_clock_behind_them(small_campaign, free_vibration):
+def test_rounded_times_give_the_clock_behind_them(free, free_vibration):
     recordings, time, _, _ = free_vibration
-    exact = conditioned(small_campaign, "free-01", recordings)
+    exact = free()
     for channel in recordings["main"].channels:
         channel.time[:] = np.round(time, 2)
-    result = conditioned(small_campaign, "free-01", recordings)
+    result = free()
     assert np.diff(result["elapsed"]) == pytest.approx(0.002, rel=1e-4)
     expected = np.interp(result["elapsed"], exact["elapsed"], exact["top"])
     # The clock is known to a fraction of the last digit that was written.
     np.testing.assert_allclose(result["top"], expected, atol=2e-4)
 
 
-def test_a_free_vibration_that_starts_tilted_is_zeroed_at_its_end(small_campaign, free_vibration):
-    recordings, _, _, _ = free_vibration
-    result = conditioned(small_campaign, "free-01", recordings)
+def test_a_free_vibration_that_starts_tilted_is_zeroed_at_its_end(free):
+    result = free()
     assert abs(float(result["top"][-100:].mean())) < 2e-6
     assert float(result["top"][100]) > 0.03
     assert result.attrs["warnings"] == []
@@ -180,45 +178,37 @@ def test_an_earthquake_is_zeroed_at_its_start(small_campaign, shaken):
     assert result["top"].attrs["zero_window"].startswith("0 s")
 
 
-def test_zero_can_be_given_or_switched_off(small_campaign, free_vibration):
-    test = small_campaign.tests["free-01"]
-    tilted = conditioned(small_campaign, test, free_vibration[0], zero="start")
-    assert abs(float(tilted["top"][:200].mean())) < 2e-6
-    own = conditioned(small_campaign, test, free_vibration[0], zero=(10.0, 11.0))
-    assert own["top"].attrs["zero_window"] == "10 s to 11 s"
-    raw = conditioned(small_campaign, test, free_vibration[0], zero="none")
-    assert float(raw["bottom"][-1]) == pytest.approx(0.7e-3, abs=1e-4)
+def test_zero_can_be_given_or_switched_off(free):
+    assert abs(float(free(zero="start")["top"][:200].mean())) < 2e-6
+    assert free(zero=(10.0, 11.0))["top"].attrs["zero_window"] == "10 s to 11 s"
+    assert float(free(zero="none")["bottom"][-1]) == pytest.approx(0.7e-3, abs=1e-4)
     with pytest.raises(StageError, match="no sample is between 90 and 91 s"):
-        conditioned(small_campaign, test, free_vibration[0], zero=(90.0, 91.0))
+        free(zero=(90.0, 91.0))
 
 
-def test_a_record_that_ends_while_rocking_is_warned_of(small_campaign, free_vibration):
-    test = small_campaign.tests["free-01"].model_copy(update={"window": (0.0, 3.0)})
-    result = conditioned(small_campaign, test, free_vibration[0])
-    told = result.attrs["warnings"][0]
+def test_a_record_that_ends_while_rocking_is_warned_of(small_campaign, free):
+    told = free(small_campaign.tests["free-01"].model_copy(update={"window": (0.0, 3.0)})).attrs["warnings"][0]
     assert (told.kind, told.severity) == ("zero", "serious")
     assert "The zero of the rocking angle is uncertain by 0.0" in told.text
     assert "of the critical angle" in told.text
     assert "Record until the specimen is still" in told.text
 
 
-def test_spikes_are_bridged_before_the_filter_and_stay_suspect(small_campaign, free_vibration):
-    recordings, _, _, _ = free_vibration
-    clean = conditioned(small_campaign, "free-01", recordings)
-    recordings["main"].channel("LVDT 1").values[1500] += 5.0
-    spiked = conditioned(small_campaign, "free-01", recordings)
+def test_spikes_are_bridged_before_the_filter_and_stay_suspect(free, top):
+    clean = free()
+    top[1500] += 5.0
+    spiked = free()
     np.testing.assert_allclose(spiked["top"], clean["top"], atol=1e-4)
     assert spiked["top_quality"][1500] == Flag.SUSPECT
 
 
-def test_the_noise_that_is_left_is_told(small_campaign, free_vibration):
-    recordings, _, _, _ = free_vibration
-    result = conditioned(small_campaign, "free-01", recordings)
-    assert float(result["top"][-400:].std()) == pytest.approx(result["top"].attrs["noise"], rel=0.5)
-    assert 1e-6 < result["top"].attrs["noise"] < 1e-5
+def test_the_noise_that_is_left_is_told(free):
+    top = free()["top"]
+    assert float(top[-400:].std()) == pytest.approx(top.attrs["noise"], rel=0.5)
+    assert 1e-6 < top.attrs["noise"] < 1e-5
 
 
-def test_a_cut_off_above_half_the_sampling_rate_is_refused_by_its_key(small_campaign, free_vibration):
-    test, settings = small_campaign.tests["free-01"], small_campaign.processing
+def test_a_cut_off_above_half_the_sampling_rate_is_refused_by_its_key(small_campaign, free):
+    too_high = small_campaign.processing.model_copy(update={"lowpass": 300.0})
     with pytest.raises(StageError, match=r"processing\.lowpass is 300 Hz; below 250 Hz.*channel top"):
-        conditioned(small_campaign, test, free_vibration[0], settings=settings.model_copy(update={"lowpass": 300.0}))
+        free(settings=too_high)

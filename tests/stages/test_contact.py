@@ -1,6 +1,6 @@
 """The law of contact of a specimen, and the bands of its model."""
 
-from __future__ import annotations
+from functools import partial
 
 import numpy as np
 import pytest
@@ -25,35 +25,31 @@ from colonnade.store.records.stored import Stored
 from prism import PRISM
 
 STEP = 3e-5
+SPECIMEN = xr.Dataset({"restitution": ((), 0.976)}, attrs={"restitution_source": "given"})
 CYLINDER = Block.cylinder(diameter=0.097, height=0.455, mass=26.30)
 
 
-def calibrated(restitution, *, lowest_amplitude=0.02, **settings):
-    read = calibrating.ContactInputs(
-        block=PRISM,
-        shape="prism",
-        sizes=(),
-        settings=ContactSettings(step=f"{STEP} s", **settings),
-        lowest_amplitude=lowest_amplitude,
-    )
-    return calibrating.contact(xr.Dataset({"restitution": restitution}), read)
+def inputs(sizes=(), lowest_amplitude=0.02, **settings):
+    settings = ContactSettings(**{"step": f"{STEP} s", **settings})
+    given = {"block": PRISM, "shape": "prism", "settings": settings}
+    return calibrating.ContactInputs(sizes=sizes, lowest_amplitude=lowest_amplitude, **given)
 
 
 @pytest.fixture(scope="module")
 def law():
-    return calibrated(0.976)
+    return calibrating.contact(SPECIMEN, inputs())
+
+
+def free(law, duration):
+    of_law = calibrating.law_of(law)
+    release = 0.5 * PRISM.critical_angle
+    return simulate(rigid_body(PRISM), law=of_law, theta0=release, duration=duration, step=float(law["contact_step"]))
 
 
 @pytest.fixture(scope="module")
 def history(law):
     """A free vibration with this law from the same release, as long: e of this contact falls with the amplitude."""
-    return simulate(
-        rigid_body(PRISM),
-        law=calibrating.law_of(law),
-        theta0=0.5 * PRISM.critical_angle,
-        duration=5.4,
-        step=float(law["contact_step"]),
-    )
+    return free(law, 5.4)
 
 
 def test_a_laboratory_identifies_the_e_that_was_asked_for(law, history):
@@ -71,9 +67,7 @@ def test_the_mean_velocity_ratio_is_another_e_and_is_stored_with_it(law, history
 
 
 def test_with_too_few_arcs_to_identify_an_e_it_is_the_mean_velocity_ratio(law):
-    history = simulate(
-        rigid_body(PRISM), law=calibrating.law_of(law), theta0=0.5 * PRISM.critical_angle, duration=0.5, step=STEP
-    )
+    history = free(law, 0.5)
     assert identify_restitution(history.time, history.angle, PRISM).value is None
     assert calibrating.identified(history, lowest_amplitude=0.02) == (free_restitution(history), VELOCITY_RATIO)
 
@@ -81,24 +75,15 @@ def test_with_too_few_arcs_to_identify_an_e_it_is_the_mean_velocity_ratio(law):
 def test_a_law_says_which_e_it_gives(law):
     assert law.attrs["contact_restitution_source"] == calibrating.IDENTIFIED
     # Above so high an amplitude there are too few arcs.
-    refused = calibrated(0.976, damping_fraction=0.3, lowest_amplitude=0.45)
+    refused = calibrating.contact(SPECIMEN, inputs(damping_fraction=0.3, lowest_amplitude=0.45))
     assert refused.attrs["contact_restitution_source"] == VELOCITY_RATIO
     assert float(refused["contact_restitution"]) == float(refused["contact_velocity_ratio"])
 
 
 def test_each_law_keeps_the_modes_that_the_step_follows_with_it():
-    read = calibrating.ContactInputs(
-        block=PRISM,
-        shape="prism",
-        sizes=(("depth", 0.086), ("height", 0.456), ("width", 0.086)),
-        settings=ContactSettings(mesh="coarse", step="5 us"),
-        lowest_amplitude=0.02,
-    )
-    whole = rigid_body(PRISM)
-    slight, strong = (
-        calibrating.body_of(read, ContactLaw.stiff(whole, PRISM.gravity, damping_fraction=fraction))
-        for fraction in (0.1, 2.0)
-    )
+    read = inputs((("depth", 0.086), ("height", 0.456), ("width", 0.086)), mesh="coarse", step="5 us")
+    stiff = partial(ContactLaw.stiff, rigid_body(PRISM), PRISM.gravity)
+    slight, strong = (calibrating.body_of(read, stiff(damping_fraction=fraction)) for fraction in (0.1, 2.0))
     assert slight.frequencies.size > strong.frequencies.size
     np.testing.assert_array_equal(strong.frequencies, slight.frequencies[: strong.frequencies.size])
 
@@ -118,9 +103,6 @@ def test_mass_weight_and_radius_of_each_ring_are_stored_and_shown():
 
 
 RUNS = 4
-
-
-SPECIMEN = xr.Dataset({"restitution": ((), 0.976)}, attrs={"restitution_source": "given"})
 
 
 @pytest.fixture

@@ -1,7 +1,6 @@
 """Bands about a prediction, and whether the measured angle lies within them."""
 
-from __future__ import annotations
-
+from copy import deepcopy
 from functools import partial
 
 import numpy as np
@@ -19,9 +18,7 @@ MEMBERS = 60
 @pytest.fixture
 def results(small_campaign, conditioned_and_measured):
     """Conditioned and rocking of both tests, and the pooled specimen."""
-    found = {
-        name: tuple(result.copy(deep=True) for result in results) for name, results in conditioned_and_measured.items()
-    }
+    found = deepcopy(conditioned_and_measured)
     identified = chain.identified(small_campaign, found["free-01"][1])
     return found, chain.pooled(small_campaign, {"free-01": identified})
 
@@ -64,9 +61,8 @@ def test_noise_cutoff_and_interval_are_those_of_the_record(results, ensemble):
     assert bands.attrs["cutoff_hz"] == table["cutoff_hz"]
     deviations = dict(zip(bands["input"].to_numpy(), bands["input_deviation"].to_numpy(), strict=True))
     # One free vibration shows its own error, and the setting stands for the scatter between tests.
-    assert deviations["restitution"] == pytest.approx(
-        float(np.hypot(pooled["test_restitution_standard_error"][0], 0.005))
-    )
+    own = float(pooled["test_restitution_standard_error"][0])
+    assert deviations["restitution"] == pytest.approx(np.hypot(own, 0.005))
     assert set(deviations) == set(INPUTS) - {"theta0"}
 
 

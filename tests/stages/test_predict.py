@@ -9,6 +9,7 @@ import chain
 from colonnade.errors import StageError
 from colonnade.stages.parts.beginning import begin
 from colonnade.stages.predict import PredictInputs
+from every import every
 
 
 @pytest.fixture
@@ -75,7 +76,7 @@ def test_a_recorded_vertical_motion_is_part_of_the_prediction(shaken_upwards, po
     campaign, recording, angle = shaken_upwards
     given = pooled.assign(side_restitution=0 * pooled["side_restitution"] + 0.93)
     predicted = predicted_with(campaign, recording, given)
-    without = predicted_with(campaign, recording, given, damage=lambda found: found.drop_vars(VERTICAL))
+    without = predicted_with(campaign, recording, given, damage=_without)
     assert predicted.attrs["warnings"] == []
     errors = [np.sqrt(np.mean((each["rocking_angle"].to_numpy() - angle) ** 2)) for each in (predicted, without)]
     assert errors[0] < 0.01 * campaign.block("prism").critical_angle
@@ -83,6 +84,10 @@ def test_a_recorded_vertical_motion_is_part_of_the_prediction(shaken_upwards, po
 
 
 VERTICAL = "vertical_base_acceleration"
+
+
+def _without(found):
+    return found.drop_vars(VERTICAL)
 
 
 def _with_gap(found):
@@ -96,11 +101,7 @@ def _with_gap(found):
         (_with_gap, "warning", r"is missing 10 of \d+ samples, the first at 2\.000 s: predicted without it"),
         (lambda found: found.assign({VERTICAL: 0 * found[VERTICAL]}), "warning", "accelerometer is dead"),
         (lambda found: found.assign({VERTICAL: 5 * found[VERTICAL]}), "serious", "the specimen would leave the table"),
-        (
-            lambda found: found.drop_vars(VERTICAL),
-            "warning",
-            "No channel of the table's vertical acceleration",
-        ),
+        (_without, "warning", "No channel of the table's vertical acceleration"),
     ],
     ids=["a gap", "a dead channel", "a gain that is wrong", "a channel that was given up"],
 )
@@ -109,22 +110,20 @@ def test_without_a_usable_vertical_motion_a_prediction_goes_on_and_says_so(
 ):
     campaign, recording, _ = shaken_upwards
     predicted = predicted_with(campaign, recording, pooled, damage=damage)
-    without = predicted_with(campaign, recording, pooled, damage=lambda found: found.drop_vars(VERTICAL))
+    without = predicted_with(campaign, recording, pooled, damage=_without)
     (told,) = predicted.attrs["warnings"]
     assert told.severity == severity
     assert re.search(words, told.text)
     np.testing.assert_array_equal(predicted["rocking_angle"], without["rocking_angle"])
 
 
-@pytest.mark.parametrize(
-    ("share", "told"), [(0.09, []), (0.5, ["50\u00a0% of that along x"])], ids=["a little", "much"]
-)
+@every(("share", "told"), [(0.09, ""), (0.12, "12\u00a0% of that along x: the plane models ignore it")])
 def test_motion_across_is_left_out_and_told_where_it_is_not_small(small_campaign, rocked, pooled, share, told):
     base = rocked["shake-01"]["base_acceleration"]
     across = rocked["shake-01"].assign(transverse_base_acceleration=share * base)
     warnings = chain.predicted(small_campaign, "shake-01", across, pooled).attrs["warnings"]
-    assert len(warnings) == len(told)
-    assert all(words in warning.text for words, warning in zip(told, warnings, strict=True))
+    assert len(warnings) == bool(told)
+    assert told in " ".join(map(str, warnings))
 
 
 def test_an_ensemble_is_driven_by_the_vertical_motion_too(shaken_upwards, rocked):

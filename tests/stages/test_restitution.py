@@ -1,7 +1,5 @@
 """e of a free vibration by the stage, with what it is given: the low-pass, and the motion of the table."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

@@ -1,9 +1,12 @@
 """A small campaign, run once; every test works on a copy of it."""
 
-from __future__ import annotations
-
+import os
 import shutil
+import signal
+import subprocess
+import sys
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -28,6 +31,36 @@ def untouched(undisturbed: Small, tmp_path: Path) -> Small:
     """Copy of it that was never run."""
     ignored = shutil.ignore_patterns("processed", "report")
     return Small(Path(shutil.copytree(undisturbed.folder, tmp_path / "small", ignore=ignored)))
+
+
+@pytest.fixture
+def start():
+    """Start a script in a session of its own, as from a terminal, and wait for a line; what is left is killed."""
+    processes = []
+
+    def started(script, *arguments, said, **options):
+        command = [sys.executable, "-c", script, *map(str, arguments)]
+        options |= {"stdout": subprocess.PIPE, "text": True, "start_new_session": True}
+        processes.append(subprocess.Popen(command, **options))
+        assert f"{said}\n" in processes[-1].stdout
+        return processes[-1]
+
+    yield started
+    for process in processes:
+        with suppress(ProcessLookupError), process:
+            os.killpg(process.pid, signal.SIGKILL)
+
+
+@pytest.fixture
+def resumes(untouched, undisturbed):
+    """Hold that a run that was stopped left whole results only, and that the next one gives the undisturbed values."""
+
+    def check():
+        assert untouched.contents().items() <= undisturbed.contents().items()
+        assert not untouched.run().failed
+        assert untouched.contents() == undisturbed.contents()
+
+    return check
 
 
 @pytest.fixture

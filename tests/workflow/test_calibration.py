@@ -1,7 +1,5 @@
 """e and laws of contact on request: one rule for e, whoever asks."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.errors import CampaignError
@@ -10,10 +8,15 @@ from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.maps.plans import Wanted
 from colonnade.workflow.maps.stability import make_maps
 
-CONTACT = 'contact = {step = "100 us", penetration = 1e-6, damping_fraction = 0.3}'
-COARSE = f"[processing.predict]\n{CONTACT}\n\n[setups.frame.channels]"
 BODY = 'mass = "26.10 kg"}'
 GIVEN = 'mass = "26.10 kg", restitution = 0.93}'
+
+
+def give(campaign):
+    """A law of contact that is found soon, and e."""
+    contact = 'contact = {step = "100 us", penetration = 1e-6, damping_fraction = 0.3}'
+    campaign.edit("[setups.frame.channels]", f"[processing.predict]\n{contact}\n\n[setups.frame.channels]")
+    campaign.edit(BODY, GIVEN)
 
 
 def test_the_law_of_the_settings_is_stored(in_space):
@@ -34,8 +37,7 @@ def test_an_unknown_specimen_is_refused_with_the_nearest(untouched):
 
 
 def test_a_given_restitution_is_known_without_any_run_and_a_stored_law_is_not_found_again(untouched, monkeypatch):
-    untouched.edit("[setups.frame.channels]", COARSE)
-    untouched.edit(BODY, GIVEN)
+    give(untouched)
     (made,) = calibrate(untouched.folder, workers=1)
     assert made.target == 0.93
     monkeypatch.setattr("colonnade.stages.contact.contact", None)
@@ -44,8 +46,8 @@ def test_a_given_restitution_is_known_without_any_run_and_a_stored_law_is_not_fo
 
 
 def test_a_law_that_cannot_be_found_says_why(untouched):
-    untouched.edit("[setups.frame.channels]", COARSE.replace("100 us", "1 ms"))
-    untouched.edit(BODY, GIVEN)
+    give(untouched)
+    untouched.edit('step = "100 us"', 'step = "1 ms"')
     (refused,) = calibrate(untouched.folder, workers=1)
     assert "Use a shorter step or a softer contact" in refused.reason
     assert (refused.restitution, refused.source, refused.step, refused.path) == (None, "", None, None)

@@ -1,7 +1,5 @@
 """The catalogue of results: nothing is opened twice, and nothing that changed is taken for what it was."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

@@ -1,19 +1,15 @@
 """A campaign whose numbers are at their bounds ends in results or in a refusal, never in an internal error."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.campaign.syntax.fields import BETWEEN, CONVERSION, SCALE
 from colonnade.errors import CampaignError
 
+FREQUENCIES = [f"{value:g} Hz" for value in BETWEEN["frequency"]]
+TIMES = [f"{value:g} s" for value in BETWEEN["time"]]
 PROCESSING = {
-    "sampling_rate": [f"{value:g} Hz" for value in BETWEEN["frequency"]],
-    "lowpass": [f"{value:g} Hz" for value in BETWEEN["frequency"]],
-    "base_lowpass": [f"{value:g} Hz" for value in BETWEEN["frequency"]],
-    "flat_duration": [f"{value:g} s" for value in BETWEEN["time"]],
-    "rest_duration": [f"{value:g} s" for value in BETWEEN["time"]],
-    "longest_offset": [f"{value:g} s" for value in BETWEEN["time"]],
+    **dict.fromkeys(("sampling_rate", "lowpass", "base_lowpass"), FREQUENCIES),
+    **dict.fromkeys(("flat_duration", "rest_duration", "longest_offset"), TIMES),
     "spike_threshold": [1.0000001, 999.9],
     "gap": [1.0000001, 999.9],
     "jitter": [5e-324, 0.9999999999999999],

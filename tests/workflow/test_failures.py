@@ -1,7 +1,5 @@
 """A bad file, a missing file, a fault of colonnade, a full disk: that test fails alone, and why is told."""
 
-from __future__ import annotations
-
 import errno
 import os
 from dataclasses import replace
@@ -9,10 +7,12 @@ from dataclasses import replace
 import pytest
 
 from colonnade.errors import StageError, StoreError
+from colonnade.readers import registry
 from colonnade.stages import rocking, specimen
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId
+from colonnade.workflow import steps
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -60,9 +60,10 @@ def test_a_failed_free_vibration_leaves_the_specimen_to_the_others(untouched):
     assert untouched.summary()["specimens"]["prism"]["restitution"]["tests"] == ["free-02"]
 
 
-def test_nothing_stays_behind_a_failure(small):
+@pytest.mark.parametrize("until", ["compare", "ingest"])
+def test_nothing_stays_behind_a_failure(small, until):
     small.raw("pulse-01").write_text("time,top\n")
-    small.run()
+    small.run(until=until)
     assert [path.name for path in small.layout.test("pulse-01").iterdir()] == ["recorded.nc"]
 
 
@@ -135,20 +136,10 @@ def test_the_log_of_an_internal_error_goes_when_the_error_does(untouched, monkey
     assert not untouched.layout.error_log(ResultId("pulse-01", "ingest")).exists()
 
 
-def test_nothing_stays_behind_a_failure_where_the_run_stops_there(small):
-    small.raw("pulse-01").write_text("time,top\n")
-    small.run(until="ingest")
-    assert [path.name for path in small.layout.test("pulse-01").iterdir()] == ["recorded.nc"]
-
-
 def test_a_share_that_drops_while_a_file_is_read_is_not_kept_against_it(untouched, monkeypatch):
-    from colonnade.readers import registry
-
-    def dropped(*arguments):
-        raise OSError(errno.EIO, "Input/output error")
-
     known = registry.formats()["delimited"]
-    monkeypatch.setattr(registry, "_recognised", lambda path: (replace(known, read=dropped), "a look"))
+    dropped = replace(known, read=fails(OSError(errno.EIO, "Input/output error")))
+    monkeypatch.setattr(registry, "_recognised", lambda path: (dropped, "a look"))
     told = failures(untouched.run())
     assert "Input/output error" in told["pulse-01"].reason
     monkeypatch.undo()
@@ -156,8 +147,6 @@ def test_a_share_that_drops_while_a_file_is_read_is_not_kept_against_it(untouche
 
 
 def test_a_file_that_changes_while_it_is_read_is_read_again(untouched, monkeypatch):
-    from colonnade.workflow import steps
-
     ingest = steps._ingest
 
     def still_writing(folder, paths, read):

@@ -1,7 +1,5 @@
 """The column that a command asks about: which it is, its size, and what must be said of its e."""
 
-from __future__ import annotations
-
 from math import atan, hypot
 
 import pytest
@@ -12,6 +10,7 @@ from colonnade.errors import CampaignError
 from colonnade.stages.assessing.column import real_column
 from colonnade.store.layout import Layout
 from colonnade.workflow.real_column import AskedColumn, find_column
+from every import every
 
 
 @pytest.fixture
@@ -66,25 +65,20 @@ def test_alpha_and_p_need_no_campaign_and_leave_its_specimens_aside(campaign):
     assert found(campaign, **said)[0] == alone
 
 
-GRAVITY = 9.81
+RADIUS = hypot(0.5, 2.5)
 
 
-@pytest.mark.parametrize(
-    ("sizes", "alpha", "p"),
+@every(
+    ("sizes", "squared_p"),
     [
         # Solid bodies: α = arctan(b/h_G), I₀ = (4/3) m R² of a prism; of a cylinder m (r²/4 + H²/12) about its centre.
-        ({"shape": "prism", "width": "1 m", "height": "5 m"}, atan(0.2), (0.75 * GRAVITY / hypot(0.5, 2.5)) ** 0.5),
-        (
-            {"shape": "cylinder", "diameter": "1 m", "height": "5 m"},
-            atan(0.2),
-            (GRAVITY * hypot(0.5, 2.5) / (0.25 * 0.5**2 + 25 / 12 + 0.5**2 + 2.5**2)) ** 0.5,
-        ),
+        ({"shape": "prism", "width": "1 m", "height": "5 m"}, 0.75 / RADIUS),
+        ({"shape": "cylinder", "diameter": "1 m", "height": "5 m"}, RADIUS / (0.25 * 0.5**2 + 25 / 12 + RADIUS**2)),
     ],
-    ids=["prism", "cylinder"],
 )
-def test_a_column_is_given_by_its_sizes(campaign, sizes, alpha, p):
+def test_a_column_is_given_by_its_sizes(campaign, sizes, squared_p):
     alone, source = found(None, **sizes)
-    assert (alone.block.critical_angle, alone.block.p) == pytest.approx((alpha, p))
+    assert (alone.block.critical_angle, alone.block.p) == pytest.approx((atan(0.2), (9.81 * squared_p) ** 0.5))
     assert source == "rigid-body"
     assert found(campaign, **sizes, restitution=0.9)[0].restitution == 0.9
 
@@ -95,7 +89,13 @@ def test_a_cone_of_equal_ends_is_a_cylinder():
     assert (cone.critical_angle, cone.p) == pytest.approx((cylinder.critical_angle, cylinder.p))
 
 
-@pytest.mark.parametrize(
+def refuse(campaign, options, words):
+    with pytest.raises(CampaignError) as refused:
+        found(campaign, **options)
+    assert words in str(refused.value)
+
+
+@every(
     ("options", "words"),
     [
         ({"width": "1 m", "height": "5 m"}, "--width: give its --shape too: prism, cylinder, cone"),
@@ -112,12 +112,10 @@ def test_a_cone_of_equal_ends_is_a_cylinder():
     ],
 )
 def test_a_column_without_a_campaign_that_cannot_be_is_refused(options, words):
-    with pytest.raises(CampaignError) as refused:
-        found(None, **options)
-    assert words in str(refused.value)
+    refuse(None, options, words)
 
 
-@pytest.mark.parametrize(
+@every(
     ("options", "words"),
     [
         ({"specimen": "prsm"}, 'no specimen "prsm"'),
@@ -127,9 +125,7 @@ def test_a_column_without_a_campaign_that_cannot_be_is_refused(options, words):
     ],
 )
 def test_an_option_that_cannot_be_is_named(campaign, options, words):
-    with pytest.raises(CampaignError) as refused:
-        found(campaign, **options)
-    assert words in str(refused.value)
+    refuse(campaign, options, words)
 
 
 def test_one_of_several_specimens_is_named(campaign):

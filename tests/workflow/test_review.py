@@ -1,7 +1,5 @@
 """A changed review redoes just what it touches, and each decision does what it says."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,9 +1,9 @@
 """Nothing is written or removed through a link in the folders of results; `results` puts them on another disk."""
 
-from __future__ import annotations
-
 import os
 import shutil
+from dataclasses import replace
+from functools import partial
 from hashlib import sha256
 
 import pytest
@@ -17,32 +17,17 @@ from colonnade.workflow.maps.stability import make_maps
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
-FOLDERS = (
-    "processed",
-    "processed/tests",
-    "processed/tests/pulse-01",
-    "processed/specimens",
-    "processed/contact",
-    "processed/maps",
-    "processed/maps/.prism-linear",
-    "report",
-    "report/tests",
-    "report/specimens",
-)
-FILES = (
-    "processed/summary.json",
-    "processed/summary.csv",
-    "processed/catalogue.json",
-    "processed/.lock",
-    "processed/.lock-holder.json",
-    "processed/tests/pulse-01/rocking.nc",
-    "processed/tests/pulse-01/.rocking.nc.4711.partial",
-    "processed/tests/pulse-01/error.log",
-    "processed/specimens/prism.nc",
-    "report/index.html",
-    "report/tests/pulse-01.html",
-    "report/tests/gone.html",
-)
+
+def inside(folder, *places):
+    return [f"{folder}/{place}".rstrip("/") for place in places]
+
+
+FOLDERS = inside("processed", "", "tests", "tests/pulse-01", "specimens", "contact", "maps", "maps/.prism-linear")
+FOLDERS += inside("report", "", "tests", "specimens")
+FILES = inside("processed", "summary.json", "summary.csv", "catalogue.json", ".lock", ".lock-holder.json")
+FILES += inside("processed/tests/pulse-01", "rocking.nc", ".rocking.nc.4711.partial", "error.log")
+FILES += inside("processed/specimens", "prism.nc")
+FILES += inside("report", "index.html", "tests/pulse-01.html", "tests/gone.html")
 needs_links = pytest.mark.skipif(os.name == "nt", reason="links need a right of their own on Windows")
 
 
@@ -77,11 +62,8 @@ def replace_by_link(path, target):
 def test_a_folder_of_results_that_is_a_link_is_refused_and_nothing_is_touched(small, elsewhere, place):
     replace_by_link(small.folder / place, elsewhere)
     before = state(elsewhere), small.files()
-    for work in (
-        lambda: small.run(until="report", start_from="ingest"),
-        lambda: make_maps(small.folder, Wanted()),
-        lambda: calibrate(small.folder),
-    ):
+    run = partial(small.run, until="report", start_from="ingest")
+    for work in (run, partial(make_maps, small.folder, Wanted()), partial(calibrate, small.folder)):
         with pytest.raises(StoreError, match=r"this is a link, to .*elsewhere.*--results"):
             work()
     assert (state(elsewhere), small.files()) == before
@@ -139,8 +121,6 @@ def test_a_folder_for_results_that_is_a_file_is_told(untouched):
 @needs_links
 def test_the_demo_writes_through_no_link_of_a_former_one(tmp_path, elsewhere):
     def one_trial(*arguments, **options):
-        from dataclasses import replace
-
         plan = prism_programme(*arguments, **options)
         return replace(plan, trials=plan.trials[:1])
 

@@ -1,7 +1,5 @@
 """The graph of results, what its steps hand on, and what a run gives back."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

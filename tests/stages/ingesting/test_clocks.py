@@ -1,7 +1,5 @@
 """Channels on even clocks of their own, delays between recorders, and the one clock that a test is put on."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -14,14 +12,8 @@ from colonnade.signals.alignment import ClockRate, Offset
 from colonnade.signals.quality import Flag
 from colonnade.signals.record import Record
 from colonnade.stages.ingesting import clocks
-from colonnade.stages.ingesting.clocks import (
-    ChannelOnClock,
-    common_clock,
-    cut_short,
-    find_links,
-    own_records,
-    recorder_offsets,
-)
+from colonnade.stages.ingesting.clocks import ChannelOnClock, common_clock, cut_short, find_links, own_records
+from every import every
 
 TOGETHER = Offset(0.0, np.nan, 0.0)
 LATE = 0.03
@@ -30,10 +22,9 @@ LATE = 0.03
 
 def channel(direction=(1, 0, 0), recorder="main"):
     """A channel of the table; without a direction it is one of force."""
-    given = {"column": "a", "quantity": "acceleration", "unit": "g", "on": "table", "recorder": recorder}
-    if direction is None:
-        return Channel.model_validate({"column": "a", "quantity": "force", "unit": "N", "recorder": recorder})
-    return Channel.model_validate(given | {"direction": direction})
+    shaking = {"quantity": "acceleration", "unit": "g", "on": "table", "direction": direction}
+    what = shaking if direction else {"quantity": "force", "unit": "N"}
+    return Channel.model_validate({"column": "a", "recorder": recorder, **what})
 
 
 def on_clock(recorder="main", delay=0.0):
@@ -57,7 +48,7 @@ def shaking(time):
 ALIGNED = {"main": Recorder(), "second": Recorder.model_construct(clock=Align(channel="one", own_channel="other"))}
 
 
-@pytest.mark.parametrize(
+@every(
     ("first", "second", "sign"),
     [
         ([1, 0, 0], [1, 0, 0], 1.0),
@@ -83,27 +74,23 @@ def test_a_recorder_on_the_same_trigger_needs_no_link():
     assert find_links({"main": Recorder(), "second": Recorder()}, {"one": channel(), "other": channel()}) == {}
 
 
-def recorded(values, flags=None, name="top"):
+RISING = np.arange(20.0)
+
+
+def recorded(name, values=RISING, flag=Flag.GOOD):
     """One channel as the result of `ingest`, at 100 Hz from 5 s on."""
-    values = np.asarray(values, dtype=float)
-    flags = np.full(values.size, Flag.GOOD) if flags is None else flags
-    return xr.Dataset(
-        {name: ("elapsed", values), f"{name}_quality": ("elapsed", np.asarray(flags, dtype=np.int8))},
-        coords={"elapsed": ("elapsed", 5.0 + 0.01 * np.arange(values.size))},
-    )
+    flags = np.full(values.size, flag, dtype=np.int8)
+    clock = {"elapsed": 5.0 + 0.01 * np.arange(values.size)}
+    return xr.Dataset({name: ("elapsed", values), f"{name}_quality": ("elapsed", flags)}, coords=clock)
 
 
 def test_a_channel_is_found_by_the_name_of_its_variable():
-    assert list(own_records(recorded(np.arange(9.0), name="top_left"), {"top-left": on_clock()}, [])) == ["top-left"]
+    assert list(own_records(recorded("top_left"), {"top-left": on_clock()}, [])) == ["top-left"]
 
 
-@pytest.mark.parametrize(
-    ("values", "flags"),
-    [(np.full(20, np.nan), np.full(20, Flag.MISSING)), (np.arange(20.0), np.full(20, Flag.FAIL))],
-    ids=["missing", "failed"],
-)
-def test_a_channel_without_a_usable_sample_is_left_out_and_the_others_stay(values, flags):
-    both = xr.merge([recorded(values, flags, "top"), recorded(np.arange(20.0), name="bottom")])
+@every(("values", "flag"), [(np.full(20, np.nan), Flag.MISSING), (RISING, Flag.FAIL)])
+def test_a_channel_without_a_usable_sample_is_left_out_and_the_others_stay(values, flag):
+    both = xr.merge([recorded("top", values, flag), recorded("bottom")])
     warnings = []
     assert list(own_records(both, {"top": on_clock(), "bottom": on_clock()}, warnings)) == ["bottom"]
     (finding,) = warnings
@@ -116,7 +103,7 @@ LINKED = {"one": on_clock(), "other": on_clock("second")}
 
 def offsets_of(records, sign=1.0, longest=0.5):
     warnings = []
-    found = recorder_offsets(records, LINKED, {"second": ("one", "other", sign)}, longest, warnings)
+    found = clocks.recorder_offsets(records, LINKED, {"second": ("one", "other", sign)}, longest, warnings)
     assert found["main"] == Offset(0.0, 0.0, 1.0)
     return found, warnings
 
@@ -189,9 +176,11 @@ def test_the_clock_falls_on_samples_of_the_leading_channel():
     np.testing.assert_allclose(np.interp(clock, fast.time, fast.time), clock)
 
 
+OWN = {"own": on_clock(), "other": on_clock("second")}
+
+
 def test_the_main_recorder_leads_even_if_another_is_faster():
-    channels = {"own": on_clock(), "other": on_clock("second")}
-    clock = common({"own": record(0, 4, 100), "other": record(0, 4, 1000)}, channels=channels)
+    clock = common({"own": record(0, 4, 100), "other": record(0, 4, 1000)}, channels=OWN)
     assert np.diff(clock) == pytest.approx(0.01)
 
 
@@ -202,9 +191,7 @@ def test_without_a_channel_of_the_main_recorder_the_fastest_leads():
 
 def test_of_channels_of_one_rate_the_one_with_the_least_delay_leads():
     records = {"late": record(-0.004, 4, 100), "prompt": record(0.0, 4, 100)}
-    channels = {"late": on_clock(delay=0.004), "prompt": on_clock()}
-    clock = common(records, channels=channels)
-    assert clock[0] == 0.0
+    assert common(records, channels={"late": on_clock(delay=0.004), "prompt": on_clock()})[0] == 0.0
 
 
 def test_a_rate_that_is_asked_for_is_that_of_the_clock():
@@ -212,27 +199,28 @@ def test_a_rate_that_is_asked_for_is_that_of_the_clock():
     np.testing.assert_allclose(clock, np.arange(501) / 125)
 
 
-@pytest.mark.parametrize(("rate", "own"), [(5000, 5000), (5001, 5001), (8000, 5000), (100_000, 5000)])
+@every(("rate", "own"), [(5000, 5000), (5001, 5001), (8000, 5000), (100_000, 5000)])
 def test_a_clock_far_faster_than_rocking_is_slowed_down_unless_it_is_asked_for(rate, own):
     records = {"a": record(0.1, 0.6, rate)}
     assert 1 / np.diff(common(records)) == pytest.approx(own)
     assert 1 / np.diff(common(records, rate=float(rate))) == pytest.approx(rate)
 
 
-@pytest.mark.parametrize("late", [0.5, -0.5])
-def test_the_shared_time_counts_on_the_clock_of_the_main_recorder(late):
-    records = {"own": record(0, 4, 100), "other": record(0, 4, 100)}
-    channels = {"own": on_clock(), "other": on_clock("second")}
-    clock = common(records, channels=channels, offsets={"other": Offset(late, 0.001, 0.99)})
-    assert (clock[0], clock[-1]) == pytest.approx((max(0.0, -late), min(4.0, 4.0 - late)))
+DRIFT = ClockRate(rate=0.01, standard_error=1e-6, seconds=0.0, seconds_error=1e-6, middle=0.0, change=0.04)
 
 
-def test_a_drift_moves_the_ends_of_the_shared_time():
-    drift = ClockRate(rate=0.01, standard_error=1e-6, seconds=0.0, seconds_error=1e-6, middle=0.0, change=0.04)
-    channels = {"own": on_clock(), "other": on_clock("second")}
+@every(
+    ("offset", "first", "last"),
+    [
+        (Offset(0.5, 0.001, 0.99), 0.0, 3.5),
+        (Offset(-0.5, 0.001, 0.99), 0.5, 4.0),
+        (Offset(0.0, 0.001, 0.99, drift=DRIFT), 0.0, 4.0 * (1 - 0.01)),
+    ],
+)
+def test_the_shared_time_counts_on_the_clock_of_the_main_recorder(offset, first, last):
     records = {"own": record(0, 4, 100), "other": record(0, 4, 100)}
-    clock = common(records, channels=channels, offsets={"other": Offset(0.0, 0.001, 0.99, drift=drift)})
-    assert clock[-1] == pytest.approx(4.0 * (1 - 0.01))
+    clock = common(records, channels=OWN, offsets={"other": offset})
+    assert (clock[0], clock[-1]) == pytest.approx((first, last))
 
 
 @pytest.mark.parametrize(("stop", "words"), [(0.14, "share 0.14 s, 15 samples"), (-0.5, "share 0 s, no sample")])
@@ -260,37 +248,28 @@ def test_a_long_record_may_be_sampled_twice_as_finely(monkeypatch):
 def cut(first, second, offsets=None):
     """Findings about a channel of the main recorder and one of a second, which move from 1 to 7 s."""
     records = {name: record(*span, 200, shaking) for name, span in (("own", first), ("other", second))}
-    channels = {"own": on_clock(), "other": on_clock("second")}
     offsets = {"own": TOGETHER, "other": offsets or TOGETHER}
     noise = np.random.default_rng(0).normal(0, 0.01, 2000)
     smooth = {name: (each.values + noise[: each.time.size], 0.01) for name, each in records.items()}
-    return cut_short(records, offsets, channels, smooth, common_clock(records, offsets, channels, "auto"))
+    return cut_short(records, offsets, OWN, smooth, common_clock(records, offsets, OWN, "auto"))
 
 
-@pytest.mark.parametrize(
-    ("first", "second", "words"),
+@every(
+    ("first", "second", "words", "more"),
     [
-        (
-            (0, 4),
-            (0, 9),
-            "Recorder main ends already at 4 s, in the motion of own, other; recorder second has 5 s more",
-        ),
-        ((0, 9), (0, 6.5), "Recorder second ends already at 6.5 s, in the motion of own, other; recorder main has 2.5"),
-        ((0, 9), (2, 9), "Recorder second begins only at 2 s, in the motion of own, other; recorder main has 2 s more"),
+        ((0, 4), (0, 9), "main ends already at 4 s", "second has 5 s more"),
+        ((0, 9), (0, 6.5), "second ends already at 6.5 s", "main has 2.5"),
+        ((0, 9), (2, 9), "second begins only at 2 s", "main has 2 s more"),
     ],
-    ids=["main cut", "second cut", "second late"],
 )
-def test_a_record_cut_in_the_motion_is_serious_if_another_goes_on(first, second, words):
+def test_a_record_cut_in_the_motion_is_serious_if_another_goes_on(first, second, words, more):
     (finding,) = cut(first, second)
-    assert finding.text.startswith(words)
+    assert finding.text.startswith(f"Recorder {words}, in the motion of own, other; recorder {more}")
     assert (finding.kind, finding.severity) == ("cut record", Severity.SERIOUS)
 
 
-@pytest.mark.parametrize(
-    ("first", "second"),
-    [((0, 8), (0, 9)), ((0.5, 9), (0, 9)), ((0, 4), (0, 4.2)), ((0, 4), (0, 4))],
-    ids=["ends at rest", "begins at rest", "hardly shorter", "both end in the motion"],
-)
+# One ends at rest, one begins at rest, one is hardly shorter, both end in the motion.
+@every(("first", "second"), [((0, 8), (0, 9)), ((0.5, 9), (0, 9)), ((0, 4), (0, 4.2)), ((0, 4), (0, 4))])
 def test_records_of_unequal_length_are_usual_at_rest(first, second):
     assert cut(first, second) == []
 

@@ -1,18 +1,17 @@
 """The column of a raw file that a channel is: its times, what its unit says, and where its samples go."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from chain import plain_channel
 from colonnade.errors import ReadError, StageError
 from colonnade.findings import Severity
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.signals.timing import Clock
 from colonnade.stages.ingesting.columns import dimension_of, find_column, rounding, too_short, unit_findings, within
-from colonnade.stages.ingesting.quality import ChannelInputs
+from every import every
 
 VALUES = np.array([4.0, 5.0, 6.0])
 FILE_TIME = np.array([0.0, 0.5, 1.0])
@@ -28,28 +27,14 @@ RECORDING = Recording(
 
 
 def channel(**changes):
-    given = {
-        "column": "Timed",
-        "recorder": "main",
-        "time": None,
-        "quantity": "displacement",
-        "unit": "mm",
-        "gain": None,
-        "factor": 1e-3,
-        "offset": 0.0,
-        "full_scale": None,
-        "range_recorded": None,
-        "on": "specimen",
-        "direction": (1.0, 0.0, 0.0),
-    }
-    return ChannelInputs(**given | changes)
+    return plain_channel("displacement", **{"column": "Timed", "unit": "mm", "factor": 1e-3} | changes)
 
 
 def test_a_column_has_the_clock_of_its_file():
     assert find_column(RECORDING, "top", channel(), None) is RECORDING.channels[1]
 
 
-@pytest.mark.parametrize("column", ["Timed", "Untimed"])
+@every("column", ["Timed", "Untimed"])
 def test_a_sampling_rate_counts_the_samples_from_zero_even_beside_a_clock(column):
     found = find_column(RECORDING, "top", channel(column=column), 200.0)
     np.testing.assert_array_equal(found.time, [0.0, 0.005, 0.01])
@@ -61,7 +46,7 @@ def test_a_rate_leaves_the_heading_as_written():
     assert find_column(RECORDING, "top", channel(), 200.0).heading == "Timed [mm]"
 
 
-@pytest.mark.parametrize("rate", [None, 200.0])
+@every("rate", [None, 200.0])
 def test_a_time_column_of_the_channel_comes_before_all_other_clocks(rate):
     found = find_column(RECORDING, "top", channel(time="Seconds"), rate)
     np.testing.assert_array_equal(found.time, [10.0, 10.1, 10.2])
@@ -81,9 +66,7 @@ def test_a_column_that_is_not_in_the_file_is_told_with_the_nearest(changes):
         find_column(RECORDING, "top", channel(**changes), None)
 
 
-@pytest.mark.parametrize(
-    ("of_file", "of_campaign"), [("mm", "mm"), (" mm ", "mm"), ("g's", "g"), (None, "mm"), ("mm", None), (None, None)]
-)
+@every(("of_file", "of_campaign"), [(" mm ", "mm"), ("g's", "g"), (None, "mm"), ("mm", None), (None, None)])
 def test_units_that_agree_or_are_not_given_are_not_told(of_file, of_campaign):
     column = RecordedChannel("Top", of_file, VALUES)
     assert unit_findings(RECORDING, column, "top", channel(unit=of_campaign)) == []
@@ -97,30 +80,28 @@ def test_a_letter_that_the_campaign_file_takes_for_a_label_is_not_told():
     assert unit_findings(RECORDING, bracketed, "top", channel(unit="g")) != []
 
 
-@pytest.mark.parametrize(("of_file", "of_campaign"), [("cm", "mm"), ("mV", "V"), ("g", "m/s^2")])
+@every(("of_file", "of_campaign"), [("cm", "mm"), ("mV", "V"), ("g", "m/s^2")])
 def test_units_that_differ_are_serious_and_both_are_shown(of_file, of_campaign):
+    expected = "channel top: free-01.csv", f'"{of_file}"', f'"{of_campaign}"', '"Top left"'
+    assert_unit_finding(Severity.SERIOUS, expected, of_file, unit=of_campaign)
+
+
+def assert_unit_finding(severity, words, of_file, **of_campaign):
     column = RecordedChannel("Top", of_file, VALUES, heading="Top left")
-    (finding,) = unit_findings(RECORDING, column, "top", channel(unit=of_campaign))
-    assert (finding.kind, finding.severity) == ("unit", Severity.SERIOUS)
-    for words in ("channel top: free-01.csv", f'"{of_file}"', f'"{of_campaign}"', '"Top left"'):
-        assert words in finding.text
+    (finding,) = unit_findings(RECORDING, column, "top", channel(**of_campaign))
+    assert (finding.kind, finding.severity) == ("unit", severity)
+    assert [each for each in words if each not in finding.text] == []
 
 
-@pytest.mark.parametrize("own", ["counts", "LSB", "Einheiten", "1"])
+@every("own", ["counts", "LSB", "Einheiten", "1"])
 def test_a_recorders_own_unit_is_noted_where_the_campaign_file_explains_it(own):
-    column = RecordedChannel("Top", own, VALUES, heading="Top left")
-    (finding,) = unit_findings(RECORDING, column, "top", channel(unit="V", gain="10 mm/V"))
-    assert (finding.kind, finding.severity) == ("unit", Severity.NOTE)
-    for words in (f'"{own}"', '"Top left"', "unit (V) and gain (10 mm/V) were used"):
-        assert words in finding.text
+    expected = f'"{own}"', '"Top left"', "unit (V) and gain (10 mm/V) were used"
+    assert_unit_finding(Severity.NOTE, expected, own, unit="V", gain="10 mm/V")
 
 
-@pytest.mark.parametrize(("of_file", "gain"), [("counts", None), ("mV", "10 mm/V")])
-def test_counts_taken_for_millimetres_and_another_known_unit_stay_serious(of_file, gain):
-    unit = "mm" if gain is None else "V"
-    column = RecordedChannel("Top", of_file, VALUES)
-    (finding,) = unit_findings(RECORDING, column, "top", channel(unit=unit, gain=gain))
-    assert finding.severity == Severity.SERIOUS
+def test_counts_taken_for_millimetres_and_another_known_unit_stay_serious():
+    assert_unit_finding(Severity.SERIOUS, (), "counts", unit="mm")
+    assert_unit_finding(Severity.SERIOUS, (), "mV", unit="V", gain="10 mm/V")
 
 
 def test_a_window_takes_its_edges_and_leaves_out_what_has_no_time():
@@ -135,13 +116,11 @@ def test_without_a_window_everything_belongs_to_the_test():
     assert values is VALUES
 
 
-@pytest.mark.parametrize(
-    ("window", "words"), [(None, "has 1 sample; at least"), ((2.0, 2.5), "has 1 sample between 2 and 2.5 s; at")]
-)
+@every(("window", "words"), [(None, "; at least"), ((2.0, 2.5), " between 2 and 2.5 s; at")])
 def test_too_few_samples_are_told_with_the_window_that_cut_them(window, words):
     error = too_short("top", 1, window)
     assert isinstance(error, StageError)
-    assert f"channel top {words}" in str(error)
+    assert f"channel top has 1 sample{words}" in str(error)
 
 
 @pytest.mark.parametrize(("resolution", "is_warned"), [(0.0, False), (0.0005, False), (0.00051, True), (0.001, True)])
@@ -157,35 +136,27 @@ def test_a_clock_without_an_interval_is_not_called_rounded():
     assert rounding(RECORDING, Clock(FILE_TIME, float("nan"), 0.001), jitter=0.1) == []
 
 
-@pytest.mark.parametrize(
-    ("changes", "dimension"),
+def test_a_channel_is_on_the_clock_of_its_recorder_or_its_own():
+    changes = {}, {"recorder": "daq-2"}, {"time": "Seconds"}, {"recorder": "daq-2", "time": "Seconds"}
+    found = [dimension_of({}, FILE_TIME, "top-left", channel(**each)) for each in changes]
+    assert found == ["elapsed", "elapsed_daq_2", "elapsed_top_left", "elapsed_top_left"]
+
+
+HOLED = np.array([0.0, np.nan, 1.0])
+
+
+@every(
+    ("known", "time", "dimension"),
     [
-        ({}, "elapsed"),
-        ({"recorder": "daq-2"}, "elapsed_daq_2"),
-        ({"time": "Seconds"}, "elapsed_top_left"),
-        ({"recorder": "daq-2", "time": "Seconds"}, "elapsed_top_left"),
+        (FILE_TIME.copy(), FILE_TIME, "elapsed"),
+        (FILE_TIME + 1e-9, FILE_TIME, "elapsed_top"),
+        (FILE_TIME[:-1], FILE_TIME, "elapsed_top"),
+        (HOLED, FILE_TIME, "elapsed_top"),
+        (HOLED.copy(), HOLED, "elapsed"),
     ],
 )
-def test_a_channel_is_on_the_clock_of_its_recorder_or_its_own(changes, dimension):
-    assert dimension_of({}, FILE_TIME, "top-left", channel(**changes)) == dimension
-
-
-@pytest.mark.parametrize(
-    ("known", "dimension"),
-    [
-        (FILE_TIME.copy(), "elapsed"),
-        (FILE_TIME + 1e-9, "elapsed_top"),
-        (FILE_TIME[:-1], "elapsed_top"),
-        (np.array([0.0, np.nan, 1.0]), "elapsed_top"),
-    ],
-)
-def test_channels_share_a_dimension_only_with_the_same_times(known, dimension):
-    assert dimension_of({"elapsed": known}, FILE_TIME, "top", channel()) == dimension
-
-
-def test_times_that_are_missing_at_the_same_samples_are_the_same():
-    time = np.array([0.0, np.nan, 1.0])
-    assert dimension_of({"elapsed": time.copy()}, time, "top", channel()) == "elapsed"
+def test_channels_share_a_dimension_only_with_the_same_times(known, time, dimension):
+    assert dimension_of({"elapsed": known}, time, "top", channel()) == dimension
 
 
 def test_a_dimension_that_is_taken_by_other_times_is_never_given_twice():

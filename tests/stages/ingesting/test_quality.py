@@ -1,7 +1,5 @@
 """Quality of channels, the days of their files, and the error of a zero."""
 
-from __future__ import annotations
-
 from datetime import UTC, date, datetime, timedelta, timezone
 from pathlib import Path
 
@@ -10,13 +8,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from chain import plain_channel
 from colonnade.campaign.review import Flagged, Review
 from colonnade.campaign.settings import QualitySettings
 from colonnade.readers.recording import Recording
 from colonnade.signals.quality import Flag
 from colonnade.signals.rest import RestWindow
 from colonnade.stages.ingesting.dates import contradictions, recorded_at
-from colonnade.stages.ingesting.quality import ChannelInputs, channel_verdicts, reviewed
+from colonnade.stages.ingesting.quality import channel_verdicts, reviewed
 from colonnade.stages.ingesting.zero_error import find_zero_error, on_angle, on_base
 from prism import PRISM
 
@@ -24,26 +23,9 @@ TIME = np.arange(0.0, 10.0, 0.01)
 WAVE = np.sin(2 * np.pi * 2.0 * TIME)
 
 
-def _channel(on, direction=(1.0, 0.0, 0.0), **changed):
-    given = {
-        "column": "a",
-        "recorder": "main",
-        "time": None,
-        "quantity": "acceleration",
-        "unit": "g",
-        "gain": None,
-        "factor": 9.80665,
-    }
-    return ChannelInputs(
-        **given
-        | {"offset": 0.0, "full_scale": None, "range_recorded": None, "on": on, "direction": direction}
-        | changed
-    )
-
-
 def test_clipping_is_judged_by_the_recorded_range_if_it_is_given_so():
     recorded = np.clip(WAVE, -0.5, 0.5)
-    channel = _channel("table", range_recorded=0.5, full_scale=100.0)
+    channel = plain_channel("acceleration", unit="g", on="table", range_recorded=0.5, full_scale=100.0)
     verdicts = channel_verdicts(TIME, recorded, 9.80665 * recorded, channel, QualitySettings())
     assert [verdict.finding.kind for verdict in verdicts if verdict.reason] == ["end of the range"]
 
@@ -124,20 +106,11 @@ def test_a_test_late_in_a_long_file_has_its_own_time():
     assert len(contradictions(recorded(night), date(2013, 4, 25), 3600.0)) == 1
 
 
-CLOCK = np.arange(0.0, 10.0, 0.01)
-WINDOW = RestWindow(0.0, 1.0, quiet=False)
-LEVER = 0.4
-
-
-def _found(drift, *, free_vibration=False):
-    """A displacement that drifts by `drift` (m) in the first second and is still afterwards."""
-    values = {"top": np.minimum(CLOCK, 1.0) * drift}
-    return find_zero_error(CLOCK, values, {"top": on_angle(LEVER, PRISM)}, WINDOW, free_vibration=free_vibration)
-
-
 def test_a_drift_is_reported_in_radians_with_a_stretch_without_it():
-    (found,) = _found(0.002)
-    error = 0.002 * 3 / 8 / LEVER  # from the mean of the last quarter to that of the window
+    lever, window = 0.4, RestWindow(0.0, 1.0, quiet=False)
+    drifts = {"top": 0.002 * np.minimum(TIME, 1.0)}  # m, in the first second
+    (found,) = find_zero_error(TIME, drifts, {"top": on_angle(lever, PRISM)}, window, free_vibration=False)
+    error = 0.002 * 3 / 8 / lever  # from the mean of the last quarter to that of the window
     assert f"uncertain by {error:.2g} rad" in found.text
     assert 'zero = ["1' in found.text
     assert found.severity == "warning"

@@ -1,7 +1,5 @@
 """What a stage reads of the campaign: its inputs as JSON, its channels sorted, the outline of each shape."""
 
-from __future__ import annotations
-
 import json
 import tomllib
 
@@ -22,6 +20,7 @@ from colonnade.stages.predict import PredictInputs
 from colonnade.stages.restitution import RestitutionInputs
 from colonnade.stages.rocking import RockingInputs
 from colonnade.stages.specimen import SpecimenInputs
+from every import every
 
 IN_SPACE = {"contact", "predict contact", "ensemble contact"}
 MEASURED = {"condition", "restitution", "ensemble", "ensemble contact"}
@@ -51,36 +50,34 @@ READ_BY = {
 def _inputs(campaign):
     test = campaign.tests["free-01"]
     read = {
-        "ingest": IngestInputs.of(campaign, test),
-        "condition": ConditionInputs.of(campaign, test),
-        "rocking": RockingInputs.of(campaign, test),
-        "restitution": RestitutionInputs.of(campaign, test),
         "specimen": SpecimenInputs.of(campaign, "prism"),
         "contact": ContactInputs.of(campaign, "prism"),
         "predict": PredictInputs.of(campaign, test, "linear"),
         "predict contact": PredictInputs.of(campaign, test, "contact"),
         "ensemble": EnsembleInputs.of(campaign, test, "linear"),
         "ensemble contact": ContactEnsembleInputs.of(campaign, test),
-        "compare": CompareInputs.of(campaign, test),
     }
+    for inputs in (IngestInputs, ConditionInputs, RockingInputs, RestitutionInputs, CompareInputs):
+        read[inputs.__name__.removesuffix("Inputs").lower()] = inputs.of(campaign, test)
     return {name: json.loads(each.model_dump_json()) for name, each in read.items()}
 
 
-@pytest.mark.parametrize(("setting", "stages"), READ_BY.items(), ids=[setting.split(" =")[0] for setting in READ_BY])
+def _changed_by(campaign, **parts):
+    before, changed = _inputs(campaign), _inputs(campaign.but(**parts))
+    return {name for name in before if before[name] != changed[name]}
+
+
+@every(("setting", "stages"), READ_BY.items())
 def test_a_setting_changes_the_inputs_of_the_stages_that_read_it(small_campaign, setting, stages):
-    before, changed = (
-        _inputs(small_campaign.but(processing=Processing.model_validate(tomllib.loads(text)))) for text in ("", setting)
-    )
-    assert {name for name in before if before[name] != changed[name]} == stages
+    processing = Processing.model_validate(tomllib.loads(setting))
+    assert _changed_by(small_campaign, processing=processing) == stages
 
 
 def test_a_part_that_a_stage_does_not_read_does_not_change_its_inputs(small_campaign):
     setup = small_campaign.setups["frame"]
     moved = setup.channels["top"].model_copy(update={"at": (0.043, 0.0, 0.3)})
-    channels = setup.channels | {"top": moved}
-    other = small_campaign.but(setups={"frame": setup.model_copy(update={"channels": channels})})
-    before, changed = _inputs(small_campaign), _inputs(other)
-    assert {name for name in before if before[name] != changed[name]} == {"condition", "rocking"}
+    setups = {"frame": setup.model_copy(update={"channels": setup.channels | {"top": moved}})}
+    assert _changed_by(small_campaign, setups=setups) == {"condition", "rocking"}
 
 
 AT = ["43 mm", "0 mm", "400 mm"]
@@ -118,28 +115,25 @@ def test_an_accelerometer_on_the_specimen_counts_only_with_its_place():
     assert set(found.on_specimen) == {"top", "tilt_meter", "gyro", "block"}
 
 
+CONE = Cone(shape="cone", base_diameter="97 mm", top_diameter="75 mm", height="0.5 m", mass="22 kg")
+
+
 @pytest.mark.parametrize(
     ("specimen", "half_width", "half_depth", "taper"),
     [
         (Prism(shape="prism", width="86 mm", depth="60 mm", height="456 mm", mass="26 kg"), 0.043, 0.03, 0.0),
         (Cylinder(shape="cylinder", diameter="97 mm", height="455 mm", mass="26 kg"), 0.0485, 0.0485, 0.0),
-        (
-            Cone(shape="cone", base_diameter="97 mm", top_diameter="75 mm", height="0.5 m", mass="22 kg"),
-            *(0.0485, 0.0485, -0.022),
-        ),
+        (CONE, 0.0485, 0.0485, -0.022),
     ],
     ids=["prism", "cylinder", "cone"],
 )
 def test_the_outline_is_half_the_dimensions(specimen, half_width, half_depth, taper):
     found = outline(specimen, specimen.block(9.81))
-    assert found.half_width == pytest.approx(half_width)
-    assert found.half_depth == pytest.approx(half_depth)
-    assert found.taper == pytest.approx(taper)
+    assert (found.half_width, found.half_depth, found.taper) == pytest.approx((half_width, half_depth, taper))
 
 
 def test_a_measured_specimen_is_as_wide_as_its_poles_are_apart():
-    statue = Measured(
-        shape="measured", mass="80 kg", pole_distance="610 mm", critical_angle="0.21 rad", inertia="41.2 kg m^2"
-    )
+    sizes = {"pole_distance": "610 mm", "critical_angle": "0.21 rad", "inertia": "41.2 kg m^2"}
+    statue = Measured(shape="measured", mass="80 kg", **sizes)
     block = statue.block(9.81)
     assert outline(statue, block).half_width == pole_position(block)

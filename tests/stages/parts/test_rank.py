@@ -1,6 +1,6 @@
 """The measured angle among runs of a model that are written by hand."""
 
-from __future__ import annotations
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,14 +11,10 @@ from colonnade.dynamics.ensembles.outcome import LEVELS, Ensemble
 from colonnade.dynamics.ensembles.uncertainty import INPUTS
 from colonnade.dynamics.motion import Motion
 from colonnade.identification.response.rank import FEWEST
+from colonnade.stages.parts import rank as ranking
 from colonnade.stages.parts.beginning import Beginning
-from colonnade.stages.parts.rank import (
-    MeasurementInputs,
-    describe_bands,
-    horizons_and_ranks,
-    measurement_errors,
-    rank_measured,
-)
+from colonnade.stages.parts.rank import MeasurementInputs, describe_bands, measurement_errors, rank_measured
+from every import every
 from prism import PRISM
 
 ALPHA = PRISM.critical_angle
@@ -29,27 +25,22 @@ FIRST = 50
 SWING = 0.3 * ALPHA * np.sin(2 * np.pi * 2 * (TIME - TIME[0]))
 
 
-def inputs(**changes):
-    settings = MeasurementSettings(angle_gain=0.005, angle_zero=5e-4, horizon=0.2)
-    return MeasurementInputs(
-        **{"block": PRISM, "settings": settings, "filter_order": 4, "channels": ("top", "bottom"), **changes}
-    )
+def inputs(horizon=0.2):
+    settings = MeasurementSettings(angle_gain=0.005, angle_zero=5e-4, horizon=horizon)
+    return MeasurementInputs(block=PRISM, settings=settings, filter_order=4, channels=("top", "bottom"))
+
+
+def errors_of(measured, start=None, **cutoffs):
+    return measurement_errors(conditioned(**cutoffs), measured, start, inputs())
 
 
 def rocking(angle=SWING, *, outcome="rocking", error=5e-4, drift=0.0, threshold=1e-3, overturning_time=np.nan):
     """The result of the stage `rocking`, without an angle if none was measured."""
-    measured = {} if angle is None else {"rocking_angle": ("elapsed", np.asarray(angle))}
-    numbers = {
-        "rocking_angle_standard_error": error,
-        "rocking_angle_drift": drift,
-        "noise_threshold": threshold,
-        "overturning_time": overturning_time,
-    }
-    return xr.Dataset(
-        measured | ({} if angle is None else numbers),
-        coords={"elapsed": ("elapsed", TIME)},
-        attrs={"outcome": outcome},
-    )
+    measured = xr.Dataset(coords={"elapsed": TIME}, attrs={"outcome": outcome})
+    if angle is None:
+        return measured
+    errors = {"rocking_angle_standard_error": error, "rocking_angle_drift": drift, "noise_threshold": threshold}
+    return measured.assign(rocking_angle=("elapsed", angle), overturning_time=overturning_time, **errors)
 
 
 def conditioned(**cutoffs):
@@ -58,7 +49,7 @@ def conditioned(**cutoffs):
 
 
 def test_a_measured_angle_has_the_errors_of_its_settings_and_of_its_noise():
-    found = measurement_errors(conditioned(top=25.0), rocking(), None, inputs())
+    found = errors_of(rocking())
     assert found.interval == pytest.approx(STEP)
     assert (found.gain, found.zero) == (0.005, pytest.approx(5e-4 * ALPHA))
     assert found.noise == pytest.approx(5e-4)
@@ -67,47 +58,37 @@ def test_a_measured_angle_has_the_errors_of_its_settings_and_of_its_noise():
 
 
 def test_a_drift_is_an_error_of_the_zero_and_not_once_more_of_the_noise():
-    found = measurement_errors(conditioned(), rocking(error=5e-4, drift=3e-4 * np.sqrt(3)), None, inputs())
+    found = errors_of(rocking(error=5e-4, drift=3e-4 * np.sqrt(3)))
     assert found.zero == pytest.approx(3e-4)
     assert found.noise == pytest.approx(4e-4)
 
 
 def test_a_drift_larger_than_the_whole_error_leaves_no_noise():
-    found = measurement_errors(conditioned(), rocking(error=1e-4, drift=1e-3), None, inputs())
+    found = errors_of(rocking(error=1e-4, drift=1e-3))
     assert (found.noise, found.zero) == (0.0, pytest.approx(1e-3 / np.sqrt(3)))
 
 
 def test_an_integrated_angle_has_the_deviation_of_its_integration_instead_of_noise():
     deviation = 1e-4 * np.sqrt(TIME - TIME[0])
-    integrated = rocking().assign(angle_deviation=("elapsed", deviation))
-    found = measurement_errors(conditioned(), integrated, None, inputs())
+    found = errors_of(rocking().assign(angle_deviation=("elapsed", deviation)))
     np.testing.assert_array_equal(found.drift, deviation)
     assert found.noise == 0.0
 
 
 def test_a_start_that_was_measured_is_as_uncertain_as_the_angle():
-    found = measurement_errors(conditioned(), rocking(), 0.1, inputs())
+    found = errors_of(rocking(), 0.1)
     assert (found.start, found.start_error) == (0.1, pytest.approx(5e-4))
     assert found.start_deviation == pytest.approx(np.sqrt((0.005 * 0.1) ** 2 + (5e-4 * ALPHA) ** 2 + 5e-4**2))
 
 
 def test_without_a_measured_angle_only_the_settings_give_errors():
-    found = measurement_errors(conditioned(), rocking(None), None, inputs())
+    found = errors_of(rocking(None))
     assert (found.noise, found.zero) == (0.0, pytest.approx(5e-4 * ALPHA))
 
 
-@pytest.mark.parametrize(
-    ("cutoffs", "lowest"),
-    [
-        ({"top": 40.0, "bottom": 25.0}, 25.0),
-        ({"top": 40.0}, 40.0),
-        ({"top": 40.0, "table": 5.0}, 40.0),
-        ({"table": 5.0}, None),
-        ({}, None),
-    ],
-)
-def test_the_low_pass_is_the_lowest_of_the_transducers_on_the_specimen(cutoffs, lowest):
-    assert measurement_errors(conditioned(**cutoffs), rocking(), None, inputs()).cutoff_hz == lowest
+def test_the_low_pass_is_the_lowest_of_the_transducers_on_the_specimen():
+    channels = {"top": 40.0, "bottom": 25.0}, {"top": 40.0, "table": 5.0}, {"table": 5.0}, {}
+    assert [errors_of(rocking(), **cutoffs).cutoff_hz for cutoffs in channels] == [25.0, 40.0, None, None]
 
 
 def test_channels_without_a_low_pass_give_none():
@@ -142,8 +123,12 @@ def ensemble(members=40, *, overturned=0, widens_at=None, scatter=1e-3):
     )
 
 
+def bands(**changes):
+    return describe_bands(rocking(), BEGINNING, ensemble(**changes), {name: 0.001 * k for k, name in enumerate(INPUTS)})
+
+
 def test_bands_have_the_clock_of_the_record_from_the_beginning_on():
-    found = describe_bands(rocking(), BEGINNING, ensemble(), dict.fromkeys(INPUTS, 0.01))
+    found = bands()
     np.testing.assert_array_equal(found["elapsed"], TIME[FIRST:])
     assert found["rocking_angle_band"].dims == ("quantile", "elapsed")
     assert found["quantile"].to_numpy().tolist() == list(LEVELS)
@@ -151,14 +136,14 @@ def test_bands_have_the_clock_of_the_record_from_the_beginning_on():
 
 
 def test_bands_name_only_the_inputs_that_vary_and_how_the_peak_follows():
-    found = describe_bands(rocking(), BEGINNING, ensemble(), {name: 0.001 * k for k, name in enumerate(INPUTS)})
+    found = bands()
     assert found["input"].to_numpy().tolist() == ["p"]
     assert found["input_deviation"].to_numpy().tolist() == [0.001 * INPUTS.index("p")]
     assert found["peak_sensitivity"].to_numpy() == pytest.approx([1.0])
 
 
 def test_overturning_is_counted_and_timed_on_the_clock_of_the_record():
-    found = describe_bands(rocking(), BEGINNING, ensemble(overturned=10), dict.fromkeys(INPUTS, 0.01))
+    found = bands(overturned=10)
     assert float(found["overturning_probability"]) == 0.25
     assert 0 < float(found["overturning_probability_low"]) < 0.25 < float(found["overturning_probability_high"]) < 1
     times = found["member_overturning_time"].to_numpy()
@@ -166,29 +151,27 @@ def test_overturning_is_counted_and_timed_on_the_clock_of_the_record():
     assert np.isnan(times[10:]).all()
 
 
-def ranked(measured=None, found=None, *, offset=0.0, read=None):
+def ranked(measured=None, found=None, *, offset=0.0, horizon=0.2):
     measured = rocking() if measured is None else measured
     found = ensemble() if found is None else found
-    read = inputs() if read is None else read
-    errors = measurement_errors(conditioned(), measured, None, read)
-    beginning = Beginning(BEGINNING.first, 0.0, 0.0, BEGINNING.base, BEGINNING.motion, zero_offset=offset)
-    return rank_measured(measured, beginning, found, np.zeros(found.peak_ratio.size), errors, read)
+    beginning = replace(BEGINNING, zero_offset=offset)
+    start = np.zeros(found.peak_ratio.size)
+    return rank_measured(measured, beginning, found, start, errors_of(measured), inputs(horizon))
 
 
-@pytest.mark.parametrize(("widens_at", "sample"), [(None, -1), (60, FIRST + 60)])
+@every(("widens_at", "sample"), [(None, -1), (60, FIRST + 60)])
 def test_the_horizon_is_on_the_clock_of_the_record(widens_at, sample):
     assert ranked(found=ensemble(widens_at=widens_at))["horizon"][1] == pytest.approx(TIME[sample])
 
 
 def test_a_wide_horizon_is_reached_later_than_a_narrow_one():
-    wide = inputs(settings=MeasurementSettings(horizon=2.0))
-    found = ensemble(widens_at=60)
-    assert ranked(found=found, read=wide)["horizon"][1] == pytest.approx(TIME[-1])
+    assert ranked(found=ensemble(widens_at=60), horizon=2.0)["horizon"][1] == pytest.approx(TIME[-1])
 
 
-@pytest.mark.parametrize("members", [FEWEST - 1, FEWEST])
-def test_a_rank_needs_runs_enough(members):
-    assert ("measured_distance" in ranked(found=ensemble(members))) is (members == FEWEST)
+def test_a_rank_needs_runs_enough():
+    few, enough = (ranked(found=ensemble(members)) for members in (FEWEST - 1, FEWEST))
+    assert "measured_distance" not in few
+    assert "measured_distance" in enough
 
 
 def test_without_a_measured_angle_there_is_a_horizon_alone():
@@ -219,7 +202,7 @@ def test_a_zero_offset_is_taken_off_the_measured_angle():
     assert offset["measured_distance"][1] == pytest.approx(plain["measured_distance"][1], rel=1e-6)
 
 
-@pytest.mark.parametrize("changed", [slice(0, FIRST), slice(FIRST + 61, None)], ids=["before", "past the horizon"])
+@every("changed", [slice(0, FIRST), slice(FIRST + 61, None)])
 def test_only_the_time_between_beginning_and_horizon_counts(changed):
     angle = SWING.copy()
     angle[changed] += 0.1
@@ -244,22 +227,16 @@ PEAKS = np.array([0.1, 0.2, 0.3, 0.4])
 
 def stored(*, peaks=PEAKS, overturned=(), start=0, distance=None):
     """An ensemble as `ensemble` stores it."""
-    times = np.array([4.0 if number in overturned else np.nan for number in range(len(peaks))])
-    found = xr.Dataset(
-        {
-            "overturning_probability": len(overturned) / len(peaks),
-            "horizon": 4.5,
-            "judged_peak_ratio": ("judged_member", np.where(np.isnan(times), peaks, np.nan)),
-        },
-        coords={"elapsed": ("elapsed", TIME[start:])},
-    )
-    if distance is None:
-        return found
-    return found.assign(measured_distance=distance, member_distance=("judged_member", [0.5, 1.0, 1.5, 2.0]))
+    judged = "judged_member", np.where(np.isin(range(len(peaks)), overturned), np.nan, peaks)
+    share = len(overturned) / len(peaks)
+    values = {"overturning_probability": share, "horizon": 4.5, "judged_peak_ratio": judged}
+    if distance is not None:
+        values |= {"measured_distance": distance, "member_distance": ("judged_member", [0.5, 1.0, 1.5, 2.0])}
+    return xr.Dataset(values, coords={"elapsed": TIME[start:]})
 
 
 def row(measured, found):
-    compared = horizons_and_ranks(measured, {"linear": found}, ["linear"], PRISM)
+    compared = ranking.horizons_and_ranks(measured, {"linear": found}, ["linear"], PRISM)
     assert {dimension for dimension, _ in compared.values()} == {"model"}
     return {name: float(values[0]) for name, (_, values) in compared.items()}
 
@@ -271,7 +248,7 @@ def peaked(ratio, **changes):
     return rocking(angle, **changes)
 
 
-@pytest.mark.parametrize(("ratio", "share"), [(0.05, 0.0), (0.25, 0.5), (0.35, 0.75), (0.9, 1.0)])
+@every(("ratio", "share"), [(0.05, 0.0), (0.25, 0.5), (0.35, 0.75), (0.9, 1.0)])
 def test_the_rank_of_a_peak_is_the_share_of_runs_below_it(ratio, share):
     found = row(peaked(ratio), stored())
     assert found["peak_rank"] == share
@@ -287,7 +264,7 @@ def test_runs_that_overturn_are_above_every_peak_that_stands():
     assert (found["peak_rank"], found["overturning_probability"]) == (0.5, 0.5)
 
 
-@pytest.mark.parametrize(("overturned", "share"), [((), 1.0), ((3,), 0.875), ((0, 1, 2, 3), 0.5)])
+@every(("overturned", "share"), [((), 1.0), ((3,), 0.875), ((0, 1, 2, 3), 0.5)])
 def test_a_specimen_that_overturned_equals_the_runs_that_did(overturned, share):
     assert row(peaked(0.9, outcome="overturned"), stored(overturned=overturned))["peak_rank"] == share
 
@@ -303,14 +280,14 @@ def test_missing_samples_do_not_hide_the_peak():
     assert row(measured, stored())["peak_rank"] == 0.5
 
 
-@pytest.mark.parametrize(("distance", "share"), [(0.1, 0.0), (1.0, 0.375), (1.7, 0.75), (9.0, 1.0)])
+@every(("distance", "share"), [(0.1, 0.0), (1.0, 0.375), (1.7, 0.75), (9.0, 1.0)])
 def test_the_share_of_closer_runs_is_given_where_distances_are(distance, share):
     assert row(peaked(0.25), stored(distance=distance))["within_spread"] == share
     assert np.isnan(row(peaked(0.25), stored())["within_spread"])
 
 
 def test_a_model_without_an_ensemble_keeps_its_place():
-    compared = horizons_and_ranks(peaked(0.25), {"linear": stored()}, ["contact", "linear"], PRISM)
+    compared = ranking.horizons_and_ranks(peaked(0.25), {"linear": stored()}, ["contact", "linear"], PRISM)
     for name, (_, values) in compared.items():
         assert np.isnan(values[0]), name
     assert compared["peak_rank"][1][1] == 0.5

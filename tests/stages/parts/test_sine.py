@@ -1,7 +1,5 @@
 """Sine tests: Ω and A of what the table did, and the order of the measured and of each predicted response."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

@@ -1,15 +1,11 @@
 """Advice in the report: only if a further test is asked for, and made again only for what changed."""
 
-from __future__ import annotations
-
 from typing import Any
-
-import pytest
 
 from colonnade.workflow.advising import next as advising
 
 
-def test_the_report_advises_while_tests_are_planned(small: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_report_advises_while_tests_are_planned(small, monkeypatch):
     small.complete()
     assert "What next" not in small.layout.report.read_text(encoding="utf-8")
 

@@ -1,16 +1,14 @@
 """The advice of a campaign: by its last run, for its own specimens, with the tests that are still to come."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import pytest
 
+from colonnade.campaign import load
 from colonnade.errors import CampaignError, StoreError
+from colonnade.store.records.summary import read_summary
 from colonnade.workflow.advising.next import advise, advise_after
 
 
-def test_free_vibrations_are_advised_from_the_pooled_restitution(undisturbed: Any) -> None:
+def test_free_vibrations_are_advised_from_the_pooled_restitution(undisturbed):
     found = advise(undisturbed.folder)
     (free,) = found.advice
     assert (free.specimen, free.kind) == ("prism", "free-vibration")
@@ -20,12 +18,12 @@ def test_free_vibrations_are_advised_from_the_pooled_restitution(undisturbed: An
     assert not found.awaited
 
 
-def test_a_test_without_its_raw_file_is_expected(small: Any) -> None:
+def test_a_test_without_its_raw_file_is_expected(small):
     small.raw("pulse-02").unlink()
     assert advise(small.folder).awaited == {"pulse-02": "raw/pulse-02.csv"}
 
 
-def test_what_cannot_be_advised_is_refused(small: Any) -> None:
+def test_what_cannot_be_advised_is_refused(small):
     with pytest.raises(CampaignError, match='no specimen "prsm"'):
         advise(small.folder, specimens=["prsm"])
     small.layout.summary_json.unlink()
@@ -33,10 +31,7 @@ def test_what_cannot_be_advised_is_refused(small: Any) -> None:
         advise(small.folder)
 
 
-def test_after_a_test_only_its_own_kind_is_advised(undisturbed: Any) -> None:
-    from colonnade.campaign import load
-    from colonnade.store.records.summary import read_summary
-
+def test_after_a_test_only_its_own_kind_is_advised(undisturbed):
     campaign, summary = load(undisturbed.folder), read_summary(undisturbed.layout)
     assert summary is not None
     (free,) = advise_after(campaign, undisturbed.layout, "free-01", summary.tests)

@@ -1,9 +1,6 @@
 """Advice on sine tests: between the outcomes, within the risk, for tested and for planned frequencies."""
 
-from __future__ import annotations
-
 from math import pi, tan
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,6 +11,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.workflow.advising.sine import Known, advise_sines
+from prism import entry
 
 OMEGA = 5.0
 
@@ -28,7 +26,7 @@ def known(*outcomes: tuple[float, str], deviation: float = 0.002) -> Known:
     return Known((0.93, 0.93), deviation, tuple(points))
 
 
-def test_the_advised_amplitude_is_between_the_outcomes(campaign: Campaign) -> None:
+def test_the_advised_amplitude_is_between_the_outcomes(campaign):
     (first,) = advise_sines(campaign, "prism", known((1.5, "rocking")))
     predicted = first.values["predicted_boundary"]
     low, high = 0.9 * predicted, 1.2 * predicted
@@ -37,28 +35,26 @@ def test_the_advised_amplitude_is_between_the_outcomes(campaign: Campaign) -> No
     assert low < advice.values["boundary"] < high
     assert 0.3 < advice.risk < 0.7
     assert advice.left is None or advice.left > 0
-    block = campaign.block("prism")
-    assert advice.demand["acceleration"] == pytest.approx(
-        advice.values["amplitude_ratio"] * block.gravity * tan(block.critical_angle)
-    )
+    block, ratio = campaign.block("prism"), advice.values["amplitude_ratio"]
+    assert advice.demand["acceleration"] == pytest.approx(ratio * block.gravity * tan(block.critical_angle))
     assert advice.values["frequency"] == pytest.approx(OMEGA * block.p / (2 * pi))
 
 
-def test_without_sine_tests_nothing_is_advised(campaign: Campaign) -> None:
+def test_without_sine_tests_nothing_is_advised(campaign):
     assert advise_sines(campaign, "prism", known()) == []
 
 
-def test_a_planned_frequency_is_advised_too(undisturbed: Any, tmp_path: Path) -> None:
+def test_a_planned_frequency_is_advised_too(undisturbed, tmp_path):
     text = (undisturbed.folder / "campaign.toml").read_text(encoding="utf-8")
-    entry = '[[tests]]\nid = "s"\nkind = "sine"\nfrequency = "4 Hz"\nspecimen = "prism"\nsetup = "frame"\n'
-    (tmp_path / "campaign.toml").write_text(f'{text}{entry}file = "raw/s.csv"\nplanned = true\n', encoding="utf-8")
+    text += entry("s", "sine", 'frequency = "4 Hz"', "planned = true")
+    (tmp_path / "campaign.toml").write_text(text, encoding="utf-8")
     (advice,) = advise_sines(load(tmp_path), "prism", known())
     assert advice.values["frequency"] == pytest.approx(4.0)
     assert advice.test.startswith("4 Hz at ")
 
 
 @pytest.mark.parametrize("tilt", [0.03, -0.03])
-def test_the_boundary_is_that_of_the_tilted_table(campaign: Campaign, tilt: float) -> None:
+def test_the_boundary_is_that_of_the_tilted_table(campaign, tilt):
     """Against single runs on the sine with the part of gravity that acts along a tilted table."""
     omega, e = 3.0, 0.75  # a low e: the boundary is sharp
     (advice,) = advise_sines(campaign, "prism", Known((e, e), 0.0, (MapPoint("s", omega, 0.8, "rocking"),), tilt))

@@ -1,13 +1,9 @@
 """Histories in blocks: the same whatever the processes and interruptions; their key depends on all inputs."""
 
-from __future__ import annotations
-
 import os
 import pickle
 import random
 import signal
-import subprocess
-import sys
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -64,6 +60,7 @@ import sys
 from functools import partial
 from pathlib import Path
 import test_blocks as tested
+print("going", flush=True)
 spread = partial(tested.in_blocks, workers=2, progress=lambda done, total: print(done, total, flush=True))
 tested.outcomes_of(tested.MANY, spread, Path(sys.argv[1]), "key")
 """
@@ -71,16 +68,10 @@ MANY = replace(CASES, prototype=COLUMN, draws=(draw(COLUMN, 400),) * 3)
 
 
 @pytest.mark.slow
-def test_ten_kills_and_a_resumption_give_the_undisturbed_values(tmp_path):
+def test_ten_kills_and_a_resumption_give_the_undisturbed_values(start, tmp_path):
     chance, done = random.Random(1), [0]
     for _ in range(10):
-        process = subprocess.Popen(
-            [sys.executable, "-c", KILLED, str(tmp_path)],
-            cwd=Path(__file__).parent,
-            stdout=subprocess.PIPE,
-            text=True,
-            start_new_session=True,
-        )
+        process = start(KILLED, tmp_path, said="going", cwd=Path(__file__).parent)
         found, total = map(int, process.stdout.readline().split())
         assert found >= done[-1]
         until = found + chance.randint(0, 8)
@@ -88,7 +79,6 @@ def test_ten_kills_and_a_resumption_give_the_undisturbed_values(tmp_path):
             found = int(process.stdout.readline().split()[0])
         os.killpg(process.pid, signal.SIGKILL)
         process.wait()
-        process.stdout.close()
         done.append(found)
     assert 10 < done[-1] < total
     steps = []

@@ -1,7 +1,5 @@
 """Questions of one's own: options over the keys of a campaign, columns without one, refusals."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.campaign import load
@@ -10,17 +8,9 @@ from colonnade.errors import CampaignError
 from colonnade.store.layout import Layout
 from colonnade.workflow.assessing.fragility import Where, assess_campaign, assess_own
 from colonnade.workflow.real_column import AskedColumn
+from every import every
 
 HERE = Where(workers=1)
-
-RANGED = Prototype.model_validate(
-    {
-        "restitution": 0.9,
-        "critical_angle_range": ["0.17 rad", "0.19 rad"],
-        "friction": 0.6,
-        "friction_range": [0.5, 0.7],
-    }
-)
 
 
 def own(folder, base="site", **options):
@@ -65,7 +55,7 @@ def test_another_measure_leaves_the_hazard_of_the_old_one(assessed):
     assert found.record.annual_rate.value is None
 
 
-@pytest.mark.parametrize(
+@every(
     ("options", "words"),
     [
         ({"base": "sight"}, 'no assessment "sight"'),
@@ -93,7 +83,9 @@ def test_assessments_of_the_campaign_are_brought_up_to_date(assessed_copy):
 
 
 def test_limits_of_another_value_do_not_hold_for_the_one_that_is_asked(assessed):
-    campaign = load(assessed).but(prototype={"prism": RANGED})
+    ranges = {"critical_angle_range": ["0.17 rad", "0.19 rad"], "friction": 0.6, "friction_range": [0.5, 0.7]}
+    written = Prototype.model_validate({"restitution": 0.9, **ranges})
+    campaign = load(assessed).but(prototype={"prism": written})
     levels = {"levels": ["1 m/s", "2 m/s"], "draws": 2}
     column = AskedColumn.of({"critical_angle": "0.25 rad"})
     found = assess_own(campaign, Layout(assessed), "site", column, levels, HERE)

@@ -1,8 +1,5 @@
 """Assessments in the graph: made once, made again for what changed, failing without stopping the rest."""
 
-from __future__ import annotations
-
-import json
 from html import unescape
 from pathlib import Path
 
@@ -14,6 +11,7 @@ from colonnade.store.layout import Layout
 from colonnade.workflow.assessing.steps import _given
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.run import run
+from short_campaign import Small
 
 
 def action(folder: Path) -> tuple[str, str]:
@@ -24,7 +22,7 @@ def action(folder: Path) -> tuple[str, str]:
 
 def test_the_summary_has_the_answer_and_the_result_its_files(assessed):
     layout = Layout(assessed)
-    [(name, found)] = json.loads(layout.summary_json.read_text(encoding="utf-8"))["assessments"].items()
+    [(name, found)] = Small(assessed).summary()["assessments"].items()
     assert (name, found["status"], found["specimen"]) == ("site", "done", "prism")
     assert found["uplift_acceleration"] == pytest.approx(9.81 * 86 / 456, rel=1e-9)
     assert found["restitution_source"] == "identified"
@@ -38,27 +36,21 @@ def test_only_what_changed_makes_it_again(assessed_copy):
     assert action(assessed_copy) == ("up-to-date", "")
     (assessed_copy / "records" / "broken.csv").unlink()
     assert action(assessed_copy) == ("done", "upstream changed")
-    campaign_file = assessed_copy / "campaign.toml"
-    text = campaign_file.read_text(encoding="utf-8")
-    campaign_file.write_text(text.replace("[0.85, 0.95]", "[0.86, 0.95]"), encoding="utf-8")
+    Small(assessed_copy).edit("[0.85, 0.95]", "[0.86, 0.95]")
     assert action(assessed_copy) == ("done", "settings changed")
     assert not list(Layout(assessed_copy).processed.glob("assessments/.*"))
 
 
 def test_an_answer_that_is_out_of_date_is_not_in_the_summary(assessed_copy):
-    def told():
-        return json.loads(Layout(assessed_copy).summary_json.read_text(encoding="utf-8"))["assessments"]
-
-    before = told()
-    run(assessed_copy, until="compare", workers=1)
-    assert told() == before
-    campaign_file = assessed_copy / "campaign.toml"
-    text = campaign_file.read_text(encoding="utf-8")
-    campaign_file.write_text(text.replace("[0.85, 0.95]", "[0.86, 0.95]"), encoding="utf-8")
-    run(assessed_copy, until="compare", workers=1)
-    assert told() == {}
-    run(assessed_copy, workers=1)
-    assert told()["site"]["restitution"]["low"] == 0.86
+    campaign = Small(assessed_copy)
+    before = campaign.summary()["assessments"]
+    campaign.run()
+    assert campaign.summary()["assessments"] == before
+    campaign.edit("[0.85, 0.95]", "[0.86, 0.95]")
+    campaign.run()
+    assert campaign.summary()["assessments"] == {}
+    campaign.run(until="report")
+    assert campaign.summary()["assessments"]["site"]["restitution"]["low"] == 0.86
 
 
 def test_a_failure_is_told_and_stops_nothing(assessed_copy):
@@ -68,18 +60,14 @@ def test_a_failure_is_told_and_stops_nothing(assessed_copy):
     [failed] = [stage for stage in result.stages if stage.action == "failed"]
     assert (failed.heading, failed.stage) == ("assessment site", "assessment")
     assert 'the hazard is given for "pga"' in failed.reason
-    summary = json.loads(Layout(assessed_copy).summary_json.read_text(encoding="utf-8"))
+    summary = Small(assessed_copy).summary()
     assert summary["assessments"]["site"]["status"] == "failed"
     assert summary["tests"]["free-01"]["status"] == "done"
-    page = (assessed_copy / "report" / "assessments.html").read_text(encoding="utf-8")
+    names = "assessments.html", "index.html", "problems.html"
+    page, *others = (unescape((assessed_copy / "report" / name).read_text(encoding="utf-8")) for name in names)
     assert "There is no answer" in page
-    for page, heading in (
-        ("index.html", "Assessment site failed"),
-        ("problems.html", "assessments.html#assessment-site"),
-    ):
-        text = unescape((assessed_copy / "report" / page).read_text(encoding="utf-8"))
-        after = text[text.index(heading) :][:600]
-        assert 'the hazard is given for "pga"' in after, page
+    for text, heading in zip(others, ("Assessment site failed", "assessments.html#assessment-site"), strict=True):
+        assert 'the hazard is given for "pga"' in text[text.index(heading) :][:600], heading
 
 
 def test_files_of_one_name_in_two_folders_are_two_files(assessed_copy):

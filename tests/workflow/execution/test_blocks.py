@@ -1,11 +1,6 @@
 """Blocks that are finished are not done again, damaged ones are, and the sum is the same whatever the workers."""
 
-from __future__ import annotations
-
 import os
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -88,8 +83,7 @@ from colonnade.workflow.execution.blocks import in_blocks
 def slow(block):
     time.sleep(0.05)
     return {"value": np.array(block)}
-def told(done, total):
-    print(done, flush=True)
+told = lambda done, total: print(done, flush=True)
 in_blocks(slow, range(200), Path(sys.argv[1]), "key", workers=1, progress=told)
 """
 
@@ -98,14 +92,11 @@ def value(block: int) -> dict[str, np.ndarray]:
     return {"value": np.array(block)}
 
 
-def test_a_kill_at_any_instant_leaves_whole_blocks_only(tmp_path):
-    process = subprocess.Popen([sys.executable, "-c", KILLED, str(tmp_path)], stdout=subprocess.PIPE, text=True)
-    while process.stdout.readline().strip() not in ("5", ""):
-        pass
+def test_a_kill_at_any_instant_leaves_whole_blocks_only(start, tmp_path):
+    process = start(KILLED, tmp_path, said=5)
     process.kill()
     process.wait()
-    process.stdout.close()
-    kept = len(list(Path(tmp_path).rglob("*.npz")))
+    kept = len(list(tmp_path.rglob("*.npz")))
     assert 5 <= kept < 200
     started = []
     results = in_blocks(value, range(200), tmp_path, "key", workers=1, progress=lambda *state: started.append(state))

@@ -1,11 +1,6 @@
 """One run at a time; a crash frees the lock and leaves nothing in the way."""
 
-from __future__ import annotations
-
 import shutil
-import signal
-import subprocess
-import sys
 
 import pytest
 
@@ -25,13 +20,8 @@ with only_run(Layout(Path(sys.argv[1]))):
 
 
 @pytest.fixture
-def holder(small):
-    process = subprocess.Popen([sys.executable, "-c", HOLD, str(small.folder)], stdout=subprocess.PIPE, text=True)
-    assert process.stdout.readline() == "held\n"
-    yield process
-    process.kill()
-    process.wait()
-    process.stdout.close()
+def holder(start, small):
+    return start(HOLD, small.folder, said="held")
 
 
 def test_a_second_run_at_the_same_time_is_refused_and_told_who_runs(small, holder):
@@ -41,20 +31,14 @@ def test_a_second_run_at_the_same_time_is_refused_and_told_who_runs(small, holde
     assert small.files() == before
 
 
-def test_a_crash_frees_the_lock(small, holder):
-    holder.send_signal(signal.SIGKILL)
-    holder.wait()
-    assert not small.run().failed
-    assert not small.layout.lock_holder.exists()
-
-
-def test_the_lock_is_free_after_a_run_and_after_one_that_was_refused(small, holder):
+def test_a_crash_frees_the_lock_also_after_a_run_that_was_refused(small, holder):
     with pytest.raises(StoreError):
         small.run()
     holder.kill()
     holder.wait()
     for _ in range(2):
         assert not small.run().failed
+        assert not small.layout.lock_holder.exists()
 
 
 @pytest.mark.parametrize("place", ["processed/tests/pulse-01/.rocking.nc.4711.partial", "report/.a.html.4711.partial"])
@@ -77,32 +61,25 @@ def test_two_campaigns_do_not_share_one_folder_of_results(small, tmp_path):
     results, other = tmp_path / "results", shutil.copytree(small.folder, tmp_path / "other")
     of_small, of_other = small.folder / "campaign.toml", other / "campaign.toml"
     for _ in range(2):
-        with only_run(Layout.of(of_small, results)):
-            pass
-    with (
-        pytest.raises(StoreError, match=r"results of another campaign, .*small.campaign\.toml, are in this folder"),
-        only_run(Layout.of(of_other, results)),
-    ):
-        pass
-    with pytest.raises(StoreError, match="results of another campaign"), only_run(Layout.of(of_other, small.folder)):
-        pass
-    moved = small.folder.rename(tmp_path / "moved") / "campaign.toml"
-    with only_run(Layout.of(moved, results)):
+        run_once(of_small, results)
+    with pytest.raises(StoreError, match=r"results of another campaign, .*small.campaign\.toml, are in this folder"):
+        run_once(of_other, results)
+    with pytest.raises(StoreError, match="results of another campaign"):
+        run_once(of_other, small.folder)
+    run_once(small.folder.rename(tmp_path / "moved") / "campaign.toml", results)
+
+
+def run_once(campaign_file, results=None):
+    with only_run(Layout.of(campaign_file, results)):
         pass
 
 
 def test_two_campaign_files_of_one_folder_do_not_share_its_results(small):
     first, second = small.folder / "campaign.toml", small.folder / "second.toml"
     shutil.copy(first, second)
-    with only_run(Layout.of(first, None)):
-        pass
-    with (
-        pytest.raises(StoreError, match=r"another campaign, .*campaign\.toml, .* of its own with --results"),
-        only_run(Layout.of(second, None)),
-    ):
-        pass
-    with only_run(Layout.of(second, small.folder / "second")):
-        pass
+    run_once(first)
+    with pytest.raises(StoreError, match=r"another campaign, .*campaign\.toml, .* of its own with --results"):
+        run_once(second)
+    run_once(second, small.folder / "second")
     first.unlink()
-    with only_run(Layout.of(second, None)):
-        pass
+    run_once(second)

@@ -1,7 +1,5 @@
 """Calls in this process or in others: each once, an error as it was raised, a stopped worker with what to do."""
 
-from __future__ import annotations
-
 import os
 import signal
 from pathlib import Path

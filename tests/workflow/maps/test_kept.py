@@ -1,7 +1,5 @@
 """Maps that a run keeps: those that `colonnade map` makes, of specimens with sine tests at two frequencies or more."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Steady responses of a campaign: those of the library, made once, drawn, with what they depend on."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 
@@ -14,9 +12,7 @@ from colonnade.workflow.maps.responses import SETTLING, as_response
 from colonnade.workflow.maps.stability import make_maps
 from prism import PRISM
 
-FEW = Wanted(
-    ("linear",), frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(6, 10), cycles=5.0, responses=True
-)
+FEW = Wanted(("linear",), (2.0, 5.0), (0.8, 2.0), (6, 10), cycles=5.0, responses=True)
 
 
 def made(small, **changes):

@@ -1,7 +1,5 @@
 """The report as one file: typeset once, again only when what it shows changed, and refused without a report."""
 
-from __future__ import annotations
-
 import shutil
 import zipfile
 

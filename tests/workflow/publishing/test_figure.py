@@ -1,7 +1,5 @@
 """One figure by its name: what it is of, what it is drawn from, and why it cannot be drawn."""
 
-from __future__ import annotations
-
 import shutil
 
 import pytest
@@ -9,6 +7,7 @@ import pytest
 from colonnade.campaign import load
 from colonnade.errors import CampaignError
 from colonnade.workflow.publishing.figure import chosen, draw
+from every import every
 
 
 @pytest.fixture
@@ -16,18 +15,13 @@ def campaign(filled_campaign):
     return filled_campaign[0]
 
 
-@pytest.mark.parametrize(
-    ("name", "subject", "of"),
-    [
-        ("angle", "span-2.0", "test"),
-        ("impacts", "prism", "specimen"),
-        ("impacts", "free-01", "test"),
-        ("agreement", None, "campaign"),
-    ],
-)
-def test_a_figure_is_of_what_its_subject_is(campaign, name, subject, of):
-    entry, found = chosen(campaign, name, subject)
-    assert (entry.name, entry.of, found) == (name, of, subject or "")
+SUBJECTS = {"span-2.0": ("angle", "test"), "prism": ("impacts", "specimen"), "free-01": ("impacts", "test")}
+
+
+@every(("subject", "expected"), (SUBJECTS | {None: ("agreement", "campaign")}).items())
+def test_a_figure_is_of_what_its_subject_is(campaign, subject, expected):
+    entry, found = chosen(campaign, expected[0], subject)
+    assert ((entry.name, entry.of), found) == (expected, subject or "")
 
 
 def test_with_one_specimen_alone_nobody_has_to_name_it(empty_campaign):

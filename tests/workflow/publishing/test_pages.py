@@ -1,7 +1,5 @@
 """The report after a change: only what changed is read and drawn again, and all pages are as if all were new."""
 
-from __future__ import annotations
-
 import shutil
 
 import pytest

@@ -1,7 +1,5 @@
 """Photos in the report: bare copies, made once, and a warning instead of a failure where one cannot be shown."""
 
-from __future__ import annotations
-
 import pytest
 from PIL import Image
 
@@ -52,21 +50,23 @@ def test_copies_are_numbered_as_written_and_hold_nothing_but_pixels(folder):
 
 
 def test_a_copy_is_made_again_only_if_the_photo_changed_or_it_was_lost(folder, monkeypatch):
-    copies, _ = brought(folder, "photos/a.jpg")
-    before = copies["free-01-1.jpg"].read_bytes()
-    read, decoded = photos.read_photo, []
-    monkeypatch.setattr(
-        photos, "read_photo", lambda path, within: decoded.append(path.name) or read(path, within=within)
-    )
+    copy = brought(folder, "photos/a.jpg")[0]["free-01-1.jpg"]
+    before, read, decoded = copy.read_bytes(), photos.read_photo, []
+
+    def spy(path, within):
+        decoded.append(path.name)
+        return read(path, within=within)
+
+    monkeypatch.setattr(photos, "read_photo", spy)
     brought(folder, "photos/a.jpg")
     assert decoded == []
-    copies["free-01-1.jpg"].write_bytes(before[:-10])
+    copy.write_bytes(before[:-10])
     brought(folder, "photos/a.jpg")
-    assert (decoded, copies["free-01-1.jpg"].read_bytes()) == (["a.jpg"], before)
+    assert (decoded, copy.read_bytes()) == (["a.jpg"], before)
     Image.new("RGB", (40, 30), "red").save(folder / "photos" / "a.jpg")
     brought(folder, "photos/a.jpg")
     assert decoded == ["a.jpg"] * 2
-    assert copies["free-01-1.jpg"].read_bytes() != before
+    assert copy.read_bytes() != before
 
 
 def test_a_photo_that_is_no_longer_named_is_taken_away(folder):

@@ -1,20 +1,14 @@
 """When a file has arrived, and the line on its test."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.campaign.forms.summary import (
-    IdentifiedSummary,
-    PredictionSummary,
-    RestitutionSummary,
-    TestSummary,
-    Warned,
-)
+from colonnade.campaign.forms import summary
+from colonnade.campaign.forms.summary import IdentifiedSummary, PredictionSummary, RestitutionSummary, Warned
 from colonnade.findings import Severity, serious
 from colonnade.workflow.watching.arrivals import Arrivals, last_change, marks_of
 from colonnade.workflow.watching.line import Line
@@ -26,7 +20,7 @@ def mark(size: int) -> tuple[int, int, int]:
     return size, size, 1
 
 
-def test_a_file_that_grows_is_not_finished() -> None:
+def test_a_file_that_grows_is_not_finished():
     arrivals = Arrivals(settle=1.0)
     for step in range(10):
         assert not arrivals.look({FILE: mark(step)}, now=0.9 * step)
@@ -35,33 +29,35 @@ def test_a_file_that_grows_is_not_finished() -> None:
     assert not arrivals.is_waiting
 
 
-def test_a_file_written_again_is_finished_again() -> None:
+@pytest.fixture
+def knowing():
+    """Arrivals that know one file."""
     arrivals = Arrivals(settle=1.0)
     arrivals.know({FILE: mark(1)})
-    assert not arrivals.look({FILE: mark(1)}, now=5.0)
-    assert not arrivals.look({FILE: mark(2)}, now=6.0)
-    assert arrivals.look({FILE: mark(2)}, now=7.0) == {FILE}
+    return arrivals
 
 
-def test_a_file_that_went_away_is_new_when_it_comes_back() -> None:
-    arrivals = Arrivals(settle=1.0)
-    arrivals.know({FILE: mark(1)})
-    assert arrivals.look({}, now=0.0) == set()
-    assert arrivals.is_waiting
-    assert arrivals.look({}, now=1.0) == {FILE}
-    assert arrivals.look({FILE: mark(1)}, now=2.0) == set()
-    assert arrivals.look({FILE: mark(1)}, now=3.0) == {FILE}
+def test_a_file_written_again_is_finished_again(knowing):
+    assert not knowing.look({FILE: mark(1)}, now=5.0)
+    assert not knowing.look({FILE: mark(2)}, now=6.0)
+    assert knowing.look({FILE: mark(2)}, now=7.0) == {FILE}
 
 
-def test_a_file_that_is_away_for_a_moment_is_as_it_was() -> None:
-    arrivals = Arrivals(settle=1.0)
-    arrivals.know({FILE: mark(1)})
-    looks = [arrivals.look(marks, now) for now, marks in enumerate([{}, {FILE: mark(1)}, {FILE: mark(1)}])]
+def test_a_file_that_went_away_is_new_when_it_comes_back(knowing):
+    assert knowing.look({}, now=0.0) == set()
+    assert knowing.is_waiting
+    assert knowing.look({}, now=1.0) == {FILE}
+    assert knowing.look({FILE: mark(1)}, now=2.0) == set()
+    assert knowing.look({FILE: mark(1)}, now=3.0) == {FILE}
+
+
+def test_a_file_that_is_away_for_a_moment_is_as_it_was(knowing):
+    looks = [knowing.look(marks, now) for now, marks in enumerate([{}, {FILE: mark(1)}, {FILE: mark(1)}])]
     assert looks == [set()] * 3
 
 
 @given(st.lists(st.tuples(st.floats(0.01, 3.0), st.integers(0, 3)), max_size=40))
-def test_each_content_is_given_once_and_only_after_it_settled(steps: list[tuple[float, int]]) -> None:
+def test_each_content_is_given_once_and_only_after_it_settled(steps):
     arrivals, now, changed, last, given_out, written = Arrivals(settle=1.0), 0.0, 0.0, None, False, 0
     for pause, size in steps:
         now += pause
@@ -75,7 +71,7 @@ def test_each_content_is_given_once_and_only_after_it_settled(steps: list[tuple[
         assert given_out or now - changed < 1.0
 
 
-def test_the_last_change_is_that_of_the_newest_file(tmp_path: Path) -> None:
+def test_the_last_change_is_that_of_the_newest_file(tmp_path):
     (tmp_path / "a").write_text("a")
     (tmp_path / "b").write_text("b")
     paths = [tmp_path / name for name in "abc"]
@@ -86,60 +82,45 @@ def test_the_last_change_is_that_of_the_newest_file(tmp_path: Path) -> None:
 KNOWN = RestitutionSummary(value=0.976, low=0.974, high=0.978, level=0.95, source="identified", tests=("a", "b"))
 
 
-def line(record: TestSummary, *, limits: dict[str, float] | None = None, changed: tuple = ()) -> Line:
-    return Line("sine-07", record, KNOWN, limits or {}, changed, 2.34)
+def line(*, limits: dict[str, float] | None = None, changed: tuple = (), **given) -> Line:
+    rocked = {"status": "done", "kind": "sine", "specimen": "prism", "outcome": "rocking"}
+    return Line("sine-07", summary.TestSummary(**rocked | given), KNOWN, limits or {}, changed, 2.34)
 
 
-def test_a_sine_is_put_on_the_map() -> None:
-    record = TestSummary(
-        status="done",
-        kind="sine",
-        specimen="prism",
-        outcome="rocking",
-        peak_ratio=0.412,
-        frequency_ratio=4.463,
-        amplitude_ratio=2.1,
-        predicted={"linear": PredictionSummary(outcome="rocking", peak_ratio=0.44), "contact": PredictionSummary()},
-    )
-    said = line(record, limits={"no_rocking": 1.0, "lower": 2.61}).text()
-    assert said == (
-        "sine-07: rocking, peak 0.412 α; linear: rocking, peak 0.44 α; Ω 4.46, A 2.1 (overturns from A 2.61 by the map)"
-        " (2.3 s)"
-    )
-    assert "by the map" not in line(record).text()
+def test_a_sine_is_put_on_the_map():
+    predicted = {"linear": PredictionSummary(outcome="rocking", peak_ratio=0.44), "contact": PredictionSummary()}
+    sine = {"peak_ratio": 0.412, "frequency_ratio": 4.463, "amplitude_ratio": 2.1, "predicted": predicted}
+    peaks = "sine-07: rocking, peak 0.412 α; linear: rocking, peak 0.44 α; Ω 4.46, A 2.1"
+    limits = {"no_rocking": 1.0, "lower": 2.61}
+    assert line(limits=limits, **sine).text() == f"{peaks} (overturns from A 2.61 by the map) (2.3 s)"
+    assert line(**sine).text() == f"{peaks} (2.3 s)"
 
 
-def test_a_free_vibration_says_its_e_and_that_of_all() -> None:
+def test_a_free_vibration_says_its_e_and_that_of_all():
     own = IdentifiedSummary(value=0.9755, low=0.9735, high=0.9775)
-    record = TestSummary(status="done", kind="free-vibration", specimen="prism", outcome="rocking", restitution=own)
-    said = line(record).text()
+    said = line(kind="free-vibration", restitution=own).text()
     assert "e 0.976 ± 0.002; prism so far e 0.976 ± 0.002 of 2" in said
-    refused = record.model_copy(update={"restitution": IdentifiedSummary(reason="too few peaks")})
-    assert "no e (too few peaks)" in line(refused).text()
+    refused = IdentifiedSummary(reason="too few peaks")
+    assert "no e (too few peaks)" in line(kind="free-vibration", restitution=refused).text()
 
 
-def test_a_failure_gives_its_reason() -> None:
-    record = TestSummary(status="failed", reason="ingest: cut off", kind="sine", specimen="prism")
-    assert line(record).text() == "sine-07: failed: ingest: cut off (2.3 s)"
+def test_a_failure_gives_its_reason():
+    failed = line(status="failed", reason="ingest: cut off", outcome=None)
+    assert failed.text() == "sine-07: failed: ingest: cut off (2.3 s)"
 
 
-def test_what_changed_comes_before_other_findings_and_notes_are_left_out() -> None:
-    warnings = tuple(
-        Warned(severity=severity, kind=kind, text=f"{kind}.", explained=explained)
-        for severity, kind, explained in [
-            (Severity.WARNING, "clipped", False),
-            (Severity.WARNING, "drift", False),
-            (Severity.WARNING, "follows", True),
-            (Severity.NOTE, "note", False),
-        ]
-    )
-    record = TestSummary(status="done", kind="sine", specimen="prism", outcome="rocking", warnings=warnings)
-    said = line(record, changed=(serious("dead channel", "Channel top does not move."),)).text()
+def test_what_changed_comes_before_other_findings_and_notes_are_left_out():
+    warnings = [
+        Warned(severity=severity, kind=kind, text=f"{kind}.", explained=kind == "follows")
+        for severity, *kinds in ((Severity.WARNING, "clipped", "drift", "follows"), (Severity.NOTE, "note"))
+        for kind in kinds
+    ]
+    dead = serious("dead channel", "Channel top does not move.")
+    said = line(warnings=tuple(warnings), changed=(dead,)).text()
     assert "serious: Channel top does not move; warning: clipped; and drift (" in said
 
 
-def test_programs_get_the_record_and_what_is_added() -> None:
-    record = TestSummary(status="done", kind="sine", specimen="prism", outcome="overturned")
-    said = json.loads(json.dumps(line(record, limits={"lower": 2.6}).as_json(), allow_nan=False))
+def test_programs_get_the_record_and_what_is_added():
+    said = json.loads(json.dumps(line(outcome="overturned", limits={"lower": 2.6}).as_json(), allow_nan=False))
     assert (said["test"], said["outcome"], said["map_limits"]) == ("sine-07", "overturned", {"lower": 2.6})
     assert said["specimen_restitution"]["tests"] == ["a", "b"]

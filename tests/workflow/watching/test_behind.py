@@ -1,15 +1,10 @@
 """The run behind a watch: it does what a run does, gives way, and is tried again if it was refused."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal
-import subprocess
-import sys
 import time
 from contextlib import suppress
-from typing import Any
 
 import pytest
 
@@ -17,16 +12,16 @@ from colonnade.workflow.execution.lock import only_run
 from colonnade.workflow.watching.behind import Behind, Ended
 
 
-def ended(behind: Behind) -> Ended:
+def wait_until(condition):
     until = time.monotonic() + 600
-    while (found := behind.ended()) is None:
+    while not (found := condition()):
         assert time.monotonic() < until
         time.sleep(0.05)
     return found
 
 
 @pytest.mark.whole
-def test_it_gives_way_and_then_says_what_failed_and_when_it_was_refused(small: Any) -> None:
+def test_it_gives_way_and_then_says_what_failed_and_when_it_was_refused(small):
     small.raw("pulse-02").write_text("nothing\n")
     behind = Behind(small.folder / "campaign.toml", None, 1)
     behind.start()
@@ -35,12 +30,12 @@ def test_it_gives_way_and_then_says_what_failed_and_when_it_was_refused(small: A
     assert not behind.is_running
     assert behind.ended() is None
     behind.start()
-    found = ended(behind)
+    found = wait_until(behind.ended)
     assert (found.code, found.was_refused, found.problem) == (1, False, "")
     assert [failure.partition(":")[0] for failure in found.failures] == ["pulse-02"]
     with only_run(small.layout):
         behind.start()
-        refused = ended(behind)
+        refused = wait_until(behind.ended)
         assert (refused.was_refused, refused.problem) == (True, "")
 
 
@@ -58,12 +53,12 @@ def test_the_line_that_says_what_happened_is_found(said, headline):
     assert Ended(1, (), was_refused=False, problem=said).headline == headline
 
 
-def test_a_run_that_is_killed_says_so(small: Any) -> None:
+def test_a_run_that_is_killed_says_so(small):
     behind = Behind(small.folder / "campaign.toml", None, 1)
     behind.start()
     assert behind._process is not None
     behind._process.kill()
-    found = ended(behind)
+    found = wait_until(behind.ended)
     assert (found.was_refused, found.headline) == (False, "It ended with exit code -9.")
 
 
@@ -73,25 +68,17 @@ from pathlib import Path
 from colonnade.workflow.watching.behind import Behind
 
 Behind(Path(sys.argv[1]), None, 1).start()
+print("watching", flush=True)
 time.sleep(600)
 """
 
 
-def wait_until(condition: Any) -> None:
-    until = time.monotonic() + 600
-    while not condition():
-        assert time.monotonic() < until
-        time.sleep(0.05)
-
-
 @pytest.mark.whole
 @pytest.mark.skipif(os.name != "posix", reason="a process is killed as only POSIX does")
-def test_it_ends_in_order_when_the_watch_is_killed(small: Any) -> None:
-    toml = small.folder / "campaign.toml"
+def test_it_ends_in_order_when_the_watch_is_killed(start, small):
     small.edit("members = 20", "members = 10000")  # a run of minutes
     holder = small.layout.lock_holder
-    watch = subprocess.Popen([sys.executable, "-c", WATCH, str(toml)])
-    run = 0
+    watch, run = start(WATCH, small.folder / "campaign.toml", said="watching"), 0
     try:
         wait_until(holder.exists)
         run = json.loads(holder.read_text(encoding="utf-8"))["process"]
@@ -101,7 +88,6 @@ def test_it_ends_in_order_when_the_watch_is_killed(small: Any) -> None:
         watch.wait()
         wait_until(lambda: not holder.exists())  # a run that was killed itself would leave it
     finally:
-        watch.kill()
         if run:
             with suppress(ProcessLookupError):
                 os.killpg(run, signal.SIGKILL)

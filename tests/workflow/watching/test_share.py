@@ -1,7 +1,5 @@
 """A watched folder: its bell, files copied from a share, and the command that is told of each."""
 
-from __future__ import annotations
-
 import json
 import sys
 import time
@@ -28,7 +26,7 @@ def twice(share: Share, start: float) -> list[str]:
     return [*share.copy_finished(start), *share.copy_finished(start + 1.5)]
 
 
-def test_finished_files_are_copied_with_their_folders(share: Share) -> None:
+def test_finished_files_are_copied_with_their_folders(share):
     (share.source / "a.csv").write_bytes(b"1;2\n")
     (share.source / "day-1" / "b.csv").write_bytes(b"3;4\n")
     assert not list(share.copy_finished(0.0))
@@ -39,7 +37,7 @@ def test_finished_files_are_copied_with_their_folders(share: Share) -> None:
     assert not list(share.target.rglob("*.partial"))
 
 
-def test_another_file_of_that_name_is_kept_and_said_once(share: Share) -> None:
+def test_another_file_of_that_name_is_kept_and_said_once(share):
     share.target.mkdir()
     (share.target / "a.csv").write_bytes(b"mine\n")
     (share.source / "a.csv").write_bytes(b"theirs\n")
@@ -50,14 +48,14 @@ def test_another_file_of_that_name_is_kept_and_said_once(share: Share) -> None:
     assert not twice(share, 10.0)
 
 
-def test_the_same_file_is_no_problem(share: Share) -> None:
+def test_the_same_file_is_no_problem(share):
     share.target.mkdir()
     for folder in (share.source, share.target):
         (folder / "a.csv").write_bytes(b"same\n")
     assert not twice(share, 0.0)
 
 
-def test_a_share_that_is_gone_is_said_once_and_may_come_back(share: Share) -> None:
+def test_a_share_that_is_gone_is_said_once_and_may_come_back(share):
     away = share.source.rename(share.source.with_name("away"))
     assert len(twice(share, 0.0)) == 1
     away.rename(share.source)
@@ -66,7 +64,7 @@ def test_a_share_that_is_gone_is_said_once_and_may_come_back(share: Share) -> No
     assert (share.target / "a.csv").exists()
 
 
-def test_a_file_that_is_written_rings(tmp_path: Path) -> None:
+def test_a_file_that_is_written_rings(tmp_path):
     with listening(tmp_path) as bell:
         if not bell.has_events:
             pytest.skip("this system gives no events")
@@ -76,18 +74,18 @@ def test_a_file_that_is_written_rings(tmp_path: Path) -> None:
         assert time.monotonic() - began < folders.REST / 2
 
 
-def test_a_folder_that_is_not_there_is_polled(tmp_path: Path) -> None:
+def test_a_folder_that_is_not_there_is_polled(tmp_path):
     with listening(tmp_path / "none") as bell:
         assert not bell.has_events
 
 
-def test_a_remote_folder_is_polled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_remote_folder_is_polled(tmp_path, monkeypatch):
     monkeypatch.setattr(folders, "_is_remote", lambda folder: True)
     with listening(tmp_path) as bell:
         assert not bell.has_events
 
 
-def test_a_wait_ends_when_it_is_due() -> None:
+def test_a_wait_ends_when_it_is_due():
     began = time.monotonic()
     Bell(has_events=False).wait(0.05)
     assert 0.04 < time.monotonic() - began < 1.0
@@ -96,30 +94,30 @@ def test_a_wait_ends_when_it_is_due() -> None:
 LINE = {"test": "säule-01", "outcome": "rocking"}
 
 
-def test_the_line_arrives_as_json(tmp_path: Path) -> None:
+def test_the_line_arrives_as_json(tmp_path):
     script = "import sys, pathlib; pathlib.Path(sys.argv[1]).write_bytes(sys.stdin.buffer.read())"
     assert notify([sys.executable, "-c", script, str(tmp_path / "said")], LINE) == ""
     assert json.loads((tmp_path / "said").read_text(encoding="utf-8")) == LINE
 
 
-def test_no_shell_reads_the_command(tmp_path: Path) -> None:
+def test_no_shell_reads_the_command(tmp_path):
     script = "import sys, pathlib; pathlib.Path(sys.argv[1]).write_text(sys.argv[2])"
     notify([sys.executable, "-c", script, str(tmp_path / "said"), "$(touch x); *"], LINE)
     assert (tmp_path / "said").read_text() == "$(touch x); *"
 
 
-def test_a_failure_is_a_sentence() -> None:
+def test_a_failure_is_a_sentence():
     script = "import sys; sys.exit('no connection')"
     assert notify([sys.executable, "-c", script], LINE) == f"{sys.executable} ended with 1: no connection."
     assert "could not be started" in notify(["/nowhere/at-all"], LINE)
 
 
-def test_a_command_that_hangs_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_command_that_hangs_is_ended(monkeypatch):
     monkeypatch.setattr(module, "PATIENCE", 0.2)
     assert "longer than 0.2 s" in notify([sys.executable, "-c", "import time; time.sleep(60)"], LINE)
 
 
 @pytest.mark.parametrize("text", ["", "  ", "say 'unfinished"])
-def test_what_is_no_command_is_refused(text: str) -> None:
+def test_what_is_no_command_is_refused(text):
     with pytest.raises(CampaignError, match="--notify"):
         command_of(text)

@@ -1,11 +1,8 @@
 """A watch handles what arrives, gives a line on each test, and leaves what a run would."""
 
-from __future__ import annotations
-
 import shutil
 import time
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -18,12 +15,11 @@ from colonnade.workflow.watching.behind import Ended
 from colonnade.workflow.watching.folders import Bell
 from colonnade.workflow.watching.line import Line
 from colonnade.workflow.watching.watch import watch
+from prism import entry
 
 
 @pytest.mark.whole
-def test_arriving_files_become_lines_and_the_rest_follows(
-    small: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_arriving_files_become_lines_and_the_rest_follows(small, tmp_path, monkeypatch):
     monkeypatch.setattr(module, "GRACE", 1.0)
     share = tmp_path / "share"
     share.mkdir()
@@ -33,11 +29,8 @@ def test_arriving_files_become_lines_and_the_rest_follows(
         small.edit(f'id = "{test}"', f'id = "{test}"\nplanned = true')
     broken = share / "pulse-03.csv"
     broken.write_bytes(b"\x00\x01 nothing that can be read")
-    text = small.folder / "campaign.toml"
-    entry = (
-        '[[tests]]\nid = "pulse-03"\nkind = "pulse"\nspecimen = "prism"\nsetup = "frame"\nfile = "raw/pulse-03.csv"\n'
-    )
-    text.write_text(f"{text.read_text(encoding='utf-8')}\n{entry}planned = true\n", encoding="utf-8")
+    with (small.folder / "campaign.toml").open("a", encoding="utf-8") as campaign_file:
+        campaign_file.write(entry("pulse-03", "pulse", "planned = true"))
     shown: list[Line | Advice] = []
     said: list[str] = []
     code = watch(small.folder, share=share, once=True, workers=1, show=shown.append, say=said.append)
@@ -58,6 +51,12 @@ def test_arriving_files_become_lines_and_the_rest_follows(
     before = small.contents()
     assert watch(small.folder, once=True, workers=1, show=shown.append, say=said.append) == 1
     assert small.contents() == before
+
+
+def watched(small):
+    """Watch once; the exit code and what is said."""
+    said = []
+    return watch(small.folder, once=True, show=lambda line: None, say=said.append), said
 
 
 @dataclass
@@ -91,10 +90,9 @@ def crashing(monkeypatch: pytest.MonkeyPatch) -> Crashing:
     return behind
 
 
-def test_a_crash_of_the_run_behind_is_said_once_and_waits_for_the_next_file(small: Any, crashing: Crashing) -> None:
-    said: list[str] = []
-    assert watch(small.folder, once=True, show=lambda line: None, say=said.append) == 1
-    assert crashing.starts == 1
+def test_a_crash_of_the_run_behind_is_said_once_and_waits_for_the_next_file(small, crashing):
+    code, said = watched(small)
+    assert (code, crashing.starts) == (1, 1)
     assert [sentence.splitlines()[0] for sentence in said] == [
         "No new file. Results and report are brought up to date.",
         "The run behind the watch failed: OSError: y",
@@ -103,31 +101,24 @@ def test_a_crash_of_the_run_behind_is_said_once_and_waits_for_the_next_file(smal
     assert "Traceback" in small.layout.watch_log.read_text(encoding="utf-8")
 
 
-def test_a_run_behind_that_is_refused_is_tried_again(
-    small: Any, crashing: Crashing, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_run_behind_that_is_refused_is_tried_again(small, crashing, monkeypatch):
     monkeypatch.setattr(module, "AGAIN", 0.1)
     crashing.ends = [Ended(1, (), was_refused=True, problem=""), Ended(0, (), was_refused=False, problem="")]
-    said: list[str] = []
-    assert watch(small.folder, once=True, show=lambda line: None, say=said.append) == 0
-    assert crashing.starts == 2
-    assert len(said) == 1
+    code, said = watched(small)
+    assert (code, crashing.starts, len(said)) == (0, 2, 1)
 
 
-def test_a_watch_for_once_ends_if_results_cannot_be_written(
-    small: Any, crashing: Crashing, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_watch_for_once_ends_if_results_cannot_be_written(small, crashing, monkeypatch):
     def full(*_: Any) -> Line:
         raise StoreError("a.nc: the disk is full.")
 
     monkeypatch.setattr(module, "measure", full)
     small.change_a_sample("pulse-02")
-    said: list[str] = []
-    assert watch(small.folder, once=True, show=lambda line: None, say=said.append) == 1
-    assert said[0] == "a.nc: the disk is full."
+    code, said = watched(small)
+    assert (code, said[0]) == (1, "a.nc: the disk is full.")
 
 
-def test_a_deleted_file_starts_the_run_behind(small: Any, crashing: Crashing, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_deleted_file_starts_the_run_behind(small, crashing, monkeypatch):
     crashing.ends = [Ended(0, (), was_refused=False, problem="")]
     starts: list[int] = []
 
@@ -146,9 +137,7 @@ def test_a_deleted_file_starts_the_run_behind(small: Any, crashing: Crashing, mo
     assert starts[:3] == [1, 1, 1]
 
 
-def test_advice_after_a_free_vibration_knows_those_just_before_it(
-    small: Any, crashing: Crashing, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_advice_after_a_free_vibration_knows_those_just_before_it(small, crashing, monkeypatch):
     small.layout.summary_json.unlink()  # the run behind has not come so far yet
     for test in ("free-01", "free-02"):
         shutil.rmtree(small.layout.test(test))
@@ -160,6 +149,6 @@ def test_advice_after_a_free_vibration_knows_those_just_before_it(
     assert "from 2" in lines[3]
 
 
-def test_a_second_watch_names_the_first(small: Any) -> None:
+def test_a_second_watch_names_the_first(small):
     with only_watch(small.layout), pytest.raises(StoreError, match=r"already being watched, by process \d+"):
         watch(small.folder, once=True, show=lambda line: None, say=lambda sentence: None)
