@@ -1,7 +1,5 @@
 """What every test shares: a deterministic hypothesis, figures without a screen, real files found or skipped."""
 
-from __future__ import annotations
-
 import gc
 import inspect
 import json
@@ -10,10 +8,8 @@ import shutil
 import signal
 import sys
 import sysconfig
-from collections.abc import Callable, Iterable, Iterator
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
 
 import pytest
 from filelock import FileLock
@@ -37,19 +33,19 @@ LONGEST = (
 """Files that take half a minute and more."""
 
 
-def _turn(item: pytest.Item) -> int:
+def _turn(item):
     if not set(COMPILING).isdisjoint(item.path.parts):
         return 0
     return 1 + (LONGEST.index(item.path.name) if item.path.name in LONGEST else len(LONGEST))
 
 
 @pytest.hookimpl(trylast=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+def pytest_collection_modifyitems(items):
     """First what compiles, then the longest files, so that no process is left with one of these in the end."""
     items.sort(key=_turn)
 
 
-def pytest_collection_finish() -> None:
+def pytest_collection_finish():
     """What was collected stays to the end: the garbage collector need not look through it again and again."""
     gc.freeze()
 
@@ -59,7 +55,7 @@ SHARED_DATA = TESTS.parents[1] / "shared" / "data"
 
 
 @pytest.fixture(scope="session")
-def shared_data() -> Path:
+def shared_data():
     """Folder of real files from other laboratories; they are not part of the project."""
     if not SHARED_DATA.is_dir():
         pytest.skip(f"the collection of other laboratories' files is not here ({SHARED_DATA})")
@@ -67,7 +63,7 @@ def shared_data() -> Path:
 
 
 @pytest.fixture
-def interruptible() -> Iterator[None]:
+def interruptible():
     """Processes that a test starts hear Ctrl-C and a hangup, also where this one does not (`nohup make test &`)."""
     before = {signal.SIGINT: signal.signal(signal.SIGINT, signal.default_int_handler)}
     if hasattr(signal, "SIGHUP"):
@@ -81,10 +77,10 @@ REPORTS = TESTS.parent / "reports"
 
 
 @pytest.fixture(scope="session")
-def as_reported() -> Callable[[Path, str], None]:
+def as_reported():
     """Hold a report written anew in a folder against the reference report of that name, and against the truth."""
 
-    def check(folder: Path, name: str) -> None:
+    def check(folder, name):
         now, then = (json.loads((each / f"{name}.json").read_text(encoding="utf-8")) for each in (folder, REPORTS))
         assert now["restitution"].keys() == then["restitution"].keys()
         for specimen, restitution in then["restitution"].items():
@@ -105,7 +101,7 @@ def as_reported() -> Callable[[Path, str], None]:
 
 
 @pytest.fixture(scope="session")
-def made_once(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config) -> Callable[..., Path]:
+def made_once(tmp_path_factory, pytestconfig):
     """
     Have a folder filled by the first process of the tests that needs it; all only look at it.
 
@@ -116,7 +112,7 @@ def made_once(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Con
     if "PYTEST_XDIST_WORKER" in os.environ:
         shared = shared.parent
 
-    def made(name: str, fill: Callable[[Path], object], *files: Path) -> Path:
+    def made(name, fill, *files):
         folder, kept = shared / name, cache / name / _made_by(fill, files)
         with FileLock(cache / f"{name}.lock"):
             if not kept.exists():
@@ -131,7 +127,7 @@ def made_once(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Con
     return made
 
 
-def _made_by(fill: Callable[[Path], object], files: Iterable[Path]) -> str:
+def _made_by(fill, files):
     """Hash the package, the versions of others, examples, helpers, the module of the function, and further files."""
     from colonnade.sources import package_hash
 
@@ -144,17 +140,17 @@ def _made_by(fill: Callable[[Path], object], files: Iterable[Path]) -> str:
 
 
 @pytest.fixture
-def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+def undrawn(monkeypatch):
     """Pictures of pages are empty: for tests of what is made again and when, not of what it shows."""
 
-    def empty(figure: Any, *, identity: str, title: str, description: str) -> str:
+    def empty(figure, *, identity, title, description):
         return f'<svg xmlns="http://www.w3.org/2000/svg" id="{identity}"></svg>'
 
     monkeypatch.setattr("colonnade.figures.files.output.to_svg", empty)
 
 
 @pytest.fixture(scope="session")
-def filled_campaign(made_once: Callable[..., Path]) -> tuple[Any, Any]:
+def filled_campaign(made_once):
     """A small virtual campaign and its layout after one real run; look only."""
     from colonnade.campaign import load
     from colonnade.store.layout import Layout
@@ -165,7 +161,7 @@ def filled_campaign(made_once: Callable[..., Path]) -> tuple[Any, Any]:
 
 
 @pytest.fixture(scope="session")
-def empty_campaign(made_once: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, Any]:
+def empty_campaign(made_once, tmp_path_factory):
     """The same campaign before anything was run."""
     from colonnade.campaign import load
     from colonnade.store.layout import Layout
@@ -177,7 +173,7 @@ def empty_campaign(made_once: Callable[..., Path], tmp_path_factory: pytest.Temp
 
 
 @pytest.fixture(scope="session")
-def foreseen(filled_campaign: tuple[Any, Any], tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Any]:
+def foreseen(filled_campaign, tmp_path_factory):
     """A copy of the filled campaign with two forecasts of a planned test; look only."""
     from foreseeing import foresee_a_planned_test
 
@@ -186,13 +182,13 @@ def foreseen(filled_campaign: tuple[Any, Any], tmp_path_factory: pytest.TempPath
 
 
 @pytest.fixture
-def foreseen_copy(foreseen: tuple[Path, Any], undrawn: None, tmp_path: Path) -> Path:
+def foreseen_copy(foreseen, undrawn, tmp_path):
     """The same, to change."""
     return Path(shutil.copytree(foreseen[0], tmp_path / "campaign"))
 
 
 @pytest.fixture(scope="session")
-def assessed(made_once: Callable[..., Path]) -> Path:
+def assessed(made_once):
     """A campaign with a real column that is assessed, after one real run; look only."""
     from assessing import write_assessed
     from colonnade.workflow.run import run
@@ -201,7 +197,7 @@ def assessed(made_once: Callable[..., Path]) -> Path:
 
 
 @pytest.fixture
-def assessed_copy(assessed: Path, undrawn: None, tmp_path: Path) -> Path:
+def assessed_copy(assessed, undrawn, tmp_path):
     """The same, to change."""
     from short_campaign import copied
 

@@ -1,7 +1,5 @@
 """docs/architecture.md says what is so: floors, rooms and places."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from pathlib import Path

@@ -1,11 +1,9 @@
 """Every argument of every public call refuses what it is not made for, with a ValueError that names it."""
 
-from __future__ import annotations
-
 import datetime
 import inspect
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,7 +26,7 @@ ASKED = {"block": PRISM, "motions": [MOTION, MOTION], "measure": "pga", "levels"
 }
 
 DAY = np.datetime64("2024-01-01")
-NUMBERS: dict[str, Any] = {
+NUMBERS = {
     "text": "1.0",
     "bytes": b"1",
     "not a number": np.nan,
@@ -47,7 +45,7 @@ NUMBERS: dict[str, Any] = {
 }
 """What is no number."""
 
-ARRAYS: dict[str, Any] = {
+ARRAYS = {
     "masked": np.ma.masked_array([0.1, 0.2, 0.3, 0.4], mask=[False, True, False, False]),
     "complex": np.full(4, 0.1 + 0.1j),
     "dates": np.array([DAY, DAY + 1, DAY + 2, DAY + 3]),
@@ -63,13 +61,13 @@ ARRAYS: dict[str, Any] = {
 }
 """What is no array of numbers."""
 
-OBJECTS: dict[str, Any] = {"text": "x", "a number": 1.0, "an array": np.zeros(3), "an object": object(), "none": None}
+OBJECTS = {"text": "x", "a number": 1.0, "an array": np.zeros(3), "an object": object(), "none": None}
 """What is no object of ours, no path and no name."""
 
-NAMES: dict[str, Any] = {"a number": 1.0, "an array": np.zeros(3), "an object": object(), "true": True}
+NAMES = {"a number": 1.0, "an array": np.zeros(3), "an object": object(), "true": True}
 """What is no text."""
 
-FOR: dict[str, dict[str, Any]] = {
+FOR = {
     "number": NUMBERS,
     "positive": NUMBERS | {"zero": 0.0, "negative": -1.0},
     "deviation": NUMBERS | {"negative": -1.0},
@@ -275,7 +273,7 @@ OTHERS = {
 """What an argument needs with it."""
 
 
-def public() -> Iterator[tuple[str, Callable[..., Any]]]:
+def public():
     """Everything that a user calls: functions, classes and their methods that take arguments."""
     for name in set(colonnade.__all__) - NOT_CALLED:
         thing = getattr(colonnade, name)
@@ -290,7 +288,7 @@ def public() -> Iterator[tuple[str, Callable[..., Any]]]:
                 yield f"{name}.{method}", function
 
 
-def fault(call: Call, argument: str, told: str, value: object, others: dict[str, Any]) -> str | None:
+def fault(call, argument, told, value, others):
     """Give what is wrong with how a call takes a hostile value; None if it refuses it by its name."""
     try:
         call.function(**(call.sound | others | {argument: value}))
@@ -314,13 +312,13 @@ def test_hostile_arguments_are_refused_by_their_names(name):
 
 
 def test_a_hostile_value_that_is_taken_misnamed_or_crashes_is_a_fault():
-    def refuses(width: float) -> None:
+    def refuses(width):
         raise ValueError("width is negative")
 
-    def misnames(width: float) -> None:
+    def misnames(width):
         raise ValueError("a size is negative")
 
-    def crashes(width: float) -> None:
+    def crashes(width):
         raise KeyError("width")
 
     found = [fault(Call(each, {}, {}), "width", "negative", -1.0, {}) for each in (refuses, misnames, crashes)]

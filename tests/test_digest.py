@@ -1,7 +1,5 @@
 """A digest is written in a line and as a table, in which nothing is markup."""
 
-from __future__ import annotations
-
 from xml.etree import ElementTree
 
 from hypothesis import given
@@ -14,10 +12,10 @@ TEXT = st.text(LETTERS, max_size=20)
 
 
 class Told(Digested):
-    def __init__(self, said: dict[str, str]) -> None:
+    def __init__(self, said):
         self.said = said
 
-    def digest(self) -> dict[str, str]:
+    def digest(self):
         return self.said
 
 

@@ -1,7 +1,5 @@
 """The example of docs/explanation/assessment.md runs as it is printed."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

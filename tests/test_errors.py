@@ -1,7 +1,5 @@
 """Messages repeat a user's text at a readable length and hint at what was probably meant."""
 
-from __future__ import annotations
-
 import inspect
 import pickle
 

@@ -1,7 +1,5 @@
 """Findings: weighed, put in order, and stored without loss."""
 
-from __future__ import annotations
-
 import itertools
 
 import pytest

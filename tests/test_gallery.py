@@ -1,7 +1,5 @@
 """Each example of the gallery runs without a screen, draws, and shows something true that has a source of its own."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import math

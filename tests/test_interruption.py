@@ -1,7 +1,5 @@
 """A signal is noted, whatever becomes of its exception."""
 
-from __future__ import annotations
-
 import signal
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Its targets are those that texts name; which interpreter `make` takes, by stand-ins on a PATH with nothing else."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil
@@ -69,13 +67,13 @@ def clone(tmp_path):
     return folder
 
 
-def add_interpreter(clone: Path, name: str, script: str) -> None:
+def add_interpreter(clone, name, script):
     path = clone.parent / "tools" / name
     path.write_text(f"#!/bin/sh\n{script}", encoding="utf-8")
     path.chmod(0o755)
 
 
-def make(clone: Path, *targets: str) -> subprocess.CompletedProcess[str]:
+def make(clone, *targets):
     environment = {"PATH": str(clone.parent / "tools"), "HOME": str(clone)}
     return subprocess.run(["make", *targets], cwd=clone, env=environment, capture_output=True, text=True)
 

@@ -1,7 +1,5 @@
 """The package as a whole: what it offers, what it loads when, and what it says about itself."""
 
-from __future__ import annotations
-
 import ast
 import re
 import subprocess
@@ -18,7 +16,7 @@ PROJECT = Path(__file__).parents[1]
 HEAVY = ("numba", "matplotlib", "xarray", "pandas", "scipy", "netCDF4", "joblib")
 
 
-def loaded_by(statement: str) -> set[str]:
+def loaded_by(statement):
     """Heavy libraries that a fresh interpreter holds after a statement."""
     code = f"import sys\n{statement}\nprint(*sorted({HEAVY!r} & sys.modules.keys()))".replace(
         repr(HEAVY), repr(set(HEAVY))

@@ -1,7 +1,5 @@
 """The contract of raw data: the schemas are the models', and the worked examples are ingested."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path
@@ -120,7 +118,7 @@ def test_the_example_needs_no_options():
     assert all((one.values == other.values).all() for one, other in zip(sniffed.channels, told.channels, strict=True))
 
 
-def section(name: str) -> str:
+def section(name):
     page = (RAW_SCHEMA / "README.md").read_text(encoding="utf-8")
     return re.search(rf"^## {name}\n(.*?)(?=^## |\Z)", page, re.MULTILINE | re.DOTALL)[1]
 

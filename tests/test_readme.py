@@ -1,7 +1,5 @@
 """README.md is run as it stands: its commands in order in an empty folder, its campaign file, its Python."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import re
@@ -21,11 +19,11 @@ README = (PROJECT / "README.md").read_text(encoding="utf-8")
 PAGES = {name: (PROJECT / name).read_text(encoding="utf-8") for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md")}
 
 
-def blocks(language: str) -> list[str]:
+def blocks(language):
     return re.findall(rf"^```{language}\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
 
 
-def commands() -> list[str]:
+def commands():
     """Lines of all shell blocks, then the commands named in the text, but those with a word in capitals to fill in."""
     in_blocks = [line for block in blocks("sh") for line in block.splitlines()]
     in_text = re.findall(r"`(colonnade [^`]+)`", re.sub(r"```.*?```", "", README, flags=re.DOTALL))
@@ -33,19 +31,19 @@ def commands() -> list[str]:
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     """Where the reader stands."""
     return tmp_path_factory.mktemp("reader")
 
 
 @pytest.fixture(scope="module")
-def outputs(folder: Path) -> dict[str, str]:
+def outputs(folder):
     """
     What each command that starts `colonnade` printed; the first that fails ends the run.
 
     The first is a process of its own, as the reader starts it; the others save its seconds of imports.
     """
-    printed: dict[str, str] = {}
+    printed = {}
     (campaign,) = blocks("toml")
     for command in commands():
         command = command.removeprefix(".venv/bin/")
@@ -57,7 +55,7 @@ def outputs(folder: Path) -> dict[str, str]:
     return printed
 
 
-def started(arguments: list[str], folder: Path) -> str:
+def started(arguments, folder):
     """Run a command in a process of its own."""
     call = [sys.executable, "-m", "colonnade", *arguments]
     done = subprocess.run(call, cwd=folder, capture_output=True, encoding="utf-8")
@@ -65,7 +63,7 @@ def started(arguments: list[str], folder: Path) -> str:
     return done.stdout
 
 
-def called(arguments: list[str], folder: Path) -> str:
+def called(arguments, folder):
     """Run a command in this process."""
     out, err = io.StringIO(), io.StringIO()
     with contextlib.chdir(folder), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):

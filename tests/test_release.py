@@ -1,7 +1,5 @@
 """What a release writes, whom it installs for, and that it leaves nothing behind where it fails."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import subprocess
@@ -74,11 +72,11 @@ def tree(tmp_path, monkeypatch):
     return tmp_path
 
 
-def git(tree: Path, *words: str) -> str:
+def git(tree, *words):
     return subprocess.run(["git", *words], cwd=tree, check=True, capture_output=True, text=True).stdout
 
 
-def built(folder: Path) -> Path:
+def built(folder):
     folder.mkdir()
     (folder / "colonnade-0.2.0.tar.gz").write_text("built")
     return folder

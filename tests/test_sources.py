@@ -1,7 +1,5 @@
 """What a result's code is: the modules that it is made by, whatever their docstrings and comments say."""
 
-from __future__ import annotations
-
 import shutil
 
 import pytest

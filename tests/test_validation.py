@@ -1,7 +1,5 @@
 """What the checks of arguments accept and return; that every public call uses them is held by test_arguments."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

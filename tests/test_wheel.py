@@ -1,13 +1,11 @@
 """The built wheel in a fresh environment, with nothing but what it declares: the command runs and finds its data."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
 import sys
 import venv
-from importlib.metadata import Distribution, PathDistribution, distribution
+from importlib.metadata import PathDistribution, distribution
 from pathlib import Path
 
 import pytest
@@ -19,14 +17,14 @@ PROJECT = Path(__file__).parents[1]
 EXAMPLE = PROJECT / "raw_schema" / "examples" / "delimited"
 
 
-def run(*command: str | Path, folder: Path) -> subprocess.CompletedProcess[str]:
+def run(*command, folder):
     clean = {name: value for name, value in os.environ.items() if name not in {"PYTHONPATH", "VIRTUAL_ENV"}}
     return subprocess.run([str(part) for part in command], cwd=folder, env=clean, capture_output=True, text=True)
 
 
-def required(package: Distribution) -> dict[str, Distribution]:
+def required(package):
     """What a distribution declares that it needs, at any depth: as installed here, in versions that it accepts."""
-    found: dict[str, Distribution] = {}
+    found = {}
     wanted, asked = [(package, "")], set()
     while wanted:
         one, extra = wanted.pop()
@@ -41,7 +39,7 @@ def required(package: Distribution) -> dict[str, Distribution]:
     return found
 
 
-def provide(package: Distribution, site: Path) -> None:
+def provide(package, site):
     """Put a distribution into another environment by links; a copy where links are not permitted."""
     for name in {file.parts[0] for file in package.files or () if file.parts[0] not in ("..", "__pycache__")}:
         source, target = Path(str(package.locate_file(name))), site / name
@@ -54,7 +52,7 @@ def provide(package: Distribution, site: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def commands(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def commands(tmp_path_factory):
     """
     Folder of the commands of an environment that holds the wheel, made from the sdist, and what it declares.
 

@@ -1,7 +1,5 @@
 """All histories of an assessment: each as rock runs it, in any parts, at levels from none overturned to all."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Criteria of practice against their derivations, what they ask for, and how they agree with what happened."""
 
-from __future__ import annotations
-
 from math import cos, sqrt, tan
 
 import numpy as np

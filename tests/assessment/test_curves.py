@@ -1,7 +1,5 @@
 """Lognormal and isotonic curves: fits, intervals over records, misfits, and reasons for no curve."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings

@@ -1,7 +1,5 @@
 """All of it in one call; scatter of records and of parameters, records that decide, and resampling."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy

@@ -1,7 +1,5 @@
 """Velocity and displacement of tables and of the ground against closed forms; corrections of known errors."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Rates: the closed form of a power law, quadrature of any hazard curve, and how much is extrapolated."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Measures of ground motions against closed forms and against eqsig."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

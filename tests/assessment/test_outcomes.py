@@ -1,7 +1,5 @@
 """Outcomes on their axes, in stripes, at rest or surviving more; and those that cannot be."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

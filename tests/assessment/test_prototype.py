@@ -1,7 +1,5 @@
 """The real column: ranges, draws that are the same however many, and the friction that it needs."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import tan
 

@@ -1,7 +1,5 @@
 """Studies of a column: records scaled to levels of a measure, and outcomes judged."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """The largest velocity pulse: the wavelet's own properties, planted pulses, and noise without one."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

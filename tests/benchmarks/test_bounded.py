@@ -1,7 +1,5 @@
 """What the bounded process costs for each small file after the first (`make slow` prints the figures)."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -20,13 +18,13 @@ MOST = 6.0
 """Processor time of a file, as a multiple of that of starting a bare Python, which takes some 15 ms."""
 
 
-def spent(pid: int) -> float:
+def spent(pid):
     """Processor time of a process and of the copies that it has waited for, s."""
     fields = Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()
     return sum(map(int, fields[11:15])) / os.sysconf("SC_CLK_TCK")
 
 
-def start_of_python() -> float:
+def start_of_python():
     """Processor time of starting a bare Python, s."""
     before = os.times()
     for _ in range(TIMES):
@@ -38,7 +36,7 @@ def start_of_python() -> float:
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="processor time of another process is taken from /proc")
 @pytest.mark.parametrize("name", BOUNDED)
-def test_a_file_after_the_first_costs_little_more_than_starting_python(name: str) -> None:
+def test_a_file_after_the_first_costs_little_more_than_starting_python(name):
     path = next(path for path in sorted((EXAMPLES / name / "raw").iterdir()) if path.suffix != ".R32")
     process.end()
     began = time.process_time()

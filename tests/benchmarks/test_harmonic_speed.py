@@ -10,8 +10,6 @@ Marked slow; `python -m pytest -m slow tests/benchmarks/test_harmonic_speed.py -
 installed by the extra `bench`.
 """
 
-from __future__ import annotations
-
 import math
 import time
 from concurrent.futures import ThreadPoolExecutor

@@ -1,10 +1,6 @@
 """The ingest of long files beside a bare read of the same file in the same run (`make slow` prints the figures)."""
 
-from __future__ import annotations
-
 import time
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -39,14 +35,14 @@ CHANNEL = (
 TEST = '\n[[tests]]\nid = "one"\nkind = "other"\nspecimen = "prism"\nsetup = "frame"\nfile = "{}"\n'
 
 
-def piece(number: int) -> np.ndarray:
+def piece(number):
     """Values of all channels over one piece: sines with noise, as a recorder with 16 bits writes them."""
     noise = np.random.default_rng(number).normal(0, 0.01, (ONE_PIECE, CHANNELS))
     at = (np.arange(ONE_PIECE) + number * ONE_PIECE)[:, None] / RATE
     return np.round((5 * np.sin(2 * np.pi * 0.3 * np.arange(1, CHANNELS + 1) * at) + noise) / 3e-4) * 3e-4
 
 
-def write_text(path: Path) -> None:
+def write_text(path):
     names = [f"CH {number} [mm]" for number in range(1, CHANNELS + 1)]
     with path.open("w", encoding="utf-8") as stream:
         stream.write(";".join(["Time [s]", *names]) + "\n")
@@ -59,7 +55,7 @@ def write_text(path: Path) -> None:
             number += 1
 
 
-def write_tdms(path: Path) -> None:
+def write_tdms(path):
     with TdmsWriter(path) as writer:
         for number in range(int(MEGABYTES * 1e6 / (8 * CHANNELS * ONE_PIECE))):
             values = piece(number)
@@ -73,16 +69,16 @@ def write_tdms(path: Path) -> None:
             )
 
 
-def clocks() -> tuple[float, float]:
+def clocks():
     """Elapsed time, and processor time of all threads, which says more where other work goes on; s."""
     return time.perf_counter(), time.process_time()
 
 
-def bare_text(path: Path) -> np.ndarray:
+def bare_text(path):
     return pd.read_csv(path, sep=";")["CH 3 [mm]"].to_numpy()
 
 
-def bare_tdms(path: Path) -> np.ndarray:
+def bare_tdms(path):
     file = TdmsFile.read(path)
     return np.asarray([channel[:] for channel in file["frame"].channels()][2])
 
@@ -95,9 +91,7 @@ def bare_tdms(path: Path) -> np.ndarray:
         pytest.param("long.tdms", write_tdms, bare_tdms, id="TDMS beside npTDMS"),
     ],
 )
-def test_ingest_beside_a_bare_read(
-    tmp_path: Path, name: str, write: Callable[[Path], None], bare: Callable[[Path], np.ndarray]
-) -> None:
+def test_ingest_beside_a_bare_read(tmp_path, name, write, bare):
     write(tmp_path / name)
     channels = "".join(CHANNEL.format(number) for number in range(1, CHANNELS + 1))
     (tmp_path / "campaign.toml").write_text(HEAD + channels + TEST.format(name), encoding="utf-8")

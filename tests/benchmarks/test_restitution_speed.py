@@ -5,8 +5,6 @@ processor time of one thread, compilation excluded.
 Marked slow; `python -m pytest -m slow tests/benchmarks/test_restitution_speed.py -s` prints the figures.
 """
 
-from __future__ import annotations
-
 import time
 
 import lmfit

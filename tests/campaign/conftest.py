@@ -1,7 +1,5 @@
 """A campaign file as contract 1 shows it, and a way to load a changed one."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 
@@ -15,16 +13,16 @@ LoadText = Callable[[str], Campaign]
 
 
 @pytest.fixture
-def contract() -> str:
+def contract():
     """Text of a campaign file that has every key of contract 1."""
     return CONTRACT
 
 
 @pytest.fixture
-def load_text(tmp_path: Path) -> LoadText:
+def load_text(tmp_path):
     """Load a campaign file of this text."""
 
-    def loaded(text: str) -> Campaign:
+    def loaded(text):
         (tmp_path / "campaign.toml").write_text(text, encoding="utf-8")
         return load(tmp_path)
 

@@ -1,7 +1,5 @@
 """What a campaign says of its tests and specimens, wherever its folder is."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

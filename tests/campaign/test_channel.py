@@ -1,7 +1,5 @@
 """Channels: recorded values to SI, ranges, and what a channel has to say of itself."""
 
-from __future__ import annotations
-
 import pytest
 from pydantic import ValidationError
 
@@ -13,7 +11,7 @@ DISPLACEMENT = {"column": "LVDT", "quantity": "displacement", "on": "table", "di
 SPECIMEN = {"unit": "mm", "on": "specimen", "at": ["43 mm", "0 mm", "440 mm"], "relative_to": "table"}
 
 
-def channel(**keys: object) -> Channel:
+def channel(**keys):
     return Channel.model_validate(DISPLACEMENT | keys)
 
 
@@ -68,7 +66,7 @@ def test_other_quantities_keep_the_dimension_that_they_have(keys, factor, si_uni
     assert found.si_unit == si_unit
 
 
-def problems(**keys: object) -> dict[str, str]:
+def problems(**keys):
     with pytest.raises(ValidationError) as caught:
         channel(**keys)
     return {str(each["loc"][0]): each["msg"] for each in caught.value.errors()}

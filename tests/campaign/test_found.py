@@ -1,9 +1,6 @@
 """Tests found by the names of raw files: the same in every command, and nothing that a stray file could break."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
@@ -36,10 +33,10 @@ Campaigns = Callable[..., Campaign]
 
 
 @pytest.fixture
-def with_files(tmp_path: Path) -> Campaigns:
+def with_files(tmp_path):
     """Load a campaign whose raw folder has these files."""
 
-    def loaded(*names: str, text: str = WATCH) -> Campaign:
+    def loaded(*names, text=WATCH):
         for name in names:
             path = tmp_path / "raw" / name
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -50,11 +47,11 @@ def with_files(tmp_path: Path) -> Campaigns:
     return loaded
 
 
-def texts(campaign: Campaign, severity: Severity) -> list[str]:
+def texts(campaign, severity):
     return [str(each) for each in campaign.warnings if each.severity is severity and "raw/" in each.text]
 
 
-def test_files_that_fit_a_pattern_are_tests(with_files: Campaigns) -> None:
+def test_files_that_fit_a_pattern_are_tests(with_files):
     tests = with_files("prism-free-10.csv", "prism-free-2.csv", "cone-EC-2.5.csv").tests
     assert list(tests) == ["cone-EC-2.5", "prism-free-2", "prism-free-10"]
     quake = tests["cone-EC-2.5"]
@@ -63,7 +60,7 @@ def test_files_that_fit_a_pattern_are_tests(with_files: Campaigns) -> None:
     assert tests["prism-free-2"].kind == "free-vibration"
 
 
-def test_the_files_of_two_recorders_are_one_test(with_files: Campaigns) -> None:
+def test_the_files_of_two_recorders_are_one_test(with_files):
     campaign = with_files("prism-free-1.csv", "prism-free-1-daq2.csv")
     assert list(campaign.tests) == ["prism-free-1"]
     files = campaign.tests["prism-free-1"].files
@@ -73,14 +70,14 @@ def test_the_files_of_two_recorders_are_one_test(with_files: Campaigns) -> None:
     }
 
 
-def test_what_the_main_file_says_counts_whichever_file_comes_first(with_files: Campaigns) -> None:
+def test_what_the_main_file_says_counts_whichever_file_comes_first(with_files):
     pattern = '{{file = "{}-{{number}}.csv", kind = "{}", specimen = "cone"}}'
     patterns = ", ".join(pattern.format(*each) for each in (("{recorder}", "sine"), ("x", "tilt")))
     (test,) = with_files("daq2-1.csv", "x-1.csv", text=f"[watch]\npattern = [{patterns}]\n").tests.values()
     assert (test.kind, list(test.files)) == ("tilt", ["daq2", "main"])
 
 
-def test_an_entry_wins(with_files: Campaigns) -> None:
+def test_an_entry_wins(with_files):
     entry = (
         '[[tests]]\nid = "mine"\nkind = "other"\nspecimen = "cone"\nsetup = "frame"\nfile = "raw/prism-free-1.csv"\n'
     )
@@ -98,9 +95,7 @@ def test_an_entry_wins(with_files: Campaigns) -> None:
         (["prism-EC-0.csv"], "span"),
     ],
 )
-def test_a_file_that_makes_no_test_is_reported_and_stops_nothing(
-    with_files: Campaigns, names: list[str], reason: str
-) -> None:
+def test_a_file_that_makes_no_test_is_reported_and_stops_nothing(with_files, names, reason):
     campaign = with_files("cone-free-7.csv", *names)
     assert list(campaign.tests) == ["cone-free-7"]
     (said,) = [each for each in campaign.warnings if each.kind == "raw file without a test"]
@@ -108,14 +103,14 @@ def test_a_file_that_makes_no_test_is_reported_and_stops_nothing(
     assert any(name in said.text for name in names)
 
 
-def test_a_file_that_fits_two_patterns_is_refused(with_files: Campaigns) -> None:
+def test_a_file_that_fits_two_patterns_is_refused(with_files):
     text = '[watch]\npattern = ["{specimen}-{number}.csv", "prism-{span}.csv"]\n'
     campaign = with_files("prism-1.csv", text=text)
     assert not campaign.tests
     assert "two patterns" in texts(campaign, Severity.SERIOUS)[0]
 
 
-def test_an_unknown_setup_is_reported_once(with_files: Campaigns) -> None:
+def test_an_unknown_setup_is_reported_once(with_files):
     text = '[watch]\npattern = {file = "{specimen}-{number}.csv", kind = "sine", setup = "fram"}\n'
     campaign = with_files("prism-1.csv", "prism-2.csv", text=text)
     (said,) = texts(campaign, Severity.SERIOUS)
@@ -123,30 +118,30 @@ def test_an_unknown_setup_is_reported_once(with_files: Campaigns) -> None:
 
 
 @pytest.mark.parametrize("name", [".prism-free-1.csv", "prism-free-1.csv.partial", "~prism-free-1.csv"])
-def test_unfinished_and_hidden_files_are_not_looked_at(with_files: Campaigns, name: str) -> None:
+def test_unfinished_and_hidden_files_are_not_looked_at(with_files, name):
     campaign = with_files(name)
     assert not campaign.tests
     assert not texts(campaign, Severity.NOTE)
 
 
-def test_a_link_is_not_followed(with_files: Campaigns, tmp_path: Path) -> None:
+def test_a_link_is_not_followed(with_files, tmp_path):
     (tmp_path / "elsewhere.csv").write_text("a\n1\n")
     (tmp_path / "raw").mkdir()
     (tmp_path / "raw" / "prism-free-1.csv").symlink_to(tmp_path / "elsewhere.csv")
     assert not with_files().tests
 
 
-def test_a_wrong_pattern_is_an_error_of_the_campaign_file(with_files: Campaigns) -> None:
+def test_a_wrong_pattern_is_an_error_of_the_campaign_file(with_files):
     with pytest.raises(CampaignError, match=r"watch\.pattern: Unknown part {spcimen}"):
         with_files(text='[watch]\npattern = "{spcimen}.csv"\n')
 
 
-def test_a_folder_outside_the_campaign_is_refused(with_files: Campaigns) -> None:
+def test_a_folder_outside_the_campaign_is_refused(with_files):
     with pytest.raises(CampaignError, match=r"watch\.folder: .* outside"):
         with_files(text='[watch]\nfolder = "../raw"\n')
 
 
-def test_a_planned_test_is_awaited_until_its_file_is_there(with_files: Campaigns, tmp_path: Path) -> None:
+def test_a_planned_test_is_awaited_until_its_file_is_there(with_files, tmp_path):
     entry = (
         '[[tests]]\nid = "t"\nkind = "other"\nspecimen = "cone"\nsetup = "frame"\nfile = "raw/t.csv"\nplanned = true\n'
     )
@@ -154,7 +149,7 @@ def test_a_planned_test_is_awaited_until_its_file_is_there(with_files: Campaigns
     assert with_files("t.csv", text=entry).left_out("t") == ""
 
 
-def test_a_watch_awaits_every_file_that_is_missing(with_files: Campaigns) -> None:
+def test_a_watch_awaits_every_file_that_is_missing(with_files):
     entry = '[[tests]]\nid = "t"\nkind = "other"\nspecimen = "cone"\nsetup = "frame"\nfile = "raw/t.csv"\n'
     campaign = with_files("prism-free-1.csv", text=WATCH + entry)
     assert campaign.left_out("t") == ""

@@ -1,7 +1,5 @@
 """A pipe or a device where a file was expected is told and not waited for; hostile text costs no time and no screen."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 
@@ -34,7 +32,7 @@ TEST = '[[tests]]\nid = "a"\nkind = "earthquake"\nmotion = "m"\nspecimen = "pris
 BLANKS = " " * 200_000
 
 
-def write(folder: Path, tests: str = "", rest: str = TEST) -> Path:
+def write(folder, tests="", rest=TEST):
     (folder / "campaign.toml").write_text(CAMPAIGN.format(tests=tests, rest=rest), encoding="utf-8")
     return folder
 

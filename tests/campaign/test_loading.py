@@ -1,7 +1,5 @@
 """Contract 1 as a whole: what is read, and that everything wrong is told at once, with its place."""
 
-from __future__ import annotations
-
 import math
 import pickle
 import re
@@ -179,7 +177,7 @@ VALUES = st.sampled_from(
 
 
 @st.composite
-def mutated(draw: st.DrawFn) -> str:
+def mutated(draw):
     lines = CONTRACT.splitlines()
     for _ in range(draw(st.integers(1, 3))):
         index = draw(st.integers(0, len(lines) - 1))
@@ -210,7 +208,7 @@ def mutated(draw: st.DrawFn) -> str:
 
 @settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(mutated())
-def test_a_mutated_campaign_is_read_or_refused_with_a_place_never_a_traceback(tmp_path: Path, text: str):
+def test_a_mutated_campaign_is_read_or_refused_with_a_place_never_a_traceback(tmp_path, text):
     (tmp_path / "campaign.toml").write_text(text, encoding="utf-8", newline="")
     told = ""
     try:

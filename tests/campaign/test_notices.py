@@ -1,7 +1,5 @@
 """What is accepted but not yet used is told once a key; what looks odd is told too."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

@@ -1,7 +1,5 @@
 """Names that refer to nothing and ids that clash, in campaigns whose values can all be read."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

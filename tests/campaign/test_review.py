@@ -1,7 +1,5 @@
 """What review.toml may say, and what is told where it says something else."""
 
-from __future__ import annotations
-
 import json
 import re
 import tomllib

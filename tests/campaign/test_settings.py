@@ -1,7 +1,5 @@
 """Every setting is listed with value, default, unit and what it does."""
 
-from __future__ import annotations
-
 from colonnade.campaign import Processing
 from colonnade.campaign.settings import NextSettings, settings
 

@@ -1,7 +1,5 @@
 """Setups: recorders with their clocks, options of file formats, angles in SI."""
 
-from __future__ import annotations
-
 from math import radians
 
 import pytest

@@ -1,7 +1,5 @@
 """Table 1 of the paper (solid steel models, 1:20), and measured values beside dimensions."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

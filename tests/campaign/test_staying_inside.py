@@ -1,7 +1,5 @@
 """Whatever a campaign names is taken from its own folder, also where a folder or file in it is a link to elsewhere."""
 
-from __future__ import annotations
-
 import shutil
 
 import pytest

@@ -1,7 +1,5 @@
 """A test of a campaign file: its raw files, its zero, its photos; what is wrong is said by its key; and motions."""
 
-from __future__ import annotations
-
 import pytest
 from pydantic import ValidationError
 

@@ -1,7 +1,5 @@
 """The laboratory's own test log: the same campaign as with [[tests]], and errors by row and column."""
 
-from __future__ import annotations
-
 import io
 import re
 import zipfile
@@ -28,19 +26,19 @@ ROWS = [
 ]
 
 
-def with_log(folder: Path, name: str, content: bytes):
+def with_log(folder, name, content):
     text = CONTRACT[: CONTRACT.index("[[tests]]")].replace("[specimens]", f'tests = "{name}"\n\n[specimens]', 1)
     (folder / "campaign.toml").write_text(text, encoding="utf-8")
     (folder / name).write_bytes(content)
     return load(folder)
 
 
-def table(delimiter: str, rows: list[list[str]]) -> str:
+def table(delimiter, rows):
     quoted = [[f'"{cell}"' if delimiter in cell else cell for cell in row] for row in rows]
     return "\n".join(delimiter.join(row) for row in quoted) + "\n"
 
 
-def workbook(rows: list[list[str]]) -> bytes:
+def workbook(rows):
     """Write a minimal xlsx: text as inline strings, numbers as numbers."""
     cells = []
     for row in rows:

@@ -1,7 +1,5 @@
 """Patterns of file names: what a name says, and which patterns are refused."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -18,7 +16,7 @@ NAMES = {
 }
 
 
-def test_a_name_gives_the_values_of_a_test() -> None:
+def test_a_name_gives_the_values_of_a_test():
     pattern = Pattern("{specimen}_{kind}_{frequency:Hz}Hz_{amplitude:g}g_{number}.csv")
     assert pattern.match("Cone-2_Sine_4,5Hz_0p25g_003.CSV", NAMES) == {
         "specimen": "cone-2",
@@ -30,11 +28,11 @@ def test_a_name_gives_the_values_of_a_test() -> None:
 
 
 @pytest.mark.parametrize("name", ["cone-free-.csv", "cube-free-1.csv", "cone-free-1.csv.bak", "cone-free-1e5.csv"])
-def test_a_name_that_does_not_fit_gives_nothing(name: str) -> None:
+def test_a_name_that_does_not_fit_gives_nothing(name):
     assert Pattern("{specimen}-{kind}-{number}.csv").match(name, NAMES) is None
 
 
-def test_signs_of_the_pattern_are_taken_as_they_are() -> None:
+def test_signs_of_the_pattern_are_taken_as_they_are():
     pattern = Pattern("run (a+b).{number}.csv")
     assert pattern.match("run (a+b).7.csv", NAMES) == {"number": "7"}
     assert pattern.match("run (aab).7.csv", NAMES) is None
@@ -54,12 +52,12 @@ def test_signs_of_the_pattern_are_taken_as_they_are() -> None:
         ("x" * 300, "At most 200"),
     ],
 )
-def test_a_wrong_pattern_is_refused_with_what_to_write(text: str, said: str) -> None:
+def test_a_wrong_pattern_is_refused_with_what_to_write(text, said):
     assert any(said in problem for problem in Pattern(text).problems())
 
 
 @given(st.text(max_size=60), st.text(max_size=60))
-def test_no_text_of_a_pattern_or_a_name_is_an_exception(text: str, name: str) -> None:
+def test_no_text_of_a_pattern_or_a_name_is_an_exception(text, name):
     pattern = Pattern(text)
     if not list(pattern.problems()):
         found = pattern.match(name, NAMES)
@@ -71,13 +69,13 @@ def test_no_text_of_a_pattern_or_a_name_is_an_exception(text: str, name: str) ->
     st.decimals(min_value=0, max_value=999, places=3),
     st.sampled_from(".,p"),
 )
-def test_what_is_written_into_a_name_is_read_from_it(specimen: str, frequency: object, sign: str) -> None:
+def test_what_is_written_into_a_name_is_read_from_it(specimen, frequency, sign):
     written = str(frequency).replace(".", sign)
     found = Pattern("{specimen}-{frequency:Hz}.csv").match(f"{specimen}-{written}.csv", NAMES)
     assert found == {"specimen": specimen, "frequency": f"{frequency} Hz"}
 
 
-def test_every_number_and_quantity_of_a_test_is_a_part_with_its_unit() -> None:
+def test_every_number_and_quantity_of_a_test_is_a_part_with_its_unit():
     forms = Test.forms()
     assert {"frequency", "amplitude", "span", "time_scale"} <= set(parts()) <= {*forms, "recorder", "number"}
     for key in set(parts()) & forms.keys():

@@ -1,7 +1,5 @@
 """Whole campaigns, from raw files to summary and report."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -15,7 +13,7 @@ from colonnade.store.layout import Layout
 class Outcome:
     """A campaign that was run: its summary, its results, its report."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder):
         self.folder = folder
         self.layout = Layout(folder)
         self.summary = json.loads(self.layout.summary_json.read_text(encoding="utf-8"))

@@ -1,7 +1,5 @@
 """A newcomer's way on whole folders: draft, fill in what is asked, run, and get what is true."""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil

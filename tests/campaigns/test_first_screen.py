@@ -1,7 +1,5 @@
 """Mistakes that people make: the first screen of `check`, and of `run`, gives the true cause before all else."""
 
-from __future__ import annotations
-
 import re
 import shutil
 

@@ -1,7 +1,5 @@
 """Nothing is said of sound tests, whatever the block, the rig, the motion and the noise."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.campaign import load

@@ -1,12 +1,9 @@
 """Commands, and a small campaign to run them on."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
 from collections.abc import Callable
-from pathlib import Path
 from typing import NamedTuple
 
 import pytest
@@ -59,14 +56,14 @@ Run = Callable[..., Told]
 
 
 @pytest.fixture
-def colonnade(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
+def colonnade(tmp_path, monkeypatch, capsys):
     """Run a command in this process, in a folder of its own."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "100")
     for pause in ("FIRST", "EVERY"):
         monkeypatch.setattr(progress, pause, float("inf"))  # a slow machine prints lines of progress
 
-    def run(*arguments: str) -> Told:
+    def run(*arguments):
         capsys.readouterr()
         return Told(invoke(arguments), *capsys.readouterr())
 
@@ -74,10 +71,10 @@ def colonnade(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Ca
 
 
 @pytest.fixture
-def process(tmp_path: Path) -> Run:
+def process(tmp_path):
     """Run a command in a process of its own, as a person or a script meets it."""
 
-    def run(*arguments: str, **environment: str) -> Told:
+    def run(*arguments, **environment):
         told = subprocess.run(
             [sys.executable, "-m", "colonnade", *arguments],
             cwd=tmp_path,
@@ -92,7 +89,7 @@ def process(tmp_path: Path) -> Run:
 
 
 @pytest.fixture
-def campaign(tmp_path: Path) -> Path:
+def campaign(tmp_path):
     """A campaign of two free vibrations, computed with e = 0.95, one file with commas and one with semicolons."""
     import numpy as np
 

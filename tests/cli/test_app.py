@@ -1,7 +1,5 @@
 """The group of all commands, and those that answer in few lines."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`colonnade calibrate` as a person meets it."""
 
-from __future__ import annotations
-
 import json
 
 CONTACT = """

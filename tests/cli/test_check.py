@@ -1,7 +1,5 @@
 """`colonnade check` tells everything at once and writes nothing."""
 
-from __future__ import annotations
-
 import json
 import re
 

@@ -1,7 +1,5 @@
 """`colonnade figure` draws one figure of stored results, with its data, or says why it cannot."""
 
-from __future__ import annotations
-
 import csv
 import json
 
@@ -15,7 +13,7 @@ def small(filled_campaign):
     return str(filled_campaign[0].folder)
 
 
-def heads(path) -> list[str]:
+def heads(path):
     with path.open(encoding="utf-8", newline="") as stream:
         return next(csv.reader(stream))
 

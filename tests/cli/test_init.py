@@ -1,7 +1,5 @@
 """`colonnade init` as a newcomer meets it: draft, fill in, check, run."""
 
-from __future__ import annotations
-
 import json
 import re
 

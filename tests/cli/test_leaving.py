@@ -1,7 +1,5 @@
 """How the command ends: its exit code, quietly where its reader goes away, and tidily where it is interrupted."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

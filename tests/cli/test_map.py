@@ -1,7 +1,5 @@
 """`colonnade map` as a person meets it: a table, the paths, and what to do where it cannot be."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

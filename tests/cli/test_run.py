@@ -1,7 +1,5 @@
 """`colonnade run` and the commands on its way: what they do, what they say, what they leave alone."""
 
-from __future__ import annotations
-
 import json
 import re
 import zipfile

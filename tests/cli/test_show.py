@@ -1,7 +1,5 @@
 """`colonnade show`: what is known before and after a run."""
 
-from __future__ import annotations
-
 import json
 import re
 

@@ -1,7 +1,5 @@
 """`colonnade spectrum`: with a campaign and without, and what it says where it cannot."""
 
-from __future__ import annotations
-
 import csv
 import json
 import math

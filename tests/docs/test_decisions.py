@@ -1,7 +1,5 @@
 """Decisions: one a number, none lost, and two that contradict each other name each other."""
 
-from __future__ import annotations
-
 import re
 
 from page_blocks import PROJECT

@@ -1,7 +1,5 @@
 """Every public name says what it is, in which units, and shows it with an example that doctest runs."""
 
-from __future__ import annotations
-
 import dataclasses
 import inspect
 import re
@@ -31,23 +29,23 @@ UNITS = re.compile(
 """A unit, or a word that says that there is none."""
 
 
-def sections(name: str):
+def sections(name):
     found = getattr(colonnade, name)
     return ClassDoc(found) if inspect.isclass(found) else FunctionDoc(found)
 
 
-def names_of(parameters) -> set[str]:
+def names_of(parameters):
     return {each.strip().lstrip("*") for one in parameters for each in one.name.split(",")}
 
 
-def without_unit(parameters) -> list[str]:
+def without_unit(parameters):
     """Numbers of which it is not said in which unit they are."""
     return [
         one.name for one in parameters if NUMBERS.search(one.type) and not UNITS.search(" ".join([one.type, *one.desc]))
     ]
 
 
-def members_of(name: str) -> dict[str, object]:
+def members_of(name):
     """Public methods and properties of a class, with those of its own bases."""
     found = getattr(colonnade, name)
     fields = {each.name for each in dataclasses.fields(found)} if dataclasses.is_dataclass(found) else set()

@@ -1,7 +1,5 @@
 """The explanation pages: the files that they name exist, and the figures of the verification page are the studies'."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

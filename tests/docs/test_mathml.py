@@ -1,7 +1,5 @@
 """Equations of the site: signs stay signs, names of functions have their space, and none is left as LaTeX."""
 
-from __future__ import annotations
-
 import re
 from xml.etree import ElementTree
 

@@ -1,9 +1,6 @@
 """What the pages of the documentation tell readers to type runs as it is printed; `page_blocks` says how."""
 
-from __future__ import annotations
-
 import shutil
-from pathlib import Path
 
 import pytest
 
@@ -21,12 +18,12 @@ BEGINNINGS = ("colonnade demo demo --short", "python recordings.py")
 def instead(made_once):
     """What many pages begin with is made by the first of them; the others get a copy."""
 
-    def copied(words: list[str], folder: Path) -> str | None:
+    def copied(words, folder):
         line = " ".join(words)
         if line not in BEGINNINGS:
             return None
 
-        def make(shared: Path) -> None:
+        def make(shared):
             (shared / "made").mkdir(parents=True)
             for script in folder.glob("*.py"):
                 shutil.copy(script, shared / "made")
@@ -47,7 +44,7 @@ def test_what_a_page_tells_readers_to_type_runs(page, instead, tmp_path):
     Reader(tmp_path, instead).follow(page)
 
 
-def page_with(folder: Path, text: str) -> Path:
+def page_with(folder, text):
     page = folder / "page.md"
     page.write_text(text, encoding="utf-8")
     return page

@@ -1,7 +1,5 @@
 """The generated reference names all that there is, once, with what it says."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

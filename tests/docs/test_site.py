@@ -1,7 +1,5 @@
 """The built site in a browser, from its folder: no complaint, no dead link, search, a telephone, paper."""
 
-from __future__ import annotations
-
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urldefrag
@@ -43,20 +41,20 @@ WIDER = """() => [...document.querySelectorAll('article *')].filter(element => {
 class Links(HTMLParser):
     """Ids of a page, and what it refers to."""
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text):
         super().__init__()
         self.ids: set[str] = set()
         self.targets: list[str] = []
         self.feed(text)
 
-    def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
+    def handle_starttag(self, tag, attributes):
         given = dict(attributes)
         self.ids |= {given[name] for name in ("id", "name") if given.get(name)}
         self.targets += [given[name] for name in ("href", "src") if given.get(name)]
 
 
 @pytest.fixture(scope="module")
-def pages() -> list[Path]:
+def pages():
     found = sorted(SITE.rglob("*.html"))
     assert found, "the site is not built: run `make docs`"
     return found

@@ -1,7 +1,5 @@
 """The tutorial's campaign.toml says what the draft of `init` says with its questions answered from the wiring sheet."""
 
-from __future__ import annotations
-
 import shutil
 
 import pytest

@@ -1,11 +1,9 @@
 """The drill: what a laboratory's machines do to a run. Its scripts are started as processes of their own."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +30,7 @@ SIZE = "20m"
 
 
 @pytest.fixture(scope="session")
-def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Any:
+def undisturbed(tmp_path_factory):
     """A campaign of three tests as one run in one process leaves it; it is only looked at."""
     folder = write_campaign(tmp_path_factory.mktemp("undisturbed") / "small", TESTS)
     with (folder / "campaign.toml").open("a", encoding="utf-8") as stream:
@@ -46,10 +44,10 @@ Copy = Callable[..., Any]
 
 
 @pytest.fixture
-def copied(undisturbed: Any) -> Copy:
+def copied(undisturbed):
     """Copy it to a folder, with its results or without."""
 
-    def copy(folder: Path, *, with_results: bool = False) -> Any:
+    def copy(folder, *, with_results=False):
         ignored = None if with_results else shutil.ignore_patterns("processed", "report")
         return Small(Path(shutil.copytree(undisturbed.folder, folder, ignore=ignored)))
 
@@ -60,10 +58,10 @@ Command = Callable[..., tuple[int, str]]
 
 
 @pytest.fixture
-def command(capfd: pytest.CaptureFixture[str]) -> Command:
+def command(capfd):
     """Run a command in this process; its exit code and all it said. An exception passes: it would be a traceback."""
 
-    def run(*arguments: object) -> tuple[int, str]:
+    def run(*arguments):
         capfd.readouterr()
         code = invoke([str(argument) for argument in arguments])
         told = capfd.readouterr()
@@ -74,7 +72,7 @@ def command(capfd: pytest.CaptureFixture[str]) -> Command:
 
 
 @pytest.fixture
-def small_disk(tmp_path: Path) -> Iterator[Path]:
+def small_disk(tmp_path):
     """A file system of 20 MB."""
     folder = tmp_path / "disk"
     folder.mkdir()
@@ -83,7 +81,7 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
     subprocess.run(["umount", folder], check=True, timeout=60)
 
 
-def mount(*arguments: object) -> None:
+def mount(*arguments):
     """Mount, or skip the test with the system's reason."""
     if shutil.which("mount") is None:
         pytest.skip("there is no command `mount` here")
@@ -95,10 +93,10 @@ def mount(*arguments: object) -> None:
 
 
 @pytest.fixture
-def read_only(tmp_path: Path, request: pytest.FixtureRequest) -> Callable[[Path], Path]:
+def read_only(tmp_path, request):
     """Copy a folder to where nothing may be written; the root user needs a file system for that."""
 
-    def lock(folder: Path) -> Path:
+    def lock(folder):
         if os.geteuid() == 0:
             disk = request.getfixturevalue("small_disk")
             inside = Path(shutil.copytree(folder, disk / folder.name))

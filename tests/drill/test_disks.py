@@ -1,11 +1,7 @@
 """A disk that fills and a folder that cannot be written: told in words, nothing half-written, taken up again."""
 
-from __future__ import annotations
-
 import random
 import shutil
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -19,8 +15,8 @@ there, and is then made anew."""
 
 
 def test_a_disk_that_fills_is_told_and_the_run_ends_after_room_was_made(
-    undisturbed: Any, copied: Any, command: Any, small_disk: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+    undisturbed, copied, command, small_disk, capfd
+):
     expected, summary, chance = undisturbed.contents(), undisturbed.summary(), random.Random(SEED)
     small, ballast = copied(small_disk / "small"), small_disk / "ballast"
     empty = shutil.disk_usage(small_disk).free
@@ -54,9 +50,7 @@ def test_a_disk_that_fills_is_told_and_the_run_ends_after_room_was_made(
 
 @pytest.mark.parametrize("has_results", [False, True], ids=["never run", "with results of another day"])
 @pytest.mark.parametrize("arguments", [("run",), ("run", "--from", "ingest"), ("ingest",), ("report",)])
-def test_a_folder_that_may_not_be_written_is_told(
-    copied: Any, command: Any, read_only: Any, tmp_path: Path, has_results: bool, arguments: tuple[str, ...]
-) -> None:
+def test_a_folder_that_may_not_be_written_is_told(copied, command, read_only, tmp_path, has_results, arguments):
     small = read_only(copied(tmp_path / "small", with_results=has_results).folder)
     before = set(small.rglob("*"))
     name, *rest = arguments
@@ -67,9 +61,7 @@ def test_a_folder_that_may_not_be_written_is_told(
     assert set(small.rglob("*")) == before
 
 
-def test_what_only_looks_works_where_nothing_may_be_written(
-    copied: Any, command: Any, read_only: Any, tmp_path: Path
-) -> None:
+def test_what_only_looks_works_where_nothing_may_be_written(copied, command, read_only, tmp_path):
     small = read_only(copied(tmp_path / "small", with_results=True).folder)
     for arguments in (("check", small), ("show", "tests", small), ("show", "specimens", small), ("show", "settings")):
         code, told = command(*arguments)
@@ -77,9 +69,7 @@ def test_what_only_looks_works_where_nothing_may_be_written(
 
 
 @pytest.mark.parametrize("name", ["init", "demo"])
-def test_a_new_campaign_where_nothing_may_be_written_is_refused(
-    copied: Any, command: Any, read_only: Any, tmp_path: Path, name: str
-) -> None:
+def test_a_new_campaign_where_nothing_may_be_written_is_refused(copied, command, read_only, tmp_path, name):
     small = read_only(copied(tmp_path / "small").folder / "raw")
     code, told = command(name, small if name == "init" else small / "demo")
     assert code == 1

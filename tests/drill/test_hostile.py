@@ -1,13 +1,10 @@
 """Five hundred damaged copies of each hostile file: nothing runs, nothing outside is read, and each comes to an end."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import random
 import time
 from collections import Counter
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -26,7 +23,7 @@ LONGEST = 10.0
 
 
 @pytest.mark.parametrize("name", list(hostile.FILES))
-def test_damaged_hostile_files_are_only_read(tmp_path: Path, name: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_damaged_hostile_files_are_only_read(tmp_path, name, capsys):
     hostile.secrets(tmp_path / "secrets")
     (tmp_path / "campaign").mkdir()
     place = hostile.Place(tmp_path / "campaign", tmp_path / "secrets", tmp_path / "made")
@@ -36,7 +33,7 @@ def test_damaged_hostile_files_are_only_read(tmp_path: Path, name: str, capsys: 
     secret = [*hostile.SECRET, *np.floor(hostile.SECRET)]
     with contextlib.suppress(ReadError):
         read(path, format, options, within=place.folder)  # what is imported for the first file does not count
-    seen: Counter[str] = Counter()
+    seen = Counter()
     slowest = 0.0
     for number in range(MUTATIONS):
         path.write_bytes(damage.damaged(content, kinds[number % len(kinds)], random.Random(f"{SEED} {name} {number}")))

@@ -1,7 +1,5 @@
 """Kills at random instants of a run on two workers: every file is whole, and the next run gives what it would have."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import random
@@ -12,9 +10,7 @@ import subprocess
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -38,7 +34,7 @@ SHARES = (3, 1, 1)
 class Victims:
     """Runs in processes of their own, prepared one after the other; see victim.py."""
 
-    def __init__(self, warming: Path, complaints: Path) -> None:
+    def __init__(self, warming, complaints):
         self.complaints, self.reason = complaints, ""
         with complaints.open("w", encoding="utf-8") as stderr:
             self.server = subprocess.Popen(
@@ -50,22 +46,22 @@ class Victims:
                 env={**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1"},
             )
 
-    def prepare(self, folder: Path, workers: int = 2) -> None:
+    def prepare(self, folder, workers=2):
         """Have a run get ready, while other things are done."""
         self.say(f"{folder}\t{workers}\n")
 
-    def begin(self) -> list[int]:
+    def begin(self):
         """Start it when it is ready; its process, then those of its workers."""
         processes = [int(number) for number in self.hear("ready").split()]
         self.reason = ""
         self.say("\n")
         return processes
 
-    def say(self, line: str) -> None:
+    def say(self, line):
         self.server.stdin.write(line)
         self.server.stdin.flush()
 
-    def hear(self, word: str) -> str:
+    def hear(self, word):
         """Wait for a line that starts so; return the rest of it."""
         for line in self.server.stdout:
             first, _, rest = line.strip().partition(" ")
@@ -75,20 +71,20 @@ class Victims:
             self.reason = rest
         raise AssertionError(self.complaints.read_text(encoding="utf-8"))
 
-    def close(self) -> None:
+    def close(self):
         self.server.stdin.close()
         self.server.wait(PATIENCE)
         self.server.stdout.close()
 
 
 @pytest.fixture
-def victims(copied: Any, tmp_path: Path) -> Iterator[Victims]:
+def victims(copied, tmp_path):
     served = Victims(copied(tmp_path / "warming").folder, tmp_path / "complaints.txt")
     yield served
     served.close()
 
 
-def is_there(process: int) -> bool:
+def is_there(process):
     """Whether a process still runs; one that only waits to be buried does not."""
     try:
         return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
@@ -96,14 +92,14 @@ def is_there(process: int) -> bool:
         return False
 
 
-def wait_for_the_end_of(processes: list[int]) -> None:
+def wait_for_the_end_of(processes):
     until = time.monotonic() + PATIENCE
     while any(map(is_there, processes)):
         assert time.monotonic() < until, f"still there: {[each for each in processes if is_there(each)]}"
         time.sleep(0.02)
 
 
-def pages(small: Any) -> dict[str, str]:
+def pages(small):
     """The report's files, but for the line that tells what a page was made from."""
     return {
         path.relative_to(small.folder).as_posix(): re.sub(
@@ -113,7 +109,7 @@ def pages(small: Any) -> dict[str, str]:
     }
 
 
-def expect_whole(small: Any, expected: dict[str, str], expected_pages: dict[str, str]) -> None:
+def expect_whole(small, expected, expected_pages):
     """Expect of what a kill left that every file is as it would have become."""
     assert small.contents().items() <= expected.items()
     assert pages(small).items() <= expected_pages.items()
@@ -121,12 +117,12 @@ def expect_whole(small: Any, expected: dict[str, str], expected_pages: dict[str,
         assert not text.exists() or text.read_text(encoding="utf-8").endswith("}\n")
 
 
-def clear(small: Any) -> None:
+def clear(small):
     for folder in (small.layout.processed, small.folder / "report"):
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def undisturbed_duration(small: Any, victims: Victims) -> float:
+def undisturbed_duration(small, victims):
     """Seconds that a run takes that is let alone."""
     clear(small)
     victims.prepare(small.folder)
@@ -137,14 +133,12 @@ def undisturbed_duration(small: Any, victims: Victims) -> float:
     return time.perf_counter() - began
 
 
-def test_after_each_kill_every_file_is_whole_and_the_next_run_ends_it(
-    undisturbed: Any, copied: Any, victims: Victims, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_after_each_kill_every_file_is_whole_and_the_next_run_ends_it(undisturbed, copied, victims, tmp_path, capsys):
     expected, expected_pages, summary = undisturbed.contents(), pages(undisturbed), undisturbed.summary()
     chance = random.Random(SEED)
     small = copied(tmp_path / "small")
-    durations: list[float] = []
-    fell: dict[str, Counter[str]] = {name: Counter() for name in KILLED}
+    durations = []
+    fell = {name: Counter() for name in KILLED}
     for number in range(KILLS):
         if number % ROUND == 0:
             durations.append(min(undisturbed_duration(small, victims) for _ in range(3)))

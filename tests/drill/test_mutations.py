@@ -1,7 +1,5 @@
 """Two thousand damaged files of all formats that are read here: read, warned of or refused, soon, and nothing else."""
 
-from __future__ import annotations
-
 import importlib.util
 import math
 import os
@@ -9,7 +7,6 @@ import subprocess
 import sys
 from collections import Counter
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 
@@ -22,7 +19,7 @@ OUTCOMES = ("read", "warned", "refused", "caught")
 """Caught is a refusal that the registry made of a parser's exception."""
 
 
-def whole_files() -> ModuleType:
+def whole_files():
     """The script of that name; this folder is no package."""
     spec = importlib.util.spec_from_file_location("whole_files", HERE / "whole_files.py")
     assert spec is not None
@@ -32,7 +29,7 @@ def whole_files() -> ModuleType:
     return module
 
 
-def read_all(file: Path, format: str, count: int, by_kind: Counter[tuple[str, str]]) -> list[str]:
+def read_all(file, format, count, by_kind):
     """Read so many damaged copies, counting what came of them; return the findings."""
     findings = []
     first = 0
@@ -62,7 +59,7 @@ def read_all(file: Path, format: str, count: int, by_kind: Counter[tuple[str, st
     return findings
 
 
-def table(counts: Counter[tuple[str, str]], title: str) -> str:
+def table(counts, title):
     columns = (*OUTCOMES, "finding")
     rows = [f"{title:22s}" + "".join(f"{column:>9s}" for column in columns)]
     for name in dict.fromkeys(name for name, _ in counts):
@@ -71,14 +68,14 @@ def table(counts: Counter[tuple[str, str]], title: str) -> str:
     return "\n".join(rows)
 
 
-def test_damaged_files_are_read_or_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_damaged_files_are_read_or_refused(tmp_path, capsys):
     files = whole_files()
     written = files.write(tmp_path)
-    by_kind: Counter[tuple[str, str]] = Counter()
-    by_name: Counter[tuple[str, str]] = Counter()
+    by_kind = Counter()
+    by_name = Counter()
     findings = []
     for name, path in written.items():
-        seen: Counter[tuple[str, str]] = Counter()
+        seen = Counter()
         findings += read_all(path, files.format_of(name), math.ceil(MUTATIONS / len(written)), seen)
         by_kind += seen
         for (_, outcome), count in seen.items():

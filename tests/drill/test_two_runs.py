@@ -1,14 +1,10 @@
 """Two runs of a campaign at once: one works, the other is refused and told by whom, and nothing is damaged."""
 
-from __future__ import annotations
-
 import random
 import shutil
 import subprocess
 import sys
 import time
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -18,7 +14,7 @@ ROUNDS = 5
 SEED = 3
 
 
-def started(folder: Path) -> subprocess.Popen[str]:
+def started(folder):
     """A run, as from a terminal."""
     return subprocess.Popen(
         [sys.executable, "-m", "colonnade", "run", str(folder), "--workers", "2"],
@@ -28,9 +24,7 @@ def started(folder: Path) -> subprocess.Popen[str]:
     )
 
 
-def test_of_two_runs_at_once_one_works_and_the_other_is_refused(
-    undisturbed: Any, copied: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_of_two_runs_at_once_one_works_and_the_other_is_refused(undisturbed, copied, tmp_path, capsys):
     expected, summary, chance = undisturbed.contents(), undisturbed.summary(), random.Random(SEED)
     refused = 0
     for number in range(ROUNDS):

@@ -1,7 +1,5 @@
 """A watch while files arrive as recorders write them: each gets its line soon, nothing is lost, memory stays."""
 
-from __future__ import annotations
-
 import json
 import os
 import random
@@ -11,7 +9,6 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -37,7 +34,7 @@ PATIENCE = 180.0
 class Watch:
     """A watch in a process of its own, and the lines that it gives."""
 
-    def __init__(self, folder: Path, *, polled: bool = False) -> None:
+    def __init__(self, folder, *, polled=False):
         self.lines: list[tuple[float, dict[str, Any]]] = []
         self.process = subprocess.Popen(
             [sys.executable, str(Path(__file__).with_name("watcher.py")), str(folder), str(int(polled))],
@@ -47,7 +44,7 @@ class Watch:
         )
         threading.Thread(target=self._read, daemon=True).start()
 
-    def _read(self) -> None:
+    def _read(self):
         assert self.process.stdout is not None
         for line in self.process.stdout:
             told = json.loads(line)
@@ -55,11 +52,11 @@ class Watch:
                 self.lines.append((time.time(), told))
 
     @property
-    def last(self) -> dict[str, dict[str, Any]]:
+    def last(self):
         """The last line of each test."""
         return {line["test"]: line for _, line in self.lines}
 
-    def first_after(self, closed: dict[str, float]) -> dict[str, float]:
+    def first_after(self, closed):
         """When the first line came on each file that was closed, if it came."""
         found: dict[str, float] = {}
         for at, line in self.lines:
@@ -68,7 +65,7 @@ class Watch:
         return found
 
     @property
-    def memory(self) -> float:
+    def memory(self):
         """MB that the process holds."""
         for line in Path(f"/proc/{self.process.pid}/status").read_text().splitlines():
             if line.startswith("VmRSS"):
@@ -76,12 +73,12 @@ class Watch:
         return float("nan")
 
     @property
-    def processor_time(self) -> float:
+    def processor_time(self):
         """Seconds of processor time of the process."""
         parts = Path(f"/proc/{self.process.pid}/stat").read_text().rpartition(")")[2].split()
         return (int(parts[11]) + int(parts[12])) / os.sysconf("SC_CLK_TCK")
 
-    def wait_for(self, tests: set[str]) -> None:
+    def wait_for(self, tests):
         until = time.monotonic() + PATIENCE
         while not tests <= self.last.keys():
             assert time.monotonic() < until, f"no line on {sorted(tests - self.last.keys())[:5]}"
@@ -89,7 +86,7 @@ class Watch:
 
 
 @contextmanager
-def watching(folder: Path, *, polled: bool = False) -> Iterator[Watch]:
+def watching(folder, *, polled=False):
     watch = Watch(folder, polled=polled)
     try:
         yield watch
@@ -102,7 +99,7 @@ def watching(folder: Path, *, polled: bool = False) -> Iterator[Watch]:
             raise
 
 
-def begun(folder: Path) -> Path:
+def begun(folder):
     """A campaign with two tests that have been run; its folder."""
     (folder / "raw").mkdir(parents=True)
     (folder / "campaign.toml").write_text(deliveries.CAMPAIGN, encoding="utf-8")
@@ -113,10 +110,10 @@ def begun(folder: Path) -> Path:
     return folder
 
 
-def deliver(folder: Path, count: int, chance: random.Random) -> tuple[dict[str, float], set[str]]:
+def deliver(folder, count, chance):
     """Put files into the raw folder in various ways; when each was closed for the last time, and which are broken."""
-    closed: dict[str, float] = {}
-    broken: set[str] = set()
+    closed = {}
+    broken = set()
     threads = []
     for number in range(count):
         kind, suffix = chance.choice(["free", "pulse"]), deliveries.SUFFIXES[number % 4]
@@ -127,7 +124,7 @@ def deliver(folder: Path, count: int, chance: random.Random) -> tuple[dict[str, 
             data, way = BROKEN, deliveries.whole
             broken.add(name)
 
-        def one(path: Path = path, data: bytes = data, way: Any = way, name: str = name, seed: int = number) -> None:
+        def one(path=path, data=data, way=way, name=name, seed=number):
             way(path, data, random.Random(seed))
             closed[name] = time.time()
 
@@ -141,9 +138,7 @@ def deliver(folder: Path, count: int, chance: random.Random) -> tuple[dict[str, 
 
 
 @pytest.mark.parametrize("polled", [False, True], ids=["events", "polled"])
-def test_files_that_arrive_in_all_ways_get_their_lines(
-    polled: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_files_that_arrive_in_all_ways_get_their_lines(polled, tmp_path, capsys):
     folder, chance = begun(tmp_path / "campaign"), random.Random(SEED)
     with watching(folder, polled=polled) as watch:
         time.sleep(10)
@@ -178,7 +173,7 @@ def test_files_that_arrive_in_all_ways_get_their_lines(
     assert idle < 0.01
 
 
-def is_all_done(folder: Path, closed: dict[str, float], broken: set[str]) -> bool:
+def is_all_done(folder, closed, broken):
     try:
         summary = json.loads((folder / "processed" / "summary.json").read_text(encoding="utf-8"))
     except OSError:
@@ -187,7 +182,7 @@ def is_all_done(folder: Path, closed: dict[str, float], broken: set[str]) -> boo
     return all(states.get(name) == ("failed" if name in broken else "done") for name in closed)
 
 
-def test_memory_is_steady_over_many_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_memory_is_steady_over_many_files(tmp_path, capsys):
     folder = begun(tmp_path / "campaign")
     data = deliveries.content(deliveries.record("pulse", 2, 200.0, 4.0), "csv", folder)
     with watching(folder) as watch:
@@ -202,7 +197,7 @@ def test_memory_is_steady_over_many_files(tmp_path: Path, capsys: pytest.Capture
     assert memory[-1] < memory[1] + 60
 
 
-def test_nothing_is_lost_when_the_watch_is_killed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_nothing_is_lost_when_the_watch_is_killed(tmp_path, capsys):
     folder, chance = begun(tmp_path / "campaign"), random.Random(SEED)
     data = {
         kind: deliveries.content(deliveries.record(kind, 1, 200.0, 6.0), "csv", folder) for kind in ("free", "pulse")

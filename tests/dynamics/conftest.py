@@ -1,13 +1,9 @@
 """Closed forms to hold the engines against."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import atan2, cosh, pi, sinh, sqrt, tan
 
 import pytest
-
-from colonnade.dynamics.block import Block
 
 
 @dataclass(frozen=True)
@@ -27,9 +23,7 @@ class SymmetricResponse:
     velocity: float
 
 
-def _symmetric_responses(
-    block: Block, *, frequency_ratio: float, amplitude_ratio: float, restitution: float
-) -> list[SymmetricResponse]:
+def _symmetric_responses(block, *, frequency_ratio, amplitude_ratio, restitution):
     """
     Symmetric harmonic responses of the linear model in closed form, stable or not, the larger velocity first.
 

@@ -1,7 +1,5 @@
 """Lengths in other units than metres show in the density of a block."""
 
-from __future__ import annotations
-
 import warnings
 from math import pi
 

@@ -1,7 +1,5 @@
 """Outcome, peaks and energy of a history that is written by hand."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import cos, nan
 

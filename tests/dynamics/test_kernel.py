@@ -1,7 +1,5 @@
 """Machine code is kept between processes, follows every source that it is made of, and needs no folder."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
@@ -40,7 +38,7 @@ print(value, sum(raised.stats.cache_hits.values()), sum(raised.stats.cache_misse
 
 
 @pytest.fixture
-def package(tmp_path: Path) -> Path:
+def package(tmp_path):
     """A package of two kernels in two files, a constant in a third, and the house's own `kernel`."""
     folder = tmp_path / "source" / "colonnade" / "dynamics"
     folder.mkdir(parents=True)
@@ -53,7 +51,7 @@ def package(tmp_path: Path) -> Path:
     return folder
 
 
-def asked(package: Path, **environment: str) -> tuple[float, int, int]:
+def asked(package, **environment):
     """Value, cache hits and misses in a process of its own."""
     code = f"import sys; sys.path.insert(0, {str(package.parents[1])!r}){ASKED}"
     plain = {key: value for key, value in os.environ.items() if key not in ("NUMBA_CACHE_DIR", "PYTHONPATH")}
@@ -64,7 +62,7 @@ def asked(package: Path, **environment: str) -> tuple[float, int, int]:
     return float(value), int(hits), int(misses)
 
 
-def folders(place: Path) -> list[Path]:
+def folders(place):
     return sorted(place.glob(kernel.FOLDER + "*"))
 
 
@@ -88,7 +86,7 @@ def test_without_any_folder_each_process_compiles(package, tmp_path):
     assert not folders(tmp_path)
 
 
-def found(monkeypatch: pytest.MonkeyPatch, *places: Path) -> Path | None:
+def found(monkeypatch, *places):
     monkeypatch.setattr(kernel, "_places", lambda: iter(places))
     return kernel._cache_folder.__wrapped__()
 

@@ -1,7 +1,5 @@
 """Kinematics, motions and similitude."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """The rocking angle alone: measured and predicted in one panel, over the time that they have."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

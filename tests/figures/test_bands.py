@@ -1,7 +1,5 @@
 """The band figure shades what the runs hold and draws the measured angle over it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

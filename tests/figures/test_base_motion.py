@@ -1,7 +1,5 @@
 """The motion of a table against its target: with a target three panels, without one two."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Channels as recorded: both scales, flags, spikes enlarged, spectra; and that nothing grows without bound."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

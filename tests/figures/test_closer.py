@@ -1,7 +1,5 @@
 """Phase portrait and enlarged part: what is drawn, and that cycles on each other are one line."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from colonnade.figures.closer import Enlarged, Phase, closer_look

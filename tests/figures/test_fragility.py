@@ -1,7 +1,5 @@
 """Curves of overturning, and columns that stand or lie."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

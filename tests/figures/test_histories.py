@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from matplotlib.colors import to_hex
@@ -13,11 +11,11 @@ from colonnade.figures.style import MEASURED, model_style
 TIME = np.linspace(0.0, 10.0, 2001)
 
 
-def swing(amplitude: float) -> Curve:
+def swing(amplitude):
     return Curve(TIME, amplitude * np.sin(2 * np.pi * TIME))
 
 
-def drawn(measured: Curve | None, predicted: dict[str, Curve], limit: float = 0.5, **options):
+def drawn(measured, predicted, limit=0.5, **options):
     axes = Figure().subplots()
     draw_angle(axes, measured, predicted, limit, **options)
     return axes

@@ -4,8 +4,6 @@ How figures look, against pictures that were looked at: one of each family, draw
 `pytest tests/figures/test_looks.py --mpl-generate-path=tests/figures/baseline` draws the pictures anew; look at them.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The moving block turns about the pole that it rocks about, rides on its base, and ends in bounded time."""
 
-from __future__ import annotations
-
 from math import atan2, hypot
 
 import numpy as np
@@ -44,7 +42,7 @@ def test_a_positive_angle_moves_the_top_to_plus_x():
     assert turned[0, 1] > 0  # the other end of the base lifts
 
 
-def movie(duration: float, base: Curve | None = None):
+def movie(duration, base=None):
     time = np.linspace(0.0, duration, 2000)
     angles = {"measured": Curve(time, 0.1 * np.sin(time)), "linear": Curve(time, 0.1 * np.cos(time))}
     return rocking_block(angles, BODY, base, title="one", description="two")

@@ -1,7 +1,5 @@
 """Each kind of result is drawn into axes that are given back; a history can be animated; results show themselves."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from matplotlib import pyplot

@@ -1,8 +1,5 @@
-from __future__ import annotations
-
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.figures import Curve, Peak, Quantity, whole_record
@@ -12,15 +9,15 @@ from colonnade.figures.style import styled
 TIME = np.linspace(0.0, 10.0, 2001)
 
 
-def swing(amplitude: float) -> Curve:
+def swing(amplitude):
     return Curve(TIME, amplitude * np.sin(2 * np.pi * TIME))
 
 
-def labels(figure: Figure) -> list[str]:
+def labels(figure):
     return [axes.get_ylabel().replace("\n", " ") for axes in figure.axes]
 
 
-def whole(**options) -> Figure:
+def whole(**options):
     return whole_record(swing(0.4), {"linear": swing(0.3)}, **options)
 
 

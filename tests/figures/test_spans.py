@@ -1,9 +1,6 @@
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from matplotlib.colors import to_hex
-from matplotlib.figure import Figure
 
 from colonnade.figures import Curve, SpanPanel, spans_side_by_side
 from colonnade.figures.style import model_style
@@ -11,18 +8,18 @@ from colonnade.figures.style import model_style
 TIME = np.linspace(0.0, 10.0, 2001)
 
 
-def swing(amplitude: float) -> Curve:
+def swing(amplitude):
     return Curve(TIME, amplitude * np.sin(2 * np.pi * TIME))
 
 
-def panels(count: int = 3, models: tuple[str, ...] = ("linear", "nonlinear"), base: bool = True) -> list[SpanPanel]:
+def panels(count=3, models=("linear", "nonlinear"), base=True):
     return [
         SpanPanel(f"Span {k}", swing(0.1 * k), {model: swing(0.12 * k) for model in models}, swing(k) if base else None)
         for k in range(1, count + 1)
     ]
 
 
-def titles(figure: Figure) -> list[str]:
+def titles(figure):
     return [axes.get_title(loc="left") for axes in figure.axes if axes.get_title(loc="left")]
 
 

@@ -1,7 +1,5 @@
 """A block that moves, and what its transducers read: written for the tests alone, with nothing of the package in it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.optimize import brentq

@@ -1,7 +1,5 @@
 """What is no free rocking of this block yields no restitution, but a reason."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings

@@ -1,7 +1,5 @@
 """e of a simulation that knows of no e: MuJoCo's block on a stiff floor, against its own velocities at the impacts."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise

@@ -11,7 +11,7 @@ from colonnade.readers.registry import read
 FORMATS = [pytest.param(Tdms(), "V", id="TDMS"), pytest.param(Matlab(), None, id="MATLAB")]
 
 
-def sheet() -> Sheet:
+def sheet():
     clock = np.arange(1000) / 400.0
     columns = {"lvdt_top": ("V", np.sin(clock)), "table_acc": ("V", np.cos(3 * clock))}
     return Sheet(clock, 400.0, columns, np.datetime64("2013-05-14T09:00:00", "us"))

@@ -14,7 +14,7 @@ LVDT = Transducer("top", "LVDT 1", "displacement", "specimen", 0.150, "mm", at=(
 PERFECT = Imperfections(noise=0.0, drift=0.0, zero=0.0)
 
 
-def rotated(point: complex, pole: complex, angle: float) -> complex:
+def rotated(point, pole, angle):
     """Rotate a point x + i z about a pole; about +y, positive angles take the top to +x, so turn clockwise."""
     return pole + (point - pole) * np.exp(-1j * angle)
 

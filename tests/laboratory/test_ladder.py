@@ -10,7 +10,7 @@ from colonnade.laboratory.programme import CYCLES, LADDERS, LASTING, MARGIN, RAM
 RUNGS = [(name, frequency) for name, steps in LADDERS.items() for frequency in steps]
 
 
-def outcomes(name: str, frequency: float, looks: int, samples_per_cycle: int) -> list[set[str]]:
+def outcomes(name, frequency, looks, samples_per_cycle):
     """Outcomes around each step, by the nonlinear model: not the integrator that makes the truth."""
     specimen, steps = SPECIMENS[name], LADDERS[name]
     placed = Placed(name, specimen.block, "bench", "table")
@@ -19,7 +19,7 @@ def outcomes(name: str, frequency: float, looks: int, samples_per_cycle: int) ->
     dt = 1 / (frequency * samples_per_cycle)
     unit = table.acceleration(np.arange(0.0, table.stop + 1.0, dt))
 
-    def outcome(amplitude: float) -> str:
+    def outcome(amplitude):
         motion = Motion(amplitude * unit, dt)
         return rock(specimen.block, motion, restitution=specimen.restitution, model="nonlinear").outcome
 

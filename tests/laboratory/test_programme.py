@@ -10,7 +10,7 @@ import pytest
 from colonnade import campaign
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import ReadError
-from colonnade.laboratory.experiment import TESTS_A_DAY, Plan, begun
+from colonnade.laboratory.experiment import TESTS_A_DAY, begun
 from colonnade.laboratory.programme import (
     QUIET,
     RELEASES,
@@ -109,7 +109,7 @@ def test_tests_follow_each_other_on_working_days_between_nine_and_four():
 
 
 @pytest.fixture(scope="module")
-def plan() -> Plan:
+def plan():
     return paper_programme("a wave", RECORD, seed=3)
 
 

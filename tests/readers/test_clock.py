@@ -1,7 +1,5 @@
 """Clocks of text files that are called otherwise, or not at all; and those of vectors in structs."""
 
-from __future__ import annotations
-
 from datetime import datetime
 from pathlib import Path
 
@@ -17,17 +15,17 @@ from colonnade.readers.registry import read
 from every import every
 
 
-def recorded(folder: Path, text: str) -> Recording:
+def recorded(folder, text):
     path = folder / "record.txt"
     path.write_text(text)
     return read(path)
 
 
-def rows(times: np.ndarray, form: str = "{:.4f}") -> str:
+def rows(times, form="{:.4f}"):
     return "".join(f"{form.format(time)}\t{np.sin(7 * time):.5f}\t{np.cos(5 * time):.5f}\n" for time in times)
 
 
-def test_the_time_of_a_graph_that_labview_exported_is_the_clock(tmp_path: Path) -> None:
+def test_the_time_of_a_graph_that_labview_exported_is_the_clock(tmp_path):
     head = "Time [ms] - Plot 0\tAmplitude [mm] - Plot 0\tAmplitude [g] - Plot 1\n"
     recording = recorded(tmp_path, head + rows(5.0 * np.arange(50)))
     clock, first, second = recording.channels
@@ -39,9 +37,7 @@ def test_the_time_of_a_graph_that_labview_exported_is_the_clock(tmp_path: Path) 
 
 @every("head", ["", "\ttop\tbottom\n"])
 @every(("rate", "form"), [(200.0, "{:.4f}"), (600.0, "{:.3f}")])
-def test_a_first_column_without_a_name_that_rises_in_equal_steps_is_the_clock(
-    tmp_path: Path, head: str, rate: float, form: str
-) -> None:
+def test_a_first_column_without_a_name_that_rises_in_equal_steps_is_the_clock(tmp_path, head, rate, form):
     times = 3.0 + np.arange(100) / rate
     recording = recorded(tmp_path, head + rows(times, form))
     assert recording.channels[0].is_clock
@@ -58,11 +54,11 @@ def test_a_first_column_without_a_name_that_rises_in_equal_steps_is_the_clock(
         pytest.param(-0.01 * np.arange(60), id="falling"),
     ],
 )
-def test_what_may_be_something_else_is_not_taken_for_a_clock(tmp_path: Path, times: np.ndarray) -> None:
+def test_what_may_be_something_else_is_not_taken_for_a_clock(tmp_path, times):
     assert not any(channel.is_clock for channel in recorded(tmp_path, rows(times)).channels)
 
 
-def test_a_first_column_with_a_name_is_what_its_name_says(tmp_path: Path) -> None:
+def test_a_first_column_with_a_name_is_what_its_name_says(tmp_path):
     assert not any(
         channel.is_clock for channel in recorded(tmp_path, "ramp\ttop\tx\n" + rows(np.arange(60) / 200)).channels
     )
@@ -80,7 +76,7 @@ VECTORS = Recording(
 )
 
 
-def test_the_clock_that_was_named_is_that_of_all_as_long_as_it() -> None:
+def test_the_clock_that_was_named_is_that_of_all_as_long_as_it():
     clocks = given_clock(VECTORS, "t", "ms")
     clock, top, other, _ = clocks.applied(VECTORS).channels
     assert clock.is_clock
@@ -90,7 +86,7 @@ def test_the_clock_that_was_named_is_that_of_all_as_long_as_it() -> None:
     assert clocks.warnings == ('2 channels are not as long as "t": no clock',)
 
 
-def test_a_clock_without_a_number_is_refused() -> None:
+def test_a_clock_without_a_number_is_refused():
     with pytest.raises(ReadError, match=r'a.mat: column "off" holds no number, so it cannot be the clock. Name a col'):
         given_clock(VECTORS, "off", None)
 
@@ -98,9 +94,7 @@ def test_a_clock_without_a_number_is_refused() -> None:
 @given(
     begin=some.floats(-1e3, 1e3), step=some.floats(1e-4, 10), count=some.integers(2, 200), off=some.floats(-0.4, 0.4)
 )
-def test_times_in_equal_steps_have_a_step_within_their_rounding(
-    begin: float, step: float, count: int, off: float
-) -> None:
+def test_times_in_equal_steps_have_a_step_within_their_rounding(begin, step, count, off):
     times = begin + step * np.arange(count)
     assert equal_step(times, 1e-3) == pytest.approx(step, rel=1e-3)
     assert rising_share(times) == 1
@@ -111,11 +105,11 @@ def test_times_in_equal_steps_have_a_step_within_their_rounding(
 
 
 @every("values", [[], [1.0], [0, 1, np.nan], [0, 1, 1], [0, 2, 1], [0, 1, np.inf]])
-def test_what_does_not_rise_in_equal_steps_has_no_step(values: list[float]) -> None:
+def test_what_does_not_rise_in_equal_steps_has_no_step(values):
     assert equal_step(np.array(values), 0.1) is None
 
 
-def test_a_column_that_may_be_a_clock_is_hinted_at() -> None:
+def test_a_column_that_may_be_a_clock_is_hinted_at():
     assert 'set time = "x" if that is one: it rises in equal steps of 2' in may_be_clock("x", np.arange(9) * 2.0)
     assert may_be_clock("x", np.arange(9.0) ** 2) == ""
 
@@ -124,7 +118,7 @@ RISING = np.arange(20) / 10
 SIGNAL = np.sin(np.arange(20.0))
 
 
-def vectors(**values: np.ndarray) -> list[RecordedChannel]:
+def vectors(**values):
     """Vectors by their paths, with double lines for points; each is in the structs that its path names."""
     paths = {name.replace("__", "."): each for name, each in values.items()}
     return [
@@ -133,33 +127,33 @@ def vectors(**values: np.ndarray) -> list[RecordedChannel]:
 
 
 @every("name", ["t", "Time", "tMeas", "time_vec", "t_s", "simtime", "xTime"])
-def test_a_rising_vector_with_a_name_of_times_is_the_clock(name: str) -> None:
+def test_a_rising_vector_with_a_name_of_times_is_the_clock(name):
     clocks = find_vector_clocks(vectors(**{name: RISING, "top": SIGNAL}), {})
     assert clocks.columns == {0}
     np.testing.assert_allclose(clocks.times[1], RISING)
 
 
 @every(("name", "unit", "factor"), [("t_ms", None, 1e-3), ("t", "ms", 1e-3), ("t", None, 1.0)])
-def test_its_unit_is_given_or_at_the_end_of_its_name(name: str, unit: str | None, factor: float) -> None:
+def test_its_unit_is_given_or_at_the_end_of_its_name(name, unit, factor):
     clocks = find_vector_clocks(vectors(**{name: RISING, "top": SIGNAL}), {}, unit)
     np.testing.assert_allclose(clocks.times[1], factor * RISING)
 
 
-def test_each_struct_goes_by_its_own_clock_else_by_that_around_it() -> None:
+def test_each_struct_goes_by_its_own_clock_else_by_that_around_it():
     structs = vectors(t=RISING, a__top=SIGNAL, b__t=2 * RISING, b__top=SIGNAL, b__c__top=SIGNAL)
     found = find_vector_clocks(structs, {})
     last = [None if time is None else float(time[-1]) for time in found.times]
     assert last == [1.9, 1.9, 3.8, 3.8, 3.8]
 
 
-def test_a_clock_that_goes_back_is_not_used_and_that_is_said() -> None:
+def test_a_clock_that_goes_back_is_not_used_and_that_is_said():
     clocks = find_vector_clocks(vectors(t=SIGNAL, top=SIGNAL), {})
     assert clocks.columns == frozenset()
     assert clocks.warnings[0].startswith('"t" looks like a clock, but only')
     assert clocks.times == (None, None)
 
 
-def test_days_of_matlabs_calendar_are_a_date() -> None:
+def test_days_of_matlabs_calendar_are_a_date():
     noon = 735_350.5  # 2013-04-26 12:00
     clocks = find_vector_clocks(vectors(t=noon + RISING / 86400, top=SIGNAL), {})
     assert clocks.start == datetime(2013, 4, 26, 12)
@@ -167,16 +161,16 @@ def test_days_of_matlabs_calendar_are_a_date() -> None:
 
 
 @every("scalars", [{"dt": 0.1}, {"run.Fs": 10.0}, {"sample_rate": 10.0}, {"dt": 0.1, "fs": 10.0}])
-def test_without_a_vector_a_constant_step_is_taken_by_its_name(scalars: dict[str, float]) -> None:
+def test_without_a_vector_a_constant_step_is_taken_by_its_name(scalars):
     (time,) = find_vector_clocks(vectors(top=SIGNAL), scalars).times
     np.testing.assert_allclose(time, RISING, atol=1e-12)
 
 
-def test_steps_that_contradict_each_other_are_not_used() -> None:
+def test_steps_that_contradict_each_other_are_not_used():
     clocks = find_vector_clocks(vectors(top=SIGNAL), {"dt": 0.1, "fs": 200.0})
     assert clocks.times == (None,)
     assert clocks.notes == ("no clock: the step is not clear (dt says 0.1 s, fs says 0.005 s); give sampling_rate",)
 
 
-def test_a_vector_that_rises_evenly_by_another_name_is_hinted_at() -> None:
+def test_a_vector_that_rises_evenly_by_another_name_is_hinted_at():
     assert 'set time = "x" if that is one' in find_vector_clocks(vectors(top=SIGNAL, x=RISING), {}).notes[0]

@@ -1,10 +1,5 @@
 """Raw files that are in several files: these are found beside the first, and nowhere else."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import pytest
 
 from colonnade.errors import ReadError
@@ -13,8 +8,8 @@ from every import every
 
 
 def test_the_values_of_a_diadem_header_are_found_and_named_where_they_are_missing(
-    written: Callable[..., Path],
-) -> None:
+    written,
+):
     path = written("diadem")
     assert companions(path) == (path.with_suffix(".tdx"),)
     path.with_suffix(".tdx").unlink()
@@ -23,7 +18,7 @@ def test_the_values_of_a_diadem_header_are_found_and_named_where_they_are_missin
         read(path)
 
 
-def test_values_that_are_a_link_out_of_the_campaign_are_refused(written: Callable[..., Path], tmp_path: Path) -> None:
+def test_values_that_are_a_link_out_of_the_campaign_are_refused(written, tmp_path):
     path = written("diadem")
     values = path.with_suffix(".tdx")
     outside = tmp_path.parent / f"{tmp_path.name}-outside"
@@ -41,7 +36,7 @@ def test_values_that_are_a_link_out_of_the_campaign_are_refused(written: Callabl
 
 
 @every("format", ["tdms", "famos", "catman", "delimited"])
-def test_a_file_that_is_whole_has_no_companions(written: Callable[..., Path], format: str, tmp_path: Path) -> None:
+def test_a_file_that_is_whole_has_no_companions(written, format, tmp_path):
     path = tmp_path / "r.csv"
     path.write_text("a,b\n1,2\n3,4\n")
     assert companions(path, format) == ()

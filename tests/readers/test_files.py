@@ -1,7 +1,5 @@
 """What a path leads to, what it hashes to, and what is said of one that cannot be opened."""
 
-from __future__ import annotations
-
 import errno
 import os
 from pathlib import Path
@@ -13,7 +11,7 @@ from colonnade.readers.files import in_one_line, irregular, refusing, sha256_of
 from every import every
 
 
-def test_folders_pipes_and_devices_are_named(tmp_path: Path) -> None:
+def test_folders_pipes_and_devices_are_named(tmp_path):
     assert irregular(tmp_path) == "a folder"
     if not hasattr(os, "mkfifo"):
         pytest.skip("this system has no named pipes")
@@ -22,26 +20,26 @@ def test_folders_pipes_and_devices_are_named(tmp_path: Path) -> None:
     assert irregular(Path(os.devnull)) == "a device"
 
 
-def test_a_file_and_what_is_missing_are_not(tmp_path: Path) -> None:
+def test_a_file_and_what_is_missing_are_not(tmp_path):
     (tmp_path / "a.csv").write_text("1\n")
     assert irregular(tmp_path / "a.csv") == ""
     assert irregular(tmp_path / "b.csv") == ""
 
 
-def test_the_hash_is_that_of_the_content(tmp_path: Path) -> None:
+def test_the_hash_is_that_of_the_content(tmp_path):
     (tmp_path / "a.csv").write_bytes(b"abc")
     # The SHA-256 of "abc": FIPS 180-2, B.1.
     expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
     assert sha256_of(tmp_path / "a.csv") == expected
 
 
-def test_what_is_missing_or_no_file_has_none(tmp_path: Path) -> None:
+def test_what_is_missing_or_no_file_has_none(tmp_path):
     assert sha256_of(tmp_path / "missing.csv") is None
     assert sha256_of(tmp_path) is None
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
-def test_a_pipe_is_not_opened(tmp_path: Path) -> None:
+def test_a_pipe_is_not_opened(tmp_path):
     os.mkfifo(tmp_path / "pipe")  # opening it would wait for a writer for ever
     assert sha256_of(tmp_path / "pipe") is None
 
@@ -63,7 +61,7 @@ PATH = Path("raw/free-01.tdms")
         (FileNotFoundError(errno.ENOENT, "x"), "there is no such file"),
     ],
 )
-def test_what_a_parser_raises_becomes_a_message_of_what_to_do(error: Exception, told: str) -> None:
+def test_what_a_parser_raises_becomes_a_message_of_what_to_do(error, told):
     with pytest.raises(ReadError) as refused, refusing(PATH, '"tdms"'):
         raise error
     assert str(refused.value).startswith("free-01.tdms: ")
@@ -73,11 +71,11 @@ def test_what_a_parser_raises_becomes_a_message_of_what_to_do(error: Exception, 
 
 
 @every("error", [ReadError("a.csv: no"), MemoryError(), KeyboardInterrupt()])
-def test_a_refusal_and_what_is_not_the_files_fault_pass(error: BaseException) -> None:
+def test_a_refusal_and_what_is_not_the_files_fault_pass(error):
     with pytest.raises(type(error)) as raised, refusing(PATH, "SAC"):
         raise error
     assert raised.value is error
 
 
-def test_a_long_message_is_cut() -> None:
+def test_a_long_message_is_cut():
     assert len(in_one_line(ValueError("x" * 5000))) < 250

@@ -1,13 +1,9 @@
 """Damaged files that once ended in something else than a recording or a refusal, or that lost channels in silence."""
 
-from __future__ import annotations
-
 import re
 import struct
 import subprocess
 import sys
-from collections.abc import Callable
-from pathlib import Path
 
 import h5py
 import numpy as np
@@ -23,7 +19,7 @@ from every import every
 TIME = np.arange(60) * 0.01
 
 
-def test_a_damaged_class_of_a_dimension_scale_does_not_end_the_process(tmp_path: Path) -> None:
+def test_a_damaged_class_of_a_dimension_scale_does_not_end_the_process(tmp_path):
     """HDF5's own question whether a dataset is a scale frees memory twice; so it is read in a process of its own."""
     path = tmp_path / "damaged.nc"
     with h5py.File(path, "w") as file:
@@ -36,7 +32,7 @@ def test_a_damaged_class_of_a_dimension_scale_does_not_end_the_process(tmp_path:
 
 
 @every("block", [b"|Cb,", b"|CC,"])
-def test_a_channel_without_its_last_blocks_is_told(written: Callable[..., Path], block: bytes) -> None:
+def test_a_channel_without_its_last_blocks_is_told(written, block):
     path = written("famos")
     content = path.read_bytes()
     path.write_bytes(content[: content.rindex(block)])
@@ -51,9 +47,7 @@ def test_a_channel_without_its_last_blocks_is_told(written: Callable[..., Path],
         ("cosmos", "Corrected acceleration", 40),
     ],
 )
-def test_a_file_that_ends_within_the_first_line_of_a_channel_says_so(
-    written: Callable[..., Path], name: str, begin: str, kept: int
-) -> None:
+def test_a_file_that_ends_within_the_first_line_of_a_channel_says_so(written, name, begin, kept):
     path = written(name)
     text = path.read_bytes().decode("ascii")
     whole = len(read(path).channels)
@@ -70,9 +64,7 @@ def test_a_file_that_ends_within_the_first_line_of_a_channel_says_so(
         ("cosmos", r"(?i)(with\s+)\d+(\s+text lines)", r"\g<1>99999999999999999999\g<2>"),
     ],
 )
-def test_a_number_in_a_header_that_is_none_is_a_refusal(
-    written: Callable[..., Path], name: str, count: str, damaged: str
-) -> None:
+def test_a_number_in_a_header_that_is_none_is_a_refusal(written, name, count, damaged):
     path = written(name)
     text, changed = re.subn(count, damaged, path.read_text(encoding="ascii"))
     assert changed
@@ -82,11 +74,11 @@ def test_a_number_in_a_header_that_is_none_is_a_refusal(
 
 
 @every(("step", "begin"), [(np.inf, 0.0), (1e308, 0.0), (0.005, np.inf), (np.nan, 0.0)])
-def test_a_damaged_step_gives_no_infinite_times(step: float, begin: float) -> None:
+def test_a_damaged_step_gives_no_infinite_times(step, begin):
     assert np.isnan(even_times(4, step, begin)).all()
 
 
-def test_a_segment_without_rows_adds_nothing(written: Callable[..., Path]) -> None:
+def test_a_segment_without_rows_adds_nothing(written):
     path = written("lvm")
     text = path.read_bytes()
     head = text[text.index(b"Channels") : text.index(b"Comment") + len(b"Comment\r\n")]
@@ -94,7 +86,7 @@ def test_a_segment_without_rows_adds_nothing(written: Callable[..., Path]) -> No
     assert {channel.values.size for channel in read(path).channels} == {40}
 
 
-def xls_with(path: Path, record: bytes, changed: bytes) -> Path:
+def xls_with(path, record, changed):
     """A workbook of 30 rows and 2 columns, with a record of its bytes changed."""
     book = xlwt.Workbook()
     sheet = book.add_sheet("A")
@@ -113,26 +105,26 @@ DIMENSIONS = struct.pack("<2H2I2H", 0x200, 14, 0, 30, 0, 2)
 LAST_CELL = struct.pack("<2H2H", 0x203, 14, 29, 1)
 
 
-def test_an_old_workbook_of_more_rows_than_memory_fails_alone_and_says_why(tmp_path: Path) -> None:
+def test_an_old_workbook_of_more_rows_than_memory_fails_alone_and_says_why(tmp_path):
     path = xls_with(tmp_path / "a.xls", DIMENSIONS, struct.pack("<2H2I2H", 0x200, 14, 0, 1 << 31, 0, 2))
     with pytest.raises(ReadError, match=r"crashed the library that does it .* a cell far outside its table"):
         read(path)
 
 
 @every(("row", "column"), [(29, 40_000), (3000, 20)])
-def test_a_stray_cell_of_an_old_workbook_leaves_the_others_as_they_are(tmp_path: Path, row: int, column: int) -> None:
+def test_a_stray_cell_of_an_old_workbook_leaves_the_others_as_they_are(tmp_path, row, column):
     path = xls_with(tmp_path / "a.xls", LAST_CELL, struct.pack("<2H2H", 0x203, 14, row, column))
     times = read(path).channels[0].values
     np.testing.assert_allclose(times[:29], 0.01 * np.arange(29))
 
 
-def test_a_name_that_is_too_long_for_a_file_is_a_file_that_is_not_there(tmp_path: Path) -> None:
+def test_a_name_that_is_too_long_for_a_file_is_a_file_that_is_not_there(tmp_path):
     with pytest.raises(ReadError, match="which is not in its folder") as refused:
         bytes_beside(tmp_path / "header.dat", "a" * 5000)
     assert len(str(refused.value)) < 300
 
 
-def test_a_header_in_an_encoding_that_there_is_not_is_refused(tmp_path: Path) -> None:
+def test_a_header_in_an_encoding_that_there_is_not_is_refused(tmp_path):
     path = tmp_path / "a.tdm"
     path.write_bytes(b'<?xml version="1.0" encoding="UTF-6"?><usi:tdm xmlns:usi="http://www.ni.com/Schemas/USI/1_0"/>')
     with pytest.raises(ReadError, match="unknown encoding"):

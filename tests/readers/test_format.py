@@ -1,10 +1,7 @@
 """What every raw format says of itself."""
 
-from __future__ import annotations
-
 from dataclasses import FrozenInstanceError
 from importlib.util import find_spec
-from pathlib import Path
 
 import pytest
 from pydantic import ValidationError
@@ -25,10 +22,10 @@ class Spaced(Options):
     rows: int = 3
 
 
-def made_up() -> Format:
+def made_up():
     """A format with only what each has to give."""
 
-    def read(path: Path, options: Options) -> Recording:
+    def read(path, options):
         return Recording(path, "made-up", ())
 
     return Format("made-up", "A format of this test.", (".x",), lambda path: Recognition(False, "never"), read)

@@ -1,7 +1,5 @@
 """What a file is by its first bytes, said where it is not what was expected."""
 
-from __future__ import annotations
-
 import pickle
 from pathlib import Path
 
@@ -25,13 +23,13 @@ from every import every
         (b"time;top", ""),
     ],
 )
-def test_a_file_that_is_something_else_is_called_by_its_name(first: bytes, what: str) -> None:
+def test_a_file_that_is_something_else_is_called_by_its_name(first, what):
     found = Head(Path("a"), first).look()
     assert what in found
     assert bool(found) == bool(what)
 
 
-def test_a_file_is_recognised_by_any_of_its_marks(tmp_path: Path) -> None:
+def test_a_file_is_recognised_by_any_of_its_marks(tmp_path):
     path = tmp_path / "a"
     path.write_bytes(b"MARK2" + bytes(2 * BYTES))
     head = head_of(path)
@@ -44,7 +42,7 @@ def test_a_file_is_recognised_by_any_of_its_marks(tmp_path: Path) -> None:
         recognise.expected(path)
 
 
-def test_the_first_lines_are_text_of_whatever_encoding(tmp_path: Path) -> None:
+def test_the_first_lines_are_text_of_whatever_encoding(tmp_path):
     lines = [f"Prüfung {number}" for number in range(100)]
     for encoding in ("utf-8", "utf-8-sig", "utf-16", "cp1252"):
         head = Head(Path("a"), "\r\n".join(lines).encode(encoding))

@@ -1,10 +1,5 @@
 """Hostile files, one a library: nothing runs, nothing outside the campaign is read."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -17,7 +12,7 @@ pytest.importorskip("xlwt")
 
 
 @pytest.fixture(scope="module")
-def place(tmp_path_factory: pytest.TempPathFactory) -> object:
+def place(tmp_path_factory):
     """A campaign's folder, and secrets beside it."""
     folder = tmp_path_factory.mktemp("hostile")
     hostile.secrets(folder / "secrets")
@@ -30,8 +25,8 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> object:
     "name",
     [pytest.param(name, marks=pytest.mark.whole if name == "matlab_swelling" else ()) for name in hostile.FILES],
 )
-def test_a_hostile_file_is_only_read(place: object, name: str) -> None:
-    write: Callable[..., object] = hostile.FILES[name]
+def test_a_hostile_file_is_only_read(place, name):
+    write = hostile.FILES[name]
     path, format, options = write(place)
     try:
         recording = read(path, format, options, within=place.folder)
@@ -62,9 +57,7 @@ direction = [1, 0, 0], relative_to = "table"}
 """
 
 
-def test_no_command_runs_what_a_file_by_the_name_of_a_table_holds(
-    place: object, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_no_command_runs_what_a_file_by_the_name_of_a_table_holds(place, tmp_path, capsys):
     (tmp_path / "raw").mkdir()
     inner = place._replace(folder=tmp_path / "raw", victim=tmp_path / "made")
     text = CAMPAIGN

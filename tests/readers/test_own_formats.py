@@ -1,15 +1,10 @@
 """What every format that is read here holds to: what was written comes back, and damage is told."""
 
-from __future__ import annotations
-
 import random
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 
 from colonnade.errors import ReadError
-from colonnade.readers.recording import Recording
 from colonnade.readers.registry import formats, read
 from damage import KINDS, damaged
 from every import every
@@ -20,7 +15,7 @@ TIMES = 40 * np.arange(40) / 200
 
 
 @every("name", OWN + BY_PACKAGES)
-def test_what_was_written_is_recognised_and_read_back(written: Callable[..., Path], name: str) -> None:
+def test_what_was_written_is_recognised_and_read_back(written, name):
     recording = read(written(name))
     assert recording.format == name
     assert recording.warnings == ()
@@ -36,13 +31,13 @@ def test_what_was_written_is_recognised_and_read_back(written: Callable[..., Pat
 
 
 @every("name", OWN + BY_PACKAGES)
-def test_a_format_refuses_the_files_of_all_others(written: Callable[..., Path], name: str) -> None:
+def test_a_format_refuses_the_files_of_all_others(written, name):
     path = written(name)
     took = [other for other, format in formats().items() if format.recognise(path).yes and other != "delimited"]
     assert took == [name]
 
 
-def read_or_refusal(name: str, path: Path) -> Recording | ReadError:
+def read_or_refusal(name, path):
     """Read without the registry's guard, which would hide an exception of the reader's own."""
     try:
         return formats()[name].read(path, formats()[name].options())
@@ -52,7 +47,7 @@ def read_or_refusal(name: str, path: Path) -> Recording | ReadError:
 
 @every("name", OWN)
 @every("kind", KINDS)
-def test_a_damaged_file_is_read_or_refused_by_its_format(written: Callable[..., Path], name: str, kind: str) -> None:
+def test_a_damaged_file_is_read_or_refused_by_its_format(written, name, kind):
     path = written(name)
     content = path.read_bytes()
     recordings = 0
@@ -71,7 +66,7 @@ def test_a_damaged_file_is_read_or_refused_by_its_format(written: Callable[..., 
 
 @every("name", OWN)
 @every("share", [0.6, 0.9])
-def test_a_file_that_was_cut_off_says_so(written: Callable[..., Path], name: str, share: float) -> None:
+def test_a_file_that_was_cut_off_says_so(written, name, share):
     path = written(name)
     cut = path.with_suffix(".tdx") if name == "diadem" else path
     cut.write_bytes(cut.read_bytes()[: int(share * cut.stat().st_size)])
@@ -83,7 +78,7 @@ def test_a_file_that_was_cut_off_says_so(written: Callable[..., Path], name: str
 
 
 @every("name", OWN)
-def test_the_bytes_of_a_file_decide_not_its_name(written: Callable[..., Path], name: str) -> None:
+def test_the_bytes_of_a_file_decide_not_its_name(written, name):
     path = written(name)
     renamed = path.rename(path.with_name("record.csv"))
     assert read(renamed).format == name

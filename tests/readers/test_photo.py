@@ -1,7 +1,5 @@
 """Photos: upright, small and bare; what is no photo, a bomb, a link or damaged is refused in a sentence."""
 
-from __future__ import annotations
-
 import struct
 import zlib
 from io import BytesIO
@@ -32,11 +30,11 @@ def saved(path, image, kind="JPEG", **more):
     return path
 
 
-def chunk(kind: bytes, body: bytes) -> bytes:
+def chunk(kind, body):
     return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
 
-def bomb(side: int) -> bytes:
+def bomb(side):
     """Claim a huge picture in a small file."""
     header = struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)
     rows = zlib.compress(bytes(1_000_000))

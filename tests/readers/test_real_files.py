@@ -1,8 +1,5 @@
 """Every file of the collection of other laboratories' instruments: read with the figures known of it, or refused."""
 
-from __future__ import annotations
-
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -64,14 +61,14 @@ REFUSED = {
 }
 
 
-def test_every_file_of_the_collection_is_accounted_for(shared_data: Path) -> None:
+def test_every_file_of_the_collection_is_accounted_for(shared_data):
     there = {path.relative_to(shared_data).as_posix() for path in shared_data.rglob("*") if path.is_file()}
     assert there == READ.keys() | REFUSED.keys()
     assert len(READ) == 23
 
 
 @pytest.mark.parametrize("name", READ)
-def test_a_real_file_is_read_with_the_figures_known_of_it(shared_data: Path, name: str) -> None:
+def test_a_real_file_is_read_with_the_figures_known_of_it(shared_data, name):
     known = READ[name]
     recording = read(shared_data / name)
     assert (recording.format, len(recording.channels)) == (known.format, known.channels)
@@ -87,13 +84,13 @@ def test_a_real_file_is_read_with_the_figures_known_of_it(shared_data: Path, nam
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_a_file_that_cannot_be_read_is_refused_with_the_reason(shared_data: Path, name: str) -> None:
+def test_a_file_that_cannot_be_read_is_refused_with_the_reason(shared_data, name):
     with pytest.raises(ReadError, match=REFUSED[name]):
         read(shared_data / name)
 
 
 @pytest.mark.parametrize("name", sorted(path for path in READ if path.startswith("catman/")))
-def test_overflow_of_an_amplifier_is_missing_and_told(shared_data: Path, name: str) -> None:
+def test_overflow_of_an_amplifier_is_missing_and_told(shared_data, name):
     recording = read(shared_data / name)
     overflowed = recording.channel("Thermocouple Type K")
     assert np.isnan(overflowed.values).all()  # −1e6 throughout
@@ -104,13 +101,13 @@ def test_overflow_of_an_amplifier_is_missing_and_told(shared_data: Path, name: s
     assert abs(recording.start.timestamp() - hardware_clock.values[0]) < 86400  # the file's date is local time
 
 
-def test_an_unfinished_lvm_says_how_many_samples_are_lacking(shared_data: Path) -> None:
+def test_an_unfinished_lvm_says_how_many_samples_are_lacking(shared_data):
     recording = read(shared_data / "lvm" / "multi_time_column.lvm")
     assert recording.warnings == ('the samples below line 23 end too early: the header says 51200, "Voltage" has 3',)
     assert [channel.is_clock for channel in recording.channels] == [True, False, True, False]
 
 
-def test_an_mts_file_keeps_its_last_block_apart(shared_data: Path) -> None:
+def test_an_mts_file_keeps_its_last_block_apart(shared_data):
     recording = read(shared_data / "mts" / "emodul_specimen.dat")
     transducers = [channel for channel in recording.channels[:8] if channel.unit == "mm"]
     assert [channel.name for channel in transducers] == ["Ch 1 Weg", "1944 B", "1281068", "2157"]
@@ -122,13 +119,13 @@ def test_an_mts_file_keeps_its_last_block_apart(shared_data: Path) -> None:
     assert recording.start.isoformat(timespec="seconds") == "2014-09-01T13:25:39"  # as its operator's block says
 
 
-def test_an_imc_file_begins_when_its_trigger_and_offset_say(shared_data: Path) -> None:
+def test_an_imc_file_begins_when_its_trigger_and_offset_say(shared_data):
     recording = read(shared_data / "imc" / "datasetA_1.raw")
     assert recording.start is not None
     assert recording.start.isoformat(timespec="milliseconds") == "2019-05-08T18:00:00.010"
 
 
-def test_a_k_net_record_has_the_peak_that_its_header_gives(shared_data: Path) -> None:
+def test_a_k_net_record_has_the_peak_that_its_header_gives(shared_data):
     recording = read(shared_data / "strongmotion" / "AOM0011801241951.EW")
     values = recording.channels[0].values
     assert np.abs(values - values.mean()).max() == pytest.approx(0.04078, abs=5e-6)  # 4.078 gal
@@ -140,11 +137,11 @@ def test_a_k_net_record_has_the_peak_that_its_header_gives(shared_data: Path) ->
     ("name", "peak"),
     [("Cosmos12TimeSeriesTest.v1", 1.61962), ("us1000hyfh_akbmrp_AKBMR--n.1000hyfh.BNZ.--.acc.V2c", 0.06851512)],
 )
-def test_a_cosmos_record_is_a_base_motion_with_its_headers_peak(shared_data: Path, name: str, peak: float) -> None:
+def test_a_cosmos_record_is_a_base_motion_with_its_headers_peak(shared_data, name, peak):
     assert read_motion(shared_data / "strongmotion" / name).peak == pytest.approx(peak, rel=1e-5)
 
 
-def test_the_damaged_copy_of_el_centro_differs_where_it_is_known_to(shared_data: Path) -> None:
+def test_the_damaged_copy_of_el_centro_differs_where_it_is_known_to(shared_data):
     copy = read(shared_data / "motion" / "elcentro_damaged_copy.txt")
     whole = read(shared_data / "motion" / "elcentro_chopra_xy.dat").channel("Y").values
     difference = np.abs(copy.channel(2).values[1:] - whole[:-1])  # one sample late
@@ -154,7 +151,7 @@ def test_the_damaged_copy_of_el_centro_differs_where_it_is_known_to(shared_data:
     assert difference.max() == pytest.approx(0.14, abs=0.005)
 
 
-def test_the_other_digitisation_of_el_centro_has_the_opposite_sign(shared_data: Path) -> None:
+def test_the_other_digitisation_of_el_centro_has_the_opposite_sign(shared_data):
     other = read(shared_data / "motion" / "elcentro_s00e_reversed.dat").channel(2).values[:1400]
     known = read(shared_data / "motion" / "elcentro_chopra_xy.dat").channel("Y").values[:1400]
     shifted = [np.corrcoef(np.roll(other, -shift), known)[0, 1] for shift in range(-10, 11)]

@@ -1,7 +1,5 @@
 """Channels are found by name or number, and their absence explained."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -26,12 +24,12 @@ RECORDING = Recording(
 
 
 @every("column", ["ACC", "acc", " Acc ", 4])
-def test_a_channel_is_found_by_name_and_number(column: str | int) -> None:
+def test_a_channel_is_found_by_name_and_number(column):
     assert RECORDING.channel(column) is RECORDING.channels[3]
 
 
 @every(("column", "index"), [("LVDT 1 [mm]", 1), ("lvdt1[V]", 2), ("Time", 0), ("time [s]", 0)])
-def test_a_channel_is_found_with_and_without_its_unit(column: str, index: int) -> None:
+def test_a_channel_is_found_with_and_without_its_unit(column, index):
     assert RECORDING.channel(column) is RECORDING.channels[index]
 
 
@@ -44,12 +42,12 @@ def test_a_channel_is_found_with_and_without_its_unit(column: str, index: int) -
         (6, "column 6 is missing"),
     ],
 )
-def test_a_channel_that_is_not_there_is_explained(column: str | int, message: str) -> None:
+def test_a_channel_that_is_not_there_is_explained(column, message):
     with pytest.raises(ReadError, match=message):
         RECORDING.channel(column)
 
 
-def test_another_column_can_be_the_clock() -> None:
+def test_another_column_can_be_the_clock():
     clocked = RECORDING.on_clock("ACC", "LVDT 1 [V]")
     assert clocked.time is not None
     np.testing.assert_array_equal(clocked.time, VALUES)
@@ -57,7 +55,7 @@ def test_another_column_can_be_the_clock() -> None:
         RECORDING.on_clock("ACC", "off")
 
 
-def test_times_have_to_be_as_many_as_values() -> None:
+def test_times_have_to_be_as_many_as_values():
     with pytest.raises(ValueError, match="2 values at 1 times"):
         RecordedChannel("a", None, VALUES, VALUES[:1])
 
@@ -72,9 +70,7 @@ def test_times_have_to_be_as_many_as_values() -> None:
         (RecordedChannel("t", "ms", VALUES, 5 * VALUES, is_clock=True), None, [5, 10], "timestamps"),
     ],
 )
-def test_values_are_times_in_the_unit_that_is_known(
-    channel: RecordedChannel, unit: str | None, times: list[float], how: str
-) -> None:
+def test_values_are_times_in_the_unit_that_is_known(channel, unit, times, how):
     seconds, said = channel.in_seconds(unit)
     np.testing.assert_allclose(seconds, times)
     assert said == how

@@ -1,9 +1,5 @@
 """Files in known formats that are not read are refused by their format's name, never taken for tables."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -16,11 +12,11 @@ from every import every
 VALUES = np.cumsum(np.random.default_rng(4).standard_normal(800)) / 9
 
 
-def block(columns: int, form: str) -> list[str]:
+def block(columns, form):
     return ["".join(form % number for number in row) for row in VALUES.reshape(-1, columns)]
 
 
-def numbered(lines: list[str]) -> list[str]:
+def numbered(lines):
     """Lines as USC numbers them, in columns 73 and 74."""
     return [f"{line:<72}{number:02d}    " for number, line in enumerate(lines, 1)]
 
@@ -92,7 +88,7 @@ HEADS = {
 }  # fmt: skip
 
 
-def written(folder: Path, name: str) -> Path:
+def written(folder, name):
     lines, (columns, form), _ = HEADS[name]
     path = folder / "record.txt"
     path.write_text("\n".join([*lines, *block(columns, form), ""]), encoding="latin-1")
@@ -100,7 +96,7 @@ def written(folder: Path, name: str) -> Path:
 
 
 @every("name", HEADS)
-def test_it_is_refused_by_its_formats_name(tmp_path: Path, name: str) -> None:
+def test_it_is_refused_by_its_formats_name(tmp_path, name):
     path = written(tmp_path, name)
     for reading in (read, read_motion, lambda path: read(path, "delimited")):
         with pytest.raises(
@@ -118,7 +114,7 @@ def test_it_is_refused_by_its_formats_name(tmp_path: Path, name: str) -> None:
         (b"DIAEXTENDED  {@:ENGLISH\r\n", "a DIAdem .DAT header, which is not read here. Save .* as .TDM or .TDMS"),
     ],
 )
-def test_a_recorders_file_is_refused_with_the_export_to_make(tmp_path: Path, start: bytes, told: str) -> None:
+def test_a_recorders_file_is_refused_with_the_export_to_make(tmp_path, start, told):
     path = tmp_path / "record.csv"
     path.write_bytes(start + bytes(200))
     for format in (None, "delimited"):
@@ -126,18 +122,18 @@ def test_a_recorders_file_is_refused_with_the_export_to_make(tmp_path: Path, sta
             read(path, format)
 
 
-def test_a_format_that_was_read_once_is_refused_with_the_export_to_make(tmp_path: Path) -> None:
+def test_a_format_that_was_read_once_is_refused_with_the_export_to_make(tmp_path):
     with pytest.raises(ReadError, match=r'Unknown format "mdf"\. This is an ASAM MDF file, .* Export it as CSV'):
         read(tmp_path / "record.mf4", "mdf")
 
 
 @every("name", HEADS)
-def test_what_to_do_instead_is_said(tmp_path: Path, name: str) -> None:
+def test_what_to_do_instead_is_said(tmp_path, name):
     with pytest.raises(ReadError, match=r"Download volume 1 or 2|export it as text with a column of times"):
         read(written(tmp_path, name))
 
 
-def test_whoever_says_where_the_numbers_begin_gets_them(tmp_path: Path) -> None:
+def test_whoever_says_where_the_numbers_begin_gets_them(tmp_path):
     path = written(tmp_path, "CSMIP/DMG, volume 2")
     first = (
         path.read_text()
@@ -148,7 +144,7 @@ def test_whoever_says_where_the_numbers_begin_gets_them(tmp_path: Path) -> None:
     np.testing.assert_allclose(recording.channel(1).values, VALUES, atol=1e-6)
 
 
-def test_a_draft_leaves_it_out_with_the_reason(tmp_path: Path) -> None:
+def test_a_draft_leaves_it_out_with_the_reason(tmp_path):
     written(tmp_path, "ESM")
     with pytest.raises(CampaignError, match=r"record.txt: this is a strong-motion record in the format of ESM"):
         draft(tmp_path)
@@ -158,7 +154,7 @@ def test_a_draft_leaves_it_out_with_the_reason(tmp_path: Path) -> None:
     "head",
     ["1 velocity", "# corrected accelerogram of the table", "response spectrum analyser", "*", "Accelerogram 3, GNS"],
 )
-def test_a_laboratorys_own_words_are_none_of_these(tmp_path: Path, head: str) -> None:
+def test_a_laboratorys_own_words_are_none_of_these(tmp_path, head):
     path = tmp_path / "record.csv"
     path.write_text(f"{head}\nt [s],top [mm]\n" + "".join(f"{row / 200},{row % 7}\n" for row in range(40)))
     assert read(path).format == "delimited"

@@ -1,31 +1,25 @@
 """A file goes to the format that recognises it; where none does, each says why."""
 
-from __future__ import annotations
-
 import struct
 import subprocess
 import sys
-from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers import registry
-from colonnade.readers.format import Format, Options, Recognition
-from colonnade.readers.recording import Recording
+from colonnade.readers.format import Format, Recognition
 from colonnade.readers.registry import formats, read
 from colonnade.readers.text.delimited import FORMAT as DELIMITED
 
 
-def test_delimited_text_is_always_known_and_asked_last() -> None:
+def test_delimited_text_is_always_known_and_asked_last():
     assert list(formats())[-1] == "delimited"
     assert formats()["delimited"].summary
 
 
-def test_the_format_that_took_a_file_is_noted(tmp_path: Path) -> None:
+def test_the_format_that_took_a_file_is_noted(tmp_path):
     path = tmp_path / "record.csv"
     path.write_text("a;b\n1;2\n3;4\n")
     recording = read(path)
@@ -33,7 +27,7 @@ def test_the_format_that_took_a_file_is_noted(tmp_path: Path) -> None:
     assert recording.notes[0].startswith('format "delimited" (text with rows of 2 numbers from line 2 on)')
 
 
-def test_a_file_that_nobody_takes_gives_each_formats_reason(tmp_path: Path) -> None:
+def test_a_file_that_nobody_takes_gives_each_formats_reason(tmp_path):
     path = tmp_path / "record.csv"
     path.write_text("nothing but words\n")
     with pytest.raises(ReadError) as refusal:
@@ -42,7 +36,7 @@ def test_a_file_that_nobody_takes_gives_each_formats_reason(tmp_path: Path) -> N
         assert f"\n  {name}: " in str(refusal.value)
 
 
-def test_a_missing_file_is_told_with_the_nearest_name(tmp_path: Path) -> None:
+def test_a_missing_file_is_told_with_the_nearest_name(tmp_path):
     (tmp_path / "free-01.csv").write_text("1\n")
     with pytest.raises(ReadError, match=r'free-10.csv: there is no such file in .* Did you mean "free-01.csv"'):
         read(tmp_path / "free-10.csv")
@@ -50,47 +44,43 @@ def test_a_missing_file_is_told_with_the_nearest_name(tmp_path: Path) -> None:
         read(tmp_path / "raw" / "free-10.csv")
 
 
-def test_a_folder_is_no_raw_file(tmp_path: Path) -> None:
+def test_a_folder_is_no_raw_file(tmp_path):
     with pytest.raises(ReadError, match="this is a folder"):
         read(tmp_path)
 
 
-def test_an_unknown_format_is_told_with_the_nearest_name(tmp_path: Path) -> None:
+def test_an_unknown_format_is_told_with_the_nearest_name(tmp_path):
     with pytest.raises(ReadError, match=r'Unknown format "delimitted". Did you mean "delimited"'):
         read(tmp_path / "record.csv", "delimitted")
 
 
-def stumbling(error: Exception, **told: Any) -> Format:
+def stumbling(error, **told):
     """A format whose parser stumbles over every file."""
 
-    def read(path: Path, options: Options) -> Recording:
+    def read(path, options):
         raise error
 
     return Format("odd", "", (), lambda path: Recognition(True, "always"), read, in_process=True, **told)
 
 
 @pytest.fixture
-def only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[Format], None]:
+def only(tmp_path, monkeypatch):
     (tmp_path / "r.bin").write_bytes(b"1")
 
-    def use(format: Format) -> None:
+    def use(format):
         monkeypatch.setattr(registry, "formats", lambda: {format.name: format})
 
     return use
 
 
-def test_whatever_a_parser_stumbles_over_is_told_with_the_file_and_what_to_do(
-    tmp_path: Path, only: Callable[[Format], None]
-) -> None:
+def test_whatever_a_parser_stumbles_over_is_told_with_the_file_and_what_to_do(tmp_path, only):
     only(stumbling(RecursionError()))
     with pytest.raises(ReadError, match=r'r.bin: it cannot be read as "odd" \(RecursionError.*Copy it from'):
         read(tmp_path / "r.bin")
 
 
-def test_a_recogniser_that_stumbles_leaves_the_others_their_turn(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def recognise(path: Path) -> Recognition:
+def test_a_recogniser_that_stumbles_leaves_the_others_their_turn(tmp_path, monkeypatch):
+    def recognise(path):
         raise struct.error("unpack requires 8 bytes")
 
     odd = replace(stumbling(ValueError()), recognise=recognise)
@@ -103,7 +93,7 @@ def test_a_recogniser_that_stumbles_leaves_the_others_their_turn(
         read(path)
 
 
-def test_looking_at_a_file_loads_none_of_the_heavy_packages(tmp_path: Path) -> None:
+def test_looking_at_a_file_loads_none_of_the_heavy_packages(tmp_path):
     path = tmp_path / "record.bin"
     path.write_bytes(bytes(range(256)) * 20)
     code = (

@@ -1,23 +1,18 @@
 """The small campaign as the report reads it, row by row, and its report."""
 
-from __future__ import annotations
-
 import shutil
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import pytest
 
 from colonnade.report.rows import TestRow
 from colonnade.store.layout import Layout
-from colonnade.store.records.stored import Stored, read_test
+from colonnade.store.records.stored import read_test
 from colonnade.store.records.summary import read_summary, records_of_tests
 from read_pages import built
 
 
 @pytest.fixture(scope="session")
-def reported(filled_campaign) -> dict[str, tuple[TestRow, Stored]]:
+def reported(filled_campaign):
     """Row and stored results of each test."""
     campaign, layout = filled_campaign
     records = records_of_tests(campaign, read_summary(layout))
@@ -29,11 +24,11 @@ def reported(filled_campaign) -> dict[str, tuple[TestRow, Stored]]:
 
 
 @pytest.fixture(scope="session")
-def report_folder(filled_campaign: tuple[Any, Any], made_once: Callable[..., Path]) -> Path:
+def report_folder(filled_campaign, made_once):
     """Folder of the report of the small campaign, of which one test was not run; look only."""
     campaign, layout = filled_campaign
 
-    def report(folder: Path) -> None:
+    def report(folder):
         shutil.copytree(layout.processed, Layout(folder).processed)
         built(campaign, Layout(folder), {"later"})
 

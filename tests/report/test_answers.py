@@ -1,7 +1,5 @@
 """Pages of real columns and of forecasts: the answer, what it rests on, what was left out."""
 
-from __future__ import annotations
-
 import json
 from html import unescape
 

@@ -1,13 +1,10 @@
 """The report written again: what is drawn, what is kept, and campaigns without results."""
 
-from __future__ import annotations
-
 import shutil
 
 import pytest
 from jinja2 import UndefinedError
 
-from colonnade.campaign import Campaign
 from colonnade.report import addresses, drawings, pages
 from colonnade.report.pages import Renderer
 from colonnade.store import files, stamps
@@ -16,7 +13,7 @@ from read_pages import Page, built, words_of, written
 
 
 @pytest.fixture
-def two_tests(filled_campaign, tmp_path) -> tuple[Campaign, Layout]:
+def two_tests(filled_campaign, tmp_path):
     """The campaign with the results of two of its tests alone."""
     campaign, layout = filled_campaign[0], Layout(tmp_path)
     for name in ("span-2.0", "span-2.5"):
@@ -34,7 +31,7 @@ def test_the_same_results_give_the_same_bytes_and_no_new_file(two_tests):
 
 def test_the_page_of_a_specimen_is_drawn_again_only_if_what_it_shows_changed(two_tests, undrawn, monkeypatch):
     campaign, layout = two_tests
-    drawn: list[str] = []
+    drawn = []
     page = Renderer.page
     monkeypatch.setattr(
         Renderer,
@@ -42,7 +39,7 @@ def test_the_page_of_a_specimen_is_drawn_again_only_if_what_it_shows_changed(two
         lambda self, template, address, **given: drawn.append(address) or page(self, template, address, **given),
     )
 
-    def drawn_now(campaign: Campaign = campaign, code: str = "one") -> list[str]:
+    def drawn_now(campaign=campaign, code="one"):
         drawn.clear()
         built(campaign, layout, code=code)
         return [address for address in drawn if address.startswith("specimens/")]

@@ -1,7 +1,5 @@
 """What the report keeps of each test, as text and back, and when its page is drawn again."""
 
-from __future__ import annotations
-
 import shutil
 from dataclasses import replace
 
@@ -12,7 +10,7 @@ from colonnade.campaign import load
 from colonnade.report import addresses
 from colonnade.report.asked import Asked, asked_of
 from colonnade.report.kept import ALTERED, from_text, to_text
-from colonnade.report.parts import Part, parts_of
+from colonnade.report.parts import parts_of
 from colonnade.store import stamps
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import read_summary, records_of_tests
@@ -22,13 +20,13 @@ SHAKEN = "span-2.0"
 CODE = "0123abcd"
 
 
-def asked(campaign, layout, test, **changes) -> Asked:
+def asked(campaign, layout, test, **changes):
     """Ask for the page of a test between two others."""
     record = records_of_tests(campaign, read_summary(layout))[test]
     return replace(Asked(test, "free-01", "span-2.5", record, is_outdated=False), **changes)
 
 
-def part_of(campaign, layout, test=SHAKEN, *, code="", **changes) -> Part:
+def part_of(campaign, layout, test=SHAKEN, *, code="", **changes):
     (part,) = parts_of(campaign, layout, code, [asked(campaign, layout, test, **changes)])
     return part
 
@@ -50,7 +48,7 @@ def elsewhere(started, tmp_path):
     return campaign, Layout(tmp_path)
 
 
-def keep(layout, part, *, text=None, key=None, data=None) -> None:
+def keep(layout, part, *, text=None, key=None, data=None):
     """Put the page of a test, and its data, where the report has them."""
     page = text or stamps.stamped(part.text, key or part.made_from)
     data = data or stamps.stamped(part.data, key or part.made_from, script=True)

@@ -1,7 +1,5 @@
 """Photos on the page of a test: those that are in the report, and why others are not."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from colonnade.findings import warning

@@ -1,7 +1,5 @@
 """What the pages of a whole report show."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from posixpath import dirname, join, normpath
@@ -16,12 +14,12 @@ STRONG = "sine-3hz-too-strong-for-the-block-1"
 
 
 @pytest.fixture(scope="module")
-def texts(report_folder) -> dict[str, str]:
+def texts(report_folder):
     return written(Layout(report_folder.parent))
 
 
 @pytest.fixture(scope="module")
-def overview(texts) -> str:
+def overview(texts):
     return texts["index.html"]
 
 

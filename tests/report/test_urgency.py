@@ -1,7 +1,5 @@
 """What one sees first of a campaign with a wrong gain, a wrong outcome and a failed test; findings that are alike."""
 
-from __future__ import annotations
-
 import re
 
 import pytest
@@ -26,14 +24,14 @@ why = "a slip"
 
 
 @pytest.fixture(scope="module")
-def first(made_once) -> str:
+def first(made_once):
     """Words of the overview up to its summary."""
     page = Layout(made_once("urgent", _run)).report.read_text(encoding="utf-8")
     main = page[page.index("<main") : page.index('<section id="summary">')]
     return " ".join(re.sub(r"<[^>]+>", " ", main).split())
 
 
-def _run(folder) -> None:
+def _run(folder):
     write_small_campaign(folder)
     (folder / "review.toml").write_text(WRONG_GAIN, encoding="utf-8")
     path = folder / "campaign.toml"

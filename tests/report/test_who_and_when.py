@@ -1,7 +1,5 @@
 """Where, when and by whom: the span of days, each operator once, and nothing that is not known."""
 
-from __future__ import annotations
-
 from datetime import date
 
 import pytest

@@ -1,7 +1,5 @@
 """The documents on the low-pass and on the linear model say what the program gives today."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

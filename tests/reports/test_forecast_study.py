@@ -1,7 +1,5 @@
 """The study of forecasts: what its numbers promise, and that it gives them again."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The paper's pattern at Span 2.5, on histories made by hand."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The reproduction of the paper: pages follow from numbers, statements are answered by rules, and rules can fail."""
 
-from __future__ import annotations
-
 import copy
 import json
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """A short study gives what the whole one is held to, on a truth in closed form; the whole one is within its goals."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path

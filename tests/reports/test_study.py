@@ -1,7 +1,5 @@
 """What the programs of reports share: numbers as they were, a record a line; pages that stay small."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The study of the verdict: its numbers keep what they promise, and its tests give the same ranks again."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

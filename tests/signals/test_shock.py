@@ -1,7 +1,5 @@
 """A single shock is told from motion."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

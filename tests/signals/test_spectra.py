@@ -1,7 +1,5 @@
 """The spectral density of white noise and of a sine, whose values are known."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

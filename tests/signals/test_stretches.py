@@ -1,7 +1,5 @@
 """Stretches of consecutive samples, and linear interpolation over missing ones."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

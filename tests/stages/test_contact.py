@@ -110,7 +110,7 @@ def shaken_in_space(small_campaign, shaken):
     """Channels and rocking of a shaken test, the law of contact of its specimen, and what the ensemble reads."""
     test = small_campaign.tests["shake-01"]
     settings = ContactSettings.model_validate({"step": "50 us", "damping_fraction": 0.3, "penetration": 1e-5})
-    space = calibrating.ContactInputs.of(small_campaign, "prism", settings)
+    space = calibrating.ContactInputs.of(small_campaign, "prism").model_copy(update={"settings": settings})
     ready, rocking = chain.measured(small_campaign, test, shaken[0])
     read = running.ContactEnsembleInputs.of(small_campaign, test).model_copy(update={"space": space})
     return ready, rocking, calibrating.contact(SPECIMEN, space), _set(read, members=RUNS)

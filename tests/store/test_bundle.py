@@ -1,7 +1,5 @@
 """The bundle of a report: whole, the same bytes wherever and whenever it is made, and nothing but the report."""
 
-from __future__ import annotations
-
 import os
 import zipfile
 

@@ -1,7 +1,5 @@
 """Every stage's file is CF-1.11 by the IOOS checker, and ACDD-1.3 as far as a laboratory's record can be."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -26,7 +24,7 @@ VOCABULARY = "standard_name_vocabulary"  # the two names in use are in every ver
 UNTRIGGERED = ("time_coverage_start", "time_coverage_end")
 
 
-def channels(clock: str, size: int, name: str, quantity: str, unit: str | None) -> dict[str, object]:
+def channels(clock, size, name, quantity, unit):
     values = np.sin(np.arange(size) / 9)
     attributes = {"channel": name, "quantity": quantity, "on": "table", "recorder": "main", "quality_report": ""}
     return {
@@ -36,7 +34,7 @@ def channels(clock: str, size: int, name: str, quantity: str, unit: str | None) 
     }
 
 
-def scalars(*names: str) -> dict[str, object]:
+def scalars(*names):
     return dict.fromkeys(names, ((), 0.5))
 
 
@@ -154,12 +152,12 @@ RESULTS = {
 }
 
 
-def complaints(path, checker: str) -> dict[int, list[str]]:
+def complaints(path, checker):
     """What the checker misses, by priority (3: highly recommended, 2: recommended); it needs no network."""
     CheckSuite.load_all_available_checkers()
     suite = CheckSuite()
     dataset = suite.load_dataset(str(path))
-    found: dict[int, list[str]] = {}
+    found = {}
     try:
         results, errors = suite.run_all(dataset, [checker])[checker]
     finally:

@@ -1,7 +1,5 @@
 """Names that CF takes, units that UDUNITS reads, nothing stored undescribed."""
 
-from __future__ import annotations
-
 import re
 
 import netCDF4

@@ -1,7 +1,5 @@
 """Files are whole or not there, come back as they went, and say when they were damaged."""
 
-from __future__ import annotations
-
 import errno
 import os
 from pathlib import Path
@@ -184,7 +182,7 @@ def test_what_a_killed_run_left_is_swept_and_results_stay(tmp_path):
 
 
 @pytest.fixture
-def results(tmp_path: Path) -> Path:
+def results(tmp_path):
     """A folder of results with a file at each of three depths, and an empty folder."""
     folder = tmp_path / "processed"
     for name in ("summary.json", "tests/free-01/ingest.nc", "specimens/prism.nc"):
@@ -196,7 +194,7 @@ def results(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def elsewhere(tmp_path: Path) -> Path:
+def elsewhere(tmp_path):
     """A folder that does not belong to the results."""
     folder = tmp_path / "elsewhere"
     folder.mkdir()
@@ -204,7 +202,7 @@ def elsewhere(tmp_path: Path) -> Path:
     return folder
 
 
-def names(folder: Path) -> set[str]:
+def names(folder):
     found = own_files(folder)
     assert len(found) == len(set(found))
     return {path.relative_to(folder).as_posix() for path in found}
@@ -265,7 +263,7 @@ def test_a_link_to_a_pipe_is_refused(results, elsewhere):
         own_files(results)
 
 
-def failing_in(monkeypatch: pytest.MonkeyPatch, folder: Path, error: OSError) -> None:
+def failing_in(monkeypatch, folder, error):
     scan = os.scandir
 
     def scandir(path):

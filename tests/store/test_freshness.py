@@ -1,7 +1,5 @@
 """What something is made from is known by one hash, and the part that changed is named."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

@@ -1,7 +1,5 @@
 """Paths of results, as the contract gives them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """A dataset goes into NetCDF and comes back as it was: attributes, labels, long arrays and short ones."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from collections import namedtuple

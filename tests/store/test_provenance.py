@@ -1,7 +1,5 @@
 """Attributes of provenance, and the hash of what a result says."""
 
-from __future__ import annotations
-
 from datetime import UTC, datetime
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The table of stages: their order, their names, and which results a test has."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.campaign import load

@@ -1,7 +1,5 @@
 """Quantities in text to SI: the laboratory's spellings, and what is refused with which words."""
 
-from __future__ import annotations
-
 import contextlib
 import subprocess
 import sys
@@ -211,7 +209,7 @@ POWERS = st.integers(-3, 3)
 
 
 @given(st.lists(st.tuples(NAMES, POWERS), min_size=1, max_size=3))
-def test_a_product_of_units_has_the_product_of_their_factors(parts: list[tuple[str, int]]) -> None:
+def test_a_product_of_units_has_the_product_of_their_factors(parts):
     found = resolve("*".join(f"{name}^{power}" for name, power in parts))
     factor, powers = 1.0, collected(())
     for name, power in parts:
@@ -223,7 +221,7 @@ def test_a_product_of_units_has_the_product_of_their_factors(parts: list[tuple[s
 
 
 @given(st.lists(st.tuples(NAMES, POWERS), min_size=1, max_size=3))
-def test_the_usual_spelling_of_a_unit_is_the_same_unit_and_its_own(parts: list[tuple[str, int]]) -> None:
+def test_the_usual_spelling_of_a_unit_is_the_same_unit_and_its_own(parts):
     text = "*".join(f"{name}^{power}" for name, power in parts)
     usual = units.normalise_unit(text)
     found, again = resolve(text), resolve(usual)
@@ -247,17 +245,17 @@ def test_the_usual_spelling_of_a_unit_is_the_same_unit_and_its_own(parts: list[t
         ("m/m", "1"),
     ],
 )
-def test_two_spellings_are_one_unit(one: str, other: str) -> None:
+def test_two_spellings_are_one_unit(one, other):
     assert (resolve(one).factor, resolve(one).dimension) == (resolve(other).factor, resolve(other).dimension)
 
 
 @every("text", ["m/", "(m", "m)", "()", "m^10", "m^^2", "mm furlong", "x" * (LONGEST + 1), "2m"])
-def test_a_unit_that_is_none_is_refused(text: str) -> None:
+def test_a_unit_that_is_none_is_refused(text):
     with pytest.raises(UnitError, match="Unknown unit"):
         resolve(text)
 
 
-def test_a_hint_is_given_for_a_longer_name_only() -> None:
+def test_a_hint_is_given_for_a_longer_name_only():
     with pytest.raises(UnitError, match=r'Unknown unit "mmm". Did you mean "mm"\?'):
         resolve("mmm")
     with pytest.raises(UnitError) as refused:
@@ -265,7 +263,7 @@ def test_a_hint_is_given_for_a_longer_name_only() -> None:
     assert "Did you mean" not in str(refused.value)
 
 
-def test_powers_are_bounded() -> None:
+def test_powers_are_bounded():
     assert resolve("*".join(["m"] * LARGEST_POWER)).dimension == (("m", LARGEST_POWER),)
     with pytest.raises(UnitError):
         resolve("*".join(["m"] * (LARGEST_POWER + 1)))
@@ -274,7 +272,7 @@ def test_powers_are_bounded() -> None:
 @given(st.one_of(st.text(max_size=30), UNIT_PIECES.map("".join)))
 @example("9**9**9**9")
 @example("m" * 5000)
-def test_any_text_is_a_unit_or_refused(text: str) -> None:
+def test_any_text_is_a_unit_or_refused(text):
     try:
         assert resolve(text).factor > 0
     except UnitError as error:
@@ -282,18 +280,18 @@ def test_any_text_is_a_unit_or_refused(text: str) -> None:
 
 
 @every("dimension", DIMENSIONS)
-def test_the_example_of_a_dimension_has_that_dimension(dimension: str) -> None:
+def test_the_example_of_a_dimension_has_that_dimension(dimension):
     si_unit, example = DIMENSIONS[dimension]
     assert units.factor_to_si(si_unit, dimension) == 1
     assert units.factor_to_si(example, dimension) > 0
     assert words(dimension) in expected(dimension).casefold() or dimension == "dimensionless"
 
 
-def test_every_quantity_has_a_known_dimension() -> None:
+def test_every_quantity_has_a_known_dimension():
     assert {dimension for dimension in QUANTITY_DIMENSIONS.values() if dimension} <= DIMENSIONS.keys()
 
 
-def test_an_expectation_repeats_the_number_that_was_given() -> None:
+def test_an_expectation_repeats_the_number_that_was_given():
     assert expected("length") == 'A length was expected, such as "mm".'
     assert expected("length", 86) == 'A length was expected, such as "86 mm".'
     assert expected("dimensionless") == "A plain number was expected."

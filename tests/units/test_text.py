@@ -1,7 +1,5 @@
 """Numbers for people: as many digits as the half-width allows."""
 
-from __future__ import annotations
-
 import re
 from math import inf, nan
 from pathlib import Path

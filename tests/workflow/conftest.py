@@ -5,7 +5,6 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
@@ -15,19 +14,19 @@ from short_campaign import Small, copied, write_campaign
 
 
 @pytest.fixture(scope="session")
-def undisturbed(made_once: Callable[..., Path]) -> Small:
+def undisturbed(made_once):
     """The campaign as one run in one process leaves it; it is only looked at."""
     return Small(made_once("undisturbed", lambda folder: Small(write_campaign(folder)).complete()))
 
 
 @pytest.fixture
-def small(undisturbed: Small, tmp_path: Path) -> Small:
+def small(undisturbed, tmp_path):
     """Copy of it."""
     return Small(copied(undisturbed.folder, tmp_path / "small"))
 
 
 @pytest.fixture
-def untouched(undisturbed: Small, tmp_path: Path) -> Small:
+def untouched(undisturbed, tmp_path):
     """Copy of it that was never run."""
     ignored = shutil.ignore_patterns("processed", "report")
     return Small(Path(shutil.copytree(undisturbed.folder, tmp_path / "small", ignore=ignored)))
@@ -64,7 +63,7 @@ def resumes(untouched, undisturbed):
 
 
 @pytest.fixture
-def in_space(small: Small, undrawn: None) -> Small:
+def in_space(small, undrawn):
     """Copy of it that is also predicted by the contact model, whose damping is given."""
     contact = 'contact = {step = "30 us", penetration = 1e-6, damping_fraction = 0.3}'
     models = f'models = ["nonlinear", "contact"]\n{contact}\n'

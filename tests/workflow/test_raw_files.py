@@ -129,7 +129,7 @@ def test_only_files_of_the_same_size_are_hashed(small, monkeypatch):
 CHANNELS = (("time", "s"), ("top", "mm"), ("table", "m/s^2"))
 
 
-def as_diadem(raw: Path) -> Path:
+def as_diadem(raw):
     """Write a raw file of text anew as a DIAdem header with its values beside it; these are returned."""
     rows = np.loadtxt(raw, delimiter=",", skiprows=1)
     values = raw.with_suffix(".tdx")
@@ -156,11 +156,11 @@ def in_two_parts(untouched):
     return untouched
 
 
-def values_of(campaign) -> Path:
+def values_of(campaign):
     return campaign.raw("pulse-01").with_suffix(".tdx")
 
 
-def alter(path: Path) -> None:
+def alter(path):
     content = bytearray(path.read_bytes())
     content[-2] ^= 0x20
     path.write_bytes(content)

@@ -1,7 +1,5 @@
 """[assessments.<name>], and the real column that it needs."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.errors import CampaignError

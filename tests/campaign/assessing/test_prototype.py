@@ -1,7 +1,5 @@
 """[prototype.<specimen>]: values with their limits."""
 
-from __future__ import annotations
-
 import pytest
 from pydantic import ValidationError
 

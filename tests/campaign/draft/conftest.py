@@ -1,7 +1,5 @@
 """Raw files in a folder, as laboratories leave them."""
 
-from __future__ import annotations
-
 import tomllib
 
 import numpy as np

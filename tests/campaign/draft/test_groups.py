@@ -1,7 +1,5 @@
 """A folder in which most files are no recordings: which ones are is asked first, and little else."""
 
-from __future__ import annotations
-
 import tomllib
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a column and a file are taken for: by units, names and signals, with the reason, and what is asked."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -17,7 +15,7 @@ NOISE = np.random.default_rng(1).standard_normal(TIME.size)
 STILL = 1e-3 * NOISE
 
 
-def column(name: str, unit: str | None = None, shape: Shape = MOVING, *, is_clock: bool = False) -> Column:
+def column(name, unit=None, shape=MOVING, *, is_clock=False):
     return Column(1, name, f"{name} [{unit}]", unit, is_clock, True, shape)
 
 
@@ -67,11 +65,11 @@ def test_the_place_and_the_axis_are_read_from_the_name():
     assert (found.place, found.place_word, found.axis) == ("table", 'from "tischweg" in its name', "x")
 
 
-def named_column(number: int, name: str, unit: str | None) -> Column:
+def named_column(number, name, unit):
     return Column(number, name, name, unit, False, True, MOVING)
 
 
-def lines_of(*named: tuple[str, str | None]) -> list[dict[str, Line]]:
+def lines_of(*named):
     drafted = draft_channels({"main": [named_column(n, *each) for n, each in enumerate(named, start=1)]})
     return [{line.key: line for line in channel.lines if isinstance(line, Line)} for channel in drafted.channels]
 
@@ -189,7 +187,7 @@ def test_a_frequency_in_the_name_is_held_against_the_recorded_one(folder):
     assert "the table moves at 3 Hz" in [each.asked for each in drafted.doubts]
 
 
-def raw(relative: str, *names: str, spread: float = 1.0) -> RawFile:
+def raw(relative, *names, spread=1.0):
     shape = Shape(spread)
     columns = tuple(Column(n, name, name, "mm", False, True, shape) for n, name in enumerate(names, start=1))
     return RawFile(relative, "delimited", columns, 100.0, 10.0, ())

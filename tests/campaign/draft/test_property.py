@@ -1,7 +1,5 @@
 """Whatever lies in a folder: of a draft, `check` refuses nothing but what the draft itself asks."""
 
-from __future__ import annotations
-
 import contextlib
 import re
 import tempfile
@@ -48,7 +46,7 @@ tables = st.tuples(
 )
 
 
-def write(folder: Path, name: str, ending: str, columns: list, has_clock: bool, delimiter: str) -> None:
+def write(folder, name, ending, columns, has_clock, delimiter):
     cells = [[f"{head} [{unit}]" if unit else head for (head, unit), _ in columns]]
     cells += [[f"{SIGNALS[kind][row]:.5f}" for _, kind in columns] for row in range(TIME.size)]
     if has_clock:
@@ -68,7 +66,7 @@ def write(folder: Path, name: str, ending: str, columns: list, has_clock: bool, 
 @example(
     [("all dead", ".csv", [(("LVDT 1", "mm"), "dead")], True, ";"), ("b", ".csv", [(("top", "mm"), "sine")], True, ";")]
 )
-def test_check_refuses_nothing_that_the_draft_does_not_ask(files: list) -> None:
+def test_check_refuses_nothing_that_the_draft_does_not_ask(files):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for file in files:

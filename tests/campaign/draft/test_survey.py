@@ -1,7 +1,5 @@
 """What is in a folder of raw files: which are recordings, why others are not, and what their signals look like."""
 
-from __future__ import annotations
-
 import sys
 
 import numpy as np

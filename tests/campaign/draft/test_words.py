@@ -1,7 +1,5 @@
 """Names of columns and files in the languages of the laboratories, and the ids and lines made of them."""
 
-from __future__ import annotations
-
 import tomllib
 
 import pytest

@@ -1,7 +1,5 @@
 """A folder of raw files becomes a campaign file: what is guessed, what is asked, what is left out."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

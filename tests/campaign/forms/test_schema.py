@@ -1,7 +1,5 @@
 """JSON Schemas of the contract: what the models accept and refuse, as TOML has it; the files are in raw_schema."""
 
-from __future__ import annotations
-
 import json
 import tomllib
 from pathlib import Path

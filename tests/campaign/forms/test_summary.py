@@ -1,7 +1,5 @@
 """summary.json has the form of contract 1."""
 
-from __future__ import annotations
-
 import json
 import math
 

@@ -1,7 +1,5 @@
 """Any finite number in a campaign file makes a campaign that can be used, or is refused in a sentence."""
 
-from __future__ import annotations
-
 import math
 import re
 import tomllib

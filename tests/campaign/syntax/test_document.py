@@ -1,7 +1,5 @@
 """TOML files of a campaign: what is read, and what is said of a file that is not one."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.campaign.review import ReviewFile

@@ -1,7 +1,5 @@
 """The kinds of value of a campaign file: what becomes which SI value, and what is said of what does not."""
 
-from __future__ import annotations
-
 from datetime import date, datetime, time, timedelta, timezone
 from typing import Annotated, Any
 
@@ -15,7 +13,7 @@ from colonnade.campaign.syntax.fields import FIRST_YEAR, LAST_YEAR, day
 from every import every
 
 
-def read(kind: Any, value: object) -> Any:
+def read(kind, value):
     return TypeAdapter(kind).validate_python(value)
 
 

@@ -1,7 +1,5 @@
 """Ids that every file system can hold and tell apart; paths that may not leave the campaign's folder."""
 
-from __future__ import annotations
-
 import contextlib
 
 import pytest

@@ -1,7 +1,5 @@
 """How results are written, and progress where there is no terminal."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import dataclass
 from pathlib import Path

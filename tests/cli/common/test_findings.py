@@ -1,7 +1,5 @@
 """Findings on a terminal: by kind, the worst first, a few in full, what follows from others only counted."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.cli.common.findings import (

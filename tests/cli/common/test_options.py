@@ -1,7 +1,5 @@
 """Options that commands share are declared once and mean the same everywhere."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

@@ -1,7 +1,5 @@
 """The law of contact: its numbers, the step that follows it, and the modes of a body on it."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -109,7 +107,7 @@ def test_a_loaded_block_is_quiet_below_the_longest_step_and_not_above(fraction, 
 ELASTIC = assemble(prism_mesh(0.086, 0.086, 0.456, (2, 2, 6)), 26.10)
 
 
-def test_dropping_modes_keeps_the_low_ones_and_ends_at_the_rigid_body() -> None:
+def test_dropping_modes_keeps_the_low_ones_and_ends_at_the_rigid_body():
     reduced = reduce_body(ELASTIC)
     limit = 2 / 1e-5
     low = keep_modes(reduced, limit)
@@ -122,7 +120,7 @@ def test_dropping_modes_keeps_the_low_ones_and_ends_at_the_rigid_body() -> None:
     assert rigid.nodes == pytest.approx(rigid_on_nodes(ELASTIC).nodes)
 
 
-def test_a_step_of_ten_microseconds_keeps_modes_that_the_engine_advances_with_closed_energy() -> None:
+def test_a_step_of_ten_microseconds_keeps_modes_that_the_engine_advances_with_closed_energy():
     reduced = reduce_body(ELASTIC)
     law = ContactLaw.stiff(reduced, 9.81, penetration=1e-6)
     kept = keep_modes_for_step(reduced, law, 1e-5)
@@ -135,7 +133,7 @@ def test_a_step_of_ten_microseconds_keeps_modes_that_the_engine_advances_with_cl
     assert history.energies.closes
 
 
-def test_a_step_that_not_even_the_rigid_body_allows_is_refused() -> None:
+def test_a_step_that_not_even_the_rigid_body_allows_is_refused():
     reduced = reduce_body(ELASTIC, vibration_modes=6, attachment=False)
     with pytest.raises(ValueError, match="even the rigid body on this contact needs one of at most"):
         keep_modes_for_step(reduced, ContactLaw.stiff(reduced, 9.81), 1e-2)

@@ -1,7 +1,5 @@
 """A body starts as deep in the table as bears its weight, tilted about its pole."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Bands of an ensemble, what its runs end in, and how its inputs count."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy import stats

@@ -1,7 +1,5 @@
 """Ensembles against propagation of error by hand, the spread of single runs, and themselves in other parts."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

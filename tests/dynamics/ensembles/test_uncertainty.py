@@ -1,7 +1,5 @@
 """Drawn inputs and motions have the stated deviations, and what is exact stays as it is."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy import stats

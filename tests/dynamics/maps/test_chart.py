@@ -1,7 +1,5 @@
 """The stability map: the paper's statements, the rules of its limits, and independence of how it is computed."""
 
-from __future__ import annotations
-
 import json
 import math
 from functools import cache

@@ -1,7 +1,5 @@
 """Columns of a map, its limits, and maps of the contact model."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

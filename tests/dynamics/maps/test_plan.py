@@ -1,7 +1,5 @@
 """The plan of a map: what is asked for, checked, and the A that every column runs."""
 
-from __future__ import annotations
-
 from math import tan
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Steady responses: their order, size and period."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

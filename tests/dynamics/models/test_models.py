@@ -1,7 +1,5 @@
 """Models by their names: what each says of itself, runs, and draws."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from dataclasses import replace

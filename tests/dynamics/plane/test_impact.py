@@ -1,7 +1,5 @@
 """Uplift, landing and impact of a block on its two sides."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

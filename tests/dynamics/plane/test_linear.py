@@ -1,7 +1,5 @@
 """One arc of the linear model against its closed form, and whole samples against many arcs."""
 
-from __future__ import annotations
-
 from math import acosh, cosh, sinh, sqrt
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A run in the plane, and the outcome that it ends in."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

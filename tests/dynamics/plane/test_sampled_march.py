@@ -1,7 +1,5 @@
 """A block through a base motion, impact by impact, where both are known in closed form."""
 
-from __future__ import annotations
-
 from math import acosh, sqrt
 
 import numpy as np

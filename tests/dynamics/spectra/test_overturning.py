@@ -1,7 +1,5 @@
 """Overturning spectra of pulses against closed forms, published numbers and an independent integrator."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

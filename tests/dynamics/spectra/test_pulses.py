@@ -1,7 +1,5 @@
 """The pulses themselves: their size, their derivatives, and what sampling leaves of them."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

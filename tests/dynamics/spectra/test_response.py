@@ -1,7 +1,5 @@
 """The response spectrum against closed forms and against scipy's own solution of the oscillator."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy

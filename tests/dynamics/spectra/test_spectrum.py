@@ -1,7 +1,5 @@
 """The rocking spectrum of a recorded motion."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,13 +1,8 @@
 """A campaign file as people write it, for drawings."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import pytest
 
-from colonnade.campaign import Campaign, load
+from colonnade.campaign import load
 
 HEAD = """
 schema = 1
@@ -35,10 +30,10 @@ oil = {column = "9", quantity = "other"}
 
 
 @pytest.fixture
-def drawn_campaign(tmp_path: Path) -> Callable[..., Campaign]:
+def drawn_campaign(tmp_path):
     """Write and read a campaign with these channels and a test of each specimen."""
 
-    def write(channels: str = CHANNELS) -> Campaign:
+    def write(channels=CHANNELS):
         (tmp_path / "a.csv").write_text("t,1\n", encoding="utf-8")
         tests = "".join(
             f'[[tests]]\nid = "{name}-1"\nkind = "other"\nspecimen = "{name}"\nsetup = "frame"\nfile = "a.csv"\n'

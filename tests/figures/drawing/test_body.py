@@ -1,7 +1,5 @@
 """A specimen in its views: outline and dimensions to scale, poles, angles, senses, table and axes."""
 
-from __future__ import annotations
-
 from math import degrees
 
 import numpy as np
@@ -19,15 +17,15 @@ PRISM = Body("rectangle", (0.086, 0.086), (0.06, 0.06), 0.456, True, Rocking.of(
 CONE = Body("circle", (0.097, 0.0755), (0.097, 0.0755), 0.48, True, None)
 
 
-def view(orientation=ELEVATION) -> View:
+def view(orientation=ELEVATION):
     return View.within(Figure(figsize=(4, 4)), (0.0, 0.0, 4.0, 4.0), (4.0, 4.0), orientation, 0.2, (2.0, 1.0))
 
 
-def written(one: View) -> set[str]:
+def written(one):
     return {text.get_text() for text in one.axes.texts} - {""}
 
 
-def outlines(one: View) -> list[np.ndarray]:
+def outlines(one):
     """Corners of the closed outlines, without the first that comes again at the end."""
     return [patch.get_xy()[:-1] for patch in one.axes.patches]
 

@@ -1,7 +1,5 @@
 """What is drawn follows from the campaign file, and from the draft of one."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.errors import CampaignError

@@ -1,7 +1,5 @@
 """What a block rocks about, laid out about the middle between its poles."""
 
-from __future__ import annotations
-
 from math import cos, sin
 
 import pytest

@@ -1,7 +1,5 @@
 """The drawing shows each arrow where the campaign file says it is and in the direction of a positive reading."""
 
-from __future__ import annotations
-
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
@@ -18,7 +16,7 @@ def views(*transducers, body=PRISM):
     return setup_drawings([Drawn("prism in frame", body, transducers)]).axes
 
 
-def arrows(axes) -> list[tuple[tuple[float, float], tuple[float, float]]]:
+def arrows(axes):
     """Start and end of each arrow of a reading; those of axes, dimensions and senses are grey or have no colour."""
     return [
         (text.xyann, text.xy)
@@ -27,7 +25,7 @@ def arrows(axes) -> list[tuple[tuple[float, float], tuple[float, float]]]:
     ]
 
 
-def marks(axes) -> list[tuple[str, float, float]]:
+def marks(axes):
     return [
         (line.get_marker(), float(line.get_xdata()[0]), float(line.get_ydata()[0]))
         for line in axes.lines

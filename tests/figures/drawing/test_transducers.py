@@ -1,7 +1,5 @@
 """Where a transducer is drawn that has no place, and what its mark, arrow, wire and label say."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
@@ -17,7 +15,7 @@ TOP = Transducer("top", "displacement", "specimen", (1.0, 0.0, 0.0), (0.043, 0.0
 INCH = 0.2
 
 
-def drawn(one, orientation=ELEVATION, *, named=True) -> View:
+def drawn(one, orientation=ELEVATION, *, named=True):
     """A view with one transducer, at its place or at the middle of the specimen."""
     figure = Figure(figsize=(4, 4))
     view = View.within(figure, (0.0, 0.0, 4.0, 4.0), (4.0, 4.0), orientation, INCH, (2.0, 1.0))

@@ -1,7 +1,5 @@
 """A view projects points, marks what points out of the paper, and keeps labels apart."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np
@@ -14,7 +12,7 @@ from colonnade.figures.drawing.setup import ELEVATION, PLAN, SIDE
 from colonnade.figures.drawing.view import View, _spaced
 
 
-def view(orientation) -> View:
+def view(orientation):
     return View.within(Figure(figsize=(4, 4)), (0.0, 0.0, 4.0, 4.0), (4.0, 4.0), orientation, 0.1, (2.0, 1.0))
 
 

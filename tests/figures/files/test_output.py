@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import re
 from xml.etree import ElementTree
 
@@ -13,7 +11,7 @@ from colonnade.figures import Curve, Quantity, SpanPanel, spans_side_by_side, to
 TEXT = 'Test <a> & "b"'
 
 
-def long_figure(samples: int = 60_000):
+def long_figure(samples=60_000):
     time = np.arange(samples) / 1000
     noise = np.random.default_rng(5)
     measured, linear, base = (Curve(time, noise.normal(size=samples)) for _ in range(3))
@@ -22,11 +20,11 @@ def long_figure(samples: int = 60_000):
     )
 
 
-def svg(identity: str = "one", figure=None) -> str:
+def svg(identity="one", figure=None):
     return to_svg(figure or long_figure(3000), identity=identity, title=TEXT, description="measured & predicted")
 
 
-def identifiers(text: str) -> list[str]:
+def identifiers(text):
     return [element.attrib["id"] for element in ElementTree.fromstring(text).iter() if "id" in element.attrib]
 
 

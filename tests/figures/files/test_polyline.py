@@ -1,7 +1,5 @@
 """Paths by steps lead through the same points as they did before."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

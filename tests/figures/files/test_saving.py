@@ -1,7 +1,5 @@
 """A figure goes to the file that was named, in the format of its ending, over nothing but a figure of ours."""
 
-from __future__ import annotations
-
 import pytest
 from matplotlib.figure import Figure
 
@@ -12,7 +10,7 @@ from colonnade.figures.files.saving import save
 BEGINS = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG", ".csv": b"time (s)"}
 
 
-def picture(label: str = "time (s)") -> Picture:
+def picture(label="time (s)"):
     figure = Figure(figsize=(3, 2))
     axes = figure.subplots()
     axes.plot([0.0, 1.0], [1.0, 2.0], label="measured")

@@ -1,7 +1,5 @@
 """The table of a figure holds what was drawn, whatever the figure."""
 
-from __future__ import annotations
-
 import csv
 import io
 
@@ -32,7 +30,7 @@ def panel():
     return axes
 
 
-def read(text: str) -> dict[str, list[str]]:
+def read(text):
     heads, *rows = csv.reader(io.StringIO(text))
     return dict(zip(heads, zip(*rows, strict=True), strict=True))
 

@@ -1,7 +1,5 @@
 """The measured map shows each test by its outcome, and bars where the boundaries lie."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The figure of steady responses shows their orders by colour, curves of their amplitudes, and measured points."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

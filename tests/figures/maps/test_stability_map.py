@@ -1,7 +1,5 @@
 """The figure of a stability map shows limits, shares of cells and measured points."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

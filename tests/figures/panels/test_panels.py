@@ -1,7 +1,5 @@
 """Panels: stacked or side by side, with lean axes, curves thinned to what can be seen and long ones whole."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np
@@ -67,7 +65,7 @@ def test_an_upper_panel_borrows_the_upright_grid_of_the_lowest_one():
 WRITTEN = re.compile(r"<text[^>]*?(?:x=\"([-\d.]+)\" y=\"([-\d.]+)\"|translate\(([-\d.]+) ([-\d.]+)\))[^>]*>([^<]*)")
 
 
-def drawn(lean: bool, shape) -> dict[str, tuple[float, float]]:
+def drawn(lean, shape):
     """Where each text of a figure is, points."""
     with styled():
         figure = Figure(figsize=(4.0, 3.0))
@@ -133,7 +131,7 @@ def test_a_panel_is_where_it_was_asked_for():
     assert np.array(box.bounds) == pytest.approx([1 / 4, 0.5 / 3, 2.5 / 4, 2 / 3])
 
 
-def noisy(samples: int = 60_000) -> Curve:
+def noisy(samples=60_000):
     return Curve(np.arange(samples) / 1000, np.random.default_rng(3).normal(size=samples))
 
 
@@ -184,7 +182,7 @@ def test_arrays_of_different_length_are_refused():
         envelope(Curve(np.zeros(3), np.zeros(2)))
 
 
-def a_band(samples: int = 5001) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def a_band(samples=5001):
     time = np.linspace(0.0, 10.0, samples)
     centre = 0.4 * np.sin(4 * time)
     return time, centre - 0.01 * time, centre + 0.01 * time
@@ -214,7 +212,7 @@ def panel():
     return figure, figure.subplots()
 
 
-def svg_size(figure: Figure) -> int:
+def svg_size(figure):
     return len(to_svg(figure, identity="one", title="", description=""))
 
 

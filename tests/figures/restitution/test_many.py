@@ -1,7 +1,5 @@
 """Hundreds of free vibrations of one specimen: figures that stay small and say what all records show."""
 
-from __future__ import annotations
-
 import time
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Figures of e: estimates, impacts, peaks, the fitted history and the joint region, with marks of what was used."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from matplotlib.colors import to_hex
@@ -114,7 +112,7 @@ def test_impacts_without_a_value_are_said():
     assert impact_restitution([series]).axes[0].texts[-1].get_text() == "no impacts"
 
 
-def decay(title: str = "free-01", *, count: int = 20, restitution: float = 0.95, used: int | None = None) -> PeakSeries:
+def decay(title="free-01", *, count=20, restitution=0.95, used=None):
     number = np.arange(1, count + 1)
     angle = np.asarray(angle_of_energy(0.8 * restitution ** (2 * number), PRISM.critical_angle)) * (-1.0) ** number
     chosen = number <= (count if used is None else used)

@@ -1,7 +1,5 @@
 """Figures of spectra: what they show, as their tables give it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Stored results of the small campaign, as pictures read them."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.store.records.stored import read_test

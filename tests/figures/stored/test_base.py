@@ -1,7 +1,5 @@
 """The recorded base motion with the motion that it was to follow, and their spectra."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,12 +1,9 @@
 """Recorded channels as they are stored: units, the recorder's scale, spikes, and bounds."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr
 
-from colonnade.campaign import Test
 from colonnade.figures.stored import channels
 from colonnade.signals.quality import Flag
 from colonnade.store.records.stored import Stored
@@ -31,7 +28,7 @@ def stored(number=1, spikes=()):
 
 
 @pytest.fixture(scope="module")
-def test(filled_campaign) -> Test:
+def test(filled_campaign):
     return filled_campaign[0].tests["span-2.0"]
 
 

@@ -1,7 +1,5 @@
 """The closer look at stored tests: the separatrix against the equation of motion, and steady cycles in phase."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

@@ -1,7 +1,5 @@
 """The moving block of a stored test: who moves, and on what."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -21,7 +19,7 @@ def moving(filled_campaign, known):
     return of
 
 
-def named(movie) -> list[str]:
+def named(movie):
     (legend,) = movie.figure.legends
     return [text.get_text() for text in legend.get_texts()]
 

@@ -1,7 +1,5 @@
 """Pictures of stored tests: what is drawn, said and left out."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -67,7 +65,7 @@ def test_measured_and_predicted_are_drawn_and_said(known):
     assert np.nanmax(np.abs(measured)) == pytest.approx(record.peak_ratio, rel=1e-3)
 
 
-def title(picture) -> str:
+def title(picture):
     (axes,) = picture.figure.axes
     return axes.get_title(loc="left")
 

@@ -1,7 +1,5 @@
 """Advice on free vibrations and on earthquakes: enough, how many more, and from where."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Sine tests: the posterior against direct integration, the information by its definition, and the advice."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy

@@ -23,8 +23,6 @@ advice 28.5 (138, 19), bisection 64.5 (137, 19), with the shared end 41.5 (133, 
 none; what is found there saves the others.
 """
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Gyroscopes and the smoother: angles within their standard errors between rests."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

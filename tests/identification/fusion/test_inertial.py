@@ -1,7 +1,5 @@
 """What gyroscopes and accelerometers read of motions in closed form, and the angle from accelerometers alone."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Sensors: derivatives of their readings, what a set-up separates, and their noise."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Factors with their causes, scales that rocking tells, and what changed since the last test."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -104,27 +102,27 @@ def test_missing_samples_do_not_matter(shaken):
 GOOD = ChannelState(zero=1e-3, noise=1e-5, motion=1e-2)
 
 
-def kinds(now: dict[str, ChannelState], before: dict[str, ChannelState]) -> list[tuple[str, Severity]]:
+def kinds(now, before):
     return [(each.kind, each.severity) for each in changes(now, before, "span-2.0")]
 
 
-def test_a_channel_that_died_is_serious_while_others_move() -> None:
+def test_a_channel_that_died_is_serious_while_others_move():
     dead = ChannelState(zero=1e-3, noise=1e-5, motion=2e-5)
     assert kinds({"top": dead, "bottom": GOOD}, {"top": GOOD, "bottom": GOOD}) == [("dead channel", Severity.SERIOUS)]
     assert not kinds({"top": dead, "bottom": dead}, {"top": GOOD, "bottom": GOOD})  # the specimen did not rock
 
 
-def test_another_gain_shows_in_the_noise() -> None:
+def test_another_gain_shows_in_the_noise():
     louder = ChannelState(zero=1e-2, noise=1e-4, motion=1e-1)
     assert kinds({"top": louder}, {"top": GOOD}) == [("gain", Severity.WARNING)]
 
 
-def test_a_zero_that_wandered() -> None:
+def test_a_zero_that_wandered():
     moved = ChannelState(zero=6e-3, noise=1e-5, motion=1e-2)
     assert kinds({"top": moved}, {"top": GOOD}) == [("zero", Severity.WARNING)]
 
 
 @given(st.floats(0.5, 2.0), st.floats(-0.1, 0.1), st.floats(0.6, 1.6))
-def test_tests_of_the_same_instruments_are_silent(motion: float, shift: float, noise: float) -> None:
+def test_tests_of_the_same_instruments_are_silent(motion, shift, noise):
     now = ChannelState(GOOD.zero + shift * GOOD.motion, noise * GOOD.noise, motion * GOOD.motion)
     assert not kinds({"top": now, "new": GOOD}, {"top": GOOD, "old": GOOD})

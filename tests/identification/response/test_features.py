@@ -1,7 +1,5 @@
 """Features, end and outcome of a record."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """What drives a specimen: a steady sine, a table that moves or stands; and the boundaries of its responses."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

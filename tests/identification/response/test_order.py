@@ -1,7 +1,5 @@
 """The order of a response: closed histories, the nonlinear engine's steady states, and Fourier as a second judge."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Runs as they would have been measured, and the measured one among them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

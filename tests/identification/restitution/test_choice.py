@@ -1,7 +1,5 @@
 """Arguments of an identification, which estimate is recommended, and tests pooled."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A free vibration as the estimators see it: arcs, what of them is usable, and fits that are made once."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

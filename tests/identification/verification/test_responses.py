@@ -1,7 +1,5 @@
 """Outcome and amplitude of members and of observations, and members taken as observed."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,10 +1,6 @@
 """NI DIAdem: headers in XML, objects that refer to one another, packed or plain, and bytes that are elsewhere."""
 
-from __future__ import annotations
-
 import zipfile
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -37,12 +33,12 @@ HEADER = """<?xml version="1.0"?>
 </usi:tdm>"""
 
 
-def header(path: Path, kind: str = "explicit_external", parameters: str = "", block: str = "") -> Path:
+def header(path, kind="explicit_external", parameters="", block=""):
     path.write_text(HEADER.format(kind=kind, parameters=parameters, block=block), encoding="utf-8")
     return path
 
 
-def test_a_channel_is_found_by_way_of_its_references(tmp_path: Path) -> None:
+def test_a_channel_is_found_by_way_of_its_references(tmp_path):
     (stored,), warnings = described_channels(header(tmp_path / "a.tdm"))
     assert warnings == []
     assert stored == Described("mm", "a.tdx", StoredNumbers("top", "<i2", 16, 10, 2), step=0.01, begin=0.0)
@@ -56,9 +52,7 @@ def test_a_channel_is_found_by_way_of_its_references(tmp_path: Path) -> None:
         ("implicit_constant", "4", (4.0, 0.0, "", 7)),
     ],
 )
-def test_a_channel_is_scaled_or_made_up_as_its_column_says(
-    tmp_path: Path, kind: str, parameters: str, expected: tuple[float, float, str, int]
-) -> None:
+def test_a_channel_is_scaled_or_made_up_as_its_column_says(tmp_path, kind, parameters, expected):
     (stored,), _ = described_channels(header(tmp_path / "a.tdm", kind, parameters))
     assert (stored.numbers.offset, stored.numbers.factor, stored.file, stored.numbers.count) == expected
 
@@ -67,7 +61,7 @@ def test_a_channel_is_scaled_or_made_up_as_its_column_says(
     ("change", "told"),
     [(("usi2", "usi9"), "no column"), (('"inc0"/', '"inc9"/'), "inc9"), (("explicit_external", "odd"), '"odd"')],
 )
-def test_a_channel_that_cannot_be_found_says_why(tmp_path: Path, change: tuple[str, str], told: str) -> None:
+def test_a_channel_that_cannot_be_found_says_why(tmp_path, change, told):
     path = header(tmp_path / "a.tdm")
     path.write_text(path.read_text(encoding="utf-8").replace(change[0], change[1], 1), encoding="utf-8")
     stored, (warning,) = described_channels(path)
@@ -75,7 +69,7 @@ def test_a_channel_that_cannot_be_found_says_why(tmp_path: Path, change: tuple[s
     assert told in warning
 
 
-def test_a_packed_header_is_read_and_a_damaged_one_refused(tmp_path: Path) -> None:
+def test_a_packed_header_is_read_and_a_damaged_one_refused(tmp_path):
     plain, packed = header(tmp_path / "plain.tdm"), tmp_path / "packed.tdm"
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.write(plain, "header.xml")
@@ -88,9 +82,7 @@ def test_a_packed_header_is_read_and_a_damaged_one_refused(tmp_path: Path) -> No
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=40, deadline=None)
 @given(place=some.integers(0, 1200), wrong=some.binary(max_size=8))
-def test_a_header_with_other_bytes_in_it_is_refused_or_describes_channels(
-    tmp_path: Path, place: int, wrong: bytes
-) -> None:
+def test_a_header_with_other_bytes_in_it_is_refused_or_describes_channels(tmp_path, place, wrong):
     path = header(tmp_path / "a.tdm")
     content = path.read_bytes()
     path.write_bytes(content[:place] + wrong + content[place + len(wrong) :])
@@ -126,9 +118,7 @@ TDM = """<?xml version="1.0" encoding="UTF-8"?><usi:tdm xmlns:usi="http://www.ni
 </usi:data></usi:tdm>"""
 
 
-def tdm(
-    tmp_path: Path, *, packed: bool = False, order: str = "littleEndian", rows: int = 3, url: str = "r.tdx"
-) -> Path:
+def tdm(tmp_path, *, packed=False, order="littleEndian", rows=3, url="r.tdx"):
     text = TDM.format(order=order, url=url, lag=0, rows=rows)
     sign = "<" if order == "littleEndian" else ">"
     numbers = np.array([0, 1, -2, 100]).astype(f"{sign}i2").tobytes()
@@ -145,7 +135,7 @@ def tdm(
 
 @every("packed", [False, True])
 @every("order", ["littleEndian", "bigEndian"])
-def test_a_tdm_header_tells_scaling_interleaving_and_clock(tmp_path: Path, packed: bool, order: str) -> None:
+def test_a_tdm_header_tells_scaling_interleaving_and_clock(tmp_path, packed, order):
     recording = read(tdm(tmp_path, packed=packed, order=order))
     top = recording.channel("top")
     assert (top.values.tolist(), top.unit) == ([10, 10.5, 9, 60], "mm")
@@ -155,11 +145,11 @@ def test_a_tdm_header_tells_scaling_interleaving_and_clock(tmp_path: Path, packe
     assert recording.channel("even").values.tolist() == [1, 3, 5]
 
 
-def test_a_channel_that_is_not_stored_is_no_longer_than_those_that_are(tmp_path: Path) -> None:
+def test_a_channel_that_is_not_stored_is_no_longer_than_those_that_are(tmp_path):
     assert read(tdm(tmp_path, rows=10**12)).channel("even").values.size == 4
 
 
-def test_a_path_out_of_the_folder_is_not_followed(tmp_path: Path) -> None:
+def test_a_path_out_of_the_folder_is_not_followed(tmp_path):
     folder = tmp_path / "data"
     folder.mkdir()
     path = tdm(folder, url="../r.tdx")
@@ -168,7 +158,7 @@ def test_a_path_out_of_the_folder_is_not_followed(tmp_path: Path) -> None:
         read(path)
 
 
-def test_entities_and_bombs_are_not_unpacked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_entities_and_bombs_are_not_unpacked(tmp_path, monkeypatch):
     path = tdm(tmp_path)
     path.write_text(path.read_text().replace("?><usi", '?><!DOCTYPE a [<!ENTITY b "c">]><usi'), encoding="utf-8")
     with pytest.raises(ReadError, match="its own entities"):
@@ -180,7 +170,7 @@ def test_entities_and_bombs_are_not_unpacked(tmp_path: Path, monkeypatch: pytest
         read_here(path, "diadem", {}, None)
 
 
-def test_values_that_are_cut_off_are_told(written: Callable[..., Path]) -> None:
+def test_values_that_are_cut_off_are_told(written):
     path = written("diadem")
     values = path.with_suffix(".tdx")
     values.write_bytes(values.read_bytes()[:-40])
@@ -188,7 +178,7 @@ def test_values_that_are_cut_off_are_told(written: Callable[..., Path]) -> None:
     assert recording.warnings == ('"table": record.tdx ends after 30 of its 40 values',)
 
 
-def test_a_file_of_values_without_bytes_has_none(written: Callable[..., Path]) -> None:
+def test_a_file_of_values_without_bytes_has_none(written):
     path = written("diadem")
     path.with_suffix(".tdx").write_bytes(b"")
     with pytest.raises(ReadError, match=r'"table": record.tdx ends after 0 of its 40 values'):

@@ -1,13 +1,8 @@
 """Workbooks: the rows of numbers of a sheet with names, units and clock; nothing that would exhaust the memory."""
 
-from __future__ import annotations
-
 import datetime as dt
 import io
 import zipfile
-from collections.abc import Sequence
-from pathlib import Path
-from typing import Any
 from xml.sax.saxutils import escape
 
 import numpy as np
@@ -28,11 +23,11 @@ ROWS = [["Versuch 7", 26.4], [], ["Zeit", "Weg oben", "Beschl."], ["s", "mm", "g
 SAMPLES = [[k * 0.005, float(np.sin(k / 9)), k / 10] for k in range(50)]
 
 
-def letters(column: int) -> str:
+def letters(column):
     return (letters(column // 26 - 1) if column >= 26 else "") + chr(65 + column % 26)
 
 
-def cell(value: Any, reference: str) -> str:
+def cell(value, reference):
     if isinstance(value, dt.datetime):
         days = (value - dt.datetime(1899, 12, 30)) / dt.timedelta(days=1)
         return f'<c r="{reference}" s="{DATE_STYLE}"><v>{days!r}</v></c>'
@@ -44,7 +39,7 @@ def cell(value: Any, reference: str) -> str:
     return f'<c r="{reference}"><v>{value!r}</v></c>'
 
 
-def sheet_xml(rows: Sequence[Sequence[Any]]) -> str:
+def sheet_xml(rows):
     body = []
     for number, row in enumerate(rows, 1):
         cells = [cell(value, f"{letters(k)}{number}") for k, value in enumerate(row) if value is not None]
@@ -52,7 +47,7 @@ def sheet_xml(rows: Sequence[Sequence[Any]]) -> str:
     return f'{HEAD}<worksheet xmlns="{MAIN}"><sheetData>{"".join(body)}</sheetData></worksheet>'
 
 
-def xlsx(path: Path, **sheets: str) -> Path:
+def xlsx(path, **sheets):
     listed = "".join(f'<sheet name="{name}" sheetId="{k}" r:id="r{k}"/>' for k, name in enumerate(sheets, 1))
     links = "".join(
         f'<Relationship Id="r{k}" Type="{RELATIONS}/worksheet" Target="worksheets/sheet{k}.xml"/>'
@@ -87,7 +82,7 @@ def xlsx(path: Path, **sheets: str) -> Path:
     return path
 
 
-def ods(path: Path, rows: Sequence[Sequence[Any]], repeated: int = 1) -> Path:
+def ods(path, rows, repeated=1):
     names = (
         'xmlns:office="urn:oasis:names:tc:opendocument:xmlns:office:1.0" '
         'xmlns:table="urn:oasis:names:tc:opendocument:xmlns:table:1.0" '
@@ -114,7 +109,7 @@ def ods(path: Path, rows: Sequence[Sequence[Any]], repeated: int = 1) -> Path:
     return path
 
 
-def xls(path: Path, rows: Sequence[Sequence[Any]]) -> Path:
+def xls(path, rows):
     book = xlwt.Workbook()
     sheet = book.add_sheet("Blatt")
     for number, row in enumerate(rows):
@@ -125,7 +120,7 @@ def xls(path: Path, rows: Sequence[Sequence[Any]]) -> Path:
 
 
 @every("kind", ["xlsx", "xls", "ods"])
-def test_names_units_and_clock_are_found_above_and_among_the_rows_of_numbers(tmp_path: Path, kind: str) -> None:
+def test_names_units_and_clock_are_found_above_and_among_the_rows_of_numbers(tmp_path, kind):
     path = tmp_path / f"a.{kind}"
     if kind == "xlsx":
         xlsx(path, Blatt=sheet_xml([*ROWS, *SAMPLES]))
@@ -144,7 +139,7 @@ def test_names_units_and_clock_are_found_above_and_among_the_rows_of_numbers(tmp
     assert any("names in row 3" in note for note in recording.notes)
 
 
-def test_the_sheet_with_the_samples_is_found_or_given(tmp_path: Path) -> None:
+def test_the_sheet_with_the_samples_is_found_or_given(tmp_path):
     cover = sheet_xml([["Laboratory", 3], ["Date", "today"]])
     path = xlsx(
         tmp_path / "a.xlsx", Cover=cover, Daten=sheet_xml([["Time [s]", "x [mm]"], *[row[:2] for row in SAMPLES]])
@@ -160,7 +155,7 @@ def test_the_sheet_with_the_samples_is_found_or_given(tmp_path: Path) -> None:
         read(path, options={"sheet": 3})
 
 
-def test_dates_with_times_are_a_clock_with_a_start(tmp_path: Path) -> None:
+def test_dates_with_times_are_a_clock_with_a_start(tmp_path):
     start = dt.datetime(2013, 4, 26, 10, 15)
     rows = [[start + dt.timedelta(milliseconds=500 * k), float(k)] for k in range(20)]
     recording = read(xlsx(tmp_path / "a.xlsx", A=sheet_xml([["Datum", "x"], *rows])))
@@ -168,15 +163,15 @@ def test_dates_with_times_are_a_clock_with_a_start(tmp_path: Path) -> None:
     assert recording.start == start
 
 
-def test_formulas_give_their_cached_value_and_text_is_only_text(tmp_path: Path) -> None:
+def test_formulas_give_their_cached_value_and_text_is_only_text(tmp_path):
     rows = [[k * 0.1, f"=A{k + 2}*2→{k * 0.2!r}", 'HYPERLINK("http://example.org")'] for k in range(10)]
     recording = read(xlsx(tmp_path / "a.xlsx", A=sheet_xml([["t [s]", "x [mm]", "note"], *rows])))
     np.testing.assert_allclose(recording.channel("x").values, np.arange(10) * 0.2)
     assert np.isnan(recording.channel("note").values).all()
 
 
-def test_cells_that_are_no_numbers_are_told_with_their_rows(tmp_path: Path) -> None:
-    samples: list[list[Any]] = [list(row) for row in SAMPLES]
+def test_cells_that_are_no_numbers_are_told_with_their_rows(tmp_path):
+    samples = [list(row) for row in SAMPLES]
     samples[4][1], samples[6][2], samples[9] = "abc", "0,5", ["pause", None, None]
     recording = read(xlsx(tmp_path / "a.xlsx", A=sheet_xml([*ROWS, *samples, ["measured by M. Rossi"]])))
     assert recording.channel("Beschl.").values[6] == 0.5
@@ -186,14 +181,14 @@ def test_cells_that_are_no_numbers_are_told_with_their_rows(tmp_path: Path) -> N
     assert 'rows 14, 55: left out: text without a number ("pause")' in told
 
 
-def test_the_clock_and_the_rows_of_names_can_be_given(tmp_path: Path) -> None:
+def test_the_clock_and_the_rows_of_names_can_be_given(tmp_path):
     rows = [["old", "names"], ["n", "x"], *[[k * 5.0, float(k)] for k in range(9)]]
     path = xlsx(tmp_path / "a.xlsx", A=sheet_xml(rows))
     recording = read(path, options={"time": "n", "time_unit": "ms", "names_row": 2})
     np.testing.assert_allclose(recording.channel("x").time, np.arange(9) * 0.005)
 
 
-def test_heads_that_are_numbers_keep_their_digits(tmp_path: Path) -> None:
+def test_heads_that_are_numbers_keep_their_digits(tmp_path):
     heads = ["t", 1234567, 123456789012345]
     path = xlsx(tmp_path / "record.xlsx", log=sheet_xml([heads, *SAMPLES]))
     recording = read(path, options={"names_row": 1, "time": 1})
@@ -201,7 +196,7 @@ def test_heads_that_are_numbers_keep_their_digits(tmp_path: Path) -> None:
     np.testing.assert_array_equal(recording.channel("1234567").values, [row[1] for row in SAMPLES])
 
 
-def test_a_stray_cell_far_outside_is_refused_with_its_cause(tmp_path: Path) -> None:
+def test_a_stray_cell_far_outside_is_refused_with_its_cause(tmp_path):
     far = sheet_xml([["t", "x"], *[row[:2] for row in SAMPLES]]).replace(
         "</sheetData>", '<row r="1048576"><c r="XFD1048576"><v>1</v></c></row></sheetData>'
     )
@@ -210,7 +205,7 @@ def test_a_stray_cell_far_outside_is_refused_with_its_cause(tmp_path: Path) -> N
 
 
 @every("kind", ["xlsx", "xls"])
-def test_a_workbook_that_was_cut_off_is_refused(tmp_path: Path, kind: str) -> None:
+def test_a_workbook_that_was_cut_off_is_refused(tmp_path, kind):
     path = tmp_path / f"a.{kind}"
     if kind == "xls":
         xls(path, [*ROWS, *SAMPLES])
@@ -222,7 +217,7 @@ def test_a_workbook_that_was_cut_off_is_refused(tmp_path: Path, kind: str) -> No
         read(path)
 
 
-def test_a_changed_byte_is_found_by_the_check_sum(tmp_path: Path) -> None:
+def test_a_changed_byte_is_found_by_the_check_sum(tmp_path):
     packed, stored = xlsx(tmp_path / "a.xlsx", A=sheet_xml([*ROWS, *SAMPLES])), tmp_path / "b.xlsx"
     with zipfile.ZipFile(packed) as old, zipfile.ZipFile(stored, "w") as new:
         for name in old.namelist():
@@ -234,7 +229,7 @@ def test_a_changed_byte_is_found_by_the_check_sum(tmp_path: Path) -> None:
         read(stored)
 
 
-def test_a_chain_of_sectors_that_comes_back_to_itself_is_refused(tmp_path: Path) -> None:
+def test_a_chain_of_sectors_that_comes_back_to_itself_is_refused(tmp_path):
     path = xls(tmp_path / "a.xls", [*ROWS, *SAMPLES * 40])
     content = bytearray(path.read_bytes())
     table = (int.from_bytes(content[76:80], "little") + 1) * 512
@@ -244,7 +239,7 @@ def test_a_chain_of_sectors_that_comes_back_to_itself_is_refused(tmp_path: Path)
         read(path)
 
 
-def test_another_zip_archive_is_no_workbook(tmp_path: Path) -> None:
+def test_another_zip_archive_is_no_workbook(tmp_path):
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w") as archive:
         archive.writestr("readme.txt", "raw files")
@@ -253,12 +248,12 @@ def test_another_zip_archive_is_no_workbook(tmp_path: Path) -> None:
         read(tmp_path / "a.xlsx")
 
 
-def test_a_workbook_without_numbers_says_so(tmp_path: Path) -> None:
+def test_a_workbook_without_numbers_says_so(tmp_path):
     with pytest.raises(ReadError, match=r'no sheet holds rows of numbers \("A"\)'):
         read(xlsx(tmp_path / "a.xlsx", A=sheet_xml([["only", "words"], ["in", "it"]])))
 
 
-def test_a_damaged_workbook_is_read_or_refused(tmp_path: Path) -> None:
+def test_a_damaged_workbook_is_read_or_refused(tmp_path):
     path = xlsx(tmp_path / "a.xlsx", A=sheet_xml([*ROWS, *SAMPLES]))
     content, chance, refused = path.read_bytes(), np.random.default_rng(3), 0
     for _ in range(60):
@@ -273,7 +268,7 @@ def test_a_damaged_workbook_is_read_or_refused(tmp_path: Path) -> None:
     assert 30 < refused < 60
 
 
-def test_numbers_that_run_on_from_row_to_row_are_one_channel(tmp_path: Path) -> None:
+def test_numbers_that_run_on_from_row_to_row_are_one_channel(tmp_path):
     steps = np.random.default_rng(3).standard_normal(400)
     series = np.round(np.convolve(steps, np.hanning(9), "same"), 4).tolist()
     wrapped = [series[row : row + 8] for row in range(0, 400, 8)]

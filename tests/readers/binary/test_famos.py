@@ -1,10 +1,6 @@
 """imc FAMOS: scaling, kinds of numbers, clock, and blocks that are damaged."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from datetime import datetime
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,12 +10,12 @@ from colonnade.readers.registry import read
 from every import every
 
 
-def test_start_is_that_of_the_trigger_and_the_blocks_offset(written: Callable[..., Path]) -> None:
+def test_start_is_that_of_the_trigger_and_the_blocks_offset(written):
     recording = read(written("famos"))
     assert recording.start == datetime(2013, 4, 26, 10, 15, 0, 250000)
 
 
-def test_channels_that_were_triggered_at_different_times_count_from_the_first(written: Callable[..., Path]) -> None:
+def test_channels_that_were_triggered_at_different_times_count_from_the_first(written):
     path = written("famos")
     content = path.read_bytes()
     second = content.rindex(b"26,4,2013,10,15,0.25")
@@ -31,7 +27,7 @@ def test_channels_that_were_triggered_at_different_times_count_from_the_first(wr
     assert recording.start == datetime(2013, 4, 26, 10, 15, 0, 250000)
 
 
-def whole_numbers(path: Path, kind: int, form: str, *, order: int = 1, packing: str = "0,0,1,0") -> Path:
+def whole_numbers(path, kind, form, *, order=1, packing="0,0,1,0"):
     data = np.array([0, 1, -2 if form[0] != "u" else 2, 100]).astype((">" if order == 2 else "<") + form).tobytes()
     size = int(form[1:])
     packed = f"1,{size},{kind},{8 * size},{packing}"
@@ -61,7 +57,7 @@ def whole_numbers(path: Path, kind: int, form: str, *, order: int = 1, packing: 
     [(1, "u1"), (2, "i1"), (3, "u2"), (4, "i2"), (5, "u4"), (6, "i4"), (7, "f4"), (8, "f8"), (12, "u8"), (14, "i8")],
 )
 @every("order", [1, 2])
-def test_numbers_of_every_kind_are_scaled(tmp_path: Path, kind: int, form: str, order: int) -> None:
+def test_numbers_of_every_kind_are_scaled(tmp_path, kind, form, order):
     recording = read(whole_numbers(tmp_path / "record.raw", kind, form, order=order))
     third = 2 if form[0] == "u" else -2
     channel = recording.channel("top")
@@ -72,12 +68,12 @@ def test_numbers_of_every_kind_are_scaled(tmp_path: Path, kind: int, form: str, 
 
 
 @every(("kind", "packing"), [(4, "0,0,1,6"), (4, "255,0,1,0"), (9, "0,0,1,0")])
-def test_numbers_that_are_packed_in_another_way_are_refused(tmp_path: Path, kind: int, packing: str) -> None:
+def test_numbers_that_are_packed_in_another_way_are_refused(tmp_path, kind, packing):
     with pytest.raises(ReadError, match="interleaved or of an unknown kind"):
         read(whole_numbers(tmp_path / "record.raw", kind, "i2", packing=packing))
 
 
-def test_a_file_that_ends_within_its_values_says_so(written: Callable[..., Path]) -> None:
+def test_a_file_that_ends_within_its_values_says_so(written):
     path = written("famos")
     path.write_bytes(path.read_bytes()[:-41])
     recording = read(path)
@@ -85,7 +81,7 @@ def test_a_file_that_ends_within_its_values_says_so(written: Callable[..., Path]
     assert '"table": the file ends after 30 of its 40 values' in recording.warnings
 
 
-def digital_word(path: Path, names: dict[int, str], *, kind: int = 11, bits: int = 16, scaled: bool = False) -> Path:
+def digital_word(path, names, *, kind=11, bits=16, scaled=False):
     words = np.array([0b0000, 0b0001, 0b0110, 0b0111, 0x8001], dtype="<u2").tobytes()
     if kind == 7:
         words = np.zeros(5, dtype="<f4").tobytes()
@@ -102,7 +98,7 @@ def digital_word(path: Path, names: dict[int, str], *, kind: int = 11, bits: int
 
 @every("bits", [16, 4])
 @every("scaled", [False, True])
-def test_digital_channels_of_one_word_are_channels_of_their_own(tmp_path: Path, bits: int, scaled: bool) -> None:
+def test_digital_channels_of_one_word_are_channels_of_their_own(tmp_path, bits, scaled):
     names = {1: "release", 2: "door", 3: "pump", 16: "sync"}
     recording = read(digital_word(tmp_path / "record.raw", names, bits=bits, scaled=scaled))
     found = {channel.name: channel.values.tolist() for channel in recording.channels}
@@ -116,7 +112,7 @@ def test_digital_channels_of_one_word_are_channels_of_their_own(tmp_path: Path, 
     np.testing.assert_allclose(recording.channel("sync").time, 0.01 * np.arange(5))
 
 
-def test_a_bit_that_no_word_has_and_bits_of_a_fraction_are_left_out(tmp_path: Path) -> None:
+def test_a_bit_that_no_word_has_and_bits_of_a_fraction_are_left_out(tmp_path):
     recording = read(digital_word(tmp_path / "record.raw", {1: "release", 99: "door"}))
     assert [channel.name for channel in recording.channels] == ["release"]
     assert any('"door": it is bit 99 of a word' in told for told in recording.warnings)

@@ -1,9 +1,5 @@
 """What an HDF5 file holds: variables of all groups, and why the rest is left out; nothing of another file is read."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import h5py
 import numpy as np
 import pytest
@@ -13,7 +9,7 @@ from colonnade.readers.binary.hdf5 import open_hdf5
 from colonnade.readers.binary.netcdf import read_classic, read_hdf5
 
 
-def test_variables_come_with_their_groups_and_attributes(tmp_path: Path) -> None:
+def test_variables_come_with_their_groups_and_attributes(tmp_path):
     path = tmp_path / "a.h5"
     with h5py.File(path, "w") as file:
         file["run/deep/top"] = np.arange(5.0)
@@ -31,7 +27,7 @@ def test_variables_come_with_their_groups_and_attributes(tmp_path: Path) -> None
     assert content.left_out == {}
 
 
-def test_what_is_not_read_is_left_out_with_its_reason(tmp_path: Path) -> None:
+def test_what_is_not_read_is_left_out_with_its_reason(tmp_path):
     path = tmp_path / "a.h5"
     with h5py.File(path, "w") as file:
         file["text"] = "words"
@@ -56,7 +52,7 @@ def test_what_is_not_read_is_left_out_with_its_reason(tmp_path: Path) -> None:
     }
 
 
-def test_groups_in_one_another_come_to_an_end(tmp_path: Path) -> None:
+def test_groups_in_one_another_come_to_an_end(tmp_path):
     path = tmp_path / "a.h5"
     with h5py.File(path, "w") as file:
         file["/".join("a" * 30)] = np.arange(3.0)
@@ -65,7 +61,7 @@ def test_groups_in_one_another_come_to_an_end(tmp_path: Path) -> None:
     assert "in more than 20 groups" in reason
 
 
-def test_a_damaged_variable_costs_no_other(tmp_path: Path) -> None:
+def test_a_damaged_variable_costs_no_other(tmp_path):
     path = tmp_path / "a.h5"
     with h5py.File(path, "w") as file:
         file["sound"] = np.arange(5.0)
@@ -78,7 +74,7 @@ def test_a_damaged_variable_costs_no_other(tmp_path: Path) -> None:
     assert any(warning.startswith("packed is damaged") for warning in found.warnings) or len(found.variables) == 2
 
 
-def test_classic_netcdf_is_read_and_its_text_left_out(tmp_path: Path) -> None:
+def test_classic_netcdf_is_read_and_its_text_left_out(tmp_path):
     from scipy.io import netcdf_file
 
     path = tmp_path / "a.nc"
@@ -97,7 +93,7 @@ def test_classic_netcdf_is_read_and_its_text_left_out(tmp_path: Path) -> None:
         read_classic(path)
 
 
-def test_a_file_that_was_cut_off_is_refused_with_its_bytes(tmp_path: Path) -> None:
+def test_a_file_that_was_cut_off_is_refused_with_its_bytes(tmp_path):
     path = tmp_path / "a.h5"
     with h5py.File(path, "w") as file:
         file["top"] = np.arange(1000.0)
@@ -107,7 +103,7 @@ def test_a_file_that_was_cut_off_is_refused_with_its_bytes(tmp_path: Path) -> No
         open_hdf5(path)
 
 
-def test_a_file_that_is_no_hdf5_is_refused(tmp_path: Path) -> None:
+def test_a_file_that_is_no_hdf5_is_refused(tmp_path):
     (tmp_path / "a.h5").write_bytes(b"none of it" * 100)
     with pytest.raises(ReadError, match=r"a.h5: HDF5 does not open it .* the file is damaged"):
         open_hdf5(tmp_path / "a.h5")

@@ -1,10 +1,6 @@
 """NetCDF and HDF5: units, times and missing values as the CF conventions write them, through all groups."""
 
-from __future__ import annotations
-
 from datetime import UTC, datetime
-from pathlib import Path
-from typing import Any
 
 import h5py
 import numpy as np
@@ -20,7 +16,7 @@ TOP = np.sin(TIME * 20)
 FORMATS = ["NETCDF3_CLASSIC", "NETCDF3_64BIT", "NETCDF4", "NETCDF4_CLASSIC"]
 
 
-def saved(path: Path, form: str, times: Any = TIME, encoding: Any = None, **attributes: Any) -> Path:
+def saved(path, form, times=TIME, encoding=None, **attributes):
     dataset = xr.Dataset(
         {"top": ("elapsed", TOP, {"units": "mm"}), "pair": (("elapsed", "side"), np.column_stack([TOP, -TOP]))},
         coords={"elapsed": ("elapsed", times, attributes)},
@@ -30,7 +26,7 @@ def saved(path: Path, form: str, times: Any = TIME, encoding: Any = None, **attr
 
 
 @every("form", FORMATS)
-def test_a_variable_goes_by_the_coordinate_of_its_dimension(tmp_path: Path, form: str) -> None:
+def test_a_variable_goes_by_the_coordinate_of_its_dimension(tmp_path, form):
     recording = read(saved(tmp_path / "a.nc", form, TIME * 1e3, units="ms"))
     assert recording.format == "netcdf"
     assert recording.warnings == ()
@@ -50,9 +46,7 @@ def test_a_variable_goes_by_the_coordinate_of_its_dimension(tmp_path: Path, form
         ("days since 2013-04-26 12:15:00 +02:00", 86400.0, datetime(2013, 4, 26, 10, 15, tzinfo=UTC)),
     ],
 )
-def test_times_since_a_moment_count_from_the_first_sample(
-    tmp_path: Path, units: str, factor: float, start: datetime
-) -> None:
+def test_times_since_a_moment_count_from_the_first_sample(tmp_path, units, factor, start):
     with h5py.File(tmp_path / "a.nc", "w") as file:
         time = file.create_dataset("time", data=TIME / factor)
         time.attrs["units"] = units
@@ -65,7 +59,7 @@ def test_times_since_a_moment_count_from_the_first_sample(
 
 
 @every("form", ["NETCDF3_CLASSIC", "NETCDF4"])
-def test_packed_numbers_are_unpacked_and_missing_ones_missing(tmp_path: Path, form: str) -> None:
+def test_packed_numbers_are_unpacked_and_missing_ones_missing(tmp_path, form):
     values = np.array([1.5, np.nan, -2.0, 4.25])
     packing = {"dtype": "int16", "scale_factor": 0.25, "add_offset": 1.0, "_FillValue": -999}
     dataset = xr.Dataset({"a": ("t", values)}, coords={"t": ("t", np.arange(4) * 0.1, {"units": "s"})})
@@ -73,7 +67,7 @@ def test_packed_numbers_are_unpacked_and_missing_ones_missing(tmp_path: Path, fo
     np.testing.assert_array_equal(read(tmp_path / "a.nc").channel("a").values, values)
 
 
-def test_groups_of_hdf5_have_clocks_of_their_own(tmp_path: Path) -> None:
+def test_groups_of_hdf5_have_clocks_of_their_own(tmp_path):
     with h5py.File(tmp_path / "a.h5", "w") as file:
         for name, factor in (("first", 1.0), ("second", 2.0)):
             file[f"{name}/t"] = TIME * factor
@@ -93,7 +87,7 @@ def test_groups_of_hdf5_have_clocks_of_their_own(tmp_path: Path) -> None:
         read(tmp_path / "a.h5", options={"group": "third"})
 
 
-def test_a_table_of_hdf5_gives_its_columns_and_a_rate_among_the_attributes_the_clock(tmp_path: Path) -> None:
+def test_a_table_of_hdf5_gives_its_columns_and_a_rate_among_the_attributes_the_clock(tmp_path):
     table = np.zeros(40, dtype=[("top", "f8"), ("remark", "S4")])
     table["top"] = TOP
     with h5py.File(tmp_path / "a.h5", "w") as file:
@@ -105,7 +99,7 @@ def test_a_table_of_hdf5_gives_its_columns_and_a_rate_among_the_attributes_the_c
     assert "table/remark is left out: it holds no numbers" in recording.notes
 
 
-def test_the_clock_that_was_given_is_taken(tmp_path: Path) -> None:
+def test_the_clock_that_was_given_is_taken(tmp_path):
     with h5py.File(tmp_path / "a.h5", "w") as file:
         file["n"], file["top"] = TIME * 1e3, TOP
     np.testing.assert_allclose(

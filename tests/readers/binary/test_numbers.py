@@ -1,7 +1,5 @@
 """Numbers as values: vectors in structs and groups; at a place in a file, scaled, with gaps between them, cut off."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,7 +19,7 @@ COLUMNS = [
 ]
 
 
-def test_a_channel_has_the_last_part_of_its_path_for_a_name_if_that_is_clear_and_infinite_values_are_missing() -> None:
+def test_a_channel_has_the_last_part_of_its_path_for_a_name_if_that_is_clear_and_infinite_values_are_missing():
     recording = recorded(Path("a.mat"), "matlab", COLUMNS)
     assert [channel.name for channel in recording.channels] == ["t", "run.top", "other.top"]
     assert [channel.heading for channel in recording.channels] == ["run.t", "run.top", "other.top"]
@@ -30,7 +28,7 @@ def test_a_channel_has_the_last_part_of_its_path_for_a_name_if_that_is_clear_and
 
 
 @given(arrays(np.float64, some.integers(0, 50), elements=some.floats(allow_nan=True, allow_infinity=True)))
-def test_only_infinities_are_changed_and_they_are_counted(numbers: np.ndarray) -> None:
+def test_only_infinities_are_changed_and_they_are_counted(numbers):
     values, warning = as_values(numbers)
     infinite = np.isinf(numbers)
     np.testing.assert_array_equal(values[~infinite], numbers[~infinite])
@@ -42,7 +40,7 @@ def test_only_infinities_are_changed_and_they_are_counted(numbers: np.ndarray) -
 
 
 @given(arrays(some.sampled_from([np.bool_, np.int8, np.uint64, np.float32]), some.integers(0, 20)))
-def test_numbers_of_any_type_become_values(numbers: np.ndarray) -> None:
+def test_numbers_of_any_type_become_values(numbers):
     values, _ = as_values(numbers)
     assert values.dtype == np.float64
     assert values.shape == numbers.shape
@@ -52,14 +50,14 @@ CONTENT = np.frombuffer(np.arange(12, dtype="<i2").tobytes(), dtype=np.uint8)
 EVERY_THIRD = StoredNumbers("top", "<i2", first=2, count=4, stride=6, offset=10.0, factor=0.5)
 
 
-def test_numbers_are_taken_at_their_stride_and_scaled() -> None:
+def test_numbers_are_taken_at_their_stride_and_scaled():
     values, warnings = values_at(CONTENT, EVERY_THIRD)
     assert values.tolist() == [10.5, 12.0, 13.5, 15.0]
     assert warnings == []
 
 
 @every(("change", "there"), [({"count": 9}, 4), ({"end": 10}, 2), ({"first": 400}, 0), ({"first": -2}, 0)])
-def test_numbers_that_are_not_there_are_told(change: dict[str, int], there: int) -> None:
+def test_numbers_that_are_not_there_are_told(change, there):
     values, warnings = values_at(CONTENT, replace(EVERY_THIRD, **change))
     assert values.size == there
     assert warnings == [f'"top": the file ends after {there} of its {change.get("count", 4)} values']

@@ -1,11 +1,7 @@
 """TDMS: channels with their units and clocks, wherever the file ends."""
 
-from __future__ import annotations
-
 import struct
 from datetime import UTC, datetime
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -24,7 +20,7 @@ SEGMENTS = 3
 
 
 @pytest.fixture
-def path(tmp_path: Path) -> Path:
+def path(tmp_path):
     path = tmp_path / "a.tdms"
     with TdmsWriter(path) as writer:
         for number in range(SEGMENTS):
@@ -34,7 +30,7 @@ def path(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_whole_file_ends_where_its_segments_do(path: Path) -> None:
+def test_a_whole_file_ends_where_its_segments_do(path):
     size = path.stat().st_size
     assert walk(path) == Ending(size, size)
     assert missing_samples(walk(path), TdmsFile.read(path)) == []
@@ -42,7 +38,7 @@ def test_a_whole_file_ends_where_its_segments_do(path: Path) -> None:
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60, deadline=None)
 @given(share=some.floats(0, 1, exclude_max=True))
-def test_a_file_that_was_cut_off_lacks_what_is_behind_the_cut(path: Path, share: float) -> None:
+def test_a_file_that_was_cut_off_lacks_what_is_behind_the_cut(path, share):
     content = path.read_bytes()
     cut = path.with_name("cut.tdms")
     cut.write_bytes(content[: int(share * len(content))])
@@ -61,19 +57,19 @@ def test_a_file_that_was_cut_off_lacks_what_is_behind_the_cut(path: Path, share:
 START = np.datetime64("2013-04-26T10:15:00.250000")
 
 
-def waveform(step: float, start: np.datetime64 | None = START, offset: float = 0.0, **others: Any) -> dict[str, Any]:
+def waveform(step, start=START, offset=0.0, **others):
     properties = {"wf_increment": step, "wf_start_offset": offset, **others}
     return properties if start is None else {**properties, "wf_start_time": start}
 
 
-def written(path: Path, *segments: list[ChannelObject]) -> Path:
+def written(path, *segments):
     with TdmsWriter(path) as writer:
         for segment in segments:
             writer.write_segment([RootObject({}), *segment])
     return path
 
 
-def test_values_unit_and_clock_come_from_the_channels_own_properties(tmp_path: Path) -> None:
+def test_values_unit_and_clock_come_from_the_channels_own_properties(tmp_path):
     values = np.sin(np.arange(200) / 7)
     path = written(
         tmp_path / "free.tdms", [ChannelObject("Messung", "LVDT 1", values, waveform(0.005, unit_string="mm"))]
@@ -89,7 +85,7 @@ def test_values_unit_and_clock_come_from_the_channels_own_properties(tmp_path: P
     assert recording.warnings == ()
 
 
-def test_channels_that_start_at_different_times_never_share_a_row(tmp_path: Path) -> None:
+def test_channels_that_start_at_different_times_never_share_a_row(tmp_path):
     later = START + np.timedelta64(125, "ms")
     path = written(
         tmp_path / "two.tdms",
@@ -107,7 +103,7 @@ def test_channels_that_start_at_different_times_never_share_a_row(tmp_path: Path
     assert any("0.125 s apart" in note for note in recording.notes)
 
 
-def test_samples_before_the_trigger_are_before_zero(tmp_path: Path) -> None:
+def test_samples_before_the_trigger_are_before_zero(tmp_path):
     path = written(tmp_path / "pre.tdms", [ChannelObject("g", "a", np.arange(9.0), waveform(0.01, offset=-0.5))])
     recording = read(path)
     time = recording.channel("a").time
@@ -116,7 +112,7 @@ def test_samples_before_the_trigger_are_before_zero(tmp_path: Path) -> None:
     assert recording.start == datetime(2013, 4, 26, 10, 14, 59, 750000, tzinfo=UTC)
 
 
-def test_a_name_in_two_groups_needs_its_group(tmp_path: Path) -> None:
+def test_a_name_in_two_groups_needs_its_group(tmp_path):
     path = written(
         tmp_path / "groups.tdms",
         [
@@ -133,7 +129,7 @@ def test_a_name_in_two_groups_needs_its_group(tmp_path: Path) -> None:
         read(path, options={"group": "row"})
 
 
-def test_a_channel_of_times_is_the_clock_where_the_properties_give_none(tmp_path: Path) -> None:
+def test_a_channel_of_times_is_the_clock_where_the_properties_give_none(tmp_path):
     time = np.arange(30) * 0.004
     path = written(
         tmp_path / "time.tdms",
@@ -144,7 +140,7 @@ def test_a_channel_of_times_is_the_clock_where_the_properties_give_none(tmp_path
     assert recording.channel("Time").is_clock
 
 
-def test_timestamps_are_a_clock_and_give_the_start(tmp_path: Path) -> None:
+def test_timestamps_are_a_clock_and_give_the_start(tmp_path):
     stamps = START + np.arange(40) * np.timedelta64(2500, "us")
     path = written(
         tmp_path / "stamps.tdms", [ChannelObject("g", "Stamp", stamps), ChannelObject("g", "a", np.zeros(40))]
@@ -154,7 +150,7 @@ def test_timestamps_are_a_clock_and_give_the_start(tmp_path: Path) -> None:
     assert recording.start == datetime(2013, 4, 26, 10, 15, 0, 250000, tzinfo=UTC)
 
 
-def test_the_clock_that_was_given_is_taken(tmp_path: Path) -> None:
+def test_the_clock_that_was_given_is_taken(tmp_path):
     path = written(
         tmp_path / "given.tdms",
         [ChannelObject("g", "counter", np.arange(20.0) * 5), ChannelObject("g", "a", np.zeros(20), waveform(0.1))],
@@ -165,7 +161,7 @@ def test_the_clock_that_was_given_is_taken(tmp_path: Path) -> None:
         read(path, options={"time": "clock"})
 
 
-def test_linear_scaling_is_applied(tmp_path: Path) -> None:
+def test_linear_scaling_is_applied(tmp_path):
     scaling = {
         "NI_Number_Of_Scales": 1,
         "NI_Scale[0]_Scale_Type": "Linear",
@@ -179,7 +175,7 @@ def test_linear_scaling_is_applied(tmp_path: Path) -> None:
     assert read(path).channel("a").values.tolist() == [-3.0, -2.0, 2.0, -5.0]
 
 
-def test_text_is_left_out_and_infinities_are_missing(tmp_path: Path) -> None:
+def test_text_is_left_out_and_infinities_are_missing(tmp_path):
     path = written(
         tmp_path / "mixed.tdms",
         [
@@ -194,7 +190,7 @@ def test_text_is_left_out_and_infinities_are_missing(tmp_path: Path) -> None:
     assert np.isnan(recording.channel("a").values[1])
 
 
-def test_a_stale_index_file_beside_it_is_not_looked_at(tmp_path: Path) -> None:
+def test_a_stale_index_file_beside_it_is_not_looked_at(tmp_path):
     path = written(tmp_path / "a.tdms", [ChannelObject("g", "a", np.arange(6.0), waveform(0.1))])
     (tmp_path / "a.tdms_index").write_bytes(b"TDSh of another file")
     assert read(path).channel("a").values.size == 6
@@ -203,7 +199,7 @@ def test_a_stale_index_file_beside_it_is_not_looked_at(tmp_path: Path) -> None:
 
 
 @every("cut", [8, 800, 1000])
-def test_a_file_that_was_cut_off_says_how_many_samples_are_there(tmp_path: Path, cut: int) -> None:
+def test_a_file_that_was_cut_off_says_how_many_samples_are_there(tmp_path, cut):
     path = written(
         tmp_path / "cut.tdms",
         [
@@ -222,7 +218,7 @@ def test_a_file_that_was_cut_off_says_how_many_samples_are_there(tmp_path: Path,
     assert there["a"].size == (75 if cut == 1000 else 100)
 
 
-def test_samples_are_counted_over_several_chunks(tmp_path: Path) -> None:
+def test_samples_are_counted_over_several_chunks(tmp_path):
     path = written(tmp_path / "chunks.tdms", [ChannelObject("g", "a", np.arange(10.0), waveform(0.1))])
     content = bytearray(path.read_bytes())
     length = struct.unpack("<Q", content[12:20])[0]
@@ -233,7 +229,7 @@ def test_samples_are_counted_over_several_chunks(tmp_path: Path) -> None:
     assert any('24 of 50 samples of "a"' in warning for warning in recording.warnings)
 
 
-def test_a_recorder_that_was_stopped_by_force_is_told(tmp_path: Path) -> None:
+def test_a_recorder_that_was_stopped_by_force_is_told(tmp_path):
     path = written(tmp_path / "crash.tdms", [ChannelObject("g", "a", np.arange(10.0), waveform(0.1))])
     content = bytearray(path.read_bytes())
     content[12:20] = b"\xff" * 8
@@ -243,7 +239,7 @@ def test_a_recorder_that_was_stopped_by_force_is_told(tmp_path: Path) -> None:
     assert any("did not finish the last segment" in warning for warning in recording.warnings)
 
 
-def test_a_segment_of_which_only_the_start_is_there_is_told(tmp_path: Path) -> None:
+def test_a_segment_of_which_only_the_start_is_there_is_told(tmp_path):
     segment = [ChannelObject("g", "a", np.arange(10.0), waveform(0.1))]
     one = written(tmp_path / "one.tdms", segment).stat().st_size
     path = written(tmp_path / "two.tdms", segment, [GroupObject("other", {"note": "x" * 200}), *segment])
@@ -253,7 +249,7 @@ def test_a_segment_of_which_only_the_start_is_there_is_told(tmp_path: Path) -> N
     assert any("the data in its last 60 bytes are lost" in warning for warning in recording.warnings)
 
 
-def test_a_broken_chain_of_segments_is_refused_with_its_place(tmp_path: Path) -> None:
+def test_a_broken_chain_of_segments_is_refused_with_its_place(tmp_path):
     segment = [ChannelObject("g", "a", np.arange(10.0), waveform(0.1))]
     one = written(tmp_path / "one.tdms", segment).stat().st_size
     path = written(tmp_path / "broken.tdms", segment, segment)
@@ -264,13 +260,13 @@ def test_a_broken_chain_of_segments_is_refused_with_its_place(tmp_path: Path) ->
         read(path, "tdms")
 
 
-def test_a_file_without_numbers_says_so(tmp_path: Path) -> None:
+def test_a_file_without_numbers_says_so(tmp_path):
     path = written(tmp_path / "text.tdms", [ChannelObject("g", "remarks", ["a", "b"])])
     with pytest.raises(ReadError, match=r"no channel holds numbers.*it holds text"):
         read(path)
 
 
-def test_a_real_file_of_raw_counts_with_scaling(shared_data: Path) -> None:
+def test_a_real_file_of_raw_counts_with_scaling(shared_data):
     recording = read(shared_data / "tdms" / "raw1.tdms")
     assert len(recording.channels) == 7
     assert recording.warnings == ()
@@ -284,7 +280,7 @@ def test_a_real_file_of_raw_counts_with_scaling(shared_data: Path) -> None:
     assert recording.start == datetime(2016, 12, 15, 22, 35, 21, tzinfo=UTC)
 
 
-def test_raw_counts_whose_scaling_is_lost_are_given_with_a_warning(shared_data: Path, tmp_path: Path) -> None:
+def test_raw_counts_whose_scaling_is_lost_are_given_with_a_warning(shared_data, tmp_path):
     path = tmp_path / "unscaled.tdms"
     path.write_bytes(
         (shared_data / "tdms" / "raw1.tdms").read_bytes().replace(b"NI_Number_Of_Scales", b"XX_Number_Of_Scales")
@@ -294,7 +290,7 @@ def test_raw_counts_whose_scaling_is_lost_are_given_with_a_warning(shared_data: 
     assert any("raw counts" in warning for warning in recording.warnings)
 
 
-def two_channels(path: Path, step: float = 0.005) -> Path:
+def two_channels(path, step=0.005):
     """A file in several segments of which the second channel starts 0.1 s late and at another rate."""
     late = START + np.timedelta64(100, "ms")
     segments = [
@@ -308,9 +304,7 @@ def two_channels(path: Path, step: float = 0.005) -> Path:
 
 
 @every("window", [(2.0, 3.0), (0.0, 0.5), (9.0, 30.0), (0.05, 0.06)])
-def test_a_window_of_a_long_file_is_what_the_whole_file_holds_there(
-    tmp_path: Path, window: tuple[float, float]
-) -> None:
+def test_a_window_of_a_long_file_is_what_the_whole_file_holds_there(tmp_path, window):
     path = two_channels(tmp_path / "long.tdms")
     whole, part = read(path), tdms.read_window(path, tdms.TdmsOptions(), Window(*window))
     for entire, found in zip(whole.channels, part.channels, strict=True):
@@ -326,7 +320,7 @@ def test_a_window_of_a_long_file_is_what_the_whole_file_holds_there(
     assert longest <= (window[1] - window[0]) / 0.005 + 4
 
 
-def test_a_window_of_channels_without_a_clock_of_their_own_is_the_whole_file(tmp_path: Path) -> None:
+def test_a_window_of_channels_without_a_clock_of_their_own_is_the_whole_file(tmp_path):
     path = two_channels(tmp_path / "long.tdms", step=1.0)  # LabVIEW's step where nobody told it one
     whole, part = read(path), tdms.read_window(path, tdms.TdmsOptions(), Window(2.0, 3.0))
     assert [channel.values.size for channel in part.channels] == [channel.values.size for channel in whole.channels]

@@ -1,12 +1,8 @@
 """Seismic waveforms: own clocks, gaps, rounded steps, no date, and what is not opened."""
 
-from __future__ import annotations
-
 import pickle
 import struct
 import sys
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import obspy
@@ -23,17 +19,17 @@ from every import every
 START = obspy.UTCDateTime(2013, 4, 26, 10, 15)
 
 
-def trace(channel: str, values: np.ndarray, rate: float, after: float = 0.0, **header: object) -> obspy.Trace:
+def trace(channel, values, rate, after=0.0, **header):
     told = {"station": "TABLE", "channel": channel, "delta": 1 / rate, "starttime": START + after, **header}
     return obspy.Trace(np.asarray(values, dtype=np.float32), told)
 
 
-def stored(path: Path, kind: str, *traces: obspy.Trace) -> Path:
+def stored(path, kind, *traces):
     obspy.Stream(list(traces)).write(str(path), format=kind)
     return path
 
 
-def test_every_channel_keeps_its_own_rate_and_start(tmp_path: Path) -> None:
+def test_every_channel_keeps_its_own_rate_and_start(tmp_path):
     path = stored(
         tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(50), 200), trace("LVD", np.ones(10), 50, after=0.125)
     )
@@ -43,7 +39,7 @@ def test_every_channel_keeps_its_own_rate_and_start(tmp_path: Path) -> None:
     np.testing.assert_allclose(displacement.time, 0.125 + np.arange(10) / 50, atol=1e-9)
 
 
-def test_a_gap_is_missing_and_told(tmp_path: Path) -> None:
+def test_a_gap_is_missing_and_told(tmp_path):
     path = stored(
         tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(50), 100), trace("ACC", 2 * np.ones(50), 100, after=0.6)
     )
@@ -56,7 +52,7 @@ def test_a_gap_is_missing_and_told(tmp_path: Path) -> None:
     assert recording.warnings == ('"TABLE..ACC": 2 pieces with gaps of 10 samples (0.1 s) in all; missing',)
 
 
-def test_pieces_that_lie_years_apart_are_not_filled_up(tmp_path: Path) -> None:
+def test_pieces_that_lie_years_apart_are_not_filled_up(tmp_path):
     path = stored(
         tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(50), 100), trace("ACC", np.ones(50), 100, after=1e8)
     )
@@ -66,7 +62,7 @@ def test_pieces_that_lie_years_apart_are_not_filled_up(tmp_path: Path) -> None:
 
 
 @every(("first", "second"), [(200, 160), (200, 100), (50, 200)])
-def test_pieces_of_different_rates_keep_their_own_times(tmp_path: Path, first: float, second: float) -> None:
+def test_pieces_of_different_rates_keep_their_own_times(tmp_path, first, second):
     rng, times = np.random.default_rng(1), (np.arange(400) / first, 400 / first + np.arange(300) / second)
     values = [np.sin(12 * each) + rng.normal(0, 1e-3, each.size) for each in times]
     path = stored(
@@ -82,7 +78,7 @@ def test_pieces_of_different_rates_keep_their_own_times(tmp_path: Path, first: f
     assert f"2 pieces have rates of {first} Hz and {second} Hz; each has its own times" in recording.warnings[0]
 
 
-def test_the_step_of_a_sac_file_is_not_rounded_to_microseconds(tmp_path: Path) -> None:
+def test_the_step_of_a_sac_file_is_not_rounded_to_microseconds(tmp_path):
     path = stored(tmp_path / "r.sac", "SAC", trace("ACC", np.ones(4096), 2048))
     assert obspy.read(str(path))[0].stats.delta == pytest.approx(1 / 2048, rel=1e-3, abs=0)
     recording = read(path)
@@ -92,13 +88,13 @@ def test_the_step_of_a_sac_file_is_not_rounded_to_microseconds(tmp_path: Path) -
     assert any("2048 Hz" in note for note in recording.notes)
 
 
-def test_a_sac_file_at_100_hz_has_steps_of_10_ms_whatever_single_precision_says(tmp_path: Path) -> None:
+def test_a_sac_file_at_100_hz_has_steps_of_10_ms_whatever_single_precision_says(tmp_path):
     time = read(stored(tmp_path / "r.sac", "SAC", trace("ACC", np.ones(1000), 100))).channels[0].time
     assert time is not None
     assert time[-1] == pytest.approx(9.99, rel=1e-12)
 
 
-def test_a_file_without_a_date_has_no_start(tmp_path: Path) -> None:
+def test_a_file_without_a_date_has_no_start(tmp_path):
     path = tmp_path / "r.sac"
     obspy.Trace(np.ones(10, dtype=np.float32), {"delta": 0.01}).write(str(path), format="SAC")
     recording = read(path)
@@ -106,13 +102,13 @@ def test_a_file_without_a_date_has_no_start(tmp_path: Path) -> None:
     assert any("no date" in note for note in recording.notes)
 
 
-def test_the_start_is_in_utc(tmp_path: Path) -> None:
+def test_the_start_is_in_utc(tmp_path):
     start = read(stored(tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(10), 100))).start
     assert start is not None
     assert start.isoformat() == "2013-04-26T10:15:00+00:00"
 
 
-def test_a_pickle_is_never_opened(tmp_path: Path) -> None:
+def test_a_pickle_is_never_opened(tmp_path):
     path = tmp_path / "record.pickle"
     path.write_bytes(pickle.dumps({"opened": True}))
     with pytest.raises(ReadError, match="format PICKLE is not read here") as refused:
@@ -123,14 +119,14 @@ def test_a_pickle_is_never_opened(tmp_path: Path) -> None:
 
 
 @every("kind", ["CSS", "NNSA_KB_CORE", "Q", "SEGY", "MSED"])
-def test_a_kind_that_is_not_read_is_refused_with_the_export_to_make(tmp_path: Path, kind: str) -> None:
+def test_a_kind_that_is_not_read_is_refused_with_the_export_to_make(tmp_path, kind):
     path = stored(tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(10), 100))
     assert companions(path, "waveform", {"kind": kind}) == ()
     with pytest.raises(ReadError, match=rf"r.mseed: ObsPy's format {kind} is not read here.* Convert the"):
         read(path, "waveform", {"kind": kind})
 
 
-def test_the_kinds_that_are_read_are_known_to_obspy_under_these_names() -> None:
+def test_the_kinds_that_are_read_are_known_to_obspy_under_these_names():
     from importlib.metadata import entry_points
 
     known = {kind: entry_points(group=f"obspy.plugin.waveform.{kind}", name="readFormat") for kind in READERS}
@@ -139,20 +135,20 @@ def test_the_kinds_that_are_read_are_known_to_obspy_under_these_names() -> None:
     }
 
 
-def test_a_name_with_signs_of_a_pattern_is_just_a_name(tmp_path: Path) -> None:
+def test_a_name_with_signs_of_a_pattern_is_just_a_name(tmp_path):
     path = stored(tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(10), 100))
     named = path.rename(tmp_path / "run[1]?.mseed") if sys.platform != "win32" else path
     assert read(named).channels[0].values.size == 10
 
 
-def test_a_sac_file_that_was_cut_off_is_refused(tmp_path: Path) -> None:
+def test_a_sac_file_that_was_cut_off_is_refused(tmp_path):
     path = stored(tmp_path / "r.sac", "SAC", trace("ACC", np.ones(1000), 100))
     path.write_bytes(path.read_bytes()[:2000])
     with pytest.raises(ReadError, match=r"r.sac: it cannot be read as SAC .* cut off"):
         read(path)
 
 
-def test_counts_of_k_net_become_metres_per_second_squared(tmp_path: Path) -> None:
+def test_counts_of_k_net_become_metres_per_second_squared(tmp_path):
     head = [
         *("Origin Time       2018/01/24 19:51:00", "Lat.              41.0", "Long.             142.5"),
         *("Depth. (km)       30", "Mag.              6.2", "Station Code      AOM001", "Station Lat.      41.5267"),
@@ -169,7 +165,7 @@ def test_counts_of_k_net_become_metres_per_second_squared(tmp_path: Path) -> Non
     np.testing.assert_allclose(channel.values, np.arange(96) * 39.20 / 6182761)
 
 
-def test_damaged_waveforms_are_read_or_refused(written: Callable[..., Path]) -> None:
+def test_damaged_waveforms_are_read_or_refused(written):
     chance = np.random.default_rng(4)
     path = written("waveform", samples=400)
     content = bytearray(path.read_bytes())
@@ -184,11 +180,11 @@ def test_damaged_waveforms_are_read_or_refused(written: Callable[..., Path]) -> 
             assert path.name in str(error)  # noqa: PT017 - either outcome is right
 
 
-def mini_seed(year: int = 2013, order: str = ">", quality: bytes = b"D") -> bytes:
+def mini_seed(year=2013, order=">", quality=b"D"):
     return b"000001" + quality + b" " + b"TABLE  ACC  " + struct.pack(order + "H", year) + bytes(40)
 
 
-def sac(order: str = "<", version: int = 6, step: float = 0.01, points: int = 100) -> bytes:
+def sac(order="<", version=6, step=0.01, points=100):
     head = bytearray(632)
     struct.pack_into(order + "f", head, 0, step)
     struct.pack_into(order + "i", head, 304, version)
@@ -196,7 +192,7 @@ def sac(order: str = "<", version: int = 6, step: float = 0.01, points: int = 10
     return bytes(head)
 
 
-def kinemetrics(length: int = 2040) -> bytes:
+def kinemetrics(length=2040):
     return b"K\x01\x00\x00" + struct.pack(">LH", 1, length) + bytes(20)
 
 
@@ -225,7 +221,7 @@ def kinemetrics(length: int = 2040) -> bytes:
         (b"", None),
     ],
 )
-def test_a_kind_is_told_by_the_first_bytes(tmp_path: Path, head: bytes, kind: str | None) -> None:
+def test_a_kind_is_told_by_the_first_bytes(tmp_path, head, kind):
     path = tmp_path / "a"
     path.write_bytes(head)
     assert kind_of_waveform(head_of(path)) == kind
@@ -233,7 +229,7 @@ def test_a_kind_is_told_by_the_first_bytes(tmp_path: Path, head: bytes, kind: st
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=80, deadline=None)
 @given(some.binary(max_size=700))
-def test_any_bytes_are_of_a_known_kind_or_of_none(tmp_path: Path, content: bytes) -> None:
+def test_any_bytes_are_of_a_known_kind_or_of_none(tmp_path, content):
     path = tmp_path / "a"
     path.write_bytes(content)
     assert kind_of_waveform(head_of(path)) in {*READERS, None}

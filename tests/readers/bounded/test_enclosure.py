@@ -1,7 +1,5 @@
 """What a process may take and gives up before it opens a stranger's file; each test binds a process of its own."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path
@@ -12,7 +10,7 @@ from colonnade.readers.bounded import enclosure as bounds
 from colonnade.readers.bounded.enclosure import OUT_OF_MEMORY, own_folders
 
 
-def test_a_long_file_has_more_time_and_memory_up_to_the_machine(tmp_path: Path) -> None:
+def test_a_long_file_has_more_time_and_memory_up_to_the_machine(tmp_path):
     short, long = tmp_path / "short", tmp_path / "long"
     short.write_bytes(b"1")
     with long.open("wb") as stream:
@@ -27,13 +25,13 @@ def test_a_long_file_has_more_time_and_memory_up_to_the_machine(tmp_path: Path) 
 on_linux = pytest.mark.skipif(sys.platform != "linux", reason="only Linux binds a process so far")
 
 
-def came_of(code: str, *arguments: object) -> str:
+def came_of(code, *arguments):
     """What a process prints, or the last line of what it says as it fails."""
     told = subprocess.run([sys.executable, "-c", code, *map(str, arguments)], capture_output=True, text=True)
     return told.stdout.strip() if told.returncode == 0 else told.stderr.strip().splitlines()[-1]
 
 
-def test_the_folders_of_python_and_its_packages_are_never_the_whole_disk() -> None:
+def test_the_folders_of_python_and_its_packages_are_never_the_whole_disk():
     folders = own_folders()
     assert Path(folders[0].anchor) not in folders
     assert any(Path(subprocess.__file__).is_relative_to(folder) for folder in folders)
@@ -62,14 +60,14 @@ print({})
     ],
     ids=["inside", "outside", "writing", "nothing", "a program", "removing", "the next file's folder"],
 )
-def test_python_code_may_only_read_and_only_in_some_folders(tmp_path: Path, deed: str, told: str) -> None:
+def test_python_code_may_only_read_and_only_in_some_folders(tmp_path, deed, told):
     (tmp_path / "campaign").mkdir()
     (tmp_path / "campaign" / "inside").write_text("inside")
     (tmp_path / "outside").write_text("outside")
     assert told in came_of(WATCH.format(deed), tmp_path / "campaign")
 
 
-def test_a_link_that_leads_outside_is_outside(tmp_path: Path) -> None:
+def test_a_link_that_leads_outside_is_outside(tmp_path):
     (tmp_path / "campaign").mkdir()
     (tmp_path / "outside").write_text("outside")
     (tmp_path / "campaign" / "link").symlink_to(tmp_path / "outside")
@@ -88,13 +86,13 @@ print(len(bytearray(100_000_000)))
 
 
 @on_linux
-def test_memory_is_bounded_beyond_what_the_process_has() -> None:
+def test_memory_is_bounded_beyond_what_the_process_has():
     assert came_of(LIMIT, 300_000_000) == "100000000"
     assert came_of(LIMIT, 50_000_000) == "MemoryError"
 
 
 @on_linux
-def test_a_limit_that_holds_already_is_kept() -> None:
+def test_a_limit_that_holds_already_is_kept():
     code = "import resource; resource.setrlimit(resource.RLIMIT_DATA, (90_000_000,) * 2)" + LIMIT
     assert "MemoryError" in came_of(code, 10**12)
 
@@ -110,7 +108,7 @@ with watched_memory(Bounds(int(sys.argv[1]), 60, 60.0)):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="without a shell")
-def test_where_a_system_has_no_such_limit_a_process_ends_itself_with_a_code_of_its_own() -> None:
+def test_where_a_system_has_no_such_limit_a_process_ends_itself_with_a_code_of_its_own():
     by_shell = [
         "sh",
         "-c",

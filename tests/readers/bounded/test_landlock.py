@@ -1,10 +1,7 @@
 """Linux's Landlock: after it a process reads some folders and does nothing else, whatever its code."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -27,7 +24,7 @@ print(system.open(os.devnull.encode(), os.O_WRONLY) >= 0)
 
 
 @with_landlock
-def test_native_code_reads_inside_and_nothing_else(tmp_path: Path) -> None:
+def test_native_code_reads_inside_and_nothing_else(tmp_path):
     (tmp_path / "campaign").mkdir()
     (tmp_path / "campaign" / "inside").write_text("inside")
     (tmp_path / "outside").write_text("outside")
@@ -38,7 +35,7 @@ def test_native_code_reads_inside_and_nothing_else(tmp_path: Path) -> None:
     assert not (tmp_path / "campaign" / "new").exists()
 
 
-def test_a_kernel_without_it_restricts_nothing_and_says_so(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_a_kernel_without_it_restricts_nothing_and_says_so(monkeypatch, tmp_path):
     monkeypatch.setattr(sys, "platform", "darwin")
     assert landlock.version() == 0
     assert not landlock.restrict([tmp_path])

@@ -1,12 +1,9 @@
 """What is said between the two processes comes through whole, and what is no answer is refused."""
 
-from __future__ import annotations
-
 from dataclasses import fields
 from datetime import UTC, datetime
 from pathlib import Path
 from tempfile import TemporaryFile
-from typing import Any
 
 import numpy as np
 import pytest
@@ -31,7 +28,7 @@ from every import every
         b"\x80\x04\x95\n",
     ],
 )
-def test_an_answer_that_is_none_is_refused(tmp_path: Path, answer: bytes) -> None:
+def test_an_answer_that_is_none_is_refused(tmp_path, answer):
     path = tmp_path / "answer"
     path.write_bytes(answer)
     with path.open("rb") as stream, pytest.raises((messages.BrokenAnswerError, messages.EndedError)):
@@ -54,12 +51,12 @@ COLUMN = ["a", None, "a", False, 0, 1]
         (None, []),
     ],
 )
-def test_a_recording_whose_parts_do_not_fit_is_refused(header: Any, arrays: list[np.ndarray]) -> None:
+def test_a_recording_whose_parts_do_not_fit_is_refused(header, arrays):
     with pytest.raises(ValueError, match=r"\w"):
         messages.recording_of(Path("r"), header, arrays)
 
 
-def test_all_that_a_recording_holds_comes_through() -> None:
+def test_all_that_a_recording_holds_comes_through():
     values, time = np.arange(3.0), np.arange(3) / 7
     channels = (
         RecordedChannel("t", "s", time, time, "t [s]", is_clock=True),

@@ -1,7 +1,5 @@
 """What a stranger's file can do to its reader stays in the bounded process, fails that file alone, and has a name."""
 
-from __future__ import annotations
-
 import json
 import multiprocessing
 import os
@@ -10,7 +8,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -28,7 +26,7 @@ Deed = Callable[..., Recording]
 
 
 @pytest.fixture(scope="module")
-def installed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+def installed(tmp_path_factory):
     """A folder in which a hostile format is installed as a package of its own."""
     folder = tmp_path_factory.mktemp("packages")
     (folder / "hostile_format.py").write_bytes((Path(__file__).parents[1] / "hostile_format.py").read_bytes())
@@ -46,24 +44,24 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
 
 
 @pytest.fixture
-def do(installed: Path, tmp_path: Path) -> Deed:
+def do(installed, tmp_path):
     """Read a file of a campaign whose reader then does a deed to a victim."""
     folder = tmp_path / "campaign"
     folder.mkdir()
     path = folder / "free-01.hostile"
     path.write_bytes(bytes(1000))
 
-    def read_it(deed: str = "", victim: object = "") -> Recording:
+    def read_it(deed="", victim=""):
         return read(path, options={"deed": deed, "victim": str(victim)}, within=folder)
 
     return read_it
 
 
-def came_of(recording: Recording) -> float:
+def came_of(recording):
     return float(recording.channels[0].values[0])
 
 
-def test_one_process_serves_all_files_and_each_is_read_in_a_copy(do: Deed) -> None:
+def test_one_process_serves_all_files_and_each_is_read_in_a_copy(do):
     (first, server), (second, again) = (do().channels[0].values for _ in range(2))
     assert os.getpid() not in (first, server)
     assert server == again
@@ -72,7 +70,7 @@ def test_one_process_serves_all_files_and_each_is_read_in_a_copy(do: Deed) -> No
 
 
 @pytest.mark.parametrize(("deed", "name"), [("crash", "SIGSEGV"), ("abort", "SIGABRT")])
-def test_a_crash_fails_its_own_file_alone(do: Deed, deed: str, name: str) -> None:
+def test_a_crash_fails_its_own_file_alone(do, deed, name):
     with pytest.raises(ReadError, match=rf"reading it as .hostile. crashed the library .* \({name}\)") as crash:
         do(deed)
     assert crash.value.__cause__ is None  # kept against the file
@@ -83,7 +81,7 @@ def test_a_crash_fails_its_own_file_alone(do: Deed, deed: str, name: str) -> Non
         assert do().channels[0].values[1] == server  # only the copy was lost
 
 
-def test_an_exception_is_told_with_its_message_and_a_refusal_as_it_is(do: Deed) -> None:
+def test_an_exception_is_told_with_its_message_and_a_refusal_as_it_is(do):
     with pytest.raises(ReadError) as stumbled:
         do("stumble", 17)
     assert 'free-01.hostile: it cannot be read as "hostile" (ValueError: half a block at byte 17).' in str(
@@ -96,7 +94,7 @@ def test_an_exception_is_told_with_its_message_and_a_refusal_as_it_is(do: Deed) 
 
 
 @on_linux
-def test_what_swells_is_stopped_at_its_bound(do: Deed, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_swells_is_stopped_at_its_bound(do, monkeypatch):
     monkeypatch.setattr(enclosure, "MEMORY", 200_000_000)
     with pytest.raises(ReadError, match=r"reading it as .hostile. took more than 200 MB of memory"):
         do("swell")
@@ -106,7 +104,7 @@ def test_what_swells_is_stopped_at_its_bound(do: Deed, monkeypatch: pytest.Monke
 
 
 @on_linux
-def test_what_does_not_end_is_stopped(do: Deed, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_does_not_end_is_stopped(do, monkeypatch):
     monkeypatch.setattr(enclosure, "SECONDS", 1)
     monkeypatch.setattr(enclosure, "PATIENCE", 100)
     with pytest.raises(ReadError, match=r"reading it as .hostile. took more than 1 s of processor time"):
@@ -120,7 +118,7 @@ def test_what_does_not_end_is_stopped(do: Deed, monkeypatch: pytest.MonkeyPatch)
 
 @pytest.mark.parametrize("deed", ["look", "write", "remove", "spawn", "unpickle", "call"])
 @on_linux
-def test_a_reader_can_only_read_and_only_files_of_the_campaign(do: Deed, tmp_path: Path, deed: str) -> None:
+def test_a_reader_can_only_read_and_only_files_of_the_campaign(do, tmp_path, deed):
     victim = tmp_path / "victim"
     if deed in ("look", "remove"):
         victim.write_text("secret")
@@ -133,7 +131,7 @@ def test_a_reader_can_only_read_and_only_files_of_the_campaign(do: Deed, tmp_pat
 
 @with_landlock
 @pytest.mark.parametrize("deed", ["look_natively", "write_natively", "call_natively", "spawn_natively"])
-def test_code_that_goes_round_python_is_held_by_the_kernel(do: Deed, tmp_path: Path, deed: str) -> None:
+def test_code_that_goes_round_python_is_held_by_the_kernel(do, tmp_path, deed):
     victim = tmp_path / "victim"
     if deed == "look_natively":
         victim.write_text("secret")
@@ -143,7 +141,7 @@ def test_code_that_goes_round_python_is_held_by_the_kernel(do: Deed, tmp_path: P
     assert victim.exists() == (deed == "look_natively")
 
 
-def test_other_files_of_the_campaign_may_be_read_and_not_written(do: Deed, tmp_path: Path) -> None:
+def test_other_files_of_the_campaign_may_be_read_and_not_written(do, tmp_path):
     beside = tmp_path / "campaign" / "free-01.values"
     beside.write_bytes(bytes(17))
     assert came_of(do("look", beside)) == 17
@@ -151,13 +149,13 @@ def test_other_files_of_the_campaign_may_be_read_and_not_written(do: Deed, tmp_p
         do("write", beside)
 
 
-def test_a_reader_that_lies_is_not_believed(do: Deed) -> None:
+def test_a_reader_that_lies_is_not_believed(do):
     with pytest.raises(ReadError, match=r"reading it as .hostile. crashed the library"):
         do("lie")
     assert do().channels
 
 
-def test_what_a_library_prints_is_not_taken_for_an_answer(do: Deed) -> None:
+def test_what_a_library_prints_is_not_taken_for_an_answer(do):
     assert came_of(do("chatter")) == 0
 
 
@@ -173,7 +171,7 @@ if len(sys.argv) > 3:
 """
 
 
-def is_alive(pid: int) -> bool:
+def is_alive(pid):
     try:
         state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
     except OSError:
@@ -183,7 +181,7 @@ def is_alive(pid: int) -> bool:
 
 @on_linux
 @pytest.mark.parametrize("deed", [None, "sleep"], ids=["in its end", "killed while it waits for a file"])
-def test_the_process_does_not_outlive_the_one_that_asks(installed: Path, tmp_path: Path, deed: str | None) -> None:
+def test_the_process_does_not_outlive_the_one_that_asks(installed, tmp_path, deed):
     path = tmp_path / "free-01.hostile"
     path.write_bytes(b"1")
     script = [sys.executable, "-c", SCRIPT, str(installed), str(path), *([deed] if deed else [])]
@@ -201,15 +199,15 @@ def test_the_process_does_not_outlive_the_one_that_asks(installed: Path, tmp_pat
     assert not is_alive(server)
 
 
-def _read_in_a_daemon(path: str, found: multiprocessing.SimpleQueue[float]) -> None:
+def _read_in_a_daemon(path, found):
     found.put(came_of(read(Path(path))))
 
 
 @on_linux
-def test_a_worker_that_may_have_no_children_of_multiprocessing_reads_too(do: Deed, tmp_path: Path) -> None:
+def test_a_worker_that_may_have_no_children_of_multiprocessing_reads_too(do, tmp_path):
     assert do().channels  # which a fork must not go on asking
     context = multiprocessing.get_context("fork")
-    found: multiprocessing.SimpleQueue[float] = context.SimpleQueue()
+    found = context.SimpleQueue()
     where = str(tmp_path / "campaign" / "free-01.hostile")
     worker = context.Process(target=_read_in_a_daemon, args=(where, found), daemon=True)
     worker.start()
@@ -219,7 +217,7 @@ def test_a_worker_that_may_have_no_children_of_multiprocessing_reads_too(do: Dee
     assert do().channels
 
 
-def test_a_system_without_safe_copies_reads_in_the_process_itself(installed: Path, tmp_path: Path) -> None:
+def test_a_system_without_safe_copies_reads_in_the_process_itself(installed, tmp_path):
     path = tmp_path / "free-01.hostile"
     path.write_bytes(b"1")
     function, given = "colonnade.readers.registry:read_here", {"format": "hostile", "options": {}, "window": None}

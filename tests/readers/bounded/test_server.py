@@ -1,21 +1,18 @@
 """The process that reads: one answer for each request, in order, whatever comes of it."""
 
-from __future__ import annotations
-
 import io
 from dataclasses import replace
 from importlib import import_module
-from pathlib import Path
 
 import pytest
 
 from colonnade.readers import registry
 from colonnade.readers.bounded import messages, server
 from colonnade.readers.bounded.enclosure import OUT_OF_MEMORY, bounds_of
-from colonnade.readers.bounded.messages import Answer, Request
+from colonnade.readers.bounded.messages import Request
 
 
-def request(path: Path, format: str = "delimited", **options: object) -> Request:
+def request(path, format="delimited", **options):
     given = {"format": format, "options": options, "window": None}
     modules = registry.formats()[format].modules
     function = "colonnade.readers.registry:read_here"
@@ -23,17 +20,17 @@ def request(path: Path, format: str = "delimited", **options: object) -> Request
 
 
 @pytest.fixture
-def table(tmp_path: Path) -> Path:
+def table(tmp_path):
     path = tmp_path / "a.csv"
     path.write_text("t [s];top [mm]\n0;1\n1;2\n2;4\n", encoding="ascii")
     return path
 
 
-def answers(*requests: Request) -> list[Answer]:
+def answers(*requests):
     """What is answered, without the process in between."""
     said = io.BytesIO()
 
-    def handle(request: Request, _: object, stream: io.BytesIO) -> None:
+    def handle(request, _, stream):
         arrays, answer = server._answer(request)
         messages.send(stream, arrays, **answer)
 
@@ -42,7 +39,7 @@ def answers(*requests: Request) -> list[Answer]:
     return [messages.receive(said, 10_000)[0] for _ in requests]
 
 
-def test_each_request_has_its_answer_in_order(table: Path) -> None:
+def test_each_request_has_its_answer_in_order(table):
     read, missing, again = answers(request(table), request(table.with_name("b.csv")), request(table))
     assert isinstance(read.header, dict)
     assert [name for name, *_ in read.header["columns"]] == ["t", "top"]
@@ -51,15 +48,15 @@ def test_each_request_has_its_answer_in_order(table: Path) -> None:
     assert again == read
 
 
-def test_a_refusal_without_an_error_of_the_machine_is_the_files_own(table: Path) -> None:
+def test_a_refusal_without_an_error_of_the_machine_is_the_files_own(table):
     table.write_text("words\n", encoding="ascii")
     (refused,) = answers(request(table))
     assert refused.refusal.startswith("a.csv: no rows of numbers were found")
     assert (refused.error_number, refused.exit_code) == (None, None)
 
 
-def test_what_swells_says_so(table: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def swell(path: Path, options: object) -> None:
+def test_what_swells_says_so(table, monkeypatch):
+    def swell(path, options):
         raise MemoryError
 
     swelling = replace(registry.formats()["delimited"], read=swell)
@@ -67,10 +64,8 @@ def test_what_swells_says_so(table: Path, monkeypatch: pytest.MonkeyPatch) -> No
     assert answers(request(table))[0].exit_code == OUT_OF_MEMORY
 
 
-def test_what_a_format_needs_is_imported_before_its_file_is_opened(
-    table: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    imported: list[str] = []
+def test_what_a_format_needs_is_imported_before_its_file_is_opened(table, monkeypatch):
+    imported = []
     monkeypatch.setattr(server, "import_module", lambda name: imported.append(name) or import_module(name))
     answers(request(table, "tdms"))
     assert imported == ["colonnade.readers.registry", "nptdms", "colonnade.readers.registry"]

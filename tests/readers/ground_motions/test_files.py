@@ -1,7 +1,5 @@
 """What names say of components."""
 
-from __future__ import annotations
-
 from colonnade.readers.ground_motions.files import direction_of, named
 from every import every
 

@@ -1,7 +1,5 @@
 """Hazard curves: of the fragility's own measure, positive and falling, or refused with what was found."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Lists of records: what is written is what is read, and whatever a stranger writes is read or refused."""
 
-from __future__ import annotations
-
 import csv
 import io
 from pathlib import Path

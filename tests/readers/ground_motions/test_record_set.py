@@ -1,7 +1,5 @@
 """Sets of ground motions: what belongs together, what is left out and why; one bad file stops no other."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 from pathlib import Path

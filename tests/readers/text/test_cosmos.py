@@ -1,10 +1,5 @@
 """COSMOS records: several channels, the step in ms, and ends."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -12,7 +7,7 @@ from colonnade.errors import ReadError
 from colonnade.readers.registry import read
 
 
-def test_channels_of_one_file_are_told_apart_and_dated(written: Callable[..., Path]) -> None:
+def test_channels_of_one_file_are_told_apart_and_dated(written):
     recording = read(written("cosmos"))
     assert [channel.name for channel in recording.channels] == ["acceleration", "acceleration 2: 0 deg"]
     assert all(channel.unit == "cm/s^2" for channel in recording.channels)
@@ -20,7 +15,7 @@ def test_channels_of_one_file_are_told_apart_and_dated(written: Callable[..., Pa
     assert recording.start.isoformat(timespec="milliseconds") == "2013-04-26T10:15:00.250+00:00"
 
 
-def test_a_channel_that_starts_later_keeps_its_own_clock(written: Callable[..., Path]) -> None:
+def test_a_channel_that_starts_later_keeps_its_own_clock(written):
     path = written("cosmos")
     first, second = path.read_text().split("/&", 1)
     path.write_text(first + "/&" + second.replace("10:15:00.250", "10:15:00.750"), encoding="ascii")
@@ -30,7 +25,7 @@ def test_a_channel_that_starts_later_keeps_its_own_clock(written: Callable[..., 
     assert (one.time[0], two.time[0]) == (0.0, 0.5)
 
 
-def test_a_record_that_was_cut_off_says_how_many_points_are_there(written: Callable[..., Path]) -> None:
+def test_a_record_that_was_cut_off_says_how_many_points_are_there(written):
     path = written("cosmos", ("x", "cm/s^2", np.arange(40.0)))
     lines = path.read_text().splitlines()
     path.write_text("\n".join(lines[:-2]) + "\n", encoding="ascii")  # without the last row of 8 and the end mark
@@ -39,20 +34,20 @@ def test_a_record_that_was_cut_off_says_how_many_points_are_there(written: Calla
     assert "gives 40 points, but the file has 32: it ends too early" in recording.warnings[0]
 
 
-def test_a_step_that_does_not_fit_the_duration_is_told(written: Callable[..., Path]) -> None:
+def test_a_step_that_does_not_fit_the_duration_is_told(written):
     path = written("cosmos")
     path.write_text(path.read_text().replace("approx    0 secs", "approx   40 secs", 1), encoding="ascii")
     assert "the step is in doubt" in read(path).warnings[0]
 
 
-def test_a_header_without_a_step_is_refused(written: Callable[..., Path]) -> None:
+def test_a_header_without_a_step_is_refused(written):
     path = written("cosmos")
     path.write_text(path.read_text().replace(f"{5:15.6f}", f"{-999:15.6f}"), encoding="ascii")
     with pytest.raises(ReadError, match=r"give no time step \(value 62\)"):
         read(path)
 
 
-def test_raw_counts_of_volume_0_are_refused_in_plain_words(written: Callable[..., Path]) -> None:
+def test_raw_counts_of_volume_0_are_refused_in_plain_words(written):
     path = written("cosmos", ("top", "cm/s^2", np.arange(40.0)))
     text = path.read_text().replace("Corrected acceleration", "Raw acceleration counts")
     counts = text.replace("acceleration pts", "raw accel.  counts").replace(

@@ -1,10 +1,5 @@
 """Delimited text: every option, every trap, and what a recording says of its warnings."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -16,68 +11,68 @@ from every import every
 ROWS = "".join(f"{row};{row},5;-0,{row}\n" for row in range(1, 10))
 
 
-def test_one_number_with_thousands_does_not_turn_its_column_into_text(tmp_path: Path) -> None:
+def test_one_number_with_thousands_does_not_turn_its_column_into_text(tmp_path):
     recording = recorded(tmp_path, "n;force\n" + "".join(f"{row};{row},5\n" for row in range(300)) + "300;1.234,5\n")
     assert values(recording, "force")[-2:] == [299.5, 1234.5]
     assert recording.warnings == ()
 
 
-def test_a_point_among_decimal_commas_is_missing_rather_than_guessed(tmp_path: Path) -> None:
+def test_a_point_among_decimal_commas_is_missing_rather_than_guessed(tmp_path):
     recording = recorded(tmp_path, "n;force\n1;0,5\n2;0,6\n3;1.234\n4;0,7\n5;0,8\n")
     assert np.isnan(values(recording, "force")[2])
     assert recording.warnings == ('"force": 1 cell holds no number (on line 4: "1.234"); missing',)
 
 
 @every(("thousands", "text"), [(".", "1.234"), ("'", "1'234"), (" ", "1 234")])
-def test_thousands_that_were_declared_are_read(tmp_path: Path, thousands: str, text: str) -> None:
+def test_thousands_that_were_declared_are_read(tmp_path, thousands, text):
     recording = recorded(tmp_path, f"n;force\n1;0,5\n2;{text}\n3;0,6\n4;0,7\n", thousands=thousands, decimal=",")
     assert values(recording, "force") == [0.5, 1234.0, 0.6, 0.7]
 
 
-def test_a_comma_among_decimal_points_is_missing_with_its_line(tmp_path: Path) -> None:
+def test_a_comma_among_decimal_points_is_missing_with_its_line(tmp_path):
     recording = recorded(tmp_path, "a;b\n0.5;1.5\n0.6;1,6\n0.7;1.7\n0.8;1.8\n")
     assert np.isnan(values(recording, "b")[1])
     assert '(on line 3: "1,6")' in recording.warnings[0]
 
 
-def test_quoted_cells_may_hold_decimal_commas_between_commas(tmp_path: Path) -> None:
+def test_quoted_cells_may_hold_decimal_commas_between_commas(tmp_path):
     text = '"Time [s]","LVDT, top"\n' + "".join(f'"0,{row}","{row},25"\n' for row in range(6))
     recording = recorded(tmp_path, text)
     assert values(recording, "LVDT, top") == [0.25, 1.25, 2.25, 3.25, 4.25, 5.25]
 
 
-def test_one_column_with_decimal_commas_needs_no_delimiter(tmp_path: Path) -> None:
+def test_one_column_with_decimal_commas_needs_no_delimiter(tmp_path):
     assert values(recorded(tmp_path, "0,05\n-0,10\n1,25\n"), 1) == [0.05, -0.1, 1.25]
 
 
-def test_whole_numbers_beside_a_comma_are_two_columns_with_a_warning(tmp_path: Path) -> None:
+def test_whole_numbers_beside_a_comma_are_two_columns_with_a_warning(tmp_path):
     recording = recorded(tmp_path, "1,5\n2,6\n3,7\n")
     assert values(recording, 2) == [5, 6, 7]
     assert 'then set decimal = ","' in recording.warnings[0]
     assert values(recorded(tmp_path, "1,5\n2,6\n3,7\n", decimal=","), 1) == [1.5, 2.6, 3.7]
 
 
-def test_fortran_exponents_and_the_printed_minus_are_numbers(tmp_path: Path) -> None:
+def test_fortran_exponents_and_the_printed_minus_are_numbers(tmp_path):
     blanks = recorded(tmp_path, "a  b\n1.0D-03 \N{MINUS SIGN}2.5\n2.0D-03 3.5\n4.0D+00 4.5\n")
     assert values(blanks, 1) == [0.001, 0.002, 4.0]
     assert values(recorded(tmp_path, "1.0D-03;\N{MINUS SIGN}2.5\n2.0D-03;3.5\n4.0D+00;4.5\n"), 2) == [-2.5, 3.5, 4.5]
 
 
 @every("text", ["NaN", "OVERFLOW", "-", "--", "#DIV/0!", "1.#INF", "inf", "", " ", "sensor off"])
-def test_what_recorders_write_for_no_number_is_missing_and_told(tmp_path: Path, text: str) -> None:
+def test_what_recorders_write_for_no_number_is_missing_and_told(tmp_path, text):
     recording = recorded(tmp_path, f"t;a;b\n0;1;2\n1;{text};2\n2;3;2\n3;{text};2\n")
     assert np.isnan(recording.channel("a").values).tolist() == [False, True, False, True]
     shown = f'"{text}"' if text.strip() else "nothing"
     assert recording.warnings == (f'"a": 2 cells hold no number (first on line 3: {shown}); missing',)
 
 
-def test_a_number_that_stands_for_missing_can_be_told(tmp_path: Path) -> None:
+def test_a_number_that_stands_for_missing_can_be_told(tmp_path):
     text = "t;a\n0;1\n1;-999.0\n2;3\n"
     assert np.isnan(values(recorded(tmp_path, text, missing=("-999",)), "a")[1])
     assert values(recorded(tmp_path, text), "a")[1] == -999.0
 
 
-def test_a_last_number_with_lost_decimals_is_missing(tmp_path: Path) -> None:
+def test_a_last_number_with_lost_decimals_is_missing(tmp_path):
     rows = "".join(f"{row};{row / 1000:.4f}\n" for row in range(300))
     recording = recorded(tmp_path, "t;a\n" + rows + "300;0.1")
     assert np.isnan(values(recording, "a")[-1])
@@ -87,7 +82,7 @@ def test_a_last_number_with_lost_decimals_is_missing(tmp_path: Path) -> None:
     assert whole.warnings == ()
 
 
-def test_columns_that_end_earlier_keep_their_values(tmp_path: Path) -> None:
+def test_columns_that_end_earlier_keep_their_values(tmp_path):
     text = "Time 1;a;Time 2;b\n" + "".join(f"{row};{row};{2 * row};7\n" for row in range(20))
     recording = recorded(tmp_path, text + "".join(f"{row};{row}\n" for row in range(20, 30)))
     assert values(recording, "a") == list(range(30))
@@ -95,25 +90,25 @@ def test_columns_that_end_earlier_keep_their_values(tmp_path: Path) -> None:
     assert any("the last columns are shorter" in note for note in recording.notes)
 
 
-def test_a_sample_behind_a_comment_sign_is_missing_and_keeps_its_place(tmp_path: Path) -> None:
+def test_a_sample_behind_a_comment_sign_is_missing_and_keeps_its_place(tmp_path):
     recording = recorded(tmp_path, "t;a\n0;1\n1;2\n#2;3\n3;4\n4;5\n")
     assert np.isnan(values(recording, "a")).tolist() == [False, False, True, False, False]
     assert recording.warnings == ('line 4: counted as missing: a comment sign in front ("#2;3")',)
 
 
-def test_blank_lines_are_skipped_and_lines_still_counted_as_in_the_file(tmp_path: Path) -> None:
+def test_blank_lines_are_skipped_and_lines_still_counted_as_in_the_file(tmp_path):
     recording = recorded(tmp_path, "\n\nt;a\n0;1\n\n1;2\n   \n2;x\n3;4\n4;5\n5;6\n")
     assert values(recording, "t") == [0, 1, 2, 3, 4, 5]
     assert '(on line 8: "x")' in recording.warnings[0]
 
 
-def test_a_tail_of_zero_bytes_is_left_out(tmp_path: Path) -> None:
+def test_a_tail_of_zero_bytes_is_left_out(tmp_path):
     recording = recorded(tmp_path, "t;a\n0;1\n1;2\n2;3\n" + "\0" * 500)
     assert values(recording, "a") == [1, 2, 3]
     assert recording.warnings[0].startswith("line 5")
 
 
-def test_a_quotation_mark_that_is_never_closed_loses_no_rows_silently(tmp_path: Path) -> None:
+def test_a_quotation_mark_that_is_never_closed_loses_no_rows_silently(tmp_path):
     recording = recorded(tmp_path, 't;a\n0;1\n1;"2\n2;3\n3;4\n')
     assert values(recording, "a") == [1, 2, 3, 4]
     quoted = recorded(tmp_path, '"n";"a"\n' + '"0";"1"\n' * 5 + '"1;"2\n' + '"2";"3"\n' * 4)
@@ -130,7 +125,7 @@ def test_a_quotation_mark_that_is_never_closed_loses_no_rows_silently(tmp_path: 
         pytest.param("\x01\x02\x03\x04" * 90, "not printable", id="binary"),
     ],
 )
-def test_a_file_without_samples_is_refused(tmp_path: Path, text: str, message: str) -> None:
+def test_a_file_without_samples_is_refused(tmp_path, text, message):
     with pytest.raises(ReadError, match=message):
         recorded(tmp_path, text)
 
@@ -148,12 +143,12 @@ def test_a_file_without_samples_is_refused(tmp_path: Path, text: str, message: s
         ({"time": 4}, r"column 4 is missing; it has columns 1 to 3"),
     ],
 )
-def test_an_option_that_cannot_be_is_told(tmp_path: Path, options: dict[str, Any], message: str) -> None:
+def test_an_option_that_cannot_be_is_told(tmp_path, options, message):
     with pytest.raises(ReadError, match=message):
         recorded(tmp_path, "a;b;c\n" + ROWS, **options)
 
 
-def noisy_decay(peak: float) -> list[int]:
+def noisy_decay(peak):
     """Whole numbers of a decaying oscillation with noise, at rest for 300 samples."""
     time = 0.002 * np.arange(4000)
     motion = np.where(time < 0.6, 0.0, peak * np.exp(-0.2 * (time - 0.6)) * np.sin(9 * (time - 0.6)))
@@ -166,9 +161,7 @@ MARKS = [".", ",", "'", "\N{RIGHT SINGLE QUOTATION MARK}", " ", "\N{NO-BREAK SPA
 @every("peak", [1100, 2200, 250_000, 3_000_000])
 @every("decimal", [".", ","])
 @every("mark", MARKS)
-def test_whole_numbers_keep_their_size_with_a_mark_between_thousands(
-    tmp_path: Path, mark: str, decimal: str, peak: int
-) -> None:
+def test_whole_numbers_keep_their_size_with_a_mark_between_thousands(tmp_path, mark, decimal, peak):
     whole = noisy_decay(peak)
     rows = (
         f"{row / 500:.3f}".replace(".", decimal) + f";{value:,};{value}".replace(",", mark)
@@ -184,7 +177,7 @@ def test_whole_numbers_keep_their_size_with_a_mark_between_thousands(
 
 
 @every("written", ["{:.3f}", "{:.6g}"])
-def test_decimals_are_not_taken_for_thousands(tmp_path: Path, written: str) -> None:
+def test_decimals_are_not_taken_for_thousands(tmp_path, written):
     numbers = [float(written.format(550 + number / 3000)) for number in noisy_decay(1_000_000)]
     text = "".join(f"{row / 500};{written.format(number)}\n" for row, number in enumerate(numbers))
     assert values(recorded(tmp_path, "time;pressure\n" + text), "pressure") == numbers
@@ -193,13 +186,13 @@ def test_decimals_are_not_taken_for_thousands(tmp_path: Path, written: str) -> N
     assert values(recorded(tmp_path, "time;counts\n" + text), "counts")[-2:] == [998.5, 1.012]
 
 
-def test_a_decimal_sign_that_is_given_is_no_mark_between_thousands(tmp_path: Path) -> None:
+def test_a_decimal_sign_that_is_given_is_no_mark_between_thousands(tmp_path):
     text = "time;top\n" + "".join(f"{row / 500};{number}\n" for row, number in enumerate([997, 998, 999, "1.012"] * 9))
     assert max(values(recorded(tmp_path, text), "top")) == 1012
     assert max(values(recorded(tmp_path, text, decimal="."), "top")) == 999
 
 
-def test_a_shake_table_recording_with_names_and_units_rows(shared_data: Path) -> None:
+def test_a_shake_table_recording_with_names_and_units_rows(shared_data):
     recording = read(shared_data / "shaketable" / "thadhaines_01.csv")
     assert len(recording.channels) == 33
     assert recording.warnings == ()
@@ -219,7 +212,7 @@ def test_a_shake_table_recording_with_names_and_units_rows(shared_data: Path) ->
 
 
 @every(("name", "rows"), [("earthquake-test1.csv", 4092), ("sinewave-test1.csv", 1400)])
-def test_recordings_without_header_and_clock(shared_data: Path, name: str, rows: int) -> None:
+def test_recordings_without_header_and_clock(shared_data, name, rows):
     recording = read(shared_data / "shaketable" / name)
     assert [channel.name for channel in recording.channels] == ["column 1", "column 2", "column 3"]
     assert all(channel.values.size == rows and np.isfinite(channel.values).all() for channel in recording.channels)
@@ -227,6 +220,6 @@ def test_recordings_without_header_and_clock(shared_data: Path, name: str, rows:
     assert recording.warnings == ()
 
 
-def test_the_first_samples_of_a_file_without_header_are_kept(shared_data: Path) -> None:
+def test_the_first_samples_of_a_file_without_header_are_kept(shared_data):
     recording = read(shared_data / "shaketable" / "sinewave-test1.csv")
     assert recording.channel(2).values[:3].tolist() == [0.009, 0.0262, 0.0434]

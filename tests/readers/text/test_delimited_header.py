@@ -1,15 +1,11 @@
 """What is known of a delimited text from its head, before its samples are read."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
 
 from colonnade.errors import ReadError
-from colonnade.readers.text.delimited_header import DelimitedOptions, Header, TableOptions, read_header
+from colonnade.readers.text.delimited_header import DelimitedOptions, TableOptions, read_header
 from colonnade.readers.text.encoding import text_of
 from colonnade.readers.text.heading import HeadingLines
 from every import every
@@ -17,13 +13,13 @@ from every import every
 ROWS = "".join(f"{number},0;{number},25;{-number},5\n" for number in range(30))
 
 
-def header(path: Path, text: str, encoding: str = "utf-8", **options: object) -> Header:
+def header(path, text, encoding="utf-8", **options):
     path.write_bytes(text.encode(encoding))
     given = DelimitedOptions.model_validate(options)
     return read_header(text_of(path, given.encoding), given)
 
 
-def test_the_head_gives_dialect_names_units_and_claims(tmp_path: Path) -> None:
+def test_the_head_gives_dialect_names_units_and_claims(tmp_path):
     found = header(tmp_path / "a.csv", "Prüfung 3, interval 0.01 s\nZeit;Weg\xa0oben;ACC\ns;mm;g\n" + ROWS, "cp1252")
     dialect = found.form.dialect
     assert (dialect.delimiter, dialect.decimal, dialect.encoding) == (";", ",", "cp1252")
@@ -32,12 +28,12 @@ def test_the_head_gives_dialect_names_units_and_claims(tmp_path: Path) -> None:
     assert found.claims.step == 0.01
 
 
-def test_empty_columns_at_the_end_are_no_columns(tmp_path: Path) -> None:
+def test_empty_columns_at_the_end_are_no_columns(tmp_path):
     found = header(tmp_path / "a.csv", "a;b;\n" + "1;2;\n" * 20)
     assert (found.form.kinds, found.form.trailing) == (("number", "number"), 1)
 
 
-def test_words_between_single_blanks_may_be_a_sentence(tmp_path: Path) -> None:
+def test_words_between_single_blanks_may_be_a_sentence(tmp_path):
     rows = "1.5 2.5 3.5\n" * 20
     assert header(tmp_path / "a.txt", "three plain words\n" + rows).is_named is False
     assert header(tmp_path / "a.txt", "three plain words\n" + rows, names_row=1).is_named is True
@@ -53,21 +49,19 @@ def test_words_between_single_blanks_may_be_a_sentence(tmp_path: Path) -> None:
         ("a b\n1 2\n", {"delimiter": ";", "decimal": ","}, "with delimiter = ';', decimal = ','"),
     ],
 )
-def test_a_text_without_rows_is_refused_with_the_reason(
-    tmp_path: Path, text: str, options: dict[str, object], told: str
-) -> None:
+def test_a_text_without_rows_is_refused_with_the_reason(tmp_path, text, options, told):
     with pytest.raises(ReadError, match=told):
         header(tmp_path / "a.csv", text, **options)
 
 
-def test_text_in_another_encoding_than_given_is_refused(tmp_path: Path) -> None:
+def test_text_in_another_encoding_than_given_is_refused(tmp_path):
     (tmp_path / "a.csv").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(ReadError, match="utf-32"):
         read_header(text_of(tmp_path / "a.csv", "utf-32"), DelimitedOptions(encoding="utf-32"))
 
 
 @every(("word", "sign"), [("tab", "\t"), ("Semicolon", ";"), ("spaces", " "), ("|", "|")])
-def test_a_delimiter_may_be_a_word(word: str, sign: str) -> None:
+def test_a_delimiter_may_be_a_word(word, sign):
     assert DelimitedOptions(delimiter=word).delimiter == sign
 
 
@@ -77,9 +71,7 @@ def test_a_delimiter_may_be_a_word(word: str, sign: str) -> None:
     some.sampled_from([";", ",", "\t"]),
     some.integers(2, 5),
 )
-def test_whatever_is_above_the_rows_these_are_found(
-    tmp_path: Path, above: list[str], delimiter: str, width: int
-) -> None:
+def test_whatever_is_above_the_rows_these_are_found(tmp_path, above, delimiter, width):
     rows = [delimiter.join(f"{row + column}.5" for column in range(width)) for row in range(200)]
     found = header(tmp_path / "a.csv", "\n".join([*above, *rows, ""]))
     assert len(found.form.kinds) == width
@@ -99,9 +91,7 @@ FOUND = HeadingLines(2, 3)
         ({"names_row": 0, "units_row": 0}, None, None),
     ],
 )
-def test_lines_of_names_and_units_are_as_given_else_as_found(
-    options: dict[str, int], names: int | None, units: int | None
-) -> None:
+def test_lines_of_names_and_units_are_as_given_else_as_found(options, names, units):
     assert TableOptions(**options).heading_lines(FOUND) == HeadingLines(names, units)
 
 
@@ -114,8 +104,17 @@ def test_lines_of_names_and_units_are_as_given_else_as_found(
         (("number", "number"), TableOptions(), None),
     ],
 )
-def test_the_layout_is_as_given_or_as_the_columns_kinds_leave_it(
-    kinds: tuple[str, ...], options: TableOptions, kind: str | None
-) -> None:
+def test_the_layout_is_as_given_or_as_the_columns_kinds_leave_it(kinds, options, kind):
     layout = options.given_layout(kinds)
     assert (None if layout is None else layout.kind) == kind
+
+
+@pytest.mark.parametrize(
+    ("above", "names"),
+    [("Time, Disp, Acc", ["Time", "Disp", "Acc"]), ("Simulator, Stand 3", ["column 1", "column 2", "column 3"])],
+    ids=["names", "a sentence"],
+)
+def test_words_with_commas_above_columns_between_blanks(tmp_path, above, names):
+    path = tmp_path / "record.txt"
+    path.write_text(f"{above}\n" + "".join(f"{n / 100:.2f}  {n % 7}.5  {n % 5}.25\n" for n in range(30)))
+    assert list(read_header(text_of(path), DelimitedOptions()).heading.names) == names

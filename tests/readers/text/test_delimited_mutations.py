@@ -1,10 +1,7 @@
 """A damaged file gives a recording or a message that names it, never anything else."""
 
-from __future__ import annotations
-
 import random
 from collections import Counter
-from pathlib import Path
 
 import numpy as np
 
@@ -18,7 +15,7 @@ ROWS = 200
 SEEDS = 12
 
 
-def undamaged(separator: str, decimal: str, encoding: str) -> bytes:
+def undamaged(separator, decimal, encoding):
     lines = [separator.join(["Time [s]", "LVDT 1 [mm]", "ACC [g]"])]
     for row in range(ROWS):
         numbers = [f"{row * 0.005:.3f}", f"{10 * np.sin(row / 9):.4f}", f"{np.cos(row / 5):.5f}"]
@@ -26,7 +23,7 @@ def undamaged(separator: str, decimal: str, encoding: str) -> bytes:
     return ("\r\n".join(lines) + "\r\n").encode(encoding)
 
 
-def read_or_refusal(path: Path) -> Recording | ReadError:
+def read_or_refusal(path):
     try:
         return read(path)
     except ReadError as error:
@@ -35,12 +32,10 @@ def read_or_refusal(path: Path) -> Recording | ReadError:
 
 @every(("separator", "decimal", "encoding"), [(";", ",", "latin-1"), (",", ".", "utf-16"), ("\t", ".", "utf-8")])
 @every("kind", KINDS)
-def test_a_damaged_file_is_read_or_refused(
-    tmp_path: Path, kind: str, separator: str, decimal: str, encoding: str
-) -> None:
+def test_a_damaged_file_is_read_or_refused(tmp_path, kind, separator, decimal, encoding):
     content = undamaged(separator, decimal, encoding)
     path = tmp_path / "damaged.csv"
-    seen: Counter[str] = Counter()
+    seen = Counter()
     for seed in range(SEEDS):
         path.write_bytes(damaged(content, kind, random.Random(f"{kind} {encoding} {seed}")))
         outcome = read_or_refusal(path)
@@ -58,7 +53,7 @@ def test_a_damaged_file_is_read_or_refused(
 
 
 @every("removed", ["0,5000", ";", ";0,5000", "0,5000;"])
-def test_a_lost_cell_or_delimiter_never_moves_values_to_another_column(tmp_path: Path, removed: str) -> None:
+def test_a_lost_cell_or_delimiter_never_moves_values_to_another_column(tmp_path, removed):
     rows = [f"{row};0,5000;{row + 100}" for row in range(50)]
     rows[20] = rows[20].replace(removed, "", 1)
     path = tmp_path / "record.csv"

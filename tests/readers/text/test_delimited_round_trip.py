@@ -1,9 +1,6 @@
 """What is written as delimited text comes back equal, however it is written."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -46,7 +43,7 @@ class Writing:
 
 
 @st.composite
-def writings(draw: st.DrawFn) -> Writing:
+def writings(draw):
     separator = draw(st.sampled_from(list(SEPARATORS.values())))
     return Writing(
         separator=separator,
@@ -62,7 +59,7 @@ def writings(draw: st.DrawFn) -> Writing:
 
 
 @st.composite
-def tables(draw: st.DrawFn) -> list[list[str]]:
+def tables(draw):
     """Numbers in text with a point, as many decimals in each; the first column is a clock at 200 Hz."""
     columns = draw(st.integers(2, 5))
     rows = draw(st.integers(6, 30))
@@ -72,7 +69,7 @@ def tables(draw: st.DrawFn) -> list[list[str]]:
     return [[f"{row * 0.005:.3f}", *cells] for row, cells in enumerate(body)]
 
 
-def write(path: Path, table: list[list[str]], writing: Writing) -> tuple[list[str], list[str | None]]:
+def write(path, table, writing):
     """Write a table; return the names and units that have to be found."""
     columns = len(table[0])
     names = ["Time", *NAMES[: columns - 1]]
@@ -80,7 +77,7 @@ def write(path: Path, table: list[list[str]], writing: Writing) -> tuple[list[st
     blank = writing.separator.strip(" ") == ""
     if blank:
         names = [name.replace(" ", "_") for name in names]
-    heads: list[list[str]] = []
+    heads = []
     if writing.naming == "names":
         heads = [names]
     elif writing.naming == "names and units":
@@ -100,7 +97,7 @@ def write(path: Path, table: list[list[str]], writing: Writing) -> tuple[list[st
 
 @settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(table=tables(), writing=writings())
-def test_numbers_names_and_units_come_back(tmp_path: Path, table: list[list[str]], writing: Writing) -> None:
+def test_numbers_names_and_units_come_back(tmp_path, table, writing):
     path = tmp_path / "record.txt"
     names, units = write(path, table, writing)
     recording = read(path)
@@ -118,7 +115,7 @@ def test_numbers_names_and_units_come_back(tmp_path: Path, table: list[list[str]
     values=st.lists(st.floats(-1e12, 1e12, allow_subnormal=False), min_size=5, max_size=20),
     style=st.sampled_from(["{:.15g}", "{:.9e}", "{:+.4E}"]),
 )
-def test_numbers_of_fifteen_digits_are_exact_in_any_notation(tmp_path: Path, values: list[float], style: str) -> None:
+def test_numbers_of_fifteen_digits_are_exact_in_any_notation(tmp_path, values, style):
     texts = [style.format(value if abs(value) > 1e-6 else 0.0) for value in values]
     path = tmp_path / "record.csv"
     path.write_text("a;b\n" + "".join(f"{text};{text}\n" for text in texts))
@@ -126,9 +123,7 @@ def test_numbers_of_fifteen_digits_are_exact_in_any_notation(tmp_path: Path, val
 
 
 @pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r"])
-def test_a_file_longer_than_a_piece_is_read_whole(
-    tmp_path: Path, line_end: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_longer_than_a_piece_is_read_whole(tmp_path, line_end, monkeypatch):
     monkeypatch.setattr("colonnade.readers.text.encoding.PIECE", 20_000)
     path = tmp_path / "record.csv"
     expected = np.arange(9000) / 8
@@ -139,7 +134,7 @@ def test_a_file_longer_than_a_piece_is_read_whole(
 
 
 @pytest.mark.parametrize("size", [700, 4000, 1_000_000])
-def test_what_is_read_does_not_depend_on_the_pieces(tmp_path: Path, size: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_read_does_not_depend_on_the_pieces(tmp_path, size, monkeypatch):
     rows = [f"{number / 8};{number % 7},5;ä{number}" for number in range(2000)]
     rows[900:900] = ["", "", ""]
     rows[1200], rows[1500] = "150,125;-;ä", "# a remark"

@@ -1,9 +1,5 @@
 """Encodings are found, what is not text is refused, and lines keep their numbers in pieces."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 
 from colonnade.readers.text import encoding as pieces
@@ -35,7 +31,7 @@ TEXT = "Weg [µm];Kraft\r\n1;2\r\n3;4\r\n"
         ("ascii", "utf-8"),
     ],
 )
-def test_an_encoding_is_found_from_the_bytes(tmp_path: Path, written_as: str, found: str) -> None:
+def test_an_encoding_is_found_from_the_bytes(tmp_path, written_as, found):
     path = tmp_path / "record.txt"
     path.write_bytes(TEXT.replace("µ" if written_as == "ascii" else "\0", "u").encode(written_as))
     encoding = detect_encoding(path)
@@ -48,14 +44,14 @@ def test_an_encoding_is_found_from_the_bytes(tmp_path: Path, written_as: str, fo
     assert not ends_within_line(path)
 
 
-def test_a_character_cut_by_the_end_of_the_head_is_no_fault(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_character_cut_by_the_end_of_the_head_is_no_fault(tmp_path, monkeypatch):
     monkeypatch.setattr("colonnade.readers.text.encoding.HEAD_BYTES", 6)
     path = tmp_path / "record.txt"
     path.write_text("Weg [µm]", encoding="utf-8")
     assert detect_encoding(path).name == "utf-8"
 
 
-def test_as_many_lines_are_read_as_are_wanted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_as_many_lines_are_read_as_are_wanted(tmp_path, monkeypatch):
     monkeypatch.setattr("colonnade.readers.text.encoding.HEAD_BYTES", 100)
     path = tmp_path / "record.txt"
     path.write_text("".join(f"line {number}\n" for number in range(1000)))
@@ -65,11 +61,11 @@ def test_as_many_lines_are_read_as_are_wanted(tmp_path: Path, monkeypatch: pytes
     assert len(many) >= 300
 
 
-def test_unprintable_characters_make_a_file_binary() -> None:
+def test_unprintable_characters_make_a_file_binary():
     assert "not printable" in looks_binary(["\x01\x02\x03", "abc"])
 
 
-def test_a_last_line_without_end_is_seen_in_utf_16_too(tmp_path: Path) -> None:
+def test_a_last_line_without_end_is_seen_in_utf_16_too(tmp_path):
     path = tmp_path / "record.txt"
     path.write_bytes("1;2\n3;4".encode("utf-16-le"))
     assert ends_within_line(path)
@@ -82,9 +78,7 @@ SEMICOLON = Dialect("utf-8", ";", ".")
 
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"], ids=["Unix", "Windows", "old Macintosh"])
 @pytest.mark.parametrize("size", [1, 3, 7, 1000])
-def test_lines_keep_their_numbers_whatever_the_size_of_the_pieces(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, end: str, size: int
-) -> None:
+def test_lines_keep_their_numbers_whatever_the_size_of_the_pieces(tmp_path, monkeypatch, end, size):
     monkeypatch.setattr(pieces, "PIECE", size)
     path = tmp_path / "a.csv"
     path.write_bytes(end.join(["a;b", "1;2", "", "3;4", "   ", "5;6"]).encode())
@@ -92,13 +86,13 @@ def test_lines_keep_their_numbers_whatever_the_size_of_the_pieces(
     assert rows == [(2, "1;2"), (4, "3;4"), (6, "5;6")]
 
 
-def test_a_power_failures_zeros_are_unreadable_characters(tmp_path: Path) -> None:
+def test_a_power_failures_zeros_are_unreadable_characters(tmp_path):
     path = tmp_path / "a.csv"
     path.write_bytes(b"1;2\n\0\0\0")
     texts = "".join(piece.text for piece in pieces_of_text(text_of(path, "utf-8"), 0))
     assert texts == "1;2\n\ufffd\ufffd\ufffd"
 
 
-def test_a_gap_between_lines_begins_another_piece() -> None:
+def test_a_gap_between_lines_begins_another_piece():
     found = list(pieces_of_lines([(3, "a"), (4, "b"), (9, "c")]))
     assert [(piece.line, piece.text) for piece in found] == [(3, "a\nb"), (9, "c")]

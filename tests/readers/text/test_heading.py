@@ -1,7 +1,5 @@
 """Names and units are taken apart as people write them."""
 
-from __future__ import annotations
-
 from colonnade.readers.text.cells import Dialect
 from colonnade.readers.text.heading import HeadingLines, describe_columns, looks_like_unit, take_apart
 from every import every
@@ -19,12 +17,12 @@ from every import every
         ("Angle []", "Angle", None),
     ],
 )
-def test_a_unit_is_split_off(heading: str, name: str, unit: str | None) -> None:
+def test_a_unit_is_split_off(heading, name, unit):
     assert take_apart(heading) == (name, unit)
 
 
 @every("heading", ["Accel (top)", "LVDT [3]", "Table accel XXXX", "input/output", "[mm]", "distance in front"])
-def test_what_is_no_unit_stays_with_the_name(heading: str) -> None:
+def test_what_is_no_unit_stays_with_the_name(heading):
     assert take_apart(heading) == (heading, None)
 
 
@@ -32,16 +30,16 @@ def test_what_is_no_unit_stays_with_the_name(heading: str) -> None:
     "text",
     ["mm", "m/s²", "m/s^2", "g's", "Volts", "seconds", "kN", "°", "deg", "%", "mV/V", "[mm]", "N*m", "Hz", "mm."],
 )
-def test_units_are_known_by_their_spelling(text: str) -> None:
+def test_units_are_known_by_their_spelling(text):
     assert looks_like_unit(text)
 
 
 @every("text", ["", "top", "LVDT 1", "ACC", "Kraft", "12", "Table", "mmm/"])
-def test_names_are_no_units(text: str) -> None:
+def test_names_are_no_units(text):
     assert not looks_like_unit(text)
 
 
-def test_the_unit_in_front_of_a_graphs_name_is_found() -> None:
+def test_the_unit_in_front_of_a_graphs_name_is_found():
     assert take_apart("Time [s] - Plot 0") == ("Time - Plot 0", "s")
     assert take_apart("Amplitude (mm) - Plot 0") == ("Amplitude - Plot 0", "mm")
     assert take_apart("Table [North] - Plot 0") == ("Table [North] - Plot 0", None)
@@ -57,9 +55,7 @@ def test_the_unit_in_front_of_a_graphs_name_is_found() -> None:
         (("Acc [V]", "Acc [g]"), ("V", "g")),
     ],
 )
-def test_letters_that_tell_columns_of_one_name_apart_are_no_units(
-    heads: tuple[str, ...], units: tuple[str | None, ...]
-) -> None:
+def test_letters_that_tell_columns_of_one_name_apart_are_no_units(heads, units):
     dialect = Dialect("utf-8", delimiter=";", decimal=".")
     heading = describe_columns([";".join(heads), "1;2"], HeadingLines(0, None), 1, dialect, 2)
     assert heading.units == units

@@ -1,9 +1,5 @@
 """Rows of numbers are a table of channels or one series that runs on; the file declares which, or a person says it."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 from scipy.signal import butter, sosfiltfilt
@@ -19,7 +15,7 @@ from every import every
 STANDARD_GRAVITY = 9.80665
 
 
-def shaking(count: int, *, cutoff: float = 0.3, seed: int = 1) -> np.ndarray:
+def shaking(count, *, cutoff=0.3, seed=1):
     """Noise below a cut-off, as a share of the Nyquist frequency, that grows and dies away as an earthquake does."""
     noise = np.random.default_rng(seed).standard_normal(count)
     filtered = sosfiltfilt(butter(4, cutoff, output="sos"), noise) * np.exp(
@@ -28,9 +24,7 @@ def shaking(count: int, *, cutoff: float = 0.3, seed: int = 1) -> np.ndarray:
     return np.round(0.3 * filtered / np.abs(filtered).max(), 5)
 
 
-def written(
-    folder: Path, table: np.ndarray, *, head: str = "", form: str = "%10.5f", last: np.ndarray | None = None
-) -> Path:
+def written(folder, table, *, head="", form="%10.5f", last=None):
     path = folder / "motion.txt"
     rows = ["".join(form % number for number in row) for row in table]
     rows += ["".join(form % number for number in last)] if last is not None else []
@@ -38,14 +32,14 @@ def written(
     return path
 
 
-def components(rows: int = 400) -> np.ndarray:
+def components(rows=400):
     return np.column_stack([shaking(rows, seed=seed) for seed in (1, 2, 3)])
 
 
 HEAD = "# North-south\n# 1600 points at equal spacing of 0.02 sec, in the format of 8F10.5\n# The units are (g)\n"
 
 
-def test_numbers_that_run_on_are_one_channel_with_the_headers_clock_and_unit(tmp_path: Path) -> None:
+def test_numbers_that_run_on_are_one_channel_with_the_headers_clock_and_unit(tmp_path):
     series = shaking(1600)
     recording = read(written(tmp_path, series.reshape(-1, 8), head=HEAD))
     assert len(recording.channels) == 1
@@ -55,7 +49,7 @@ def test_numbers_that_run_on_are_one_channel_with_the_headers_clock_and_unit(tmp
     np.testing.assert_allclose(channel.time, 0.02 * np.arange(1600))
 
 
-def test_a_column_of_numbers_that_run_on_is_refused_with_the_cause(tmp_path: Path) -> None:
+def test_a_column_of_numbers_that_run_on_is_refused_with_the_cause(tmp_path):
     recording = read(written(tmp_path, shaking(1600).reshape(-1, 8), head=HEAD))
     for column in (8, "column 8"):
         with pytest.raises(ReadError, match=r"Its numbers, 8 in a row, run on.*1600 points.*layout = \"columns\""):
@@ -63,7 +57,7 @@ def test_a_column_of_numbers_that_run_on_is_refused_with_the_cause(tmp_path: Pat
 
 
 @every(("head", "size"), [("NPTS = 1600\n", 1600), ("NPTS = 1603\n", 1603), ("8 values per line\n", 1603)])
-def test_numbers_run_on_where_the_header_counts_them_or_those_of_a_row(tmp_path: Path, head: str, size: int) -> None:
+def test_numbers_run_on_where_the_header_counts_them_or_those_of_a_row(tmp_path, head, size):
     series = shaking(1603)[:size]
     path = written(tmp_path, series[:1600].reshape(-1, 8), head=head, last=series[1600:])
     np.testing.assert_array_equal(read(path).channel(1).values, series)
@@ -71,13 +65,13 @@ def test_numbers_run_on_where_the_header_counts_them_or_those_of_a_row(tmp_path:
 
 
 @every("head", ["NPTS = 400\n", "        NS        EW        UD\n"])
-def test_columns_are_channels_where_the_header_counts_rows_or_names_stand_above(tmp_path: Path, head: str) -> None:
+def test_columns_are_channels_where_the_header_counts_rows_or_names_stand_above(tmp_path, head):
     recording = read(written(tmp_path, components(), head=head, form="%10.4f"))
     assert len(recording.channels) == 3
     np.testing.assert_allclose(recording.channel(2).values, components()[:, 1], atol=5e-5)
 
 
-def test_three_components_with_names_are_not_interleaved(tmp_path: Path) -> None:
+def test_three_components_with_names_are_not_interleaved(tmp_path):
     head = "3F10.4 units are g, dt = 0.01 sec\n        NS        EW        UD\n"
     path = written(tmp_path, components(), head=head, form="%10.4f")
     with pytest.raises(ReadError, match='3 columns may be the acceleration: "NS", "EW", "UD"'):
@@ -85,7 +79,7 @@ def test_three_components_with_names_are_not_interleaved(tmp_path: Path) -> None
     assert read_motion(path, unit="g", dt=0.01, column="EW").acceleration.size == 400
 
 
-def test_three_components_after_the_time_are_not_interleaved(tmp_path: Path) -> None:
+def test_three_components_after_the_time_are_not_interleaved(tmp_path):
     table = np.column_stack([0.01 * np.arange(400), components()])
     path = written(tmp_path, table, head="4F10.3, units are g\n", form="%10.3f")
     with pytest.raises(ReadError, match="3 columns may be the acceleration"):
@@ -94,7 +88,7 @@ def test_three_components_after_the_time_are_not_interleaved(tmp_path: Path) -> 
     assert (motion.acceleration.size, motion.dt) == (400, pytest.approx(0.01))
 
 
-def test_pairs_of_time_and_value_run_on(tmp_path: Path) -> None:
+def test_pairs_of_time_and_value_run_on(tmp_path):
     series = shaking(400)
     pairs = np.column_stack([0.02 * np.arange(400), series]).reshape(-1, 8)
     motion = read_motion(written(tmp_path, pairs, head="4(F8.2,F10.5), units are g\n"))
@@ -106,7 +100,7 @@ def test_pairs_of_time_and_value_run_on(tmp_path: Path) -> None:
     "head",
     ["", "El Centro 1940 NS component acceleration in g\n", "in the format of 8F10.5\n", "NPTS = 1500\n"],
 )
-def test_what_the_file_does_not_declare_has_to_be_said(tmp_path: Path, head: str) -> None:
+def test_what_the_file_does_not_declare_has_to_be_said(tmp_path, head):
     table = shaking(1600).reshape(-1, 8)
     path = written(tmp_path, table, head=head)
     with pytest.raises(ReadError, match=r'does not show whether.*layout = "columns" or layout = "running"'):
@@ -118,7 +112,7 @@ def test_what_the_file_does_not_declare_has_to_be_said(tmp_path: Path, head: str
     assert read_motion(path, unit="g", dt=0.02, layout="running").acceleration.size == table.size
 
 
-def test_a_column_that_ends_earlier_is_no_series_that_runs_on(tmp_path: Path) -> None:
+def test_a_column_that_ends_earlier_is_no_series_that_runs_on(tmp_path):
     table = components()
     text = "".join(
         " ".join(f"{number:.4f}" for number in row[: 3 if line < 390 else 2]) + "\n" for line, row in enumerate(table)
@@ -127,7 +121,7 @@ def test_a_column_that_ends_earlier_is_no_series_that_runs_on(tmp_path: Path) ->
     assert len(read(tmp_path / "record.txt").channels) == 3
 
 
-def test_a_single_series_takes_unit_and_interval_from_the_lines_above(tmp_path: Path) -> None:
+def test_a_single_series_takes_unit_and_interval_from_the_lines_above(tmp_path):
     series = shaking(300)
     path = written(tmp_path, series[:, None], head="Acceleration, units: cm/s^2\ntime step 0.005 s\n")
     (channel,) = read(path).channels
@@ -140,20 +134,20 @@ def test_a_single_series_takes_unit_and_interval_from_the_lines_above(tmp_path: 
 BLANKS = Dialect("utf-8", WHITESPACE, ".")
 
 
-def block(tmp_path: Path, text: str) -> Path:
+def block(tmp_path, text):
     path = tmp_path / "a.txt"
     path.write_text(text)
     return path
 
 
-def test_a_block_is_one_series_with_rows_of_touching_fields_above_its_first(tmp_path: Path) -> None:
+def test_a_block_is_one_series_with_rows_of_touching_fields_above_its_first(tmp_path):
     path = block(tmp_path, "title\n-1.0-2.0-3.0\n 1.0 2.0 3.0\n 4.0 5.0\n")
     assert read_block(text_of(path), BLANKS, 2, 4).tolist() == [-1, -2, -3, 1, 2, 3, 4, 5]
     assert read_block(text_of(path), BLANKS, 2, None).tolist() == [1, 2, 3, 4, 5]
 
 
 @every("text", ["1 2\n3 x\n5 6\n", "1 2\nend\n5 6\n"])
-def test_a_line_that_does_not_continue_the_block_is_refused(tmp_path: Path, text: str) -> None:
+def test_a_line_that_does_not_continue_the_block_is_refused(tmp_path, text):
     with pytest.raises(ReadError, match=r"a\.txt: line \d, .* does not continue the numbers above it"):
         read_block(text_of(block(tmp_path, text)), BLANKS, 0, None)
 
@@ -178,5 +172,5 @@ def test_a_line_that_does_not_continue_the_block_is_refused(tmp_path: Path, text
         ("North component", "unit", None),
     ],
 )
-def test_a_claim_is_found_in_its_words(text: str, claim: str, value: object) -> None:
+def test_a_claim_is_found_in_its_words(text, claim, value):
     assert getattr(header_claims(text), claim) == value

@@ -1,9 +1,6 @@
 """LabVIEW measurement files: segments, clocks, and what is wrong in them."""
 
-from __future__ import annotations
-
 from datetime import datetime
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +9,7 @@ from hypothesis import strategies as some
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
-from colonnade.readers.text.lvm import Segment, read_preamble, read_segments
+from colonnade.readers.text.lvm import read_preamble, read_segments
 from colonnade.readers.text.numbered import NumberedLines
 from every import every
 
@@ -20,13 +17,13 @@ PREAMBLE = "LabVIEW Measurement\nSeparator\tTab\nDecimal_Separator\t,\nX_Columns
 HEAD = "Channels\t1\nSamples\t2\nY_Unit_Label\tmm\n***End_of_Header***\nX_Value\ttop\tComment\n"
 
 
-def segments(path: Path, text: str) -> tuple[list[Segment], list[str]]:
+def segments(path, text):
     path.write_text(text, encoding="utf-8")
     with NumberedLines(path) as lines:
         return read_segments(path, lines, read_preamble(path, lines))
 
 
-def test_the_preamble_says_how_numbers_are_written(tmp_path: Path) -> None:
+def test_the_preamble_says_how_numbers_are_written(tmp_path):
     path = tmp_path / "a.lvm"
     path.write_text(PREAMBLE.replace("Tab", "Semicolon").replace("\t", ";"), encoding="utf-8")
     with NumberedLines(path) as lines:
@@ -34,7 +31,7 @@ def test_the_preamble_says_how_numbers_are_written(tmp_path: Path) -> None:
     assert (preamble.dialect.delimiter, preamble.dialect.decimal, preamble.clocks) == (";", ",", "multi")
 
 
-def test_each_header_begins_a_segment_and_rows_below_a_blank_line_another_of_the_same(tmp_path: Path) -> None:
+def test_each_header_begins_a_segment_and_rows_below_a_blank_line_another_of_the_same(tmp_path):
     rows = "0\t1,5\n1\t2,5\n"
     found, warnings = segments(tmp_path / "a.lvm", PREAMBLE + HEAD + rows + "\n" + rows + "\n" + HEAD + rows)
     assert warnings == []
@@ -55,12 +52,12 @@ def test_each_header_begins_a_segment_and_rows_below_a_blank_line_another_of_the
         (PREAMBLE + HEAD.partition("X_Value")[0], "the names of the columns were expected"),
     ],
 )
-def test_a_file_that_ends_too_early_says_where(tmp_path: Path, text: str, told: str) -> None:
+def test_a_file_that_ends_too_early_says_where(tmp_path, text, told):
     with pytest.raises(ReadError, match=told):
         segments(tmp_path / "a.lvm", text)
 
 
-def test_a_later_header_that_is_not_whole_is_a_warning(tmp_path: Path) -> None:
+def test_a_later_header_that_is_not_whole_is_a_warning(tmp_path):
     found, warnings = segments(tmp_path / "a.lvm", PREAMBLE + HEAD + "0\t1\n\nChannels\t1\n")
     assert len(found) == 1
     assert warnings == ["the segment that starts on line 14 ends within its header: the file was cut off"]
@@ -68,7 +65,7 @@ def test_a_later_header_that_is_not_whole_is_a_warning(tmp_path: Path) -> None:
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=50, deadline=None)
 @given(some.text("0123456789,\t\n*abC", max_size=60))
-def test_any_text_below_a_sound_segment_leaves_that_as_it_is(tmp_path: Path, below: str) -> None:
+def test_any_text_below_a_sound_segment_leaves_that_as_it_is(tmp_path, below):
     found, _ = segments(tmp_path / "a.lvm", PREAMBLE + HEAD + "0\t1\n1\t2\n\n" + below)
     assert found[0].columns[1].tolist() == [1, 2]
 
@@ -96,21 +93,21 @@ X_Value\ttop\ttable\tComment
 """
 
 
-def header(clocks: str, decimal: str = ".") -> str:
+def header(clocks, decimal="."):
     return FILE_HEADER.format(clocks=clocks, decimal=decimal)
 
 
-def segment(rows: list[str], time: str = "10:15:01.5", x0: str = "0.0", samples: int | None = None) -> str:
+def segment(rows, time="10:15:01.5", x0="0.0", samples=None):
     return SEGMENT.format(samples=samples or len(rows), time=time, x0=x0) + "\n".join(rows) + "\n"
 
 
-def written(tmp_path: Path, text: str) -> Path:
+def written(tmp_path, text):
     path = tmp_path / "record.lvm"
     path.write_bytes(text.encode("latin-1"))
     return path
 
 
-def test_without_x_columns_time_comes_from_the_header(tmp_path: Path) -> None:
+def test_without_x_columns_time_comes_from_the_header(tmp_path):
     rows = [f"\t{row}.5\t-{row}.25" for row in range(4)]
     recording = read(written(tmp_path, header("No") + segment(rows, x0="1.0")))
     top, table = recording.channels
@@ -122,7 +119,7 @@ def test_without_x_columns_time_comes_from_the_header(tmp_path: Path) -> None:
 
 
 @every("decimal", [".", ","])
-def test_the_header_decides_the_decimal_sign(tmp_path: Path, decimal: str) -> None:
+def test_the_header_decides_the_decimal_sign(tmp_path, decimal):
     rows = [f"{row * 0.005:.3f}\t{row}.125\t1.5E-1".replace(".", decimal) for row in range(3)]
     recording = read(written(tmp_path, header("One", decimal) + segment(rows)))
     assert recording.channel("top").values.tolist() == [0.125, 1.125, 2.125]
@@ -130,7 +127,7 @@ def test_the_header_decides_the_decimal_sign(tmp_path: Path, decimal: str) -> No
     assert recording.channels[0].is_clock
 
 
-def test_segments_are_joined_by_their_dates_and_times(tmp_path: Path) -> None:
+def test_segments_are_joined_by_their_dates_and_times(tmp_path):
     one, two = ([f"\t{row + first}\t0" for row in range(3)] for first in (0, 10))
     text = header("No") + segment(one, "10:15:01.5") + segment(two, "10:15:03.25")
     recording = read(written(tmp_path, text))
@@ -140,13 +137,13 @@ def test_segments_are_joined_by_their_dates_and_times(tmp_path: Path) -> None:
     assert any("2 segments" in note for note in recording.notes)
 
 
-def test_x_values_that_go_on_are_not_shifted_by_their_segments_time(tmp_path: Path) -> None:
+def test_x_values_that_go_on_are_not_shifted_by_their_segments_time(tmp_path):
     one, two = ([f"{(row + first) * 0.005:.3f}\t{row}\t0" for row in range(3)] for first in (0, 3))
     recording = read(written(tmp_path, header("One") + segment(one) + segment(two, "10:15:01.515")))
     np.testing.assert_allclose(recording.channel("top").time, 0.005 * np.arange(6), atol=1e-12)
 
 
-def test_x_values_since_1904_give_the_start(tmp_path: Path) -> None:
+def test_x_values_since_1904_give_the_start(tmp_path):
     epoch = datetime(1904, 1, 1)
     begin = (datetime(2013, 4, 26, 8, 0) - epoch).total_seconds()
     rows = [f"{begin + 0.5 * row:.3f}\t{row}\t0" for row in range(3)]
@@ -155,7 +152,7 @@ def test_x_values_since_1904_give_the_start(tmp_path: Path) -> None:
     assert recording.start == datetime(2013, 4, 26, 8, 0)
 
 
-def test_channels_of_unequal_length_keep_their_own(tmp_path: Path) -> None:
+def test_channels_of_unequal_length_keep_their_own(tmp_path):
     rows = ["\t1\t5", "\t2\t6", "\t3", "\t4"]
     recording = read(written(tmp_path, header("No") + segment(rows).replace("Samples\t4\t4", "Samples\t4\t2")))
     assert recording.channel("top").values.tolist() == [1, 2, 3, 4]
@@ -163,26 +160,26 @@ def test_channels_of_unequal_length_keep_their_own(tmp_path: Path) -> None:
     assert recording.warnings == ()
 
 
-def test_fewer_rows_than_announced_are_told(tmp_path: Path) -> None:
+def test_fewer_rows_than_announced_are_told(tmp_path):
     recording = read(written(tmp_path, header("No") + segment(["\t1\t2", "\t3\t4"], samples=500)))
     assert recording.warnings == ('the samples below line 19 end too early: the header says 500, "top" has 2',)
 
 
-def test_a_cell_without_a_number_is_missing_and_told_with_its_line(tmp_path: Path) -> None:
+def test_a_cell_without_a_number_is_missing_and_told_with_its_line(tmp_path):
     rows = ["\t1\t2\tLOST COMMUNICATION", "\tOVL\t4", "\t5\t6\tOK"]
     recording = read(written(tmp_path, header("No") + segment(rows)))
     np.testing.assert_array_equal(recording.channel("top").values, [1, np.nan, 5])
     assert recording.warnings == ('"top": 1 cell holds no number (on line 21: "OVL"); missing',)
 
 
-def test_special_blocks_are_no_samples(tmp_path: Path) -> None:
+def test_special_blocks_are_no_samples(tmp_path):
     rows = ["\t1\t2", "***Start_Special***", "\t99\t99", "***End_Special***", "\t3\t4"]
     recording = read(written(tmp_path, header("No") + segment(rows, samples=2)))
     assert recording.channel("top").values.tolist() == [1, 3]
 
 
 @every("place", ["before", "within"])
-def test_notes_in_a_segments_header_are_no_damage(tmp_path: Path, place: str) -> None:
+def test_notes_in_a_segments_header_are_no_damage(tmp_path, place):
     one, two = ([f"\t{row + first}\t0" for row in range(3)] for first in (0, 10))
     pieces = [segment(one, "10:15:01.5"), segment(two, "10:15:03.5")]
     note = "Notes\tthe prism was turned\tafter 3 s\n"
@@ -194,6 +191,6 @@ def test_notes_in_a_segments_header_are_no_damage(tmp_path: Path, place: str) ->
     np.testing.assert_allclose(recording.channel("top").time, [0, 0.005, 0.01, 2, 2.005, 2.01], atol=1e-9)
 
 
-def test_a_file_that_ends_before_its_first_row_is_refused(tmp_path: Path) -> None:
+def test_a_file_that_ends_before_its_first_row_is_refused(tmp_path):
     with pytest.raises(ReadError, match="no channel holds numbers"):
         read(written(tmp_path, header("No") + segment([])))

@@ -1,9 +1,6 @@
 """MTS 793 text: what the first line declares, and blocks."""
 
-from __future__ import annotations
-
 from datetime import datetime
-from pathlib import Path
 
 import pytest
 
@@ -12,13 +9,13 @@ from colonnade.readers.registry import read
 from every import every
 
 
-def written(tmp_path: Path, *lines: str) -> Path:
+def written(tmp_path, *lines):
     path = tmp_path / "specimen.dat"
     path.write_bytes("\r\n".join([*lines, ""]).encode("latin-1"))
     return path
 
 
-def block(delimiter: str, decimal: str, first: float, title: str) -> list[str]:
+def block(delimiter, decimal, first, title):
     rows = [[first + 0.5 * row, 10.5 + row, -row] for row in range(3)]
     numbers = [delimiter.join(f"{cell:.4f}".replace(".", decimal) for cell in row) for row in rows]
     return [title, delimiter.join(["Running Time", "Axial Displacement", "Axial Force"]), "s   mm   kN", *numbers, ""]
@@ -33,9 +30,7 @@ def block(delimiter: str, decimal: str, first: float, title: str) -> list[str]:
         ("ENU|1|0|.|/|:|1|0|0|A", "   ", ".", "Data Acquisition   Time:   10.0   Sec   4/26/2013 1:54:32 PM"),
     ],
 )
-def test_the_first_line_declares_delimiter_and_decimal_sign(
-    tmp_path: Path, declared: str, delimiter: str, decimal: str, title: str
-) -> None:
+def test_the_first_line_declares_delimiter_and_decimal_sign(tmp_path, declared, delimiter, decimal, title):
     lines = block(delimiter, decimal, 2.0, title)
     lines[2] = delimiter.join(["s", "mm", "kN"])
     recording = read(written(tmp_path, f"MTS793|MPT|{declared}", "", *lines))
@@ -53,7 +48,7 @@ def test_the_first_line_declares_delimiter_and_decimal_sign(
     assert recording.warnings == ()
 
 
-def test_blocks_of_the_same_columns_go_on_and_others_are_kept_apart(tmp_path: Path) -> None:
+def test_blocks_of_the_same_columns_go_on_and_others_are_kept_apart(tmp_path):
     title = "Data Acquisition\tTime:\t{}\tSec\t4/26/2013 1:54:32 PM"
     lines = []
     for number, first in enumerate((0.0, 100.0)):
@@ -69,24 +64,24 @@ def test_blocks_of_the_same_columns_go_on_and_others_are_kept_apart(tmp_path: Pa
     assert recording.channel("block 2: Axial Force").time is None
 
 
-def test_a_date_that_could_be_read_in_two_ways_is_not(tmp_path: Path) -> None:
+def test_a_date_that_could_be_read_in_two_ways_is_not(tmp_path):
     lines = block("\t", ".", 0.0, "Acquisition\tTime:\t10.0\tSec\t04/05/2013 13:54:32")
     lines[2] = "s\tmm\tkN"
     assert read(written(tmp_path, "MTS793|MPT|FRA|1|2|.|/|:|33|1|1|A", "", *lines)).start is None
 
 
-def test_notes_of_the_operator_are_no_block(tmp_path: Path) -> None:
+def test_notes_of_the_operator_are_no_block(tmp_path):
     lines = ["Operator Information\tTime:\t1.0\tSec\t4/26/2013 1:54:32 PM", "Weight\t5342", "Length\t300.3", ""]
     with pytest.raises(ReadError, match="no block of numbers"):
         read(written(tmp_path, "MTS793|MPT|ENU|1|2|.|/|:|1|0|0|A", *lines))
 
 
-def test_a_first_line_that_declares_nothing_is_refused(tmp_path: Path) -> None:
+def test_a_first_line_that_declares_nothing_is_refused(tmp_path):
     with pytest.raises(ReadError, match=r'line 1 is "MTS793\|MPT\|ENU"; .* was expected'):
         read(written(tmp_path, "MTS793|MPT|ENU", "1\t2"))
 
 
-def test_the_longest_block_is_the_default_and_the_reader_says_so(tmp_path: Path) -> None:
+def test_the_longest_block_is_the_default_and_the_reader_says_so(tmp_path):
     title = "Data Acquisition\tTime:\t{}\tSec\t4/26/2013 1:54:{} PM"
     lines = [title.format("10.0", 32), "Running Time\tAxial Force", "s\tkN", "2.0\t7.5", "3.0\t8.5", ""]
     lines += block("\t", ".", 4.0, title.format("20.0", 42))

@@ -1,9 +1,5 @@
 """Every page in a browser: no complaint, no dead link, nothing wider than a telephone outside a box that scrolls."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 
 from browsing import TELEPHONE, violations
@@ -25,22 +21,22 @@ KINDS = (
 CONTRAST = {"runOnly": ["color-contrast"]}
 
 
-def pages_of(folder: Path) -> list[str]:
+def pages_of(folder):
     return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.html"))
 
 
-def go(page, folder: Path, address: str) -> None:
+def go(page, folder, address):
     """Open a page and wait for its histories, if it has any."""
     page.goto((folder / address).as_uri())
     page.wait_for_function("typeof colonnade === 'undefined' || colonnade.is_ready")
 
 
-def widths(page, screen: tuple[int, int]) -> list[str]:
+def widths(page, screen):
     wider = page.evaluate("document.documentElement.scrollWidth") > screen[0]
     return [*page.evaluate(OUTSIDE), *(["the page scrolls sideways"] if wider else [])]
 
 
-def dead_links(page, folder: Path) -> list[str]:
+def dead_links(page, folder):
     """Links of all pages of a report that lead nowhere; ids that a page has twice."""
     ids, links, dead = {}, {}, []
     for address in pages_of(folder):

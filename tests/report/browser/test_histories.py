@@ -1,7 +1,5 @@
 """The histories of a test in a browser: zoom, cursor, curves, keyboard, the moving block, downloads."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re
@@ -37,20 +35,20 @@ def page(opened_page):
     return opened_page
 
 
-def view(page) -> list[float]:
+def view(page):
     page.evaluate(DRAWN)
     return page.evaluate(VIEW)
 
 
-def cursor(page) -> float:
+def cursor(page):
     return page.evaluate("colonnade.page.cursor")
 
 
-def panel(page, title: str):
+def panel(page, title):
     return page.locator(".panel", has=page.get_by_role("heading", name=title))
 
 
-def opened(page, title: str) -> None:
+def opened(page, title):
     page.locator("summary", has_text=title).evaluate("summary => { summary.parentElement.open = true; }")
     page.wait_for_function(
         "title => [...document.querySelectorAll('.group-of-panels')].some(group => "
@@ -59,7 +57,7 @@ def opened(page, title: str) -> None:
     )
 
 
-def saved(page, button) -> str:
+def saved(page, button):
     with page.expect_download() as download:
         button.click()
     return download.value.path().read_text(encoding="utf-8-sig")

@@ -1,7 +1,5 @@
 """The table of all tests in a browser: filtered, sorted, by keyboard, from a count of missed outcomes, and whole."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 

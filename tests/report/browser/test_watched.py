@@ -1,12 +1,9 @@
 """An open page of a report that is watched: it follows what is on disk, and stays as the person left it."""
 
-from __future__ import annotations
-
 import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from time import monotonic, sleep
@@ -33,7 +30,7 @@ TEST = "tests/span-2.5.html"
 
 
 @pytest.fixture
-def folder(report_folder, tmp_path) -> Path:
+def folder(report_folder, tmp_path):
     """A report of its own."""
     return Path(shutil.copytree(report_folder, tmp_path / "report"))
 
@@ -43,7 +40,7 @@ def tell(folder):
     """Write the state script as a watch does; each time gives a sign of life."""
     times = iter(range(1_700_000_000, 1_800_000_000))
 
-    def write(*, is_watched: bool = True, shown: str = "1", line: str = "", every: float = 5.0) -> None:
+    def write(*, is_watched=True, shown="1", line="", every=5.0):
         text = state_script(is_watched=is_watched, written=next(times), shown=shown, line=line, line_written=1.7e9)
         (folder / "new.js").write_text(text.replace('"every": 5.0', f'"every": {every}'), encoding="utf-8")
         (folder / "new.js").replace(folder / "state.js")
@@ -51,7 +48,7 @@ def tell(folder):
     return write
 
 
-def change(path: Path) -> None:
+def change(path):
     """Change a page on disk: it gets longer above its first section."""
     text = path.read_text(encoding="utf-8")
     place = text.index("<section")
@@ -59,14 +56,14 @@ def change(path: Path) -> None:
     path.write_text(text[:place] + added + text[place:], encoding="utf-8")
 
 
-def asked(page) -> list[str]:
+def asked(page):
     """Collect what the page asks for."""
     found = []
     page.on("request", lambda request: found.append(request.url))
     return found
 
 
-def says(page, text: str) -> None:
+def says(page, text):
     page.wait_for_function("text => document.querySelector('.watched').textContent.includes(text)", arg=text)
 
 
@@ -159,7 +156,7 @@ def test_it_is_not_printed(visit, folder, tell):
 
 
 @contextmanager
-def watching(folder: Path) -> Iterator[None]:
+def watching(folder):
     """Run `colonnade watch` in a process of its own from its first sign of life on, and end it as Ctrl-C does."""
     state = folder / "report" / "state.js"
     process = subprocess.Popen([sys.executable, "-m", "colonnade", "watch", str(folder), "--workers", "1"])

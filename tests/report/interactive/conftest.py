@@ -1,24 +1,21 @@
 """Packed samples read back."""
 
-from __future__ import annotations
-
 import zlib
 from base64 import b64decode
-from collections.abc import Callable
 
 import numpy as np
 import pytest
 
-from colonnade.report.interactive.packing import PLANES, Packed
+from colonnade.report.interactive.packing import PLANES
 
 
 @pytest.fixture(scope="session")
-def unpacked() -> Callable[[Packed], list[np.ndarray]]:
+def unpacked():
     """Undo the packing by its own description, as the script of a page does, in another way."""
     return _unpacked
 
 
-def _unpacked(found: Packed) -> list[np.ndarray]:
+def _unpacked(found):
     data = np.frombuffer(zlib.decompress(b64decode(found.text)), np.uint8).astype(np.int64)
     series, start = [], 0
     for one in found.series:

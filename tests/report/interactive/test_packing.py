@@ -1,7 +1,5 @@
 """Samples are packed and unpacked without loss beyond a millionth, and small."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

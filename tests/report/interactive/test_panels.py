@@ -1,7 +1,5 @@
 """Clocks, curves, tables and the outline of a page's data."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np
@@ -64,7 +62,7 @@ def test_the_data_is_one_call_with_what_was_given_and_no_text_ends_it():
     assert (given["page"], given["more"], given["clocks"][0]["count"]) == ("t", 1, 3)
 
 
-def picture(count: int) -> Picture:
+def picture(count):
     figure = Figure()
     axes = figure.subplots()
     time = 0.01 * np.arange(count)

@@ -1,7 +1,5 @@
 """Scripts of the report: the library's from its wheel, ours, and the state that a watch writes."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

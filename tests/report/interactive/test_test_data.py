@@ -1,7 +1,5 @@
 """The data of a test's page hold what is stored, in the units that the page names."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,28 +1,23 @@
 """Rows of the table of all tests: those of the small campaign, and others of the same test with another record."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import pytest
 
 from colonnade.campaign.forms.summary import PredictionSummary, TestSummary
-from colonnade.report.rows import TestRow
 
 
 @pytest.fixture
-def rows(reported) -> list[TestRow]:
+def rows(reported):
     return [row for row, _ in reported.values()]
 
 
 @pytest.fixture
-def row_of(reported) -> Callable[..., TestRow]:
+def row_of(reported):
     """Make a row: `row_of("a", "rocking", 0.4, linear=("rocking", 0.5))`; other keywords go into its record."""
     given = reported["span-2.0"][0]
 
-    def make(name: str, outcome: str | None, peak: float | None = None, **more: Any) -> TestRow:
+    def make(name, outcome, peak=None, **more):
         predicted = {
             model: PredictionSummary(outcome=said[0], peak_ratio=said[1], **(said[2] if len(said) > 2 else {}))
             for model in ("linear", "nonlinear")

@@ -1,7 +1,5 @@
 """Agreement of the overview: outcomes counted, peaks, spans, and what needs a look."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

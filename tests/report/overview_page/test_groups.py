@@ -1,7 +1,5 @@
 """Tests of the overview in groups, with their maps, peaks and thumbnails."""
 
-from __future__ import annotations
-
 import json
 import re
 from dataclasses import replace
@@ -127,7 +125,7 @@ def test_the_picture_leads_to_each_test(row_of):
     assert peaks.picture({}) is None
 
 
-def points(text: str) -> list[tuple[int, int]]:
+def points(text):
     return [tuple(map(int, point.split(","))) for point in text.split()]
 
 

@@ -1,7 +1,5 @@
 """A report of two tests whose pages are written by hand, with a photo."""
 
-from __future__ import annotations
-
 from html import escape
 from io import BytesIO
 
@@ -40,7 +38,7 @@ operator = "{operator}"
 TESTS = {"free-01": ("2013-04-26", "M. Rossi"), "free-02": ("2013-04-29", "K. #Papas")}
 
 
-def page(title: str, inside: str) -> str:
+def page(title, inside):
     return f"<html><body><header><h1>{title}</h1></header><main>{inside}</main></body></html>"
 
 

@@ -1,7 +1,5 @@
 """What is taken from a page: its words as data, its figures by number, and nothing that only a screen can use."""
 
-from __future__ import annotations
-
 from html import escape
 
 from hypothesis import given
@@ -11,7 +9,7 @@ from colonnade.report.paper.content import Page
 from every import every
 
 
-def blocks_of(inside: str):
+def blocks_of(inside):
     return Page(f"<main><section id='all'>{inside}</section></main>").sections().get("all", [])
 
 

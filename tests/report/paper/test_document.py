@@ -1,7 +1,5 @@
 """The document: chapters in their order, pictures by name, links only to its own places."""
 
-from __future__ import annotations
-
 from colonnade.report.paper.document import document_of
 
 from .conftest import HOSTILE

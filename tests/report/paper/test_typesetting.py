@@ -1,7 +1,5 @@
 """The PDF: the same bytes anywhere, nothing of a campaign read as markup, and no file but the document's own."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import subprocess
@@ -30,7 +28,7 @@ sys.stdout.buffer.write(pdf_of(load(folder), folder / "report"))
 """
 
 
-def texts_in(content) -> str:
+def texts_in(content):
     """Give the text of what a query found, as Typst will show it."""
     if isinstance(content, list):
         return "".join(map(texts_in, content))

@@ -1,7 +1,5 @@
 """Every figure of the registry is drawn from stored results, in both widths of a journal, and has a table."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """What figures are drawn of, read from the last run: a test, a specimen with its tests, the campaign."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.report.pictures import subjects

@@ -1,7 +1,5 @@
 """What the page of a test says of the motion of the table, against the motion that the virtual table followed."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.figures.stored import base as drawn

@@ -1,7 +1,5 @@
 """The sections of a test's page: each of that test, with numbers, units and reasons, and nothing where nothing is."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.campaign.forms.summary import PredictionSummary

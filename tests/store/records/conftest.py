@@ -1,7 +1,5 @@
 """A campaign of one pulse on one of two specimens."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.campaign import load

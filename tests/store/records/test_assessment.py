@@ -1,7 +1,5 @@
 """The answer in words, also where there is none."""
 
-from __future__ import annotations
-
 from colonnade.campaign.assessing.assessed import UNCORRECTED, AssessmentSummary, Estimate, Variant
 from colonnade.store.records.assessment import sentences
 

@@ -1,7 +1,5 @@
 """A map that is stored and read back is the map that was made."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What is stored of a test, read once and given by name; what is not there is empty, never an error."""
 
-from __future__ import annotations
-
 from math import isnan
 
 import numpy as np

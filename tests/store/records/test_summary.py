@@ -1,7 +1,5 @@
 """The summary read back: records of tests with and without a run, and the points of a measured map."""
 
-from __future__ import annotations
-
 import csv
 import io
 

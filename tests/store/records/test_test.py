@@ -1,7 +1,5 @@
 """What goes into the record of a test, from results whose numbers are in sight."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

@@ -1,7 +1,5 @@
 """Advice on earthquakes: the Span whose outcome is least certain, by ensembles on the recorded table motion."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -11,7 +9,7 @@ from colonnade.workflow.advising.earthquake import STEP, advise_earthquakes
 from colonnade.workflow.forecasting.foresee import foresee
 
 
-def as_earthquake(small: Any, setup: str = "") -> Any:
+def as_earthquake(small, setup=""):
     """Call the first pulse of the small campaign an earthquake of Span 1, and give its one piece of advice."""
     small.edit('id = "pulse-01"\nkind = "pulse"', EARTHQUAKE)
     small.edit("[setups.frame.channels]", f"[setups.frame]\n{setup}\n[setups.frame.channels]")

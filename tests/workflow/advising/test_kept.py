@@ -1,7 +1,5 @@
 """Advice in the report: only if a further test is asked for, and made again only for what changed."""
 
-from typing import Any
-
 from colonnade.workflow.advising import next as advising
 
 
@@ -17,7 +15,7 @@ def test_the_report_advises_while_tests_are_planned(small, monkeypatch):
     assert "What next" in text
     assert free.row()[-1].replace("<", "&lt;") in text
 
-    def refuse(*_: Any) -> Any:
+    def refuse(*_):
         raise AssertionError("advice was made again")
 
     monkeypatch.setattr(advising, "advise_kind", refuse)

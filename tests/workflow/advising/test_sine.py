@@ -1,12 +1,11 @@
 """Advice on sine tests: between the outcomes, within the risk, for tested and for planned frequencies."""
 
 from math import pi, tan
-from typing import Any
 
 import numpy as np
 import pytest
 
-from colonnade.campaign import Campaign, load
+from colonnade.campaign import load
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.identification.response.boundaries import MapPoint
@@ -17,11 +16,11 @@ OMEGA = 5.0
 
 
 @pytest.fixture(scope="module")
-def campaign(undisturbed: Any) -> Campaign:
+def campaign(undisturbed):
     return load(undisturbed.folder)
 
 
-def known(*outcomes: tuple[float, str], deviation: float = 0.002) -> Known:
+def known(*outcomes, deviation=0.002):
     points = (MapPoint(f"sine-{place}", OMEGA, ratio, outcome) for place, (ratio, outcome) in enumerate(outcomes))
     return Known((0.93, 0.93), deviation, tuple(points))
 
@@ -63,7 +62,7 @@ def test_the_boundary_is_that_of_the_tilted_table(campaign, tilt):
     sine = np.sin(2 * pi * np.arange(20 * 200 + 1) / 200)
     still = np.zeros(2000)
 
-    def overturns(ratio: float) -> bool:
+    def overturns(ratio):
         shaken = ratio * block.gravity * tan(block.critical_angle) * np.concatenate((sine, still))
         motion = Motion(shaken - block.gravity * np.sin(tilt), step)
         return rock(block, motion, restitution=e, model="nonlinear").outcome == "overturned"

@@ -1,7 +1,6 @@
 """Assessments in the graph: made once, made again for what changed, failing without stopping the rest."""
 
 from html import unescape
-from pathlib import Path
 
 import pytest
 
@@ -14,7 +13,7 @@ from colonnade.workflow.run import run
 from short_campaign import Small
 
 
-def action(folder: Path) -> tuple[str, str]:
+def action(folder):
     """What became of the assessment, and why."""
     [stage] = [stage for stage in run(folder, workers=1).stages if stage.stage == "assessment"]
     return stage.action, stage.because or stage.reason

@@ -10,18 +10,18 @@ from colonnade.workflow.execution.blocks import forget, in_blocks
 BLOCKS = tuple(range(6))
 
 
-def squares(block: int) -> dict[str, np.ndarray]:
+def squares(block):
     """Work of a block; it leaves a mark of who did it."""
     return {"squares": np.arange(block, block + 3.0) ** 2, "process": np.array(os.getpid())}
 
 
-def failing_at_four(block: int) -> dict[str, np.ndarray]:
+def failing_at_four(block):
     if block == 4:
         raise KeyboardInterrupt
     return squares(block)
 
 
-def never(block: int) -> dict[str, np.ndarray]:
+def never(block):
     raise AssertionError(f"block {block} was done again")
 
 
@@ -88,7 +88,7 @@ in_blocks(slow, range(200), Path(sys.argv[1]), "key", workers=1, progress=told)
 """
 
 
-def value(block: int) -> dict[str, np.ndarray]:
+def value(block):
     return {"value": np.array(block)}
 
 

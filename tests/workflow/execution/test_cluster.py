@@ -31,18 +31,18 @@ pytestmark = pytest.mark.whole
 of_posix = pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
 
 
-def free_port() -> int:
+def free_port():
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return int(probe.getsockname()[1])
 
 
-def start(*arguments: str) -> subprocess.Popen[bytes]:
+def start(*arguments):
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     return subprocess.Popen([sys.executable, "-m", *arguments, "--host", "127.0.0.1", "--no-dashboard"], **quiet)
 
 
-def end(processes) -> None:
+def end(processes):
     for process in processes:
         process.terminate()
     for process in processes:
@@ -102,12 +102,12 @@ def soon(monkeypatch):
     monkeypatch.setattr("colonnade.workflow.execution.cluster._PATIENCE", 1.0)
 
 
-def whose(number: int) -> tuple[int, int]:
+def whose(number):
     time.sleep(0.05)
     return number**2, os.getpid()
 
 
-def refuse(number: int) -> None:
+def refuse(number):
     raise ColonnadeError(f"number {number} cannot be")
 
 

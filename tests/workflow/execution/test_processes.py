@@ -120,7 +120,7 @@ def going(start, untouched):
     return start(RUN, untouched.folder, said="going", stderr=subprocess.PIPE)
 
 
-def members(session: int) -> dict[int, str]:
+def members(session):
     """Processes of a session with their commands, by /proc."""
     found = {}
     for entry in Path("/proc").glob("[0-9]*"):
@@ -134,7 +134,7 @@ def members(session: int) -> dict[int, str]:
     return found
 
 
-def left_of(session: int) -> dict[int, str]:
+def left_of(session):
     """Processes of a session that do not end."""
     until = time.monotonic() + PATIENCE
     while (there := members(session)) and time.monotonic() < until:

@@ -10,21 +10,21 @@ from colonnade.errors import ColonnadeError
 from colonnade.workflow.execution.spreading import spread, stopped
 
 
-def whose(number: int) -> tuple[int, int]:
+def whose(number):
     return number**2, os.getpid()
 
 
-def refuse(number: int) -> int:
+def refuse(number):
     if number == 2:
         raise ColonnadeError("number 2 cannot be")
     return number
 
 
-def die(number: int) -> None:
+def die(number):
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def die_once(place: str) -> str:
+def die_once(place):
     """Let the process be killed at the first call only."""
     mark = Path(place)
     if not mark.exists():

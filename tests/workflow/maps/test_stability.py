@@ -176,17 +176,6 @@ def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
         (Wanted(motion="pulse-01"), (), "pulse-01: its table motion cannot be stretched"),
         (Wanted(motion="pulse-01", responses=True), (), "Leave out the recorded motion"),
     ],
-<<<<<<< HEAD
-    ids=[
-        "an unknown specimen",
-        "a range backwards",
-        "no cycle",
-        "an unknown test",
-        "a test that is no sine",
-        "responses to a recorded motion",
-    ],
-=======
->>>>>>> 233f70fbd4c206a638fe1d5fe651cc3dd05fde25
 )
 def test_what_cannot_be_mapped_is_told(small, wanted, specimens, found):
     with pytest.raises(CampaignError, match=found):

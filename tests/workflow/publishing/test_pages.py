@@ -10,7 +10,7 @@ from colonnade.report import parts
 @pytest.fixture
 def read_again(monkeypatch):
     """Ids of the tests whose results the report reads."""
-    tests: list[str] = []
+    tests = []
     read = parts.read_test
     monkeypatch.setattr(parts, "read_test", lambda *given, **more: tests.append(given[2].id) or read(*given, **more))
     return tests

@@ -16,7 +16,7 @@ from colonnade.workflow.watching.line import Line
 FILE = Path("raw/free-01.csv")
 
 
-def mark(size: int) -> tuple[int, int, int]:
+def mark(size):
     return size, size, 1
 
 
@@ -82,7 +82,7 @@ def test_the_last_change_is_that_of_the_newest_file(tmp_path):
 KNOWN = RestitutionSummary(value=0.976, low=0.974, high=0.978, level=0.95, source="identified", tests=("a", "b"))
 
 
-def line(*, limits: dict[str, float] | None = None, changed: tuple = (), **given) -> Line:
+def line(*, limits=None, changed=(), **given):
     rocked = {"status": "done", "kind": "sine", "specimen": "prism", "outcome": "rocking"}
     return Line("sine-07", summary.TestSummary(**rocked | given), KNOWN, limits or {}, changed, 2.34)
 

@@ -3,7 +3,6 @@
 import json
 import sys
 import time
-from pathlib import Path
 
 import pytest
 
@@ -17,12 +16,12 @@ from colonnade.workflow.watching.share import Share
 
 
 @pytest.fixture
-def share(tmp_path: Path) -> Share:
+def share(tmp_path):
     (tmp_path / "share" / "day-1").mkdir(parents=True)
     return Share(tmp_path / "share", tmp_path / "raw", Arrivals(settle=1.0))
 
 
-def twice(share: Share, start: float) -> list[str]:
+def twice(share, start):
     return [*share.copy_finished(start), *share.copy_finished(start + 1.5)]
 
 

@@ -3,7 +3,6 @@
 import shutil
 import time
 from dataclasses import dataclass
-from typing import Any
 
 import pytest
 
@@ -31,8 +30,8 @@ def test_arriving_files_become_lines_and_the_rest_follows(small, tmp_path, monke
     broken.write_bytes(b"\x00\x01 nothing that can be read")
     with (small.folder / "campaign.toml").open("a", encoding="utf-8") as campaign_file:
         campaign_file.write(entry("pulse-03", "pulse", "planned = true"))
-    shown: list[Line | Advice] = []
-    said: list[str] = []
+    shown = []
+    said = []
     code = watch(small.folder, share=share, once=True, workers=1, show=shown.append, say=said.append)
     found = {line.test: line for line in shown if isinstance(line, Line)}
     assert set(found) == {"pulse-02", "free-02", "pulse-03"}
@@ -67,22 +66,22 @@ class Crashing:
     starts: int = 0
     is_running: bool = False
 
-    def start(self) -> None:
+    def start(self):
         self.starts += 1
         self.is_running = True
 
-    def ended(self) -> Ended | None:
+    def ended(self):
         if not self.is_running:
             return None
         self.is_running = False
         return self.ends.pop(0) if len(self.ends) > 1 else self.ends[0]
 
-    def give_way(self) -> None:
+    def give_way(self):
         pass
 
 
 @pytest.fixture
-def crashing(monkeypatch: pytest.MonkeyPatch) -> Crashing:
+def crashing(monkeypatch):
     """What stands in for the run behind every watch of a test."""
     said = "Traceback (most recent call last):\n  x\nOSError: y"
     behind = Crashing([Ended(-11, (), was_refused=False, problem=said)])
@@ -109,7 +108,7 @@ def test_a_run_behind_that_is_refused_is_tried_again(small, crashing, monkeypatc
 
 
 def test_a_watch_for_once_ends_if_results_cannot_be_written(small, crashing, monkeypatch):
-    def full(*_: Any) -> Line:
+    def full(*_):
         raise StoreError("a.nc: the disk is full.")
 
     monkeypatch.setattr(module, "measure", full)
@@ -120,9 +119,9 @@ def test_a_watch_for_once_ends_if_results_cannot_be_written(small, crashing, mon
 
 def test_a_deleted_file_starts_the_run_behind(small, crashing, monkeypatch):
     crashing.ends = [Ended(0, (), was_refused=False, problem="")]
-    starts: list[int] = []
+    starts = []
 
-    def wait(bell: Any, longest: float | None = None) -> None:
+    def wait(bell, longest=None):
         starts.append(crashing.starts)
         if len(starts) == 3:
             small.raw("pulse-02").unlink()
@@ -141,7 +140,7 @@ def test_advice_after_a_free_vibration_knows_those_just_before_it(small, crashin
     small.layout.summary_json.unlink()  # the run behind has not come so far yet
     for test in ("free-01", "free-02"):
         shutil.rmtree(small.layout.test(test))
-    shown: list[Line | Advice] = []
+    shown = []
     watch(small.folder, once=True, show=shown.append, say=lambda sentence: None)
     lines = [each.text() for each in shown]
     assert "so far" in lines[2]

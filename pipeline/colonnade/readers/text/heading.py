@@ -131,7 +131,11 @@ def heading_cells(line: str, dialect: Dialect, columns: int) -> list[str] | None
 
 def _ways_to_cut(line: str, dialect: Dialect) -> Iterator[list[str]]:
     """Cut a line at the samples' delimiter, at wide gaps, then at other delimiters."""
-    if dialect.delimiter.isspace():
+    if dialect.delimiter == WHITESPACE:
+        words = dialect.split(line)
+        if not any(word.endswith(",") for word in words):  # else a sentence, or names between commas
+            yield words
+    elif dialect.delimiter.isspace():
         yield dialect.split(line)
     else:
         yield quoted_cells(line, dialect.delimiter)

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from math import cosh, pi, sin, sinh, sqrt
 
 import numpy as np
@@ -7,7 +5,7 @@ import pytest
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
-from colonnade.dynamics.contact.elastic.assembly import ElasticBody, Material, assemble, rigid_modes
+from colonnade.dynamics.contact.elastic.assembly import Material, assemble, rigid_modes
 from colonnade.dynamics.contact.elastic.mesh import prism_mesh, round_mesh
 from colonnade.dynamics.contact.elastic.reduction import reduce_body
 
@@ -17,7 +15,7 @@ CONE = assemble(round_mesh(0.097, 0.0755, 0.480, (2, 1, 5)), 21.94)
 
 
 @pytest.mark.parametrize("body", [PRISM, CONE], ids=["prism", "cone"])
-def test_rigid_motion_costs_no_strain_energy(body: ElasticBody) -> None:
+def test_rigid_motion_costs_no_strain_energy(body):
     rigid = rigid_modes(body.points, body.node_mass)
     largest = abs(body.stiffness).max()
     assert abs(body.stiffness @ rigid).max() < 1e-12 * largest
@@ -25,7 +23,7 @@ def test_rigid_motion_costs_no_strain_energy(body: ElasticBody) -> None:
     assert rigid.T @ (np.repeat(body.node_mass, 3)[:, None] * rigid) == pytest.approx(np.eye(6), abs=1e-12)
 
 
-def test_a_prism_has_its_mass_centre_and_inertia() -> None:
+def test_a_prism_has_its_mass_centre_and_inertia():
     assert PRISM.mass == pytest.approx(MASS, rel=1e-12)
     assert PRISM.node_mass @ PRISM.points == pytest.approx(np.zeros(3), abs=1e-12)
     about_y, about_z = MASS / 12 * (WIDTH**2 + HEIGHT**2), MASS / 6 * WIDTH**2
@@ -36,7 +34,7 @@ def test_a_prism_has_its_mass_centre_and_inertia() -> None:
     assert lumped.sum() - lumped == pytest.approx(squares.sum() - squares, rel=1e-12)
 
 
-def test_a_cone_has_the_mass_and_centre_of_its_frustum() -> None:
+def test_a_cone_has_the_mass_and_centre_of_its_frustum():
     assert CONE.mass == pytest.approx(21.94, rel=1e-12)
     base, top = 0.097 / 2, 0.0755 / 2
     centre = 0.48 / 4 * (base**2 + 2 * base * top + 3 * top**2) / (base**2 + base * top + top**2)
@@ -49,13 +47,13 @@ def test_a_cone_has_the_mass_and_centre_of_its_frustum() -> None:
     [(PRISM, WIDTH**2), (CONE, 4 * 0.0485**2 * sin(pi / 4))],
     ids=["prism", "octagon"],
 )
-def test_the_nodes_of_the_base_share_its_area(body: ElasticBody, area: float) -> None:
+def test_the_nodes_of_the_base_share_its_area(body, area):
     assert body.base_area.sum() == pytest.approx(area, rel=1e-12)
     assert (body.base_area > 0.0).all()
 
 
 @pytest.mark.parametrize("body", [PRISM, CONE], ids=["prism", "cone"])
-def test_uniform_strain_has_its_energy_and_rate_of_volume_change(body: ElasticBody) -> None:
+def test_uniform_strain_has_its_energy_and_rate_of_volume_change(body):
     strain = np.array([[2.0, 0.3, -0.5], [0.3, -1.0, 0.7], [-0.5, 0.7, 0.4]]) * 1e-3
     displacement = (body.points @ strain).ravel()
     first, shear = body.material.lame
@@ -65,13 +63,13 @@ def test_uniform_strain_has_its_energy_and_rate_of_volume_change(body: ElasticBo
     assert body.volume_rate @ displacement == pytest.approx(np.full(len(body.volumes), np.trace(strain)), rel=1e-9)
 
 
-def test_a_brick_is_as_long_as_its_shortest_way_through() -> None:
+def test_a_brick_is_as_long_as_its_shortest_way_through():
     slab = assemble(prism_mesh(2.0, 1.0, 0.1, (1, 1, 1)), 1.0)
     assert slab.element_lengths == pytest.approx([0.1])
 
 
 @pytest.mark.parametrize("mode", [1, 2, 5])
-def test_a_bar_of_lumped_elements_has_their_closed_form_frequencies(mode: int) -> None:
+def test_a_bar_of_lumped_elements_has_their_closed_form_frequencies(mode):
     elements, length = 12, 2.0
     bar = assemble(prism_mesh(0.2, 0.2, length, (1, 1, elements)), 624.0, poisson_ratio=0.0)
     along = np.arange(2, bar.stiffness.shape[0], 3)
@@ -85,14 +83,14 @@ def test_a_bar_of_lumped_elements_has_their_closed_form_frequencies(mode: int) -
     assert sqrt(squares[mode]) == pytest.approx(expected, rel=1e-10)
 
 
-def timoshenko_free_free(width: float, length: float, material: Material) -> float:
+def timoshenko_free_free(width, length, material):
     """First bending frequency of a free square beam, rad/s (Huang 1961, J. Appl. Mech. 28, eq. 39; Cowper's κ)."""
     poisson = material.poisson_ratio
     kappa = 10 * (1 + poisson) / (12 + 11 * poisson)
     r = width / sqrt(12) / length
     s = r * sqrt(material.modulus / (kappa * material.lame[1]))
 
-    def equation(b: float) -> float:
+    def equation(b):
         root = sqrt((r * r - s * s) ** 2 + 4 / b**2)
         hyperbolic, circular = b * sqrt((root - r * r - s * s) / 2), b * sqrt((root + r * r + s * s) / 2)
         factor = b / sqrt(1 - (b * r * s) ** 2) * (b**2 * r**2 * (r**2 - s**2) ** 2 + 3 * r**2 - s**2)
@@ -101,7 +99,7 @@ def timoshenko_free_free(width: float, length: float, material: Material) -> flo
     return float(brentq(equation, 12.0, 22.5)) * sqrt(material.modulus / material.density) * r / length
 
 
-def test_bending_converges_to_a_timoshenko_beam_nearly_with_the_square_of_the_brick() -> None:
+def test_bending_converges_to_a_timoshenko_beam_nearly_with_the_square_of_the_brick():
     found = []
     for refinement in (1, 2, 3):
         mesh = prism_mesh(WIDTH, WIDTH, HEIGHT, (2 * refinement, 2 * refinement, 8 * refinement))
@@ -113,7 +111,7 @@ def test_bending_converges_to_a_timoshenko_beam_nearly_with_the_square_of_the_br
     assert np.log2((found[0] - limit) / (found[1] - limit)) == pytest.approx(1.8, abs=0.25)
 
 
-def test_wrong_materials_are_refused() -> None:
+def test_wrong_materials_are_refused():
     with pytest.raises(ValueError, match=r"poisson_ratio is 0\.5"):
         Material(7800.0, poisson_ratio=0.5)
     with pytest.raises(ValueError, match="positive values were expected"):

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from math import pi, sin
 
 import numpy as np
@@ -8,7 +6,6 @@ import pytest
 from colonnade.dynamics.contact.elastic.assembly import assemble
 from colonnade.dynamics.contact.elastic.mesh import (
     PAPERS_DEGREES_OF_FREEDOM,
-    Mesh,
     prism_divisions,
     prism_mesh,
     round_divisions,
@@ -20,9 +17,9 @@ CYLINDER = (0.097, 0.097, 0.455)
 CONE = (0.097, 0.0755, 0.480)
 
 
-def faces_of(mesh: Mesh) -> dict[tuple[int, ...], int]:
+def faces_of(mesh):
     """How many bricks each face belongs to."""
-    faces: dict[tuple[int, ...], int] = {}
+    faces = {}
     for corners in ((0, 1, 4, 2), (0, 2, 6, 3), (0, 3, 5, 1), (2, 4, 7, 6), (1, 5, 7, 4), (3, 6, 7, 5)):
         for face in np.sort(mesh.cells[:, corners], axis=1).tolist():
             faces[tuple(face)] = faces.get(tuple(face), 0) + 1
@@ -32,19 +29,19 @@ def faces_of(mesh: Mesh) -> dict[tuple[int, ...], int]:
 @pytest.mark.parametrize(
     ("asked", "found"), [("coarse", 1224), ("medium", 5481), ("fine", 20328)], ids=["coarse", "medium", "fine"]
 )
-def test_the_papers_prism_is_met_as_nearly_as_a_grid_can(asked: str, found: int) -> None:
+def test_the_papers_prism_is_met_as_nearly_as_a_grid_can(asked, found):
     divisions = prism_divisions(*PRISM, PAPERS_DEGREES_OF_FREEDOM[asked])
     assert prism_mesh(*PRISM, divisions).degrees_of_freedom == found
 
 
 @pytest.mark.parametrize("asked", PAPERS_DEGREES_OF_FREEDOM.values())
-def test_round_bodies_come_within_one_per_cent_of_the_papers_numbers(asked: int) -> None:
+def test_round_bodies_come_within_one_per_cent_of_the_papers_numbers(asked):
     for dimensions in (CYLINDER, CONE):
         mesh = round_mesh(*dimensions, round_divisions(*dimensions, asked))
         assert mesh.degrees_of_freedom == pytest.approx(asked, rel=0.01)
 
 
-def test_divisions_of_a_flat_slab_still_exist() -> None:
+def test_divisions_of_a_flat_slab_still_exist():
     along_x, along_y, layers = prism_divisions(1.0, 1.0, 0.01, 300)
     assert layers >= 1
     assert along_x * along_y > 9
@@ -60,7 +57,7 @@ def test_divisions_of_a_flat_slab_still_exist() -> None:
     ],
     ids=["prism", "cylinder", "cone", "smallest"],
 )
-def test_bricks_fit_together_without_gaps(mesh: Mesh) -> None:
+def test_bricks_fit_together_without_gaps(mesh):
     shared = np.array(list(faces_of(mesh).values()))
     assert shared.max() == 2
     assert 2 * (shared == 2).sum() + (shared == 1).sum() == 6 * len(mesh.cells)
@@ -74,7 +71,7 @@ def test_bricks_fit_together_without_gaps(mesh: Mesh) -> None:
 
 
 @pytest.mark.parametrize(("core", "rings"), [(1, 1), (2, 1), (4, 2), (6, 3)])
-def test_a_round_body_stands_on_its_true_rim_and_has_its_polygons_volume(core: int, rings: int) -> None:
+def test_a_round_body_stands_on_its_true_rim_and_has_its_polygons_volume(core, rings):
     base, top, height = CONE
     mesh = round_mesh(base, top, height, (core, rings, 3))
     radii = np.hypot(*mesh.points[mesh.base, :2].T)
@@ -87,7 +84,7 @@ def test_a_round_body_stands_on_its_true_rim_and_has_its_polygons_volume(core: i
     assert body.volumes.sum() == pytest.approx(frustum * rim / 2 * sin(2 * pi / rim), rel=1e-12)
 
 
-def test_wrong_lengths_and_numbers_are_refused() -> None:
+def test_wrong_lengths_and_numbers_are_refused():
     with pytest.raises(ValueError, match=r"depth is 0\.0; a positive length in m was expected"):
         prism_mesh(1.0, 0.0, 1.0, (1, 1, 1))
     with pytest.raises(ValueError, match=r"top_diameter is -1\.0"):

@@ -1,17 +1,13 @@
 """Elastic bodies reduced to their modes: the model and its viscosity."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.body import ContactBody
-from colonnade.dynamics.contact.elastic.assembly import ElasticBody, assemble, rigid_modes
+from colonnade.dynamics.contact.elastic.assembly import assemble, rigid_modes
 from colonnade.dynamics.contact.elastic.mesh import prism_mesh, round_mesh
 from colonnade.dynamics.contact.elastic.model import elastic_body, mesh_of
 from colonnade.dynamics.contact.elastic.reduction import reduce_body
@@ -22,19 +18,19 @@ CONE = assemble(round_mesh(0.097, 0.0755, 0.480, (2, 1, 4)), 21.94)
 BODIES = pytest.mark.parametrize("body", [PRISM, CONE], ids=["prism", "cone"])
 
 
-def point_flexibility(body: ContactBody) -> Array:
+def point_flexibility(body):
     """Displacement of each base node under a unit force on itself, by the modes alone, m/N, shape (n, 3)."""
     return np.asarray(np.einsum("nkm,m->nk", body.modes**2, body.frequencies**-2.0))
 
 
-def all_modes(body: ElasticBody) -> tuple[Array, Array]:
+def all_modes(body):
     """Every elastic mode of the mesh by a dense solver: shapes at the base (b, 3, m) and frequencies."""
     squares, modes = eigh(body.stiffness.toarray(), np.diag(np.repeat(body.node_mass, 3)))
     return modes[:, 6:].reshape(-1, 3, len(squares) - 6)[body.base], np.sqrt(squares[6:])
 
 
 @BODIES
-def test_vibration_modes_are_the_meshs_own(body: ElasticBody) -> None:
+def test_vibration_modes_are_the_meshs_own(body):
     _, frequencies = all_modes(body)
     reduced = reduce_body(body, vibration_modes=12)
     assert reduced.frequencies[:12] == pytest.approx(frequencies[:12], rel=1e-8)
@@ -44,7 +40,7 @@ def test_vibration_modes_are_the_meshs_own(body: ElasticBody) -> None:
 
 @BODIES
 @pytest.mark.parametrize("vibration_modes", [0, 6, 20])
-def test_with_attachment_modes_the_base_is_as_flexible_as_the_mesh(body: ElasticBody, vibration_modes: int) -> None:
+def test_with_attachment_modes_the_base_is_as_flexible_as_the_mesh(body, vibration_modes):
     shapes, frequencies = all_modes(body)
     exact = np.einsum("ikm,jlm,m->ikjl", shapes, shapes, frequencies**-2.0)
     reduced = reduce_body(body, vibration_modes=vibration_modes)
@@ -53,7 +49,7 @@ def test_with_attachment_modes_the_base_is_as_flexible_as_the_mesh(body: Elastic
     assert point_flexibility(reduced) == pytest.approx(np.einsum("ikik->ik", exact), rel=1e-6)
 
 
-def test_without_attachment_modes_the_base_is_too_stiff_and_slowly_gets_softer() -> None:
+def test_without_attachment_modes_the_base_is_too_stiff_and_slowly_gets_softer():
     exact = point_flexibility(reduce_body(PRISM))[:, 2]
     found = [
         point_flexibility(reduce_body(PRISM, vibration_modes=count, attachment=False))[:, 2] / exact
@@ -63,7 +59,7 @@ def test_without_attachment_modes_the_base_is_too_stiff_and_slowly_gets_softer()
     assert found[0].max() < 0.5
 
 
-def test_vibration_and_attachment_modes_together_are_a_whole_basis_where_the_mesh_is_small() -> None:
+def test_vibration_and_attachment_modes_together_are_a_whole_basis_where_the_mesh_is_small():
     body = assemble(prism_mesh(0.1, 0.12, 0.4, (1, 1, 2)), 10.0)
     reduced = reduce_body(body, vibration_modes=28)
     elastic = reduced.modes.reshape(12, -1)
@@ -72,20 +68,20 @@ def test_vibration_and_attachment_modes_together_are_a_whole_basis_where_the_mes
     assert elastic @ elastic.T + rigid @ rigid.T == pytest.approx(np.diag(np.repeat(1 / body.node_mass[body.base], 3)))
 
 
-def test_damping_of_the_modes_grows_with_their_frequency() -> None:
+def test_damping_of_the_modes_grows_with_their_frequency():
     reduced = reduce_body(PRISM)
     assert reduced.modal_damping.min() >= 0.0
     assert reduced.modal_damping[:10].max() < 0.2 * reduced.modal_damping.max()
     assert reduced.modal_damping.max() < 0.06
 
 
-def test_the_same_mesh_gives_the_same_modes() -> None:
+def test_the_same_mesh_gives_the_same_modes():
     once, again = reduce_body(CONE), reduce_body(CONE)
     assert (once.modes == again.modes).all()
 
 
 @pytest.mark.parametrize("count", [-1, 3 * len(CONE.points) - 6])
-def test_an_impossible_number_of_modes_is_refused(count: int) -> None:
+def test_an_impossible_number_of_modes_is_refused(count):
     with pytest.raises(ValueError, match="a number from 0 to"):
         reduce_body(CONE, vibration_modes=count)
 
@@ -130,13 +126,13 @@ def test_what_cannot_be_meshed_is_refused(sizes, mesh, told):
 BAR = assemble(prism_mesh(0.1, 0.1, 1.0, (1, 1, 10)), 78.0, poisson_ratio=0.0)
 
 
-def test_coefficients_are_those_of_the_formula() -> None:
+def test_coefficients_are_those_of_the_formula():
     speed = np.sqrt(200e9 / 7800)
     assert linear_coefficients(BAR) == pytest.approx(np.full(10, 0.06 * 7800 * speed * 0.1))
     assert not linear_coefficients(BAR, 0.0).any()
 
 
-def test_a_bar_that_stretches_is_damped_by_b1_l_omega_over_2c() -> None:
+def test_a_bar_that_stretches_is_damped_by_b1_l_omega_over_2c():
     # With lumped masses and ν = 0 the modes of ten elements are cos(nπj/10), at 2c/L sin(nπ/20).
     number, level = np.arange(1, 11), np.rint((BAR.points[:, 2] + 0.5) * 10)
     shapes = np.zeros((len(BAR.points), 3, 10))
@@ -150,7 +146,7 @@ def test_a_bar_that_stretches_is_damped_by_b1_l_omega_over_2c() -> None:
     assert damping == pytest.approx(0.06 * 0.1 * frequencies / (2 * speed), rel=1e-9)
 
 
-def test_a_bar_that_twists_is_not_damped() -> None:
+def test_a_bar_that_twists_is_not_damped():
     x, y, z = BAR.points.T
     twist = np.column_stack((-y * z, x * z, 0 * z)).reshape(-1, 1)
     assert modal_damping(BAR, twist, np.ones(1)) == pytest.approx([0.0], abs=1e-12)

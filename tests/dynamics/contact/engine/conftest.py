@@ -1,7 +1,5 @@
 """A small body for single kernels of the contact engine, with numbers that are easy to reckon with."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Without contact a body falls on its parabola, turns with its angular momentum kept, and its modes swing."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The impulse of the contact: momentum by the forces, energy by the ledger."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

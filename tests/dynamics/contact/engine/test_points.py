@@ -1,7 +1,5 @@
 """Points of contact: their state, forces, and samples between steps."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

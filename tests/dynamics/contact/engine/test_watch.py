@@ -1,7 +1,5 @@
 """Impacts: an arc about one pole ends where the body touches elsewhere, and the next begins about the other."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """One arc of the linear equation under a sine, in closed form, against SciPy's DOP853 and textbook solutions."""
 
-from __future__ import annotations
-
 from math import cos, cosh, pi, sin, sinh
 
 import numpy as np

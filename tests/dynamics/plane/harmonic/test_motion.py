@@ -1,7 +1,5 @@
 """The harmonic engines against closed forms, an independent integration and the engines for recorded motions."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """One arc of the full equation under a sine against SciPy's DOP853, and the march through a sine."""
 
-from __future__ import annotations
-
 from math import cos, pi, sin
 
 import numpy as np

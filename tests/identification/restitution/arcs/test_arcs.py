@@ -1,7 +1,5 @@
 """Arcs and impacts of a record, and the energy that a peak holds."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Free rocking in closed form against an adaptive integrator; its series against the model."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Arcs of free rocking as their closed forms give them, without a history in between."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import numpy as np

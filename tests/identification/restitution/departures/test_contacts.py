@@ -1,7 +1,5 @@
 """Slides and bounces at single impacts, on arcs of closed form."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

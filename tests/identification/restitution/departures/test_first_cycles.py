@@ -1,7 +1,5 @@
 """First cycles that turn out of the plane: measured, or by what they lose and how long they last."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """e of single impacts, from fits made by hand: scatter that only a moving table explains, and a trend."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.stats import norm, t

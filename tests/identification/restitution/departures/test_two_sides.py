@@ -1,7 +1,5 @@
 """The two sides of a block compared on arcs of closed form."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

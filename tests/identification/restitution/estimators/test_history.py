@@ -1,7 +1,5 @@
 """The whole history: the truth within its interval, and no consistency where the block is another."""
 
-from __future__ import annotations
-
 from functools import cache
 from types import SimpleNamespace
 

@@ -1,7 +1,5 @@
 """The whole history with an e of its own at each impact: intervals where e is not one number."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

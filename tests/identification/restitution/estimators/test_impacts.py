@@ -1,7 +1,5 @@
 """e impact by impact."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

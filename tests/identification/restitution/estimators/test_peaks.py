@@ -1,7 +1,5 @@
 """e from peaks, given exactly by the energy that each impact leaves, without a history."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

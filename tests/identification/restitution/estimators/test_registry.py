@@ -1,7 +1,5 @@
 """Estimators: each by its name, with its estimate, its bounds and its refusals."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import exp, log
 

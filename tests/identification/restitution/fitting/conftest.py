@@ -1,13 +1,10 @@
 """A decay whose unknowns are known, and its record."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
 import pytest
 
-from colonnade.arrays import Array
 from colonnade.identification.restitution.fitting.free_decay import Decay
 from colonnade.identification.restitution.fitting.samples import AngleSamples
 from prism import PRISM
@@ -27,10 +24,10 @@ class Known(NamedTuple):
 def known():
     """Make a decay of the prism from half its critical angle, and its record every 10 ms."""
 
-    def make(*, count=8, deviations=(), linearised=False, **values) -> Known:
+    def make(*, count=8, deviations=(), linearised=False, **values):
         given = VALUES | {"peak": 0.5 * PRISM.critical_angle} | values
         decay = Decay(given, 1, count, PRISM, linearised, np.array(deviations, dtype=float))
-        time: Array = np.arange(0.12, decay.arcs()[2][-1], 0.01)
+        time = np.arange(0.12, decay.arcs()[2][-1], 0.01)
         return Known(decay, AngleSamples(time, decay.angle_alone(time), 0.01))
 
     return make

@@ -1,7 +1,5 @@
 """Peaks as a first guess, arcs before and after, and the band of the line."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Free rocking by its unknowns, e of each impact, and rocking on a table that moves."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import acosh, sqrt
 

@@ -1,7 +1,5 @@
 """Least squares of a stretch, by averaged samples."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Noise of a record, and intervals of means over scatters and random walks."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy import integrate, stats

@@ -1,7 +1,5 @@
 """Scatter of e as a part of the noise: products over frequencies, and the likelihood by the book."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
