@@ -1,5 +1,6 @@
 """The ingest of long files beside a bare read of the same file in the same run (`make slow` prints the figures)."""
 
+import hashlib
 import time
 
 import numpy as np
@@ -42,12 +43,12 @@ def piece(number):
     return np.round((5 * np.sin(2 * np.pi * 0.3 * np.arange(1, CHANNELS + 1) * at) + noise) / 3e-4) * 3e-4
 
 
-def write_text(path):
+def write_text(path, megabytes):
     names = [f"CH {number} [mm]" for number in range(1, CHANNELS + 1)]
     with path.open("w", encoding="utf-8") as stream:
         stream.write(";".join(["Time [s]", *names]) + "\n")
         number = 0
-        while path.stat().st_size < MEGABYTES * 1e6:
+        while path.stat().st_size < megabytes * 1e6:
             table = pd.DataFrame(piece(number))
             table.insert(0, "time", (np.arange(ONE_PIECE) + number * ONE_PIECE) / RATE)
             table.to_csv(stream, sep=";", float_format="%.6f", header=False, index=False)
@@ -55,9 +56,9 @@ def write_text(path):
             number += 1
 
 
-def write_tdms(path):
+def write_tdms(path, megabytes):
     with TdmsWriter(path) as writer:
-        for number in range(int(MEGABYTES * 1e6 / (8 * CHANNELS * ONE_PIECE))):
+        for number in range(int(megabytes * 1e6 / (8 * CHANNELS * ONE_PIECE))):
             values = piece(number)
             writer.write_segment(
                 [
@@ -92,24 +93,34 @@ def bare_tdms(path):
     ],
 )
 def test_ingest_beside_a_bare_read(tmp_path, name, write, bare):
-    write(tmp_path / name)
     channels = "".join(CHANNEL.format(number) for number in range(1, CHANNELS + 1))
     (tmp_path / "campaign.toml").write_text(HEAD + channels + TEST.format(name), encoding="utf-8")
     campaign = load(tmp_path)
     told = IngestInputs.of(campaign, campaign.tests["one"])
 
-    times = [clocks()]
-    expected = bare(tmp_path / name)
-    times.append(clocks())
-    recording = read(tmp_path / name)
-    times.append(clocks())
-    recorded = ingest({"main": recording}, told)
-    times.append(clocks())
-    files.write(recorded, tmp_path / "recorded.nc", attributes={"stage": "ingest"})
-    times.append(clocks())
+    def measured(megabytes):
+        """Times of a bare read, of the hash, and of the parts of an ingest."""
+        write(tmp_path / name, megabytes)
+        times = [clocks()]
+        expected = bare(tmp_path / name)
+        times.append(clocks())
+        with (tmp_path / name).open("rb") as stream:
+            hashlib.file_digest(stream, "sha256")
+        times.append(clocks())
+        recording = read(tmp_path / name)
+        times.append(clocks())
+        recorded = ingest({"main": recording}, told)
+        times.append(clocks())
+        files.write(recorded, tmp_path / "recorded.nc", attributes={"stage": "ingest"})
+        times.append(clocks())
+        np.testing.assert_allclose(recorded["c3"].to_numpy(), expected * 1e-3, rtol=1e-12)
+        return expected.size, np.diff(times, axis=0).T
 
-    np.testing.assert_allclose(recorded["c3"].to_numpy(), expected * 1e-3, rtol=1e-12)
-    print(f"\n{name}: {expected.size} x {CHANNELS} samples, in multiples of a bare read")
-    for what, (peer, *parts) in zip(("elapsed", "processor"), np.diff(times, axis=0).T, strict=True):
+    measured(10)  # what is imported with the first file does not count
+    size, times = measured(MEGABYTES)
+    print(f"\n{name}: {size} x {CHANNELS} samples, in multiples of a bare read")
+    for what, (peer, hashed, *parts) in zip(("elapsed", "processor"), times, strict=True):
         shares = ", ".join(f"{part} {share / peer:.2f}" for part, share in zip(PARTS, parts, strict=True))
-        print(f"  {what} time: bare {peer:.2f} s; {shares}; {sum(parts) / peer:.2f} in all")
+        all_told = (hashed + sum(parts)) / (peer + hashed + parts[-1])
+        print(f"  {what} time: bare {peer:.2f} s; hashed {hashed / peer:.2f}, {shares}")
+        print(f"    {all_told:.2f} times a bare read, the hash and what is stored together")

@@ -167,14 +167,11 @@ class Rows:
         ]
         return [Row(row, line, text, dialect.split(text)) for row, line, text in lines[-TAIL:]]
 
-    def add(self, piece: Piece, frame: pd.DataFrame) -> None:
+    def add(self, piece: Piece, frame: pd.DataFrame, numbers: Mapping[int, Array]) -> None:
         """Add a piece, cut into cells, to the columns; look at the rows of it that may not be as they should be."""
-        kinds = self.form.kinds
         columns = [
-            self._clocks[column].seconds(frame[column])
-            if kind == "time"
-            else numbers_of(frame[column], self.form.dialect_of(column))
-            for column, kind in enumerate(kinds)
+            self._clocks[column].seconds(frame[column]) if kind == "time" else numbers[column]
+            for column, kind in enumerate(self.form.kinds)
         ]
         for column, grouping in self._grouping.items():
             grouping.look(frame[column], columns[column])
@@ -230,12 +227,12 @@ class Stretch:
     high: float
     column: int | None = None
 
-    def place(self, frame: pd.DataFrame, before: int, form: RowForm) -> int:
+    def place(self, rows: int, numbers: Mapping[int, Array], before: int) -> int:
         """Say whether a piece, with `before` rows in front, is wholly ahead of it (-1) or behind it (1); else 0."""
         if self.column is None:
-            first, last = float(before), float(before + len(frame) - 1)
+            first, last = float(before), float(before + rows - 1)
         else:
-            times = numbers_of(frame[self.column], form.dialect_of(self.column))
+            times = numbers[self.column]
             if np.isnan(times).all():
                 return 0
             first, last = float(np.nanmin(times)), float(np.nanmax(times))
@@ -267,15 +264,15 @@ def read_rows(path: Path, pieces: Iterable[Piece], form: RowForm, stretch: Stret
         with warnings.catch_warnings():
             warnings.simplefilter("error", ParserWarning)  # pandas only warns when it drops cells
             with closing(_cut(pieces, form)) as frames:
-                for piece, frame in frames:
-                    place = 0 if stretch is None else stretch.place(frame, taken.skipped + taken.size, form)
+                for piece, frame, numbers in frames:
+                    place = 0 if stretch is None else stretch.place(len(frame), numbers, taken.skipped + taken.size)
                     if place < 0 and not taken.size:
                         taken.skipped += len(frame)
                         continue
                     if place > 0 and taken.size:
                         taken.reaches_end = False
                         break
-                    taken.add(piece, frame)
+                    taken.add(piece, frame, numbers)
     except (ParserError, ParserWarning) as error:
         raise ReadError(
             f"{path.name}: its lines cannot be split into cells ({str(error).strip()}). Look for lines that differ "
@@ -285,18 +282,25 @@ def read_rows(path: Path, pieces: Iterable[Piece], form: RowForm, stretch: Stret
     return taken
 
 
-def _cut(pieces: Iterable[Piece], form: RowForm) -> Generator[tuple[Piece, pd.DataFrame], None, None]:
-    """Cut pieces into cells, several at the same time; they come in their order."""
-    waiting: deque[tuple[Piece, Future[pd.DataFrame]]] = deque()
+def _cut(pieces: Iterable[Piece], form: RowForm) -> Generator[tuple[Piece, pd.DataFrame, dict[int, Array]], None, None]:
+    """Cut pieces into cells and numbers, several at the same time; they come in their order."""
+    waiting: deque[tuple[Piece, Future[tuple[pd.DataFrame, dict[int, Array]]]]] = deque()
     with ThreadPoolExecutor(threads()) as pool:
         for piece in pieces:
-            waiting.append((piece, pool.submit(_frame, piece.text, form)))
+            waiting.append((piece, pool.submit(_cells_and_numbers, piece.text, form)))
             if len(waiting) > threads():
-                done, frame = waiting.popleft()
-                yield done, frame.result()
+                done, found = waiting.popleft()
+                yield done, *found.result()
         while waiting:
-            done, frame = waiting.popleft()
-            yield done, frame.result()
+            done, found = waiting.popleft()
+            yield done, *found.result()
+
+
+def _cells_and_numbers(text: str, form: RowForm) -> tuple[pd.DataFrame, dict[int, Array]]:
+    """Cut a text into cells, and read all columns but those of timestamps, which go on from piece to piece."""
+    frame = _frame(text, form)
+    columns = (column for column, kind in enumerate(form.kinds) if kind != "time")
+    return frame, {column: numbers_of(frame[column], form.dialect_of(column)) for column in columns}
 
 
 def _frame(text: str, form: RowForm) -> pd.DataFrame:
@@ -387,8 +391,7 @@ def numbers_of(series: pd.Series, dialect: Dialect) -> Array:
         values = series.to_numpy(dtype=np.float64)
     else:
         values = np.fromiter(map(dialect.number, series.to_list()), dtype=np.float64, count=len(series))
-    infinite = np.isinf(values)
-    return np.where(infinite, np.nan, values) if infinite.any() else values
+    return values if np.isfinite(values).all() else np.where(np.isinf(values), np.nan, values)
 
 
 def filled_length(values: Array) -> int:
