@@ -113,19 +113,17 @@ class Grouping:
 
     def __init__(self, dialect: Dialect) -> None:
         self._dialect, self._signs = dialect, set[str]()
-        self._has_small = self._has_large = self._is_refuted = False
+        self._has_small = self._has_large = self.is_refuted = False
         self._marked = 0
 
     @property
     def sign(self) -> str | None:
         """The mark; None if nothing speaks for one."""
-        is_likely = self._has_small and (self._has_large or self._marked >= MANY) and not self._is_refuted
+        is_likely = self._has_small and (self._has_large or self._marked >= MANY) and not self.is_refuted
         return next(iter(self._signs)) if is_likely and len(self._signs) == 1 else None
 
     def look(self, cells: pd.Series, values: Array) -> None:
-        """Look at further cells: as text, or as the numbers that they were read as."""
-        if self._is_refuted:
-            return
+        """Look at further cells, unless it is refuted: as text, or as the numbers that they were read as."""
         if cells.dtype.kind in "biuf":
             self._look_at_numbers(np.abs(values[np.isfinite(values)]))
             return
@@ -138,14 +136,14 @@ class Grouping:
                 self._has_small = True
                 self._has_large |= abs(self._dialect.number(text)) >= LARGE
             elif any(map(str.isdecimal, text)):
-                self._is_refuted = True
+                self.is_refuted = True
                 return
 
     def _look_at_numbers(self, sizes: Array) -> None:
         whole = sizes == np.rint(sizes)
         thousandths = np.unique(THOUSAND * sizes[~whole])
         far = (sizes >= THOUSAND).any() or (thousandths < THOUSAND).any()
-        self._is_refuted = bool(far or (np.abs(thousandths - np.rint(thousandths)) > 1e-6).any())
+        self.is_refuted = bool(far or (np.abs(thousandths - np.rint(thousandths)) > 1e-6).any())
         self._has_small |= bool(whole.any())
         self._has_large |= bool((sizes[whole] >= LARGE).any())
         self._marked += thousandths.size

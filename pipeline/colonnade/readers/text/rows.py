@@ -174,7 +174,8 @@ class Rows:
             for column, kind in enumerate(self.form.kinds)
         ]
         for column, grouping in self._grouping.items():
-            grouping.look(frame[column], columns[column])
+            if not grouping.is_refuted:
+                grouping.look(frame[column], columns[column])
         absent = [np.isnan(values) for values in columns]
         self._look(piece, _doubtful(frame, absent, self.form), absent)
         for pieces, values in zip(self._pieces, columns, strict=True):
@@ -369,7 +370,8 @@ class _Stream(TextIOBase):
 
 def _doubtful(frame: pd.DataFrame, absent: Sequence[Mask], form: RowForm) -> Mask:
     """Rows that may have the wrong number of cells or be no samples at all."""
-    doubtful: Mask = np.logical_and.reduce(absent)
+    # A row without any number lacks the first; text there says nothing of the others.
+    doubtful: Mask = np.logical_and.reduce(absent) if form.kinds[0] == "text" else absent[0].copy()
     for beyond in range(len(form.kinds) + form.remark, frame.shape[1]):
         doubtful |= frame[beyond].notna().to_numpy()
     # A short row has nothing in the last column that ever holds something.
@@ -388,7 +390,7 @@ def _joined(pieces: list[Array]) -> Array:
 def numbers_of(series: pd.Series, dialect: Dialect) -> Array:
     """Values of a column: what pandas has read as numbers, else each cell by itself."""
     if series.dtype.kind in "biuf":
-        values = series.to_numpy(dtype=np.float64)
+        values = series.to_numpy(dtype=np.float64, copy=True)  # a view would keep all columns of its piece
     else:
         values = np.fromiter(map(dialect.number, series.to_list()), dtype=np.float64, count=len(series))
     return values if np.isfinite(values).all() else np.where(np.isinf(values), np.nan, values)
