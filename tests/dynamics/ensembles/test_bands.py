@@ -7,7 +7,7 @@ from scipy.stats import spearmanr
 
 from colonnade.dynamics.ensembles.bands import BINS, band, count, empty_counts
 from colonnade.dynamics.ensembles.ensemble import ensemble
-from colonnade.dynamics.ensembles.rank_correlation import correlation, ranks_of
+from colonnade.dynamics.ensembles.outcome import correlation, ranks_of
 from colonnade.dynamics.ensembles.uncertainty import INPUTS, Uncertainty
 from colonnade.dynamics.motion import Motion
 from every import every

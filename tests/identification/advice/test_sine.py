@@ -6,10 +6,9 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from colonnade.identification.advice.information import candidates_of, expected_information
 from colonnade.identification.advice.posterior import LEVEL, SineTests, find_boundaries
 from colonnade.identification.advice.prior import BoundaryPrior, chance
-from colonnade.identification.advice.remaining import best_choice, count_tests_left
+from colonnade.identification.advice.remaining import best_choice, candidates_of, count_tests_left, expected_information
 from colonnade.identification.advice.sine import advise_sine_tests
 
 PRIOR = BoundaryPrior()

@@ -8,11 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from colonnade.identification.restitution.arguments import check_records, check_settings
 from colonnade.identification.restitution.choice import choose
 from colonnade.identification.restitution.estimators.history_scatter import ScatteredFit
 from colonnade.identification.restitution.estimators.peaks import PeakFit
 from colonnade.identification.restitution.fitting.free_decay import Decay
+from colonnade.identification.restitution.identify import check_records, check_settings
 from colonnade.identification.restitution.pooling import pool
 from colonnade.identification.restitution.result import Estimate
 from every import every

@@ -8,8 +8,14 @@ from colonnade.dynamics.ensembles.ensemble import ensemble
 from colonnade.dynamics.ensembles.uncertainty import Uncertainty
 from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.motion import Motion
-from colonnade.identification.verification.responses import OUTCOMES, OVERTURNED, Forecast, Response, forecast_of
-from colonnade.identification.verification.surrogates import surrogate_members
+from colonnade.identification.verification.responses import (
+    OUTCOMES,
+    OVERTURNED,
+    Forecast,
+    Response,
+    forecast_of,
+    surrogate_members,
+)
 
 NAN = float("nan")
 

@@ -109,10 +109,13 @@ def test_the_layout_is_as_given_or_as_the_columns_kinds_leave_it(kinds, options,
     assert (None if layout is None else layout.kind) == kind
 
 
+NAMELESS = ["column 1", "column 2", "column 3"]
+
+
 @pytest.mark.parametrize(
     ("above", "names"),
-    [("Time, Disp, Acc", ["Time", "Disp", "Acc"]), ("Simulator, Stand 3", ["column 1", "column 2", "column 3"])],
-    ids=["names", "a sentence"],
+    [("Time, Disp, Acc", ["Time", "Disp", "Acc"]), ("Simulator, Stand 3", NAMELESS), ("rate: 200 Hz", NAMELESS)],
+    ids=["names", "a sentence", "a setting"],
 )
 def test_words_with_commas_above_columns_between_blanks(tmp_path, above, names):
     path = tmp_path / "record.txt"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, sqrt
 
@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.digest import Digested, written
-from colonnade.dynamics.ensembles.rank_correlation import rank_correlations
 from colonnade.dynamics.ensembles.uncertainty import INPUTS
 from colonnade.validation import number, samples
 
@@ -191,3 +190,23 @@ class Ensemble(Digested):
         if given.size != len(self.inputs):
             raise ValueError(f"values has {given.size} numbers; {len(self.inputs)}, one a member, were expected")
         return rank_correlations(given, dict(zip(self.names, self.inputs.T, strict=True)))
+
+
+def rank_correlations(values: Array, columns: Mapping[str, Array]) -> dict[str, float]:
+    """Correlate the ranks of values, NaN being highest, with those of each column that varies; shapes (n,)."""
+    ranks = ranks_of(values)
+    return {name: correlation(ranks, ranks_of(column)) for name, column in columns.items() if np.ptp(column) > 0.0}
+
+
+def ranks_of(values: Array) -> Array:
+    """Rank from 0, NaN being highest; equal values share the mean of their ranks."""
+    _, place, number = np.unique(values, return_inverse=True, return_counts=True)
+    last = np.cumsum(number)
+    return np.asarray((last - 0.5 * (number + 1))[place])
+
+
+def correlation(first: Array, second: Array) -> float:
+    """Return the correlation (Pearson's) of two rows of ranks; NaN if one of them does not vary."""
+    one, other = first - first.mean(), second - second.mean()
+    scale = sqrt(float(one @ one) * float(other @ other))
+    return float(one @ other) / scale if scale > 0.0 else float("nan")

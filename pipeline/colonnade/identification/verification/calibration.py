@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
 from colonnade.dynamics.ensembles.ensemble import LARGEST_SEED
-from colonnade.identification.verification.responses import Forecast, Response
-from colonnade.identification.verification.surrogates import RESAMPLES, surrogate_members
+from colonnade.identification.verification.responses import RESAMPLES, Forecast, Response, surrogate_members
 from colonnade.validation import samples, whole
 
 BANDS = (0.5, 0.8, 0.95)

@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
 from colonnade.dynamics.ensembles.ensemble import LARGEST_SEED
-from colonnade.identification.verification.responses import Forecast, Response
-from colonnade.identification.verification.surrogates import MOST_RESAMPLES
+from colonnade.identification.verification.responses import MOST_RESAMPLES, Forecast, Response
 from colonnade.validation import number, samples, whole
 
 FEWEST_CAMPAIGNS = 6

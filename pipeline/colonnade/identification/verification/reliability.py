@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from colonnade.arrays import Array
-from colonnade.identification.verification.responses import OVERTURNED, Forecast, Response
-from colonnade.identification.verification.surrogates import RESAMPLES, surrogate_members
+from colonnade.identification.verification.responses import OVERTURNED, RESAMPLES, Forecast, Response, surrogate_members
 from colonnade.validation import number, whole
 
 FEW, FEW_BINS, BINS = 100, 3, 5

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from typing import get_args
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from colonnade.arrays import Array, Codes
+from colonnade.dynamics.ensembles.ensemble import LARGEST_SEED
 from colonnade.dynamics.history import NO_ROCKING_RATIO, Outcome
-from colonnade.validation import described, number, samples
+from colonnade.validation import described, number, samples, whole
 
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 """In order: each is more than the one before it."""
@@ -126,3 +127,45 @@ def forecast_of_peaks(peak_ratio: Sequence[float | None]) -> Forecast:
     """
     peaks = np.array([np.nan if peak is None else peak for peak in peak_ratio])
     return forecast_of(peaks, np.where(np.isnan(peaks), 1.0, np.nan))
+
+
+RESAMPLES, MOST_RESAMPLES = 1000, 100_000
+
+
+def surrogate_members(
+    forecasts: Sequence[Forecast], campaigns: ArrayLike, *, resamples: int = RESAMPLES, seed: int = 0
+) -> NDArray[np.intp]:
+    """
+    Draw a member of each forecast that is taken as if it had been observed.
+
+    Parameters
+    ----------
+    forecasts : sequence of Forecast, length n
+    campaigns : array_like, shape (n,)
+        Number of the campaign of each test.
+    resamples, seed : int, optional
+        The same seed draws the same members.
+
+    Returns
+    -------
+    members : ndarray of int, shape (resamples, n)
+        The same member in all tests of a campaign; if members of two tests share nothing, that is as good as any two.
+
+    Raises
+    ------
+    ValueError
+        If there is no forecast, one has fewer than two members, or `campaigns` does not have one number for each.
+    """
+    groups = np.asarray(campaigns)
+    if not forecasts or groups.shape != (len(forecasts),):
+        raise ValueError(
+            f"campaigns is {described(campaigns)} and there are {len(forecasts)} forecasts; at least one forecast, and "
+            "one campaign for each, was expected"
+        )
+    sizes = np.array([each.outcomes.size for each in forecasts])
+    if sizes.min() < 2:
+        raise ValueError("a forecast has a single member; at least two were expected, to hold one against the others")
+    names, place = np.unique(groups, return_inverse=True)
+    random = np.random.default_rng(whole("seed", seed, 0, LARGEST_SEED))
+    drawn = random.random((whole("resamples", resamples, 1, MOST_RESAMPLES), names.size))
+    return np.asarray(drawn[:, place] * sizes, dtype=np.intp)

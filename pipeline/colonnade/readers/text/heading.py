@@ -133,7 +133,7 @@ def _ways_to_cut(line: str, dialect: Dialect) -> Iterator[list[str]]:
     """Cut a line at the samples' delimiter, at wide gaps, then at other delimiters."""
     if dialect.delimiter == WHITESPACE:
         words = dialect.split(line)
-        if not any(word.endswith(",") for word in words):  # else a sentence, or names between commas
+        if not any(word.endswith((",", ":", ";")) for word in words):  # else a sentence, or names between commas
             yield words
     elif dialect.delimiter.isspace():
         yield dialect.split(line)

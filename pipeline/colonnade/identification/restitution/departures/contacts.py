@@ -8,7 +8,7 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arcs.arcs import noise_level
 from colonnade.identification.restitution.arcs.series import ArcSeries
-from colonnade.identification.restitution.departures.departure import Departure
+from colonnade.identification.restitution.result import Departure
 from colonnade.units import format_percent
 
 NOISE_MARGIN = 5.0

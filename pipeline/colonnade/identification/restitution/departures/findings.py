@@ -11,10 +11,10 @@ from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arcs.series import ArcSeries, arc_series
 from colonnade.identification.restitution.departures.contacts import find_bouncing, find_sliding
-from colonnade.identification.restitution.departures.departure import Departure
 from colonnade.identification.restitution.departures.first_cycles import out_of_plane_share, signature
 from colonnade.identification.restitution.departures.two_sides import FEWEST_ARCS as FEWEST_COMPARED
 from colonnade.identification.restitution.departures.two_sides import LEAST_TILT, OFFSET, compare_sides, sides_problem
+from colonnade.identification.restitution.result import Departure
 
 __all__ = ["Departure", "find_departures"]
 

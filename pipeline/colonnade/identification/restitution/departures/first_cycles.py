@@ -7,9 +7,9 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.identification.restitution.arcs.arcs import noise_level
 from colonnade.identification.restitution.arcs.series import ArcSeries
-from colonnade.identification.restitution.departures.departure import Departure
 from colonnade.identification.restitution.departures.two_sides import sides_problem
 from colonnade.identification.restitution.fitting.random_walk_fit import RandomWalkFit
+from colonnade.identification.restitution.result import Departure
 from colonnade.units import format_percent
 
 NAME = "three-dimensional rocking"

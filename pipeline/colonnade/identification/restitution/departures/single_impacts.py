@@ -6,8 +6,8 @@ from math import isfinite
 
 import scipy
 
-from colonnade.identification.restitution.departures.departure import Departure
 from colonnade.identification.restitution.estimators.history_scatter import ScatteredFit
+from colonnade.identification.restitution.result import Departure
 
 NAME = "speed-dependent restitution"
 

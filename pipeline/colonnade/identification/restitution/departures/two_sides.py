@@ -8,8 +8,8 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.identification.restitution.arcs.series import ArcSeries
-from colonnade.identification.restitution.departures.departure import Departure
 from colonnade.identification.restitution.fitting.random_walk_fit import RandomWalkFit, RandomWalkProblem
+from colonnade.identification.restitution.result import Departure
 
 UNEQUAL_SIDES = "unequal sides"
 
