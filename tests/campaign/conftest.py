@@ -1,15 +1,12 @@
 """A campaign file as contract 1 shows it, and a way to load a changed one."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from colonnade.campaign import Campaign, load
+from colonnade.campaign import load
 
 CONTRACT = Path(__file__).with_name("contract.toml").read_text(encoding="utf-8")
-
-LoadText = Callable[[str], Campaign]
 
 
 @pytest.fixture

@@ -15,23 +15,10 @@ def test_with_relative_paths_a_copy_elsewhere_is_the_same(contract, load_text, t
     assert campaign.tests["span-2.0"].files["main"].is_absolute()
 
 
-def test_a_test_without_decisions_is_changed_by_none(contract, load_text):
-    review = load_text(contract).review("span-2.0")
-    assert (review.excluded, review.factors) == ("", {})
-
-
-def test_a_test_has_the_channels_of_its_recorders(contract, load_text):
-    campaign = load_text(contract)
-    both, main = (campaign.channels(campaign.tests[name]) for name in ("free-01", "span-2.0"))
-    assert both.keys() - main.keys() == {"table_acceleration_2"}
-
-
 def test_a_channel_on_one_specimen_by_its_id_is_only_in_the_tests_of_that_one(contract, load_text):
     text = contract.replace('on = "specimen"', 'on = "prism"', 1)
-    text = text.replace(
-        'specimen = "prism"\nsetup = "frame"\nfile = "raw', 'specimen = "cone"\nsetup = "frame"\nfile = "raw'
-    )
-    campaign = load_text(text)
+    rest = '\nsetup = "frame"\nfile = "raw'
+    campaign = load_text(text.replace(f'specimen = "prism"{rest}', f'specimen = "cone"{rest}'))
     own, others = (campaign.channels(campaign.tests[name]) for name in ("free-01", "span-2.0"))
     assert own["top"].on == "specimen"
     assert "top" not in others

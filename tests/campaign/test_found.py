@@ -1,10 +1,8 @@
 """Tests found by the names of raw files: the same in every command, and nothing that a stray file could break."""
 
-from collections.abc import Callable
-
 import pytest
 
-from colonnade.campaign import Campaign, load
+from colonnade.campaign import load
 from colonnade.errors import CampaignError
 from colonnade.findings import Severity
 
@@ -29,7 +27,8 @@ pattern = [
     "{specimen}-{kind}-{number}-{recorder}.csv",
 ]
 """
-Campaigns = Callable[..., Campaign]
+
+ENTRY = '[[tests]]\nid = "{}"\nkind = "other"\nspecimen = "cone"\nsetup = "frame"\nfile = "raw/{}.csv"\n'
 
 
 @pytest.fixture
@@ -62,12 +61,9 @@ def test_files_that_fit_a_pattern_are_tests(with_files):
 
 def test_the_files_of_two_recorders_are_one_test(with_files):
     campaign = with_files("prism-free-1.csv", "prism-free-1-daq2.csv")
-    assert list(campaign.tests) == ["prism-free-1"]
-    files = campaign.tests["prism-free-1"].files
-    assert {recorder: path.name for recorder, path in files.items()} == {
-        "main": "prism-free-1.csv",
-        "daq2": "prism-free-1-daq2.csv",
-    }
+    ((name, test),) = campaign.tests.items()
+    files = {recorder: path.name for recorder, path in test.files.items()}
+    assert (name, files) == ("prism-free-1", {"main": "prism-free-1.csv", "daq2": "prism-free-1-daq2.csv"})
 
 
 def test_what_the_main_file_says_counts_whichever_file_comes_first(with_files):
@@ -78,9 +74,7 @@ def test_what_the_main_file_says_counts_whichever_file_comes_first(with_files):
 
 
 def test_an_entry_wins(with_files):
-    entry = (
-        '[[tests]]\nid = "mine"\nkind = "other"\nspecimen = "cone"\nsetup = "frame"\nfile = "raw/prism-free-1.csv"\n'
-    )
+    entry = ENTRY.format("mine", "prism-free-1")
     campaign = with_files("prism-free-1.csv", "prism-free-2.csv", text=WATCH + entry)
     assert list(campaign.tests) == ["mine", "prism-free-2"]
     assert campaign.tests["mine"].kind == "other"
@@ -131,27 +125,23 @@ def test_a_link_is_not_followed(with_files, tmp_path):
     assert not with_files().tests
 
 
-def test_a_wrong_pattern_is_an_error_of_the_campaign_file(with_files):
-    with pytest.raises(CampaignError, match=r"watch\.pattern: Unknown part {spcimen}"):
-        with_files(text='[watch]\npattern = "{spcimen}.csv"\n')
-
-
-def test_a_folder_outside_the_campaign_is_refused(with_files):
-    with pytest.raises(CampaignError, match=r"watch\.folder: .* outside"):
-        with_files(text='[watch]\nfolder = "../raw"\n')
+@pytest.mark.parametrize(
+    ("key", "told"),
+    [('pattern = "{spcimen}.csv"', r"watch\.pattern: Unknown part {spcimen}"), ('folder = "../raw"', ".* outside")],
+)
+def test_a_wrong_watch_is_an_error_of_the_campaign_file(with_files, key, told):
+    with pytest.raises(CampaignError, match=told):
+        with_files(text=f"[watch]\n{key}\n")
 
 
 def test_a_planned_test_is_awaited_until_its_file_is_there(with_files, tmp_path):
-    entry = (
-        '[[tests]]\nid = "t"\nkind = "other"\nspecimen = "cone"\nsetup = "frame"\nfile = "raw/t.csv"\nplanned = true\n'
-    )
+    entry = ENTRY.format("t", "t") + "planned = true\n"
     assert with_files(text=entry).left_out("t") == "expected: raw/t.csv"
     assert with_files("t.csv", text=entry).left_out("t") == ""
 
 
 def test_a_watch_awaits_every_file_that_is_missing(with_files):
-    entry = '[[tests]]\nid = "t"\nkind = "other"\nspecimen = "cone"\nsetup = "frame"\nfile = "raw/t.csv"\n'
-    campaign = with_files("prism-free-1.csv", text=WATCH + entry)
+    campaign = with_files("prism-free-1.csv", text=WATCH + ENTRY.format("t", "t"))
     assert campaign.left_out("t") == ""
     assert campaign.awaiting().left_out("t") == "expected: raw/t.csv"
     assert campaign.awaiting().left_out("prism-free-1") == ""

@@ -29,6 +29,7 @@ table = {{column = 2, quantity = "acceleration", unit = "m/s^2", on = "table", d
 {rest}
 """
 TEST = '[[tests]]\nid = "a"\nkind = "earthquake"\nmotion = "m"\nspecimen = "prism"\nsetup = "frame"\nfile = "a.csv"\n'
+RECORD = "t,a\n" + "".join(f"{n / 100},{n % 5}\n" for n in range(900))
 BLANKS = " " * 200_000
 
 
@@ -66,7 +67,7 @@ def test_a_device_is_told():
 def test_a_raw_file_and_a_reference_motion_that_are_pipes_fail_their_test_alone(tmp_path):
     os.mkfifo(tmp_path / "a.csv")
     os.mkfifo(tmp_path / "m.csv")
-    (tmp_path / "b.csv").write_text("t,a\n" + "".join(f"{n / 100},{n % 5}\n" for n in range(900)), encoding="utf-8")
+    (tmp_path / "b.csv").write_text(RECORD)
     second = TEST.replace('"a"', '"b"').replace("a.csv", "b.csv")
     campaign = write(tmp_path, rest=f'[motions]\nm = {{file = "m.csv", interval = "0.02 s"}}\n\n{TEST}\n{second}')
     ended = run(campaign, until="condition", workers=1)
@@ -78,7 +79,7 @@ def test_a_raw_file_and_a_reference_motion_that_are_pipes_fail_their_test_alone(
 @pipes
 def test_a_pipe_in_the_folder_of_a_draft_is_told(tmp_path):
     os.mkfifo(tmp_path / "a.csv")
-    (tmp_path / "b.csv").write_text("t,a\n" + "".join(f"{n / 100},{n % 5}\n" for n in range(900)), encoding="utf-8")
+    (tmp_path / "b.csv").write_text(RECORD)
     assert ("a.csv", "it is a named pipe, not a file") in draft(tmp_path).refused
     with pytest.raises(CampaignError, match="this is a named pipe"):
         draft(tmp_path / "a.csv")

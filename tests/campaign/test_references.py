@@ -36,69 +36,48 @@ def test_a_document_whose_names_all_exist_has_no_problem():
     assert dangling(document()) == []
 
 
+def having(**keys):
+    return document(channels={"top": OTHER | keys})
+
+
 def aligned(*named):
     channels = {"top": OTHER, "second": OTHER | {"recorder": "daq2"}}
     return document(channels=channels, recorders={"daq2": {"clock": {"align": list(named)}}})
 
 
-ALIGN = ("setups", "frame", "recorders", "daq2", "clock", "align")
+FRAME = "setups.frame"
+ALIGN = f"{FRAME}.recorders.daq2.clock.align"
+SPECIMENS = {"specimens": {"prism": specimen(), "Prism": specimen()}}
+SETUPS = {"setups": {name: {"channels": {"top": OTHER}} for name in ("frame", "FRAME")}}
+BOTH = {"file": {"main": "a.csv", "daq2": "b.csv"}}
+DID = "in this set-up. Did you mean"
+CASE = "only in upper and lower case. Choose another."
 
 
 @every(
     ("written", "place", "told"),
     [
-        (
-            document(test={"specimen": "zzz"}),
-            ("tests", 0, "specimen"),
-            'Unknown specimen "zzz". Choose one of: "prism".',
-        ),
-        (
-            document(channels={"top": OTHER | {"on": "prizm"}}),
-            ("setups", "frame", "channels", "top", "on"),
-            'Unknown body "prizm". Did you mean "prism"?',
-        ),
-        (document(test={"setup": "zzz"}), ("tests", 0, "setup"), 'Unknown setup "zzz". Choose one of: "frame".'),
-        (
-            document(test={"file": {"main": "a.csv", "daq2": "b.csv"}}),
-            ("tests", 0, "file", "daq2"),
-            'Unknown recorder "daq2" in set-up "frame". Choose one of: "main".',
-        ),
-        (
-            document(channels={"top": OTHER | {"recorder": "mian"}}),
-            ("setups", "frame", "channels", "top", "recorder"),
-            'Unknown recorder "mian" in this set-up. Did you mean "main"?',
-        ),
-        (aligned("tpo", "second"), ALIGN, 'Unknown channel "tpo" in this set-up. Did you mean "top"?'),
-        (
-            aligned("second", "second"),
-            ALIGN,
-            '"second" is not a channel of recorder "main". Choose one of: "top".',
-        ),
+        (document(test={"specimen": "zzz"}), "tests.0.specimen", 'Unknown specimen "zzz". Choose one of: "prism".'),
+        (having(on="prizm"), f"{FRAME}.channels.top.on", 'Unknown body "prizm". Did you mean "prism"?'),
+        (document(test={"setup": "zzz"}), "tests.0.setup", 'Unknown setup "zzz". Choose one of: "frame".'),
+        (document(test=BOTH), "tests.0.file.daq2", 'Unknown recorder "daq2" in set-up "frame". Choose one of: "main".'),
+        (having(recorder="mian"), f"{FRAME}.channels.top.recorder", f'Unknown recorder "mian" {DID} "main"?'),
+        (aligned("tpo", "second"), ALIGN, f'Unknown channel "tpo" {DID} "top"?'),
+        (aligned("second", "second"), ALIGN, '"second" is not a channel of recorder "main". Choose one of: "top".'),
         (aligned("top", "top"), ALIGN, '"top" is not a channel of recorder "daq2". Choose one of: "second".'),
         (
             document(channels={"a.b": OTHER, "A_b": OTHER}),
-            ("setups", "frame", "channels", "A_b"),
+            f"{FRAME}.channels.A_b",
             "This id differs from \"a.b\" only in case or in '.', '-' and '_'. Choose another.",
         ),
-        (
-            document(recorders={"daq": {}, "DAQ": {}}),
-            ("setups", "frame", "recorders", "DAQ"),
-            'This id differs from "daq" only in upper and lower case. Choose another.',
-        ),
-        (
-            document() | {"specimens": {"prism": specimen(), "Prism": specimen()}},
-            ("specimens", "Prism"),
-            'This id differs from "prism" only in upper and lower case. Choose another.',
-        ),
-        (
-            document() | {"setups": {name: {"channels": {"top": OTHER}} for name in ("frame", "FRAME")}},
-            ("setups", "FRAME"),
-            'This id differs from "frame" only in upper and lower case. Choose another.',
-        ),
+        (document(recorders={"daq": {}, "DAQ": {}}), f"{FRAME}.recorders.DAQ", f'This id differs from "daq" {CASE}'),
+        (document() | SPECIMENS, "specimens.Prism", f'This id differs from "prism" {CASE}'),
+        (document() | SETUPS, "setups.FRAME", f'This id differs from "frame" {CASE}'),
     ],
 )
 def test_one_problem_is_told_at_its_place(written, place, told):
-    assert (dangling(written)) == [(place, told)]
+    ((where, said),) = dangling(written)
+    assert (".".join(map(str, where)), said) == (place, told)
 
 
 def test_names_of_recorders_may_differ_where_those_of_channels_may_not():

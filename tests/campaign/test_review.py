@@ -31,6 +31,8 @@ top = {column = 1, quantity = "other"}
 table = {column = 2, quantity = "acceleration", unit = "g", on = "table", direction = [1, 0, 0]}
 """
 TEST = '[[tests]]\nid = "{0}"\nkind = "other"\nspecimen = "prism"\nsetup = "frame"\nfile = "{0}.csv"\n'
+CORRECT = '[[correct]]\ntest = "free-01"\nchannel = "{}"\nfactor = {}\n'
+TRIM = '[[trim]]\ntest = "free-01"\nwindow = {}\n'
 SIGNED = 'who = "V. D."\nwhen = 2013-04-26\nwhy = "the video"\n'
 
 
@@ -66,57 +68,31 @@ def test_every_decision_is_read_with_who_when_and_why(reviewed):
         "2013-04-26, V. D.: gain of channel table multiplied by -1: the video",
     )
     assert (first.window, first.factors, first.excluded) == ((2.0, 60.0), {"table": -1.0}, "")
-    assert [(each.channel, each.window, each.flag) for each in first.flags] == [
-        ("top", None, "fail"),
-        ("table", (3.2, 3.4), "suspect"),
-    ]
+    flags = [(each.channel, each.window, each.flag) for each in first.flags]
+    assert flags == [("top", None, "fail"), ("table", (3.2, 3.4), "suspect")]
     assert second.excluded == "excluded by V. D. on 2013-04-26: the video"
 
 
 def test_several_corrections_multiply_and_several_trims_leave_what_they_share(reviewed):
-    correct = f'[[correct]]\ntest = "free-01"\nchannel = "table"\nfactor = -2\n{SIGNED}'
-    trims = "".join(
-        f'[[trim]]\ntest = "free-01"\nwindow = {window}\n{SIGNED}' for window in ('["1 s", "9 s"]', '["3 s", "12 s"]')
-    )
-    review = reviewed("schema = 1\n" + correct * 2 + trims).review("free-01")
+    entries = [CORRECT.format("table", -2)] * 2 + [TRIM.format(each) for each in ('["1 s", "9 s"]', '["3 s", "12 s"]')]
+    review = reviewed("schema = 1\n" + "".join(f"{entry}{SIGNED}" for entry in entries)).review("free-01")
     assert review.factors == {"table": 4.0}
     assert review.window == (3.0, 9.0)
 
 
-@pytest.mark.parametrize(
+@every(
     ("entry", "told"),
     [
-        pytest.param(
-            '[[exclude]]\ntest = "free-1"', r'line 3: exclude\[1\]\.test: .*Did you mean "free-01"', id="unknown-test"
-        ),
-        pytest.param(
-            '[[correct]]\ntest = "free-01"\nchannel = "tabel"\nfactor = 2',
-            r'line 4: correct\[1\]\.channel: .*Unknown channel .* of free-01.*Did you mean "table"',
-            id="unknown-channel",
-        ),
-        pytest.param('[[correct]]\ntest = "free-01"\nchannel = "top"\nfactor = 0', "[Aa] factor of zero", id="zero"),
-        pytest.param(
-            '[[trim]]\ntest = "free-01"\nwindow = ["5 s", "2 s"]', "end has to come after", id="backward-window"
-        ),
-        pytest.param(
-            '[[flag]]\ntest = "free-01"\nchannel = "top"\nwindow = ["1 s", "2 s"]\nas = "bad"',
-            '"suspect", "fail"',
-            id="unknown-flag",
-        ),
-        pytest.param('[[trim]]\ntest = "free-01"', r"trim\[1\]\.window: It is missing", id="no-window"),
-        pytest.param(
-            '[[exlude]]\ntest = "free-01"',
-            r'exlude: Unknown key\. Did you mean "exclude"',
-            id="unknown-action",
-        ),
-        pytest.param('[[exclude]]\ntest = "free-01"\nchanel = "top"', 'Did you mean "channel"', id="unknown-key"),
-        pytest.param("[[exclude]]\ntest = 3", "id of a test", id="no-name"),
-        pytest.param(
-            f'[[trim]]\ntest = "free-01"\nwindow = ["1 s", "2 s"]\n{SIGNED}'
-            '[[trim]]\ntest = "free-01"\nwindow = ["3 s", "4 s"]',
-            "leave no samples of free-01",
-            id="trims-without-common-part",
-        ),
+        ('[[exclude]]\ntest = "free-1"', r'line 3: exclude\[1\]\.test: .*Did you mean "free-01"'),
+        (CORRECT.format("tabel", 2), r'line 4: correct\[1\]\.channel: .*Unknown channel .* of free-01.*mean "table"'),
+        (CORRECT.format("top", 0), "[Aa] factor of zero"),
+        (TRIM.format('["5 s", "2 s"]'), "end has to come after"),
+        ('[[flag]]\ntest = "free-01"\nchannel = "top"\nwindow = ["1 s", "2 s"]\nas = "bad"', '"suspect", "fail"'),
+        ('[[trim]]\ntest = "free-01"', r"trim\[1\]\.window: It is missing"),
+        ('[[exlude]]\ntest = "free-01"', r'exlude: Unknown key\. Did you mean "exclude"'),
+        ('[[exclude]]\ntest = "free-01"\nchanel = "top"', 'Did you mean "channel"'),
+        ("[[exclude]]\ntest = 3", "id of a test"),
+        (TRIM.format('["1 s", "2 s"]') + SIGNED + TRIM.format('["3 s", "4 s"]'), "leave no samples of free-01"),
     ],
 )
 def test_what_is_wrong_is_told_with_its_place(reviewed, entry, told):

@@ -79,17 +79,16 @@ def test_angles_are_taken_to_radians_and_a_catch_is_positive():
     assert "catch" in problems(catch="0 rad")
 
 
+MISTYPED = {"format": "delimited", "delimeter": ";"}
+
+
 @every(
     ("file", "place", "told"),
     [
         ("a.csv", "file", '"a.csv" was found. A table was expected'),
         ({"format": "delimted"}, "file.format", 'Unknown format "delimted". Did you mean "delimited"?'),
         ({"format": 3}, "file.format", "Unknown format 3."),
-        (
-            {"format": "delimited", "delimeter": ";"},
-            "file.delimeter",
-            'Unknown option of format "delimited". Did you mean "delimiter"?',
-        ),
+        (MISTYPED, "file.delimeter", 'Unknown option of format "delimited". Did you mean "delimiter"?'),
         ({"delimeter": ";"}, "file.delimeter", 'Unknown option of format "'),
         ({"format": "delimited", "decimal": 3}, "file.decimal", "3 was found: "),
     ],
@@ -101,7 +100,7 @@ def test_a_wrong_option_of_a_file_is_told_at_its_key(file, place, told):
 
 
 def test_all_wrong_options_are_told_together():
-    found = problems(file={"format": "delimited", "delimeter": ";", "decimal": 3})
+    found = problems(file=MISTYPED | {"decimal": 3})
     assert set(found) == {"file.delimeter", "file.decimal"}
 
 

@@ -3,7 +3,6 @@
 import os
 import subprocess
 import sys
-from collections.abc import Callable
 from typing import NamedTuple
 
 import pytest
@@ -19,28 +18,19 @@ title = "Two free vibrations of a prism"
 [specimens]
 prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}
 
-[setups.frame.channels.top]
-column = "top"
-quantity = "displacement"
-unit = "mm"
-on = "specimen"
-at = ["43 mm", "0 mm", "440 mm"]
-direction = [1, 0, 0]
-relative_to = "table"
+[setups.frame.channels]
+top = {column = "top", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
+direction = [1, 0, 0], relative_to = "table"}
 
+"""
+TEST = """\
 [[tests]]
-id = "free-01"
+id = "{0}"
 kind = "free-vibration"
 specimen = "prism"
 setup = "frame"
-file = "raw/free-01.csv"
+file = "raw/{0}.csv"
 
-[[tests]]
-id = "free-02"
-kind = "free-vibration"
-specimen = "prism"
-setup = "frame"
-file = "raw/free-02.csv"
 """
 
 
@@ -50,9 +40,6 @@ class Told(NamedTuple):
     returncode: int
     stdout: str
     stderr: str
-
-
-Run = Callable[..., Told]
 
 
 @pytest.fixture
@@ -108,5 +95,23 @@ def campaign(tmp_path):
         rows = [f"{instant:.4f}{delimiter}{value:.5f}" for instant, value in zip(time, recorded, strict=True)]
         text = "\n".join([delimiter.join(("Time [s]", "top [mm]")), *rows, ""])
         (tmp_path / "raw" / f"{name}.csv").write_text(text, encoding="utf-8")
-    (tmp_path / "campaign.toml").write_text(CAMPAIGN, encoding="utf-8")
+    (tmp_path / "campaign.toml").write_text(CAMPAIGN + TEST.format("free-01") + TEST.format("free-02"))
     return tmp_path
+
+
+@pytest.fixture
+def changed(campaign):
+    """Put a text in place of another, wherever it is in a file of the campaign."""
+
+    def change(name, before, after):
+        text = (campaign / name).read_text(encoding="utf-8")
+        assert before in text
+        (campaign / name).write_text(text.replace(before, after), encoding="utf-8")
+
+    return change
+
+
+@pytest.fixture
+def with_gain(changed):
+    """Give the only transducer a gain."""
+    return lambda gain: changed("campaign.toml", 'unit = "mm"', f'unit = "mm", gain = "{gain}"')

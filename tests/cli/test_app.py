@@ -19,8 +19,7 @@ def test_commands_are_listed_in_the_order_in_which_they_are_met(colonnade):
 
 
 def test_every_command_says_in_a_line_what_it_does():
-    for command in COMMANDS:
-        assert command.get_short_help_str(200).rstrip(".")
+    assert all(command.get_short_help_str(200).rstrip(".") for command in COMMANDS)
 
 
 def test_the_version_is_that_of_the_package(colonnade):
@@ -35,16 +34,6 @@ def test_the_command_writes_the_file_that_lies_in_raw_schema(colonnade, contract
     told = colonnade("schema", contract)
     assert told.returncode == 0
     assert told.stdout == (RAW_SCHEMA / f"{contract}.schema.json").read_text(encoding="utf-8")
-
-
-def test_an_unknown_contract_is_a_usage_error(colonnade):
-    assert colonnade("schema", "report").returncode == 2
-
-
-def test_without_results_it_says_what_to_do(colonnade, campaign):
-    told = colonnade("next")
-    assert told.returncode == 1
-    assert "Run `colonnade run` first" in told.stderr
 
 
 def test_what_was_run_gives_advice(colonnade, campaign):
@@ -111,17 +100,8 @@ def test_what_cannot_be_answered_says_why(assessed, tmp_path, capsys):
 def test_a_folder_with_other_files_is_left_alone(colonnade, campaign):
     (campaign / "campaign.toml").unlink()
     told = colonnade("demo", ".")
-    assert told.returncode == 2
-    assert "contains other files" in told.stderr
+    assert (told.returncode, "contains other files" in told.stderr) == (2, True)
     assert sorted(path.name for path in campaign.rglob("*")) == ["free-01.csv", "free-02.csv", "raw"]
-
-
-def test_a_real_campaign_is_left_alone(colonnade, campaign):
-    before = (campaign / "campaign.toml").read_bytes()
-    told = colonnade("demo", ".")
-    assert told.returncode == 2
-    assert "was not written by the virtual laboratory" in told.stderr
-    assert (campaign / "campaign.toml").read_bytes() == before
 
 
 def test_a_record_that_cannot_be_read_is_told_without_a_traceback(colonnade, tmp_path):

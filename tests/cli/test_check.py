@@ -7,12 +7,8 @@ import numpy as np
 import pytest
 
 SHAKEN = """
-[setups.table.channels.table_acceleration]
-column = "ACC"
-quantity = "acceleration"
-unit = "m/s^2"
-on = "table"
-direction = [1, 0, 0]
+[setups.table.channels]
+ACC = {column = "ACC", quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]}
 
 [[tests]]
 id = "shake-01"
@@ -31,8 +27,8 @@ def shaken_campaign(campaign):
     values += np.random.default_rng(2).normal(0.0, 1e-3, time.size)
     rows = [f"{instant:.4f},{value:.5f}" for instant, value in zip(time, values, strict=True)]
     (campaign / "raw" / "shake-01.csv").write_text("\n".join(["Time [s],ACC [m/s^2]", *rows, ""]), encoding="utf-8")
-    path = campaign / "campaign.toml"
-    path.write_text(path.read_text(encoding="utf-8") + SHAKEN, encoding="utf-8")
+    with (campaign / "campaign.toml").open("a", encoding="utf-8") as file:
+        file.write(SHAKEN)
     return campaign
 
 
@@ -48,20 +44,15 @@ def test_a_good_campaign_passes_and_nothing_is_written(colonnade, campaign):
     assert snapshot(campaign) == before
 
 
-def test_check_finds_what_run_finds_in_the_channels(colonnade, campaign):
-    path = campaign / "campaign.toml"
-    text = path.read_text(encoding="utf-8")
-    path.write_text(text.replace('unit = "mm"\n', 'unit = "mm"\ngain = "10 mm/mm"\n'), encoding="utf-8")
+def test_check_finds_what_run_finds_in_the_channels(colonnade, with_gain):
+    with_gain("10 mm/mm")
     told = colonnade("check")
     assert told.returncode == 0
     assert told.stdout.startswith("2 tests: 2 would give wrong results. Nothing was written.\n")
     assert re.search(r"serious \(gain\): free-01: Channel top shows (9\.\d|10)\S* times the rotation", told.stdout)
     assert colonnade("check", "--strict").returncode == 1
     found = json.loads(colonnade("check", "--json").stdout)["tests"]["free-02"]["warnings"]
-    assert [(each["severity"], each["kind"]) for each in found] == [
-        ("serious", "gain"),
-        ("serious", "impossible angle"),
-    ]
+    assert [each["kind"] for each in found if each["severity"] == "serious"] == ["gain", "impossible angle"]
 
 
 def test_a_hole_in_the_base_motion_is_a_problem_before_anything_is_predicted(colonnade, shaken_campaign):
@@ -81,10 +72,9 @@ def test_a_hole_in_the_base_motion_is_a_problem_before_anything_is_predicted(col
     assert "missing 200 of 1600 samples" in ran.stdout
 
 
-def test_every_missing_file_and_column_is_told_with_the_nearest_name(colonnade, campaign):
+def test_every_missing_file_and_column_is_told_with_the_nearest_name(colonnade, campaign, changed):
     (campaign / "raw" / "free-01.csv").rename(campaign / "raw" / "free_01.csv")
-    other = campaign / "raw" / "free-02.csv"
-    other.write_text(other.read_text(encoding="utf-8").replace("top [mm]", "tops [mm]"), encoding="utf-8")
+    changed("raw/free-02.csv", "top [mm]", "tops [mm]")
     told = colonnade("check")
     assert told.returncode == 1
     assert "free-01.csv: there is no such file" in told.stdout
@@ -113,21 +103,17 @@ def test_json_is_for_machines(colonnade, campaign):
     assert len(found["tests"]["free-02"]["problems"]) == 1
 
 
-def test_a_campaign_file_that_cannot_be_used_is_exit_code_2(colonnade, campaign):
-    file = campaign / "campaign.toml"
-    file.write_text(file.read_text(encoding="utf-8").replace('"86 mm", depth', '"86 mn", depth'), encoding="utf-8")
+def test_a_campaign_file_that_cannot_be_used_is_exit_code_2(colonnade, changed):
+    changed("campaign.toml", '"86 mm", depth', '"86 mn", depth')
     told = colonnade("check")
     assert told.returncode == 2
     assert "specimens.prism.width" in told.stderr
     assert "Traceback" not in told.stderr
 
 
-def test_numbers_that_run_on_are_told_as_the_cause_of_a_missing_column(colonnade, campaign):
-    path = campaign / "campaign.toml"
-    text = path.read_text(encoding="utf-8").replace('column = "top"', "column = 8")
-    path.write_text(
-        text.replace("\n[setups.frame.channels", '\n[setups.frame]\nsampling_rate = "200 Hz"\n\n[setups.frame.channels')
-    )
+def test_numbers_that_run_on_are_told_as_the_cause_of_a_missing_column(colonnade, campaign, changed):
+    changed("campaign.toml", 'column = "top"', "column = 8")
+    changed("campaign.toml", "\n[setups.frame.ch", '\n[setups.frame]\nsampling_rate = "200 Hz"\n\n[setups.frame.ch')
     for name in ("free-01", "free-02"):
         raw = campaign / "raw" / f"{name}.csv"
         values = [line.replace(";", ",").split(",")[1] for line in raw.read_text().splitlines()[1:]]
@@ -137,18 +123,16 @@ def test_numbers_that_run_on_are_told_as_the_cause_of_a_missing_column(colonnade
     assert "would fail: free-01: " in told.stdout
     said = " ".join(told.stdout.split())
     assert 'Say which in `file`: layout = "columns" or layout = "running".' in said
-    path.write_text(path.read_text().replace('"200 Hz"', '"200 Hz"\nfile = {layout = "running"}'))
+    changed("campaign.toml", '"200 Hz"', '"200 Hz"\nfile = {layout = "running"}')
     said = " ".join(colonnade("check").stdout.split())
     assert "column 8 is missing; it has 1 column." in said
     assert "Its numbers, 8 in a row, run on from row to row and are read as one series of 2400" in said
-    path.write_text(path.read_text().replace("column = 8", "column = 1"))
+    changed("campaign.toml", "column = 8", "column = 1")
     assert colonnade("check").returncode == 0
 
 
-def test_a_problem_names_the_serious_finding_that_it_follows_from(colonnade, campaign):
-    path = campaign / "campaign.toml"
-    text = path.read_text(encoding="utf-8")
-    path.write_text(text.replace('unit = "mm"\n', 'unit = "mm"\ngain = "0.001 mm/mm"\n'), encoding="utf-8")
+def test_a_problem_names_the_serious_finding_that_it_follows_from(colonnade, with_gain):
+    with_gain("0.001 mm/mm")
     lines = colonnade("check").stdout.splitlines()
     (problem, *_) = (line for line in lines if line.startswith("would fail: free-01"))
     said = r"would fail: free-01: probably because of the serious findings below \(([^)]+)\): This free vibration"
@@ -176,10 +160,8 @@ def test_a_drawing_replaces_nothing_of_yours(colonnade, campaign, name):
     assert snapshot(campaign) == before
 
 
-def test_serious_findings_are_in_colour_on_a_terminal(colonnade, campaign, monkeypatch):
-    path = campaign / "campaign.toml"
-    text = path.read_text(encoding="utf-8")
-    path.write_text(text.replace('unit = "mm"\n', 'unit = "mm"\ngain = "10 mm/mm"\n'), encoding="utf-8")
+def test_serious_findings_are_in_colour_on_a_terminal(colonnade, with_gain, monkeypatch):
+    with_gain("10 mm/mm")
     monkeypatch.setenv("FORCE_COLOR", "1")
     monkeypatch.setenv("TERM", "xterm-256color")
     assert "\x1b[1;31mserious (gain)\x1b[0m: free-01: " in colonnade("check").stdout
@@ -188,11 +170,9 @@ def test_serious_findings_are_in_colour_on_a_terminal(colonnade, campaign, monke
 
 
 def test_tests_that_would_fail_alike_are_counted(colonnade, campaign):
-    path = campaign / "campaign.toml"
-    entry = (
-        '\n[[tests]]\nid = "lost-{0}"\nkind = "pulse"\nspecimen = "prism"\nsetup = "frame"\nfile = "raw/lost-{0}.csv"\n'
-    )
-    path.write_text(path.read_text(encoding="utf-8") + "".join(map(entry.format, range(9))), encoding="utf-8")
+    entry = '[[tests]]\nid = "lost-{0}"\nkind = "pulse"\nspecimen = "prism"\nsetup = "frame"\nfile = "lost-{0}.csv"\n'
+    with (campaign / "campaign.toml").open("a", encoding="utf-8") as file:
+        file.write("".join(map(entry.format, range(9))))
     told = colonnade("check")
     failing = [line for line in told.stdout.splitlines() if line.startswith("would fail")]
     assert "would fail: lost-0: " in failing[0]

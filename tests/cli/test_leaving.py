@@ -5,11 +5,15 @@ import signal
 import subprocess
 import sys
 import time
+from unittest.mock import Mock
 
 import pytest
 
 from colonnade.cli import invoke
 from colonnade.cli.app import COMMANDS, app
+from every import every
+
+posix = pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
 
 
 def test_help_is_a_success(process):
@@ -26,57 +30,61 @@ def test_every_command_has_help_with_an_example(colonnade, command):
     assert f"Example: colonnade {command}" in told.stdout
 
 
-@pytest.mark.parametrize("arguments", [("rnu",), ("run", "--form", "predict"), ("run", "--from", "prediction"), ()])
-def test_wrong_usage_is_exit_code_2(process, arguments):
-    told = process(*arguments)
-    assert told.returncode == 2
-    assert "Traceback" not in told.stderr
-
-
-def test_a_mistyped_command_is_answered_with_the_nearest(process):
-    assert "Did you mean 'run'" in process("rnu").stderr
-
-
-def test_a_missing_campaign_is_exit_code_2(process):
-    told = process("run", "nowhere")
-    assert told.returncode == 2
-    assert "campaign.toml" in told.stderr
-
-
-def test_a_reader_that_goes_away_is_no_error(tmp_path):
-    command = f"{sys.executable} -m colonnade schema campaign | head -n 1; echo ${{PIPESTATUS[0]}}"
-    told = subprocess.run(["bash", "-c", command], cwd=tmp_path, capture_output=True, encoding="utf-8")
-    assert told.stdout == "{\n0\n"
-    assert told.stderr == ""
-
-
-@pytest.mark.skipif(os.name == "nt", reason="a shell that closes a stream")
-@pytest.mark.parametrize("closed", [">&-", ">&- 2>&-"])
-def test_nobody_reads_a_closed_stream_and_that_is_no_error(tmp_path, closed):
-    command = f"{sys.executable} -m colonnade schema campaign {closed}"
-    told = subprocess.run(["bash", "-c", command], cwd=tmp_path, capture_output=True, encoding="utf-8")
-    assert (told.returncode, told.stdout, told.stderr) == (0, "", "")
-
-
-@pytest.mark.parametrize(
-    ("error", "code"),
+@every(
+    ("arguments", "code", "said"),
     [
-        (MemoryError(), 1),
-        (ImportError("libx.so: failed to map segment from shared object"), 1),
-        (ImportError("x"), None),
+        (("rnu",), 2, "Did you mean 'run'"),
+        (("run", "--form", "predict"), 2, "--form"),
+        (("run", "--from", "prediction"), 2, "prediction"),
+        (("run", "--workers", "0"), 2, "x>=1"),
+        (("run", "nowhere"), 2, "campaign.toml"),
+        (("init",), 2, "it exists already and was not changed"),
+        (("init", "nowhere"), 2, "nowhere"),
+        (("init", "empty"), 2, "empty"),
+        (("demo", "."), 2, "was not written by the virtual laboratory"),
+        (("next",), 1, "Run `colonnade run` first"),
+        (("schema", "report"), 2, "report"),
+        (("show", "tests", "fre-01"), 2, 'Did you mean "free-01"?'),
+        (("show", "tests", ".", "free-01", "free-02"), 2, "Usage"),
+        (("map", "--specimen", "prysm"), 2, 'Did you mean "prism"?'),
+        (("map", "--scheduler", "nowhere"), 1, "nowhere: no Dask scheduler answers there"),
+        (("map", "--model", "liner"), 2, "'liner' is not one of 'linear', 'nonlinear', 'contact'"),
     ],
 )
-def test_too_little_memory_is_a_sentence_and_a_bug_a_traceback(monkeypatch, capsys, error, code):
-    def fail(*_, **__):
-        raise error
+def test_what_cannot_be_done_is_said_and_leaves_campaign_files(colonnade, campaign, arguments, code, said):
+    (campaign / "empty").mkdir(exist_ok=True)
+    before = {path: path.read_bytes() for path in campaign.rglob("*.toml")}
+    told = colonnade(*arguments)
+    assert told.returncode == code
+    assert said in " ".join(told.stderr.split())
+    assert "Traceback" not in told.stderr
+    assert {path: path.read_bytes() for path in campaign.rglob("*.toml")} == before
 
-    monkeypatch.setattr(app, "main", fail)
-    if code is None:
-        with pytest.raises(ImportError, match="x"):
-            invoke(())
-        return
-    assert invoke(()) == code
-    assert capsys.readouterr().err.startswith("The machine ran out of memory.")
+
+def test_a_process_ends_with_the_code_of_its_command(process):
+    assert [process(*arguments).returncode for arguments in ((), ("rnu",))] == [2, 2]
+
+
+@posix
+@pytest.mark.parametrize(
+    ("rest", "said"),
+    [("| head -n 1; echo ${PIPESTATUS[0]}", "{\n0\n"), (">&-", ""), (">&- 2>&-", "")],
+    ids=["a reader that goes away", "closed output", "closed output and error"],
+)
+def test_a_stream_that_nobody_reads_is_no_error(tmp_path, rest, said):
+    command = f"{sys.executable} -m colonnade schema campaign {rest}"
+    told = subprocess.run(["bash", "-c", command], cwd=tmp_path, capture_output=True, encoding="utf-8")
+    assert (told.returncode, told.stdout, told.stderr) == (0, said, "")
+
+
+def test_too_little_memory_is_a_sentence_and_a_bug_a_traceback(monkeypatch, capsys):
+    for error in (MemoryError(), ImportError("libx.so: failed to map segment from shared object")):
+        monkeypatch.setattr(app, "main", Mock(side_effect=error))
+        assert invoke(()) == 1
+        assert capsys.readouterr().err.startswith("The machine ran out of memory.")
+    monkeypatch.setattr(app, "main", Mock(side_effect=ImportError("x")))
+    with pytest.raises(ImportError, match="x"):
+        invoke(())
 
 
 def test_a_console_without_greek_letters_gets_question_marks(process, campaign):
@@ -85,33 +93,31 @@ def test_a_console_without_greek_letters_gets_question_marks(process, campaign):
     assert "? rad" in told.stdout
 
 
-@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+def started(folder, *arguments, **options):
+    command, pipe = [sys.executable, "-m", "colonnade", *arguments], subprocess.PIPE
+    return subprocess.Popen(command, cwd=folder, stdout=pipe, stderr=pipe, encoding="utf-8", **options)
+
+
+def await_path(path):
+    deadline = time.monotonic() + 60.0
+    while not path.exists() and time.monotonic() < deadline:
+        time.sleep(0.02)
+
+
+@posix
 @pytest.mark.parametrize(
     ("send", "sent"),
     [
-        pytest.param("killpg", signal.SIGINT, id="Ctrl-C reaches the workers too", marks=pytest.mark.whole),
-        pytest.param("kill", signal.SIGTERM, id="a polite kill reaches the parent alone", marks=pytest.mark.whole),
-        pytest.param(
-            "killpg",
-            getattr(signal, "SIGHUP", 0),
-            id="a terminal that closes reaches the workers too",
-            marks=pytest.mark.whole,
-        ),
+        pytest.param("killpg", signal.SIGINT, id="Ctrl-C reaches the workers too"),
+        pytest.param("kill", signal.SIGTERM, id="a polite kill reaches the parent alone"),
+        pytest.param("killpg", getattr(signal, "SIGHUP", 0), id="a terminal that closes reaches the workers too"),
     ],
 )
+@pytest.mark.whole
 @pytest.mark.usefixtures("interruptible")
 def test_an_interrupted_run_is_130_and_the_next_one_ends_it(colonnade, campaign, send, sent):
-    running = subprocess.Popen(
-        [sys.executable, "-m", "colonnade", "run", "--workers", "2"],
-        cwd=campaign,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        encoding="utf-8",
-        start_new_session=True,
-    )
-    deadline = time.monotonic() + 60.0
-    while not (campaign / "processed").is_dir() and time.monotonic() < deadline:
-        time.sleep(0.01)
+    running = started(campaign, "run", "--workers", "2", start_new_session=True)
+    await_path(campaign / "processed")
     time.sleep(0.5)
     getattr(os, send)(running.pid, sent)
     _, complaints = running.communicate(timeout=60)
@@ -121,18 +127,11 @@ def test_an_interrupted_run_is_130_and_the_next_one_ends_it(colonnade, campaign,
     assert colonnade("run", "--workers", "1").returncode == 0
 
 
-@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+@posix
 @pytest.mark.usefixtures("interruptible")
 def test_ending_a_watch_is_no_error(campaign):
-    watching = subprocess.Popen(
-        [sys.executable, "-m", "colonnade", "watch", "--workers", "1"],
-        cwd=campaign,
-        stderr=subprocess.PIPE,
-        encoding="utf-8",
-    )
-    deadline = time.monotonic() + 60.0
-    while not (campaign / "processed" / ".watcher.json").exists() and time.monotonic() < deadline:
-        time.sleep(0.05)
+    watching = started(campaign, "watch", "--workers", "1")
+    await_path(campaign / "processed" / ".watcher.json")
     watching.send_signal(signal.SIGHUP)
     _, complaints = watching.communicate(timeout=60)
     assert (watching.returncode, complaints) == (0, "The watch has ended. All results are kept.\n")
@@ -141,10 +140,7 @@ def test_ending_a_watch_is_no_error(campaign):
 def test_a_watch_that_is_interrupted_before_its_one_round_is_130(colonnade, campaign, monkeypatch):
     from colonnade.workflow.watching import watch
 
-    def interrupted(*_, **__):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(watch, "watch", interrupted)
+    monkeypatch.setattr(watch, "watch", Mock(side_effect=KeyboardInterrupt))
     assert [colonnade("watch", *once).returncode for once in ((), ("--once",))] == [0, 130]
 
 
@@ -171,7 +167,6 @@ class Handle:
 def invoke(arguments):
     Handle()
     time.sleep(30)
-    return 0
 """
 INSIDE_CALLBACK = """
 import ctypes
@@ -184,11 +179,10 @@ def back():
 def invoke(arguments):
     back()
     time.sleep(30)
-    return 0
 """
 
 
-@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+@posix
 @pytest.mark.parametrize(
     "invoke",
     [

@@ -2,6 +2,7 @@
 
 import os
 import zipfile
+from unittest.mock import Mock
 
 import pytest
 from hypothesis import given
@@ -78,10 +79,7 @@ def test_a_bundle_that_cannot_be_finished_leaves_the_old_one(folder, tmp_path, m
     target = tmp_path / "all.zip"
     target.write_bytes(b"old")
 
-    def full(*_):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(zipfile.ZipFile, "open", full)
+    monkeypatch.setattr(zipfile.ZipFile, "open", Mock(side_effect=OSError(28, "No space left on device")))
     with pytest.raises(StoreError, match="disk is full"):
         write_bundle(folder, target, own=OWN)
     assert target.read_bytes() == b"old"

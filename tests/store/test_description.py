@@ -81,10 +81,8 @@ def test_a_channel_is_described_with_what_goes_with_it():
 
 def test_a_model_is_not_called_a_measurement():
     dataset = xr.Dataset({"rocking_angle": ("elapsed", np.zeros(2))})
-    kinds = [
-        describe(dataset, stage)["rocking_angle"].attrs["coverage_content_type"] for stage in ("rocking", "predict")
-    ]
-    assert kinds == ["physicalMeasurement", "modelResult"]
+    for stage, kind in (("rocking", "physicalMeasurement"), ("predict", "modelResult")):
+        assert describe(dataset, stage)["rocking_angle"].attrs["coverage_content_type"] == kind
 
 
 def test_a_variable_that_nobody_describes_is_refused_with_the_nearest_name():
@@ -98,9 +96,7 @@ def test_an_unknown_quantity_is_refused():
 
 
 def test_every_unit_of_the_table_is_one_that_udunits_reads():
-    for name, variable in VARIABLES.items():
-        if variable.units is not None:
-            assert Unit(variable.units) is not None, name
+    assert all(Unit(variable.units) is not None for variable in VARIABLES.values() if variable.units is not None)
 
 
 def test_every_variable_is_of_some_stage_and_every_stage_has_some():
@@ -111,21 +107,16 @@ def test_every_variable_is_of_some_stage_and_every_stage_has_some():
 def stage_of(path, processed):
     """Stage whose file this is."""
     place = path.relative_to(processed).with_suffix("").as_posix()
-    patterns = {
-        stage: entry.file.format(subject=r".+", model=f"({'|'.join(MODELS)})") for stage, entry in STAGES.items()
-    }
-    [fitting] = [stage for stage, pattern in patterns.items() if re.fullmatch(pattern, place)]
+    any_one = {"subject": r".+", "model": f"({'|'.join(MODELS)})"}
+    [fitting] = [stage for stage, entry in STAGES.items() if re.fullmatch(entry.file.format(**any_one), place)]
     return fitting
 
 
-@pytest.mark.parametrize("campaign", ["filled", "assessed", "foreseen"])
+@pytest.mark.parametrize("campaign", ["filled_campaign", "assessed", "foreseen"])
 def test_no_file_has_a_variable_that_its_stage_does_not_have(campaign, request):
-    if campaign == "filled":
-        processed = request.getfixturevalue("filled_campaign")[1].processed
-    elif campaign == "assessed":
-        processed = request.getfixturevalue("assessed") / "processed"
-    else:
-        processed = request.getfixturevalue("foreseen")[0] / "processed"
+    made = request.getfixturevalue(campaign)
+    folder = made[1].home if campaign == "filled_campaign" else made if campaign == "assessed" else made[0]
+    processed = folder / "processed"
     seen = set()
     for path in processed.rglob("*.nc"):
         stage = stage_of(path, processed)

@@ -10,15 +10,11 @@ from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
 
 SIDE = {"critical_angle": 0.2, "pole_distance": 0.3, "inertia": 2.0}
-MODEL = {
-    "no_rocking": 0.0,
-    "rocking": 0.5,
-    "overturned": 0.5,
-    "bands": 3 * [{"probability": 0.5, "low": 0.4, "high": 1.0}],
-    "required_friction": 0.3,
-    "peak_ratio": [0.4, None],
-    "rigid_body_peak_ratio": [0.3, None],
-}
+PEAKS = {"peak_ratio": [0.4, None], "rigid_body_peak_ratio": [0.3, None]}
+BANDS = 3 * [{"probability": 0.5, "low": 0.4, "high": 1.0}]
+MODEL = PEAKS | {"no_rocking": 0.0, "rocking": 0.5, "overturned": 0.5, "bands": BANDS, "required_friction": 0.3}
+SAMPLES = {"interval": 0.01, "samples": 9, "time_scale": 1.0}
+KNOWN = {"value": [0.9, 0.9], "low": None, "high": None, "level": 0.95, "source": "given", "rigid_body": [0.8, 0.8]}
 CONTENT = {
     "schema": 1,
     "made": "2026-01-02T03:04:05Z",
@@ -27,26 +23,12 @@ CONTENT = {
     "test": "span-2",
     "specimen": "prism",
     "level": "0.3 g",
-    "motion": {
-        "name": "../El Centro",
-        "source": "",
-        "sha256": "b" * 64,
-        "interval": 0.01,
-        "samples": 9,
-        "time_scale": 1.0,
-    },
+    "motion": {"name": "../El Centro", "source": "", "sha256": "b" * 64} | SAMPLES,
     "table": {"peak_acceleration": 3.0, "peak_velocity": None, "peak_displacement": None, "drift": 1.5},
     "inputs": {
         "block": {"mass": 26.0, "gravity": 9.81, "negative": SIDE, "positive": SIDE},
-        "restitution": {
-            "value": [0.9, 0.9],
-            "low": None,
-            "high": None,
-            "level": 0.95,
-            "source": "given",
-            "rigid_body": [0.8, 0.8],
-        },
-        "spread": {"restitution": 0.01, "critical_angle": 0.0, "p": 0.0, "gain": 0.0, "clock": 0.0},
+        "restitution": KNOWN,
+        "spread": dict.fromkeys(("restitution", "critical_angle", "p", "gain", "clock"), 0.01),
         "table_tilt": 0.0,
         "rest_angle": 1e-6,
         "members": 2,
@@ -68,10 +50,8 @@ def changed(**change):
 def test_what_is_written_is_read(tmp_path):
     layout, forecast = Layout(tmp_path), ForecastFile.model_validate(CONTENT)
     paths = [write_forecast(layout, forecast) for _ in range(2)]
-    assert [path.name for path in paths] == [
-        "20260102T030405Z-prism-_El_Centro-0.3_g.json".replace("-_El", "-.._El"),
-        "20260102T030405Z-prism-.._El_Centro-0.3_g-2.json",
-    ]
+    stem = "20260102T030405Z-prism-.._El_Centro-0.3_g"
+    assert [path.name for path in paths] == [f"{stem}.json", f"{stem}-2.json"]
     found = read_forecasts(layout)
     assert [each.forecast for each in found.known] == [forecast, forecast]
     assert not found.refused

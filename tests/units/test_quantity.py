@@ -10,18 +10,8 @@ from hypothesis import strategies as st
 
 from colonnade import units
 from colonnade.errors import UnitError
-from colonnade.units.quantity import (
-    COMMON,
-    DIMENSIONS,
-    LARGEST_POWER,
-    LONGEST,
-    QUANTITY_DIMENSIONS,
-    article,
-    collected,
-    expected,
-    resolve,
-    words,
-)
+from colonnade.units import quantity
+from colonnade.units.quantity import COMMON, DIMENSIONS, LARGEST_POWER, LONGEST, expected, resolve
 from every import every
 
 
@@ -74,37 +64,25 @@ def test_what_is_not_such_a_quantity_is_refused_in_words(text, dimension, words)
     assert all(word in str(caught.value) for word in words), str(caught.value)
 
 
-@every(
-    ("spelling", "usual"),
-    [
-        ("g's", "g"),
-        ("G", "g"),
-        ("Volts", "V"),
-        ("VOLTS", "V"),
-        ("m/s²", "m/s^2"),
-        ("m/s^2", "m/s^2"),
-        ("m/sec2", "m/s^2"),
-        ("m/s/s", "m/s^2"),
-        ("mm.", "mm"),
-        ("MM", "mm"),
-        ("seconds", "s"),
-        ("sec.", "s"),
-        ("°", "deg"),
-        ("deg", "deg"),
-        ("degrees", "deg"),
-        ("gal", "Gal"),
-        ("millimetres", "mm"),
-        ("Kg", "kg"),
-        ("N.m", "N m"),
-        ("KN", "kN"),
-        ("kn", "kN"),
-        ("MPA", "MPa"),
-        ("Mpa", "MPa"),
-        ("KPA", "kPa"),
-        ("MG", "mg"),
-        ("", ""),
-    ],
-)
+USUAL = {
+    "g": ("g's", "G"),
+    "V": ("Volts", "VOLTS"),
+    "m/s^2": ("m/s²", "m/s^2", "m/sec2", "m/s/s"),
+    "mm": ("mm.", "MM", "millimetres"),
+    "s": ("seconds", "sec."),
+    "deg": ("°", "deg", "degrees"),
+    "Gal": ("gal",),
+    "kg": ("Kg",),
+    "N m": ("N.m",),
+    "kN": ("KN", "kn"),
+    "MPa": ("MPA", "Mpa"),
+    "kPa": ("KPA",),
+    "mg": ("MG",),
+    "": ("",),
+}
+
+
+@every(("spelling", "usual"), [(spelling, usual) for usual, spellings in USUAL.items() for spelling in spellings])
 def test_spellings_of_recorders_are_understood(spelling, usual):
     assert units.normalise_unit(spelling) == usual
 
@@ -163,19 +141,16 @@ def test_gain_that_does_not_lead_to_the_quantity_is_refused_with_the_right_one(g
     assert hint in str(caught.value)
 
 
-UNITS_OF_A_DIMENSION = [
-    ("mm", "length"),
-    ("µm", "length"),
-    ("g", "acceleration"),
-    ("Gal", "acceleration"),
-    ("mrad", "angle"),
-    ("deg", "angle"),
-    ("kN", "force"),
-    ("ms", "time"),
-    ("min", "time"),
-    ("kHz", "frequency"),
-    ("deg/s", "angular_velocity"),
-]
+UNITS_OF = {
+    "length": ("mm", "µm"),
+    "acceleration": ("g", "Gal"),
+    "angle": ("mrad", "deg"),
+    "force": ("kN",),
+    "time": ("ms", "min"),
+    "frequency": ("kHz",),
+    "angular_velocity": ("deg/s",),
+}
+UNITS_OF_A_DIMENSION = [(unit, dimension) for dimension, names in UNITS_OF.items() for unit in names]
 
 
 @given(st.sampled_from(UNITS_OF_A_DIMENSION), st.floats(-1e6, 1e6).filter(lambda value: abs(value) > 1e-6))
@@ -197,11 +172,8 @@ def test_any_text_is_a_length_or_a_unit_error(text):
 
 
 def test_pint_is_loaded_with_the_first_unit_only():
-    code = "import sys; from colonnade import units; print('pint' in sys.modules)"
-    assert (
-        subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.strip()
-        == "False"
-    )
+    code = "import sys; from colonnade import units; sys.exit('pint' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
 NAMES = st.sampled_from([name for name in COMMON if "/" not in name])
@@ -211,11 +183,11 @@ POWERS = st.integers(-3, 3)
 @given(st.lists(st.tuples(NAMES, POWERS), min_size=1, max_size=3))
 def test_a_product_of_units_has_the_product_of_their_factors(parts):
     found = resolve("*".join(f"{name}^{power}" for name, power in parts))
-    factor, powers = 1.0, collected(())
+    factor, powers = 1.0, quantity.collected(())
     for name, power in parts:
         one = resolve(name)
         factor *= one.factor**power
-        powers = collected((*powers.items(), *((base, each * power) for base, each in one.dimension)))
+        powers = quantity.collected((*powers.items(), *((base, each * power) for base, each in one.dimension)))
     assert found.factor == pytest.approx(factor, rel=1e-12)
     assert dict(found.dimension) == powers
 
@@ -284,19 +256,16 @@ def test_the_example_of_a_dimension_has_that_dimension(dimension):
     si_unit, example = DIMENSIONS[dimension]
     assert units.factor_to_si(si_unit, dimension) == 1
     assert units.factor_to_si(example, dimension) > 0
-    assert words(dimension) in expected(dimension).casefold() or dimension == "dimensionless"
+    assert quantity.words(dimension) in expected(dimension).casefold() or dimension == "dimensionless"
 
 
 def test_every_quantity_has_a_known_dimension():
-    assert {dimension for dimension in QUANTITY_DIMENSIONS.values() if dimension} <= DIMENSIONS.keys()
+    assert {dimension for dimension in quantity.QUANTITY_DIMENSIONS.values() if dimension} <= DIMENSIONS.keys()
 
 
 def test_an_expectation_repeats_the_number_that_was_given():
     assert expected("length") == 'A length was expected, such as "mm".'
     assert expected("length", 86) == 'A length was expected, such as "86 mm".'
     assert expected("dimensionless") == "A plain number was expected."
-    assert [article(each) for each in ("acceleration", "inertia", "mass")] == [
-        "an acceleration",
-        "a moment of inertia",
-        "a mass",
-    ]
+    kinds = {"acceleration": "an acceleration", "inertia": "a moment of inertia", "mass": "a mass"}
+    assert {each: quantity.article(each) for each in kinds} == kinds

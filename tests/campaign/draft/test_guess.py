@@ -65,7 +65,7 @@ def test_the_place_and_the_axis_are_read_from_the_name():
     assert (found.place, found.place_word, found.axis) == ("table", 'from "tischweg" in its name', "x")
 
 
-def named_column(number, name, unit):
+def named_column(number, name, unit=None):
     return Column(number, name, name, unit, False, True, MOVING)
 
 
@@ -119,7 +119,7 @@ def test_unknown_columns_are_left_out_beside_known_ones():
 
 
 def test_unknown_columns_alone_are_asked_about_up_to_a_number():
-    columns = [named_column(n, f"strange {n}", None) for n in range(1, MOST_UNKNOWN + 3)]
+    columns = [named_column(n, f"strange {n}") for n in range(1, MOST_UNKNOWN + 3)]
     drafted = draft_channels({"main": columns})
     assert len(drafted.channels) == MOST_UNKNOWN
     assert len(drafted.left_out) == 2
@@ -211,9 +211,8 @@ def test_files_with_the_same_columns_are_of_one_setup():
 def test_files_of_two_recorders_are_one_test(first, second, recorder):
     (setup,), _ = arrange([raw(first, "LVDT 1"), raw(second, "ACC")])
     assert setup.recorders == ("main", recorder)
-    assert [{name: file.relative for name, file in test.files.items()} for test in setup.tests] == [
-        {"main": first, recorder: second}
-    ]
+    (test,) = setup.tests
+    assert {name: file.relative for name, file in test.files.items()} == {"main": first, recorder: second}
 
 
 def test_a_column_is_shown_as_in_the_file_where_it_moves_most():

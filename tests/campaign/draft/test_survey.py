@@ -21,10 +21,8 @@ def test_files_are_in_the_order_of_their_numbers_in_all_folders(folder):
 def test_a_file_has_its_columns_rate_and_duration(folder):
     folder.write("a.csv", {"LVDT 1 [mm]": np.sin(TIME)}, delimiter=";")
     (file,) = survey(folder.path)[0]
-    assert [(each.name, each.unit, each.is_clock) for each in file.columns] == [
-        ("Time", "s", True),
-        ("LVDT 1", "mm", False),
-    ]
+    columns = [(each.name, each.unit, each.is_clock) for each in file.columns]
+    assert columns == [("Time", "s", True), ("LVDT 1", "mm", False)]
     assert (file.rate, file.duration) == (pytest.approx(100.0), pytest.approx(2.99))
     assert file.writing.startswith('delimiter ";"')
 

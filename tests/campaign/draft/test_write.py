@@ -27,24 +27,13 @@ def open_keys(drafted):
 def test_names_and_units_become_channels_and_what_no_file_tells_is_asked(folder):
     folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY, "Tischweg [mm]": noise(), "ACC_Y [g]": noise(1)})
     document, drafted = folder.draft()
+    moved = {"quantity": "displacement", "unit": "mm", "direction": [1, 0, 0]}
+    top = {"column": "LVDT 1", "on": "specimen", "at": ["? mm", "0 mm", "? mm"], "relative_to": "?"}
+    table = {"quantity": "acceleration", "unit": "g", "on": "table", "direction": [0, 1, 0]}
     assert channels(document) == {
-        "lvdt_1": {
-            "column": "LVDT 1",
-            "quantity": "displacement",
-            "unit": "mm",
-            "on": "specimen",
-            "at": ["? mm", "0 mm", "? mm"],
-            "relative_to": "?",
-            "direction": [1, 0, 0],
-        },
-        "tischweg": {
-            "column": "Tischweg",
-            "quantity": "displacement",
-            "unit": "mm",
-            "on": "table",
-            "direction": [1, 0, 0],
-        },
-        "acc_y": {"column": "ACC_Y", "quantity": "acceleration", "unit": "g", "on": "table", "direction": [0, 1, 0]},
+        "lvdt_1": moved | top,
+        "tischweg": moved | {"column": "Tischweg", "on": "table"},
+        "acc_y": table | {"column": "ACC_Y"},
     }
     assert open_keys(drafted) == ["width", "depth", "height", "mass", "at", "relative_to"]
 
@@ -124,11 +113,8 @@ def test_specimens_are_told_by_the_names_of_files(folder):
     for name in ("cone-free-1.csv", "free-1.csv", "Zylinder-free-1.csv"):
         folder.write(name, {"LVDT 1 [mm]": DECAY})
     document, _ = folder.draft()
-    assert {name: specimen["shape"] for name, specimen in document["specimens"].items()} == {
-        "cone": "cone",
-        "specimen": "prism",
-        "cylinder": "cylinder",
-    }
+    shapes = {name: specimen["shape"] for name, specimen in document["specimens"].items()}
+    assert shapes == {"cone": "cone", "specimen": "prism", "cylinder": "cylinder"}
     assert [test["specimen"] for test in document["tests"]] == ["cone", "specimen", "cylinder"]
 
 
@@ -182,7 +168,5 @@ def test_a_file_without_a_date_leaves_the_day_to_people(folder):
 def test_a_question_is_asked_in_full_once_in_a_setup(folder):
     folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY, "LVDT 2 [mm]": DECAY})
     asked = [line for line in folder.draft()[1].text.splitlines() if line.startswith("relative_to = ")]
-    assert [line.partition("# ")[2] for line in asked] == [
-        '? where it is fixed: "table" if it moves with the table, else "ground"',
-        "? as above",
-    ]
+    in_full = '? where it is fixed: "table" if it moves with the table, else "ground"'
+    assert [line.partition("# ")[2] for line in asked] == [in_full, "? as above"]

@@ -13,9 +13,8 @@ from colonnade.errors import CampaignError
 from colonnade.readers.registry import formats
 
 # JSON has no dates: a validator is given them as text.
-CONTRACT = json.loads(
-    json.dumps(tomllib.loads((Path(__file__).parents[1] / "contract.toml").read_text(encoding="utf-8")), default=str)
-)
+WRITTEN = tomllib.loads((Path(__file__).parents[1] / "contract.toml").read_text(encoding="utf-8"))
+CONTRACT = json.loads(json.dumps(WRITTEN, default=str))
 
 
 def test_an_unknown_schema_is_refused_with_the_nearest():

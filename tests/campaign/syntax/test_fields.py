@@ -1,5 +1,6 @@
 """The kinds of value of a campaign file: what becomes which SI value, and what is said of what does not."""
 
+import re
 from datetime import date, datetime, time, timedelta, timezone
 from typing import Annotated, Any
 
@@ -66,9 +67,8 @@ def test_what_is_written_becomes_its_si_value(kind, value, found):
     ],
 )
 def test_what_does_not_fit_is_refused_with_what_was_expected(kind, value, told):
-    with pytest.raises(ValidationError) as raised:
+    with pytest.raises(ValidationError, match=re.escape(told)):
         read(kind, value)
-    assert told in str(raised.value)
 
 
 @pytest.mark.parametrize(
@@ -86,13 +86,9 @@ def test_a_value_is_repeated_in_short(value, found):
 
 
 def test_the_schema_of_a_list_has_its_length():
-    (schema,) = (TypeAdapter(fields.Interval).json_schema(),)
-    assert (schema["type"], schema["minItems"], schema["maxItems"], schema["items"]["type"]) == (
-        "array",
-        2,
-        2,
-        "string",
-    )
+    schema = TypeAdapter(fields.Interval).json_schema()
+    assert (schema["type"], schema["items"]["type"]) == ("array", "string")
+    assert (schema["minItems"], schema["maxItems"]) == (2, 2)
 
 
 DAYS = st.dates(date(FIRST_YEAR, 1, 1), date(LAST_YEAR, 12, 31))

@@ -39,16 +39,13 @@ def test_what_json_has_no_word_for_is_no_result():
         console.show_json(float("nan"))
 
 
-def test_a_row_is_one_line_whatever_its_length(capsys):
+def test_a_row_is_one_line_whatever_its_length_and_a_table_without_rows_is_nothing(capsys):
+    console.show_table(("test", "reason"), [])
+    assert capsys.readouterr().out == ""
     console.show_table(("test", "reason"), [("a", "word " * 60), ("b", "")])
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 3
     assert lines[1] == "a     " + ("word " * 60).rstrip()
-
-
-def test_a_table_without_rows_is_nothing(capsys):
-    console.show_table(("test", "reason"), [])
-    assert capsys.readouterr().out == ""
 
 
 def test_fields_are_under_each_other(capsys):

@@ -2,16 +2,8 @@
 
 import pytest
 
-from colonnade.cli.common.findings import (
-    IN_FULL,
-    NAMED,
-    alike,
-    all_records,
-    line_of,
-    probable_cause,
-    records_of,
-    show_by_kind,
-)
+from colonnade.cli.common import findings as shown_as
+from colonnade.cli.common.findings import IN_FULL, NAMED, alike, line_of, probable_cause, records_of
 from colonnade.findings import in_order, note, serious, warning
 
 GAIN = serious("gain", "The gain is wrong.")
@@ -20,7 +12,7 @@ SPIKE = note("spikes", "Spikes on 2 samples.")
 
 
 def shown(capsys, findings):
-    show_by_kind({subject: in_order(each) for subject, each in findings.items()})
+    shown_as.show_by_kind({subject: in_order(each) for subject, each in findings.items()})
     return capsys.readouterr().out.splitlines()
 
 
@@ -45,12 +37,9 @@ def test_many_tests_that_fail_alike_are_counted():
     names = [f"t{number:04}" for number in range(2000)]
     rows = alike([(name, "ingest", f"raw/{name}.csv: file not found") for name in names] + [("x", "rocking", "other")])
     assert rows[:IN_FULL] == [(name, "ingest", f"raw/{name}.csv: file not found") for name in names[:IN_FULL]]
-    named = ", ".join(names[IN_FULL : IN_FULL + NAMED])
-    more = 2000 - IN_FULL
-    assert rows[IN_FULL:] == [
-        (f"and {more} more", "ingest", f"like these: {named} and {more - NAMED} more"),
-        ("x", "rocking", "other"),
-    ]
+    named, more = ", ".join(names[IN_FULL : IN_FULL + NAMED]), 2000 - IN_FULL
+    counted = (f"and {more} more", "ingest", f"like these: {named} and {more - NAMED} more")
+    assert rows[IN_FULL:] == [counted, ("x", "rocking", "other")]
 
 
 def test_of_notes_one_is_in_full(capsys):
@@ -75,4 +64,7 @@ def test_records_say_what_explains_what():
     records = records_of([ARC, GAIN])
     assert [(each["kind"], each["explained"]) for each in records] == [("gain", False), ("no arc", True)]
     assert line_of(records[1]) == "warning (follows from the above): No arc was found."
-    assert [each["subject"] for each in all_records({"a": in_order([GAIN]), "b": in_order([ARC])})] == ["a", "b"]
+    assert [each["subject"] for each in shown_as.all_records({"a": in_order([GAIN]), "b": in_order([ARC])})] == [
+        "a",
+        "b",
+    ]

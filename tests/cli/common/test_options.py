@@ -35,19 +35,6 @@ def test_the_names_of_models_are_those_of_their_registry():
     assert list(models()) == list(MODELS)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "told"),
-    [
-        (("map", "--model", "liner"), "'liner' is not one of 'linear', 'nonlinear', 'contact'"),
-        (("run", "--workers", "0"), "x>=1"),
-    ],
-)
-def test_a_value_that_is_none_of_the_choices_is_refused_with_them(colonnade, arguments, told):
-    result = colonnade(*arguments)
-    assert result.returncode == 2
-    assert told in " ".join(result.stderr.split())
-
-
 def test_names_are_read_only_when_they_are_needed():
     code = "import sys, colonnade.cli.app; sys.exit('numpy' in sys.modules or 'pydantic' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -14,6 +14,11 @@ KNOWN = {
     "restitution_source": "identified",
     "uplift_acceleration": 1.85,
 }
+PLAIN = Variant(name="nothing varied", restitution=0.976, median=Estimate(value=4.1))
+
+
+def said(record):
+    return " ".join(sentences(record)).replace("\xa0", " ")
 
 
 def test_what_is_known_is_said_with_units_and_intervals():
@@ -27,12 +32,9 @@ def test_what_is_known_is_said_with_units_and_intervals():
         five_percent=Estimate(value=2.0, high=2.4),
         fifty_percent=Estimate(value=4.0, low=3.5, high=4.5),
         curve="lognormal",
-        variants=(
-            Variant(name="nothing varied", restitution=0.976, median=Estimate(value=4.1)),
-            Variant(name="the e of a rigid body", restitution=0.95, median=Estimate(value=4.4)),
-        ),
+        variants=(PLAIN, Variant(name="the e of a rigid body", restitution=0.95, median=Estimate(value=4.4))),
     )
-    text = " ".join(sentences(record)).replace("\xa0", " ")
+    text = said(record)
     assert "rock at 0.189 g" in text
     assert "5 % at PGA 0.204 g (below 0.245 g), and of 50 % at PGA 0.408 g (0.357 to 0.459)" in text
     assert "0.418 g with nothing varied (e 0.976), with the e of a rigid body (0.95) 0.449 g" in text
@@ -50,27 +52,26 @@ def test_what_is_beyond_the_levels_is_said_on_its_side():
         five_percent=Estimate(beyond="below"),
         fifty_percent=Estimate(beyond="above"),
     )
-    text = " ".join(sentences(record)).replace("\xa0", " ")
+    text = said(record)
     assert "5 % already below the lowest level, and of 50 % nowhere within the levels." in text
     assert "not from a lognormal one: the reason." in text
     assert "In brackets" not in text
 
 
 def test_a_correction_is_said_with_the_answer_without_it():
-    known = Variant(name="nothing varied", restitution=0.976, median=Estimate(value=4.1))
     plain = Variant(name=UNCORRECTED, restitution=0.976, median=Estimate(value=5.1), records=3)
-    record = AssessmentSummary(**KNOWN, baseline="linear", variants=(known, plain))
-    text = " ".join(sentences(record))
+    record = AssessmentSummary(**KNOWN, baseline="linear", variants=(PLAIN, plain))
+    text = said(record)
     assert "As they are, half of the histories of 3 records overturn it at 0.52 g; corrected" in text
     assert "nothing varied either, 0.418 g" in text
     assert "The records are scaled after a correction (linear)." in text
     none = Variant(name=UNCORRECTED, restitution=0.976, reason="all drift")
-    text = " ".join(sentences(AssessmentSummary(**KNOWN, baseline="linear", variants=(known, none))))
+    text = said(AssessmentSummary(**KNOWN, baseline="linear", variants=(PLAIN, none)))
     assert "As they are, they give no curve: all drift." in text
 
 
 def test_what_was_drawn_and_what_was_not_is_said():
-    text = " ".join(sentences(AssessmentSummary(**KNOWN, p_range=(1.2, 1.3), friction=0.6)))
+    text = said(AssessmentSummary(**KNOWN, p_range=(1.2, 1.3), friction=0.6))
     assert "α 0.186 rad, p 1.26 rad/s (drawn between 1.2 and 1.3), e 0.976 (identified" in text
     assert "that it does not slide on friction 0.6. The records are scaled as they are." in text
 

@@ -12,9 +12,8 @@ def campaign(tests, *, recorded=True):
     forecasts, scores = {}, {}
     for number in range(1, tests + 1):
         name = f"test-{number}"
-        forecasts[name] = SimpleNamespace(
-            models={"linear": SimpleNamespace(peak_ratio=tuple(np.linspace(0.01, 0.99, 21)))}
-        )
+        peaks = SimpleNamespace(peak_ratio=tuple(np.linspace(0.01, 0.99, 21)))
+        forecasts[name] = SimpleNamespace(models={"linear": peaks})
         values = [[float(number), float(number) if recorded else np.nan, 4.0 * number]]
         variables = {f"forecast_{key}": (("model", "basis"), np.array(values)) for key in SCORES}
         variables |= {"forecast_pit": (("model", "basis"), np.full((1, 3), number / (tests + 1)))}

@@ -15,11 +15,7 @@ from colonnade.store.results import ResultId
 
 def dataset():
     return xr.Dataset(
-        {
-            "peak_ratio": ((), 0.4),
-            "rocking_angle": ("elapsed", [0.0, np.nan, 0.2]),
-            "nrmse": ("model", [0.1, 0.3]),
-        },
+        {"peak_ratio": 0.4, "rocking_angle": ("elapsed", [0.0, np.nan, 0.2]), "nrmse": ("model", [0.1, 0.3])},
         coords={"elapsed": [0.0, 0.1, 0.2], "model": np.array(["linear", "nonlinear"], dtype=object)},
         attrs={"outcome": "rocking", "notes": ["one", "two"]},
     )

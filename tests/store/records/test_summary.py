@@ -5,54 +5,28 @@ import io
 
 import pytest
 
-from colonnade.campaign import load
 from colonnade.campaign.forms import summary as form
 from colonnade.errors import StoreError
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import as_csv, map_points, read_summary, records_of_specimens, records_of_tests
 
-CAMPAIGN = """
-schema = 1
-campaign = "one"
-title = "One pulse"
-
-[specimens]
-prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}
-
-[setups.frame.channels]
-top = {column = "top", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
-direction = [1, 0, 0], relative_to = "table"}
-
-[[tests]]
-id = "watched"
-kind = "pulse"
-file = "raw/pulse-01.csv"
-specimen = "prism"
-setup = "frame"
-observed_outcome = "overturned"
-"""
 SUMMARY = form.Summary(
     campaign="one",
     colonnade="0",
     specimens={},
-    tests={"watched": form.TestSummary(status="done", kind="pulse", specimen="prism", outcome="rocking")},
+    tests={"pulse-01": form.TestSummary(status="done", kind="pulse", specimen="prism", outcome="rocking")},
 )
 
 
-@pytest.fixture
-def campaign(tmp_path):
-    (tmp_path / "campaign.toml").write_text(CAMPAIGN, encoding="utf-8")
-    return load(tmp_path)
-
-
-def test_a_test_is_pending_before_a_run_and_as_summarised_after_it(campaign):
-    before = records_of_tests(campaign, None)["watched"]
+def test_a_test_is_pending_before_a_run_and_as_summarised_after_it(written):
+    campaign = written(more='observed_outcome = "overturned"\n')
+    before = records_of_tests(campaign, None)["pulse-01"]
     assert (before.status, before.observed_outcome, before.outcome) == ("pending", "overturned", None)
     assert records_of_tests(campaign, SUMMARY) == SUMMARY.tests
 
 
-def test_a_specimen_has_its_geometry_before_a_run(campaign):
-    record = records_of_specimens(campaign, None)["prism"]
+def test_a_specimen_has_its_geometry_before_a_run(written):
+    record = records_of_specimens(written(), None)["prism"]
     assert record["critical_angle"] == pytest.approx(0.18641, abs=5e-6)  # atan(86/456)
     assert record["restitution"]["value"] is None
 
@@ -97,16 +71,10 @@ def rows(**tests):
 
 
 def test_each_part_of_a_record_has_columns_of_its_own_and_nothing_is_empty():
-    free = form.TestSummary(
-        status="done",
-        kind="free-vibration",
-        specimen="prism",
-        predicted={"linear": form.PredictionSummary(outcome="rocking", nrmse=0.1)},
-        restitution=form.IdentifiedSummary(
-            value=0.9, low=0.8, reason="not in the table", whole_history={"linear": form.HistorySummary(value=0.91)}
-        ),
-        prototype=form.TestPrototype(duration=4.5),
-    )
+    predicted = {"linear": form.PredictionSummary(outcome="rocking", nrmse=0.1)}
+    history = {"linear": form.HistorySummary(value=0.91)}
+    e = form.IdentifiedSummary(value=0.9, low=0.8, reason="not in the table", whole_history=history)
+    free = sine(predicted=predicted, restitution=e, prototype=form.TestPrototype(duration=4.5))
     first, second = rows(free=free, sine=form.TestSummary(status="pending", kind="sine", specimen="prism"))
     assert (first["test"], first["linear_outcome"], first["linear_nrmse"]) == ("free", "rocking", "0.1")
     assert (first["restitution_value"], first["restitution_low"], first["restitution_high"]) == ("0.9", "0.8", "")
@@ -118,10 +86,7 @@ def test_each_part_of_a_record_has_columns_of_its_own_and_nothing_is_empty():
 @pytest.mark.parametrize("text", ["=HYPERLINK(1)", "+1+1", "-1+1", "@SUM(A1)", "\t=1", "\r=1"])
 def test_text_that_a_spreadsheet_would_calculate_is_quoted(text):
     warnings = (form.Warned(severity="note", kind="x", text=text),)
-    test = form.TestSummary(
-        status="done", kind="pulse", specimen="prism", warnings=warnings, reason=text, peak_ratio=-0.5
-    )
-    (row,) = rows(one=test)
+    (row,) = rows(one=sine(warnings=warnings, reason=text, peak_ratio=-0.5))
     expected = f"'{text}".replace("\r", "\n")
     assert (row["reason"], row["warnings"]) == (expected, f"note: {text}".replace("\r", "\n"))
     assert float(row["peak_ratio"]) == -0.5

@@ -25,35 +25,19 @@ def record(campaign, results, test=None):
 
 def rocking(**changes):
     slide = np.where(TIME < 6.0, -0.002 * TIME, 0.4)
-    values = {
-        "peak_ratio": 0.4,
-        "peak_time": 4.0,
-        "peak_ground_acceleration": 3.0,
-        "overturning_time": np.nan,
-    } | changes
-    return xr.Dataset(
-        {name: ((), value) for name, value in values.items()}
-        | {
-            "rocking_angle": ("elapsed", 0.01 * TIME),
-            "slide": ("elapsed", slide),
-            "impact_time": ("impact", [1.0, 2.0]),
-        },
-        coords={"elapsed": TIME},
-        attrs={"outcome": "rocking"},
-    )
+    values = {"peak_ratio": 0.4, "peak_time": 4.0, "peak_ground_acceleration": 3.0, "overturning_time": np.nan}
+    series = {"rocking_angle": ("elapsed", 0.01 * TIME), "slide": ("elapsed", slide)}
+    series |= {"impact_time": ("impact", [1.0, 2.0])}
+    return xr.Dataset((values | changes) | series, coords={"elapsed": TIME}, attrs={"outcome": "rocking"})
 
 
 def compared(order="3", **values):
     found = {"forcing_frequency": 3.01, "frequency_ratio": 3.36, "amplitude_ratio": 1.5, "impacts_per_cycle": 0.7}
-    return xr.Dataset(
-        {name: ((), value) for name, value in (found | values).items()}
-        | {
-            "nrmse": ("model", [0.1, 0.2]),
-            "predicted_response_order": ("model", np.array(["3", "irregular"], dtype=object)),
-        },
-        coords={"model": np.array(["linear", "nonlinear"], dtype=object)},
-        attrs={"response_order": order, "response_order_reason": "because"},
-    )
+    orders = np.array(["3", "irregular"], dtype=object)
+    series = {"nrmse": ("model", [0.1, 0.2]), "predicted_response_order": ("model", orders)}
+    models = np.array(["linear", "nonlinear"], dtype=object)
+    said = {"response_order": order, "response_order_reason": "because"}
+    return xr.Dataset((found | values) | series, coords={"model": models}, attrs=said)
 
 
 def test_prototype_values_stand_beside_the_models(campaign):
@@ -125,15 +109,13 @@ def test_findings_are_in_order_with_what_follows_from_them(campaign):
     assert [(each.kind, each.explained) for each in test.warnings] == [("gain", False), ("no arc", True)]
 
 
-def test_the_record_says_who_and_when(written):
-    campaign = written(more='date = "26.04.2013"\noperator = "Κ. Παπάς"\n')
-    said = record(campaign, {}, campaign.tests["pulse-01"])
-    assert (said.date, said.operator) == ("2013-04-26", "Κ. Παπάς")
-
-
-def test_a_test_of_unknown_day_has_none(campaign):
-    said = record(campaign, {})
-    assert (said.date, said.operator) == (None, None)
+@pytest.mark.parametrize(
+    ("more", "known"),
+    [('date = "26.04.2013"\noperator = "Κ. Παπάς"\n', ("2013-04-26", "Κ. Παπάς")), ("", (None, None))],
+)
+def test_the_record_says_who_and_when_if_that_is_known(written, more, known):
+    said = record(written(more=more), {})
+    assert (said.date, said.operator) == known
 
 
 @pytest.fixture

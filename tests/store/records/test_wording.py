@@ -19,14 +19,15 @@ def test_outcomes_are_compared_only_where_both_are_known(measured, predicted, ve
     assert wording.agree(measured, predicted) is verdict
 
 
+SHAKEN = {"status": "done", "kind": "earthquake", "specimen": "prism"}
+
+
 def shaken(outcome, peak, **predicted):
     models = {
         model: summary.PredictionSummary(outcome=what, peak_ratio=ratio, within_spread=rank)
         for model, (what, ratio, rank) in predicted.items()
     }
-    return summary.TestSummary(
-        status="done", kind="earthquake", specimen="prism", outcome=outcome, peak_ratio=peak, predicted=models
-    )
+    return summary.TestSummary(**SHAKEN, outcome=outcome, peak_ratio=peak, predicted=models)
 
 
 @pytest.mark.parametrize(
@@ -45,10 +46,8 @@ def test_a_prediction_is_right_inside_the_band_wrong_outside_or_of_another_outco
 
 
 def test_what_another_outcome_than_rocking_was_predicted_is_named_with_its_peak():
-    said = wording.predicted(
-        shaken("overturned", None, linear=("rocking", 0.8, 0.2), nonlinear=("overturned", None, 0.2))
-    )
-    assert list(said.items()) == [("nonlinear", "overturned ✓"), ("linear", "rocking 0.800 ≠")]
+    test = shaken("overturned", None, linear=("rocking", 0.8, 0.2), nonlinear=("overturned", None, 0.2))
+    assert list(wording.predicted(test).items()) == [("nonlinear", "overturned ✓"), ("linear", "rocking 0.800 ≠")]
     assert wording.predicted(shaken("rocking", 0.281, linear=(None, None, None))) == {}
 
 
@@ -56,13 +55,9 @@ def test_a_test_is_said_in_a_few_words():
     assert wording.measured(shaken("rocking", 0.2804)) == "rocking 0.280 α"
     assert wording.measured(shaken("no-rocking", 0.002)) == "no rocking"
     assert wording.measured(shaken("overturned", None)) == "overturned"
-    free = summary.TestSummary(
-        status="done", kind="free-vibration", specimen="prism", outcome="rocking", peak_ratio=0.557
-    )
-    known, none = (
-        summary.IdentifiedSummary(value=0.97602, low=0.97562, high=0.97642),
-        summary.IdentifiedSummary(reason="one peak"),
-    )
+    free = summary.TestSummary(**SHAKEN | {"kind": "free-vibration"}, outcome="rocking", peak_ratio=0.557)
+    known = summary.IdentifiedSummary(value=0.97602, low=0.97562, high=0.97642)
+    none = summary.IdentifiedSummary(reason="one peak")
     assert wording.measured(free.model_copy(update={"restitution": known})) == "e 0.9760 ± 0.0004"
     assert wording.measured(free.model_copy(update={"restitution": known}), 0.9).endswith("0.0004 (90\u00a0% interval)")
     assert wording.measured(free.model_copy(update={"restitution": none})) == "rocking 0.557 α, no e"
