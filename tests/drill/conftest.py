@@ -3,9 +3,7 @@
 import os
 import shutil
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -40,9 +38,6 @@ def undisturbed(tmp_path_factory):
     return small
 
 
-Copy = Callable[..., Any]
-
-
 @pytest.fixture
 def copied(undisturbed):
     """Copy it to a folder, with its results or without."""
@@ -52,9 +47,6 @@ def copied(undisturbed):
         return Small(Path(shutil.copytree(undisturbed.folder, folder, ignore=ignored)))
 
     return copy
-
-
-Command = Callable[..., tuple[int, str]]
 
 
 @pytest.fixture

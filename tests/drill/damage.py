@@ -1,13 +1,9 @@
 """What happens to files: kinds of damage, each seeded, to the bytes of a file or of a member of an archive."""
 
-from __future__ import annotations
-
 import io
-import random
 import re
 import struct
 import zipfile
-from collections.abc import Callable
 
 JUNK = (b"OVERFLOW", b"\0\0\0\0", b'"', b"\r", b"\n\n", b"\x1a", b"nan", b"--", b"#", "θ".encode(), b"\xff\xfe", b"]]>")
 DELIMITERS = (b",", b";", b"\t", b" ", b"|", b":", b".")
@@ -31,42 +27,40 @@ HUGE_FIELDS = (
 )
 """What stands in place of a binary count, offset or sample."""
 
-Kind = Callable[[bytearray, random.Random], bytearray]
 
-
-def flips(data: bytearray, chance: random.Random) -> bytearray:
+def flips(data, chance):
     """Flip bits."""
     for _ in range(chance.randint(1, 30)):
         data[chance.randrange(len(data))] ^= 1 << chance.randrange(8)
     return data
 
 
-def head(data: bytearray, chance: random.Random) -> bytearray:
+def head(data, chance):
     """Write other bytes into the head."""
     for _ in range(chance.randint(1, 6)):
         data[chance.randrange(min(len(data), 1500))] = chance.choice([0, 1, 32, 127, 255])
     return data
 
 
-def truncation(data: bytearray, chance: random.Random) -> bytearray:
+def truncation(data, chance):
     """End the file too early."""
     return data[: chance.randrange(len(data))]
 
 
-def deletion(data: bytearray, chance: random.Random) -> bytearray:
+def deletion(data, chance):
     """Take a piece out."""
     place = chance.randrange(len(data))
     del data[place : place + chance.randint(1, 200)]
     return data
 
 
-def repetition(data: bytearray, chance: random.Random) -> bytearray:
+def repetition(data, chance):
     """Have a piece twice."""
     place = chance.randrange(len(data))
     return data[:place] + data[max(0, place - chance.randint(1, 400)) :]
 
 
-def junk(data: bytearray, chance: random.Random) -> bytearray:
+def junk(data, chance):
     """Put something in that does not belong there."""
     for _ in range(chance.randint(1, 6)):
         place = chance.randrange(len(data))
@@ -74,7 +68,7 @@ def junk(data: bytearray, chance: random.Random) -> bytearray:
     return data
 
 
-def lines(data: bytearray, chance: random.Random) -> bytearray:
+def lines(data, chance):
     """Swap lines; of a file without them, blocks of bytes."""
     parts = bytes(data).splitlines(keepends=True)
     if len(parts) < 4:
@@ -86,7 +80,7 @@ def lines(data: bytearray, chance: random.Random) -> bytearray:
     return bytearray(b"".join(parts))
 
 
-def delimiters(data: bytearray, chance: random.Random) -> bytearray:
+def delimiters(data, chance):
     """Take another delimiter, from a place on or here and there."""
     before, after = chance.sample(DELIMITERS, 2)
     place = chance.randrange(len(data))
@@ -95,17 +89,17 @@ def delimiters(data: bytearray, chance: random.Random) -> bytearray:
     return data[:place] + data[place:].replace(before, after, chance.randint(1, 20))
 
 
-def numbers(data: bytearray, chance: random.Random) -> bytearray:
+def numbers(data, chance):
     """Mangle numbers in text, or bytes where there are none."""
     return _replaced(data, chance, MANGLED, (b"\0" * 4, b"\xff" * 4, b"\x01\0\0\0", b"\0\0\0\x01", b"\0" * 8))
 
 
-def huge(data: bytearray, chance: random.Random) -> bytearray:
+def huge(data, chance):
     """Put huge numbers in place of others, as text or as binary fields."""
     return _replaced(data, chance, HUGE, HUGE_FIELDS)
 
 
-def _replaced(data: bytearray, chance: random.Random, texts: tuple[bytes, ...], fields: tuple[bytes, ...]) -> bytearray:
+def _replaced(data, chance, texts, fields):
     found = [match.span() for match in NUMBER.finditer(data)]
     is_text = data.count(0) == 0
     for _ in range(chance.randint(1, 4)):
@@ -120,23 +114,23 @@ def _replaced(data: bytearray, chance: random.Random, texts: tuple[bytes, ...], 
     return data
 
 
-def zeros(data: bytearray, chance: random.Random) -> bytearray:
+def zeros(data, chance):
     """Zeros from a place on, as a power failure leaves them."""
     return data[: chance.randrange(len(data))] + bytearray(chance.randint(1, 3000))
 
 
-def noise(data: bytearray, chance: random.Random) -> bytearray:
+def noise(data, chance):
     """Any bytes, behind the marks that a file starts with or in their place."""
     return data[: chance.choice((0, 60))] + bytearray(chance.randbytes(chance.randint(0, 3000)))
 
 
-KINDS: dict[str, Kind] = {
+KINDS = {
     kind.__name__: kind
     for kind in (zeros, noise, flips, head, truncation, deletion, repetition, junk, lines, delimiters, numbers, huge)
 }
 
 
-def damaged(content: bytes, kind: str, chance: random.Random) -> bytes:
+def damaged(content, kind, chance):
     """
     Damage a file's content.
 
@@ -148,7 +142,7 @@ def damaged(content: bytes, kind: str, chance: random.Random) -> bytes:
     return bytes(KINDS[kind](bytearray(content), chance)) if content else content
 
 
-def _with_a_damaged_member(content: bytes, kind: str, chance: random.Random) -> bytes:
+def _with_a_damaged_member(content, kind, chance):
     packed = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(content)) as archive, zipfile.ZipFile(packed, "w") as written:
         chosen = chance.choice([name for name in archive.namelist() if archive.read(name)])

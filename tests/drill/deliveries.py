@@ -1,12 +1,7 @@
 """Raw files of a small campaign in several formats, and the ways in which recorders put them into a folder."""
 
-from __future__ import annotations
-
-import random
 import time
-from collections.abc import Callable
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import scipy.io
@@ -23,11 +18,9 @@ pattern = ["{{kind}}-{{number}}.csv", "{{kind}}-{{number}}.txt", "{{kind}}-{{num
 """
 SUFFIXES = ("csv", "txt", "mat", "tdms")
 
-Columns = dict[str, np.ndarray]
-
 
 @cache
-def record(kind: str, number: int, rate: float, duration: float) -> Columns:
+def record(kind, number, rate, duration):
     """One of a few records, with noise."""
     noise, moment = np.random.default_rng(number), np.arange(0.0, duration, 1 / rate)
     base, theta0 = np.zeros_like(moment), 0.0
@@ -44,7 +37,7 @@ def record(kind: str, number: int, rate: float, duration: float) -> Columns:
     }
 
 
-def content(columns: Columns, suffix: str, scratch: Path) -> bytes:
+def content(columns, suffix, scratch):
     """Give the bytes of a file of this kind."""
     path = scratch / f"content.{suffix}"
     if suffix in ("csv", "txt"):
@@ -61,12 +54,12 @@ def content(columns: Columns, suffix: str, scratch: Path) -> bytes:
     return path.read_bytes()
 
 
-def whole(path: Path, data: bytes, chance: random.Random) -> None:
+def whole(path, data, chance):
     """Write it at once."""
     path.write_bytes(data)
 
 
-def slowly(path: Path, data: bytes, chance: random.Random) -> None:
+def slowly(path, data, chance):
     """Write it in pieces, with pauses shorter than it takes to settle, and now and then one that is longer."""
     cuts = sorted(chance.sample(range(1, len(data)), 8))
     with path.open("wb") as stream:
@@ -77,7 +70,7 @@ def slowly(path: Path, data: bytes, chance: random.Random) -> None:
             stream.flush()
 
 
-def renamed(path: Path, data: bytes, chance: random.Random) -> None:
+def renamed(path, data, chance):
     """Write it under another name, then rename it."""
     partial = path.with_name(path.name + ".part")
     partial.write_bytes(data)
@@ -85,11 +78,11 @@ def renamed(path: Path, data: bytes, chance: random.Random) -> None:
     partial.replace(path)
 
 
-def rewritten(path: Path, data: bytes, chance: random.Random) -> None:
+def rewritten(path, data, chance):
     """Write half of it, as if it were all, and later the whole."""
     path.write_bytes(data[: len(data) // 2])
     time.sleep(chance.uniform(2.0, 6.0))
     path.write_bytes(data)
 
 
-WAYS: tuple[Callable[[Path, bytes, random.Random], None], ...] = (whole, whole, slowly, renamed, rewritten)
+WAYS = (whole, whole, slowly, renamed, rewritten)

@@ -6,16 +6,12 @@ what reaches new code in a folder, and stops at the first exception other than a
 What is found is mended and kept in tests/readers/test_findings.py.
 """
 
-from __future__ import annotations
-
 import argparse
 import shutil
 import sys
 import tempfile
 import warnings
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import whole_files
 
@@ -27,7 +23,7 @@ MEMORY = 2048
 """MB for one input."""
 
 
-def main() -> None:
+def main():
     """Parse what was asked for and fuzz."""
     parser = argparse.ArgumentParser(description="Fuzz a reader with atheris.")
     parser.add_argument("format", help="name of a format, as `colonnade show formats` lists them")
@@ -57,7 +53,7 @@ def main() -> None:
     atheris.Fuzz()
 
 
-def seed(whole: Path, corpus: Path, format: str) -> list[Path]:
+def seed(whole, corpus, format):
     """Put whole files of a format into the corpus."""
     shutil.rmtree(whole, ignore_errors=True)
     written = whole_files.write(whole)
@@ -67,7 +63,7 @@ def seed(whole: Path, corpus: Path, format: str) -> list[Path]:
     return seeds
 
 
-def target(format: Any, path: Path) -> Callable[[bytes], None]:
+def target(format, path):
     """Build what is fuzzed: a file is recognised and read."""
     from colonnade.errors import ReadError
     from colonnade.readers.bounded.messages import recording_of
@@ -76,7 +72,7 @@ def target(format: Any, path: Path) -> Callable[[bytes], None]:
     warnings.simplefilter("ignore")
     options = format.options()
 
-    def take(data: bytes) -> None:
+    def take(data):
         path.write_bytes(data)
         if not format.recognise(path).yes:
             return

@@ -7,8 +7,6 @@ own exception; anything else is a finding. A read that takes longer than `LIMIT`
 stderr.
 """
 
-from __future__ import annotations
-
 import contextlib
 import faulthandler
 import random
@@ -34,13 +32,13 @@ MEMORY = 4 << 30
 """Bytes that the process may take."""
 
 
-def shortest(path: Path, format: str) -> int:
+def shortest(path, format):
     """Values of a file's shortest channel."""
     _, arrays = read_here(path, format, {}, None)
     return min(array.size for array in arrays)
 
 
-def outcome(path: Path, format: str, size: int, least: int) -> str:
+def outcome(path, format, size, least):
     """Read a file; in one word what came of it. A channel with fewer values than `least` has to be told."""
     try:
         recording = read(path, format) if format in CRASHING else read_here(path, format, {}, None)
@@ -61,7 +59,7 @@ def outcome(path: Path, format: str, size: int, least: int) -> str:
     return "read" if all(each.size >= least for each in values) else "finding: cut off, and nothing is told"
 
 
-def main(file: Path, format: str, seed: str, first: int, count: int) -> None:
+def main(file, format, seed, first, count):
     """Damage and read."""
     with contextlib.suppress(ImportError):
         import resource

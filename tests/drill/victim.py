@@ -9,8 +9,6 @@ STATUS" is said.
 Workers are forked here; as colonnade starts them each would take seconds to import, and kills would fall on that.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 
@@ -22,7 +20,7 @@ from colonnade.workflow import run
 from colonnade.workflow.execution.spreading import on_processes
 
 
-def workers_ready(workers: int) -> list[int]:
+def workers_ready(workers):
     """Start the processes that `colonnade.workflow.execution.processes` will find there."""
     if workers == 1:
         return []
@@ -30,7 +28,7 @@ def workers_ready(workers: int) -> list[int]:
     return list(get_reusable_executor(reuse=True)._processes)
 
 
-def be_killed(folder: str, workers: int) -> None:
+def be_killed(folder, workers):
     """Get ready, wait for the word, run."""
     print("ready", os.getpid(), *workers_ready(workers), flush=True)
     sys.stdin.readline()
@@ -43,7 +41,7 @@ def be_killed(folder: str, workers: int) -> None:
         get_reusable_executor(reuse=True).shutdown(kill_workers=True)  # as at the end of an interpreter
 
 
-def main(warming: str) -> None:
+def main(warming):
     """Serve runs until stdin is closed."""
     set_start_method("fork")
     run(warming, workers=1)

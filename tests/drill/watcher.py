@@ -4,8 +4,6 @@ A watch in a process of its own: `python watcher.py CAMPAIGN POLLED`.
 Each line is JSON on stdout. With POLLED = 1 the raw folder counts as one on another machine, which gives no events.
 """
 
-from __future__ import annotations
-
 import sys
 
 from colonnade.cli import main

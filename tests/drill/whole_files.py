@@ -1,12 +1,8 @@
 """A small undamaged file of every format that is read here, written by the readers' own tests."""
 
-from __future__ import annotations
-
 import importlib.util
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 
@@ -15,7 +11,7 @@ BY_PACKAGES = ("waveform",)
 """Formats whose parsers are other people's; they are drilled where those live."""
 
 
-def write(folder: Path) -> dict[str, Path]:
+def write(folder):
     """
     Write the files.
 
@@ -32,12 +28,12 @@ def write(folder: Path) -> dict[str, Path]:
     return files
 
 
-def format_of(name: str) -> str:
+def format_of(name):
     """Name of the format of a whole file."""
     return name.split()[0]
 
 
-def _writers() -> dict[str, Callable[[Path], Path]]:
+def _writers():
     instruments, binary, excel = _room("conftest"), _room("test_binary_mutations"), _room("excel/test_workbook")
     text, diadem = _room("text/test_delimited_mutations"), _room("binary/test_diadem")
     time = np.arange(40) / 200
@@ -46,19 +42,19 @@ def _writers() -> dict[str, Callable[[Path], Path]]:
         instruments.Column("table", "g", 0.3 * np.cos(30 * time)),
     ]
 
-    def by_instrument(name: str) -> Callable[[Path], Path]:
+    def by_instrument(name):
         return lambda path: instruments.WRITERS[name](path.with_suffix(f".{name}"), time, columns)
 
-    def by_binary(name: str) -> Callable[[Path], Path]:
-        def write_binary(path: Path) -> Path:
+    def by_binary(name):
+        def write_binary(path):
             writer, suffix = binary.WRITERS[name]
             writer(path.with_suffix(suffix))
             return path.with_suffix(suffix)
 
         return write_binary
 
-    def by_text(separator: str, decimal: str, encoding: str) -> Callable[[Path], Path]:
-        def write_text(path: Path) -> Path:
+    def by_text(separator, decimal, encoding):
+        def write_text(path):
             path.with_suffix(".csv").write_bytes(text.undamaged(separator, decimal, encoding))
             return path.with_suffix(".csv")
 
@@ -83,7 +79,7 @@ def _writers() -> dict[str, Callable[[Path], Path]]:
     }
 
 
-def _room(name: str) -> ModuleType:
+def _room(name):
     spec = importlib.util.spec_from_file_location(f"readers_{name.replace('/', '_')}", READERS / f"{name}.py")
     if spec is None or spec.loader is None:
         raise ImportError(f"there is no {name}.py in {READERS}")

@@ -1,7 +1,5 @@
 """A campaign with a real column that is assessed: the worked example, and a few synthetic ground motions."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 
@@ -30,7 +28,7 @@ resamples = 200
 COUNT, RATE, DURATION = 8, 50.0, 8.0
 
 
-def ground_motion(seed: int) -> np.ndarray:
+def ground_motion(seed):
     """Acceleration that starts and ends at rest without drift: the second derivative of a tapered displacement."""
     random, time = np.random.default_rng(seed), np.arange(int(RATE * DURATION)) / RATE
     frequency = 0.4 * np.exp(random.normal(0.0, 0.3))
@@ -43,7 +41,7 @@ def ground_motion(seed: int) -> np.ndarray:
     return 3.0 * acceleration / np.abs(acceleration).max()
 
 
-def write_assessed(folder: Path) -> Path:
+def write_assessed(folder):
     """Write the campaign; one of its records cannot be read."""
     shutil.copytree(EXAMPLE, folder, dirs_exist_ok=True)
     (folder / "records").mkdir()

@@ -4,19 +4,11 @@ A real browser, and pages that must not complain.
 Playwright drives the machine's own chromium. Without one these tests are skipped; with CI=true that is a failure.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import pytest
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Page, Request
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 QUIET = ("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking")
@@ -26,11 +18,9 @@ DESK, TELEPHONE = (1200, 900), (380, 700)
 SERIOUS = ("serious", "critical")
 """Impacts, in axe-core's words, that fail a test."""
 
-Visit = Callable[..., "Page"]
-
 
 @contextmanager
-def own_chromium() -> Iterator[Browser]:
+def own_chromium():
     """
     Start the machine's own chromium.
 
@@ -49,18 +39,11 @@ def own_chromium() -> Iterator[Browser]:
 
 
 @contextmanager
-def visiting(browser: Browser, home: Path) -> Iterator[Visit]:
+def visiting(browser, home):
     """Give `visit`; close its pages and complain in the end."""
     contexts, complaints = [], []
 
-    def open_page(
-        address: str,
-        *,
-        folder: Path = home,
-        screen: tuple[int, int] = DESK,
-        scripts: bool = True,
-        dark: bool = False,
-    ) -> Page:
+    def open_page(address, *, folder=home, screen=DESK, scripts=True, dark=False):
         context = browser.new_context(
             viewport={"width": screen[0], "height": screen[1]},
             java_script_enabled=scripts,
@@ -71,7 +54,7 @@ def visiting(browser: Browser, home: Path) -> Iterator[Visit]:
         page = context.new_page()
         inside = folder.resolve().as_uri() + "/"
 
-        def check(request: Request) -> None:
+        def check(request):
             if not request.url.startswith((inside, "data:", "blob:")):
                 complaints.append(f"{address} asks for {request.url}")
 
@@ -91,7 +74,7 @@ def visiting(browser: Browser, home: Path) -> Iterator[Visit]:
     assert complaints == []
 
 
-def violations(page: Page, options: dict[str, Any] | None = None) -> list[str]:
+def violations(page, options=None):
     """Say what axe-core finds that keeps people from reading a page."""
     from axe_playwright_python.sync_playwright import Axe
 

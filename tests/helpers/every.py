@@ -1,28 +1,20 @@
 """One test that asserts a sentence of many cases: it tries all, and reports each that fails with its name."""
 
-from __future__ import annotations
-
 import inspect
-from collections.abc import Callable, Iterable
 from functools import wraps
-from typing import Any
 
 import pytest
 
-Test = Callable[..., None]
 
-
-def every(
-    names: str | tuple[str, ...], cases: Iterable[Any], ids: Callable[[Any], object] = repr
-) -> Callable[[Test], Test]:
+def every(names, cases, ids=repr):
     """Call a test with each case in turn, as `pytest.mark.parametrize` would in tests of their own."""
     arguments = [names] if isinstance(names, str) else names
     cases = list(cases)
     assert cases, "no case, no test"
 
-    def decorate(test: Test) -> Test:
+    def decorate(test):
         @wraps(test)
-        def looped(**fixtures: Any) -> None:
+        def looped(**fixtures):
             failures = []
             for case in cases:
                 values = dict(zip(arguments, [case] if isinstance(names, str) else case, strict=True))

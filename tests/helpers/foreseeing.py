@@ -1,11 +1,8 @@
 """A campaign with forecasts of a test that is planned."""
 
-from __future__ import annotations
-
 import shutil
-from pathlib import Path
 
-from colonnade.workflow.forecasting.foresee import Foreseen, foresee
+from colonnade.workflow.forecasting.foresee import foresee
 
 TEST, LATER = "span-2.0", "span-9"
 ENTRY = f"""
@@ -20,7 +17,7 @@ planned = true
 """
 
 
-def foresee_a_planned_test(filled: Path, folder: Path) -> list[Foreseen]:
+def foresee_a_planned_test(filled, folder):
     """Copy the filled campaign, plan a test, and make two forecasts of it: one too weak to rock, one that overturns."""
     shutil.copytree(filled, folder)
     with (folder / "campaign.toml").open("a", encoding="utf-8") as campaign_file:

@@ -1,9 +1,6 @@
 """Rocking by an adaptive method of eighth order with events: slow, and independent of the package's kernels."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Callable
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -13,15 +10,7 @@ REST_ANGLE = 1e-6
 """Of α: after an impact whose next arc would stay below it, the block rests; part of the model, so the same here."""
 
 
-def overturns(
-    pull: Callable[[float], float],
-    begin: float,
-    end: float,
-    *,
-    critical: float,
-    restitution: float,
-    nonlinear: bool,
-) -> bool:
+def overturns(pull, begin, end, *, critical, restitution, nonlinear):
     """
     Tell whether a symmetric block at rest overturns.
 

@@ -15,8 +15,6 @@ A remark above a block, invisible to the reader, says more:
 - `<!-- output -->`: the lines of the block are in the output of the block that ran last, in order; `…` is anything.
 """
 
-from __future__ import annotations
-
 import contextlib
 import doctest
 import io
@@ -27,12 +25,12 @@ import shutil
 import subprocess
 import sys
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 
 from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.review import ReviewFile
@@ -57,7 +55,7 @@ class Block:
     folder: Path = PROJECT
 
 
-def blocks_of(page: Path) -> list[Block]:
+def blocks_of(page):
     """Find the blocks of a page; a remark that nobody knows is an error."""
     source = page.read_text(encoding="utf-8")
     found = []
@@ -85,12 +83,12 @@ class Reader:
     output: str = ""
     names: dict[str, Any] = field(default_factory=lambda: {"__name__": "page"})
 
-    def follow(self, page: Path) -> None:
+    def follow(self, page):
         """Do all that a page says."""
         for block in blocks_of(page):
             self.do(block)
 
-    def do(self, block: Block) -> None:
+    def do(self, block):
         """Do what a block says."""
         if block.remark == "not run":
             return
@@ -107,13 +105,13 @@ class Reader:
         elif block.language == "toml":
             assert_valid(block)
 
-    def _write(self, block: Block) -> None:
+    def _write(self, block):
         path = self.folder / block.value
         path.parent.mkdir(parents=True, exist_ok=True)
         with path.open("a" if block.remark == "append" else "w", encoding="utf-8") as stream:
             stream.write(("\n" if block.remark == "append" else "") + block.text)
 
-    def _type(self, block: Block) -> None:
+    def _type(self, block):
         printed = []
         lines = [line for line in block.text.replace("\\\n", " ").splitlines() if line and not line.startswith("#")]
         for line in lines:
@@ -123,7 +121,7 @@ class Reader:
             assert code == expected, f"{block.place}: `{line}` ended with {code}\n{out}"
         self.output = "".join(printed)
 
-    def _command(self, line: str) -> tuple[int, str]:
+    def _command(self, line):
         words = shlex.split(line, comments=True)
         if words[0] == "make":
             return int(words[1] not in make_targets()), "not a target of the Makefile"
@@ -145,13 +143,13 @@ class Reader:
         )
         return done.returncode, done.stdout
 
-    def _called(self, arguments: list[str]) -> tuple[int, str]:
+    def _called(self, arguments):
         out = io.StringIO()
         with contextlib.chdir(self.folder), contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
             code = invoke(arguments)
         return code, out.getvalue()
 
-    def _execute(self, block: Block) -> str:
+    def _execute(self, block):
         out = io.StringIO()
         with contextlib.chdir(self.folder), contextlib.redirect_stdout(out), importable(self.folder):
             if block.text.startswith(">>> "):
@@ -165,7 +163,7 @@ class Reader:
 
 
 @contextlib.contextmanager
-def importable(folder: Path) -> Iterator[None]:
+def importable(folder):
     """Modules in this folder can be imported, as by a Python that was started in it."""
     sys.path.insert(0, str(folder))
     try:
@@ -174,13 +172,13 @@ def importable(folder: Path) -> Iterator[None]:
         sys.path.remove(str(folder))
 
 
-def make_targets() -> set[str]:
+def make_targets():
     """Targets that the Makefile announces."""
     [listed] = re.findall(r"^\.PHONY: (.*)$", (PROJECT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)
     return set(listed.split())
 
 
-def assert_shown(block: Block, output: str) -> None:
+def assert_shown(block, output):
     """Hold the lines of a block against what was printed, spaces aside."""
     printed, at = squeezed(output), 0
     for line in filter(None, squeezed(block.text).splitlines()):
@@ -189,15 +187,15 @@ def assert_shown(block: Block, output: str) -> None:
         at = match.end()
 
 
-def squeezed(text: str) -> str:
+def squeezed(text):
     """Text without repeated spaces and without spaces at the ends of lines."""
     return "\n".join(" ".join(line.split()) for line in text.splitlines())
 
 
-def assert_valid(block: Block) -> None:
+def assert_valid(block):
     """Hold a part of campaign.toml or review.toml against its model; what the part leaves out is not missed."""
     document = tomllib.loads(block.text)
-    model: type[BaseModel] = ReviewFile if set(ENTRIES) & document.keys() else CampaignFile
+    model = ReviewFile if set(ENTRIES) & document.keys() else CampaignFile
     try:
         model.model_validate(document)
     except ValidationError as refused:

@@ -1,7 +1,5 @@
 """The paper's limestone prism, as most tests use it."""
 
-from __future__ import annotations
-
 from colonnade.dynamics.block import Block
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
@@ -9,7 +7,7 @@ SPECIMEN = 'prism = {shape = "prism", width = "86 mm", depth = "86 mm", height =
 """Its line in a campaign file, below `[specimens]`."""
 
 
-def entry(name: str, kind: str, *lines: str) -> str:
+def entry(name, kind, *lines):
     """A test of it in the set-up `frame`, as a campaign file has it, with further lines."""
     always = (f'id = "{name}"', f'kind = "{kind}"', f'file = "raw/{name}.csv"', 'specimen = "prism"', 'setup = "frame"')
     return "\n".join(("[[tests]]", *always, *lines, "", ""))

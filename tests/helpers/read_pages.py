@@ -1,14 +1,9 @@
 """A report as its readers meet it: pages as text, tags that nest, links, words."""
 
-from __future__ import annotations
-
 from collections import Counter
 from html.parser import HTMLParser
-from pathlib import Path
 
-from colonnade.campaign import Campaign
 from colonnade.report.build import build
-from colonnade.store.layout import Layout
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.summary import write_summary
 
@@ -18,15 +13,15 @@ VOID = {"meta", "img", "br", "hr", "input", "link", "col", "wbr"}
 class Page(HTMLParser):
     """Tags, ids, references and text of a page; refuses tags that do not nest."""
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text):
         super().__init__()
-        self.tags: Counter[str] = Counter()
-        self.ids: list[str] = []
-        self.links: list[str] = []
-        self.scripts: list[str] = []
-        self.attributes: Counter[str] = Counter()
+        self.tags = Counter()
+        self.ids = []
+        self.links = []
+        self.scripts = []
+        self.attributes = Counter()
         self.words = ""
-        self._open: list[str] = []
+        self._open = []
         self.feed(text)
         self.close()
         assert not self._open, f"not closed: {self._open}"
@@ -59,18 +54,18 @@ class Page(HTMLParser):
                 self.links.append(value)
 
 
-def built(campaign: Campaign, layout: Layout, outdated: set[str] = frozenset(), **options) -> Path:
+def built(campaign, layout, outdated=frozenset(), **options):
     """Write the summary and the report, as a run does."""
     write_summary(campaign, layout, Catalogue(layout), outdated=dict.fromkeys(outdated, ""))
     return build(campaign, layout, outdated, **options)
 
 
-def written(layout: Layout) -> dict[str, str]:
+def written(layout):
     """Text of every page by its address in the report's folder."""
     folder = layout.report.parent
     paths = sorted(folder.rglob("*.html"))
     return {path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8") for path in paths}
 
 
-def words_of(text: str) -> str:
+def words_of(text):
     return " ".join(Page(text).words.split())

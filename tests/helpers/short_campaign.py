@@ -1,12 +1,9 @@
 """A campaign of short files that the tests of runs, watches and kills write, run and change."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -15,7 +12,7 @@ from colonnade.dynamics.rock import rock
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
-from colonnade.workflow import RunResult, run
+from colonnade.workflow import run
 from colonnade.workflow.catalogue import mark_of
 from prism import PRISM, SPECIMEN
 
@@ -40,7 +37,7 @@ TESTS = {"free-01": "free-vibration", "free-02": "free-vibration", "pulse-01": "
 RATE = 200.0
 
 
-def write_campaign(folder: Path, tests: dict[str, str] = TESTS) -> Path:
+def write_campaign(folder, tests=TESTS):
     """Write the campaign and its raw files; the folder is returned."""
     (folder / "raw").mkdir(parents=True)
     text = CAMPAIGN
@@ -52,7 +49,7 @@ def write_campaign(folder: Path, tests: dict[str, str] = TESTS) -> Path:
     return folder
 
 
-def _write_raw(path: Path, kind: str, number: int) -> None:
+def _write_raw(path, kind, number):
     noise = np.random.default_rng(number)
     time = np.arange(0.0, 8.0, 1 / RATE)
     base = np.zeros_like(time)
@@ -67,7 +64,7 @@ def _write_raw(path: Path, kind: str, number: int) -> None:
     np.savetxt(path, rows, delimiter=",", header="time,top,table", comments="", fmt="%.6f")
 
 
-def copied(campaign: Path, folder: Path) -> Path:
+def copied(campaign, folder):
     """Copy a campaign with its results, as if it had been run there: the catalogue knows the copies of its files."""
     layout = Layout(Path(shutil.copytree(campaign, folder)))
     known = json.loads(layout.catalogue.read_text(encoding="utf-8"))
@@ -83,27 +80,27 @@ def copied(campaign: Path, folder: Path) -> Path:
 class Small:
     """A copy of the small campaign."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder):
         self.folder = folder
         self.layout = Layout(folder)
 
-    def run(self, **options: Any) -> RunResult:
+    def run(self, **options):
         """Run it up to the comparison, in this process."""
         return run(self.folder, **({"workers": 1, "until": "compare"} | options))
 
-    def complete(self) -> None:
+    def complete(self):
         """Run all of it, with the report."""
         assert not self.run(until="report").failed
 
-    def redone(self, **options: Any) -> dict[tuple[str, str], str]:
+    def redone(self, **options):
         """Run it; return the reason of each stage that was executed."""
         return {(stage.subject, stage.stage): stage.because for stage in self.run(**options).stages if stage.because}
 
-    def summary(self) -> Any:
+    def summary(self):
         """Return summary.json."""
         return json.loads(self.layout.summary_json.read_text(encoding="utf-8"))
 
-    def files(self) -> dict[str, tuple[int, str]]:
+    def files(self):
         """Time and hash of every file but the lock, which holds nothing."""
         return {
             path.relative_to(self.folder).as_posix(): (path.stat().st_mtime_ns, sha256(path.read_bytes()).hexdigest())
@@ -111,25 +108,25 @@ class Small:
             if path.is_file() and path != self.layout.lock
         }
 
-    def contents(self) -> dict[str, str]:
+    def contents(self):
         """Hash of the values of every result; each is whole, or this raises."""
         return {
             path.relative_to(self.folder).as_posix(): files.read(path).attrs["content"]
             for path in sorted(self.layout.processed.rglob("*.nc"))
         }
 
-    def raw(self, test: str) -> Path:
+    def raw(self, test):
         """Raw file of a test."""
         return self.folder / "raw" / f"{test}.csv"
 
-    def change_a_sample(self, test: str, line: int = 300) -> None:
+    def change_a_sample(self, test, line=300):
         """Add 0.1 mm to one sample of the transducer."""
         lines = self.raw(test).read_text(encoding="utf-8").splitlines()
         time, top, table = lines[line].split(",")
         lines[line] = f"{time},{float(top) + 0.1:.6f},{table}"
         self.raw(test).write_text("\n".join(lines) + "\n", encoding="utf-8")
 
-    def edit(self, before: str, after: str) -> None:
+    def edit(self, before, after):
         """Change campaign.toml."""
         path = self.folder / "campaign.toml"
         text = path.read_text(encoding="utf-8")

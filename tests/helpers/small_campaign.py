@@ -1,9 +1,5 @@
 """A small virtual campaign with all that a report can meet, and its results from one real run."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 from scipy.signal import butter, sosfiltfilt
 
@@ -13,7 +9,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.runs import write
-from colonnade.laboratory.table import TableMotion, ramped_sine, recorded, still
+from colonnade.laboratory.table import ramped_sine, recorded, still
 from colonnade.workflow import run
 from prism import PRISM
 
@@ -70,7 +66,7 @@ why = '{MARKUP}'
 """
 
 
-def _shaking(strength: float) -> TableMotion:
+def _shaking(strength):
     time = np.arange(1200) / 200.0
     noise = np.random.default_rng(7).normal(size=time.size)
     shaking = sosfiltfilt(butter(2, [1, 8], "bandpass", fs=200, output="sos"), noise)
@@ -78,7 +74,7 @@ def _shaking(strength: float) -> TableMotion:
     return recorded(Motion(strength * shaking / np.abs(shaking).max(), 1 / 200.0), start=1.0)
 
 
-def _plan() -> Plan:
+def _plan():
     frame = Setup({MAIN: Recorder((*ON_SPECIMEN, *ON_TABLE), RATE)})
     watched = Setup({MAIN: Recorder(ON_TABLE, RATE)})
     free = [
@@ -123,7 +119,7 @@ def _plan() -> Plan:
     )
 
 
-def write_small_campaign(folder: Path) -> None:
+def write_small_campaign(folder):
     """Shake the virtual table; one raw file is empty, and in one the accelerometer is the wrong way round."""
     write(_plan(), folder)
     with (folder / "campaign.toml").open("a", encoding="utf-8") as campaign_file:
@@ -133,13 +129,13 @@ def write_small_campaign(folder: Path) -> None:
     _turn_accelerometer(folder / "raw" / "free-refused.csv")
 
 
-def _turn_accelerometer(path: Path) -> None:
+def _turn_accelerometer(path):
     head, units, *rows = path.read_text(encoding="utf-8").splitlines()
     turned = (f"{others},{-float(value):.6f}" for others, value in (row.rsplit(",", 1) for row in rows))
     path.write_text("\n".join((head, units, *turned, "")), encoding="utf-8")
 
 
-def run_small_campaign(folder: Path) -> None:
+def run_small_campaign(folder):
     """Run it but for one test: tests are done, refused, overturned, failed, not run, or seen but not measured."""
     write_small_campaign(folder)
     run(folder, only=[name for name in load(folder).tests if name != LATER], until="compare", workers=1)

@@ -1,9 +1,6 @@
 """Sound virtual tests of every kind: block, rig, motion and noise are drawn, and nothing is wrong with any of them."""
 
-from __future__ import annotations
-
 import re
-from pathlib import Path
 
 import numpy as np
 
@@ -13,7 +10,7 @@ from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specime
 from colonnade.laboratory.files import COMMAS
 from colonnade.laboratory.instruments import Imperfections, Transducer
 from colonnade.laboratory.runs import write
-from colonnade.laboratory.table import TableMotion, ramped_sine, recorded, still
+from colonnade.laboratory.table import ramped_sine, recorded, still
 from colonnade.signals.filters import lowpass
 
 KINDS = ("free-vibration", "sine", "earthquake", "pulse")
@@ -24,7 +21,7 @@ CALIBRATION = 0.005
 """Standard deviation of a gain, relative, as a calibrated chain has it."""
 
 
-def write_sound(folder: Path, seed: int) -> Path:
+def write_sound(folder, seed):
     """Write a campaign of a block's four tests, one of each kind, on the rig of this seed."""
     rng = np.random.default_rng([26, seed])
     height = rng.uniform(0.4, 1.2)
@@ -52,7 +49,7 @@ def write_sound(folder: Path, seed: int) -> Path:
     return path
 
 
-def _trial(kind: str, block: Block, rng: np.random.Generator) -> Trial:
+def _trial(kind, block, rng):
     quiet = rng.uniform(1.2, 2.0)
     if kind == "free-vibration":
         held = rng.choice([-1.0, 1.0]) * rng.uniform(0.3, 0.7) * block.critical_angle
@@ -69,7 +66,7 @@ def _trial(kind: str, block: Block, rng: np.random.Generator) -> Trial:
     return Trial(kind, kind, "rig", table.stop + 12.0 / block.p, table=table, entry=given)
 
 
-def _earthquake(peak: float, p: float, rng: np.random.Generator) -> Motion:
+def _earthquake(peak, p, rng):
     """Draw an earthquake whose frequencies suit the block."""
     interval = 0.03 / p
     time = interval * np.arange(int(rng.integers(800, 1600)))
@@ -79,9 +76,7 @@ def _earthquake(peak: float, p: float, rng: np.random.Generator) -> Motion:
     return Motion(peak * values / np.abs(values).max(), interval)
 
 
-def _setups(
-    name: str, trials: tuple[Trial, ...], block: Block, height: float, width: float, rng: np.random.Generator
-) -> dict[str, Setup]:
+def _setups(name, trials, block, height, width, rng):
     moves = [_range(trial.table) for trial in trials]
     spare = rng.uniform(1.2, 2.5)
     moved, shaken = (spare * max(each) for each in zip(*moves, strict=True))
@@ -113,7 +108,7 @@ def _setups(
     return {"bench": bench, "rig": Setup(recorders, catch=catch)}
 
 
-def _range(table: TableMotion) -> tuple[float, float]:
+def _range(table):
     if table.stop == still().stop:
         return 0.0, 0.0
     time = np.linspace(0.0, table.stop, 5000)

@@ -1,7 +1,5 @@
 """Samples of populations of capacities with known truth."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from fragilities import population

@@ -1,7 +1,5 @@
 """Virtual sine tests of a prism whose truth differs from the model that predicts its limits."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
@@ -60,7 +58,7 @@ class Truth:
     sine: Sine
 
     @classmethod
-    def drawn(cls, seed: int, sine: Sine) -> Truth:
+    def drawn(cls, seed, sine):
         """Draw the truth of a seed; e is wrong upwards for even seeds and downwards for odd ones."""
         rng = np.random.default_rng([seed, 1])
         angle, p = np.exp(WRONG_BLOCK * rng.standard_normal(2))
@@ -70,14 +68,14 @@ class Truth:
         )
 
     @cached_property
-    def block(self) -> Block:
+    def block(self):
         return member_block(PRISM, self.critical_angle, self.p)
 
-    def overturns(self, frequency: float, amplitude_ratio: float, rng: np.random.Generator) -> bool:
+    def overturns(self, frequency, amplitude_ratio, rng):
         """Run one test by the nonlinear model."""
         return self._run(frequency, amplitude_ratio, rng.standard_normal(4))
 
-    def _run(self, frequency: float, amplitude_ratio: float, drawn) -> bool:
+    def _run(self, frequency, amplitude_ratio, drawn):
         phase, restitution, tilt, gain = drawn * (PHASE, RESTITUTION_SCATTER, TILT, GAIN)
         dt = 1 / (frequency * SAMPLES_A_CYCLE)
         rise, end = self.sine.ramp / frequency, (self.sine.cycles + 2 * self.sine.ramp) / frequency
@@ -94,12 +92,12 @@ class Truth:
         )
         return history.outcome == "overturned"
 
-    def surface(self, frequency: float, amplitudes, draws: int):
+    def surface(self, frequency, amplitudes, draws):
         """Share of tests that overturn at each A, the same draws at all of them."""
         drawn = np.random.default_rng(12345).standard_normal((draws, 4))
         return np.array([np.mean([self._run(frequency, a, d) for d in drawn]) for a in amplitudes])
 
-    def boundary(self, frequency: float, near: float, draws: int = DRAWS) -> float:
+    def boundary(self, frequency, near, draws=DRAWS):
         """A at which half of the tests overturn, for the first time going up over at least 1 %; NaN if never."""
         coarse = near * np.exp(np.arange(-0.16, 0.2, 0.02))
         share = self.surface(frequency, coarse, draws // 3)
@@ -115,7 +113,7 @@ class Truth:
         return float(np.interp(0.5, share[at - 1 : at + 1], fine[at - 1 : at + 1]))
 
 
-def _tilted(block: Block, tilt: float) -> Block:
+def _tilted(block, tilt):
     """The block at rest on a base that leans by a fraction of α: sooner over to one side, later to the other."""
     sides = (
         Side(side.critical_angle * (1 + sign * tilt), side.pole_distance, side.inertia)
@@ -124,7 +122,7 @@ def _tilted(block: Block, tilt: float) -> Block:
     return Block(block.mass, block.gravity, *sides, block.solid)
 
 
-def predicted_limits(sine: Sine, restitution: float = RESTITUTION, frequencies=FREQUENCIES):
+def predicted_limits(sine, restitution=RESTITUTION, frequencies=FREQUENCIES):
     """`lower` of the linear model's map at the frequencies of the tests."""
     chart = stability_map(
         PRISM,

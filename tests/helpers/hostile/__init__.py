@@ -5,10 +5,6 @@ A hostile file for each library that parses a stranger's file: it runs a program
 line. None of them may do it.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable
-
 from hostile.documents import open_document_entity, pickle_as_text, text_formulas, workbook_entity, workbook_of_97
 from hostile.measurement import diadem_elsewhere, diadem_entity, tdms_index
 from hostile.place import SECRET, Hostile, Place, secrets
@@ -24,7 +20,7 @@ from hostile.seismic import gse, mini_seed, seismic_pickle
 
 __all__ = ["FILES", "SECRET", "Hostile", "Place", "secrets"]
 
-FILES: dict[str, Callable[[Place], Hostile]] = {
+FILES = {
     writer.__name__: writer
     for writer in (
         *(seismic_pickle, pickle_as_text, numpy_object, mini_seed, gse, tdms_index, netcdf_elsewhere),

@@ -1,21 +1,19 @@
 """Hostile text and workbooks."""
 
-from __future__ import annotations
-
 import pickle
 import zipfile
 
-from hostile.place import TIME, Hostile, Place, Program
+from hostile.place import TIME, Hostile, Program
 
 
-def pickle_as_text(place: Place) -> Hostile:
+def pickle_as_text(place):
     """A pickle by the name of a text file: runs a program."""
     path = place.folder / "r.csv"
     path.write_bytes(pickle.dumps(Program(place.victim), protocol=0))
     return Hostile(path)
 
 
-def workbook_entity(place: Place) -> Hostile:
+def workbook_entity(place):
     """calamine: an entity that is another file, and one that swells."""
     path = place.folder / "r.xlsx"
     spread = "".join(f'<!ENTITY e{n} "{f"&e{n - 1};" * 10}">' for n in range(1, 10))
@@ -47,7 +45,7 @@ def workbook_entity(place: Place) -> Hostile:
     return Hostile(path)
 
 
-def open_document_entity(place: Place) -> Hostile:
+def open_document_entity(place):
     """calamine, OpenDocument: an entity that is another file."""
     path = place.folder / "r.ods"
     secret = (place.secrets / "secret.txt").as_uri()
@@ -65,7 +63,7 @@ def open_document_entity(place: Place) -> Hostile:
     return Hostile(path)
 
 
-def workbook_of_97(place: Place) -> Hostile:
+def workbook_of_97(place):
     """calamine, Excel 97: sound, to be damaged."""
     import xlwt
 
@@ -79,7 +77,7 @@ def workbook_of_97(place: Place) -> Hostile:
     return Hostile(path)
 
 
-def text_formulas(place: Place) -> Hostile:
+def text_formulas(place):
     """pandas and own parsers of text: cells, names and units that are programs."""
     path = place.folder / "r.txt"
     program = f"__import__('os').mkdir('{place.victim}')"

@@ -1,11 +1,9 @@
 """Hostile files of measurement systems: TDMS, DIAdem."""
 
-from __future__ import annotations
-
-from hostile.place import COUNTS, SECRET, Hostile, Place
+from hostile.place import COUNTS, SECRET, Hostile
 
 
-def tdms_index(place: Place) -> Hostile:
+def tdms_index(place):
     """npTDMS: has the index of another file beside it, and text, timestamps and a property."""
     from nptdms import ChannelObject, TdmsWriter
 
@@ -20,7 +18,7 @@ def tdms_index(place: Place) -> Hostile:
     return Hostile(path)
 
 
-def diadem_entity(place: Place) -> Hostile:
+def diadem_entity(place):
     """expat, in the header of a DIAdem data set: an entity that is another file."""
     path = place.folder / "r.TDM"
     secret = (place.secrets / "secret.txt").as_uri()
@@ -32,7 +30,7 @@ def diadem_entity(place: Place) -> Hostile:
     return Hostile(path)
 
 
-def diadem_elsewhere(place: Place) -> Hostile:
+def diadem_elsewhere(place):
     """Own parser of DIAdem: values in a file elsewhere."""
     path = place.folder / "elsewhere.TDM"
     files, channels = "", ""

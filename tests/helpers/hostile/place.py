@@ -1,7 +1,5 @@
 """What hostile files share: where they are, what they would read, and what they would make."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -35,14 +33,14 @@ class Place(NamedTuple):
 class Program:
     """What a pickle may hold."""
 
-    def __init__(self, victim: Path) -> None:
+    def __init__(self, victim):
         self.victim = victim
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self):
         return os.mkdir, (str(self.victim),)
 
 
-def secrets(folder: Path) -> None:
+def secrets(folder):
     """Write what must not be read."""
     import h5py
 

@@ -1,25 +1,22 @@
 """Hostile files of NumPy, HDF5, NetCDF and MATLAB."""
 
-from __future__ import annotations
-
 import struct
 import warnings
 import zlib
-from typing import Any
 
 import numpy as np
 
-from hostile.place import SWOLLEN, TIME, Hostile, Place, Program
+from hostile.place import SWOLLEN, TIME, Hostile, Program
 
 
-def numpy_object(place: Place) -> Hostile:
+def numpy_object(place):
     """NumPy's own format: runs a program."""
     path = place.folder / "r.npy"
     np.save(path, np.array([Program(place.victim)], dtype=object), allow_pickle=True)
     return Hostile(path)
 
 
-def _elsewhere(file: Any, place: Place) -> None:
+def _elsewhere(file, place):
     import h5py
 
     secret = str(place.secrets / "secret.h5")
@@ -33,7 +30,7 @@ def _elsewhere(file: Any, place: Place) -> None:
     file["circle"] = h5py.SoftLink("/circle")
 
 
-def netcdf_elsewhere(place: Place) -> Hostile:
+def netcdf_elsewhere(place):
     """h5py, as NetCDF: takes numbers from another file."""
     import h5py
 
@@ -43,7 +40,7 @@ def netcdf_elsewhere(place: Place) -> Hostile:
     return Hostile(path)
 
 
-def matlab_elsewhere(place: Place) -> Hostile:
+def matlab_elsewhere(place):
     """h5py, as MATLAB 7.3: takes numbers from another file."""
     import h5py
 
@@ -57,7 +54,7 @@ def matlab_elsewhere(place: Place) -> Hostile:
     return Hostile(path)
 
 
-def hdf5_swelling(place: Place) -> Hostile:
+def hdf5_swelling(place):
     """h5py: a dataset of a terabyte in a few kilobytes."""
     import h5py
 
@@ -68,7 +65,7 @@ def hdf5_swelling(place: Place) -> Hostile:
     return Hostile(path)
 
 
-def matlab_swelling(place: Place) -> Hostile:
+def matlab_swelling(place):
     """Own parser of MATLAB 5: a variable of a quarter of a gigabyte in a quarter of a megabyte."""
     size = SWOLLEN + 8
     head = (
@@ -83,7 +80,7 @@ def matlab_swelling(place: Place) -> Hostile:
     return Hostile(path)
 
 
-def netcdf_classic(place: Place) -> Hostile:
+def netcdf_classic(place):
     """SciPy's NetCDF 3: a dimension of two thousand million."""
     from scipy.io import netcdf_file
 

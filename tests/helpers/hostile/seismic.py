@@ -1,20 +1,18 @@
 """Hostile files of seismology."""
 
-from __future__ import annotations
-
 import pickle
 
-from hostile.place import COUNTS, Hostile, Place, Program
+from hostile.place import COUNTS, Hostile, Program
 
 
-def seismic_pickle(place: Place) -> Hostile:
+def seismic_pickle(place):
     """ObsPy, PICKLE: runs a program."""
     path = place.folder / "r.pickle"
     path.write_bytes(pickle.dumps(Program(place.victim)))
     return Hostile(path, "waveform", {"kind": "PICKLE"})
 
 
-def mini_seed(place: Place) -> Hostile:
+def mini_seed(place):
     """ObsPy's library in C: sound, to be damaged."""
     import obspy
 
@@ -24,7 +22,7 @@ def mini_seed(place: Place) -> Hostile:
     return Hostile(path)
 
 
-def gse(place: Place) -> Hostile:
+def gse(place):
     """ObsPy's other library in C: sound, to be damaged."""
     import obspy
 
