@@ -5,20 +5,17 @@ Marked slow; `python -m pytest -m slow tests/benchmarks/test_engine_speed.py -s`
 """
 
 import itertools
-import math
-import time
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 import paper_schemes as schemes
-from colonnade.dynamics.plane.harmonic.march import Watch, run
-from colonnade.dynamics.plane.harmonic.nonlinear import empty_series
 from colonnade.dynamics.plane.nonlinear import by_series
 from colonnade.dynamics.plane.sampled_march import propagate
 from colonnade.dynamics.plane.sides import sides_of
 from prism import PRISM
+from processor_time import seconds_of
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
 RESTITUTION, REST = 0.976, 1e-6
@@ -50,16 +47,6 @@ def _records():
     """Sines sampled at 500 Hz for 8 s, linear between samples, under which the prism rocks throughout: a/g."""
     moment = np.arange(0, 8, INTERVAL)
     return [level * ALPHA * np.sin(2 * np.pi * hertz * moment) for hertz, level in ((4, 1.5), (5, 1.6), (7, 2.5))]
-
-
-def _seconds(function, times):
-    function()
-    best = math.inf
-    for _ in range(times):
-        begin = time.process_time()
-        function()
-        best = min(best, time.process_time() - begin)
-    return best
 
 
 def _exact(base, series=None):
@@ -118,8 +105,8 @@ def test_the_exact_engine_beside_solve_ivp_and_the_papers_runge_kutta(capsys):
         errors = [_error(angles, reference), _error(theirs, reference), _error(papers(base)[0], reference)]
         assert errors[0] < 1e-11
         assert errors[1] < 1e-11
-        own = _seconds(lambda base=base: _exact(base), 100)
-        seconds = _seconds(lambda base=base: _solve_ivp(base), 1), _seconds(lambda base=base: papers(base), 5)
+        own = seconds_of(lambda base=base: _exact(base), 100)
+        seconds = seconds_of(lambda base=base: _solve_ivp(base), 1), seconds_of(lambda base=base: papers(base), 5)
         rows.append((own, *seconds, *errors, impact_times.size))
     ratios = [[row[k] / row[0] for row in rows] for k in (1, 2)]
     cost = [steps * base.size * row[0] / row[2] for base, row in zip(records, rows, strict=True)]
@@ -143,8 +130,8 @@ def test_the_exact_engine_beside_a_bare_pass_over_the_samples(capsys):
     moment = np.arange(0, 50, 0.002)
     base = np.sin(2 * np.pi * 4 * moment) * ALPHA
     written = np.empty_like(base)
-    bare = _seconds(lambda: np.multiply(base, 2.0, out=written), 200)
-    costs = {level: _seconds(lambda level=level: _exact(level * base), 30) for level in (0.9, 1.5)}
+    bare = seconds_of(lambda: np.multiply(base, 2.0, out=written), 200)
+    costs = {level: seconds_of(lambda level=level: _exact(level * base), 30) for level in (0.9, 1.5)}
     with capsys.disabled():
         print(f"\nbare pass: {1e9 * bare / base.size:.2f} ns a sample", end="")
         for level, cost in costs.items():
@@ -154,90 +141,3 @@ def test_the_exact_engine_beside_a_bare_pass_over_the_samples(capsys):
             )
         print()
     assert costs[1.5] / bare < 200
-
-
-class Heyoka:
-    """heyoka's Taylor integrator of the same nonlinear block under a sine, landings by terminal events."""
-
-    def __init__(self, heyoka, tolerance):
-        angle, velocity = heyoka.make_vars("angle", "velocity")
-        side, level, omega, end = (heyoka.par[k] for k in range(4))
-        lean = ALPHA * side - angle
-        turning = -(heyoka.sin(lean) + level * heyoka.sin(omega * heyoka.time) * heyoka.cos(lean))
-        events = [
-            heyoka.t_event(angle, callback=lambda integrator, _: self._land(integrator)),
-            heyoka.t_event(side * angle - end),
-        ]
-        self.integrator = heyoka.taylor_adaptive(
-            [(angle, velocity), (velocity, turning)], [0.0, 0.0], pars=[0.0] * 4, t_events=events, tol=tolerance
-        )
-
-    def _land(self, integrator):
-        side = -integrator.pars[0]
-        self.impacts.append((integrator.time, integrator.state[1]))
-        velocity = RESTITUTION * integrator.state[1]
-        integrator.pars[0], integrator.state[1] = side, velocity
-        base = integrator.pars[1] * math.sin(integrator.pars[2] * integrator.time)
-        holding = math.sin(ALPHA) + side * base * math.cos(ALPHA)
-        return not (holding >= 0 and velocity**2 / 2 <= REST * ALPHA * holding)
-
-    def run(self, omega, level, end):
-        """Times (1/p) and velocities (p) of the impacts from rest to `end`, to rest, or past return."""
-        integrator, self.impacts = self.integrator, []
-        integrator.reset_cooldowns()
-        uplift = math.asin(math.tan(ALPHA) / level) / omega
-        # It needs to be off θ = 0: just after uplift θ = −b' x³/6, b' the rate of the moment.
-        x, rate = 1e-5, math.sqrt(level**2 - math.tan(ALPHA) ** 2) * omega * math.cos(ALPHA)
-        integrator.time = uplift + x
-        integrator.state[:] = -rate * x**3 / 6, -rate * x**2 / 2
-        integrator.pars[:] = -1.0, level, omega, ALPHA + math.atan(level)
-        integrator.propagate_until(end)
-        return np.array(self.impacts).reshape(-1, 2)
-
-
-def _harmonic(omega, level, end, impacts):
-    edges = np.array([0.0, end / P, end / P])
-    watch = Watch(0.0, 1e-3, 1.0, np.empty((0, 2)), impacts)
-    _, _, count = run((omega * P, 0.0, level), edges, None, SIDES, watch, empty_series())
-    return impacts[:count] * [P, 1 / P]
-
-
-def _agreement(first, second, until):
-    count = min(len(first), len(second), until)
-    return np.abs(first[:count] - second[:count])[:, 1].max(initial=0.0) / ALPHA
-
-
-def test_the_nonlinear_engine_beside_heyoka(capsys):
-    heyoka = pytest.importorskip("heyoka", reason="the extra `bench` is not installed")
-    rng = np.random.default_rng(1)
-    points = list(zip(rng.uniform(1.1, 7.8, 300), rng.uniform(1.1, 4.0, 300) * math.tan(ALPHA), strict=True))
-    runs = [(omega, level, 40 * np.pi / omega) for omega, level in points]
-    impacts = np.empty((4096, 2))
-    exact = Heyoka(heyoka, 1e-15)
-    horizons, own_errors = [], []
-    for omega, level, end in runs:
-        mine = _harmonic(omega, level, end, impacts)
-        moved = _harmonic(omega, level * (1 + 1e-13), end, np.empty((4096, 2)))
-        count = min(len(mine), len(moved))
-        parted = np.abs(mine[:count] - moved[:count])[:, 1] > 1e-10 * ALPHA
-        horizons.append(int(np.argmax(parted)) if parted.any() else count)
-        own_errors.append(_agreement(mine, exact.run(omega, level, end), horizons[-1]))
-    own = _seconds(lambda: [_harmonic(*run, impacts) for run in runs], 5)
-    rows = []
-    for tolerance in (1e-10, 1e-12, 1e-14):
-        peer = Heyoka(heyoka, tolerance)
-        errors = [
-            _agreement(peer.run(*run), _harmonic(*run, impacts), horizon)
-            for run, horizon in zip(runs, horizons, strict=True)
-        ]
-        rows.append((tolerance, max(errors), _seconds(lambda peer=peer: [peer.run(*run) for run in runs], 2)))
-    with capsys.disabled():
-        print(
-            f"\nnonlinear harmonic: {len(runs) / own:,.0f} trajectories/s, largest error before the horizon "
-            f"{max(own_errors):.0e} α, median {np.median(own_errors):.0e}; {np.mean(horizons):.1f} impacts on average"
-        )
-        for tolerance, error, seconds in rows:
-            print(f"heyoka at {tolerance:g}: {len(runs) / seconds:,.0f}/s, {error:.0e} α; ratio {seconds / own:.1f}")
-    assert max(own_errors) < 1e-9
-    accurate = min(seconds for _, error, seconds in rows if error < 1e-9)
-    assert accurate / own >= 2

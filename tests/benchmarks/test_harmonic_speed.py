@@ -13,13 +13,13 @@ installed by the extra `bench`.
 import math
 import time
 from concurrent.futures import ThreadPoolExecutor
-from functools import partial
 
 import numpy as np
 import pytest
 
 from colonnade.dynamics.plane.harmonic.motion import Harmonic, harmonic_outcomes, harmonic_run
 from prism import PRISM
+from processor_time import seconds_of
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
 CYCLES, RESTITUTION = 30, 0.976
@@ -84,16 +84,6 @@ def last_state(model, ratio, amplitude):
     return np.array([run.angle[1] / ALPHA, run.angular_velocity[1] / (ALPHA * P)])
 
 
-def processor_seconds(function, times):
-    function()
-    best = math.inf
-    for _ in range(times):
-        begin = time.process_time()
-        function()
-        best = min(best, time.process_time() - begin)
-    return best
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(("model", "least"), [("linear", 10.0), ("nonlinear", 2.0)])
 def test_trajectories_a_second_beside_heyoka(capsys, model, least):
@@ -112,11 +102,7 @@ def test_trajectories_a_second_beside_heyoka(capsys, model, least):
         for ratio, levels in amplitudes.items():
             harmonic_outcomes(PRISM, Harmonic.cycles(ratio * P, CYCLES), levels, (RESTITUTION,) * 2, model)
 
-    def peers():
-        for case in cases:
-            peer.run(*case)
-
-    seconds, theirs = processor_seconds(own, 20), processor_seconds(peers, 3)
+    seconds, theirs = seconds_of(own, 20), seconds_of(lambda: [peer.run(*case) for case in cases], 3)
     impacts = sum(harmonic_run(PRISM, Harmonic.cycles(ratio * P, CYCLES), level, (RESTITUTION,) * 2, model=model)
                   .impact_times.size for ratio, level, *_ in cases)  # fmt: skip
     with capsys.disabled():
@@ -141,7 +127,7 @@ def test_a_map_of_a_million_points(capsys):
     for threads in (1, 2):
         begin, used = time.perf_counter(), time.process_time()
         with ThreadPoolExecutor(threads) as pool:
-            maps[threads] = np.stack(list(pool.map(partial(column), ratios)))
+            maps[threads] = np.stack(list(pool.map(column, ratios)))
         seconds[threads], busy[threads] = time.perf_counter() - begin, time.process_time() - used
     with capsys.disabled():
         for threads, elapsed in seconds.items():
