@@ -188,8 +188,7 @@ CALLS = {
     ),
     "intensity_measures": Call(colonnade.intensity_measures, {"motion": MOTION}),
     "overturning_spectrum": Call(
-        colonnade.overturning_spectrum,
-        {"block": PRISM, "pulse": "sine", "frequency_ratio": [2.0, 3.0], "largest": 2.0},
+        colonnade.overturning_spectrum, {"block": PRISM, "pulse": "sine", "frequency_ratio": [2.0, 3.0], "largest": 2.0}
     ),
     "fragility": Call(colonnade.fragility, ASKED),
     "Fragility.reaches": Call(colonnade.fragility(**ASKED).reaches, {"probability": 0.5}),

@@ -44,30 +44,17 @@ def sound(tmp_path_factory):
     """A free vibration and an earthquake, without a mistake; the record's other component is known too."""
     folder = tmp_path_factory.mktemp("sound")
     shaken = recorded(_component(1), start=1.5)
+    transducers = (
+        Transducer("top", "LVDT 1", "displacement", "specimen", 0.150, "mm", at=(0.043, 0.0, 0.440)),
+        Transducer("bottom", "LVDT 2", "displacement", "specimen", 0.05, "mm", at=(0.043, 0.0, 0.04)),
+        Transducer("table", "ACT", "displacement", "table", 0.050, "mm"),
+        Transducer("acceleration", "ACC", "acceleration", "table", 20.0, "m/s^2"),
+    )
     plan = Plan(
         campaign="sound",
         title="Without a mistake",
         specimens={"prism": Specimen(SHAPE, PRISM, 0.976)},
-        setups={
-            "rig": Setup(
-                {
-                    MAIN: Recorder(
-                        (
-                            Transducer(
-                                "top", "LVDT 1", "displacement", "specimen", 0.150, "mm", at=(0.043, 0.0, 0.440)
-                            ),
-                            Transducer(
-                                "bottom", "LVDT 2", "displacement", "specimen", 0.05, "mm", at=(0.043, 0.0, 0.04)
-                            ),
-                            Transducer("table", "ACT", "displacement", "table", 0.050, "mm"),
-                            Transducer("acceleration", "ACC", "acceleration", "table", 20.0, "m/s^2"),
-                        ),
-                        250.0,
-                        COMMAS,
-                    )
-                }
-            )
-        },
+        setups={"rig": Setup({MAIN: Recorder(transducers, 250.0, COMMAS)})},
         trials=(
             Trial("free", "free-vibration", "rig", 16.0, theta0=0.55 * PRISM.critical_angle, release=1.5),
             Trial("quake", "earthquake", "rig", shaken.stop + 2.0, table=shaken, entry={"motion": "Valley NS"}),
@@ -257,41 +244,47 @@ SOUND = {"saturated under noise", "another block", "wrapped rows", "copied folde
 """Their free vibration is sound, so that its e takes its time and adds nothing: whole only in `make slow`."""
 
 
+@pytest.fixture
+def first_screen(sound, tmp_path, capsys, monkeypatch):
+    """Plant mistakes in a copy of the sound campaign, and give the first screen of a command."""
+    monkeypatch.setenv("COLUMNS", "400")
+    folder = tmp_path / "campaign"
+    shutil.copytree(sound, folder)
+
+    def of(command, *plants):
+        for plant in plants:
+            plant(folder)
+        capsys.readouterr()
+        invoke((command[0], str(folder), *command[1:]))
+        return "\n".join(capsys.readouterr().out.splitlines()[:SCREEN])
+
+    return of
+
+
+def running(until):
+    return "run", "--until", until, "--workers", "1"
+
+
+commands = pytest.mark.parametrize("command", [("check",), running("condition")], ids=["check", "run"])
+
+
 @pytest.mark.parametrize(
     ("mistake", "size"), [(mistake, size) for mistake, (sizes, _, _) in TABLE.items() for size in sizes]
 )
-@pytest.mark.parametrize(
-    "command", [("check",), ("run", "--until", "condition", "--workers", "1")], ids=["check", "run"]
-)
-def test_a_mistake_of_the_table_is_on_the_first_screen_at_any_size(
-    command, mistake, size, sound, tmp_path, capsys, monkeypatch
-):
-    monkeypatch.setenv("COLUMNS", "400")
+@commands
+def test_a_mistake_of_the_table_is_on_the_first_screen_at_any_size(command, mistake, size, first_screen):
     _, change, expected = TABLE[mistake]
-    folder = tmp_path / "campaign"
-    shutil.copytree(sound, folder)
-    _in_quake(change(size))(folder)
-    invoke((command[0], str(folder), *command[1:]))
-    screen = "\n".join(capsys.readouterr().out.splitlines()[:SCREEN])
+    screen = first_screen(command, _in_quake(change(size)))
     assert re.search(expected, screen), screen
     first = re.search(r"^serious .*", screen, re.MULTILINE)
     assert first is None or re.search(expected, first[0]), screen
 
 
 @pytest.mark.parametrize("mistake", CONTRADICTED)
-@pytest.mark.parametrize(
-    "command", [("check",), ("run", "--until", "condition", "--workers", "1")], ids=["check", "run"]
-)
-def test_a_shaken_test_is_told_what_its_free_vibration_contradicts(
-    command, mistake, sound, tmp_path, capsys, monkeypatch
-):
-    monkeypatch.setenv("COLUMNS", "400")
-    folder = tmp_path / "campaign"
-    shutil.copytree(sound, folder)
-    in_campaign('id = "quake"', f'id = "quake"\nwindow = ["0 s", "{SILENT} s"]')(folder)
-    CONTRADICTED[mistake](folder)
-    invoke((command[0], str(folder), *command[1:]))
-    screen = "\n".join(capsys.readouterr().out.splitlines()[:SCREEN])
+@commands
+def test_a_shaken_test_is_told_what_its_free_vibration_contradicts(command, mistake, first_screen):
+    quiet = in_campaign('id = "quake"', f'id = "quake"\nwindow = ["0 s", "{SILENT} s"]')
+    screen = first_screen(command, quiet, CONTRADICTED[mistake])
     assert re.search(
         r"(serious|warning) \(gain\): campaign file: free contradicts sizes or gains that it shares with quake, whose "
         r"θ/α is off for the same cause\. Channels top and bottom all show .*would make them agree",
@@ -306,23 +299,14 @@ def test_a_shaken_test_is_told_what_its_free_vibration_contradicts(
         *(pytest.param(mistake, "restitution", marks=pytest.mark.slow) for mistake in sorted(SOUND)),
     ],
 )
-def test_the_first_screen_gives_the_true_cause(mistake, until, sound, tmp_path, capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "400")
+def test_the_first_screen_gives_the_true_cause(mistake, until, first_screen):
     plant, expected = MISTAKES[mistake]
-    folder = tmp_path / "campaign"
-    shutil.copytree(sound, folder)
-    plant(folder)
-    for command in (("check", str(folder)), ("run", str(folder), "--until", until, "--workers", "1")):
-        capsys.readouterr()
-        invoke(command)
-        screen = "\n".join(capsys.readouterr().out.splitlines()[:SCREEN])
+    for screen in (first_screen(("check",), plant), first_screen(running(until))):
         assert re.search(expected, screen), screen
         found = re.search(r"^(serious|warning) .*", screen, re.MULTILINE)
         assert found is None or re.search(expected, found[0]) or mistake in ("wrapped rows", "empty file"), found
 
 
-def test_without_a_mistake_there_is_nothing_but_notes(sound, tmp_path, capsys):
-    folder = tmp_path / "campaign"
-    shutil.copytree(sound, folder)
-    assert invoke(("check", str(folder), "--strict")) == 0
+def test_without_a_mistake_there_is_nothing_but_notes(sound, capsys):
+    assert invoke(("check", str(sound), "--strict")) == 0
     assert "serious" not in capsys.readouterr().out

@@ -42,11 +42,7 @@ def test_every_setting_has_its_place_default_and_unit(pages):
 
 @pytest.mark.parametrize(
     ("page", "path", "model"),
-    [
-        ("tests", "tests", test.Test),
-        ("specimens", "specimens.<id>", Prism),
-        ("specimens", "specimens.<id>", Measured),
-    ],
+    [("tests", "tests", test.Test), ("specimens", "specimens.<id>", Prism), ("specimens", "specimens.<id>", Measured)],
 )
 def test_every_key_of_a_model_has_its_place(pages, page, path, model):
     for key, purpose in model.purposes().items():

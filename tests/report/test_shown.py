@@ -110,10 +110,7 @@ def test_the_summary_counts_tests_and_gives_each_restitution(overview):
 @pytest.mark.parametrize(
     ("test", "expected"),
     [
-        (
-            "span-2.0",
-            r"0\.\d+( 0\.\d+ ✓){2} prism earthquake done 3 notes 2\.7\d m/s²( 0\.0\d+){2}",
-        ),
+        ("span-2.0", r"0\.\d+( 0\.\d+ ✓){2} prism earthquake done 3 notes 2\.7\d m/s²( 0\.0\d+){2}"),
         ("span-2.5", r"≠ 0\.\d+( 0\.\d+ ≠){2} prism earthquake done .*reviewed .*"),
         ("span-3.0", r"≠ 0\.\d+( overturned ≠){2} prism earthquake done .*"),
         ("sine-dead", r"– – – prism sine failed in ingest – – –"),

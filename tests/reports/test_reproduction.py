@@ -75,11 +75,7 @@ def test_figures_and_tables_of_the_paper_are_all_there(kept):
 
 def test_what_needs_no_test_is_computed_again(kept):
     study = json.loads((REPORTS / STUDY).read_text(encoding="utf-8"))
-    again = {
-        "specimens": tables.specimens(),
-        "table_2": tables.table_2(study),
-        "stable_steps": tables.stable_steps(),
-    }
+    again = {"specimens": tables.specimens(), "table_2": tables.table_2(study), "stable_steps": tables.stable_steps()}
     for name, value in again.items():
         assert rounded(value) == kept[name], name
 
