@@ -22,11 +22,6 @@ def test_measured_and_models_are_drawn_with_what_was_done_above_them():
     assert axes.get_xlim() == pytest.approx((0.0, 10.0), abs=0.5)
 
 
-def test_what_was_not_measured_has_no_line_of_its_own():
-    (axes,) = rocking_angle(None, {"linear": LINEAR}).axes
-    assert MEASURED["color"] not in [line.get_color() for line in axes.lines]
-
-
 def test_in_a_single_column_the_panel_is_lower():
     with journal("double"):
         wide = rocking_angle(MEASURED_CURVE, {}).get_size_inches()

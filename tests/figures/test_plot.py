@@ -129,9 +129,3 @@ def test_a_fragility_is_drawn_over_its_measure_with_its_unit(fragility):
     assert axes.get_xlabel() == "PGV (m/s)"
     drawn = {line.get_label(): line for line in axes.lines}
     assert drawn["curve that only rises"].get_xdata().tolist() == fragility.isotonic.intensity.tolist()
-
-
-def test_spectra_are_drawn_with_both_limits_and_each_slenderness(limits, spectrum):
-    drawn = {line.get_label(): line for line in colonnade.plot(limits).lines}
-    assert drawn["upper limit"].get_ydata().tolist() == limits.upper.tolist()
-    assert "α = 0.4 rad" in {line.get_label() for line in colonnade.plot(spectrum).lines}

@@ -1,9 +1,12 @@
 """A report as its readers meet it: pages as text, tags that nest, links, words."""
 
+import re
 from collections import Counter
 from html.parser import HTMLParser
+from posixpath import dirname, join, normpath
 
 from colonnade.report.build import build
+from colonnade.store.layout import Layout
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.summary import write_summary
 
@@ -69,3 +72,23 @@ def written(layout):
 
 def words_of(text):
     return " ".join(Page(text).words.split())
+
+
+def dead_links(folder):
+    """Links of a report's pages that lead nowhere or out of it, and ids that a page has twice."""
+    texts = written(Layout(folder.parent))
+    files = {path.relative_to(folder).as_posix() for path in folder.rglob("*")}
+    pages = {address: Page(text) for address, text in texts.items()}
+    dead = []
+    for address, page in pages.items():
+        dead += [f"{address} has #{name} twice" for name, times in Counter(page.ids).items() if times > 1]
+        within = set(re.findall(r"url\(#([^)]+)\)", texts[address]))
+        dead += [f"{address} has no #{name}" for name in within - set(page.ids)]
+        for link in set(page.links) - {"data:,"}:
+            path, _, anchor = link.partition("#")
+            path = path.partition("?")[0]  # which tests the table of all tests shows
+            target = normpath(join(dirname(address), path)) if path else address
+            is_there = target in files and (not anchor or anchor in pages[target].ids)
+            if re.match(r"/|[a-z]+:", link) or not is_there:  # a report may be copied elsewhere
+                dead.append(f"{address} leads to {link}")
+    return dead

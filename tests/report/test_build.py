@@ -75,13 +75,16 @@ def test_outdated_results_are_pending_and_not_shown(two_tests):
 def test_pages_of_what_is_no_longer_there_are_removed(empty_campaign, tmp_path):
     campaign, layout = empty_campaign[0], Layout(tmp_path)
     built(campaign, layout)
-    strangers = [layout.report.parent / place for place in ("tests/gone.html", "specimens/gone.html")]
-    own = layout.report.parent / "tests" / "notes.txt"
+    folder = layout.report.parent
+    strangers = [folder / place for place in ("tests/gone.html", "specimens/gone.html", "setups/gone+frame.svg")]
+    own = folder / "tests" / "notes.txt"
     for path in (*strangers, own):
         path.write_text("old", encoding="utf-8")
     built(campaign, layout)
     assert not any(path.exists() for path in strangers)
     assert own.exists()
+    drawn = {path.relative_to(folder).as_posix() for path in (folder / "setups").iterdir()}
+    assert drawn == {addresses.of_setup(*pair) for pair in campaign.combinations}
 
 
 def test_a_campaign_without_any_result_has_a_report(empty_campaign):

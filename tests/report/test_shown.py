@@ -1,14 +1,13 @@
 """What the pages of a whole report show."""
 
 import re
-from collections import Counter
 from posixpath import dirname, join, normpath
 
 import pytest
 
 from colonnade.report import addresses
 from colonnade.store.layout import Layout
-from read_pages import Page, built, words_of, written
+from read_pages import Page, dead_links, words_of, written
 
 STRONG = "sine-3hz-too-strong-for-the-block-1"
 
@@ -32,15 +31,6 @@ def test_there_is_a_page_a_test_a_specimen_and_of_each_kind(texts, filled_campai
     }
 
 
-def test_each_setup_is_drawn_once_in_a_file_of_its_own(filled_campaign, tmp_path):
-    campaign, layout = filled_campaign[0], Layout(tmp_path)
-    (stale := tmp_path / "report" / "setups" / "gone+frame.svg").parent.mkdir(parents=True)
-    stale.write_text("<svg/>", encoding="utf-8")
-    built(campaign, layout, set(campaign.tests))
-    drawn = {path.relative_to(layout.report.parent).as_posix() for path in stale.parent.iterdir()}
-    assert drawn == {addresses.of_setup(*pair) for pair in campaign.combinations}
-
-
 def test_every_page_stands_alone(texts):
     for address, text in texts.items():
         page = Page(text)
@@ -56,22 +46,8 @@ def test_scripts_are_files_of_the_report(texts):
         assert found == addresses.scripts_of(address)
 
 
-def test_ids_are_unique_and_every_link_leads_somewhere(texts, filled_campaign):
-    drawn = {addresses.of_setup(*pair) for pair in filled_campaign[0].combinations}
-    ids = {address: Page(text).ids for address, text in texts.items()}
-    for address, text in texts.items():
-        assert [name for name, times in Counter(ids[address]).items() if times > 1] == []
-        assert set(re.findall(r"url\(#([^)]+)\)", text)) <= set(ids[address])
-        page = Page(text)
-        for link in set(page.links) - set(page.scripts):
-            if link == "data:,":
-                continue
-            assert not re.match(r"/|[a-z]+:", link), (address, link)  # a report may be copied elsewhere
-            target, _, anchor = link.partition("#")
-            target = target.partition("?")[0]  # which tests the table of all tests shows
-            target = normpath(join(dirname(address), target)) if target else address
-            assert target in (texts.keys() | drawn), (address, link)
-            assert not anchor or anchor in ids[target], (address, link)
+def test_ids_are_unique_and_every_link_leads_somewhere(report_folder):
+    assert dead_links(report_folder) == []
 
 
 def test_what_people_wrote_is_shown_as_text_on_every_page(texts):

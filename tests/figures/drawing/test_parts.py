@@ -5,7 +5,7 @@ from math import cos, sin
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.figures.drawing.parts import Rocking, Transducer
+from colonnade.figures.drawing.parts import Rocking
 
 
 def test_a_prism_rocks_about_the_edges_of_its_base():
@@ -22,8 +22,3 @@ def test_the_centre_of_mass_is_nearer_to_the_pole_of_the_smaller_angle():
     assert right - x == pytest.approx(0.60 * sin(0.24))
     assert left == -right
     assert z == pytest.approx((0.61 * cos(0.21) + 0.60 * cos(0.24)) / 2)
-
-
-@pytest.mark.parametrize(("quantity", "turns"), [("angle", True), ("angular_velocity", True), ("displacement", False)])
-def test_a_rotation_is_read_about_its_direction(quantity, turns):
-    assert Transducer("one", quantity, "specimen", (0.0, 1.0, 0.0)).is_turn is turns

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_hex
 from matplotlib.container import ErrorbarContainer
 from matplotlib.figure import Figure
 from scipy import stats
@@ -243,16 +242,6 @@ def test_bars_go_as_far_down_and_up_as_they_say():
 def test_an_unknown_error_has_no_bar():
     (container,) = drawn(np.array([np.nan, 1.0, 1.0, 1.0]))
     assert ends(container)[0] == (10.0, 10.0)
-
-
-def test_the_two_kinds_have_their_own_face_and_label():
-    used = np.array([True, True, False, False])
-    first, second = drawn(np.zeros(4), used=used)
-    assert [first.get_label(), second.get_label()] == list(LABELS)
-    assert list(first.lines[0].get_xdata()) == [0.0, 1.0]
-    assert to_hex(second.lines[0].get_markerfacecolor()) == "#ffffff"
-    assert first.lines[0].get_markerfacecolor() != "white"
-    assert {each.lines[0].get_marker() for each in (first, second)} == {"s"}
 
 
 def test_what_is_not_shown_is_not_there():

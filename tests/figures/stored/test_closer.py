@@ -81,7 +81,3 @@ def test_a_sine_without_a_steady_part_is_not_said_to_have_one():
     )
     picture = closer.picture(Test.model_construct(id="sine"), record, stored, PRISM)
     assert picture.note == "Right: the rocking angle, about the largest angle."
-
-
-def test_what_was_not_run_has_no_picture(known):
-    assert closer.picture(*known("later")) is None

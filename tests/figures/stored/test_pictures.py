@@ -18,12 +18,6 @@ def test_a_test_is_drawn_and_described(known):
     assert len(picture.figure.axes) == 4  # angle, misfit, slide, base
 
 
-def test_a_test_that_was_not_run_has_no_picture(known):
-    test, _, stored, block = known("later")
-    assert record.record(*known("later")) is None
-    assert record.bands(test, stored, block) is None
-
-
 def test_the_base_of_a_free_vibration_is_drawn_only_if_it_drives(known):
     labels = {
         name: [axes.get_ylabel() for axes in record.record(*known(name)).figure.axes]
