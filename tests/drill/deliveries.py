@@ -3,13 +3,10 @@
 import time
 from functools import cache
 
-import numpy as np
 import scipy.io
 from nptdms import ChannelObject, TdmsWriter
 
 import short_campaign
-from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.rock import rock
 from prism import PRISM
 
 CAMPAIGN = f"""{short_campaign.CAMPAIGN}[watch]
@@ -22,28 +19,17 @@ SUFFIXES = ("csv", "txt", "mat", "tdms")
 @cache
 def record(kind, number, rate, duration):
     """One of a few records, with noise."""
-    noise, moment = np.random.default_rng(number), np.arange(0.0, duration, 1 / rate)
-    base, theta0 = np.zeros_like(moment), 0.0
-    if kind == "free":
-        theta0 = (0.3 + 0.05 * number) * PRISM.critical_angle
-    else:
-        shaken = (moment > 1.0) & (moment < 1.3)
-        base = np.where(shaken, (2.2 + 0.15 * number) * np.sin((moment - 1.0) * 2 * np.pi / 0.3), 0.0)
-    angle = rock(PRISM, Motion(base, 1 / rate), restitution=0.93, theta0=theta0).angle
-    return {
-        "time": moment,
-        "top": 440 * np.sin(angle) + 0.01 * noise.standard_normal(moment.size),
-        "table": base + 0.002 * noise.standard_normal(moment.size),
-    }
+    moved = (
+        {"theta0": (0.3 + 0.05 * number) * PRISM.critical_angle} if kind == "free" else {"pulse": 2.2 + 0.15 * number}
+    )
+    return short_campaign.record(number, rate=rate, duration=duration, **moved)
 
 
 def content(columns, suffix, scratch):
     """Give the bytes of a file of this kind."""
     path = scratch / f"content.{suffix}"
     if suffix in ("csv", "txt"):
-        sign = "," if suffix == "csv" else "\t"
-        rows = np.column_stack(list(columns.values()))
-        np.savetxt(path, rows, delimiter=sign, header=sign.join(columns), comments="", fmt="%.6f")
+        short_campaign.write_columns(path, columns, "," if suffix == "csv" else "\t")
         if suffix == "txt":
             path.write_text(path.read_text().replace(".", ","))
     elif suffix == "mat":

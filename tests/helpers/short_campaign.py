@@ -44,24 +44,25 @@ def write_campaign(folder, tests=TESTS):
     for number, (name, kind) in enumerate(tests.items()):
         text += f'[[tests]]\nid = "{name}"\nkind = "{kind}"\nfile = "raw/{name}.csv"\n'
         text += 'specimen = "prism"\nsetup = "frame"\n\n'
-        _write_raw(folder / "raw" / f"{name}.csv", kind, number)
+        moved = {"theta0": 0.5 * PRISM.critical_angle} if kind == "free-vibration" else {"pulse": 2.4 + 0.2 * number}
+        write_columns(folder / "raw" / f"{name}.csv", record(number, **moved))
     (folder / "campaign.toml").write_text(text, encoding="utf-8")
     return folder
 
 
-def _write_raw(path, kind, number):
-    noise = np.random.default_rng(number)
-    time = np.arange(0.0, 8.0, 1 / RATE)
-    base = np.zeros_like(time)
-    if kind == "free-vibration":
-        angle = rock(PRISM, Motion(base, 1 / RATE), restitution=0.93, theta0=0.5 * PRISM.critical_angle).angle
-    else:
-        base = np.where((time > 1.0) & (time < 1.3), (2.4 + 0.2 * number) * np.sin((time - 1.0) * 2 * np.pi / 0.3), 0.0)
-        angle = rock(PRISM, Motion(base, 1 / RATE), restitution=0.93).angle
+def record(number, *, theta0=0.0, pulse=0.0, rate=RATE, duration=8.0):
+    """Columns of a release or of a pulse, m/s², with noise: s, mm and m/s²."""
+    noise, time = np.random.default_rng(number), np.arange(0.0, duration, 1 / rate)
+    base = np.where((time > 1.0) & (time < 1.3), pulse * np.sin((time - 1.0) * 2 * np.pi / 0.3), 0.0)
+    angle = rock(PRISM, Motion(base, 1 / rate), restitution=0.93, theta0=theta0).angle
     top = 440 * np.sin(angle) + 0.01 * noise.standard_normal(time.size)
-    table = base + 0.002 * noise.standard_normal(time.size)
-    rows = np.column_stack((time, top, table))
-    np.savetxt(path, rows, delimiter=",", header="time,top,table", comments="", fmt="%.6f")
+    return {"time": time, "top": top, "table": base + 0.002 * noise.standard_normal(time.size)}
+
+
+def write_columns(path, columns, sign=","):
+    """Write them as delimited text."""
+    rows = np.column_stack(list(columns.values()))
+    np.savetxt(path, rows, delimiter=sign, header=sign.join(columns), comments="", fmt="%.6f")
 
 
 def copied(campaign, folder):

@@ -1,22 +1,18 @@
 """The convergence study says what the program gives today."""
 
-import json
-from pathlib import Path
-
 import pytest
 
 import convergence
+from study import HERE
 
-REPORTS = Path(__file__).resolve().parents[2] / "reports"
 COUNTS = (1, 10, 100)
 
 
-def test_errors_and_orders_are_those_of_the_report():
-    then = json.loads((REPORTS / "convergence.json").read_text(encoding="utf-8"))
+def test_errors_and_orders_are_those_of_the_report(found):
     now = convergence.measure(COUNTS)
-    assert len(now) == len(then)
+    assert len(now) == len(found)
     places = [convergence.STEPS_PER_SAMPLE.index(count) for count in COUNTS]
-    for series, kept in zip(now, then, strict=True):
+    for series, kept in zip(now, found, strict=True):
         name = (series.case, series.scheme, series.refinement)
         assert name == (kept["case"], kept["scheme"], kept["refinement"])
         if series.case == "sensitive":
@@ -26,9 +22,9 @@ def test_errors_and_orders_are_those_of_the_report():
             assert error == pytest.approx(kept["errors"][place], rel=0.5, abs=convergence.ROUNDING), name
 
 
-def test_the_page_tells_the_numbers_of_the_study():
-    text = (REPORTS / "convergence.md").read_text(encoding="utf-8")
-    for kept in json.loads((REPORTS / "convergence.json").read_text(encoding="utf-8")):
+def test_the_page_tells_the_numbers_of_the_study(found):
+    text = (HERE / "convergence.md").read_text(encoding="utf-8")
+    for kept in found:
         order = "–" if kept["order"] is None else f"{kept['order']:.2f}"
         row = next(
             line
@@ -37,11 +33,10 @@ def test_the_page_tells_the_numbers_of_the_study():
             and (kept["case"] == "arc" or f"| {'DT/10' if kept['refinement'] > 1 else 'DT'} |" in line)
         )
         assert row.split("|")[-2].strip() == order
-    assert (REPORTS / convergence.FIGURE).read_text(encoding="utf-8").startswith("<svg")
+    assert (HERE / convergence.FIGURE).read_text(encoding="utf-8").startswith("<svg")
 
 
-def test_each_scheme_has_its_order_between_contacts_and_the_first_over_them():
-    found = json.loads((REPORTS / "convergence.json").read_text(encoding="utf-8"))
+def test_each_scheme_has_its_order_between_contacts_and_the_first_over_them(found):
     orders = {(kept["case"], kept["scheme"]): kept["order"] for kept in found}
     assert orders["arc", "runge-kutta"] == pytest.approx(4, abs=0.2)
     assert orders["arc", "hamming"] > 4

@@ -1,8 +1,5 @@
 """The study of forecasts: what its numbers promise, and that it gives them again."""
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -13,13 +10,7 @@ from forecasts.campaign import WRONG, run_campaign
 from forecasts.design import draw_motion, draw_specimen
 from forecasts.judging import MAIN
 from forecasts.page import page
-
-REPORTS = Path(__file__).resolve().parents[2] / "reports"
-
-
-@pytest.fixture(scope="module")
-def found():
-    return json.loads((REPORTS / "forecast-study.json").read_text(encoding="utf-8"))
+from study import HERE
 
 
 def check_promises(judged):
@@ -40,8 +31,8 @@ def test_the_stored_study_keeps_its_promises(found):
 
 
 def test_its_page_is_made_from_its_numbers(found):
-    assert (REPORTS / "forecast-study.md").read_text(encoding="utf-8") == page(found, "forecast-study.svg")
-    assert (REPORTS / "forecast-study.svg").read_text(encoding="utf-8").startswith("<svg")
+    assert (HERE / "forecast-study.md").read_text(encoding="utf-8") == page(found, "forecast-study.svg")
+    assert (HERE / "forecast-study.svg").read_text(encoding="utf-8").startswith("<svg")
 
 
 def test_its_first_tests_come_out_as_stored(found):

@@ -1,8 +1,5 @@
 """The study of fragility curves: what its numbers promise, and that it gives them again."""
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -10,8 +7,8 @@ import fragility_study
 from fragilities.page import page
 from fragilities.population import MEDIAN, Population
 from fragilities.trial import PROBABILITIES, run
+from study import HERE
 
-REPORTS = Path(__file__).resolve().parents[2] / "reports"
 LEAST, MOST = 0.92, 0.98
 """Of a coverage of 95 %, within two standard errors of 200 repetitions."""
 
@@ -22,11 +19,6 @@ JUDGED = ("median", "beta", *(f"P = {true:g}" for true in PROBABILITIES))
 
 MISSED = {("10 records, 1 draw, 6 levels, β 0.40", "median")}
 """What is known not to keep its promise: too few records for levels so far apart."""
-
-
-@pytest.fixture(scope="module")
-def found():
-    return json.loads((REPORTS / "fragility-study.json").read_text(encoding="utf-8"))
 
 
 def check_promises(designs):
@@ -52,7 +44,7 @@ def test_the_stored_study_keeps_its_promises(found):
 
 
 def test_its_page_is_made_from_its_numbers(found):
-    assert (REPORTS / "fragility-study.md").read_text(encoding="utf-8") == page(found)
+    assert (HERE / "fragility-study.md").read_text(encoding="utf-8") == page(found)
 
 
 def test_a_small_study_writes_its_page(tmp_path, monkeypatch):

@@ -1,8 +1,6 @@
 """A short study gives what the whole one is held to, on a truth in closed form; the whole one is within its goals."""
 
-import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,8 +15,8 @@ from monte_carlo.integration import integrated_angle
 from monte_carlo.naive import naive_restitution
 from monte_carlo.page import WORDS, page
 from monte_carlo.truth import FreeRocking
+from study import HERE
 
-REPORTS = Path(__file__).resolve().parents[2] / "reports"
 FACTORS = ("restitution", "slenderness", "height", "release", "rate", "noise", "offset", "impacts", "low-pass")
 
 
@@ -26,12 +24,6 @@ FACTORS = ("restitution", "slenderness", "height", "release", "rate", "noise", "
 def short():
     """Numbers of sixty records, of six beyond the design, and of three of each kind that is not as assumed."""
     return restitution_study.numbers(restitution_study.run_trials(60, 7, 1), 7)
-
-
-@pytest.fixture(scope="module")
-def whole():
-    """Numbers of the reference report."""
-    return json.loads((REPORTS / "restitution-study.json").read_text(encoding="utf-8"))
 
 
 @pytest.mark.whole
@@ -129,8 +121,8 @@ def test_the_naive_way_finds_e_where_there_is_neither_noise_nor_offset():
     assert naive_restitution(angle, 0.02) == pytest.approx(0.93, abs=2e-4)
 
 
-def test_every_level_of_the_whole_study_is_within_the_goals(whole):
-    levels = [each for each in whole["levels"] if each["factor"] in FACTORS]
+def test_every_level_of_the_whole_study_is_within_the_goals(found):
+    levels = [each for each in found["levels"] if each["factor"] in FACTORS]
     assert {each["factor"] for each in levels} == set(FACTORS)
     for each in levels:
         name = (each["factor"], each["level"])
@@ -140,11 +132,11 @@ def test_every_level_of_the_whole_study_is_within_the_goals(whole):
         assert each["margin"] > 1, name
 
 
-def test_where_e_scatters_or_noise_is_pink_the_goals_are_kept_or_the_page_names_them(whole):
-    text = (REPORTS / "restitution-study.md").read_text(encoding="utf-8")
-    assert whole["records"] == 5000
-    assert whole["levels"][0]["refused_of_eight"] <= 0.05
-    levels = [each for each in whole["levels"] if each["factor"] in ("scatter", "colour")]
+def test_where_e_scatters_or_noise_is_pink_the_goals_are_kept_or_the_page_names_them(found):
+    text = (HERE / "restitution-study.md").read_text(encoding="utf-8")
+    assert found["records"] == 5000
+    assert found["levels"][0]["refused_of_eight"] <= 0.05
+    levels = [each for each in found["levels"] if each["factor"] in ("scatter", "colour")]
     assert [each["level"] for each in levels] == ["0", "0–0.001", "0.001–0.002", "0.002–0.005", "white", "1/f"]
     for each in levels:
         named = f"- {WORDS[each['factor']]}, {each['level']}: "
@@ -159,17 +151,17 @@ def test_where_e_scatters_or_noise_is_pink_the_goals_are_kept_or_the_page_names_
             assert f"{named}{each['width'] / each['best_width']:.2f} times the best width" in text
 
 
-def test_an_e_that_depends_on_the_speed_is_named_and_its_interval_holds(whole):
-    by_speed, drifting = whole["departures"]
+def test_an_e_that_depends_on_the_speed_is_named_and_its_interval_holds(found):
+    by_speed, drifting = found["departures"]
     assert by_speed["coverage"] >= 0.92
     assert drifting["coverage"] >= 0.92
     # Of 312; the others have too few impacts, or too much scatter, for a change of 0.02 to show.
-    assert whole["named"]["speed"]["speed-dependent restitution"] >= 235
-    assert whole["named"]["drift"]["zero drift"] > 10 * whole["named"]["drift"]["unequal sides"]
+    assert found["named"]["speed"]["speed-dependent restitution"] >= 235
+    assert found["named"]["drift"]["zero drift"] > 10 * found["named"]["drift"]["unequal sides"]
 
 
-def test_records_that_hold_e_are_answered_and_those_that_do_not_are_refused(whole):
-    below, *_, above = whole["bounds"]
+def test_records_that_hold_e_are_answered_and_those_that_do_not_are_refused(found):
+    below, *_, above = found["bounds"]
     assert (below["factor"], below["level"]) == ("in the design", "below 0.001")
     assert below["refused"] <= 0.05
     assert (above["factor"], above["level"]) == ("beyond it", "above 0.003")
@@ -177,11 +169,11 @@ def test_records_that_hold_e_are_answered_and_those_that_do_not_are_refused(whol
     assert above["refused"] > 0.95
 
 
-def test_the_page_tells_the_numbers_of_the_study(whole):
-    text = (REPORTS / "restitution-study.md").read_text(encoding="utf-8")
-    for each in whole["levels"]:
+def test_the_page_tells_the_numbers_of_the_study(found):
+    text = (HERE / "restitution-study.md").read_text(encoding="utf-8")
+    for each in found["levels"]:
         assert f"| {each['level']} | {each['records']} | {each['refused']:.1%} |" in text
-    assert (REPORTS / "restitution-study.svg").read_text(encoding="utf-8").startswith("<svg")
+    assert (HERE / "restitution-study.svg").read_text(encoding="utf-8").startswith("<svg")
 
 
 @pytest.mark.parametrize("slenderness", [3.0, 12.0])

@@ -1,8 +1,5 @@
 """The study of the verdict: its numbers keep what they promise, and its tests give the same ranks again."""
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 from scipy import stats
@@ -14,16 +11,10 @@ from spread_verdicts.design import HEIGHTS, RATE, draw
 from spread_verdicts.judging import WITHIN
 from spread_verdicts.page import page
 from spread_verdicts.trial import run
+from study import HERE
 
 STILL_ROCKING = 175
 """Number of a free vibration that rocks until its record ends."""
-
-REPORTS = Path(__file__).resolve().parents[2] / "reports"
-
-
-@pytest.fixture(scope="module")
-def found():
-    return json.loads((REPORTS / "verdict-study.json").read_text(encoding="utf-8"))
 
 
 def test_a_true_model_is_within_its_spread_at_the_nominal_rate(found):
@@ -67,8 +58,8 @@ def test_the_numbers_are_those_of_the_ranks(found):
 
 
 def test_the_page_is_made_from_the_numbers(found):
-    assert (REPORTS / "verdict-study.md").read_text(encoding="utf-8") == page(found, "verdict-study.svg")
-    assert (REPORTS / "verdict-study.svg").read_text(encoding="utf-8").startswith("<svg")
+    assert (HERE / "verdict-study.md").read_text(encoding="utf-8") == page(found, "verdict-study.svg")
+    assert (HERE / "verdict-study.svg").read_text(encoding="utf-8").startswith("<svg")
 
 
 @pytest.mark.parametrize("name", ["true", "wrong"])

@@ -327,12 +327,6 @@ def test_a_specimen_begins_with_e_and_its_decay_and_the_map_follows(visit):
     assert page.locator("#restitution figure").first.bounding_box()["y"] < 900
 
 
-def test_a_picture_whose_marks_lead_to_tests_can_be_taken_along(visit):
-    page = visit("index.html")
-    page.wait_for_function("document.querySelector('.downloads')")
-    assert page.locator("figure:has(#peaks[role=group]) .downloads button").all_inner_texts() == ["SVG", "PNG", "CSV"]
-
-
 @pytest.mark.parametrize("address", ["specimens/prism.html", "index.html"])
 def test_every_picture_of_every_page_can_be_taken_along(visit, address):
     page = visit(address)

@@ -88,10 +88,6 @@ def test_a_long_table_names_series_that_the_page_has_already():
     assert len(samples.series) == 1
 
 
-def test_a_page_without_pictures_has_no_table():
-    assert tables_of([], Samples())[1] == {}
-
-
 def test_a_table_that_is_too_long_for_a_page_is_left_out(monkeypatch):
     monkeypatch.setattr(panels, "MOST", LONG - 1)
     samples, tables = tables_of([picture(LONG), picture(2)], Samples())

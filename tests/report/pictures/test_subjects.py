@@ -51,13 +51,3 @@ def test_the_campaign_has_a_row_a_test_without_reading_samples(filled_campaign):
     found = subjects.read_of_campaign(*filled_campaign)
     assert [row.id for row in found.rows] == list(filled_campaign[0].tests)
     assert found.failures == ()
-
-
-@pytest.mark.parametrize(
-    ("test", "has"), [("span-2.0", True), ("watched", False), ("free-01", False), ("later", False)]
-)
-def test_a_span_needs_its_setting_and_an_angle(filled_campaign, test, has):
-    found = subjects.read_of_test(*filled_campaign, test)
-    assert subjects.has_span(found) is has
-    if has:
-        assert subjects.span_of(found).row is found.row
