@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from colonnade.errors import ReadError
+from colonnade.readers.bounded.messages import recording_of
 from colonnade.readers.registry import read, read_here
 from damage import KINDS, damaged
 
@@ -41,7 +42,8 @@ def shortest(path, format):
 def outcome(path, format, size, least):
     """Read a file; in one word what came of it. A channel with fewer values than `least` has to be told."""
     try:
-        recording = read(path, format) if format in CRASHING else read_here(path, format, {}, None)
+        bounded = format in CRASHING
+        recording = read(path, format) if bounded else recording_of(path, *read_here(path, format, {}, None))
     except ReadError as error:
         if path.name not in str(error) or len(str(error)) < 30:
             return f"finding: refused without its name or a reason: {error}"

@@ -34,7 +34,7 @@ def format_of(name):
 
 
 def _writers():
-    instruments, binary, excel = _room("conftest"), _room("test_binary_mutations"), _room("excel/test_workbook")
+    instruments, binary, excel = _room("conftest"), _room("test_binary_mutations"), _room("binary/test_excel")
     text, diadem = _room("text/test_delimited_mutations"), _room("binary/test_diadem")
     time = np.arange(40) / 200
     columns = [
