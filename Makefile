@@ -70,13 +70,9 @@ format: $(INSTALLED)
 
 reports: $(INSTALLED)
 	$(BIN)/python reports/rebuild.py
-	$(BIN)/python reports/filter_bias.py
-	$(BIN)/python reports/convergence.py
-	$(BIN)/python reports/linear_bias.py
 	$(BIN)/python reports/fault_atlas.py
 	$(BIN)/python reports/verification.py
 	$(BIN)/python reports/tutorial_pictures.py
-	$(BIN)/python reports/explanation_figures.py
 
 reproduce: $(INSTALLED)
 	$(BIN)/python reports/reproduce.py

@@ -1,9 +1,9 @@
 """
-Estimators of e compared
-========================
+e of a block that is not exactly known
+======================================
 
-Peaks, times between impacts, single impacts and the whole history ask different things of one record. Where their
-intervals do not meet, one of their assumptions does not hold: here the table is tilted by a tenth of a degree.
+The interval of e covers what is not known of the block: here the table is tilted by a tenth of a degree, which the
+estimator allows for and names. A line through the peaks is the cross-check.
 """
 
 import numpy as np
@@ -24,7 +24,7 @@ for name, body in (("level table", block), ("table tilted by 0.1°", tilted)):
     results[name] = colonnade.identify_restitution(free.time, measured, block)
 
 # %%
-# A bold point is the recommended value. A record without one says why in ``result.reason``.
+# A bold point is the value given. A record without one says why in ``result.reason``.
 
 figure, panels = pyplot.subplots(1, 2, layout="constrained", figsize=(8.0, 3.2), sharey=True)
 for axes, (name, result) in zip(panels, results.items(), strict=True):

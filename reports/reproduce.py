@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import os
 from pathlib import Path
 
@@ -44,7 +45,8 @@ def main() -> None:
     parser.add_argument("--workers", type=int, default=None, help="processes; default one a core")
     told = parser.parse_args()
     found = read(perform(told.campaign, told.workers))
-    write(gather(found, HERE), told.folder)
+    kept = json.loads((FOLDER / "results.json").read_text(encoding="utf-8"))
+    write(gather(found, kept), told.folder)
     draw(found, told.folder)
 
 

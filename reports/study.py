@@ -6,10 +6,12 @@ import argparse
 import json
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from colonnade.figures import to_svg
@@ -46,7 +48,9 @@ def _records(value: Any, line: str) -> str:
 
 
 def rounded(value: Any, digits: int) -> Any:
-    """Numbers with so many digits, and None for those that are none."""
+    """Numbers with so many digits, and None for those that are none; arrays are lists."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        value = value.tolist()
     if isinstance(value, dict):
         return {name: rounded(each, digits) for name, each in value.items()}
     if isinstance(value, (list, tuple)):
@@ -61,11 +65,38 @@ def write_figure(path: Path, figure: Figure, title: str, described: str) -> None
     path.write_text(to_svg(figure, identity=path.stem, title=title, description=described), encoding="utf-8")
 
 
+@dataclass(frozen=True)
+class Study:
+    """A study: its name, the page of its numbers and of the name of its figure, and that figure, if it has one."""
+
+    name: str
+    page: Callable[[Any, str], str]
+    draw: Callable[[Any], Figure] | None = None
+    title: str = ""
+    described: str = ""
+
+    def write(self, found: Any, folder: Path) -> None:
+        """Write page, numbers and figure into a folder."""
+        write_numbers(folder / f"{self.name}.json", found)
+        (folder / f"{self.name}.md").write_text(self.page(found, f"{self.name}.svg"), encoding="utf-8")
+        if self.draw is not None:
+            write_figure(folder / f"{self.name}.svg", self.draw(found), self.title, self.described)
+
+    def perform(self, measure: Callable[..., Any], description: str | None, **counts: int) -> None:
+        """Measure as the options say, by default so many, and write what was found."""
+        told = vars(options(description, **counts))
+        folder = told.pop("folder")
+        self.write(measure(**told), folder)
+
+
 def table(heads: Iterable[str], rows: Iterable[Sequence[object]]) -> str:
-    """Write a table in Markdown."""
+    """Write a table in Markdown; what a row is short of is empty."""
     heads = list(heads)
     lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
-    return "\n".join(lines + ["| " + " | ".join(str(cell).replace("|", "\\|") for cell in row) + " |" for row in rows])
+    for row in rows:
+        cells = [str(cell).replace("|", "\\|") for cell in row]
+        lines.append("| " + " | ".join(cells + [""] * (len(heads) - len(cells))) + " |")
+    return "\n".join(lines)
 
 
 def renewed(document: str, marks: tuple[str, str], inside: str) -> str:

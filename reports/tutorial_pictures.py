@@ -22,10 +22,13 @@ from page_blocks import Block, Reader  # noqa: E402
 
 TUTORIAL = PROJECT / "docs" / "tutorial"
 FIGURES = {
-    "free-1.svg": "angle morning free-1",
-    "sine-3Hz.svg": "angle morning sine-3Hz",
-    "quake-1.svg": "angle morning quake-1",
-    "map.svg": "map morning prism",
+    "morning.md": {
+        "free-1.svg": "angle morning free-1",
+        "sine-3Hz.svg": "angle morning sine-3Hz",
+        "quake-1.svg": "angle morning quake-1",
+        "map.svg": "map morning prism",
+    },
+    "drums.md": {"drums-plan.svg": "plan . quake-1", "drums-joints.svg": "joints . quake-1"},
 }
 OVERVIEW = (1000, 1320)
 """Pixels of the picture of the overview."""
@@ -48,15 +51,17 @@ def overview(page: Path) -> bytes:
 
 
 def main() -> None:
-    """Follow the tutorial and draw."""
-    with tempfile.TemporaryDirectory() as folder:
-        reader = Reader(Path(folder))
-        reader.follow(TUTORIAL / "morning.md")
-        for name, asked in FIGURES.items():
-            reader.do(Block(name, "sh", f"colonnade figure {asked} --out {name}\n"))
-        for name in ("drawing.svg", *FIGURES):
-            shutil.copy(reader.folder / name, TUTORIAL / name)
-        (TUTORIAL / "overview.png").write_bytes(overview(reader.folder / "morning" / "report" / "index.html"))
+    """Follow the pages of the tutorial and draw."""
+    for page, figures in FIGURES.items():
+        with tempfile.TemporaryDirectory() as folder:
+            reader = Reader(Path(folder))
+            reader.follow(TUTORIAL / page)
+            for name, asked in figures.items():
+                reader.do(Block(name, "sh", f"colonnade figure {asked} --out {name}\n"))
+                shutil.copy(reader.folder / name, TUTORIAL / name)
+            if page == "morning.md":
+                shutil.copy(reader.folder / "drawing.svg", TUTORIAL / "drawing.svg")
+                (TUTORIAL / "overview.png").write_bytes(overview(reader.folder / "morning" / "report" / "index.html"))
 
 
 if __name__ == "__main__":

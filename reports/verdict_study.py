@@ -2,18 +2,160 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from joblib import Parallel, delayed
+from scipy import stats
 
 from colonnade.campaign.settings import EnsembleSettings
-from spread_verdicts.judging import judge
-from spread_verdicts.page import draw_ranks, page
-from spread_verdicts.trial import Trial, run
-from study import options, write_figure, write_numbers
+from colonnade.figures.style import blank_figure, styled
+from colonnade.identification.response.rank import WITHIN, is_within
+from study import Study, table
+from verdict_trial import DURATION, HEIGHTS, RATE, RESTITUTION_ERROR, Trial, run
 
-NAME = "verdict-study"
+
+def judge(true: Sequence[Trial], wrong: Sequence[Trial], members: int) -> dict[str, Any]:
+    """
+    Count verdicts.
+
+    Parameters
+    ----------
+    true, wrong : sequence of Trial
+        Around the true e, and around a wrong one.
+    members : int
+        Runs of each ensemble.
+
+    Returns
+    -------
+    counted : dict
+        `judged` tests around the true e; `within`, their share within the spread, its `nominal` value, and the interval
+        that holds 95 % of such shares if the verdict is exact (`low`, `high`); `found`, the share of the tests around
+        the wrong e that is outside; `horizon`, the mean predicted share of the records; `overturned`, tests.
+    """
+    ranks = [trial.rank for trial in true if np.isfinite(trial.rank)]
+    nominal = (np.floor(WITHIN * members) + 1) / (members + 1)
+    low, high = stats.binom.interval(0.95, len(ranks), nominal)
+    return {
+        "judged": len(ranks),
+        "within": round(float(np.mean([is_within(rank) for rank in ranks])), 4),
+        "nominal": round(float(nominal), 4),
+        "low": round(low / len(ranks), 4),
+        "high": round(high / len(ranks), 4),
+        "found": round(float(np.mean([not is_within(each.rank) for each in wrong if np.isfinite(each.rank)])), 4),
+        "horizon": round(float(np.nanmean([trial.horizon for trial in true])), 3),
+        "overturned": sum(trial.outcome == "overturned" for trial in true),
+    }
+
+
+TEXT = """# Study of the verdict "within its own spread"
+
+Made by `make study NAME=verdict` (`python reports/verdict_study.py --tests {tests} --seed {seed}`).
+
+The verdict asks whether the measured rocking angle could be one more run of the model. Each run of the ensemble
+gets measurement errors of its own: noise, zero, calibration and low-pass of the measured angle. Each of the {members}
+runs and the measured angle then have a distance: the largest deviation from the median of all others, up to the
+horizon, over half of their 95 % band. The rank of the measured angle is the share of runs with a smaller
+distance. It is within the spread up to a rank of {limit:.2f}.
+
+{tests} tests whose truth is known went through the stages `ingest`, `condition`, `rocking`, `ensemble` and
+`compare`, free vibrations also through `restitution`, which gives their zero offset. Each lasts {duration:g} s at
+{rate:g} samples a second, with prisms of {heights} m. In each, the true e, α, p, clock, gain of the
+accelerometer, gain and zero of the transducers differ from the known ones by errors drawn from the standard
+deviations of the settings (e: {deviation:g}); both recorders are noisy. The model, the nonlinear one, is true. Then
+the same {tests} tests were judged by ensembles around an e that is wrong by {wrong:g}, up and down.
+
+**Under the true model {within:.1%} of {judged} tests are within the spread** (nominal {nominal:.1%};
+95 % of such shares are between {low:.1%} and {high:.1%}). **With e wrong by {wrong:g}, {found:.1%} are called
+outside.**
+
+## By kind of motion
+
+{kinds}
+
+*Horizon*: mean predicted share of the record, up to the time at which the 95 % band is wider than 0.2 α. A wrong e is
+found if the specimen has many impacts before that time. {missed}
+
+## By number of runs
+
+The first {part} of these tests, with other numbers of runs.
+
+{counts}
+
+![Ranks of the measured angle]({figure})
+"""
+
+HEADS = ("tests", "within, true model", "nominal", "95 % of such shares", "outside, wrong e", "horizon", "overturned")
+
+
+def page(found: dict[str, Any], figure: str) -> str:
+    """Write the page."""
+    return TEXT.format(
+        **{name: found[name] for name in ("tests", "seed", "members", "wrong")},
+        **{name: found["all"][name] for name in ("judged", "within", "nominal", "low", "high", "found")},
+        limit=WITHIN,
+        duration=DURATION,
+        rate=RATE,
+        heights=", ".join(f"{height:g}" for height in HEIGHTS.values()),
+        deviation=RESTITUTION_ERROR,
+        kinds=_table("motion", [(each["kind"], each) for each in (*found["kinds"], {"kind": "all", **found["all"]})]),
+        part=found["counts"][0]["judged"],
+        counts=_table("runs", [(str(each["members"]), each) for each in found["counts"]]),
+        missed=_missed(found["kinds"]),
+        figure=figure,
+    )
+
+
+def _missed(kinds: Sequence[dict[str, Any]]) -> str:
+    """Name the kinds of motion whose rate is not the nominal one."""
+    missed = [each for each in kinds if not each["low"] <= each["within"] <= each["high"]]
+    if not missed:
+        return "No kind of motion is outside the interval of its share."
+    told = ", ".join(f"{each['kind']} ({each['within']:.1%}, nominal {each['nominal']:.1%})" for each in missed)
+    return f"**Outside the interval of its share: {told}.**"
+
+
+def _table(first: str, rows: Sequence[tuple[str, dict[str, Any]]]) -> str:
+    return table(
+        (first, *HEADS),
+        (
+            (
+                name,
+                row["judged"],
+                f"{row['within']:.1%}",
+                f"{row['nominal']:.1%}",
+                f"{row['low']:.1%} to {row['high']:.1%}",
+                f"{row['found']:.1%}",
+                f"{row['horizon']:.0%}",
+                row["overturned"],
+            )
+            for name, row in rows
+        ),
+    )
+
+
+def draw_ranks(found: dict[str, Any]) -> Any:
+    """Draw the share of the tests up to each rank, with the straight line of an exact verdict."""
+    with styled():
+        figure = blank_figure(3.2)
+        axes = figure.subplots()
+        for name, colour, label in (
+            ("true", "#0b6bb0", "true model"),
+            ("wrong", "#d1490f", f"e wrong by {found['wrong']:g}"),
+        ):
+            ranks = np.sort([rank for rank in found["ranks"][name] if np.isfinite(rank)])
+            axes.step(ranks, np.arange(1, ranks.size + 1) / ranks.size, where="post", color=colour, label=label)
+        axes.plot([0, 1], [0, 1], color="0.6", linewidth=0.8, linestyle="--", label="exact")
+        axes.axvline(WITHIN, color="0.6", linewidth=0.8)
+        axes.set_xlabel("rank of the measured angle")
+        axes.set_ylabel("share of the tests")
+        axes.set_xlim(0, 1)
+        axes.set_ylim(0, 1)
+        axes.legend(fontsize=7, loc="upper left", frameon=False)
+    return figure
+
+
 TESTS, SEED, WORKERS = 1000, 22, 2
 WRONG = 0.01
 """Error of e for the power."""
@@ -59,27 +201,19 @@ def study(tests: int, seed: int, workers: int) -> dict[str, Any]:
             for kind in kinds
         ],
         "counts": counts,
-        "ranks": {name: [round(trial.rank, 4) for trial in whole[wrong]] for name, wrong in _NAMES.items()},
+        "ranks": {
+            name: [round(trial.rank, 4) for trial in whole[wrong]] for name, wrong in (("true", 0.0), ("wrong", WRONG))
+        },
     }
 
 
-_NAMES = {"true": 0.0, "wrong": WRONG}
-
-
-def write(found: dict[str, Any], folder: Path) -> None:
-    """Write page, numbers and figure into a folder."""
-    write_numbers(folder / f"{NAME}.json", found)
-    (folder / f"{NAME}.md").write_text(page(found, f"{NAME}.svg"), encoding="utf-8")
-    title = "Ranks of measured histories among the runs of a model"
-    described = "Share of the tests up to each rank: under a true model, and with an e that is wrong."
-    write_figure(folder / f"{NAME}.svg", draw_ranks(found), title, described)
-
-
-def main() -> None:
-    """Run the study and write page, numbers and figure."""
-    told = options(__doc__, tests=TESTS, seed=SEED, workers=WORKERS)
-    write(study(told.tests, told.seed, told.workers), told.folder)
-
+STUDY = Study(
+    "verdict-study",
+    page,
+    draw_ranks,
+    "Ranks of measured histories among the runs of a model",
+    "Share of the tests up to each rank: under a true model, and with an e that is wrong.",
+)
 
 if __name__ == "__main__":
-    main()
+    STUDY.perform(study, __doc__, tests=TESTS, seed=SEED, workers=WORKERS)

@@ -23,7 +23,7 @@ settings.load_profile("colonnade")
 COMPILING = ("dynamics", "identification")
 """Folders whose tests compile, in one process each, the kernels that all later processes then find compiled."""
 
-LONGEST = ("test_readme.py", "test_wheel.py", "test_processes.py", "test_cluster.py", "test_kills.py")
+LONGEST = ("test_readme.py", "test_wheel.py", "test_processes.py", "test_cluster.py")
 """Files that take half a minute and more."""
 
 

@@ -100,22 +100,22 @@ ARGUMENTS = {
     argument: kind
     for kind, arguments in {
         "positive": "mass gravity width depth height diameter base_diameter top_diameter dt largest_speed cutoff z "
-        "drift restitution_freedom lowpass largest overturned motion_frequency",
-        "deviation": "p gain clock noise filter lowest_amplitude",
+        "span spacing drift restitution_freedom lowpass largest overturned motion_frequency",
+        "deviation": "p gain angle_gain clock noise filter lowest_amplitude beam_mass beam_ratio",
         "number": "theta0 omega0 phase",
         "sided": "critical_angle pole_distance inertia",
-        "share": "level probability",
-        "whole": "filter_order count threads draws resamples workers",
+        "share": "level probability share",
+        "whole": "columns filter_order count threads draws resamples workers",
         "seed": "seed",
         "e": "restitution",
-        "array": "acceleration vertical transverse speeds values velocities speed levels time frequency_ratio "
-        "amplitude_ratio displacements at direction period",
+        "array": "correlations acceleration vertical transverse speeds values velocities speed levels time "
+        "frequency_ratio amplitude_ratio displacements at direction period position",
         "ranked": "angle base_acceleration out_of_plane slide uplift",
-        "object": "block motion motions negative positive side uncertainty history",
+        "object": "beam blocks bodies other block motion motions negative positive side uncertainty history",
         "object or none": "solid hazard contact",
         "name": "model pulse measure baseline unit layout until start_from scheduler",
-        "names": "free measures",
-        "ids": "only",
+        "names": "measures",
+        "ids": "only on",
         "path": "path campaign results",
         "flag": "at_rest verify awaiting",
         "function": "function progress",
@@ -131,6 +131,10 @@ ARGUMENTS = {
 """What an argument is, by its name."""
 
 UNLIKE = {
+    "Assembly.colonnade": {"column": "object"},
+    "Assembly.frame": {"column": "object"},
+    "AssemblyHistory.horizon": {"share": "positive"},
+    "Block.frame": {"column": "object", "columns": "whole"},
     "Uncertainty": dict.fromkeys(("restitution", "critical_angle", "theta0"), "deviation"),
     "Ensemble.correlations": {"values": "ranked"},
     "intensity_measures": {"block": "object or none"},
@@ -158,7 +162,19 @@ ANGLES = {"angle": [-0.1, 0.1]}
 TABLE = {"speeds": np.array([0.0, 0.5, 1.0, 2.0]), "values": np.full(4, 0.9)}
 SIDES = {"negative": PRISM.negative, "positive": PRISM.positive}
 
+DRUM = colonnade.Block.cylinder(diameter=0.3, height=0.2, mass=34.0)
+BEAM = colonnade.Block.prism(width=1.3, depth=0.3, height=0.2, mass=190.0)
+STOOD = colonnade.rock(colonnade.Assembly.stack(drum=DRUM), model="contact", duration=0.001)
+
 CALLS = {
+    "Assembly": Call(colonnade.Assembly, {"bodies": {"drum": colonnade.Placed(DRUM)}}),
+    "Assembly.stack": Call(colonnade.Assembly.stack, {"blocks": DRUM}),
+    "Assembly.frame": Call(colonnade.Assembly.frame, {"column": DRUM, "beam": BEAM, "span": 1.0}),
+    "Assembly.colonnade": Call(
+        colonnade.Assembly.colonnade, {"column": DRUM, "beam": BEAM, "columns": 3, "spacing": 1.3}
+    ),
+    "AssemblyHistory.horizon": Call(STOOD.horizon, {"other": STOOD}),
+    "Placed": Call(colonnade.Placed, {"block": DRUM}),
     "Block": Call(colonnade.Block, {"mass": 1.0, "gravity": 9.81} | SIDES),
     "Block.prism": Call(colonnade.Block.prism, {"width": 0.1, "depth": 0.1} | SIZES),
     "Block.cylinder": Call(colonnade.Block.cylinder, {"diameter": 0.1} | SIZES),
@@ -166,6 +182,7 @@ CALLS = {
     "Block.measured": Call(
         colonnade.Block.measured, {"mass": 20.0, "pole_distance": 0.5, "critical_angle": 0.2, "inertia": 7.0}
     ),
+    "Block.frame": Call(colonnade.Block.frame, {"column": PRISM, "beam_mass": 10.0, "columns": 2}),
     "Block.override": Call(PRISM.override, {}),
     "Block.critical_angle_at": Call(PRISM.critical_angle_at, ANGLES),
     "Block.pole_distance_at": Call(PRISM.pole_distance_at, ANGLES),
@@ -209,7 +226,15 @@ CALLS = {
     ),
 }
 
-GIVEN_BACK = {"Ensemble", "Fragility", "History", "IntensityMeasures", "OverturningSpectrum", "Reactions"}
+GIVEN_BACK = {
+    "AssemblyHistory",
+    "Ensemble",
+    "Fragility",
+    "History",
+    "IntensityMeasures",
+    "OverturningSpectrum",
+    "Reactions",
+}
 GIVEN_BACK |= {"Restitution", "RockingSpectrum", "StabilityMap"}
 """Results: nobody makes them from arguments; what their methods take is checked."""
 

@@ -215,10 +215,23 @@ def test_20_campaign__finds_the_restitution_that_was_simulated(example):
     assert "restitution: done" in example.printed
 
 
+def test_21_frame__is_harder_to_overturn_than_its_column(example):
+    column, gate = example.names["column"], example.names["gate"]
+    assert gate.critical_angle == column.critical_angle
+    assert gate.p < column.p
+
+
+def test_22_drums_and_frames__rock_and_stay_with_residuals(example):
+    history, moved = example.names["history"], example.names["moved"]
+    assert (history.outcome, moved.outcome) == ("rocking", "rocking")
+    assert list(history.residuals) == ["low", "middle", "high"]
+    assert "mm along x" in example.printed
+
+
 def test_every_example_is_tested_and_says_one_idea():
     tests = [name.removeprefix("test_").split("__")[0] for name in globals() if name.startswith("test_")]
     assert [name for name in tests if name in EXAMPLES] == list(EXAMPLES)
-    assert len(EXAMPLES) == 20
+    assert len(EXAMPLES) == 22
     for path in EXAMPLES.values():
         assert 15 <= len(path.read_text(encoding="utf-8").splitlines()) <= 100
 
@@ -226,7 +239,8 @@ def test_every_example_is_tested_and_says_one_idea():
 @every("name", sorted(set(colonnade.__all__) - {"__version__"}))
 def test_every_public_name_is_in_an_example(name):
     results = {
-        "Ensemble": "ensemble", "Fragility": "fragility", "History": "rock", "IntensityMeasures": "intensity_measures",
+        "AssemblyHistory": "rock", "Ensemble": "ensemble", "Fragility": "fragility", "History": "rock",
+        "IntensityMeasures": "intensity_measures",
         "OverturningSpectrum": "overturning_spectrum", "Reactions": "reactions", "Restitution": "identify_restitution",
         "RockingSpectrum": "rocking_spectrum", "StabilityMap": "stability_map",
     }  # fmt: skip

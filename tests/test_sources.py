@@ -5,9 +5,10 @@ import shutil
 import pytest
 
 from colonnade import sources
+from colonnade.dynamics.models import MODELS
 from colonnade.sources import code_hash, package_hash
 
-CONTACT_ENGINE = "dynamics/contact/engine/run.py"
+CONTACT_ENGINE = "dynamics/contact/march.py"
 
 
 @pytest.fixture
@@ -76,9 +77,9 @@ def test_a_change_in_a_reader_makes_no_prediction_anew(package):
 
 
 def test_an_engine_counts_unless_its_models_are_left_out(package):
-    others = [f"colonnade.dynamics.models.{name}" for name in ("linear", "nonlinear", "plane")]
+    others = [MODELS["linear"].engine]
     linear, contact = of("predict"), of("predict", without=others)
-    (package / "dynamics/plane/linear.py").open("a", encoding="utf-8").write("\nONE_MORE = 1\n")
+    (package / "dynamics/plane/closed.py").open("a", encoding="utf-8").write("\nONE_MORE = 1\n")
     forget()
     assert of("predict") != linear
     assert of("predict", without=others) == contact

@@ -16,26 +16,29 @@ if TYPE_CHECKING:
     from colonnade.assessment.measures import IntensityMeasures as IntensityMeasures
     from colonnade.assessment.measures import intensity_measures as intensity_measures
     from colonnade.assessment.study import fragility as fragility
+    from colonnade.dynamics.assembly import Assembly as Assembly
+    from colonnade.dynamics.assembly import Placed as Placed
     from colonnade.dynamics.block import Block as Block
-    from colonnade.dynamics.ensembles.ensemble import ensemble as ensemble
-    from colonnade.dynamics.ensembles.outcome import Ensemble as Ensemble
-    from colonnade.dynamics.ensembles.uncertainty import Uncertainty as Uncertainty
+    from colonnade.dynamics.contact.bodies import AssemblyHistory as AssemblyHistory
+    from colonnade.dynamics.ensemble import Ensemble as Ensemble
+    from colonnade.dynamics.ensemble import ensemble as ensemble
     from colonnade.dynamics.history import History as History
-    from colonnade.dynamics.maps.chart import StabilityMap as StabilityMap
-    from colonnade.dynamics.maps.chart import stability_map as stability_map
+    from colonnade.dynamics.maps import StabilityMap as StabilityMap
+    from colonnade.dynamics.maps import stability_map as stability_map
     from colonnade.dynamics.motion import Motion as Motion
     from colonnade.dynamics.plane.reactions import Reactions as Reactions
     from colonnade.dynamics.plane.reactions import reactions as reactions
+    from colonnade.dynamics.pulses import OverturningSpectrum as OverturningSpectrum
+    from colonnade.dynamics.pulses import overturning_spectrum as overturning_spectrum
     from colonnade.dynamics.restitution_law import RestitutionLaw as RestitutionLaw
     from colonnade.dynamics.rock import rock as rock
-    from colonnade.dynamics.spectra.overturning import OverturningSpectrum as OverturningSpectrum
-    from colonnade.dynamics.spectra.overturning import overturning_spectrum as overturning_spectrum
-    from colonnade.dynamics.spectra.spectrum import RockingSpectrum as RockingSpectrum
-    from colonnade.dynamics.spectra.spectrum import rocking_spectrum as rocking_spectrum
+    from colonnade.dynamics.spectra import RockingSpectrum as RockingSpectrum
+    from colonnade.dynamics.spectra import rocking_spectrum as rocking_spectrum
+    from colonnade.dynamics.uncertainty import Uncertainty as Uncertainty
     from colonnade.errors import ColonnadeError as ColonnadeError
     from colonnade.figures.plot import animate as animate
     from colonnade.figures.plot import plot as plot
-    from colonnade.identification.fusion.angle import rocking_angle as rocking_angle
+    from colonnade.identification.fusion.pose import rocking_angle as rocking_angle
     from colonnade.identification.restitution.identify import identify_restitution as identify_restitution
     from colonnade.identification.restitution.result import Restitution as Restitution
     from colonnade.readers.motion import read_motion as read_motion

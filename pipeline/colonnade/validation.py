@@ -12,18 +12,11 @@ from colonnade.arrays import Array
 
 Kind = TypeVar("Kind")
 
-_KINDS = dict.fromkeys("SUT", "text") | {
-    "b": "truth values",
-    "c": "complex numbers",
-    "M": "dates",
-    "m": "time differences",
-    "O": "Python objects",
-    "V": "records",
-}
-"""What an array holds by the kind of its data type, where that is not real numbers."""
-
 LONGEST_SHOWN = 40
 """Characters of a value in a message."""
+
+MOST_BITS = 1024
+"""Of a whole number, from which on it is larger than any float."""
 
 
 def number(
@@ -155,7 +148,7 @@ def samples(
     except (ValueError, TypeError) as error:
         raise ValueError(f"{name} is not an array of numbers ({error}); one was expected") from None
     if array.dtype.kind not in "iuf":
-        held = _KINDS.get(array.dtype.kind, str(array.dtype))
+        held = "text" if array.dtype.kind in "SUT" else f"values of type {array.dtype}"
         found = f"holds {held}" if array.ndim else f"is {described(values)}"
         raise ValueError(f"{name} {found}; an array of real numbers was expected")
     if array.ndim not in dimensions or array.size < fewest:
@@ -228,18 +221,9 @@ def described(value: Any) -> str:
 
 def _plain(value: Any) -> float | None:
     """One real number as float; None if it is anything else."""
-    if type(value) in (float, int):
-        return _converted(value)
-    if isinstance(value, (bool, np.bool_)) or value is np.ma.masked:
+    if type(value) is int:
+        return float(value) if value.bit_length() < MOST_BITS else None
+    if value is np.ma.masked or isinstance(value, (list, tuple)):
         return None
-    array = np.asarray(value) if isinstance(value, (np.generic, np.ndarray)) or hasattr(value, "__array__") else None
-    if array is not None:
-        return _converted(array[()]) if array.ndim == 0 and array.dtype.kind in "iuf" else None
-    return _converted(value) if isinstance(value, (int, float)) else None
-
-
-def _converted(value: Any) -> float | None:
-    try:
-        return float(value)
-    except OverflowError:
-        return None
+    array = np.asarray(value)
+    return float(array) if array.ndim == 0 and array.dtype.kind in "iuf" else None

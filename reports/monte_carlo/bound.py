@@ -8,45 +8,66 @@ import numpy as np
 
 from monte_carlo.design import Draw, pink_power
 
-STEPS = {"restitution": 1e-6, "release_angle": 1e-6, "release_time": 1e-6, "zero_offset": 1e-6}
-"""Of central differences: of e; of α; of 1/p; of α."""
+STEP = 1e-5
+"""Of central differences: of ln e, ln α, ln p; of α; of 1/p."""
 
-MOST_SAMPLES = 8000
+MOST_SAMPLES = 1000
 """Of longer records evenly spaced samples are taken, each for those about it."""
 
 
 def cramer_rao_error(draw: Draw) -> float:
     """
-    Smallest standard error of e where e, release angle, release time and zero offset are unknown.
+    Smallest standard error of the mean e; unknown are e of each impact, release, zero, drift, α, p and gain.
 
     Notes
     -----
-    The information is that of all samples before the filter, with noise of known spectrum, for one e of all impacts;
-    block (p, α) known. A low-pass takes information away, mostly on when the impacts were, so that for filtered records
-    the bound is lower than what is left to reach. For noise of power 1/f it is Whittle's approximation.
+    The scatter of e and the errors of α, p and gain are as known as their standard deviations. The information is that
+    of all samples before the filter, with noise of known spectrum. A low-pass takes information away, mostly on when
+    the impacts were, so that for filtered records the bound is lower than what is left to reach. For noise of power 1/f
+    it is Whittle's approximation.
     """
     rocking, time = draw.rocking, draw.clock()
     stride = max(time.size // MOST_SAMPLES, 1)
     time = time[stride // 2 :: stride]
-    scales = {
-        "restitution": 1.0,
-        "release_angle": rocking.critical_angle,
-        "release_time": 1 / rocking.p,
-        "zero_offset": rocking.critical_angle,
-    }
-    columns = []
-    for name, step in STEPS.items():
-        by, at = step * scales[name], getattr(rocking, name)
-        ahead, behind = (replace(rocking, **{name: at + sign * by}).angle(time) for sign in (1, -1))
-        columns.append((ahead - behind) / (2 * step))
-    jacobian = np.column_stack(columns) / (draw.noise * rocking.critical_angle)
+    alpha, p, e = np.array(rocking.critical_angle), np.array(rocking.p), rocking.restitution
+
+    def change(scale: float, **by: float) -> np.ndarray:
+        ends = []
+        for sign in (1, -1):
+            x = sign * STEP
+            moved = replace(
+                rocking,
+                restitution=e * np.exp(x * np.isin(np.arange(e.size), [by.get("impact", -1)])),
+                critical_angle=tuple(alpha * np.exp(x * by.get("alpha", 0))),
+                p=tuple(p * np.exp(x * by.get("p", 0))),
+                release_angle=rocking.release_angle + x * scale * by.get("release", 0),
+                release_time=rocking.release_time + x * scale * by.get("time", 0),
+            )
+            ends.append(moved.angle(time))
+        return (ends[0] - ends[1]) / (2 * STEP)
+
+    impacts = np.array([change(1.0, impact=number) for number in range(e.size)])
+    columns = [
+        impacts.sum(axis=0),
+        change(alpha.min(), release=1),
+        change(1 / p.max(), time=1),
+        np.full(time.size, alpha.min()),
+        alpha.min() * np.linspace(-1, 1, time.size),
+    ]
+    prior = [0.0] * 5
+    if draw.width:
+        columns += [change(1.0, alpha=1), change(1.0, p=1), rocking.angle(time)]
+        prior += [draw.width**-2] * 3
+    if draw.scatter:
+        columns += list(impacts)
+        # ln e scatters by so much.
+        prior += [(draw.scatter / draw.truth) ** -2] * e.size
+    jacobian = np.column_stack(columns) / (draw.noise * draw.block.critical_angle)
     jacobian = _whitened(jacobian, draw.pink, stride) if draw.pink else jacobian * np.sqrt(stride)
-    # Columns of one length, so that the inverse is well conditioned.
-    lengths = np.linalg.norm(jacobian, axis=0)
-    if not (lengths > 0).all():
-        return float("inf")
-    covariance = np.linalg.pinv((jacobian / lengths).T @ (jacobian / lengths))
-    return float(np.sqrt(covariance[0, 0]) / lengths[0])
+    information = jacobian.T @ jacobian + np.diag(prior)
+    scale = np.sqrt(np.diag(information))
+    covariance = np.linalg.pinv(information / np.outer(scale, scale), hermitian=True)
+    return float(draw.truth * np.sqrt(covariance[0, 0]) / scale[0])
 
 
 def _whitened(jacobian: np.ndarray, pink: float, stride: int) -> np.ndarray:

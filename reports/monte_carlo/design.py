@@ -1,58 +1,81 @@
-"""The random design: what varies from record to record, in which levels, and the noisy record of one draw."""
+"""The kinds of record of the study: what varies from record to record, and the noisy record of one draw."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.dynamics.block import Block
+from colonnade.dynamics.block import Block, Side
 from colonnade.signals.filters import default_lowpass, lowpass
-from monte_carlo.integration import integrated_angle
 from monte_carlo.truth import FreeRocking
 
-LEVELS: dict[str, tuple[float, ...]] = {
-    "restitution": (0.80, 0.85, 0.90, 0.95, 0.995),
-    "slenderness": (3.0, 5.0, 7.0, 9.0, 12.0),
-    "height": (0.2, 0.5, 1.0, 2.2, 5.0),
-    "release": (0.2, 0.375, 0.55, 0.725, 0.9),
-    "rate": (100.0, 266.0, 707.0, 1880.0, 5000.0),
-    "noise": (1e-4, 3.16e-4, 1e-3, 3.16e-3, 1e-2),
-    "offset": (-0.01, -0.005, 0.0, 0.005, 0.01),
-    "impacts": (5.0, 10.0, 20.0, 35.0, 61.0),
-    "scatter": (0.0, 0.0, 0.001, 0.002, 0.005),
+SPREAD: dict[str, tuple[float, float]] = {
+    "restitution": (0.85, 0.985),
+    "slenderness": (3.0, 10.0),
+    "height": (0.2, 3.0),
+    "release": (0.3, 0.85),
+    "rate": (100.0, 2000.0),
+    "noise": (1e-4, 5e-3),
+    "offset": (-0.005, 0.005),
+    "impacts": (6.0, 40.0),
 }
-"""Edges of the levels of each factor; a draw falls into each level with the same chance."""
-
-BEYOND: dict[str, tuple[float, ...]] = LEVELS | {
-    "rate": (100.0, 266.0),
-    "noise": (1e-2, 3e-2, 1e-1, 3e-1),
-    "impacts": (3.0, 5.0, 9.0),
-    "scatter": (0.0, 0.0),
-}
-"""Records beyond the design, which hold less and less about e: where is a value refused?"""
+"""Limits of what varies in every kind: e; height over width; m; over α; Hz; over α; over α; impacts."""
 
 LOGARITHMIC = ("height", "rate", "noise", "impacts")
-"""Factors that are spread evenly by their logarithm within a level; the others are by their value."""
+"""What is spread evenly by its logarithm; the others are by their value."""
+
+LOWEST = 0.02
+"""Of α: a record ends before its peaks are lower."""
 
 PINK = 0.8
-"""Share of the noise's variance that has a power of 1/f, in the records that have such noise: a third of them."""
+"""Share of the noise's variance that has a power of 1/f in records with such noise."""
 
-SPREAD = 3.0
-"""Standard deviations of e from impact to impact by which the mean of e stays below 1."""
+BY_SPEED = -0.02
+"""Change of e from the slowest to the fastest impact, in the records where it depends on the speed."""
 
 LONGEST_HOLD = 1.0
 """s, in the hand before the release; half of the records begin with it, the others at the release."""
 
-REST = 2.0
-"""s after the last of the motion, where a record reaches it."""
+ASYMMETRY = 0.15
+"""Largest eccentricity of the centre of mass of an asymmetric block, over half its width."""
 
-MOST_IMPACTS = 400
-"""For which an e of their own is drawn; the last of them is that of all later ones."""
 
-STOOD = 1e-6
-"""|θ|/α below which the block stands."""
+@dataclass(frozen=True)
+class Kind:
+    """Records of one kind: error of α, p and gain (s), scatter of e, and what else is fixed."""
+
+    name: str
+    error: float
+    scatter: float
+    fixed: dict[str, Any] = field(default_factory=dict)
+
+
+def kinds() -> list[Kind]:
+    """List the kinds of the study."""
+    crossed = [
+        Kind(f"s {100 * error:g} %, scatter {scatter:g}", error, scatter)
+        for error in (0.0, 0.0025, 0.005, 0.01)
+        for scatter in (0.0, 0.001, 0.005)
+    ]
+    usual = 0.005, 0.002
+    return [
+        *crossed,
+        Kind("white noise, not filtered", *usual, {"pink": 0.0, "filtered": False}),
+        Kind("1/f noise, not filtered", *usual, {"pink": PINK, "filtered": False}),
+        Kind("white noise, filtered", *usual, {"pink": 0.0, "filtered": True}),
+        Kind("1/f noise, filtered", *usual, {"pink": PINK, "filtered": True}),
+        Kind("1/f noise, one e, known block", 0.0, 0.0, {"pink": PINK}),
+        Kind("6 to 10 impacts", *usual, {"impacts": (6.0, 11.0)}),
+        Kind("20 to 40 impacts", *usual, {"impacts": (20.0, 41.0)}),
+        Kind("prisms", *usual, {"shape": "prism"}),
+        Kind("cylinders", *usual, {"shape": "cylinder"}),
+        Kind("asymmetric blocks", *usual, {"shape": "asymmetric"}),
+        Kind("e changes with speed", 0.005, 0.0, {"by_speed": BY_SPEED}),
+        Kind("e changes with speed and scatters", *usual, {"by_speed": BY_SPEED}),
+    ]
 
 
 @dataclass(frozen=True)
@@ -62,104 +85,61 @@ class Draw:
 
     Attributes
     ----------
-    restitution, slenderness : float
-        e; height over width.
-    height : float
-        m.
-    release, noise, offset : float
-        Release angle, standard deviation of the white noise and zero offset, all over α.
-    rate : float
-        Samples a second.
-    impacts : int
-        Passes from side to side in the record; a block that loses much stands before, and the record ends at rest.
+    block : Block
+        As the laboratory knows it.
+    errors : tuple of float
+        ln of true over known α and p, and of measured over true angle.
+    width : float
+        Their standard deviation, as the estimator is given it.
     scatter : float
-        Standard deviation of e from impact to impact; `restitution` is the mean of all impacts that there could be.
+        Standard deviation of e from impact to impact.
+    rocking : FreeRocking
+        What the block truly does.
+    noise, offset : float
+        Standard deviation of the noise, zero offset, over α.
+    rate : float
+        Hz.
     pink : float
         Share of the noise's variance that has a power of 1/f.
     filtered : bool
         Whether the record went through the low-pass of the condition stage.
-    hold : float
-        s, from the record's start to the release.
-    side : float
-        1 or −1: where the block was released.
     phase : float
-        Share of the sampling interval between the clock's zero and the record's; and share of the last arc recorded.
+        Share of the sampling interval between the clock's zero and the record's.
     seed : tuple of int
-        Of the study, and the record's number: gives the noise, and e of each impact.
-    by_speed, mean_speed : float
-        Change of e from an impact at rest to one with p α; speed, over p α, at which e is as drawn.
-    drift : float
-        Of the zero over the record, over α.
+        Of the noise.
     """
 
-    restitution: float
-    slenderness: float
-    height: float
-    release: float
+    block: Block
+    errors: tuple[float, float, float]
+    width: float
+    scatter: float
+    rocking: FreeRocking
     noise: float
     offset: float
     rate: float
-    impacts: int
-    scatter: float
     pink: float
     filtered: bool
-    hold: float
-    side: float
     phase: float
-    seed: tuple[int, int]
-    by_speed: float = 0.0
-    mean_speed: float = 0.0
-    drift: float = 0.0
-
-    @property
-    def block(self) -> Block:
-        """A prism of this height and slenderness; mass and depth do not matter."""
-        return Block.prism(width=self.height / self.slenderness, depth=0.3, height=self.height, mass=100.0)
-
-    @property
-    def rocking(self) -> FreeRocking:
-        """What the block truly does."""
-        block = self.block
-        alpha = block.critical_angle
-        return FreeRocking(
-            alpha, block.p, self.restitution, self.side * self.release * alpha, self.hold, self.offset * alpha
-        )
+    seed: tuple[int, ...]
+    truth: float
 
     @property
     def cutoff(self) -> float | None:
         """Hz; None without a filter."""
         return default_lowpass(self.block.p, self.rate) if self.filtered else None
 
-    def restitutions(self) -> Array:
-        """Return e of each impact before its speed counts; drawn once, the same for every call."""
-        random = np.random.default_rng((*self.seed, 2))
-        at_rest = self.restitution - self.by_speed * self.mean_speed
-        return at_rest + self.scatter * random.normal(size=MOST_IMPACTS)
-
     def clock(self) -> Array:
-        """Times of the samples, s; as the mean e would have the impacts."""
-        rocking = self.rocking
-        impacts, peaks = rocking.impact_times(), rocking.peak_angles()
-        standing = int(np.argmax(np.abs(peaks) < STOOD * rocking.critical_angle)) or peaks.size
-        if self.impacts < min(impacts.size, standing):
-            end = impacts[self.impacts - 1] + self.phase * (impacts[self.impacts] - impacts[self.impacts - 1])
-        else:
-            end = impacts[standing - 1] + REST
-        return (np.arange(int(end * self.rate)) + self.phase) / self.rate
-
-    def motion(self, time: Array) -> tuple[Array, Array, Array]:
-        """Angle without noise at these times, rad; times of the impacts so far, s, and e of each."""
-        return integrated_angle(self.rocking, time, self.restitutions(), self.by_speed)
+        """Times of the samples, s."""
+        return np.asarray((np.arange(int(self.rocking.end() * self.rate)) + self.phase) / self.rate)
 
     def record(self) -> tuple[Array, Array]:
         """Times, s, and measured angles, rad."""
         time, alpha = self.clock(), self.block.critical_angle
         random = np.random.default_rng(self.seed)
-        noise = np.sqrt(1 - self.pink) * random.normal(0.0, self.noise * alpha, time.size)
+        noise = np.sqrt(1 - self.pink) * random.normal(size=time.size)
         if self.pink:
-            noise += np.sqrt(self.pink) * self.noise * alpha * pink_noise(time.size, random)
-        drift = self.drift * alpha * np.linspace(-0.5, 0.5, time.size)
-        angle = self.motion(time)[0] + noise + drift
+            noise += np.sqrt(self.pink) * pink_noise(time.size, random)
+        angle = np.exp(self.errors[2]) * self.rocking.angle(time) + self.offset * alpha + self.noise * alpha * noise
         return time, angle if self.cutoff is None else lowpass(angle, 1 / self.rate, self.cutoff)
 
 
@@ -179,22 +159,56 @@ def pink_noise(count: int, random: np.random.Generator) -> Array:
     return np.fft.irfft(transform, 2 * count)[:count]
 
 
-def draw(seed: int, number: int, levels: dict[str, tuple[float, ...]] = LEVELS) -> Draw:
-    """Draw the `number`-th record of a study; it is the same however many records are drawn."""
-    rng = np.random.default_rng((seed, number, 1))
-    values = {}
-    for factor, edges in levels.items():
-        level = rng.integers(len(edges) - 1)
-        low, high = edges[level], edges[level + 1]
-        values[factor] = float(low * (high / low) ** rng.random()) if factor in LOGARITHMIC else rng.uniform(low, high)
-    pink = PINK if levels is LEVELS and number % 3 == 0 else 0.0
-    restitution = min(values["restitution"], 1 - SPREAD * values["scatter"] - 1e-3)
+def block_of(shape: str, height: float, slenderness: float, random: np.random.Generator) -> Block:
+    """Return a block of a shape; mass and depth do not matter."""
+    width = height / slenderness
+    if shape == "cylinder":
+        return Block.cylinder(diameter=width, height=height, mass=100.0)
+    prism = Block.prism(width=width, depth=0.3, height=height, mass=100.0)
+    if shape == "prism":
+        return prism
+    about_centre = prism.inertia - 100.0 * prism.pole_distance**2
+    shift = random.uniform(-ASYMMETRY, ASYMMETRY) * width / 2
+    sides = []
+    for half in (width / 2 + shift, width / 2 - shift):
+        distance = float(np.hypot(half, height / 2))
+        sides.append(Side(float(np.arctan2(half, height / 2)), distance, about_centre + 100.0 * distance**2))
+    return replace(prism, negative=sides[0], positive=sides[1])
+
+
+def draw(kind: Kind, seed: int, number: int) -> Draw:
+    """Draw the `number`-th record of a kind; it is the same however many records are drawn."""
+    random = np.random.default_rng((seed, number, 1))
+    value: dict[str, float] = {}
+    for factor, limits in SPREAD.items():
+        low, high = kind.fixed.get(factor, limits)
+        share = random.random()
+        value[factor] = float(low * (high / low) ** share if factor in LOGARITHMIC else low + share * (high - low))
+    shape = kind.fixed.get("shape", str(random.choice(["prism", "cylinder", "asymmetric"])))
+    block = block_of(shape, value["height"], value["slenderness"], random)
+    errors = tuple(kind.error * random.normal(size=3))
+    sides = block.sides
+    alpha = tuple(float(side.critical_angle * np.exp(errors[0])) for side in sides)
+    p = tuple(float(block.side_p(side) * np.exp(errors[1])) for side in sides)
+    release = random.choice([-1.0, 1.0]) * value["release"] * min(alpha)
+    # As many impacts as leave peaks that can be seen.
+    lost = np.log(LOWEST * (2 - LOWEST) / (value["release"] * (2 - value["release"])))
+    impacts = max(min(int(value["impacts"]), int(lost / (2 * np.log(value["restitution"])))), 6)
+    e = value["restitution"] + kind.scatter * random.normal(size=impacts)
+    e = np.minimum(e, 0.9995)
+    hold = float(random.integers(2) * random.uniform(0.1, LONGEST_HOLD))
+    rocking = FreeRocking(alpha, p, e, release, hold)
+    while not rocking.course()[2].min() > 1e-3 * np.sin(min(alpha) / 2) ** 2:
+        rocking = replace(rocking, release_angle=0.9 * rocking.release_angle)
+    truth = value["restitution"]
+    if change := kind.fixed.get("by_speed", 0.0):
+        speeds = np.sqrt(value["release"] * (2 - value["release"])) * value["restitution"] ** np.arange(impacts)
+        by_speed = -change / float(np.ptp(speeds))
+        rocking = replace(rocking, restitution=e + by_speed * float(speeds.mean()), by_speed=by_speed)
+        truth = float(rocking.course()[1].mean())
     return Draw(
-        **values | {"impacts": int(values["impacts"]), "restitution": restitution},
-        pink=pink,
-        filtered=bool(rng.integers(2)),
-        hold=float(rng.integers(2) * rng.uniform(0.1, LONGEST_HOLD)),
-        side=float(rng.choice([-1.0, 1.0])),
-        phase=float(rng.random()),
-        seed=(seed, number),
-    )
+        block, errors, kind.error, kind.scatter, rocking, value["noise"], value["offset"], value["rate"],
+        kind.fixed.get("pink", PINK if number % 3 == 0 else 0.0),
+        kind.fixed.get("filtered", bool(random.integers(2))),
+        float(random.random()), (seed, number), truth,
+    )  # fmt: skip

@@ -1,5 +1,5 @@
 """
-Free rocking by the full nonlinear equation in closed form, from release to rest.
+Free rocking by the full nonlinear equation in closed form, from release on.
 
     θ̈ = −p² sin(α sgn θ − θ)
 
@@ -7,7 +7,7 @@ The lean ψ = α − |θ| is a pendulum upside down: from its turning point ψ�
 
     sin(ψ/2) = sin(ψₙ/2) / dn(p t | cos²(ψₙ/2))
 
-For what needs derivatives and impacts; Jacobi's functions are SciPy's. The records themselves are integrated.
+Jacobi's functions are SciPy's; the estimator of e steps through time instead. An impact multiplies ω by its e.
 """
 
 from __future__ import annotations
@@ -19,9 +19,6 @@ from scipy import special
 
 from colonnade.arrays import Array
 
-SMALLEST_ENERGY = 1e-18
-"""Of that at release: what is left of it after later impacts is rest."""
-
 
 @dataclass(frozen=True)
 class FreeRocking:
@@ -30,53 +27,78 @@ class FreeRocking:
 
     Attributes
     ----------
-    critical_angle, p, restitution : float
-        rad; rad/s; e of every impact.
+    critical_angle, p : (float, float)
+        Of the sides θ < 0 and θ > 0: rad; rad/s.
+    restitution : ndarray, shape (m,)
+        e of each impact, before its speed counts; the record ends before a further one.
     release_angle, release_time : float
-    zero_offset : float
-        rad, added to every angle.
+    by_speed : float
+        Change of e from an impact at rest to one with p α.
     """
 
-    critical_angle: float
-    p: float
-    restitution: float
+    critical_angle: tuple[float, float]
+    p: tuple[float, float]
+    restitution: Array
     release_angle: float
     release_time: float
-    zero_offset: float = 0.0
+    by_speed: float = 0.0
 
-    def course(self) -> tuple[Array, Array]:
-        """Half durations of all arcs, s, the first being that of the release; sin²(ψₙ/2) at their turning points."""
-        top = np.sin(self.critical_angle / 2) ** 2
-        depth = top - np.sin((self.critical_angle - abs(self.release_angle)) / 2) ** 2
-        impacts = int(np.ceil(0.5 * np.log(SMALLEST_ENERGY) / np.log(self.restitution)))
-        fallen = depth * self.restitution ** (2.0 * np.arange(impacts + 1))
-        turning = top - fallen
-        # sn² = (1 − dn²)/m and cn² where dn = sin(ψₙ/2) / sin(α/2), each without a difference of near numbers.
-        phase = np.arctan2(np.sqrt(fallen), np.sqrt(turning * (1 - top)))
-        return special.ellipkinc(phase, 1 - turning) / self.p, turning
+    def course(self) -> tuple[Array, Array, Array]:
+        """
+        Follow the arcs.
 
-    def impact_times(self) -> Array:
-        """When the block passes from side to side, s."""
-        half, _ = self.course()
-        return self.release_time + half[0] + np.concatenate(([0.0], np.cumsum(2 * half[1:])))
+        Returns
+        -------
+        impacts : ndarray, shape (m,)
+            Their times, s.
+        restitution : ndarray, shape (m,)
+            e of each.
+        turning : ndarray, shape (m + 1,)
+            sin²(ψₙ/2) of each arc, that from the release included.
+        """
+        side, time = int(self.release_angle > 0), self.release_time
+        top = np.sin(self.critical_angle[side] / 2) ** 2
+        fallen = top - np.sin((self.critical_angle[side] - abs(self.release_angle)) / 2) ** 2
+        impacts, used, turning = [], [], [top - fallen]
+        for number, e in enumerate(self.restitution):
+            time += (1 if number == 0 else 2) * self._half(side, fallen)
+            speed = 2 * self.p[side] * np.sqrt(fallen)
+            e -= self.by_speed * speed / (self.p[side] * self.critical_angle[side])
+            impacts.append(time)
+            used.append(e)
+            side = 1 - side
+            fallen = (e * speed / (2 * self.p[side])) ** 2
+            turning.append(np.sin(self.critical_angle[side] / 2) ** 2 - fallen)
+        return np.array(impacts), np.array(used), np.array(turning)
 
-    def peak_angles(self) -> Array:
-        """Angle at each turning point, rad, signed; the first is the release."""
-        _, turning = self.course()
-        sides = np.sign(self.release_angle) * (-1.0) ** np.arange(turning.size)
-        return sides * (self.critical_angle - 2 * np.arcsin(np.sqrt(turning)))
+    def _half(self, side: int, fallen: float) -> float:
+        """Half the duration of an arc, s; from sn² = (1 − dn²)/m and cn², without a difference of near numbers."""
+        top = np.sin(self.critical_angle[side] / 2) ** 2
+        phase = np.arctan2(np.sqrt(fallen), np.sqrt((top - fallen) * (1 - top)))
+        return float(special.ellipkinc(phase, 1 - top + fallen)) / self.p[side]
+
+    def end(self) -> float:
+        """Middle of the arc after the last impact, s."""
+        impacts, _, turning = self.course()
+        side = (int(self.release_angle > 0) + impacts.size) % 2
+        return float(impacts[-1]) + self._half(side, np.sin(self.critical_angle[side] / 2) ** 2 - float(turning[-1]))
 
     def angle(self, time: Array) -> Array:
         """Angle at given times, rad."""
-        half, turning = self.course()
-        impacts = self.release_time + half[0] + np.concatenate(([0.0], np.cumsum(2 * half[1:])))
-        summits = np.concatenate(([self.release_time], impacts[:-1] + half[1:]))
+        impacts, _, turning = self.course()
+        first = int(self.release_angle > 0)
+        sides = (first + np.arange(turning.size)) % 2
+        p, critical = np.array(self.p)[sides], np.array(self.critical_angle)[sides]
+        half = np.array(
+            [
+                self._half(int(side), float(np.sin(alpha / 2) ** 2 - depth))
+                for side, alpha, depth in zip(sides, critical, turning, strict=True)
+            ]
+        )
+        summits = np.append(self.release_time, impacts + half[1:])
         arc = np.searchsorted(impacts, time, side="right")
-        moving = arc < half.size
-        arc = np.minimum(arc, half.size - 1)
-        argument = self.p * np.maximum(time - summits[arc], -half[arc])
+        argument = p[arc] * np.clip(time - summits[arc], -half[arc], half[arc])
         argument = np.where(time < self.release_time, 0.0, argument)
         _, _, dn, _ = special.ellipj(argument, 1 - turning[arc])
-        lean = 2 * np.arcsin(np.sqrt(turning[arc]) / dn)
-        side = np.sign(self.release_angle) * (1.0 - 2.0 * (arc % 2))
-        return np.where(moving, side * (self.critical_angle - lean), 0.0) + self.zero_offset
+        lean = 2 * np.arcsin(np.minimum(np.sqrt(turning[arc]) / dn, 1.0))
+        return np.where(sides[arc] == 1, 1.0, -1.0) * (critical[arc] - lean)

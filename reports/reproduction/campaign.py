@@ -16,10 +16,10 @@ from colonnade.dynamics.motion import Motion
 from colonnade.laboratory import paper_programme, write_campaign
 from colonnade.laboratory.campaign_file import FILE_NAME
 from colonnade.laboratory.experiment import Plan
-from colonnade.laboratory.programme import LADDERS, LASTING, RAMP, Placed, sine
+from colonnade.laboratory.programme import LADDERS, LASTING, RAMP, sine
 from colonnade.store.files import write_text
-from colonnade.workflow.maps.plans import Wanted
-from colonnade.workflow.maps.stability import make_maps
+from colonnade.workflow.map_plans import Wanted
+from colonnade.workflow.maps import make_maps
 from reproduction.printed import FREQUENCIES, SHOWN, SHOWN_FREQUENCY, TABLE_1
 
 SEED = 0
@@ -54,13 +54,13 @@ MAP_POINTS = 49
 def programme(name: str, record: Motion, *, seed: int = SEED) -> Plan:
     """Plan the demo's programme and, at its end, the histories that the paper shows and the demo leaves out."""
     plan = paper_programme(name, record, seed=seed)
-    placed = Placed(SPECIMEN, plan.specimens[SPECIMEN].block, f"{SPECIMEN}-bench", f"{SPECIMEN}-table")
+    block, table = plan.specimens[SPECIMEN].block, f"{SPECIMEN}-table"
     missing = [level for level in SHOWN if level not in LADDERS["prism"][SHOWN_FREQUENCY]]
     added = (
-        sine(placed, f"sine-{SHOWN_FREQUENCY:g}Hz-{level:.2f}", SHOWN_FREQUENCY, level, cycles=LASTING, ramp=RAMP)
+        sine(block, f"sine-{SHOWN_FREQUENCY:g}Hz-{level:.2f}", SHOWN_FREQUENCY, level, cycles=LASTING, ramp=RAMP)
         for level in missing
     )
-    return replace(plan, trials=(*plan.trials, *added))
+    return replace(plan, trials=(*plan.trials, *(replace(each, setup=table, specimen=SPECIMEN) for each in added)))
 
 
 def frequency_ratios(count: int) -> Array:

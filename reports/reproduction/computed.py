@@ -14,9 +14,9 @@ from colonnade.campaign import Campaign
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.simulate import simulate
-from colonnade.dynamics.maps.chart import StabilityMap, stability_map
+from colonnade.dynamics.maps import StabilityMap, stability_map
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic.motion import OUTCOMES
+from colonnade.dynamics.plane.run import OUTCOMES
 from colonnade.dynamics.rock import rock
 from colonnade.identification.response.boundaries import SAME_FREQUENCY, MapPoint, bracket_boundaries
 from colonnade.laboratory.programme import RIGS
@@ -111,12 +111,7 @@ def by_level(chart: StabilityMap) -> StabilityMap:
             lower[column] = middles[max(int(np.argmax(outcomes)) - 1, 0)]
             stands = int(np.flatnonzero(~outcomes)[-1])
             upper[column] = middles[stands] if stands < middles.size else np.nan
-    return replace(
-        chart,
-        lower=lower,
-        upper=upper,
-        options=chart.options | {"width": float(levels[1] - levels[0])},
-    )
+    return replace(chart, lower=lower, upper=upper, options=chart.options | {"width": float(levels[1] - levels[0])})
 
 
 def schemes(block: Block, motions: Mapping[str, Motion]) -> list[Numbers]:
@@ -127,13 +122,7 @@ def schemes(block: Block, motions: Mapping[str, Motion]) -> list[Numbers]:
         for scheme in ("runge-kutta", "hamming"):
             for parts in (1, 10):
                 count = round(motion.dt / PAPERS_STEP) * parts
-                found = rock_by_steps(
-                    block,
-                    motion,
-                    scheme=scheme,
-                    steps_per_sample=count,
-                    restitution=RESTITUTION,
-                )
+                found = rock_by_steps(block, motion, scheme=scheme, steps_per_sample=count, restitution=RESTITUTION)
                 rows.append(
                     {
                         "span": span,

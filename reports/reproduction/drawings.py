@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from matplotlib.figure import Figure
 
-from colonnade.dynamics.maps.chart import StabilityMap
+from colonnade.dynamics.maps import StabilityMap
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import ANGLE_LABEL, draw_angle, limit_of, scale_symmetric, time_limits
 from colonnade.figures.panels.curve import Curve

@@ -10,11 +10,14 @@ Numbers = Mapping[str, Any]
 
 Verdict = Literal["agrees", "differs", "undecided"]
 
-WORDS: dict[Verdict, str] = {
-    "agrees": "agrees",
-    "differs": "differs",
-    "undecided": "cannot be decided",
-}
+WORDS: dict[Verdict, str] = {"agrees": "agrees", "differs": "differs", "undecided": "cannot be decided"}
+
+HISTORIES = {"good": 0.1, "reasonably good": 0.2}
+"""RMS of the difference of two histories of θ, over α, up to which their agreement is called so. The paper gives no
+measure; these are ours."""
+
+BOUNDARIES = {"very good": 0.1, "fairly good": 0.25}
+"""The same of a boundary on the map: RMS of the difference, over the boundary's own A."""
 
 
 @dataclass(frozen=True)
@@ -41,8 +44,8 @@ class Statement:
         How we examine it.
     rule : str
         When it agrees, in words: "it agrees if …"; empty if no number can decide it.
-    answer : callable
-        Applies the rule to the numbers of results.json.
+    finds : callable
+        Applies the rule to the numbers of results.json; words alone if there is none.
     page : str
         The page that shows it: `tables`, `free-vibration`, `sines`, `maps`, `earthquakes` or `setting`.
     """
@@ -52,8 +55,13 @@ class Statement:
     says: str
     examined: str
     rule: str
-    answer: Callable[[Numbers], Answer]
+    finds: Callable[[Numbers], Answer | str]
     page: str
+
+    def answer(self, numbers: Numbers) -> Answer:
+        """Answer by the rule; without one no number bears on it, or it is what the virtual laboratory was given."""
+        found = self.finds(numbers)
+        return found if isinstance(found, Answer) else Answer("undecided", found)
 
 
 def judged(agrees: bool, ours: str) -> Answer:
@@ -61,19 +69,28 @@ def judged(agrees: bool, ours: str) -> Answer:
     return Answer("agrees" if agrees else "differs", ours)
 
 
-def undecided(ours: str) -> Callable[[Numbers], Answer]:
-    """Answer what no simulation can show: nothing in the numbers bears on it."""
-    return lambda _: Answer("undecided", ours)
+Finding = Callable[[Numbers], Answer | str]
 
 
-def assumed(read: Callable[[Numbers], str]) -> Callable[[Numbers], Answer]:
-    """Answer what the virtual laboratory was given: that it comes out again shows nothing of the experiment."""
-    return lambda numbers: Answer("undecided", read(numbers))
+class Statements(list[Statement]):
+    """The statements of a page in their order; the function that answers one is decorated with it."""
 
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.page = page
 
-HISTORIES = {"good": 0.1, "reasonably good": 0.2}
-"""RMS of the difference of two histories of θ, over α, up to which their agreement is called so. The paper gives no
-measure; these are ours."""
+    def __call__(
+        self, section: str, says: str, examined: str, rule: str = "", *, name: str = "", page: str = ""
+    ) -> Callable[[Finding], Finding]:
+        """Add a statement, whose id is the name of the function that answers it if it has no other."""
 
-BOUNDARIES = {"very good": 0.1, "fairly good": 0.25}
-"""The same of a boundary on the map: RMS of the difference, over the boundary's own A."""
+        def add(finds: Finding) -> Finding:
+            identity = name or finds.__name__.strip("_").replace("_", "-")
+            self.append(Statement(identity, section, says, examined, rule, finds, page or self.page))
+            return finds
+
+        return add
+
+    def undecided(self, name: str, section: str, says: str, examined: str, ours: str) -> None:
+        """Add a statement that no simulation can decide."""
+        self(section, says, examined, name=name)(lambda _: ours)

@@ -12,14 +12,13 @@ from colonnade.assessment.cases import (
     Cases,
     default_levels,
     factors_at,
-    gather,
+    joined,
     run_cases,
-    run_part,
 )
 from colonnade.assessment.prototype import Prototype, draw, drawn_column
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic.motion import OUTCOMES
+from colonnade.dynamics.plane.run import OUTCOMES
 from colonnade.dynamics.rock import rock
 
 BLOCK = Block.measured(mass=1000.0, pole_distance=4.0, critical_angle=0.18, inertia=4 / 3 * 1000.0 * 16.0)
@@ -38,7 +37,7 @@ MOTIONS = (shaken(1), shaken(2, transverse="y"), shaken(3, transverse="y", verti
 INTENSITY = np.array([[1.0, np.nan], [1.1, 0.9], [1.2, 0.8]])
 CASES = Cases(
     Prototype(UNEVEN, 0.95, **RANGES),
-    tuple(draw(Prototype(UNEVEN, 0.95, **RANGES), 3, record=record) for record in range(len(MOTIONS))),
+    np.stack([draw(Prototype(UNEVEN, 0.95, **RANGES), 3, record=record) for record in range(len(MOTIONS))]),
     MOTIONS,
     factors_at(np.array([1.0, 2.0, 4.0, 40.0]), INTENSITY),
 )
@@ -60,7 +59,7 @@ def test_every_case_ends_as_its_history_does():
         if vertical is not None and vertical.min() <= -BLOCK.gravity:
             assert outcomes.outcome[index] == FALLS_AWAY
             continue
-        block, e = drawn_column(CASES.prototype, CASES.draws[record], which)
+        block, e = drawn_column(CASES.prototype, CASES.draws[record, which])
         plane = Motion((1, -1)[side] * factor * along, motion.dt, vertical)
         history = rock(block, plane, restitution=e, model="nonlinear")
         assert OUTCOMES[outcomes.outcome[index]] == history.outcome
@@ -69,24 +68,18 @@ def test_every_case_ends_as_its_history_does():
     assert seen == {FALLS_AWAY, NOT_RUN, 0, 1, 2}
 
 
-@pytest.mark.parametrize("size", [1, 3, 7, 50])
-def test_parts_give_what_the_whole_gives(size):
-    whole = run_cases(CASES)
-    chosen = [range(start, min(start + size, CASES.count)) for start in range(0, CASES.count, size)]
-    joined = gather(CASES, [run_part(CASES.part(each)) for each in chosen])
+@pytest.mark.parametrize(("most", "count"), [(1, 1), (2, 2), (3, 3), (50, 3)])
+def test_blocks_of_records_give_what_the_whole_gives(most, count):
+    whole, blocks = run_cases(CASES), CASES.blocks(most)
+    assert len(blocks) == count
+    found = joined([run_cases(block) for block in blocks])
     for name in ("outcome", "peak_ratio", "instant"):
-        np.testing.assert_array_equal(getattr(joined, name), getattr(whole, name))
-
-
-def test_a_part_holds_no_more_records_than_it_needs():
-    each = CASES.count // 3
-    assert CASES.part(range(each - 1, each)).cases.motions == MOTIONS[:1]
-    assert CASES.part(range(each - 1, each + 1)).cases.motions == MOTIONS[:2]
+        np.testing.assert_array_equal(getattr(found, name), getattr(whole, name))
 
 
 def test_of_a_symmetric_column_the_opposite_motion_is_not_run_as_it_does_the_same():
     column = Prototype(BLOCK, 0.95)
-    cases = Cases(column, (draw(column, 0),) * len(MOTIONS), MOTIONS, CASES.factors)
+    cases = Cases(column, np.stack([draw(column, 0)] * 3), MOTIONS, CASES.factors)
     assert cases.signs == (1,)
     turned = tuple(
         Motion(-each.acceleration, each.dt, each.vertical, None if each.transverse is None else -each.transverse)
@@ -144,7 +137,7 @@ def test_the_share_that_overturns_goes_from_none_to_all():
     assert levels.size == 8
     assert (np.diff(levels) > 0).all()
     np.testing.assert_allclose(np.diff(np.log(levels), 2), 0.0, atol=0.02)
-    cases = Cases(COLUMN, (draw(COLUMN, 0),) * len(WAVES), WAVES, factors_at(levels, PEAKS))
+    cases = Cases(COLUMN, np.stack([draw(COLUMN, 0)] * 3), WAVES, factors_at(levels, PEAKS))
     shares = run_cases(cases).exceeds()[..., 0].mean(axis=(0, 2, 3))
     assert shares[0] == 0.0
     assert shares[-1] == 1.0

@@ -24,15 +24,15 @@ def test_the_measure_that_decides_comes_first_by_every_criterion(outcomes, measu
     scores = compare_measures(outcomes, measures, Resampling(200)).scores
     assert [each.name for each in scores] == ["pgv", "noisy", "unrelated"]
     best = scores[0]
-    assert min(best.best_deviance, best.best_auc, best.best_scatter) > 0.8
+    assert best.best > 0.8
     assert scores[0].auc > scores[1].auc > 0.5
     assert scores[0].scatter < scores[1].scatter
-    assert sum(each.best_deviance for each in scores) == pytest.approx(1.0)
+    assert sum(each.best for each in scores) == pytest.approx(1.0)
 
 
 def test_two_measures_that_say_the_same_share_the_first_place(outcomes, measures):
     twins = {"one": measures["pgv"], "other": measures["pgv"] ** 2}
-    shares = [each.best_deviance for each in compare_measures(outcomes, twins, Resampling(50)).scores]
+    shares = [each.best for each in compare_measures(outcomes, twins, Resampling(50)).scores]
     assert shares == pytest.approx([0.5, 0.5], abs=0.2)
 
 
@@ -68,8 +68,8 @@ def test_a_measure_that_leaves_magnitude_to_explain_is_not_sufficient(outcomes, 
     both = {"pgv": measures["pgv"], "without": without}
     scores = compare_measures(outcomes, both, Resampling(2), magnitude=magnitude)
     by_name = {each.name: each for each in scores.scores}
-    assert by_name["without"].on_magnitude.p_value < 0.02 < by_name["pgv"].on_magnitude.p_value
-    assert (by_name["without"].on_magnitude.slope > 0, by_name["pgv"].on_log_distance) == (True, None)
+    assert by_name["without"].on_magnitude < 0.02 < by_name["pgv"].on_magnitude
+    assert by_name["pgv"].on_log_distance is None
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from scipy import stats
 from colonnade.assessment.curves import IsotonicCurve, fit_isotonic, fit_lognormal, lognormal_misfit
 from colonnade.assessment.intervals import FEWEST_RECORDS, Band, Resampling
 from colonnade.assessment.outcomes import gather
-from fragilities.population import Population
+from fragility_trial import Population
 from virtual_capacities import BETA, MEDIAN, lognormal, names, outcomes_of, two_kinds
 
 
@@ -129,11 +129,9 @@ def test_two_kinds_of_records_are_not_lognormal(seed):
     assert lognormal_misfit(two_kinds(seed), Resampling(300)).p_value < 0.05
 
 
-def test_lognormal_outcomes_pass_although_their_deviance_is_large():
-    """χ² of 8 degrees of freedom would call many of them misfits: its 95 % limit is 15.5."""
+def test_lognormal_outcomes_pass():
     found = [lognormal_misfit(lognormal(seed), Resampling(300)) for seed in range(12)]
     assert sum(each.p_value < 0.05 for each in found) <= 2
-    assert sum(each.deviance > 15.5 for each in found) >= 4
 
 
 def test_the_departure_shows_where():

@@ -25,19 +25,19 @@ COLUMN = Prototype(
 
 def test_more_draws_begin_with_the_same_and_the_first_has_nothing_varied():
     few, many = draw(COLUMN, 5, seed=3), draw(COLUMN, 50, seed=3)
-    np.testing.assert_array_equal(few.values, many.values[:6])
-    np.testing.assert_allclose(many.values[0], [0.95, 0.18, BLOCK.p, 0.6])
-    assert (draw(COLUMN, 5, seed=4).values[1:] != few.values[1:]).all()
+    np.testing.assert_array_equal(few, many[:6])
+    np.testing.assert_allclose(many[0], [0.95, 0.18, BLOCK.p, 0.6])
+    assert (draw(COLUMN, 5, seed=4)[1:] != few[1:]).all()
 
 
 def test_each_record_draws_columns_of_its_own():
     here, there = draw(COLUMN, 5, record=0), draw(COLUMN, 5, record=1)
-    assert (here.values[0] == there.values[0]).all()
-    assert (here.values[1:] != there.values[1:]).all()
+    assert (here[0] == there[0]).all()
+    assert (here[1:] != there[1:]).all()
 
 
 def test_draws_fill_their_ranges_evenly():
-    values = draw(COLUMN, 2000).values[1:]
+    values = draw(COLUMN, 2000)[1:]
     for column, (low, high) in enumerate(COLUMN.ranges):
         share = (values[:, column] - low) / (high - low)
         assert 0.0 <= share.min() < 0.01
@@ -47,24 +47,24 @@ def test_draws_fill_their_ranges_evenly():
 
 
 def test_a_range_that_goes_leaves_the_other_draws_as_they_are():
-    without = draw(replace(COLUMN, p_range=None), 9).values
-    np.testing.assert_array_equal(without[:, [0, 1, 3]], draw(COLUMN, 9).values[:, [0, 1, 3]])
+    without = draw(replace(COLUMN, p_range=None), 9)
+    np.testing.assert_array_equal(without[:, [0, 1, 3]], draw(COLUMN, 9)[:, [0, 1, 3]])
     assert set(without[:, UNCERTAIN.index("p")]) == {BLOCK.p}
 
 
 def test_nothing_is_drawn_of_what_is_exactly_known():
     exact = Prototype(BLOCK, 0.95)
     draws = draw(exact, 100)
-    assert draws.size == 1
-    assert np.isnan(draws.of("friction")).all()
-    assert drawn_column(exact, draws, 0) == (BLOCK, (0.95, 0.95))
+    assert len(draws) == 1
+    assert np.isnan(draws[:, UNCERTAIN.index("friction")]).all()
+    assert drawn_column(exact, draws[0]) == (BLOCK, (0.95, 0.95))
 
 
 def test_a_drawn_column_has_what_was_drawn():
     draws = draw(COLUMN, 3)
-    block, e = drawn_column(COLUMN, draws, 2)
+    block, e = drawn_column(COLUMN, draws[2])
     drawn = (*set(e), block.critical_angle, block.p)
-    np.testing.assert_allclose(drawn, draws.values[2, :3], rtol=1e-12)
+    np.testing.assert_allclose(drawn, draws[2, :3], rtol=1e-12)
 
 
 def test_the_sides_of_a_column_keep_their_proportions():
@@ -72,9 +72,9 @@ def test_the_sides_of_a_column_keep_their_proportions():
     column = replace(COLUMN, block=uneven, restitution=(0.94, 0.96))
     assert not column.is_symmetric
     draws = draw(column, 1)
-    block, (negative, positive) = drawn_column(column, draws, 1)
+    block, (negative, positive) = drawn_column(column, draws[1])
     assert block.positive.critical_angle / block.negative.critical_angle == pytest.approx(1.5)
-    assert 0.5 * (negative + positive) == pytest.approx(draws.of("restitution")[1])
+    assert 0.5 * (negative + positive) == pytest.approx(draws[1, 0])
     assert positive - negative == pytest.approx(0.02)
 
 
@@ -102,7 +102,7 @@ WAVE = np.where(TIME < 1.0, np.sin(2 * np.pi * TIME), 0.0)
 def needed(*factors, vertical=None):
     column = Prototype(BLOCK, 0.9)
     factor = np.array([[[each, np.nan] for each in factors]])
-    return friction_needed(Cases(column, (draw(column, 0),), (Motion(WAVE, 0.01, vertical),), factor))
+    return friction_needed(Cases(column, draw(column, 0)[None], (Motion(WAVE, 0.01, vertical),), factor))
 
 
 def test_a_column_at_rest_needs_the_accelerations_over_gravity():
@@ -128,7 +128,7 @@ def test_a_column_that_rocks_needs_tan_alpha_at_rest_and_the_ratio_of_impulses_a
 def test_a_record_that_begins_with_a_jump_uplifts_the_column_before_it_needs_friction_at_rest():
     column = Prototype(BLOCK, 0.9)
     jump = Motion(np.where(TIME < 0.1, 5.0, 0.0), 0.01)
-    found = friction_needed(Cases(column, (draw(column, 0),), (jump,), np.array([[[1.0, np.nan]]])))
+    found = friction_needed(Cases(column, draw(column, 0)[None], (jump,), np.array([[[1.0, np.nan]]])))
     assert found.standing[0, 0, 0, 0] <= tan(0.18)
     assert tan(0.18) < found.rocking[0, 0, 0, 0] < 5.0 / 9.81
 

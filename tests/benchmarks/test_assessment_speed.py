@@ -9,21 +9,19 @@ import math
 import subprocess
 import sys
 import time
-from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from colonnade.assessment.cases import Cases, factors_at, in_plane, run_part
+from colonnade.assessment.cases import Cases, factors_at, in_plane, run_cases
 from colonnade.assessment.prototype import Prototype, draw, drawn_column
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.nonlinear import by_series
-from colonnade.dynamics.plane.outcomes import prepared
-from colonnade.dynamics.plane.sampled_march import propagate
-from colonnade.workflow.assessing.blocks import outcomes_of
-from colonnade.workflow.execution.blocks import in_blocks
+from colonnade.dynamics.plane.march import propagate
+from colonnade.dynamics.plane.run import forcing_of, prepared
+from colonnade.workflow.assessing import outcomes_of
+from colonnade.workflow.executors import Where
 
 BLOCK = Block.measured(mass=1000.0, pole_distance=4.0, critical_angle=0.18, inertia=4 / 3 * 1000.0 * 16.0)
 COLUMN = Prototype(BLOCK, 0.95, restitution_range=(0.93, 0.97), critical_angle_range=(0.16, 0.2), p_range=(1.2, 1.5))
@@ -53,30 +51,34 @@ def _cases(records, levels, draws):
     """Levels from well above uplift on, so that every history rocks: records, two components, levels, draws."""
     peaks = np.geomspace(1.2, 6.0, levels) * BLOCK.uplift_acceleration
     motions = tuple(_record(seed) for seed in range(records))
-    return Cases(COLUMN, (draw(COLUMN, draws - 1),) * records, motions, factors_at(peaks, np.ones((records, 2))))
+    return Cases(
+        COLUMN, np.stack([draw(COLUMN, draws - 1)] * records), motions, factors_at(peaks, np.ones((records, 2)))
+    )
+
+
+def _place(cases, case):
+    """Where a case is in the arrays of outcomes."""
+    return np.unravel_index(int(case), cases.shape)
 
 
 def _inputs(cases, chosen):
     """What the kernel needs of some cases, made beforehand."""
-    _records, levels, draws, _signs, components = cases.shape
     inputs = []
     for case in chosen:
-        row, which = divmod(int(case), draws)
-        record, place, level = row // (levels * components), row // levels % components, row % levels
+        record, level, which, _sign, place = _place(cases, case)
         motion = in_plane(cases.motions[record], place, float(cases.factors[record, level, place]))
         base = motion.acceleration / BLOCK.gravity
-        inputs.append((base, *drawn_column(cases.prototype, cases.draws[record], which)))
+        inputs.append((base, *drawn_column(cases.prototype, cases.draws[record, which])))
     return inputs
 
 
 def _kernel(inputs):
     """Processor time of the kernel alone, s, with all that it takes prepared."""
-    series = by_series(np.zeros(SAMPLES), False)
-    ready = [(base, prepared(block, e)) for base, block, e in inputs]
-    propagate(ready[0][0], INTERVAL, ready[0][1], 0.0, 0.0, series)
+    ready = [(forcing_of(Motion(base, INTERVAL), 1.0), prepared(block, e)) for base, block, e in inputs]
+    propagate(*ready[0], is_linearised=False)
     begin = time.process_time()
-    for base, sides in ready:
-        propagate(base, INTERVAL, sides, 0.0, 0.0, series)
+    for forcing, sides in ready:
+        propagate(forcing, sides, is_linearised=False)
     return time.process_time() - begin
 
 
@@ -86,9 +88,9 @@ from functools import partial
 from pathlib import Path
 import test_assessment_speed as bench
 cases = bench._cases(50, 20, 500)
-bench.run_part(cases.part(range(1)))
+bench.run_cases(bench._cases(1, 1, 1))
 begin = time.perf_counter()
-outcomes = bench.outcomes_of(cases, partial(bench.in_blocks, workers=2), Path(sys.argv[1]), "key")
+outcomes = bench.outcomes_of(cases, bench.Where(workers=2), Path(sys.argv[1]), "key")
 elapsed = time.perf_counter() - begin
 from joblib.externals.loky import get_reusable_executor
 get_reusable_executor().shutdown(wait=True)
@@ -103,8 +105,8 @@ print(json.dumps({
 
 def test_a_million_histories_take_little_more_than_the_kernels_own_time(tmp_path, capsys):
     cases = _cases(50, 20, 500)
-    assert cases.count == 1_000_000
-    chosen = np.random.default_rng(0).choice(cases.count, 10_000, replace=False)
+    assert math.prod(cases.shape) == 1_000_000
+    chosen = np.random.default_rng(0).choice(1_000_000, 10_000, replace=False)
     kernel = 100.0 * _kernel(_inputs(cases, chosen))
     command = [sys.executable, "-c", MILLION, str(tmp_path)]
     ended = subprocess.run(command, cwd=Path(__file__).parent, capture_output=True, text=True, check=True)
@@ -176,16 +178,15 @@ class Heyoka:
 def test_histories_beside_heyoka(capsys):
     heyoka = pytest.importorskip("heyoka", reason="the extra `bench` is not installed")
     cases = _cases(6, 5, 20)
-    chosen = np.arange(0, cases.count, 4)
+    chosen = np.arange(0, math.prod(cases.shape), 4)
     inputs = _inputs(cases, chosen)
     peer = Heyoka(heyoka)
     arguments = [(base, INTERVAL, block.critical_angle, block.p, e[0]) for base, block, e in inputs]
-    part = partial(run_part, cases.part(range(cases.count)))
-    part()
+    run_cases(cases)
     begin = time.process_time()
-    own = part()
-    seconds = (time.process_time() - begin) / cases.count
-    peaks = own["peak_ratio"][chosen, 0]
+    own = run_cases(cases)
+    seconds = (time.process_time() - begin) / own.is_run.sum()
+    peaks = np.array([own.peak_ratio[_place(cases, case)] for case in chosen])
     peer.largest(*arguments[0])
     begin = time.process_time()
     theirs = np.array([peer.largest(*each) for each in arguments[::10]])
@@ -215,10 +216,13 @@ def test_two_workers_of_a_cluster_are_as_quick_as_two_processes(tmp_path, capsys
         for turn in range(4):
             for name, way in ways.items():
                 begin = time.perf_counter()
-                outcomes[name] = outcomes_of(cases, partial(in_blocks, **way), tmp_path / f"{name}{turn}", "key")
+                outcomes[name] = outcomes_of(cases, Where(**way), tmp_path / f"{name}{turn}", "key")
                 seconds[name].append(time.perf_counter() - begin)
     np.testing.assert_array_equal(outcomes["processes"].peak_ratio, outcomes["Dask"].peak_ratio)
     best = {name: min(each[1:]) for name, each in seconds.items()}
     with capsys.disabled():
-        print(f"\n{cases.count:,} histories: " + ", ".join(f"{name} {each:.1f} s" for name, each in best.items()))
+        print(
+            f"\n{math.prod(cases.shape):,} histories: "
+            + ", ".join(f"{name} {each:.1f} s" for name, each in best.items())
+        )
     assert best["Dask"] <= 1.15 * best["processes"]

@@ -17,7 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from colonnade.dynamics.plane.harmonic.motion import Harmonic, harmonic_outcomes, harmonic_run
+from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_outcomes, harmonic_run
 from prism import PRISM
 from processor_time import seconds_of
 

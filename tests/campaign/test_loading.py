@@ -40,7 +40,7 @@ def test_every_key_of_the_contract_becomes_si(contract, load_text, tmp_path):
     assert list(setup.recorders) == ["main", "daq2"]
     assert setup.recorders["main"].sampling_rate == 200.0
     assert setup.recorders["main"].file is setup.file
-    assert setup.recorders["daq2"].clock == Align(channel="table_acceleration", own_channel="table_acceleration_2")
+    assert setup.recorders["daq2"].clock == Align(align=("table_acceleration", "table_acceleration_2"))
 
     top, bottom = setup.channels["top"], setup.channels["bottom"]
     assert (top.column, top.recorder, top.time, top.sensing, top.delay) == ("LVDT 1", "main", None, "point", 0.0)
@@ -78,7 +78,7 @@ def test_windows_line_ends_and_a_byte_order_mark_change_nothing(contract, load_t
 
 
 WRONG = [
-    ("schema = 1", "schema = 2", "line 1: schema: 2 was found. This colonnade reads campaign files of schema 1."),
+    ("schema = 1", "schema = 2", "line 1: schema: 2 was found. This colonnade reads schema 1."),
     ('campaign = "prism-2013"', 'campaing = "x"', 'line 2: campaing: Unknown key. Did you mean "campaign"?'),
     ('campaign = "prism-2013"', "", "campaign: It is missing. Expected: id of the campaign"),
     ('"9.80 m/s^2"', "9.80", "line 5: gravity: 9.8 has no unit. A quantity in quotes was expected, such as"),
@@ -88,7 +88,7 @@ WRONG = [
     ('shape = "cone", ', "", 'specimens.cone: "shape" is missing.'),
     ("cylinder =", "Prism =", 'specimens.Prism: This id differs from "prism" only in upper and lower case.'),
     ('on = "specimen", ', "", "channels.top.on: It is missing."),
-    (', relative_to = "table"', "", 'channels.top.relative_to: It is missing. "table" or "ground" was expected'),
+    (', relative_to = "table"', "", "channels.top.relative_to: It is missing. Expected: what a displacement"),
     ("bottom =", "TOP =", 'channels.TOP: This id differs from "top" only in case'),
     ('quantity = "acceleration"', 'quantity = "acceleraton"', '"acceleraton" was found. Did you mean "acceleration"?'),
     ('lowpass = "25 Hz"', 'lowpas = "25 Hz"', 'processing.lowpas: Unknown key. Did you mean "lowpass"?'),

@@ -62,9 +62,9 @@ CASE = "only in upper and lower case. Choose another."
         (document(test={"setup": "zzz"}), "tests.0.setup", 'Unknown setup "zzz". Choose one of: "frame".'),
         (document(test=BOTH), "tests.0.file.daq2", 'Unknown recorder "daq2" in set-up "frame". Choose one of: "main".'),
         (having(recorder="mian"), f"{FRAME}.channels.top.recorder", f'Unknown recorder "mian" {DID} "main"?'),
-        (aligned("tpo", "second"), ALIGN, f'Unknown channel "tpo" {DID} "top"?'),
-        (aligned("second", "second"), ALIGN, '"second" is not a channel of recorder "main". Choose one of: "top".'),
-        (aligned("top", "top"), ALIGN, '"top" is not a channel of recorder "daq2". Choose one of: "second".'),
+        (aligned("tpo", "second"), ALIGN, 'Unknown channel "tpo" of recorder "main". Did you mean "top"?'),
+        (aligned("second", "second"), ALIGN, 'Unknown channel "second" of recorder "main". Choose one of: "top".'),
+        (aligned("top", "top"), ALIGN, 'Unknown channel "top" of recorder "daq2". Choose one of: "second".'),
         (
             document(channels={"a.b": OTHER, "A_b": OTHER}),
             f"{FRAME}.channels.A_b",

@@ -49,20 +49,26 @@ def test_a_setup_without_channels_is_refused():
 
 @every(
     ("written", "clock"),
-    [("trigger", "trigger"), ({"align": ["top", "second"]}, Align(channel="top", own_channel="second"))],
+    [("trigger", "trigger"), ({"align": ["top", "second"]}, Align(align=("top", "second")))],
 )
 def test_a_clock_starts_with_the_main_one_or_is_linked_to_it(written, clock):
     assert setup(recorders={"daq2": {"clock": written}}).recorders["daq2"].clock == clock
 
 
 @every(
-    "clock",
-    ["Trigger", 3, {}, {"align": ["top"]}, {"align": ["top", 2]}, {"align": "top"}, {"align": ["a", "b"], "by": 1}],
+    ("clock", "place", "words"),
+    [
+        ("Trigger", "", 'was found. Expected: "trigger" if it starts with the main recorder'),
+        (3, "", 'was found. Expected: "trigger" if it starts with the main recorder'),
+        ({}, ".align", "It is missing. Expected: a channel of the main recorder"),
+        ({"align": ["top"]}, ".align", "A list of 2 was expected: a channel of the main recorder"),
+        ({"align": ["top", 2]}, ".align.1", "Text in quotes was expected"),
+        ({"align": "top"}, ".align", "A list of 2 was expected"),
+        ({"align": ["a", "b"], "by": 1}, ".by", "Unknown key."),
+    ],
 )
-def test_what_is_no_clock_is_refused_with_what_was_expected(clock):
-    ((place, told),) = problems(recorders={"daq2": {"clock": clock}}).items()
-    assert place == "recorders.daq2.clock"
-    assert 'was found. Expected: "trigger" if the recorders start together' in told
+def test_what_is_no_clock_is_refused_with_what_was_expected(clock, place, words):
+    assert words in problems(recorders={"daq2": {"clock": clock}})[f"recorders.daq2.clock{place}"]
 
 
 @pytest.mark.parametrize("name", ["main", "Main"])

@@ -184,7 +184,7 @@ def test_what_is_no_table_is_refused(content, told, tmp_path):
 
 
 def test_a_broken_workbook_is_refused(tmp_path):
-    with pytest.raises(CampaignError, match=r"log\.xlsx: it cannot be opened as a workbook"):
+    with pytest.raises(CampaignError, match=r"log\.xlsx: it is a zip archive without a workbook in it"):
         with_log(tmp_path, "log.xlsx", LOGS["log.xlsx"][:300])
 
 

@@ -15,7 +15,7 @@ from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.runs import write
 from colonnade.laboratory.table import recorded
 from colonnade.signals.filters import lowpass
-from faults.planting import TIME, TOP, both, in_campaign, in_file, swapped
+from faults.fault import TIME, TOP, both, in_campaign, in_file, swapped
 from prism import PRISM
 
 pytestmark = pytest.mark.whole

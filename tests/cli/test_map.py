@@ -18,9 +18,9 @@ def test_a_map_is_written_with_its_picture(colonnade, campaign):
 
 
 def test_commands_have_one_default_model():
-    from colonnade.campaign.assessing.assessment import Assessment
+    from colonnade.campaign.assessment import Assessment
     from colonnade.cli.spectrum import spectrum
-    from colonnade.workflow.maps.plans import Wanted
+    from colonnade.workflow.map_plans import Wanted
 
     ((mapped,), shaken) = (
         next(option.default for option in command.params if option.name == "model")

@@ -56,8 +56,7 @@ def main():
 def seed(whole, corpus, format):
     """Put whole files of a format into the corpus."""
     shutil.rmtree(whole, ignore_errors=True)
-    written = whole_files.write(whole)
-    seeds = [path for name, path in written.items() if whole_files.format_of(name) == format]
+    seeds = [whole_files.write(name, whole) for name in whole_files.DRILLED if whole_files.format_of(name) == format]
     for number, path in enumerate(seeds):
         (corpus / f"whole-{number}").write_bytes(path.read_bytes())
     return seeds

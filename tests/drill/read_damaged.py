@@ -19,14 +19,11 @@ from pathlib import Path
 import numpy as np
 
 from colonnade.errors import ReadError
-from colonnade.readers.bounded.messages import recording_of
 from colonnade.readers.registry import read, read_here
 from damage import KINDS, damaged
 
 WITHOUT_LENGTH = ("delimited", "mts", "tdms")
 """Formats in which a file that ends between two rows or segments is whole as far as anyone can tell."""
-CRASHING = ("matlab", "excel")
-"""Formats whose library ends the process at some damaged files: read in the bounded process, as in every command."""
 LIMIT = 20.0
 """Seconds for one read."""
 MEMORY = 4 << 30
@@ -42,8 +39,7 @@ def shortest(path, format):
 def outcome(path, format, size, least):
     """Read a file; in one word what came of it. A channel with fewer values than `least` has to be told."""
     try:
-        bounded = format in CRASHING
-        recording = read(path, format) if bounded else recording_of(path, *read_here(path, format, {}, None))
+        recording = read(path, format)  # in the bounded process, if the format is not plain text
     except ReadError as error:
         if path.name not in str(error) or len(str(error)) < 30:
             return f"finding: refused without its name or a reason: {error}"

@@ -1,6 +1,5 @@
 """Two thousand damaged files of all formats that are read here: read, warned of or refused, soon, and nothing else."""
 
-import importlib.util
 import math
 import os
 import subprocess
@@ -10,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+import whole_files
+
 pytestmark = pytest.mark.drill
 
 HERE = Path(__file__).parent
@@ -17,16 +18,6 @@ MUTATIONS = int(os.environ.get("DRILL_MUTATIONS", "2000"))
 SEED = os.environ.get("DRILL_SEED", "7")
 OUTCOMES = ("read", "warned", "refused", "caught")
 """Caught is a refusal that the registry made of a parser's exception."""
-
-
-def whole_files():
-    """The script of that name; this folder is no package."""
-    spec = importlib.util.spec_from_file_location("whole_files", HERE / "whole_files.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def read_all(file, format, count, by_kind):
@@ -69,14 +60,13 @@ def table(counts, title):
 
 
 def test_damaged_files_are_read_or_refused(tmp_path, capsys):
-    files = whole_files()
-    written = files.write(tmp_path)
+    written = {name: whole_files.write(name, tmp_path) for name in whole_files.DRILLED}
     by_kind = Counter()
     by_name = Counter()
     findings = []
     for name, path in written.items():
         seen = Counter()
-        findings += read_all(path, files.format_of(name), math.ceil(MUTATIONS / len(written)), seen)
+        findings += read_all(path, whole_files.format_of(name), math.ceil(MUTATIONS / len(written)), seen)
         by_kind += seen
         for (_, outcome), count in seen.items():
             by_name[name, outcome] += count

@@ -17,14 +17,14 @@ from joblib.externals.loky.backend.context import set_start_method
 
 from colonnade.errors import ColonnadeError
 from colonnade.workflow import run
-from colonnade.workflow.execution.spreading import on_processes
+from colonnade.workflow.executors import spread
 
 
 def workers_ready(workers):
-    """Start the processes that `colonnade.workflow.execution.processes` will find there."""
+    """Start the processes that `spread` will find there."""
     if workers == 1:
         return []
-    list(on_processes(abs, range(2 * workers), workers))
+    list(spread(abs, range(2 * workers), workers=workers))
     return list(get_reusable_executor(reuse=True)._processes)
 
 

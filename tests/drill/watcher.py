@@ -7,7 +7,7 @@ Each line is JSON on stdout. With POLLED = 1 the raw folder counts as one on ano
 import sys
 
 from colonnade.cli import main
-from colonnade.workflow.watching import folders
+from colonnade.workflow.watching import arrivals as folders
 
 if __name__ == "__main__":
     if sys.argv[2] == "1":

@@ -1,89 +1,116 @@
-"""A small undamaged file of every format that is read here, written by the readers' own tests."""
+"""A small undamaged file of every format that is read here."""
 
-import importlib.util
+from __future__ import annotations
+
 import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
+import h5py
 import numpy as np
+import scipy.io
+from nptdms import ChannelObject, TdmsWriter
 
-READERS = Path(__file__).parents[1] / "readers"
-BY_PACKAGES = ("waveform",)
-"""Formats whose parsers are other people's; they are drilled where those live."""
+sys.path.append(str(Path(__file__).parents[1] / "helpers"))  # where this is run by a script
+from raw_files import COLUMNS, WRITERS, as_matlab_73, tdm
+from workbooks import ROWS, SAMPLES, ods, xls, xlsx
+
+TIME = np.arange(60) * 0.01
+TABLE = np.random.default_rng(5).random((60, 3))
+START = np.datetime64("2020-01-01T00:00:00")
 
 
-def write(folder):
-    """
-    Write the files.
+def tdms(path: Path) -> None:
+    properties = {"wf_increment": 0.01, "wf_start_offset": 0.0, "wf_start_time": START, "unit_string": "mm"}
+    stamps = START + np.arange(60) * np.timedelta64(1000, "us")
+    columns = {"b": np.arange(60, dtype=np.int16), "t": stamps, "s": ["a"] * 60}
+    channels = [ChannelObject("g", name, values) for name, values in columns.items()]
+    with TdmsWriter(path) as writer:
+        for _ in range(3):
+            writer.write_segment([ChannelObject("g", "a", TIME, properties), *channels])
 
-    Returns
-    -------
-    files : dict of str to Path
-        By name; the format is the name's first word. A file that belongs to another lies beside it.
-    """
-    files = {}
-    for name, writer in _writers().items():
-        place = folder / name.replace(" ", "-")
-        place.mkdir(parents=True)
-        files[name] = writer(place / "record")
-    return files
+
+def matlab(path: Path, *, compressed: bool) -> None:
+    cells = np.empty(2, dtype=object)
+    cells[:] = ["text", TIME]
+    structs = np.array([(1.0, TIME), (3.0, TIME)], dtype=[("a", object), ("b", object)])
+    variables = {"t": TIME, "x": TABLE, "s": {"a": TIME, "n": "text", "c": cells}, "st": structs}
+    scipy.io.savemat(path, variables, do_compression=compressed)
+
+
+def matlab_hdf5(path: Path) -> None:
+    with h5py.File(path, "w", userblock_size=512) as file:
+        file.create_dataset("t", data=TIME[:, None]).attrs["MATLAB_class"] = np.bytes_("double")
+        group = file.create_group("s")
+        group.attrs["MATLAB_class"] = np.bytes_("struct")
+        group.create_dataset("x", data=TABLE.T, compression="gzip")
+        file["c"] = np.array([file["t"].ref, file["s/x"].ref], dtype=h5py.ref_dtype)
+    as_matlab_73(path)
+
+
+def netcdf4(path: Path) -> None:
+    with h5py.File(path, "w") as file:
+        time = file.create_dataset("time", data=TIME)
+        time.attrs["units"] = "s"
+        time.make_scale("time")
+        top = file.create_dataset("run/top", data=TABLE, compression="gzip")
+        top.dims[0].attach_scale(time)
+        top.attrs["units"] = "mm"
+
+
+def netcdf3(path: Path) -> None:
+    with scipy.io.netcdf_file(path, "w") as file:
+        file.createDimension("time", 60)
+        for name, values in (("time", TIME), ("top", TABLE[:, 0])):
+            file.createVariable(name, "f8", ("time",))[:] = values
+        file.variables["time"].units = b"s"
+
+
+def delimited(path: Path, *, separator: str, decimal: str, encoding: str) -> None:
+    rows = np.arange(200)
+    columns = {"Time [s]": rows * 0.005, "LVDT 1 [mm]": 10 * np.sin(rows / 9), "ACC [g]": np.cos(rows / 5)}
+    lines = [separator.join(columns)]
+    for row in zip(*columns.values(), strict=True):
+        lines.append(separator.join(f"{number:.5f}".replace(".", decimal) for number in row))
+    path.write_bytes(("\r\n".join(lines) + "\r\n").encode(encoding))
+
+
+WHOLE: dict[str, tuple[str, Callable[[Path], object]]] = {
+    **{
+        name: (f".{name}", partial(writer, time=np.arange(40) / 200, columns=COLUMNS))
+        for name, writer in WRITERS.items()
+    },
+    "delimited semicolon": (".csv", partial(delimited, separator=";", decimal=",", encoding="latin-1")),
+    "delimited utf-16": (".csv", partial(delimited, separator=",", decimal=".", encoding="utf-16")),
+    "delimited tab": (".csv", partial(delimited, separator="\t", decimal=".", encoding="utf-8")),
+    "excel xlsx": (".xlsx", lambda path: xlsx(path, Blatt=[*ROWS, *SAMPLES])),
+    "excel ods": (".ods", lambda path: ods(path, SAMPLES)),
+    "excel xls": (".xls", lambda path: xls(path, [*ROWS, *SAMPLES])),
+    "tdms": (".tdms", tdms),
+    "matlab 5 plain": (".mat", partial(matlab, compressed=False)),
+    "matlab 5 compressed": (".mat", partial(matlab, compressed=True)),
+    "matlab 7.3": (".mat", matlab_hdf5),
+    "netcdf 4": (".nc", netcdf4),
+    "netcdf 3": (".nc", netcdf3),
+    "diadem tdm": (".TDM", tdm),
+}
+"""By name, of which the first word is the format: the suffix, and what writes it. A companion is beside it."""
+
+
+DRILLED = [name for name in WHOLE if name != "waveform"]
+"""Waveforms are parsed by other people's code alone, and drilled where that is made."""
+
+
+def write(name: str, folder: Path) -> Path:
+    """Write one of the files into a folder of its own."""
+    suffix, writer = WHOLE[name]
+    path = folder / name.replace(" ", "-") / f"record{suffix}"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    writer(path)
+    return path
 
 
 def format_of(name):
     """Name of the format of a whole file."""
     return name.split()[0]
-
-
-def _writers():
-    instruments, binary, excel = _room("conftest"), _room("test_binary_mutations"), _room("binary/test_excel")
-    text, diadem = _room("text/test_delimited_mutations"), _room("binary/test_diadem")
-    time = np.arange(40) / 200
-    columns = [
-        instruments.Column("top", "mm", 10 * np.sin(40 * time)),
-        instruments.Column("table", "g", 0.3 * np.cos(30 * time)),
-    ]
-
-    def by_instrument(name):
-        return lambda path: instruments.WRITERS[name](path.with_suffix(f".{name}"), time, columns)
-
-    def by_binary(name):
-        def write_binary(path):
-            writer, suffix = binary.WRITERS[name]
-            writer(path.with_suffix(suffix))
-            return path.with_suffix(suffix)
-
-        return write_binary
-
-    def by_text(separator, decimal, encoding):
-        def write_text(path):
-            path.with_suffix(".csv").write_bytes(text.undamaged(separator, decimal, encoding))
-            return path.with_suffix(".csv")
-
-        return write_text
-
-    rows = [*excel.ROWS, *excel.SAMPLES]
-    return {
-        "delimited semicolon": by_text(";", ",", "latin-1"),
-        "delimited utf-16": by_text(",", ".", "utf-16"),
-        "delimited tab": by_text("\t", ".", "utf-8"),
-        "excel xlsx": lambda path: excel.xlsx(path.with_suffix(".xlsx"), Blatt=excel.sheet_xml(rows)),
-        "excel ods": lambda path: excel.ods(path.with_suffix(".ods"), rows[3:]),
-        "excel xls": lambda path: excel.xls(path.with_suffix(".xls"), rows),
-        "tdms": by_binary("tdms"),
-        "matlab 5 plain": by_binary("matlab 5, plain"),
-        "matlab 5 compressed": by_binary("matlab 5, compressed"),
-        "matlab 7.3": by_binary("matlab 7.3"),
-        "netcdf 4": by_binary("netcdf 4"),
-        "netcdf 3": by_binary("netcdf 3"),
-        "diadem tdm": lambda path: diadem.tdm(path.parent),
-        **{name: by_instrument(name) for name in instruments.WRITERS if name not in BY_PACKAGES},
-    }
-
-
-def _room(name):
-    spec = importlib.util.spec_from_file_location(f"readers_{name.replace('/', '_')}", READERS / f"{name}.py")
-    if spec is None or spec.loader is None:
-        raise ImportError(f"there is no {name}.py in {READERS}")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module

@@ -12,8 +12,7 @@ import pytest
 from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
-from colonnade.dynamics.plane.nonlinear import by_series
-from colonnade.dynamics.plane.sampled_march import propagate
+from colonnade.dynamics.plane.march import NONE, Forcing, propagate
 from colonnade.dynamics.plane.sides import sides_of
 from prism import PRISM
 
@@ -31,8 +30,9 @@ def _record(seed, duration=40 / P):
     return base * rng.uniform(1.2, 3.0) * ALPHA / np.abs(base).max(), rng.uniform(0.8, 0.99)
 
 
-def _exact(base, restitution, series=None):
-    return propagate(base, INTERVAL, sides_of(PRISM, (restitution, restitution), REST), 0.0, 0.0, series)
+def _exact(base, restitution, weights=NONE):
+    forcing = Forcing(0.0, np.pi / 2, INTERVAL, NONE, base, weights)
+    return propagate(forcing, sides_of(PRISM, (restitution, restitution), REST), is_linearised=True)
 
 
 def _horizon(base, restitution):
@@ -123,7 +123,7 @@ def _heyoka():
 
 
 def _series(base, restitution, horizon):
-    return _exact(base, restitution, by_series(np.zeros_like(base), True))[0][:horizon]
+    return _exact(base, restitution, np.ones_like(base))[0][:horizon]
 
 
 PEERS = {

@@ -9,7 +9,7 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
-from colonnade.dynamics.similitude import at_prototype
+from colonnade.dynamics.size import at_prototype
 from prism import PRISM
 
 

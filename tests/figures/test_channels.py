@@ -5,7 +5,7 @@ import pytest
 
 from colonnade.figures.channels import MOST_SPIKES, Channel, Scale, Spike, channels_as_recorded
 from colonnade.figures.panels.curve import Curve
-from colonnade.signals.spectra import Density
+from colonnade.signals.metrics import Density
 
 TIME = np.arange(0, 2, 0.01)
 NONE = Curve(np.empty(0), np.empty(0))

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from colonnade.figures.forecasts import Calibration, reliability_and_pit
-from colonnade.identification.verification.reliability import Reliability
+from colonnade.identification.calibration import Reliability
 
 
 def calibration(tests=20):

@@ -3,7 +3,7 @@ import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
-from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.models import MODELS
 from colonnade.figures import Curve
 from colonnade.figures.histories import LARGEST_RATIO, SMALLEST_RATIO, Spread, draw_angle, limit_of, time_limits
 from colonnade.figures.style import MEASURED, model_style

@@ -18,8 +18,8 @@ from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_re
 from colonnade.figures.restitution.peaks import PeakSeries, peak_decay
 from colonnade.figures.stored.closer import separatrix
 from colonnade.figures.style import STYLE_FILE
-from colonnade.identification.restitution.arcs.energy import angle_of_energy
-from colonnade.signals.spectra import Density
+from colonnade.identification.restitution.peaks import angle_of_energy
+from colonnade.signals.metrics import Density
 from prism import PRISM
 
 TIME = np.arange(0, 8, 0.01)

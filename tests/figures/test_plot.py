@@ -91,7 +91,7 @@ def test_two_histories_share_axes_that_hold_both(history):
 def test_what_is_no_result_is_refused(wrong):
     with pytest.raises(
         ValueError,
-        match=r"result is .*a History, a Restitution, a StabilityMap, an Ensemble, a spectrum or a Fragility",
+        match=r"result is .*a History, an AssemblyHistory, a Restitution, a StabilityMap, .*a spectrum or a Fragility",
     ):
         colonnade.plot(wrong)
     with pytest.raises(ValueError, match="history"):
@@ -129,3 +129,18 @@ def test_a_fragility_is_drawn_over_its_measure_with_its_unit(fragility):
     assert axes.get_xlabel() == "PGV (m/s)"
     drawn = {line.get_label(): line for line in axes.lines}
     assert drawn["curve that only rises"].get_xdata().tolist() == fragility.isotonic.intensity.tolist()
+
+
+def test_an_assembly_is_drawn_joint_by_joint_and_moves_body_by_body():
+    pillar = colonnade.Block.prism(width=0.4, depth=0.4, height=1.6, mass=640.0)
+    beam = colonnade.Block.prism(width=2.4, depth=0.4, height=0.3, mass=720.0)
+    portal = colonnade.Assembly.frame(pillar, beam, span=2.0)
+    history = colonnade.rock(portal, model="contact", theta0=0.05, duration=0.01)
+    axes = colonnade.plot(history)
+    assert [line.get_label() for line in axes.lines] == ["left", "right", "beam"]
+    corners = {name: outline[0] for name, outline in history.outlines().items()}
+    assert corners["left"][1] == pytest.approx([-0.8, 0.0], abs=1e-6)
+    assert corners["beam"][0, 1] == pytest.approx(1.6 * np.cos(0.05) + 0.4 * np.sin(0.05), abs=1e-6)
+    moving = colonnade.animate(history)
+    moving._func(0)
+    assert len(moving._fig.axes[0].patches) == 3

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.models import MODELS
 from colonnade.figures import Curve, Peak, Quantity, whole_record
 from colonnade.figures.histories import Spread
 from colonnade.figures.style import styled

@@ -5,7 +5,7 @@ import matplotlib
 import numpy as np
 import pytest
 
-from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.models import MODELS
 from colonnade.figures import (
     Curve,
     estimators_side_by_side,

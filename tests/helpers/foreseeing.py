@@ -2,7 +2,7 @@
 
 import shutil
 
-from colonnade.workflow.forecasting.foresee import foresee
+from colonnade.workflow.foresee import foresee
 
 TEST, LATER = "span-2.0", "span-9"
 ENTRY = f"""

@@ -5,9 +5,9 @@ from collections import Counter
 from html.parser import HTMLParser
 from posixpath import dirname, join, normpath
 
-from colonnade.report.build import build
 from colonnade.store.layout import Layout
 from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.pages import update_report
 from colonnade.workflow.summary import write_summary
 
 VOID = {"meta", "img", "br", "hr", "input", "link", "col", "wbr"}
@@ -59,8 +59,9 @@ class Page(HTMLParser):
 
 def built(campaign, layout, outdated=frozenset(), **options):
     """Write the summary and the report, as a run does."""
-    write_summary(campaign, layout, Catalogue(layout), outdated=dict.fromkeys(outdated, ""))
-    return build(campaign, layout, outdated, **options)
+    catalogue = Catalogue(layout)
+    summary = write_summary(campaign, layout, catalogue, outdated=dict.fromkeys(outdated, ""))
+    return update_report(campaign, layout, catalogue, outdated, **{"forecasts": summary.forecasts} | options)
 
 
 def written(layout):

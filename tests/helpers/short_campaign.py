@@ -70,7 +70,7 @@ def copied(campaign, folder):
     layout = Layout(Path(shutil.copytree(campaign, folder)))
     known = json.loads(layout.catalogue.read_text(encoding="utf-8"))
     del known["sha256"]
-    for kind in ("raw", "results", "pages", "photos"):
+    for kind in ("raw", "results", "pages"):
         for name, entry in known[kind].items():
             entry[0] = list(mark_of(folder / name.partition(" ")[0]))
     known["sha256"] = hash_of(known)

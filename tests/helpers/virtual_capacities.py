@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from fragilities import population
-from fragilities.population import MEDIAN, Population
+import fragility_trial
+from fragility_trial import MEDIAN, Population
 
 __all__ = ["BETA", "LEVELS", "MEDIAN", "lognormal", "names", "outcomes_of", "two_kinds"]
 
@@ -16,7 +16,7 @@ def names(count):
 
 def outcomes_of(capacity, levels=LEVELS):
     """Outcomes of capacities of shape (records, draws)."""
-    return population.outcomes_of(capacity, levels)
+    return fragility_trial.outcomes_of(capacity, levels)
 
 
 def lognormal(seed, **chosen):

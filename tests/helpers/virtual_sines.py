@@ -6,12 +6,11 @@ from math import pi
 
 import numpy as np
 
-from colonnade.dynamics.block import Block
-from colonnade.dynamics.ensembles.uncertainty import member_block, member_restitution
-from colonnade.dynamics.maps.chart import stability_map
+from colonnade.dynamics.block import Block, Side
+from colonnade.dynamics.maps import stability_map
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
-from colonnade.dynamics.side import Side
+from colonnade.dynamics.uncertainty import member_block, member_restitution
 from prism import PRISM
 
 RESTITUTION = 0.976

@@ -5,7 +5,7 @@ import pytest
 
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
-from colonnade.laboratory.programme import CYCLES, LADDERS, LASTING, MARGIN, RAMP, RAMPS, SPECIMENS, Placed, sine
+from colonnade.laboratory.programme import CYCLES, LADDERS, LASTING, MARGIN, RAMP, RAMPS, SPECIMENS, sine
 
 RUNGS = [(name, frequency) for name, steps in LADDERS.items() for frequency in steps]
 
@@ -13,9 +13,8 @@ RUNGS = [(name, frequency) for name, steps in LADDERS.items() for frequency in s
 def outcomes(name, frequency, looks, samples_per_cycle):
     """Outcomes around each step, by the nonlinear model: not the integrator that makes the truth."""
     specimen, steps = SPECIMENS[name], LADDERS[name]
-    placed = Placed(name, specimen.block, "bench", "table")
     cycles, ramp = CYCLES.get(frequency, LASTING), RAMPS.get(frequency, RAMP)
-    table = sine(placed, "sine", frequency, 1.0, cycles=cycles, ramp=ramp).table
+    table = sine(specimen.block, "sine", frequency, 1.0, cycles=cycles, ramp=ramp).table
     dt = 1 / (frequency * samples_per_cycle)
     unit = table.acceleration(np.arange(0.0, table.stop + 1.0, dt))
 

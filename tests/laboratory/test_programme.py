@@ -15,7 +15,6 @@ from colonnade.laboratory.programme import (
     QUIET,
     RELEASES,
     SPANS,
-    Placed,
     earthquakes,
     free_vibrations,
     load_record,
@@ -46,24 +45,23 @@ def test_a_file_in_which_nothing_moves_is_refused(tmp_path):
         load_record(path)
 
 
-PLACED = Placed("prism", PRISM, "bench", "table", "p-")
 RECORD = Motion(np.sin(np.arange(400) * 0.1) * np.hanning(400), 0.02)
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_free_vibrations_start_near_their_angles_on_a_table_at_rest(seed):
-    trials = list(free_vibrations(PLACED, np.random.default_rng(seed)))
-    assert [trial.name for trial in trials] == ["p-free-01", "p-free-02", "p-free-03"]
+    trials = list(free_vibrations(PRISM, np.random.default_rng(seed)))
+    assert [trial.name for trial in trials] == ["free-01", "free-02", "free-03"]
     for trial, ratio in zip(trials, RELEASES, strict=True):
         assert trial.theta0 / PRISM.critical_angle == pytest.approx(ratio, abs=0.02)
         assert trial.release == pytest.approx(QUIET, abs=0.2)
         assert trial.table.stop == 0.0
-        assert (trial.kind, trial.setup, trial.specimen) == ("free-vibration", "bench", "prism")
+        assert (trial.kind, trial.setup) == ("free-vibration", "bench")
 
 
 def test_the_generator_alone_decides_what_is_drawn():
     first, again, other = (
-        [(trial.theta0, trial.release) for trial in free_vibrations(PLACED, np.random.default_rng(seed))]
+        [(trial.theta0, trial.release) for trial in free_vibrations(PRISM, np.random.default_rng(seed))]
         for seed in (1, 1, 2)
     )
     assert first == again
@@ -72,8 +70,8 @@ def test_the_generator_alone_decides_what_is_drawn():
 
 @pytest.mark.parametrize("frequency", [1.0, 2.5])
 def test_a_sine_reaches_its_multiple_of_g_tan_alpha_between_its_ramps(frequency):
-    trial = sine(PLACED, "sine", frequency, 1.4, cycles=6, ramp=2)
-    assert (trial.name, trial.kind, trial.setup) == ("p-sine", "sine", "table")
+    trial = sine(PRISM, "sine", frequency, 1.4, cycles=6, ramp=2)
+    assert (trial.name, trial.kind, trial.setup) == ("sine", "sine", "table")
     assert trial.entry == {"frequency": f"{frequency:g} Hz"}
     assert trial.table.stop == pytest.approx(QUIET + 10 / frequency)
     assert trial.duration == pytest.approx(trial.table.stop + 4.0)
@@ -86,8 +84,8 @@ def test_a_sine_reaches_its_multiple_of_g_tan_alpha_between_its_ramps(frequency)
 
 
 def test_an_earthquake_is_played_at_three_spans_and_in_the_models_time():
-    trials = list(earthquakes(PLACED, "a wave", RECORD))
-    assert [trial.name for trial in trials] == ["p-span-2.0", "p-span-2.5", "p-span-3.0"]
+    trials = list(earthquakes("a wave", RECORD))
+    assert [trial.name for trial in trials] == ["span-2.0", "span-2.5", "span-3.0"]
     for trial, span in zip(trials, SPANS, strict=True):
         assert trial.entry == {"motion": "a wave", "span": span, "time_scale": pytest.approx(0.223607, abs=5e-7)}
         # Times of a 1:20 model are shorter by √20, accelerations are not: similitude of Froude.

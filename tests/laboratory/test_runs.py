@@ -17,6 +17,7 @@ from colonnade.laboratory.instruments import Imperfections, Transducer
 from colonnade.laboratory.runs import START_SCATTER, run_test, run_tests, write, write_truth
 from colonnade.laboratory.table import ramped_sine
 from colonnade.laboratory.truth import simulate
+from colonnade.workflow import executors
 from prism import PRISM
 from written_files import assert_sound, columns
 
@@ -304,3 +305,9 @@ def test_several_processes_write_what_one_writes(tmp_path):
     for folder, workers in (("one", 1), ("two", 2)):
         write(statue_plan(), tmp_path / folder, seed=1, workers=workers)
     assert tree(tmp_path / "one") == tree(tmp_path / "two")
+
+
+def test_it_writes_after_a_run_has_left_its_processes_waiting(tmp_path):
+    spread = executors._processes(2)  # of another kind than those of joblib.Parallel
+    assert list(spread.pool.map(abs, [-1, -2])) == [1, 2]
+    write(statue_plan(), tmp_path, seed=1, workers=2)

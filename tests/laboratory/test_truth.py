@@ -10,7 +10,7 @@ import pytest
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.runs import with_truth
-from colonnade.laboratory.table import Piece, TableMotion, ramped_sine, recorded
+from colonnade.laboratory.table import TableMotion, ramped_sine, recorded
 from colonnade.laboratory.truth import REST_ANGLE, Integration, simulate
 from every import every
 from prism import PRISM
@@ -182,10 +182,10 @@ SLENDER = Block.measured(mass=1.0, pole_distance=1.0, critical_angle=1e-4, inert
 def one_sine(ratio, block, period):
     """One whole sine of amplitude `ratio` g tan α."""
 
-    def wave(time):
+    def wave(time, piece):
         return ratio * block.gravity * tan(block.critical_angle) * sin(2 * pi * time / period)
 
-    return TableMotion(tuple(Piece(*piece, wave) for piece in pairwise(np.linspace(0.0, period, 9))), np.zeros_like)
+    return TableMotion(tuple(np.linspace(0.0, period, 9).tolist()), wave, np.zeros_like)
 
 
 def published(pole_distance):
@@ -258,13 +258,13 @@ def test_one_sine_leaves_the_published_energy(pole_distance, energy):
     run = Integration(block, np.array([0.5]), e, pi / 2, 0.0)
     run.release(0.0, 0.0)
     for piece in one_sine(2.0, block, 0.5).pieces:
-        run.go(piece.start, piece.stop, piece.acceleration)
+        run.go(*piece)
     risen = (cos(0.2 - abs(run.angle)) - cos(0.2)) / (1 - cos(0.2))
     assert run.velocity**2 / (2 * block.p**2 * (1 - cos(0.2))) + risen == pytest.approx(energy, abs=1e-8)
 
 
 def test_acceleration_towards_plus_x_starts_rocking_with_negative_angle_at_g_tan_alpha():
-    ramp = TableMotion((Piece(0.0, 1.0, lambda time: 2.0 * PRISM.uplift_acceleration * time),), np.zeros_like)
+    ramp = TableMotion((0.0, 1.0), lambda time, piece: 2.0 * PRISM.uplift_acceleration * time, np.zeros_like)
     time = np.linspace(0.0, 0.7, 701)
     angle = simulate(PRISM, time, ramp, restitution=0.9).angle
     assert not angle[time <= 0.5].any()

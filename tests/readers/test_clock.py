@@ -1,6 +1,6 @@
 """Clocks of text files that are called otherwise, or not at all; and those of vectors in structs."""
 
-from datetime import datetime
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -9,16 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as some
 
 from colonnade.errors import ReadError
-from colonnade.readers.clock import equal_step, find_vector_clocks, given_clock, may_be_clock, rising_share
+from colonnade.readers.clock import equal_step, may_be_clock, rising_share, with_clocks
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.registry import read
+from delimited_text import recorded
 from every import every
-
-
-def recorded(folder, text):
-    path = folder / "record.txt"
-    path.write_text(text)
-    return read(path)
 
 
 def rows(times, form="{:.4f}"):
@@ -45,50 +39,45 @@ def test_a_first_column_without_a_name_that_rises_in_equal_steps_is_the_clock(tm
     assert any("no name and rises in equal steps" in note for note in recording.notes)
 
 
-@pytest.mark.parametrize(
-    "times",
+@every(
+    ("times", "head"),
     [
-        pytest.param(np.arange(60.0), id="numbers of samples"),
-        pytest.param(5.0 * np.arange(60), id="perhaps milliseconds"),
-        pytest.param(0.01 * np.arange(60) ** 1.5, id="unequal steps"),
-        pytest.param(-0.01 * np.arange(60), id="falling"),
+        (np.arange(60.0), ""),  # numbers of samples
+        (5.0 * np.arange(60), ""),  # perhaps milliseconds
+        (0.01 * np.arange(60) ** 1.5, ""),  # unequal steps
+        (-0.01 * np.arange(60), ""),  # falling
+        (0.005 * np.arange(60), "ramp\ttop\tx\n"),  # its name says something else
     ],
 )
-def test_what_may_be_something_else_is_not_taken_for_a_clock(tmp_path, times):
-    assert not any(channel.is_clock for channel in recorded(tmp_path, rows(times)).channels)
+def test_what_may_be_something_else_is_not_taken_for_a_clock(tmp_path, times, head):
+    assert not any(channel.is_clock for channel in recorded(tmp_path, head + rows(times)).channels)
 
 
-def test_a_first_column_with_a_name_is_what_its_name_says(tmp_path):
-    assert not any(
-        channel.is_clock for channel in recorded(tmp_path, "ramp\ttop\tx\n" + rows(np.arange(60) / 200)).channels
-    )
+def clocked(channels, **known):
+    return with_clocks(Recording(Path("a.mat"), "matlab", tuple(channels)), **known)
 
 
-VECTORS = Recording(
-    Path("a.mat"),
-    "matlab",
-    (
-        RecordedChannel("t", None, np.arange(4.0) * 5),
-        RecordedChannel("top", None, np.arange(4.0)),
-        RecordedChannel("other", None, np.arange(3.0)),
-        RecordedChannel("off", None, np.full(3, np.nan)),
-    ),
+VECTORS = (
+    RecordedChannel("t", None, np.arange(4.0) * 5),
+    RecordedChannel("top", None, np.arange(4.0)),
+    RecordedChannel("other", None, np.arange(3.0)),
+    RecordedChannel("off", None, np.full(3, np.nan)),
 )
 
 
 def test_the_clock_that_was_named_is_that_of_all_as_long_as_it():
-    clocks = given_clock(VECTORS, "t", "ms")
-    clock, top, other, _ = clocks.applied(VECTORS).channels
+    recording = clocked(VECTORS, time="t", unit="ms")
+    clock, top, other, _ = recording.channels
     assert clock.is_clock
     assert not top.is_clock
     np.testing.assert_allclose(top.time, [0, 0.005, 0.01, 0.015])
     assert other.time is None
-    assert clocks.warnings == ('2 channels are not as long as "t": no clock',)
+    assert recording.warnings == ('2 channels are not as long as "t": no clock',)
 
 
 def test_a_clock_without_a_number_is_refused():
     with pytest.raises(ReadError, match=r'a.mat: column "off" holds no number, so it cannot be the clock. Name a col'):
-        given_clock(VECTORS, "off", None)
+        clocked(VECTORS, time="off")
 
 
 @given(
@@ -122,55 +111,75 @@ def vectors(**values):
     """Vectors by their paths, with double lines for points; each is in the structs that its path names."""
     paths = {name.replace("__", "."): each for name, each in values.items()}
     return [
-        RecordedChannel("", None, each, heading=path, scope=tuple(path.split(".")[:-1])) for path, each in paths.items()
+        RecordedChannel(path.rpartition(".")[2], None, each, heading=path, scope=tuple(path.split(".")[:-1]))
+        for path, each in paths.items()
     ]
 
 
 @every("name", ["t", "Time", "tMeas", "time_vec", "t_s", "simtime", "xTime"])
 def test_a_rising_vector_with_a_name_of_times_is_the_clock(name):
-    clocks = find_vector_clocks(vectors(**{name: RISING, "top": SIGNAL}), {})
-    assert clocks.columns == {0}
-    np.testing.assert_allclose(clocks.times[1], RISING)
+    clock, top = clocked(vectors(**{name: RISING, "top": SIGNAL})).channels
+    assert clock.is_clock
+    np.testing.assert_allclose(top.time, RISING)
 
 
 @every(("name", "unit", "factor"), [("t_ms", None, 1e-3), ("t", "ms", 1e-3), ("t", None, 1.0)])
 def test_its_unit_is_given_or_at_the_end_of_its_name(name, unit, factor):
-    clocks = find_vector_clocks(vectors(**{name: RISING, "top": SIGNAL}), {}, unit)
-    np.testing.assert_allclose(clocks.times[1], factor * RISING)
+    _, top = clocked(vectors(**{name: RISING, "top": SIGNAL}), unit=unit).channels
+    np.testing.assert_allclose(top.time, factor * RISING)
 
 
 def test_each_struct_goes_by_its_own_clock_else_by_that_around_it():
     structs = vectors(t=RISING, a__top=SIGNAL, b__t=2 * RISING, b__top=SIGNAL, b__c__top=SIGNAL)
-    found = find_vector_clocks(structs, {})
-    last = [None if time is None else float(time[-1]) for time in found.times]
+    last = [float(channel.time[-1]) for channel in clocked(structs).channels]
     assert last == [1.9, 1.9, 3.8, 3.8, 3.8]
 
 
+def test_the_clock_of_another_struct_is_not_used():
+    assert clocked(vectors(a__t=RISING, b__top=SIGNAL)).channels[1].time is None
+
+
 def test_a_clock_that_goes_back_is_not_used_and_that_is_said():
-    clocks = find_vector_clocks(vectors(t=SIGNAL, top=SIGNAL), {})
-    assert clocks.columns == frozenset()
-    assert clocks.warnings[0].startswith('"t" looks like a clock, but only')
-    assert clocks.times == (None, None)
+    recording = clocked(vectors(t=SIGNAL, top=SIGNAL))
+    assert [channel.is_clock for channel in recording.channels] == [False, False]
+    assert recording.warnings[0].startswith('"t" looks like a clock, but only')
+    assert [channel.time for channel in recording.channels] == [None, None]
 
 
 def test_days_of_matlabs_calendar_are_a_date():
     noon = 735_350.5  # 2013-04-26 12:00
-    clocks = find_vector_clocks(vectors(t=noon + RISING / 86400, top=SIGNAL), {})
-    assert clocks.start == datetime(2013, 4, 26, 12)
-    np.testing.assert_allclose(clocks.times[1], RISING, atol=1e-4)
+    recording = clocked(vectors(t=noon + RISING / 86400, top=SIGNAL))
+    assert recording.start == datetime(2013, 4, 26, 12)
+    np.testing.assert_allclose(recording.channels[1].time, RISING, atol=1e-4)
 
 
 @every("scalars", [{"dt": 0.1}, {"run.Fs": 10.0}, {"sample_rate": 10.0}, {"dt": 0.1, "fs": 10.0}])
 def test_without_a_vector_a_constant_step_is_taken_by_its_name(scalars):
-    (time,) = find_vector_clocks(vectors(top=SIGNAL), scalars).times
-    np.testing.assert_allclose(time, RISING, atol=1e-12)
+    (top,) = clocked(vectors(top=SIGNAL), scalars=scalars).channels
+    np.testing.assert_allclose(top.time, RISING, atol=1e-12)
 
 
 def test_steps_that_contradict_each_other_are_not_used():
-    clocks = find_vector_clocks(vectors(top=SIGNAL), {"dt": 0.1, "fs": 200.0})
-    assert clocks.times == (None,)
-    assert clocks.notes == ("no clock: the step is not clear (dt says 0.1 s, fs says 0.005 s); give sampling_rate",)
+    recording = clocked(vectors(top=SIGNAL), scalars={"dt": 0.1, "fs": 200.0})
+    assert recording.channels[0].time is None
+    assert recording.notes == ("no clock: the step is not clear (dt says 0.1 s, fs says 0.005 s); give sampling_rate",)
 
 
 def test_a_vector_that_rises_evenly_by_another_name_is_hinted_at():
-    assert 'set time = "x" if that is one' in find_vector_clocks(vectors(top=SIGNAL, x=RISING), {}).notes[0]
+    assert 'set time = "x" if that is one' in clocked(vectors(top=SIGNAL, x=RISING)).notes[0]
+
+
+def test_channels_with_starts_of_their_own_count_from_the_earliest():
+    begin = datetime(2013, 4, 26, 10, 15)
+    shared = np.arange(3) / 10
+    late = begin + timedelta(milliseconds=250)
+    channels = [
+        RecordedChannel(name, "mm", np.zeros(3), shared, start=start)
+        for name, start in zip("abc", (begin, late, late), strict=True)
+    ]
+    recording = clocked(channels)
+    first, second, third = (channel.time for channel in recording.channels)
+    np.testing.assert_allclose(first, [0, 0.1, 0.2])
+    np.testing.assert_allclose(second, [0.25, 0.35, 0.45])
+    assert third is second
+    assert recording.start == begin

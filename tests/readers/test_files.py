@@ -11,37 +11,23 @@ from colonnade.readers.files import in_one_line, irregular, refusing, sha256_of
 from every import every
 
 
-def test_folders_pipes_and_devices_are_named(tmp_path):
-    assert irregular(tmp_path) == "a folder"
-    if not hasattr(os, "mkfifo"):
-        pytest.skip("this system has no named pipes")
-    os.mkfifo(tmp_path / "pipe")
-    assert irregular(tmp_path / "pipe") == "a named pipe"
-    assert irregular(Path(os.devnull)) == "a device"
-
-
-def test_a_file_and_what_is_missing_are_not(tmp_path):
-    (tmp_path / "a.csv").write_text("1\n")
-    assert irregular(tmp_path / "a.csv") == ""
-    assert irregular(tmp_path / "b.csv") == ""
-
-
 def test_the_hash_is_that_of_the_content(tmp_path):
     (tmp_path / "a.csv").write_bytes(b"abc")
     # The SHA-256 of "abc": FIPS 180-2, B.1.
     expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
     assert sha256_of(tmp_path / "a.csv") == expected
 
-
-def test_what_is_missing_or_no_file_has_none(tmp_path):
-    assert sha256_of(tmp_path / "missing.csv") is None
-    assert sha256_of(tmp_path) is None
+    assert irregular(tmp_path / "a.csv") == ""
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
-def test_a_pipe_is_not_opened(tmp_path):
-    os.mkfifo(tmp_path / "pipe")  # opening it would wait for a writer for ever
-    assert sha256_of(tmp_path / "pipe") is None
+@every(("name", "what"), [(".", "a folder"), ("pipe", "a named pipe"), (os.devnull, "a device"), ("missing.csv", "")])
+def test_what_is_no_file_is_named_and_has_no_hash(tmp_path, name, what):
+    if name == "pipe" and not hasattr(os, "mkfifo"):
+        pytest.skip("this system has no named pipes")
+    if name == "pipe":
+        os.mkfifo(tmp_path / name)  # opening it would wait for a writer for ever
+    assert irregular(tmp_path / name) == what
+    assert sha256_of(tmp_path / name) is None
 
 
 PATH = Path("raw/free-01.tdms")

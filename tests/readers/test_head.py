@@ -16,7 +16,10 @@ from every import every
         (b"", "the file is empty"),
         (bytes(100), "its first bytes are all zero"),
         (b"\xef\xbb\xbf \n<!DOCTYPE HTML>", "it is a web page"),
-        (b"version https://git-lfs.github.com/spec/v1", "fetch that with `git lfs pull`"),
+        (
+            b"version https://git-lfs.github.com/spec/v1",
+            "a pointer of git-lfs, not the file itself: fetch that with `git lfs pull`",
+        ),
         (b"TDSh" + bytes(9), "give the .tdms"),
         (b"\x1f\x8b\x08", "unpack it first"),
         (pickle.dumps([1]), "it is a Python pickle, a program that runs when it is opened: never read"),
@@ -29,8 +32,7 @@ def test_a_file_that_is_something_else_is_called_by_its_name(first, what):
     assert bool(found) == bool(what)
 
 
-def test_a_file_is_recognised_by_any_of_its_marks(tmp_path):
-    path = tmp_path / "a"
+def test_a_file_is_recognised_by_any_of_its_marks(path):
     path.write_bytes(b"MARK2" + bytes(2 * BYTES))
     head = head_of(path)
     assert len(head.content) == BYTES
@@ -38,7 +40,7 @@ def test_a_file_is_recognised_by_any_of_its_marks(tmp_path):
     recognise = from_head(lambda head: by_mark(head, (b"MARK1",), "a mark"))
     assert recognise(path).reason == "it does not start with a mark"
     path.write_bytes(b"%PDF-1.4")
-    with pytest.raises(ReadError, match="a: it does not start with a mark; it is a PDF"):
+    with pytest.raises(ReadError, match=r"record.raw: it does not start with a mark; it is a PDF"):
         recognise.expected(path)
 
 

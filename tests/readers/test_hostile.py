@@ -22,8 +22,7 @@ def place(tmp_path_factory):
 
 # The file that swells takes all that a reader may: seconds.
 @pytest.mark.parametrize(
-    "name",
-    [pytest.param(name, marks=pytest.mark.whole if name == "matlab_swelling" else ()) for name in hostile.FILES],
+    "name", [pytest.param(name, marks=pytest.mark.whole if name == "matlab_swelling" else ()) for name in hostile.FILES]
 )
 def test_a_hostile_file_is_only_read(place, name):
     write = hostile.FILES[name]

@@ -12,24 +12,11 @@ from colonnade.readers.motion import read_motion, read_motions
 STANDARD_GRAVITY = 9.80665
 
 
-def test_numbers_that_run_on_from_row_to_row(shared_data):
-    motion = read_motion(shared_data / "motion" / "elcentro_chopra_8f10.dat")
-    assert motion.acceleration.size == 1560  # its header says 1559
-    assert motion.dt == 0.02
-    assert motion.peak == pytest.approx(0.31882 * STANDARD_GRAVITY)
-
-
 def test_two_columns_are_the_same_motion_as_rows(shared_data):
     columns = read_motion(shared_data / "motion" / "elcentro_chopra_xy.dat", unit="g")
     rows = read_motion(shared_data / "motion" / "elcentro_chopra_8f10.dat")
     assert columns.dt == pytest.approx(rows.dt)
     np.testing.assert_allclose(columns.acceleration, rows.acceleration, atol=1e-12)
-
-
-def test_another_digitisation(shared_data):
-    motion = read_motion(shared_data / "motion" / "elcentro_s00e_reversed.dat", unit="g")
-    assert motion.acceleration.size == 2688
-    assert motion.dt == pytest.approx(0.02)
 
 
 def test_the_unit_has_to_be_given_where_the_file_is_silent(shared_data):
@@ -79,11 +66,6 @@ def test_the_one_column_in_a_unit_of_acceleration_needs_no_name(tmp_path):
     assert set(motion.acceleration) == {0.0, STANDARD_GRAVITY}
 
 
-def test_a_given_interval_does_not_make_steps_equal(tmp_path):
-    with pytest.raises(ReadError, match="not equally spaced"):
-        read_motion(written(tmp_path, "t,a\n0,1\n1,2\n3,1\n4,0\n"), unit="g", dt=1.0)
-
-
 def test_the_components_of_a_file_come_by_their_heads(tmp_path):
     rows = "".join(f"{row / 100},{row % 3},{row % 2}\n" for row in range(9))
     path = written(tmp_path, "t [s],NS [g],EW [g]\n" + rows)
@@ -93,7 +75,7 @@ def test_the_components_of_a_file_come_by_their_heads(tmp_path):
         "EW [g]": STANDARD_GRAVITY,
     }
     assert list(read_motions(path, column="EW")) == ["EW [g]"]
-    with pytest.raises(ReadError, match="4 columns may be accelerations; 1 to 3"):
+    with pytest.raises(ReadError, match=r"4 columns may be the acceleration: .*; 1 to 3 were"):
         read_motions(
             written(tmp_path, "t [s],a,b,c,d\n" + "".join(f"{k / 100},1,0,{k % 2},{k % 3}\n" for k in range(9)))
         )
@@ -110,14 +92,15 @@ def test_the_components_of_a_file_come_by_their_heads(tmp_path):
             + "  1.00  2.00  3.00  1.00\n" * 4
             + "end\n"
             + "  1.00  2.00  3.00  1.00\n" * 2,
-            "line 7",
+            "line 6",
             id="two blocks",
         ),
     ],
 )
 def test_a_motion_that_is_not_one_is_refused(tmp_path, text, message):
-    with pytest.raises(ReadError, match=message):
-        read_motion(written(tmp_path, text), unit=None if "mm" in text else "g", dt=None)
+    for dt in (None, 1.0):  # a given interval does not make steps equal
+        with pytest.raises(ReadError, match=message):
+            read_motion(written(tmp_path, text), unit=None if "mm" in text else "g", dt=dt)
 
 
 def test_el_centro_has_the_known_samples_and_peak():

@@ -97,8 +97,7 @@ def test_every_kind_of_pixel_becomes_red_green_and_blue(tmp_path, mode):
         (bomb(2000)[:-60], "damaged"),
     ],
 )
-def test_what_is_no_photo_is_refused(tmp_path, content, told):
-    path = tmp_path / "a.jpg"
+def test_what_is_no_photo_is_refused(path, content, told):
     path.write_bytes(content)
     with pytest.raises(ReadError, match=told):
         decode_here(path)

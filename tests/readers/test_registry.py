@@ -1,4 +1,4 @@
-"""A file goes to the format that recognises it; where none does, each says why."""
+"""A file goes to the format that recognises it, else each says why; what belongs to it is beside it, nowhere else."""
 
 import struct
 import subprocess
@@ -10,25 +10,23 @@ import pytest
 from colonnade.errors import ReadError
 from colonnade.readers import registry
 from colonnade.readers.format import Format, Recognition
-from colonnade.readers.registry import formats, read
+from colonnade.readers.registry import companions, formats, read
 from colonnade.readers.text.delimited import FORMAT as DELIMITED
+from every import every
 
 
 def test_delimited_text_is_always_known_and_asked_last():
     assert list(formats())[-1] == "delimited"
-    assert formats()["delimited"].summary
 
 
-def test_the_format_that_took_a_file_is_noted(tmp_path):
-    path = tmp_path / "record.csv"
+def test_the_format_that_took_a_file_is_noted(path):
     path.write_text("a;b\n1;2\n3;4\n")
     recording = read(path)
     assert recording.format == "delimited"
     assert recording.notes[0].startswith('format "delimited" (text with rows of 2 numbers from line 2 on)')
 
 
-def test_a_file_that_nobody_takes_gives_each_formats_reason(tmp_path):
-    path = tmp_path / "record.csv"
+def test_a_file_that_nobody_takes_gives_each_formats_reason(path):
     path.write_text("nothing but words\n")
     with pytest.raises(ReadError) as refusal:
         read(path)
@@ -79,13 +77,12 @@ def test_whatever_a_parser_stumbles_over_is_told_with_the_file_and_what_to_do(tm
         read(tmp_path / "r.bin")
 
 
-def test_a_recogniser_that_stumbles_leaves_the_others_their_turn(tmp_path, monkeypatch):
+def test_a_recogniser_that_stumbles_leaves_the_others_their_turn(path, monkeypatch):
     def recognise(path):
         raise struct.error("unpack requires 8 bytes")
 
     odd = replace(stumbling(ValueError()), recognise=recognise)
     monkeypatch.setattr(registry, "formats", lambda: {"odd": odd, "delimited": DELIMITED})
-    path = tmp_path / "record.csv"
     path.write_text("a;b\n1;2\n3;4\n")
     assert read(path).format == "delimited"
     path.write_text("words\n")
@@ -93,8 +90,7 @@ def test_a_recogniser_that_stumbles_leaves_the_others_their_turn(tmp_path, monke
         read(path)
 
 
-def test_looking_at_a_file_loads_none_of_the_heavy_packages(tmp_path):
-    path = tmp_path / "record.bin"
+def test_looking_at_a_file_loads_none_of_the_heavy_packages(path):
     path.write_bytes(bytes(range(256)) * 20)
     code = (
         "import sys; from pathlib import Path; from colonnade.readers.registry import formats; "
@@ -103,3 +99,36 @@ def test_looking_at_a_file_loads_none_of_the_heavy_packages(tmp_path):
     )
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert told.stdout.split() == []
+
+
+def test_the_values_of_a_diadem_header_are_found_and_named_where_they_are_missing(written):
+    path = written("diadem")
+    assert companions(path) == (path.with_suffix(".tdx"),)
+    path.with_suffix(".tdx").unlink()
+    assert companions(path) == (path.with_suffix(".tdx"),)
+    with pytest.raises(ReadError, match=r"its values are in the file \"record.tdx\", which is not in its folder"):
+        read(path)
+
+
+def test_values_that_are_a_link_out_of_the_campaign_are_refused(written, tmp_path):
+    path = written("diadem")
+    values = path.with_suffix(".tdx")
+    outside = tmp_path.parent / f"{tmp_path.name}-outside"
+    values.rename(outside)
+    values.symlink_to(outside)
+    with pytest.raises(ReadError, match=r"its values are in record.tdx, which is a link to .*outside, outside "):
+        read(path)
+    assert companions(path) == (values,)  # to be hashed once it is a file
+    inside = tmp_path / "elsewhere"
+    inside.mkdir()
+    outside.rename(inside / "record.tdx")
+    values.unlink()
+    values.symlink_to(inside / "record.tdx")
+    assert read(path, within=tmp_path).channels
+
+
+@every("format", ["tdms", "famos", "catman", "delimited"])
+def test_a_file_that_is_whole_has_no_companions(format, path):
+    path.write_text("a,b\n1,2\n3,4\n")
+    assert companions(path, format) == ()
+    assert companions(path) == ()

@@ -6,15 +6,15 @@ from html import unescape
 from colonnade.campaign import load
 from colonnade.campaign.forms.summary import Summary
 from colonnade.report.assessments_page.page import assessments_page
-from colonnade.report.build import build
 from colonnade.report.forecasts_page.page import forecasts_page
 from colonnade.report.paper.document import document_of
 from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.records.assessment import NOT_COVERED
 from colonnade.store.records.summary import read_summary
-from colonnade.workflow.forecasting.choosing import choose
-from colonnade.workflow.forecasting.records import foreseen_of
+from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.forecasts import choose, foreseen_of
+from colonnade.workflow.pages import update_report
 from foreseeing import LATER
 from read_pages import Page
 
@@ -68,7 +68,8 @@ def test_each_forecast_is_listed_with_what_happened(foreseen_copy):
     assert shares == [("100 %", "0 %", "0 %"), ("0 %", "0 %", "100 %")]
     assert [entry.file for entry in page.refused] == ["<b>.json"]
     assert page.calibration is None
-    build(campaign, layout)
+    forecasts = read_summary(layout).forecasts
+    update_report(campaign, layout, Catalogue(layout), forecasts=forecasts)
     folder = layout.report.parent
     text = (folder / "forecasts.html").read_text(encoding="utf-8")
     assert "0.01 g" in text

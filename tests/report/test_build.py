@@ -5,10 +5,11 @@ import shutil
 import pytest
 from jinja2 import UndefinedError
 
-from colonnade.report import addresses, drawings, pages
+from colonnade.report import addresses, pages
 from colonnade.report.pages import Renderer
-from colonnade.store import files, stamps
+from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.workflow.catalogue import Catalogue
 from read_pages import Page, built, words_of, written
 
 
@@ -39,9 +40,9 @@ def test_the_page_of_a_specimen_is_drawn_again_only_if_what_it_shows_changed(two
         lambda self, template, address, **given: drawn.append(address) or page(self, template, address, **given),
     )
 
-    def drawn_now(campaign=campaign, code="one"):
+    def drawn_now(campaign=campaign):
         drawn.clear()
-        built(campaign, layout, code=code)
+        built(campaign, layout)
         return [address for address in drawn if address.startswith("specimens/")]
 
     both = ["specimens/prism.html", "specimens/statue.html"]
@@ -61,7 +62,8 @@ def test_the_page_of_a_specimen_is_drawn_again_only_if_what_it_shows_changed(two
     (layout.report.parent / addresses.of_data(both[1])).unlink()
     assert drawn_now() == both[1:]
     assert drawn_now(campaign.but(title="Another")) == both
-    assert drawn_now(code="two") == both
+    monkeypatch.setattr(Catalogue, "code", lambda *given: "other sources")
+    assert drawn_now() == both
 
 
 def test_outdated_results_are_pending_and_not_shown(two_tests):
@@ -127,18 +129,3 @@ def test_templates_are_compiled_once_for_all_renderers(filled_campaign):
     first, second = (each._environment.get_template("parts.html.jinja") for each in renderers)
     assert first is not second
     assert first.root_render_func.__code__ is second.root_render_func.__code__
-
-
-def test_a_drawing_is_kept_until_it_changes(empty_campaign, tmp_path):
-    campaign, _ = empty_campaign
-    made = list(drawings.files(campaign, tmp_path, "code"))
-    assert [address for address, *_ in made] == [addresses.of_setup(*pair) for pair in campaign.combinations]
-    assert {address for address, *_ in made} <= {*addresses.addresses(campaign, [])[0]}
-    for address, text, made_from in made:
-        path = tmp_path / address
-        path.parent.mkdir(exist_ok=True)
-        path.write_text(stamps.stamped(text, made_from), encoding="utf-8")
-    assert {text for _, text, _ in drawings.files(campaign, tmp_path, "code")} == {None}
-    heavier = campaign.but(gravity=9.8)
-    assert None not in {text for _, text, _ in drawings.files(heavier, tmp_path, "code")}
-    assert None not in {text for _, text, _ in drawings.files(campaign, tmp_path, "other")}

@@ -5,11 +5,9 @@ import pytest
 
 import forecast_study
 from colonnade.dynamics.block import Block
-from colonnade.identification.verification.calibration import randomised_pit
-from forecasts.campaign import WRONG, run_campaign
-from forecasts.design import draw_motion, draw_specimen
-from forecasts.judging import MAIN
-from forecasts.page import page
+from colonnade.identification.calibration import randomised_pit
+from forecast_study import MAIN, page
+from forecast_trial import WRONG, draw_motion, draw_specimen, run_campaign
 from study import HERE
 
 
@@ -48,7 +46,7 @@ def test_a_small_study_finds_skill_over_the_base_rate_and_writes_its_page(tmp_pa
     found = forecast_study.study(6, 7, 1, tests=2, members=10)
     assert found["judged"]["tests"]["count"] == sum(found["judged"]["tests"]["outcomes"]) == 12
     assert found["judged"]["skill"]["base rate"][MAIN] > 0.3
-    forecast_study.write(found, tmp_path)
+    forecast_study.STUDY.write(found, tmp_path)
     assert "12 tests:" in (tmp_path / "forecast-study.md").read_text(encoding="utf-8")
     assert "6 virtual campaigns with 2 tests each" in (tmp_path / "forecast-study.md").read_text(encoding="utf-8")
 

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 import fragility_study
-from fragilities.page import page
-from fragilities.population import MEDIAN, Population
-from fragilities.trial import PROBABILITIES, run
+from fragility_study import page
+from fragility_trial import MEDIAN, PROBABILITIES, Population, run
 from study import HERE
 
 LEAST, MOST = 0.92, 0.98
@@ -31,6 +30,8 @@ def check_promises(designs):
         if design["population"]["two_kinds"]:
             assert shares["misfit"] >= 0.9
         elif shares["given"] > OFTEN:
+            betas = [shares[key] for key in ("beta of records", "beta of parameters") if shares[key] is not None]
+            assert betas == pytest.approx([1.0] * len(betas), abs=0.06)
             missed |= {(name, key) for key in JUDGED if not LEAST <= shares[key] <= MOST}
             assert shares["misfit"] <= 0.1
         else:
@@ -52,7 +53,7 @@ def test_a_small_study_writes_its_page(tmp_path, monkeypatch):
     few = {name: fragility_study.POPULATIONS[name] for name in names}
     monkeypatch.setattr(fragility_study, "POPULATIONS", few)
     found = fragility_study.study(2, 7, 1)
-    fragility_study.write(found, tmp_path)
+    fragility_study.STUDY.write(found, tmp_path)
     assert found["designs"][names[0]]["shares"]["given"] == 0.0
     assert "With 2 repetitions" in (tmp_path / "fragility-study.md").read_text(encoding="utf-8")
     held = [run(few["two kinds, 30 records"], 7, number) for number in range(2)]

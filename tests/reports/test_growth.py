@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from every import every
-from reproduction.growth import Criterion, Response, place_of_growth
 from reproduction.printed import TABLE_1
+from reproduction.responses import Criterion, Response, place_of_growth
 
 DT = 0.01
 TIME = np.arange(1000) * DT

@@ -12,16 +12,14 @@ import pytest
 import reproduce
 from colonnade.laboratory import paper_programme
 from colonnade.laboratory.programme import load_record
-from reproduction import campaign, computed, drawings, printed, tables
-from reproduction.contents import PAGES
-from reproduction.markdown import VIRTUAL
-from reproduction.misfit import judged
-from reproduction.pages import pages
-from reproduction.results import STUDY, rounded
-from reproduction.slips import SLIPS
+from reproduction import campaign, computed, drawings, printed
+from reproduction.markdown import VIRTUAL, of_figure
+from reproduction.pages import PAGES, pages
+from reproduction.printed import SLIPS
+from reproduction.results import DIGITS
 from reproduction.statement import WORDS
-from reproduction.statement_table import of_figure
 from reproduction.statements import STATEMENTS, answers
+from study import rounded
 
 REPORTS = Path(__file__).resolve().parents[2] / "reports"
 FOLDER = REPORTS / "manos"
@@ -73,18 +71,16 @@ def test_figures_and_tables_of_the_paper_are_all_there(kept):
     assert {"Table 1", "Table 2"} <= {statement.section for statement in STATEMENTS}
 
 
-def test_what_needs_no_test_is_computed_again(kept):
-    study = json.loads((REPORTS / STUDY).read_text(encoding="utf-8"))
-    again = {"specimens": tables.specimens(), "table_2": tables.table_2(study), "stable_steps": tables.stable_steps()}
-    for name, value in again.items():
-        assert rounded(value) == kept[name], name
+def test_the_specimens_are_computed_again(kept):
+    assert rounded(printed.specimens(), DIGITS) == kept["specimens"]
 
 
 def test_the_fine_map_has_its_limits_again(kept):
     chart = kept["fine_map"]
     for place in (0, 20, 40):
         again = computed.fine_map(kept["restitution"]["prism"]["value"], [chart["frequency_ratio"][place]])
-        assert again.lower[0] == pytest.approx(chart["lower"][place], abs=2e-4)
+        # e is kept with six digits; between them an island of overturning begins up to 0.1 % earlier.
+        assert again.lower[0] == pytest.approx(chart["lower"][place], rel=1e-3)
 
 
 def test_the_tests_of_the_demo_have_the_numbers_of_its_own_report(kept):
@@ -96,7 +92,8 @@ def test_the_tests_of_the_demo_have_the_numbers_of_its_own_report(kept):
             assert ours["predicted"][model]["outcome"] == theirs["outcome"][model], name
         assert ours["outcome"] == theirs["outcome"]["measured"], name
         if theirs["peak_ratio"]["measured"] is not None:
-            assert ours["peak_ratio"] == pytest.approx(theirs["peak_ratio"]["measured"], abs=2e-4), name
+            # Kept with three digits.
+            assert ours["peak_ratio"] == pytest.approx(theirs["peak_ratio"]["measured"], abs=5e-4), name
 
 
 def test_the_campaign_is_the_demo_and_the_levels_that_the_paper_shows():
@@ -150,8 +147,8 @@ CHANGES = {
     "onset-at-one": ("boundaries.2.rocking", [1.1, 1.2]),
     "one-line-measured": ("boundaries.*.stood_above", []),
     "analytical-overturning": ("fine_map.lower_off.rms", 0.6),
-    "numerical-is-better": ("maps.contact.lower_off.rms", 0.2),
-    "sliding-at-overturning": ("in_space", [{"test": "a", "friction": 0.6, "outcome": "overturned", "slide": 0.01}]),
+    "numerical-is-better": ("maps.contact.lower_off.rms", 0.4),
+    "sliding-at-overturning": ("in_space", [{"test": "a", "friction": 0.6, "outcome": "overturned", "slide": 1e-4}]),
     "span-2-analytical": ("tests.span-2.0.predicted.linear.nrmse", 0.11),
     "span-2.5-analytical": ("earthquakes.2.5.pattern.linear.is_there", True),
     "span-3-numerical": ("tests.span-3.0.predicted.contact.nrmse", 0.15),
@@ -230,13 +227,13 @@ def test_the_schemes_of_the_paper_follow_a_sine():
 
 
 def test_numbers_are_rounded_to_what_is_shown():
-    assert rounded({"a": [1.23456789, float("nan"), None, True, 3]}) == {"a": [1.234568, None, None, True, 3]}
+    assert rounded({"a": [1.23456789, float("nan"), None, True, 3]}, DIGITS) == {"a": [1.234568, None, None, True, 3]}
 
 
 @pytest.mark.slow
 def test_the_whole_reproduction_gives_its_numbers_again(kept, tmp_path):
     found = reproduce.read(campaign.perform(tmp_path / "campaign"))
-    again = json.loads(json.dumps(reproduce.gather(found, REPORTS)))
+    again = json.loads(json.dumps(reproduce.gather(found, kept)))
     assert {name: each.verdict for name, each in answers(again).items()} == {
         name: each["verdict"] for name, each in kept["answers"].items()
     }
@@ -244,20 +241,3 @@ def test_the_whole_reproduction_gives_its_numbers_again(kept, tmp_path):
         assert test["outcome"] == kept["tests"][name]["outcome"], name
         if test["peak_ratio"] is not None:
             assert test["peak_ratio"] == pytest.approx(kept["tests"][name]["peak_ratio"], abs=1e-3), name
-
-
-def _disturbed(prism, round_ones):
-    """Runs of a release at 0.9 α whose added misfit is proportional to the size of one disturbance."""
-    return [
-        {"specimen": specimen, "kind": kind, "size": size, "release": 0.9, "misfit": {"nonlinear": 0.01 + share * size}}
-        for specimen, share in (("prism", prism), ("cylinder", round_ones), ("cone", 1.25 * round_ones))
-        for kind, size in (("none", 0.0), ("push", 0.001), ("push", 0.01))
-    ]
-
-
-def test_the_verdict_on_rocking_in_space_follows_the_misfits():
-    needed, prism = judged(_disturbed(0.1, 20.0), 0.9)["push"]
-    assert needed == pytest.approx(0.0025)  # what gives the cylinder, the less moved of the two, 5 % of α
-    assert prism == pytest.approx(0.1 * 0.01)
-    assert judged(_disturbed(20.0, 20.0), 0.9)["push"][0] is None  # the prism moves as much
-    assert judged(_disturbed(0.0, 1.0), 0.9)["push"][0] is None  # too little to be seen

@@ -4,14 +4,12 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from colonnade.dynamics.ensembles.uncertainty import Uncertainty
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
-from spread_verdicts.design import HEIGHTS, RATE, draw
-from spread_verdicts.judging import WITHIN
-from spread_verdicts.page import page
-from spread_verdicts.trial import run
+from colonnade.dynamics.uncertainty import Uncertainty
 from study import HERE
+from verdict_study import WITHIN, page
+from verdict_trial import HEIGHTS, RATE, draw, run
 
 STILL_ROCKING = 175
 """Number of a free vibration that rocks until its record ends."""

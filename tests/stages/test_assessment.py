@@ -12,9 +12,8 @@ from scipy.stats import norm, t
 
 from assessing import RATE, ground_motion
 from colonnade.assessment.cases import run_cases
-from colonnade.campaign.assessing.assessed import UNCORRECTED, AssessmentSummary
-from colonnade.campaign.assessing.assessment import Assessment
-from colonnade.campaign.assessing.prototype import Prototype
+from colonnade.campaign.assessment import Assessment, Prototype
+from colonnade.campaign.forms.assessed import UNCORRECTED, AssessmentSummary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import StageError
@@ -128,6 +127,9 @@ def test_what_is_beyond_the_levels_is_so_on_its_side(levels, side):
 def pooled(e=(0.976, 0.976), tests=(0.975, 0.977), source="identified"):
     of_tests = {"test_restitution": ("test", np.array(tests))}
     of_tests["test_restitution_standard_error"] = ("test", np.full(len(tests), 1e-6))
+    of_tests["test_joint_mean"] = (("test", "joint"), np.outer(np.log(tests), [1.0, 0.0, 0.0]))
+    of_tests["test_joint_covariance"] = (("test", "joint", "column"), np.full((len(tests), 3, 3), 1e-12))
+    of_tests["known"] = ("property", np.zeros(2))
     return xr.Dataset({"side_restitution": ("side", np.array(e)), "level": 0.95} | of_tests).assign_attrs(
         restitution_source=source
     )

@@ -21,7 +21,8 @@ def history(ratio, *, outcome="rocking", zero_offset=0.0):
     largest = int(np.nanargmax(np.abs(ratio)))
     peak = {"peak_ratio": float(np.abs(ratio[largest])), "peak_time": float(TIME[largest])}
     angle = "elapsed", ALPHA * ratio + zero_offset
-    return unmeasured().assign(rocking_angle=angle, zero_offset=zero_offset, **peak).assign_attrs(outcome=outcome)
+    zero = {"zero_offset": zero_offset, "angle_gain": 1.0}
+    return unmeasured().assign(rocking_angle=angle, **zero, **peak).assign_attrs(outcome=outcome)
 
 
 def unmeasured():

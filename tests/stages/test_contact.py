@@ -9,9 +9,9 @@ import xarray as xr
 import chain
 from colonnade.campaign.settings import ContactSettings
 from colonnade.dynamics.block import Block
+from colonnade.dynamics.contact.body import rigid_body
 from colonnade.dynamics.contact.calibration import TOLERANCE, VELOCITY_RATIO, free_restitution
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.errors import StageError
 from colonnade.identification.restitution.identify import identify_restitution
@@ -123,7 +123,7 @@ def _set(read, **changes):
 
 def test_the_bands_lie_about_the_prediction_on_its_clock(shaken_in_space):
     conditioned, rocking, law, read = shaken_in_space
-    bands = running.contact_ensemble(conditioned, rocking, law, read)
+    bands = running.contact_ensemble(conditioned, rocking, read, law)
     prediction = read.prediction.model_copy(update={"space": read.space})
     predicted = predicting.predict(rocking, SPECIMEN, prediction, law)
     np.testing.assert_array_equal(bands["elapsed"], predicted["elapsed"])
@@ -139,7 +139,7 @@ def test_the_bands_lie_about_the_prediction_on_its_clock(shaken_in_space):
 def test_inputs_have_the_deviations_of_their_ranges(shaken_in_space):
     conditioned, rocking, law, read = shaken_in_space
     wide = _set(read, friction=0.3, damping_fraction=0.0, out_of_plane=0.002, members=2)
-    bands = running.contact_ensemble(conditioned, rocking, law, wide)
+    bands = running.contact_ensemble(conditioned, rocking, wide, law)
     assert bands["input"].to_numpy().tolist() == ["friction", "out_of_plane"]
     np.testing.assert_allclose(bands["input_deviation"], np.array([0.3, 0.002]) / np.sqrt(3.0))
 
@@ -148,4 +148,4 @@ def test_damping_that_the_step_does_not_follow_is_told(shaken_in_space):
     conditioned, rocking, law, read = shaken_in_space
     stiff = law.assign(contact_stiffness=1e6 * law["contact_stiffness"])
     with pytest.raises(StageError, match=r"contact\.step: The step is"):
-        running.contact_ensemble(conditioned, rocking, stiff, read)
+        running.contact_ensemble(conditioned, rocking, read, stiff)

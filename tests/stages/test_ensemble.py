@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import chain
-from colonnade.dynamics.ensembles.uncertainty import INPUTS
+from colonnade.dynamics.uncertainty import INPUTS
 from colonnade.identification.response.rank import is_within, rank
 from colonnade.stages import ensemble as running
 from prism import PRISM
@@ -104,13 +104,13 @@ def test_an_angle_that_no_run_has_is_outside(small_campaign, results, ensemble, 
 
 
 def test_the_horizon_is_where_the_band_gets_wider_than_the_setting(small_campaign, results, ensemble):
-    bands = ensemble("shake-01", critical_angle=0.02, p=0.02)
+    bands = ensemble("shake-01", gain=0.05)
     width = (bands["rocking_angle_band"][-1] - bands["rocking_angle_band"][0]) / PRISM.critical_angle
     horizon = float(bands["horizon"])
     assert bool((width.sel(elapsed=slice(None, horizon - 1e-9)) <= 0.2).all())
     assert float(width.sel(elapsed=horizon)) > 0.2
     assert float(compare(small_campaign, results, bands)["horizon"]) == horizon
-    never = ensemble("shake-01", critical_angle=0.02, p=0.02, measurement={"horizon": 9.0})
+    never = ensemble("shake-01", gain=0.05, measurement={"horizon": 9.0})
     assert float(never["horizon"]) == float(never["elapsed"][-1])
 
 

@@ -5,9 +5,10 @@ import pytest
 import xarray as xr
 from scipy import stats
 
+from colonnade.campaign.settings import PlaneEnsembleSettings
 from colonnade.dynamics.block import Block
 from colonnade.findings import Severity
-from colonnade.stages.specimen import SpecimenInputs, restitution_spread, specimen, taken
+from colonnade.stages.specimen import SpecimenInputs, centre, restitution_spread, specimen, spread_of, taken
 from every import every
 from prism import PRISM
 
@@ -16,9 +17,18 @@ OTHER = Block.prism(width=0.086, depth=0.086, height=0.500, mass=26.10)
 
 def identified(e, error=0.001, *, method="peaks"):
     """The result of `restitution` of a free vibration."""
-    return xr.Dataset(
-        {"restitution": e, "restitution_standard_error": error}, attrs={"method": method, "reason": "no reason"}
-    )
+    joint = {
+        "joint_mean": ("joint", np.array([np.log(e), 0.0, 0.0])),
+        "joint_covariance": (("joint", "joint_column"), np.diag([(error / e) ** 2, 0.0, 0.0])),
+    }
+    found = {"restitution": e, "restitution_standard_error": error, **joint}
+    return xr.Dataset(found, attrs={"method": method, "reason": "no reason"})
+
+
+def jointly(e, mean, covariance):
+    """The result of a free vibration that says what it does of e, α and p together."""
+    found = identified(e, float(e * covariance[0][0] ** 0.5), method="history")
+    return found.assign(joint_mean=("joint", mean), joint_covariance=(("joint", "joint_column"), np.array(covariance)))
 
 
 def refused(reason):
@@ -150,3 +160,43 @@ def test_the_inputs_are_those_of_the_specimen(small_campaign):
     read = SpecimenInputs.of(small_campaign, "prism")
     assert read.block.critical_angle == pytest.approx(PRISM.critical_angle)
     assert (read.given, read.level) == (None, 0.95)
+
+
+COVARIANCE = 1e-6 * np.array([[4.0, 1.8, -2.4], [1.8, 9.0, -3.0], [-2.4, -3.0, 16.0]])
+MEAN = np.array([np.log(0.93), 0.002, -0.003])
+USUAL = PlaneEnsembleSettings(restitution=0.004, critical_angle=0.01, p=0.02)
+KNOWN = inputs().model_copy(update={"known": (0.01, 0.02)})
+
+
+def test_one_record_gives_the_centre_of_predictions_and_what_varies_together():
+    found = specimen({"a": jointly(0.93, MEAN, COVARIANCE)}, KNOWN)
+    block, spread = centre(found, PRISM), spread_of(found, USUAL)
+    assert block.critical_angle / PRISM.critical_angle == pytest.approx(np.exp(0.002))
+    assert block.p / PRISM.p == pytest.approx(np.exp(-0.003))
+    assert (spread.critical_angle, spread.p) == (pytest.approx(0.003), pytest.approx(0.004))
+    assert spread.restitution == pytest.approx(np.hypot(0.93 * 0.002, 0.004))
+    # A new test's e scatters beside what it shares with α and p, which leaves the covariances as they are.
+    assert spread.correlations[0] * spread.restitution / 0.93 * spread.critical_angle == pytest.approx(1.8e-6)
+    assert spread.correlations[1] * spread.restitution / 0.93 * spread.p == pytest.approx(-2.4e-6)
+    assert spread.correlations[2] * spread.critical_angle * spread.p == pytest.approx(-3.0e-6)
+    xr.testing.assert_identical(taken(found, KNOWN), found)
+
+
+def test_two_records_know_the_block_better_than_one():
+    one = specimen({"a": jointly(0.93, MEAN, COVARIANCE)}, KNOWN)
+    two = specimen({name: jointly(0.93, MEAN, COVARIANCE) for name in "ab"}, KNOWN)
+    assert spread_of(two, USUAL).critical_angle < 0.8 * spread_of(one, USUAL).critical_angle
+    assert spread_of(two, USUAL).restitution_freedom == 1
+    assert centre(two, PRISM).critical_angle > centre(one, PRISM).critical_angle
+    xr.testing.assert_identical(taken(two, KNOWN), two)
+
+
+@every(
+    ("tests", "given_e"),
+    [({"a": jointly(0.93, MEAN, COVARIANCE)}, 0.95), ({}, None)],
+)
+def test_where_e_is_not_identified_the_settings_vary_by_themselves(tests, given_e):
+    found = specimen(tests, KNOWN.model_copy(update={"given": given_e}))
+    spread = spread_of(found, USUAL)
+    assert centre(found, PRISM) is PRISM
+    assert (spread.critical_angle, spread.p, spread.correlations) == (0.01, 0.02, (0.0, 0.0, 0.0))

@@ -10,7 +10,7 @@ from compliance_checker.cfunits import Unit
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.models import MODELS
 from colonnade.errors import StoreError
 from colonnade.store.description import VARIABLES, channel_attributes, describe, udunits, variable_name
 from colonnade.store.results import STAGES

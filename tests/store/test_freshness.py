@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from colonnade.store.freshness import Recipe
+from colonnade.store.freshness import Recipe, key_of, stamped
 
 RECIPE = Recipe("rocking", "c0de", '{"lowest_peak": 0.01}', {"conditioned": "aa", "daq2": None})
 OTHERS = {
@@ -51,3 +51,16 @@ def test_a_changed_input_goes_before_settings_and_those_before_code():
     changed = replace(RECIPE, settings="{}", code="c1de")
     assert changed.why(RECIPE.attributes) == "settings changed"
     assert replace(changed, upstream={}).why(RECIPE.attributes) == "upstream changed"
+
+
+@pytest.mark.parametrize("suffix", [".html", ".svg", ".js", ".jpg", ".pdf"])
+def test_a_stamped_file_says_what_it_was_made_from_unless_it_was_altered(tmp_path, suffix):
+    path = tmp_path / f"page{suffix}"
+    path.write_bytes(stamped(b"first\nlast\n", "ab12", suffix))
+    assert key_of(path) == "ab12"
+    path.write_bytes(stamped(path.read_bytes(), "cd34", suffix))
+    assert key_of(path) == "cd34"
+    path.write_bytes(path.read_bytes().replace(b"first", b"worst"))
+    assert key_of(path) == ""
+    path.write_bytes(b"first\n")
+    assert key_of(path) == key_of(tmp_path / "none") == ""

@@ -190,7 +190,7 @@ def test_long_and_short_arrays_are_described_alike(tmp_path, monkeypatch):
 @pytest.mark.parametrize("threads", [1, 4])
 def test_the_content_does_not_depend_on_threads(tmp_path, monkeypatch, threads):
     expected = files.write(record(), tmp_path / "a.nc", attributes={}).attrs["content"]
-    monkeypatch.setattr("colonnade.signals.parallel.threads", lambda: threads)
+    monkeypatch.setattr("colonnade.signals.samples.threads", lambda: threads)
     assert files.write(record(), tmp_path / "b.nc", attributes={}).attrs["content"] == expected
     assert files.write(record(1e-9), tmp_path / "c.nc", attributes={}).attrs["content"] != expected
 

@@ -1,15 +1,16 @@
-"""Numbers for people: as many digits as the half-width allows."""
+"""Numbers and results for people: as many digits as the half-width allows, and nothing is markup."""
 
 import re
 from math import inf, nan
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from colonnade import units
-from colonnade.units import text as written
+from colonnade.units import text
 from every import every
 
 
@@ -28,12 +29,12 @@ from every import every
     ],
 )
 def test_half_width_sets_the_digits(value, half_width, unit, written):
-    assert units.format_uncertain(value, half_width, unit) == written
+    assert text.format_uncertain(value, half_width, unit) == written
 
 
 @given(st.floats(-1e3, 1e3), st.floats(1e-6, 1e2))
 def test_what_is_written_is_right_to_a_digit_of_the_half_width(value, half_width):
-    shown, width = (float(part.replace("−", "-")) for part in units.format_uncertain(value, half_width).split(" ± "))
+    shown, width = (float(part.replace("−", "-")) for part in text.format_uncertain(value, half_width).split(" ± "))
     assert abs(shown - value) <= 0.51 * half_width
     assert width == pytest.approx(half_width, rel=0.26)
 
@@ -41,39 +42,61 @@ def test_what_is_written_is_right_to_a_digit_of_the_half_width(value, half_width
 def test_percentages_are_written_in_one_form_that_no_line_breaks():
     package = Path(units.__file__).parents[1]
     sources, templates = ([path.read_text("utf-8") for path in package.rglob(f"*.{kind}")] for kind in ("py", "jinja"))
-    assert not [found for text in sources for found in re.findall(r".*(?::[-+.,\w]*%\}|\} %[\w ]).*", text)]
-    assert not [found for text in templates for found in re.findall(r".*\d %(?!\}).*", text)]
+    assert not [found for code in sources for found in re.findall(r".*(?::[-+.,\w]*%\}|\} %[\w ]).*", code)]
+    assert not [found for page in templates for found in re.findall(r".*\d %(?!\}).*", page)]
 
 
 @pytest.mark.parametrize(
-    ("value", "text"),
+    ("value", "said"),
     [(0.41234, "0.412"), (0.0, "0"), (123456.0, "123000"), (2e-6, "2·10⁻⁶"), (nan, "–"), (inf, "–"), (None, "–")],
 )
-def test_numbers_are_rounded_and_never_nan(value, text):
-    assert written.number(value) == text
+def test_numbers_are_rounded_and_never_nan(value, said):
+    assert text.number(value) == said
 
 
 @pytest.mark.parametrize(
-    ("value", "unit", "text"), [(0.23202, "mm", "232 mm"), (2.0, "mm", "2000 mm"), (nan, "s", "–"), (None, "s", "–")]
+    ("value", "unit", "said"), [(0.23202, "mm", "232 mm"), (2.0, "mm", "2000 mm"), (nan, "s", "–"), (None, "s", "–")]
 )
-def test_quantities_carry_their_unit(value, unit, text):
-    assert written.quantity(value, unit) == text
+def test_quantities_carry_their_unit(value, unit, said):
+    assert text.quantity(value, unit) == said
 
 
 def test_an_acceleration_is_given_in_both_units():
-    assert written.acceleration(9.80665) == "9.81 m/s² (1 g)"
-    assert written.acceleration(nan) == "–"
+    assert text.acceleration(9.80665) == "9.81 m/s² (1 g)"
+    assert text.acceleration(nan) == "–"
 
 
 def test_an_interval_has_as_many_digits_as_its_half_width_allows():
-    assert written.interval(0.97608, 0.97528, 0.97688, 0.95) == "0.9761 ± 0.0008"
-    assert written.interval(0.97608, 0.97528, 0.97688, 0.9) == "0.9761 ± 0.0008 (90\u00a0% interval)"
-    assert written.interval(0.9760003, 0.9759995, 0.9760011, 0.95) == "0.9760003 ± 0.0000008"
-    assert written.interval(0.9, nan, nan, 0.95) == "0.9"
-    assert written.interval(nan, nan, nan, 0.95) == "–"
+    assert text.interval(0.97608, 0.97528, 0.97688, 0.95) == "0.9761 ± 0.0008"
+    assert text.interval(0.97608, 0.97528, 0.97688, 0.9) == "0.9761 ± 0.0008 (90\u00a0% interval)"
+    assert text.interval(0.9760003, 0.9759995, 0.9760011, 0.95) == "0.9760 ± 0.0001"  # never finer
+    assert text.interval(0.9, nan, nan, 0.95) == "0.9"
+    assert text.interval(nan, nan, nan, 0.95) == "–"
 
 
 def test_what_is_below_a_thousandth_of_the_critical_angle_is_written_as_that():
-    assert [written.ratio(value) for value in (9.99e-4, 1e-3, 0.0)] == ["< 0.001", "0.001", "0"]
-    assert [written.signed_ratio(value) for value in (-9.99e-4, -0.001, 0.25)] == ["< 0.001", "−0.001", "+0.25"]
-    assert written.signed_ratio(nan) == "–"
+    assert [text.ratio(value) for value in (9.99e-4, 1e-3, 0.0)] == ["< 0.001", "0.001", "0"]
+    assert [text.signed_ratio(value) for value in (-9.99e-4, -0.001, 0.25)] == ["< 0.001", "−0.001", "+0.25"]
+    assert text.signed_ratio(nan) == "–"
+
+
+LETTERS = st.characters(codec="utf-8", exclude_categories=["Cc", "Cs"], exclude_characters="\ufffe\uffff")
+TEXT = st.text(LETTERS, max_size=20)
+
+
+class Told(text.Digested):
+    def __init__(self, said):
+        self.said = said
+
+    def digest(self):
+        return self.said
+
+
+@given(st.dictionaries(TEXT, TEXT, max_size=4))
+def test_any_text_is_shown_as_text(said):
+    rows = ElementTree.fromstring(Told(said)._repr_html_()).iter("tr")
+    assert {row[0].text or "": row[1].text or "" for row in rows} == said
+
+
+def test_a_line_names_the_kind_and_the_values():
+    assert repr(Told({"e": "0.97", "method": "peaks"})) == "<Told: e 0.97, method peaks>"

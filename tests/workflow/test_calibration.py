@@ -5,8 +5,8 @@ import pytest
 from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.workflow.calibration import calibrate
-from colonnade.workflow.maps.plans import Wanted
-from colonnade.workflow.maps.stability import make_maps
+from colonnade.workflow.map_plans import Wanted
+from colonnade.workflow.maps import make_maps
 
 BODY = 'mass = "26.10 kg"}'
 GIVEN = 'mass = "26.10 kg", restitution = 0.93}'
@@ -21,8 +21,8 @@ def give(campaign):
 
 def test_the_law_of_the_settings_is_stored(in_space):
     (own,) = calibrate(in_space.folder, workers=1)
-    assert (own.mesh, own.path, own.reason) == ("rigid", in_space.layout.stage("prism", "contact"), "")
-    assert own.restitution == float(files.read(own.path)["contact_restitution"])
+    assert (own["mesh"], own["path"], own["reason"]) == ("rigid", in_space.layout.stage("prism", "contact"), "")
+    assert own["restitution"] == float(files.read(own["path"])["contact_restitution"])
 
 
 def test_a_restitution_is_needed(untouched):
@@ -39,18 +39,18 @@ def test_an_unknown_specimen_is_refused_with_the_nearest(untouched):
 def test_a_given_restitution_is_known_without_any_run_and_a_stored_law_is_not_found_again(untouched, monkeypatch):
     give(untouched)
     (made,) = calibrate(untouched.folder, workers=1)
-    assert made.target == 0.93
+    assert made["target"] == 0.93
     monkeypatch.setattr("colonnade.stages.contact.contact", None)
     (again,) = calibrate(untouched.folder, workers=1)
-    assert (again.path, again.restitution) == (made.path, made.restitution)
+    assert (again["path"], again["restitution"]) == (made["path"], made["restitution"])
 
 
 def test_a_law_that_cannot_be_found_says_why(untouched):
     give(untouched)
     untouched.edit('step = "100 us"', 'step = "1 ms"')
     (refused,) = calibrate(untouched.folder, workers=1)
-    assert "Use a shorter step or a softer contact" in refused.reason
-    assert (refused.restitution, refused.source, refused.step, refused.path) == (None, "", None, None)
+    assert "Use a shorter step or a softer contact" in refused["reason"]
+    assert (refused["restitution"], refused["source"], refused["step"], refused["path"]) == (None, "", None, None)
 
 
 MAP = Wanted(frequency_ratio=(3.0, 4.0), amplitude_ratio=(0.5, 1.5), points=(2, 3), cycles=2.0)

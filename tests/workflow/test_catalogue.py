@@ -47,11 +47,11 @@ def test_verifying_opens_every_result(small, opened):
         "no JSON",
         "[" * 100_000,
         "null",
-        '{"results": {}, "records": {}, "sha256": 3}',
+        '{"results": {}, "kept": {}, "sha256": 3}',
         "[]",
         "{}",
-        '{"results": 3, "records": {}}',
-        '{"results": {"processed/tests/pulse-01/rocking.nc": 1}, "records": {}}',
+        '{"results": 3, "kept": {}}',
+        '{"results": {"processed/tests/pulse-01/rocking.nc": 1}, "kept": {}}',
     ],
 )
 def test_a_catalogue_that_is_no_good_only_costs_time(small, text):
@@ -81,8 +81,8 @@ def test_a_catalogue_that_was_altered_only_costs_time(small, before, after):
 def test_records_follow_their_results(small):
     small.change_a_sample("pulse-01")
     small.run()
-    remembered = json.loads(small.layout.catalogue.read_text(encoding="utf-8"))["records"]
-    assert json.loads(remembered["pulse-01"][1]) == small.summary()["tests"]["pulse-01"]
+    remembered = json.loads(small.layout.catalogue.read_text(encoding="utf-8"))["kept"]
+    assert json.loads(remembered["record pulse-01"][1]) == small.summary()["tests"]["pulse-01"]
 
 
 def test_what_is_gone_from_the_campaign_is_forgotten(small):
@@ -91,4 +91,5 @@ def test_what_is_gone_from_the_campaign_is_forgotten(small):
     small.run(until="report")
     known = json.loads(small.layout.catalogue.read_text(encoding="utf-8"))
     tests = small.summary()["tests"]
-    assert set(known["records"]) == {*tests, *(f"part {name}" for name in tests), "specimen prism"}
+    expected = {f"{kind} {name}" for kind in ("record", "page") for name in tests}
+    assert set(known["kept"]) == expected | {"specimen-record prism"}

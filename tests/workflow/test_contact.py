@@ -6,15 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from colonnade.dynamics.contact.nodes import rigid_body
+from colonnade.dynamics.contact.body import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError
 from colonnade.stages.contact import law_of
 from colonnade.store import files
 from colonnade.workflow.calibration import calibrate
-from colonnade.workflow.maps.plans import Wanted
-from colonnade.workflow.maps.stability import make_maps
+from colonnade.workflow.map_plans import Wanted
+from colonnade.workflow.maps import make_maps
 from prism import PRISM
 
 

@@ -8,11 +8,10 @@ import pytest
 
 from colonnade.errors import StageError, StoreError
 from colonnade.readers import registry
-from colonnade.stages import rocking, specimen
+from colonnade.stages import specimen
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.store.results import ResultId
-from colonnade.workflow import steps
+from colonnade.workflow import graph
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -35,16 +34,6 @@ def test_a_bad_file_fails_its_test_alone_with_the_reason(untouched):
     assert "pulse-01.csv" in result.report.read_text(encoding="utf-8")
 
 
-def test_a_failure_is_not_tried_again_but_still_counts(untouched):
-    untouched.raw("pulse-01").write_bytes(b"nothing to read")
-    untouched.run(until="report")
-    before = untouched.files()
-    again = untouched.run(until="report")
-    assert again.failed
-    assert all(not stage.because for stage in again.stages)
-    assert untouched.files() == before
-
-
 def test_a_missing_file_fails_its_test_until_it_comes(untouched):
     raw = untouched.raw("pulse-02").read_bytes()
     untouched.raw("pulse-02").unlink()
@@ -65,23 +54,6 @@ def test_nothing_stays_behind_a_failure(small, until):
     small.raw("pulse-01").write_text("time,top\n")
     small.run(until=until)
     assert [path.name for path in small.layout.test("pulse-01").iterdir()] == ["recorded.nc"]
-
-
-def test_a_fault_of_colonnade_is_told_as_such_and_the_others_go_on(untouched, monkeypatch):
-    real = rocking.rocking
-
-    def faulty(conditioned, inputs):
-        if conditioned.attrs["test"] == "pulse-01":
-            raise ZeroDivisionError("division by zero")
-        return real(conditioned, inputs)
-
-    monkeypatch.setattr(rocking, "rocking", faulty)
-    failed = failures(untouched.run())
-    assert list(failed) == ["pulse-01"]
-    assert "Internal error in rocking, ZeroDivisionError" in failed["pulse-01"].reason
-    log = untouched.layout.error_log(ResultId("pulse-01", "ingest")).read_text(encoding="utf-8")
-    assert log.startswith("Traceback")
-    assert "division by zero" in log
 
 
 def test_a_full_disk_is_told_and_the_test_is_tried_again(untouched, monkeypatch):
@@ -121,21 +93,6 @@ def test_a_specimen_that_fails_is_no_fault_of_its_tests(untouched, monkeypatch):
     assert untouched.summary()["tests"]["pulse-01"]["reason"] == "specimen prism: No two free vibrations agree."
 
 
-def test_a_machine_that_was_short_of_memory_is_tried_again(untouched, monkeypatch):
-    with monkeypatch.context() as short:
-        short.setattr(rocking, "rocking", fails(MemoryError()))
-        assert untouched.run().failed
-    assert not untouched.run().failed
-
-
-def test_the_log_of_an_internal_error_goes_when_the_error_does(untouched, monkeypatch):
-    with monkeypatch.context() as faulty:
-        faulty.setattr(rocking, "rocking", fails(ZeroDivisionError()))
-        untouched.run()
-    assert not untouched.run(start_from="rocking").failed
-    assert not untouched.layout.error_log(ResultId("pulse-01", "ingest")).exists()
-
-
 def test_a_share_that_drops_while_a_file_is_read_is_not_kept_against_it(untouched, monkeypatch):
     known = registry.formats()["delimited"]
     dropped = replace(known, read=fails(OSError(errno.EIO, "Input/output error")))
@@ -147,15 +104,14 @@ def test_a_share_that_drops_while_a_file_is_read_is_not_kept_against_it(untouche
 
 
 def test_a_file_that_changes_while_it_is_read_is_read_again(untouched, monkeypatch):
-    ingest = steps._ingest
+    expect = graph.expect_unchanged
 
-    def still_writing(folder, paths, read):
-        result = ingest(folder, paths, read)
+    def still_writing(folder, raw):
         with untouched.raw("pulse-01").open("a", encoding="utf-8") as stream:
             stream.write("99.0,0.0,0.0\n")
-        return result
+        expect(folder, raw)
 
-    monkeypatch.setattr(steps, "_ingest", still_writing)
+    monkeypatch.setattr(graph, "expect_unchanged", still_writing)
     told = failures(untouched.run(only="pulse-01"))
     assert "changed while it was being read" in told["pulse-01"].reason
     assert not untouched.layout.stage("pulse-01", "ingest").exists()

@@ -67,16 +67,6 @@ def test_one_changed_sample_of_a_free_vibration_redoes_its_specimens_predictions
     assert redone["pulse-01", "predict"] == "upstream changed"
 
 
-def test_a_changed_sample_that_is_put_back_gives_the_first_values_again(small):
-    before, raw = small.contents(), small.raw("free-01").read_bytes()
-    small.change_a_sample("free-01")
-    small.run()
-    assert small.contents() != before
-    small.raw("free-01").write_bytes(raw)
-    small.run()
-    assert small.contents() == before
-
-
 def test_a_setting_redoes_the_stage_that_reads_it_and_what_follows(small):
     setting = "[processing.restitution]\nlowest_amplitude = 0.05"
     small.edit("[setups.frame.channels]", f"{setting}\n\n[setups.frame.channels]")
@@ -99,33 +89,12 @@ def test_changed_sources_redo_everything_and_give_the_same_values(small, monkeyp
     assert small.contents() == before
 
 
-@pytest.mark.parametrize(
-    ("stage", "expected"),
-    [
-        ("predict", {"predict", "ensemble", "compare"}),
-        ("restitution", {"restitution", "specimen", "predict", "ensemble", "compare"}),
-    ],
-)
-def test_start_from_redoes_a_stage_and_what_follows(small, stage, expected):
-    redone = small.redone(start_from=stage)
-    assert {name for _, name in redone} == expected
-    assert set(redone.values()) == {"asked for"}
-
-
 def test_a_file_of_unchanged_size_and_time_is_hashed_again_only_on_request(small):
     with keeping_times(path := small.raw("pulse-01")):
         text = path.read_text()
         path.write_text(text[:-2] + ("1" if text[-2] != "1" else "2") + "\n")
     assert small.redone() == {}
     assert small.redone(verify=True)["pulse-01", "ingest"] == "raw file changed"
-
-
-def test_a_damaged_result_is_made_anew(small):
-    before = small.contents()
-    path = small.layout.stage("pulse-01", "rocking")
-    path.write_bytes(path.read_bytes()[:3000])
-    assert set(small.redone()) == {("pulse-01", "rocking")}
-    assert small.contents() == before
 
 
 def alter(path):

@@ -9,11 +9,10 @@ import pytest
 
 from colonnade.campaign import load
 from colonnade.store import files
-from colonnade.workflow import copies, steps
+from colonnade.workflow import graph
 from colonnade.workflow import raw_files as module
 from colonnade.workflow.catalogue import Catalogue
-from colonnade.workflow.copies import digests_of_equal_sizes, with_copies
-from colonnade.workflow.raw_files import raw_files
+from colonnade.workflow.raw_files import digests_of_equal_sizes, raw_files, with_copies
 from every import every
 
 
@@ -115,7 +114,7 @@ def test_of_many_copies_three_are_named(told):
 
 def test_only_files_of_the_same_size_are_hashed(small, monkeypatch):
     hashed = []
-    monkeypatch.setattr(copies, "sha256_of", lambda path: hashed.append(path.name) or "1")
+    monkeypatch.setattr(module, "sha256_of", lambda path: hashed.append(path.name) or "1")
     sizes = {path.name: path.stat().st_size for path in (small.folder / "raw").iterdir()}
     digests_of_equal_sizes(load(small.folder))
     assert sorted(hashed) == sorted(name for name in sizes if list(sizes.values()).count(sizes[name]) > 1)
@@ -181,16 +180,15 @@ def test_altered_values_are_ingested_again(in_two_parts):
 
 
 def test_values_that_change_or_go_while_they_are_read_are_told(in_two_parts, monkeypatch):
-    ingest = steps._ingest
+    expect = graph.expect_unchanged
     for change in (alter, Path.unlink):
         with monkeypatch.context() as still:
 
             def still_copying(*arguments, change=change):
-                result = ingest(*arguments)
                 change(values_of(in_two_parts))
-                return result
+                expect(*arguments)
 
-            still.setattr(steps, "_ingest", still_copying)
+            still.setattr(graph, "expect_unchanged", still_copying)
             result = in_two_parts.run(only="pulse-01", until="ingest", start_from="ingest")
         assert "raw/pulse-01.tdx: this file changed while it was being read" in result.stages[0].reason
 

@@ -5,7 +5,7 @@ from math import atan, hypot
 import pytest
 
 from colonnade.campaign import load
-from colonnade.campaign.assessing.prototype import Prototype
+from colonnade.campaign.assessment import Prototype
 from colonnade.errors import CampaignError
 from colonnade.stages.assessing.column import real_column
 from colonnade.store.layout import Layout

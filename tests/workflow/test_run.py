@@ -1,11 +1,9 @@
 """What a run does of what is asked for, what it takes, and what a slip of the pen is answered with."""
 
-from pathlib import Path
-
 import pytest
 
 from colonnade.errors import CampaignError
-from colonnade.workflow.arguments import check_run
+from colonnade.workflow import run
 from every import every
 
 
@@ -71,29 +69,12 @@ def test_a_test_that_was_not_run_to_the_end_says_how_far(untouched):
     assert [test["reason"] for test in tests.values()] == expected
 
 
-STAGES = {"until": "compare", "start_from": None}
-UNSET = dict.fromkeys(("workers", "scheduler", "results", "progress"))
-SOUND = UNSET | {"campaign": "campaign.toml", "stages": STAGES, "only": (), "verify": False, "awaiting": False}
-
-
-@every(
-    "given",
-    [
-        {},
-        {"campaign": Path("a"), "results": Path("b"), "workers": 2, "only": "free-01", "verify": True},
-        {"only": {"free-01"}, "scheduler": "tcp://localhost:8786", "progress": print},
-    ],
-)
-def test_what_a_run_takes_passes(given):
-    check_run(**SOUND | given)
-
-
 @every(
     ("given", "message"),
     [
         ({"campaign": None}, "campaign is None; a path was expected"),
         ({"results": 3}, "results is 3; a path was expected"),
-        ({"stages": {"until": 3}}, "until is 3; the name of a stage was expected"),
+        ({"until": 3}, "until is 3; the name of a stage was expected"),
         ({"scheduler": 8786}, "scheduler is 8786; an address was expected"),
         ({"only": [1]}, "only is an array of shape .*; the id of a test, or a list of ids"),
         ({"workers": 0}, "workers is 0; a whole number from 1 to 10000"),
@@ -104,4 +85,4 @@ def test_what_a_run_takes_passes(given):
 )
 def test_what_it_does_not_take_is_named(given, message):
     with pytest.raises(ValueError, match=message):
-        check_run(**SOUND | given)
+        run(**{"campaign": "no-such-folder"} | given)

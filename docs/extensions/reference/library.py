@@ -10,6 +10,7 @@ GROUPS = {
     "Block and base motion": ("Block", "RestitutionLaw", "Motion", "read_motion"),
     "From transducers to angle and e": ("rocking_angle", "identify_restitution", "Restitution"),
     "Rocking": ("rock", "History", "reactions", "Reactions"),
+    "Several bodies": ("Assembly", "Placed", "AssemblyHistory"),
     "What is not known exactly": ("ensemble", "Ensemble", "Uncertainty"),
     "Maps and spectra": (
         *("stability_map", "StabilityMap", "rocking_spectrum", "RockingSpectrum"),

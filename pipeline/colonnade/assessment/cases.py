@@ -2,28 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from itertools import product
+from math import ceil
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Codes, Mask
-from colonnade.assessment.prototype import Draws, Prototype, draw, drawn_column
-from colonnade.dynamics.block import Block
-from colonnade.dynamics.models.nonlinear import NONLINEAR
-from colonnade.dynamics.models.registry import model_of, plane_model_of
+from colonnade.assessment.prototype import UNCERTAIN, Prototype, draw, drawn_column
+from colonnade.dynamics.models import NONLINEAR, model_of, plane_model_of
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.outcomes import OVERTURNS, Ends, ends_of, prepared
 from colonnade.dynamics.plane.reactions import reactions
-from colonnade.dynamics.plane.run import expect_usable
+from colonnade.dynamics.plane.run import OVERTURNS, ends_of, expect_usable, prepared
 from colonnade.dynamics.rock import rock
 from colonnade.validation import number, whole
-
-if TYPE_CHECKING:
-    from colonnade.dynamics.plane.sides import Sides
 
 AXES = ("record", "level", "draw", "sign", "component")
 """Of the arrays of an assessment."""
@@ -49,8 +43,8 @@ class Cases:
     Attributes
     ----------
     prototype : Prototype
-    draws : tuple of Draws
-        Of each record, as many for each; the same at all its levels. Draws of their own make the draws nested in the
+    draws : ndarray, shape (records, draws, 4)
+        Made by `draw` for each record; the same at all its levels. Draws of their own make the draws nested in the
         records: what few draws miss shows from record to record.
     motions : tuple of Motion
         Of the records, as recorded; `transverse` is the component y.
@@ -70,15 +64,15 @@ class Cases:
     """
 
     prototype: Prototype
-    draws: tuple[Draws, ...]
+    draws: Array
     motions: tuple[Motion, ...]
     factors: Array
     model: str = NONLINEAR.name
 
     def __post_init__(self) -> None:
         plane_model_of(self.model)
-        record = int(np.argmax([each.of("p").max() for each in self.draws]))
-        fastest, _ = drawn_column(self.prototype, self.draws[record], int(self.draws[record].of("p").argmax()))
+        p = self.drawn("p")
+        fastest, _ = drawn_column(self.prototype, self.draws[np.unravel_index(p.argmax(), p.shape)])
         for record, place in np.argwhere(np.isfinite(self.factors).any(axis=1)).tolist():
             largest = float(np.nanmax(self.factors[record, :, place]))
             plane = in_plane(self.motions[record], place, largest)
@@ -98,33 +92,20 @@ class Cases:
     def shape(self) -> tuple[int, int, int, int, int]:
         """Lengths of `AXES`."""
         records, levels, components = self.factors.shape
-        return records, levels, self.draws[0].size, len(self.signs), components
-
-    @property
-    def count(self) -> int:
-        """Number of cases, each run with all signs; numbered by record, component, level and draw, the last fastest."""
-        return self.factors.size * self.draws[0].size
+        return records, levels, self.draws.shape[1], len(self.signs), components
 
     def drawn(self, name: str) -> Array:
         """Give one of `UNCERTAIN` of each record and draw, shape (records, draws)."""
-        return np.stack([each.of(name) for each in self.draws])
+        return self.draws[..., UNCERTAIN.index(name)]
 
-    def part(self, chosen: range) -> Part:
-        """Take some cases in order, with no more of the records than they need."""
-        each = self.count // len(self.motions)
-        first, last = chosen.start // each, (chosen.stop - 1) // each + 1
-        cases = replace(
-            self, motions=self.motions[first:last], draws=self.draws[first:last], factors=self.factors[first:last]
-        )
-        return Part(cases, range(chosen.start - first * each, chosen.stop - first * each))
-
-
-@dataclass(frozen=True)
-class Part:
-    """Some cases, small enough to send to another process: of the records in `cases` those numbered `chosen`."""
-
-    cases: Cases
-    chosen: range
+    def blocks(self, most: int) -> list[Cases]:
+        """Divide the records, in order, into at most so many blocks."""
+        size = ceil(len(self.motions) / most)
+        parts = [slice(first, first + size) for first in range(0, len(self.motions), size)]
+        return [
+            replace(self, motions=self.motions[part], draws=self.draws[part], factors=self.factors[part])
+            for part in parts
+        ]
 
 
 @dataclass(frozen=True)
@@ -135,7 +116,7 @@ class Outcomes:
     Attributes
     ----------
     outcome : ndarray of int8
-        Index into `dynamics.plane.harmonic.OUTCOMES`, or `NOT_RUN` or `FALLS_AWAY`.
+        Index into `dynamics.plane.run.OUTCOMES`, or `NOT_RUN` or `FALLS_AWAY`.
     peak_ratio : ndarray
         Largest |θ|/α, by the drawn α; NaN if the column overturns or was not run.
     instant : ndarray
@@ -185,75 +166,41 @@ def factors_at(levels: Array, intensity: Array, power: int = 1) -> Array:
 
 
 def in_plane(motion: Motion, place: int, factor: float) -> Motion | None:
-    """Return a horizontal component of a record with its vertical motion, multiplied; None if it has none such."""
+    """Return a horizontal component of a record with its vertical motion, multiplied; None if it is not run."""
     along = (motion.acceleration, motion.transverse)[place]
-    if along is None:
+    if along is None or np.isnan(factor):
         return None
     return Motion(factor * along, motion.dt, None if motion.vertical is None else abs(factor) * motion.vertical)
 
 
-def run_part(part: Part) -> dict[str, NDArray[Any]]:
-    """
-    Run some cases.
-
-    Returns
-    -------
-    arrays : dict of ndarray, shape (cases, signs)
-        By the names of `Outcomes`.
-    """
-    cases, chosen = part.cases, part.chosen
-    _records, levels, draws, signs, components = cases.shape
-
-    @cache
-    def column(record: int, draw: int) -> Sides:
-        return prepared(*drawn_column(cases.prototype, cases.draws[record], draw))
-
-    arrays: dict[str, NDArray[Any]] = {
-        "outcome": np.full((len(chosen), signs), NOT_RUN, dtype=np.int8),
-        "peak_ratio": np.full((len(chosen), signs), np.nan),
-        "instant": np.full((len(chosen), signs), np.nan),
-    }
-    # Draws of one component of a record at one level follow each other, and share its motion.
-    for first in range(chosen.start - chosen.start % draws, chosen.stop, draws):
-        row, low, high = first // draws, max(first, chosen.start), min(first + draws, chosen.stop)
-        record, place, level = row // (levels * components), row // levels % components, row % levels
-        drawn = [column(record, draw) for draw in range(low - first, high - first)]
-        here = slice(low - chosen.start, high - chosen.start)
-        for side, sign in enumerate(cases.signs):
-            ends = _ends(cases, record, place, sign * float(cases.factors[record, level, place]), drawn)
-            if isinstance(ends, int):
-                arrays["outcome"][here, side] = ends
-                continue
-            for name, values in ends._asdict().items():
-                arrays[name][here, side] = values
-    return arrays
-
-
-def gather(cases: Cases, parts: Iterable[Mapping[str, NDArray[Any]]]) -> Outcomes:
-    """Put what `run_part` gave of all cases, in order, onto the axes of an assessment."""
-    kept = list(parts)
-    records, levels, draws, signs, components = cases.shape
-    joined = {
-        name: np.concatenate([each[name] for each in kept]).reshape(records, components, levels, draws, signs)
-        for name in ("outcome", "peak_ratio", "instant")
-    }
-    return Outcomes(**{name: np.moveaxis(values, 1, -1) for name, values in joined.items()})
-
-
 def run_cases(cases: Cases) -> Outcomes:
     """Run all cases in this process."""
-    return gather(cases, [run_part(Part(cases, range(cases.count)))])
-
-
-def _ends(cases: Cases, record: int, place: int, factor: float, drawn: list[Sides]) -> Ends | int:
-    """Run drawn columns under one motion; a code if it cannot be run."""
-    motion = None if np.isnan(factor) else in_plane(cases.motions[record], place, factor)
-    if motion is None:
-        return NOT_RUN
+    _records, levels, _draws, _signs, components = shape = cases.shape
+    found = Outcomes(np.full(shape, NOT_RUN, dtype=np.int8), np.full(shape, np.nan), np.full(shape, np.nan))
     gravity = cases.prototype.block.gravity
-    if motion.vertical is not None and not motion.vertical.min() > -gravity:
-        return FALLS_AWAY
-    return ends_of(motion, drawn, gravity=gravity, model=cases.model)
+    for record, motion in enumerate(cases.motions):
+        columns = [prepared(*drawn_column(cases.prototype, values)) for values in cases.draws[record]]
+        for level, (side, sign), place in product(range(levels), enumerate(cases.signs), range(components)):
+            plane = in_plane(motion, place, sign * float(cases.factors[record, level, place]))
+            if plane is None:
+                continue
+            here = (record, level, slice(None), side, place)
+            if _falls_away(plane, gravity):
+                found.outcome[here] = FALLS_AWAY
+                continue
+            ends = ends_of(plane, columns, gravity=gravity, model=cases.model)
+            for name, values in vars(found).items():
+                values[here] = getattr(ends, name)
+    return found
+
+
+def joined(parts: Sequence[Outcomes]) -> Outcomes:
+    """Put the outcomes of blocks of records one behind the other."""
+    return Outcomes(*(np.concatenate(each) for each in zip(*(vars(part).values() for part in parts), strict=True)))
+
+
+def _falls_away(motion: Motion, gravity: float) -> bool:
+    return motion.vertical is not None and not motion.vertical.min() > -gravity
 
 
 LEVELS = 12
@@ -302,10 +249,8 @@ def default_levels(
     """
     lowest = _first_uplift(prototype, motions, intensity, power)
     trials = np.geomspace(lowest, REACH**power * lowest, TRIALS)
-    cases = Cases(
-        prototype, (draw(prototype, 0),) * len(motions), tuple(motions), factors_at(trials, intensity, power), model
-    )
-    outcomes = run_cases(cases)
+    draws = np.stack([draw(prototype, 0)] * len(motions))
+    outcomes = run_cases(Cases(prototype, draws, tuple(motions), factors_at(trials, intensity, power), model))
     run, fell = outcomes.is_run, outcomes.exceeds()
     aside = (0, 2, 3, 4)
     some, every = fell.any(axis=aside), (fell | ~run).all(axis=aside)
@@ -366,9 +311,8 @@ def friction_needed(cases: Cases) -> FrictionNeeded:
     records, levels, _draws, signs, components = cases.shape
     needed = np.full((3, records, levels, signs, components), np.nan)
     for record, level, sign, place in np.ndindex(needed.shape[1:]):
-        factor = float(cases.factors[record, level, place])
-        motion = None if np.isnan(factor) else in_plane(cases.motions[record], place, cases.signs[sign] * factor)
-        if motion is not None:
+        factor = cases.signs[sign] * float(cases.factors[record, level, place])
+        if (motion := in_plane(cases.motions[record], place, factor)) is not None:
             needed[:, record, level, sign, place] = _needed(cases, motion)
     return FrictionNeeded(*needed)
 
@@ -393,21 +337,18 @@ def holds(needed: FrictionNeeded, friction: Array) -> Mask:
 
 def _needed(cases: Cases, motion: Motion) -> tuple[float, float, float]:
     block = cases.prototype.block
-    if motion.vertical is not None and not motion.vertical.min() > -block.gravity:
+    if _falls_away(motion, block.gravity):
         return 0.0, np.inf, 0.0
     history = rock(block, motion, restitution=cases.prototype.restitution, model=cases.model)
     forces = reactions(history, motion)
     until = history.overturning_time if np.isfinite(history.overturning_time) else np.inf
+    widest = max(side.critical_angle for side in block.sides)
     upright = (history.angle == 0.0) & (history.angular_velocity == 0.0)
     # A record that begins with a jump uplifts the column in its first sample: it stands there, but does not rest.
-    rests = upright & (forces.required_friction <= model_of(cases.model).uplift_threshold(_widest(block)))
+    rests = upright & (forces.required_friction <= model_of(cases.model).uplift_threshold(widest))
     before, landed = forces.time <= until, forces.impact_times <= until
     return (
         float(forces.required_friction[before & rests].max(initial=0.0)),
         float(forces.required_friction[before & ~upright].max(initial=0.0)),
         float(forces.impact_friction[landed].max(initial=0.0)),
     )
-
-
-def _widest(block: Block) -> float:
-    return max(side.critical_angle for side in block.sides)

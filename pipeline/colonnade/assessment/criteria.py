@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.spectra.response import response_spectrum
+from colonnade.dynamics.spectra import response_spectrum
 
 PERIODS = np.geomspace(0.1, 2.5, 60)
 """s, over which the velocity spectrum is taken as constant."""

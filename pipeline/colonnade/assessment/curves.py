@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 import scipy
@@ -21,16 +21,8 @@ from colonnade.assessment.intervals import (
     studentised,
 )
 from colonnade.assessment.outcomes import Cells, Outcomes, Stripes, striped, summed
-from colonnade.assessment.probit import (
-    FALLING,
-    FITTED,
-    ONE_INTENSITY,
-    ONE_OUTCOME,
-    SEPARATED,
-    Parameters,
-    fit_parameters,
-)
-from colonnade.units import format_percent
+from colonnade.assessment.probit import Parameters, fit_parameters
+from colonnade.units.text import format_percent
 from colonnade.validation import samples
 
 Reason = Literal["", "separated", "falling", "never", "always", "one intensity"]
@@ -147,9 +139,9 @@ def fit_lognormal(outcomes: Outcomes, resampling: Resampling, *, event: Mask | N
     studentised, of ln median and ln β.
     """
     cells, level = outcomes.cells(event), resampling.level
-    parameters, log_likelihood, status = fit_parameters(cells, resampling.weights(len(outcomes.records)))
+    parameters, log_likelihood, reasons = fit_parameters(cells, resampling.weights(len(outcomes.records)))
     all_records, resampled = (Parameters(*(each[part] for each in parameters)) for part in (slice(1), slice(1, None)))
-    has_curve = status[1:] == FITTED
+    has_curve = reasons[1:] == ""
     stripes = striped(cells)
     shares = stripes.events.sum(axis=0) / stripes.histories.sum(axis=0)
     mixed = float(np.minimum(shares, 1 - shares).sum())
@@ -158,7 +150,7 @@ def fit_lognormal(outcomes: Outcomes, resampling: Resampling, *, event: Mask | N
     resampled = Parameters(*(each[usable] for each in resampled))
     median, beta = _intervals(all_records, resampled, level, len(outcomes.records))
     return LognormalFit(
-        _reason(int(status[0]), cells),
+        cast(Reason, str(reasons[0])),
         _rises(cells),
         median,
         beta,
@@ -200,18 +192,6 @@ def _with_errors(function: Callable[[Array, Array], Array], at: Parameters) -> t
     return function(mean, log_beta), np.sqrt(np.maximum(variance, 0.0))
 
 
-def _reason(status: int, cells: Cells) -> Reason:
-    if status == ONE_OUTCOME:
-        return "never" if cells.events.sum() == 0 else "always"
-    named: dict[int, Reason] = {
-        FITTED: "",
-        SEPARATED: "separated",
-        FALLING: "falling",
-        ONE_INTENSITY: "one intensity",
-    }
-    return named[status]
-
-
 def _rises(cells: Cells) -> tuple[float, float]:
     """Give the highest intensity below all events, and the lowest above all survivals."""
     counted = cells.histories > 0
@@ -232,18 +212,13 @@ class Misfit:
     ----------
     intensity, departure : ndarray, shape (k,)
         Of each stripe: share less the curve's probability.
-    deviance : float
-        Twice the log-likelihood that the curve loses to the shares of the stripes, histories taken as independent.
-    statistic : float
-        Pearson's, of which `p_value` is judged.
     p_value : float
-        Probability of such a departure if the curve were right, by resamples of the records. NaN without a curve.
+        Probability of so large a χ² of Pearson's if the curve were right, by resamples of the records. NaN without a
+        curve.
     """
 
     intensity: Array
     departure: Array
-    deviance: float
-    statistic: float
     p_value: float
 
 
@@ -268,18 +243,16 @@ def lognormal_misfit(outcomes: Outcomes, resampling: Resampling) -> Misfit:
     cells = outcomes.cells()
     stripes = striped(cells)
     weights = resampling.weights(len(outcomes.records))
-    parameters, log_likelihood, status = fit_parameters(cells, weights)
+    parameters, _, reasons = fit_parameters(cells, weights)
     shares, expected = _shares(cells, stripes, weights, parameters)
     departures = shares - expected
-    fitted = status == FITTED
+    fitted = reasons == ""
     likely = np.clip(expected[0], 0.5 / len(outcomes.records), 1 - 0.5 / len(outcomes.records))
     scale = stripes.histories.sum(axis=0) / (likely * (1 - likely))
     statistic = float((scale * departures[0] ** 2).sum())
     null = (scale * (departures[1:][fitted[1:]] - departures[0]) ** 2).sum(axis=1)
     p_value = float((1 + (null >= statistic).sum()) / (1 + null.size)) if fitted[0] else np.nan
-    return Misfit(
-        np.exp(stripes.log_intensity), departures[0], _deviance(stripes, float(log_likelihood[0])), statistic, p_value
-    )
+    return Misfit(np.exp(stripes.log_intensity), departures[0], p_value)
 
 
 def _shares(cells: Cells, stripes: Stripes, weights: Array, parameters: Parameters) -> tuple[Array, Array]:
@@ -291,13 +264,6 @@ def _shares(cells: Cells, stripes: Stripes, weights: Array, parameters: Paramete
         expected[n] = weights[n] @ summed(likely, stripes.place, stripes.log_intensity.size)
     of = np.where(histories > 0, histories, np.nan)
     return events / of, expected / of
-
-
-def _deviance(stripes: Stripes, log_likelihood: float) -> float:
-    events, histories = stripes.events.sum(axis=0), stripes.histories.sum(axis=0)
-    share = events / histories
-    saturated = scipy.special.xlogy(events, share) + scipy.special.xlogy(histories - events, 1 - share)
-    return float(2 * (saturated.sum() - log_likelihood))
 
 
 @dataclass(frozen=True)

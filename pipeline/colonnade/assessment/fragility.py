@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
-from colonnade.assessment.betas import Betas, separate_betas
 from colonnade.assessment.comparison import Comparison, compare_measures
 from colonnade.assessment.curves import (
     IsotonicCurve,
@@ -25,7 +25,7 @@ from colonnade.assessment.intervals import Interval, Resampling
 from colonnade.assessment.measures import measure_of
 from colonnade.assessment.outcomes import Outcomes, Resurrection, resurrection
 from colonnade.assessment.probit import fit_parameters
-from colonnade.digest import Digested, written
+from colonnade.units.text import Digested, written
 from colonnade.validation import number
 
 MISFITS = 0.05
@@ -204,12 +204,58 @@ def summarise(
         lognormal_misfit(outcomes, resampling),
         Uplift(threshold, None if threshold else fit_lognormal(outcomes, resampling, event=outcomes.peak > 0)),
         resurrection(outcomes),
-        separate_betas(outcomes, resampling),
+        split_beta(outcomes, lognormal),
         influence(outcomes, hazard),
         compared,
         annual_rate(hazard, lognormal, isotonic) if hazard is not None and not lognormal.reason else None,
         measure,
     )
+
+
+class Betas(NamedTuple):
+    """β of the curve from motion to motion, and from draw to draw within one; NaN if they cannot be told apart."""
+
+    records: float
+    parameters: float
+
+
+def split_beta(outcomes: Outcomes, fit: LognormalFit) -> Betas:
+    """
+    Split the β of a curve into that between motions and that between the draws of one.
+
+    Parameters
+    ----------
+    outcomes : Outcomes
+        Each record with draws of its own.
+    fit : LognormalFit
+        Of them.
+
+    Returns
+    -------
+    betas : Betas
+        NaN without a curve, or of a single draw.
+
+    Notes
+    -----
+    ln capacity = ln median + β_records R + β_parameters D, R one for each motion (record and direction), D one for each
+    of its draws: the capacities of two draws under one motion are correlated by ρ = β_records² / β². Both overturn at
+    an intensity with the probability Φ₂(z, z; ρ) = Φ(z) − 2 T(z, √((1 − ρ) / (1 + ρ))), T Owen's function: ρ is such
+    that as many pairs do as did (tetrachoric correlation, Pearson 1900), at all levels together. Capacities beyond the
+    levels count as what they are, unlike in an analysis of variance.
+    """
+    histories, over = outcomes.was_run.sum(axis=2), outcomes.overturned.sum(axis=2)
+    pairs, both = histories * (histories - 1), over * (over - 1)
+    if fit.reason or not pairs.any():
+        return Betas(np.nan, np.nan)
+    y = np.log(np.where(pairs > 0, outcomes.intensity, 1.0))
+    z = (y - fit.fit.log_median[0]) / np.exp(fit.fit.log_beta[0])
+
+    def excess(rho: float) -> float:
+        likely = scipy.special.ndtr(z) - 2 * scipy.special.owens_t(z, np.sqrt((1 - rho) / (1 + rho)))
+        return float((both - pairs * likely).sum())
+
+    rho = 0.0 if excess(0.0) <= 0.0 else 1.0 if excess(1.0) >= 0.0 else scipy.optimize.brentq(excess, 0.0, 1.0)
+    return Betas(float(fit.beta.value * np.sqrt(rho)), float(fit.beta.value * np.sqrt(1.0 - rho)))
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from colonnade.arrays import Array, Mask
-from colonnade.dynamics.ensembles.ensemble import LARGEST_SEED
+from colonnade.dynamics.ensemble import LARGEST_SEED
 from colonnade.validation import number, whole
 
 RESAMPLES, MOST_RESAMPLES = 1999, 100_000

@@ -19,10 +19,10 @@ from colonnade.assessment.ground import (
     quantity_of,
     split_name,
 )
-from colonnade.digest import Digested, written
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import nearest
+from colonnade.units.text import Digested, written
 from colonnade.validation import described, instance, number, text
 
 PERIODS = (0.2, 0.5, 1.0, 2.0)
@@ -341,7 +341,7 @@ def _significant_duration(ground: Ground) -> float:
 @_measure("housner", "SI", "Housner's intensity", "length", 1, "Housner 1952; damping of 5 % as is usual today")
 def _housner(ground: Ground) -> float:
     """integral of the pseudo-velocity ω max |u| over periods from 0.1 to 2.5 s, damped by 5 %."""
-    from colonnade.dynamics.spectra.response import response_spectrum  # it loads scipy
+    from colonnade.dynamics.spectra import response_spectrum  # it loads scipy
 
     step = 0.02
     spectrum = response_spectrum(ground.acceleration, ground.interval, np.arange(0.1, 2.5 + step / 2, step))
@@ -394,7 +394,7 @@ def _velocity_ratio(ground: Ground, block: Block) -> float:
 
 def _spectral(period: float) -> Measure:
     def value(ground: Ground) -> float:
-        from colonnade.dynamics.spectra.response import response_spectrum
+        from colonnade.dynamics.spectra import response_spectrum
 
         return float(response_spectrum(ground.acceleration, ground.interval, [period]).pseudo_acceleration[0])
 

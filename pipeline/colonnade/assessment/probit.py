@@ -6,14 +6,12 @@ from math import erfc, exp, log, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask
 from colonnade.assessment.outcomes import Cells
 from colonnade.dynamics.kernel import kernel
-
-FITTED, SEPARATED, FALLING, ONE_OUTCOME, ONE_INTENSITY = 0, 1, 2, 3, 4
-"""Status of a fit: only the first has a finite median and β > 0."""
 
 STEPS, CLOSE = 50, 1e-10
 FAR = 25.0
@@ -34,28 +32,6 @@ def _log_below(z: float) -> float:
     if z < -FAR:
         return -0.5 * z * z - log(-z * sqrt(2.0 * pi))
     return log(0.5 * erfc(-z / sqrt(2.0)))
-
-
-@kernel
-def _status(y: Array, events: Array, histories: Array, weights: Array) -> tuple[int, float, float]:
-    """Whether outcomes overlap, the highest y with a survivor, and the lowest with an event."""
-    survived, happened, low, high = -np.inf, np.inf, np.inf, -np.inf
-    for r in range(y.shape[0]):
-        if weights[r] > 0.0:
-            for m in range(y.shape[1]):
-                if histories[r, m] > 0.0:
-                    low, high = min(low, y[r, m]), max(high, y[r, m])
-                    if events[r, m] < histories[r, m]:
-                        survived = max(survived, y[r, m])
-                    if events[r, m] > 0.0:
-                        happened = min(happened, y[r, m])
-    if survived == -np.inf or happened == np.inf:
-        return ONE_OUTCOME, survived, happened
-    if low == high:
-        return ONE_INTENSITY, survived, happened
-    if survived <= happened:
-        return SEPARATED, survived, happened
-    return FITTED, survived, happened
 
 
 @kernel
@@ -124,59 +100,24 @@ def _maximise(y: Array, events: Array, histories: Array, weights: Array) -> tupl
 
 
 @kernel
-def fit_each(y: Array, events: Array, histories: Array, weights: Array) -> tuple[Array, NDArray[np.int64]]:
+def fit_each(y: Array, events: Array, histories: Array, weights: Array) -> Array:
     """
-    Fit P = Φ(a + b y) for each weighting of the records.
+    Fit P = Φ(a + b y) for each weighting of the records, shape (n, r), in all of which outcomes overlap.
 
-    Parameters
-    ----------
-    y, events, histories : ndarray, shape (r, m)
-        y about 0 and of order 1.
-    weights : ndarray, shape (n, r)
-
-    Returns
-    -------
-    fits : ndarray, shape (n, 6)
-        a, b, their covariance (aa, ab, bb) with records as the independent units (the sandwich of Huber 1967),
-        log-likelihood.
-    status : ndarray of int, shape (n,)
-        If separated, the log-likelihood is its limit and the rest NaN.
+    y is about 0 and of order 1; y, events and histories have the shape (r, m). Gives shape (n, 6): a, b, their
+    covariance (aa, ab, bb) with records as the independent units (the sandwich of Huber 1967), log-likelihood.
     """
-    fits, status = np.full((weights.shape[0], 6), np.nan), np.zeros(weights.shape[0], dtype=np.int64)
+    fits = np.empty((weights.shape[0], 6))
     for n in range(weights.shape[0]):
-        found, survived, happened = _status(y, events, histories, weights[n])
-        status[n] = found
-        if found == FITTED:
-            a, b, best = _maximise(y, events, histories, weights[n])
-            d = _derivatives(y, events, histories, weights[n], a, b)
-            whole = d[2] * d[4] - d[3] * d[3]
-            aa, ab, bb = d[4] / whole, -d[3] / whole, d[2] / whole
-            fits[n, 0], fits[n, 1], fits[n, 5] = a, b, best
-            fits[n, 2] = aa * aa * d[5] + 2.0 * aa * ab * d[6] + ab * ab * d[7]
-            fits[n, 3] = aa * ab * d[5] + (aa * bb + ab * ab) * d[6] + ab * bb * d[7]
-            fits[n, 4] = ab * ab * d[5] + 2.0 * ab * bb * d[6] + bb * bb * d[7]
-            if b <= 0.0:
-                status[n] = FALLING
-        else:
-            fits[n, 5] = _at_one_intensity(y, events, histories, weights[n], survived, happened)
-    return fits, status
-
-
-@kernel
-def _at_one_intensity(
-    y: Array, events: Array, histories: Array, weights: Array, survived: float, happened: float
-) -> float:
-    """Log-likelihood of the outcomes that share the one intensity with both; 0 if there is none."""
-    happens, all_of = 0.0, 0.0
-    if survived == happened:
-        for r in range(y.shape[0]):
-            for m in range(y.shape[1]):
-                if y[r, m] == survived:
-                    happens += weights[r] * events[r, m]
-                    all_of += weights[r] * histories[r, m]
-    if happens == 0.0 or happens == all_of:
-        return 0.0
-    return happens * log(happens / all_of) + (all_of - happens) * log(1.0 - happens / all_of)
+        a, b, best = _maximise(y, events, histories, weights[n])
+        d = _derivatives(y, events, histories, weights[n], a, b)
+        whole = d[2] * d[4] - d[3] * d[3]
+        aa, ab, bb = d[4] / whole, -d[3] / whole, d[2] / whole
+        fits[n, 0], fits[n, 1], fits[n, 5] = a, b, best
+        fits[n, 2] = aa * aa * d[5] + 2.0 * aa * ab * d[6] + ab * ab * d[7]
+        fits[n, 3] = aa * ab * d[5] + (aa * bb + ab * ab) * d[6] + ab * bb * d[7]
+        fits[n, 4] = ab * ab * d[5] + 2.0 * ab * bb * d[6] + bb * bb * d[7]
+    return fits
 
 
 class Parameters(NamedTuple):
@@ -189,7 +130,7 @@ class Parameters(NamedTuple):
     bb: Array
 
 
-def fit_parameters(cells: Cells, weights: Array) -> tuple[Parameters, Array, NDArray[np.int64]]:
+def fit_parameters(cells: Cells, weights: Array) -> tuple[Parameters, Array, NDArray[np.str_]]:
     """
     Fit each weighting of the records.
 
@@ -202,14 +143,28 @@ def fit_parameters(cells: Cells, weights: Array) -> tuple[Parameters, Array, NDA
     -------
     parameters : Parameters
         NaN if there is no curve that rises.
-    log_likelihood, status : ndarray, shape (n,)
-        As of `fit_each`.
+    log_likelihood : ndarray, shape (n,)
+        If there is no curve its limit.
+    reason : ndarray of str, shape (n,)
+        Why there is no curve that rises: a `Reason` of `assessment.curves`; empty if there is one.
     """
     counted = cells.histories > 0
     centre = float(cells.log_intensity[counted].mean())
     width = float(cells.log_intensity[counted].std()) or 1.0
-    fits, status = fit_each((cells.log_intensity - centre) / width, cells.events, cells.histories, weights)
-    a, b, aa, ab, bb, log_likelihood = np.where((status == FITTED) | (np.arange(6) == 5)[:, None], fits.T, np.nan)
+    y = (cells.log_intensity - centre) / width
+    happened, survived = cells.events > 0, cells.events < cells.histories
+    # Of each weighting: the lowest y with an event, the highest with a survivor, and the ends.
+    drawn = weights > 0
+    first, low = (np.where(drawn, _lowest(y, each), np.inf).min(axis=1) for each in (happened, counted))
+    last, high = (np.where(drawn, -_lowest(-y, each), -np.inf).max(axis=1) for each in (survived, counted))
+    whys = ("always", "never", "one intensity", "separated")
+    reason = np.select([np.isinf(last), np.isinf(first), low == high, last <= first], whys, "")
+    overlap = reason == ""
+    fits = np.full((len(weights), 6), np.nan)
+    fits[overlap] = fit_each(y, cells.events, cells.histories, weights[overlap])
+    fits[~overlap, 5] = _at_one_intensity(y, cells, weights, first)[~overlap]
+    reason[fits[:, 1] <= 0.0] = "falling"
+    a, b, aa, ab, bb, log_likelihood = np.where((reason == "") | (np.arange(6) == 5)[:, None], fits.T, np.nan)
     middle = -a / b
     return (
         Parameters(
@@ -220,5 +175,21 @@ def fit_parameters(cells: Cells, weights: Array) -> tuple[Parameters, Array, NDA
             bb / b**2,
         ),
         log_likelihood,
-        status,
+        reason,
     )
+
+
+def _lowest(y: Array, chosen: Mask) -> Array:
+    """Lowest chosen y of each record, infinite without one."""
+    return np.asarray(np.where(chosen, y, np.inf).min(axis=1))
+
+
+def _at_one_intensity(y: Array, cells: Cells, weights: Array, at: Array) -> Array:
+    """Limit of the log-likelihood: of the outcomes at the one intensity of each weighting that may have both."""
+    found = np.zeros(len(weights))
+    for place in np.unique(at[np.isfinite(at)]):
+        events, histories = (weights @ np.where(y == place, each, 0.0).sum(axis=1) for each in cells[1:])
+        left = histories - events
+        both = scipy.special.xlogy(events, events) + scipy.special.xlogy(left, left)
+        found = np.where(at == place, both - scipy.special.xlogy(histories, histories), found)
+    return found

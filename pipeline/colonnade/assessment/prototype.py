@@ -9,8 +9,8 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block, Sided, pair
-from colonnade.dynamics.ensembles.ensemble import LARGEST_SEED
-from colonnade.dynamics.ensembles.uncertainty import member_block, member_restitution
+from colonnade.dynamics.ensemble import LARGEST_SEED
+from colonnade.dynamics.uncertainty import member_block, member_restitution
 from colonnade.validation import instance, number, sided, whole
 
 Limits = tuple[float, float]
@@ -83,30 +83,7 @@ class Prototype:
         return self.restitution_range, self.critical_angle_range, self.p_range, self.friction_range
 
 
-@dataclass(frozen=True)
-class Draws:
-    """
-    Columns that could be the real one; the first has nothing varied.
-
-    Attributes
-    ----------
-    values : ndarray, shape (n, 4)
-        By `UNCERTAIN`: e, α (rad), p (rad/s), coefficient of friction (NaN if there is none).
-    """
-
-    values: Array
-
-    @property
-    def size(self) -> int:
-        """Number of columns, the one with nothing varied among them."""
-        return len(self.values)
-
-    def of(self, name: str) -> Array:
-        """Give one of `UNCERTAIN`, shape (n,)."""
-        return self.values[:, UNCERTAIN.index(name)]
-
-
-def draw(prototype: Prototype, count: int, seed: int = 0, *, record: int = 0) -> Draws:
+def draw(prototype: Prototype, count: int, seed: int = 0, *, record: int = 0) -> Array:
     """
     Draw columns within the ranges of a real one.
 
@@ -121,6 +98,12 @@ def draw(prototype: Prototype, count: int, seed: int = 0, *, record: int = 0) ->
     record : int, optional
         Number of the record under which they are run: each has columns of its own.
 
+    Returns
+    -------
+    draws : ndarray, shape (1 + count, 4)
+        By `UNCERTAIN`: e, α (rad), p (rad/s), coefficient of friction (NaN if there is none). In the first row nothing
+        is varied.
+
     Raises
     ------
     ValueError
@@ -134,19 +117,15 @@ def draw(prototype: Prototype, count: int, seed: int = 0, *, record: int = 0) ->
         for column, limits in enumerate(prototype.ranges):
             if limits is not None:
                 values[number_, column] = limits[0] + shares[column] * (limits[1] - limits[0])
-    return Draws(values)
+    return values
 
 
-def drawn_column(prototype: Prototype, draws: Draws, which: int) -> tuple[Block, tuple[float, float]]:
-    """Return the block of one draw, and its e on both sides."""
-    restitution, critical_angle, p, _friction = draws.values[which].tolist()
-    block = prototype.block
-    if which == 0:
-        return block, pair(prototype.restitution)
-    return (
-        member_block(block, critical_angle / block.critical_angle, p / block.p),
-        member_restitution(prototype.restitution, restitution - prototype.central[0]),
-    )
+def drawn_column(prototype: Prototype, values: Array) -> tuple[Block, tuple[float, float]]:
+    """Return the block of one draw, shape (4,), and its e on both sides."""
+    e, critical_angle, p, _friction = values.tolist()
+    usual_e, usual_angle, usual_p, _friction = prototype.central
+    block = member_block(prototype.block, critical_angle / usual_angle, p / usual_p)
+    return block, member_restitution(prototype.restitution, e - usual_e)
 
 
 def _limits(name: str, limits: Limits | None, expected: str, **bounds: float) -> None:

@@ -18,7 +18,7 @@ from colonnade.assessment.measures import MEASURES, Measure, measure_of, measure
 from colonnade.assessment.outcomes import gather
 from colonnade.assessment.prototype import MOST_DRAWS, Limits, Prototype, draw
 from colonnade.dynamics.block import Block, Sided
-from colonnade.dynamics.models.nonlinear import NONLINEAR
+from colonnade.dynamics.models import NONLINEAR
 from colonnade.dynamics.motion import Motion
 from colonnade.validation import described, instance, number, samples, text, whole
 
@@ -67,9 +67,8 @@ class Study:
 
     def of(self, prototype: Prototype) -> Study:
         """Return the study of another column with nothing varied, on the same records at the same levels."""
-        return replace(
-            self, cases=replace(self.cases, prototype=prototype, draws=(draw(prototype, 0),) * len(self.names))
-        )
+        draws = np.stack([draw(prototype, 0)] * len(self.names))
+        return replace(self, cases=replace(self.cases, prototype=prototype, draws=draws))
 
 
 def plan_study(
@@ -140,7 +139,7 @@ def plan_study(
         raise ValueError(f"No record can be run: {FALLS}")
     reasons |= {(names[row], "z"): FALLS for row in usable[~runs]}
     rows = usable[runs]
-    drawn = tuple(draw(prototype, draws, seed, record=number) for number in range(rows.size))
+    drawn = np.stack([draw(prototype, draws, seed, record=number) for number in range(rows.size)])
     cases = Cases(prototype, drawn, tuple(recorded[row] for row in rows), factors[runs], model)
     kept = tuple(names[row] for row in rows)
     values = {name: each[rows] for name, each in values.items()}

@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field
 
-from colonnade.campaign.assessing.assessment import Assessment
-from colonnade.campaign.assessing.prototype import Prototype
+from colonnade.campaign.assembly import AssemblyTable, Whole
+from colonnade.campaign.assessment import Assessment, Prototype
 from colonnade.campaign.channel import Channel
 from colonnade.campaign.review import Review
-from colonnade.campaign.settings import NextSettings, Processing
+from colonnade.campaign.settings import EnsembleSettings, NextSettings, Processing
 from colonnade.campaign.setup import Setup, ShakeTable
-from colonnade.campaign.specimen import AnySpecimen
-from colonnade.campaign.syntax.fields import Gravity, Text, schema_version
+from colonnade.campaign.specimen import AnySpecimen, Specimen
+from colonnade.campaign.syntax.fields import Quantity, Text
 from colonnade.campaign.syntax.names import Identifier
 from colonnade.campaign.syntax.table import Table
 from colonnade.campaign.test import ReferenceMotion, Test
 from colonnade.campaign.watched import Watched
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
 from colonnade.findings import Finding
+
+if TYPE_CHECKING:
+    Known = Specimen
+else:  # as written; assemblies join them as wholes
+    Known = AnySpecimen
 
 SCHEMA = 1
 """Version of the contract of campaign.toml."""
@@ -29,7 +34,7 @@ SCHEMA = 1
 class CampaignKeys(Table):
     """The keys of a campaign file but its tests; all numbers in SI."""
 
-    version: Annotated[int, schema_version(SCHEMA, "campaign files")] = Field(alias="schema")
+    version: Literal[1] = Field(alias="schema")
     """Version of the campaign file's form: 1."""
     campaign: Identifier
     """Id of the campaign, such as "prism-2013"."""
@@ -37,10 +42,12 @@ class CampaignKeys(Table):
     """Title of the report."""
     facility: Text | None = None
     """Laboratory and shake table."""
-    gravity: Gravity = STANDARD_GRAVITY
+    gravity: Annotated[float, Quantity("acceleration", example="9.81 m/s^2")] = STANDARD_GRAVITY
     """Gravity at the laboratory; 9.81 m/s² if it is not given."""
-    specimens: dict[Identifier, AnySpecimen] = Field(min_length=1)
+    specimens: dict[Identifier, Known] = Field(min_length=1)
     """Specimens, by id."""
+    assemblies: dict[Identifier, AssemblyTable] = Field(default={})
+    """Assemblies of bodies that are made as specimens, by id; a test's `specimen` may be one."""
     setups: dict[Identifier, Setup] = Field(default={})
     """Set-ups, by id; a campaign without tests, about a real column alone, needs none."""
     motions: dict[Text, ReferenceMotion] = Field(default={})
@@ -57,6 +64,11 @@ class CampaignKeys(Table):
     """The real columns, by the specimen that is a model of each."""
     assessments: dict[Identifier, Assessment] = Field(default={})
     """What is asked about the real columns, by name."""
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """Ids of the bodies on the table, one of which a channel may be on."""
+        return (*self.specimens, *(name for each in self.assemblies.values() for name in each.placed))
 
 
 class CampaignFile(CampaignKeys):
@@ -99,23 +111,17 @@ class Campaign(CampaignKeys):
     def with_relative_paths(self) -> Campaign:
         """Return the campaign with paths relative to its folder, so that a copy elsewhere gives the same."""
 
-        def within(path: Path) -> Path:
-            return path.relative_to(self.folder)
+        def within(value: Any) -> Any:
+            if isinstance(value, Path):
+                return value.relative_to(self.folder)
+            if isinstance(value, dict):
+                return {key: within(each) for key, each in value.items()}
+            if isinstance(value, Table):
+                return value.model_copy(update={name: within(each) for name, each in value})
+            return value
 
-        tests = {
-            name: test.model_copy(update={"files": {recorder: within(path) for recorder, path in test.files.items()}})
-            for name, test in self.tests.items()
-        }
-        motions = {
-            name: motion.model_copy(update={"file": within(motion.file)}) for name, motion in self.motions.items()
-        }
-        assessments = {
-            name: each.model_copy(
-                update={"records": within(each.records), "hazard": each.hazard and within(each.hazard)}
-            )
-            for name, each in self.assessments.items()
-        }
-        return self.but(path=within(self.path), folder=Path(), tests=tests, motions=motions, assessments=assessments)
+        paths = {name: within(getattr(self, name)) for name in ("path", "folder", "tests", "motions", "assessments")}
+        return self.but(**paths)
 
     def review(self, test: str) -> Review:
         """Decisions of the manual review about a test; empty ones if it has none."""
@@ -135,6 +141,11 @@ class Campaign(CampaignKeys):
         """Block of a specimen, with the campaign's gravity."""
         return self.specimens[specimen].block(self.gravity)
 
+    def ensemble_settings(self, specimen: str) -> EnsembleSettings:
+        """Settings of a specimen's ensembles, with what its own `uncertainty` says."""
+        settings, own = self.processing.predict.ensemble, self.specimens[specimen].uncertainty
+        return settings if own is None else settings.model_copy(update=own.model_dump(exclude_none=True))
+
     @property
     def combinations(self) -> dict[tuple[str, str], list[str]]:
         """Ids of the tests by specimen and setup, in the order in which these first come together."""
@@ -145,8 +156,15 @@ class Campaign(CampaignKeys):
 
     def channels(self, test: Test) -> dict[str, Channel]:
         """Channels of a test's specimen, table and ground for which it has a raw file, by id."""
-        channels = self.setups[test.setup].channels_of(test.specimen)
+        channels = self.channels_in(test.specimen, test.setup)
         return {name: channel for name, channel in channels.items() if channel.recorder in test.files}
+
+    def channels_in(self, specimen: str, setup: str) -> dict[str, Channel]:
+        """Channels of a specimen in a set-up, by id; of an assembly as of the one block as which it rocks."""
+        whole = self.specimens[specimen]
+        if isinstance(whole, Whole):
+            return whole.as_seen(self.setups[setup].channels_of(specimen, tuple(whole.placed)))
+        return self.setups[setup].channels_of(specimen)
 
     def concerning(self, test: str) -> tuple[Finding, ...]:
         """Warnings about a test's specimen or set-up, or the test itself."""

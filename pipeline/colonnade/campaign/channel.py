@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import cached_property, partial
+from functools import cached_property
 from math import hypot
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
 
 from colonnade import units
 from colonnade.campaign.syntax import fields
-from colonnade.campaign.syntax.fields import CONVERSION, number, outside, shown
+from colonnade.campaign.syntax.fields import CONVERSION, outside, shown
 from colonnade.campaign.syntax.names import Identifier
-from colonnade.campaign.syntax.table import Table, problem, refuse
+from colonnade.campaign.syntax.table import Table, missing, problem, refuse
 from colonnade.errors import UnitError
 
 MAIN = "main"
@@ -36,36 +35,31 @@ def _cosine(one: tuple[float, ...], other: tuple[float, ...]) -> float:
     return sum(here * there for here, there in zip(one, other, strict=True)) / (hypot(*one) * hypot(*other))
 
 
-def _readable(value: object, what: str, read: Callable[[str], object]) -> str:
-    """Accept text that `read` accepts; the error gives an example."""
-    if not isinstance(value, str):
-        raise ValueError(f"{shown(value)} was found. {what} was expected.")
-    read(value)
-    return value
+def _unit(text: str) -> str:
+    units.normalise_unit(text)
+    return text
 
 
-def _number_and_unit(text: str) -> float:
-    number, unit = units.parse(text)
-    units.normalise_unit(unit)
-    return number
+def _quantity(text: str) -> str:
+    units.normalise_unit(units.parse(text)[1])
+    return text
 
 
-def _gain(value: object) -> str:
-    if isinstance(value, (int, float)) and not isinstance(value, bool):
-        value = repr(number(value))
-    gain = _readable(value, 'A gain in quotes, such as "10 mm/V",', _number_and_unit)
-    if _number_and_unit(gain) == 0.0:
-        raise ValueError(f"{shown(value)} was found. A gain of zero would erase the recording.")
-    return gain
+def _gain(text: str) -> str:
+    if units.parse(text)[0] == 0.0:
+        raise ValueError(f"{shown(text)} was found. A gain of zero would erase the recording.")
+    return _quantity(text)
+
+
+def _as_text(value: object) -> object:
+    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
 
 
 _QUANTITY_SCHEMA: dict[str, Any] = {"type": "string", "pattern": rf"^\s*{units.NUMBER_PATTERN}"}
 _GAIN_SCHEMA = {"anyOf": [_QUANTITY_SCHEMA | {"examples": ["10 mm/V"]}, {"type": "number"}]}
-Gain = Annotated[str, fields.Kind(_gain, _GAIN_SCHEMA)]
-_UNIT = partial(_readable, what='A unit in quotes, such as "V",', read=units.normalise_unit)
-_QUANTITY = partial(_readable, what='A quantity with its unit in quotes, such as "10 V",', read=_number_and_unit)
-Unit = Annotated[str, fields.Kind(_UNIT, {"type": "string", "examples": ["V", "mm", "g"]})]
-QuantityText = Annotated[str, fields.Kind(_QUANTITY, _QUANTITY_SCHEMA)]
+Gain = Annotated[str, AfterValidator(_gain), BeforeValidator(_as_text), WithJsonSchema(_GAIN_SCHEMA)]
+Unit = Annotated[str, AfterValidator(_unit), WithJsonSchema({"type": "string", "examples": ["V", "mm", "g"]})]
+QuantityText = Annotated[str, AfterValidator(_quantity), WithJsonSchema(_QUANTITY_SCHEMA)]
 
 
 class Channel(Table):
@@ -80,8 +74,8 @@ class Channel(Table):
     recorder: Identifier = MAIN
     """Recorder that has the column."""
     time: fields.Column | None = None
-    """Column of its own time, if it has one."""
-    quantity: Annotated[str, fields.one_of(*units.QUANTITY_DIMENSIONS)]
+    """Name or number, from 1, of the column of its own time, if it has one."""
+    quantity: Annotated[str, fields.OneOf(tuple(units.QUANTITY_DIMENSIONS))]
     """What it records: "displacement", "velocity", "acceleration", "angle", "angular_velocity", "force" or "other"."""
     unit: Unit | None = None
     """Unit of the values in the file, such as "V" or "mm"."""
@@ -94,14 +88,14 @@ class Channel(Table):
     on: Identifier | None = None
     """What it is fixed to or looks at: "specimen", "table", "ground", or the id of one specimen among several."""
     at: fields.Position | None = None
-    """Its material point [x, y, z] from the centre of the specimen's base."""
+    """Its material point from the centre of the specimen's base, such as ["43 mm", "0 mm", "440 mm"]."""
     direction: fields.Direction | None = None
     """Direction of a positive reading, such as [1, 0, 0]; for angles the axis, right-handed."""
-    relative_to: Annotated[str, fields.one_of("table", "ground")] | None = None
-    """What a displacement of the specimen is measured against: "table" or "ground"."""
+    relative_to: Identifier | None = None
+    """What a displacement of the specimen is measured against: "table", "ground", or another body of the assembly."""
     delay: fields.Delay = 0.0
     """How late its values are, such as "2 ms"."""
-    sensing: Annotated[str, fields.one_of("point", "surface", "wire")] = "point"
+    sensing: Literal["point", "surface", "wire"] = "point"
     """What it follows: a material "point", the "surface" in a fixed line of sight (laser), the length of a "wire"."""
     normal: fields.Direction | None = None
     """Outward normal of the flat face that a "surface" transducer looks at; none for the side of a round specimen."""
@@ -110,45 +104,36 @@ class Channel(Table):
 
     @model_validator(mode="after")
     def _fits_together(self) -> Self:
-        wrong = self._missing()
-        for key, derived in (
-            ("gain" if self.gain else "unit", "factor"),
-            ("offset", "offset"),
-            ("range", "full_scale"),
+        wrong = {} if self.quantity == "other" else self._missing() | self._wrong_sight()
+        low, high = CONVERSION
+        for key, derived, least in (
+            ("gain" if self.gain else "unit", "factor", low),
+            ("offset", "offset", 0.0),
+            ("range", "full_scale", 0.0),
         ):
             if {"unit", "gain", "offset"} & set(wrong):
                 break
             try:
-                value = getattr(self, derived)
+                value = getattr(self, derived) or 0.0
             except UnitError as error:
                 wrong[key] = str(error)
                 continue
-            low, high = CONVERSION
-            expected = outside(value or 0.0, (low if derived == "factor" else 0.0, high), self.si_unit)
-            if expected:
+            if expected := outside(value, (least, high), self.si_unit):
                 wrong[key] = f"It is {value:g} {self.si_unit}. {expected}"
         if wrong:
             raise refuse("Channel", [problem(message, key) for key, message in wrong.items()])
         return self
 
     def _missing(self) -> dict[str, str]:
-        if self.quantity == "other":
-            return {}
-        needed = {"unit": 'Expected: unit of the values in the file, such as "V" or "mm".'}
+        needed = ["unit"]
         if self.quantity in _NEEDS_DIRECTION:
-            needed["on"] = '"specimen", "table" or "ground" was expected.'
-            needed["direction"] = "The direction of a positive reading was expected, such as [1, 0, 0]."
+            needed += ["on", "direction"]
         if self.quantity == "displacement" and self.is_on_body:
-            needed["at"] = (
-                "The point that the transducer follows was expected, "
-                'such as ["43 mm", "0 mm", "440 mm"] from the centre of the base.'
-            )
-            needed["relative_to"] = '"table" or "ground" was expected: what the transducer is fixed to.'
-        missing = {key: f"It is missing. {what}" for key, what in needed.items() if getattr(self, key) is None}
-        return missing | self._wrong_sight()
+            needed += ["at", "relative_to"]
+        return {key: missing(Channel, key) for key in needed if getattr(self, key) is None}
 
     def _wrong_sight(self) -> dict[str, str]:
-        """Say what is wrong with the line of sight or the wire."""
+        """Say what is wrong with the line of sight or the wire, which may see hardly anything in its direction."""
         wrong: dict[str, str] = {}
         if self.sensing != "point" and not (self.quantity == "displacement" and self.is_on_body):
             wrong["sensing"] = f'"{self.sensing}" is for a displacement of the specimen. Leave it out here.'
@@ -157,22 +142,17 @@ class Channel(Table):
                 wrong[key] = f'It needs sensing = "{sensing}", but sensing is "{self.sensing}". Correct one of them.'
         if self.sensing == "wire" and self.anchor is None:
             wrong["anchor"] = 'It is missing. A "wire" needs its fixed end, such as ["500 mm", "0 mm", "440 mm"].'
-        return wrong or self._sees_nothing()
-
-    def _sees_nothing(self) -> dict[str, str]:
-        """Report a line of sight or a wire that measures hardly anything in its direction."""
-        if self.direction is None:
-            return {}
+        if wrong or self.direction is None:
+            return wrong
         if self.normal is not None and abs(_cosine(self.normal, self.direction)) < LEAST_COSINE:
-            return {"normal": "The line of sight is parallel to this face. Give the normal of the face that it hits."}
-        if self.anchor is None or self.at is None:
-            return {}
-        wire = tuple(there - here for here, there in zip(self.at, self.anchor, strict=True))
-        if not any(wire):
-            return {"anchor": "It is the same point as `at`, so the wire has no length. Give its fixed end."}
-        if abs(_cosine(wire, self.direction)) < LEAST_COSINE:
-            return {"anchor": "The wire is at right angles to `direction`. Give an anchor ahead of or behind `at`."}
-        return {}
+            wrong["normal"] = "The line of sight is parallel to this face. Give the normal of the face that it hits."
+        if self.anchor is not None and self.at is not None:
+            wire = tuple(there - here for here, there in zip(self.at, self.anchor, strict=True))
+            if not any(wire):
+                wrong["anchor"] = "It is the same point as `at`, so the wire has no length. Give its fixed end."
+            elif abs(_cosine(wire, self.direction)) < LEAST_COSINE:
+                wrong["anchor"] = "The wire is at right angles to `direction`. Give an anchor ahead of or behind `at`."
+        return wrong
 
     @property
     def is_on_body(self) -> bool:
@@ -194,18 +174,17 @@ class Channel(Table):
     @cached_property
     def factor(self) -> float:
         """SI value of one recorded unit."""
-        if self.gain is None:
-            recorded = self.unit or ""
-            if self.dimension is None:
-                return units.si_factor(recorded)[0]
-            try:
-                return units.factor_to_si(recorded, self.dimension)
-            except UnitError as error:
-                example = f"{units.DIMENSIONS[self.dimension][1]}/{recorded}"
-                raise UnitError(f'{error} If this is the recorder\'s own unit, add a gain in "{example}".') from None
+        recorded = self.unit or ""
         if self.dimension is None:
-            return units.parse(self.gain)[0] * units.si_factor(self._physical_unit)[0]
-        return units.gain_to_si(self.gain, self.unit or "", self.dimension)
+            value = 1.0 if self.gain is None else units.parse(self.gain)[0]
+            return value * units.si_factor(self._physical_unit)[0]
+        if self.gain is not None:
+            return units.gain_to_si(self.gain, recorded, self.dimension)
+        try:
+            return units.factor_to_si(recorded, self.dimension)
+        except UnitError as error:
+            example = f"{units.DIMENSIONS[self.dimension][1]}/{recorded}"
+            raise UnitError(f'{error} If this is the recorder\'s own unit, add a gain in "{example}".') from None
 
     @cached_property
     def offset(self) -> float:

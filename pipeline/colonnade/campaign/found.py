@@ -51,20 +51,21 @@ def find_tests(campaign: CampaignFile, folder: Path) -> tuple[tuple[Test, ...], 
     if not watched.pattern:
         return (), ()
     listed_files = {path for test in campaign.tests for path in test.files.values()}
-    there = [path for path in files_in(folder / watched.folder) if folder / watched.folder / path not in listed_files]
     together: dict[str, tuple[dict[str, Any], dict[str, list[str]]]] = {}
     refused: defaultdict[str, list[str]] = defaultdict(list)
     strange = []
-    for path in sorted(there, key=natural):
+    for path in sorted(files_in(folder / watched.folder), key=natural):
         whole = f"{watched.folder}/{path}"
         matches = [(each, parts) for each in watched.pattern if (parts := each.match(path, names)) is not None]
-        if not matches:
-            strange.append(whole)
-        elif len(matches) > 1:
+        if folder / whole in listed_files:
+            continue
+        if len(matches) > 1:
             patterns = " and ".join(quoted(each.text) for each, _ in matches[:2])
             refused[f"The name fits two patterns of [watch]: {patterns}."].append(whole)
+        elif not matches:
+            strange.append(whole)
         else:  # files of the same parts are of one test, each of another recorder
-            pattern, parts = matches[0]
+            ((pattern, parts),) = matches
             recorder = str(parts.pop("recorder", MAIN))
             entry, files = together.setdefault(repr(sorted(parts.items())), ({}, {}))
             if recorder == MAIN or not entry:
@@ -75,36 +76,31 @@ def find_tests(campaign: CampaignFile, folder: Path) -> tuple[tuple[Test, ...], 
     for entry, files in together.values():
         try:
             tests.append(_test(campaign, entry, files, folder, taken))
+            taken.add(folded(tests[-1].id))
         except ValueError as reason:
             refused[str(reason)].append(next(iter(files.values()))[0])
-        else:
-            taken.add(folded(tests[-1].id))
-    told = "no test was made of it. {} Rename it, give it an entry in [[tests]], or change `pattern` in [watch]."
+    what = "Rename it, give it an entry in [[tests]], or change `pattern` in [watch]."
     findings = [
-        serious(WITHOUT_TEST, f"{listed(paths, 1)}: {told.format(reason)}") for reason, paths in refused.items()
+        serious(WITHOUT_TEST, f"{listed(paths, 1)}: no test was made of it. {reason} {what}")
+        for reason, paths in refused.items()
     ]
     if strange:
-        told = f"{listed(strange, 1)}: no test names it, and its name fits no pattern of [watch]. It is not read."
-        findings.append(note(WITHOUT_TEST, told))
+        said = f"{listed(strange, 1)}: no test names it, and its name fits no pattern of [watch]. It is not read."
+        findings.append(note(WITHOUT_TEST, said))
     return tuple(tests), tuple(findings)
 
 
 def files_in(folder: Path) -> Iterator[str]:
     """Give the paths of the regular files in a folder and below it; links, hidden and unfinished files are left out."""
-    waiting, count = [folder], 0
-    while waiting:
-        try:
-            entries = sorted(os.scandir(waiting.pop()), key=lambda entry: entry.name)
-        except OSError:
-            continue
-        for entry in entries:
-            if entry.name.startswith((".", "~")) or entry.name.casefold().endswith(UNFINISHED):
-                continue
-            if entry.is_dir(follow_symlinks=False):
-                waiting.append(Path(entry.path))
-            elif entry.is_file(follow_symlinks=False) and count < MOST_FILES:
-                count += 1
-                yield Path(entry.path).relative_to(folder).as_posix()
+    found = 0
+    for root, folders, names in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not name.startswith((".", "~")))
+        for name in sorted(names):
+            path = Path(root, name)
+            left_out = name.startswith((".", "~")) or name.casefold().endswith(UNFINISHED) or path.is_symlink()
+            if not left_out and found < MOST_FILES and path.is_file():
+                found += 1
+                yield path.relative_to(folder).as_posix()
 
 
 def _test(
@@ -122,27 +118,26 @@ def _test(
     ValueError
         If the files make none; the message is a sentence.
     """
-    for paths in files.values():
-        if len(paths) > 1:
-            raise ValueError(f"By their names, {' and '.join(paths[:3])} are the same test.")
+    several = next((paths for paths in files.values() if len(paths) > 1), [])
+    if several:
+        raise ValueError(f"By their names, {' and '.join(several[:3])} are the same test.")
     if MAIN not in files:
         raise ValueError("The file of the main recorder is missing.")
     stem = str(Path(files[MAIN][0].removeprefix(f"{campaign.watch.folder}/")).with_suffix(""))
     name = re.sub(r"[^A-Za-z0-9._-]+", "-", stem).strip("-._")
     if folded(name) in taken:
         raise ValueError(f'The name gives the id "{name}", which another test has.')
+    known: dict[str, Collection[str]] = {"specimen": campaign.specimens, "setup": campaign.setups}
     # The specimen and the set-up of a campaign that has only one need not be named.
-    only = {"specimen": list(campaign.specimens), "setup": list(campaign.setups)}
-    entry = {key: names[0] for key, names in only.items() if len(names) == 1} | dict(named)
+    only = {key: next(iter(names)) for key, names in known.items() if len(names) == 1}
+    entry = only | dict(named) | {"id": name, "file": {each: paths[0] for each, paths in files.items()}}
     entry.pop(COUNTER, None)
-    test, wrong = validated(
-        Test, entry | {"id": name, "file": {each: paths[0] for each, paths in files.items()}}, folder
-    )
+    test, wrong = validated(Test, entry, folder)
     if test is None:
         place, message = wrong[0]
         raise ValueError(f"{'.'.join(map(str, place))}: {message}")
-    for key, known in (("specimen", campaign.specimens), ("setup", campaign.setups)):
-        for _, message in unknown((key,), key, getattr(test, key), known):
+    for key, names in known.items():
+        for _, message in unknown((key,), key, getattr(test, key), names):
             raise ValueError(message)
     return test
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from colonnade.campaign.assembly import Whole
 from colonnade.campaign.campaign import Campaign, CampaignFile
 from colonnade.campaign.found import find_tests
 from colonnade.campaign.notices import notices
 from colonnade.campaign.references import dangling
 from colonnade.campaign.review import read_review
-from colonnade.campaign.specimen import SHAPES
 from colonnade.campaign.syntax.document import Place, Source, key_lines, parse, read_text, refusal, validated
 from colonnade.campaign.syntax.names import inside
 from colonnade.campaign.testlog import Log, read_log
@@ -47,18 +47,32 @@ def load(path: Path | str) -> Campaign:
         log = _log(document["tests"], path.parent, source)
         document = document | {"tests": list(log.tests)}
         source = replace(source, log=log.name, rows=log.rows)
-    written, wrong = validated(CampaignFile, document, path.parent)
-    problems = [(_place(place), message) for place, message in wrong]
+    written, problems = validated(CampaignFile, document, path.parent)
     findings: tuple[Finding, ...] = ()
     if written is not None:
         tests, findings = find_tests(written, path.parent)
         written = written.model_copy(update={"tests": (*written.tests, *tests)})
-        problems += dangling(written)
+        written, wrong = _with_wholes(written)
+        problems += [*wrong, *dangling(written)]
     paragraphs = [*log.problems, *source.paragraphs(problems, document)]
     if paragraphs or written is None:
         raise refusal(paragraphs)
     campaign = Campaign.of(written, path, (*log.warnings, *findings, *notices(written)))
     return campaign.but(reviews=read_review(path.parent, campaign.tests, campaign.setups))
+
+
+def _with_wholes(written: CampaignFile) -> tuple[CampaignFile, list[tuple[Place, str]]]:
+    """Add each assembly to the specimens, as the one block as which it rocks; say why one cannot be."""
+    wholes: dict[str, Whole] = {}
+    wrong: list[tuple[Place, str]] = []
+    for name, table in written.assemblies.items():
+        if any(body.specimen not in written.specimens for body in table.placed.values()) or name in written.specimens:
+            continue
+        try:
+            wholes[name] = Whole.of(table, written.specimens)
+        except (ValueError, ArithmeticError) as error:
+            wrong.append((("assemblies", name), f"{str(error).rstrip('.')}."))
+    return written.model_copy(update={"specimens": written.specimens | wholes}), wrong
 
 
 def _found(path: Path) -> Path:
@@ -82,9 +96,3 @@ def _log(written: str, folder: Path, source: Source) -> Log:
         return read_log(inside(folder, written))
     except (ReadError, ValueError) as error:
         return Log(problems=tuple(source.paragraph(("tests",), line, {}) for line in str(error).splitlines()))
-
-
-def _place(place: Place) -> Place:
-    """A key's place without pydantic's mark for the shape that it chose."""
-    of_a_shape = place[:1] == ("specimens",) and len(place) > 2 and place[2] in SHAPES
-    return (*place[:2], *place[3:]) if of_a_shape else place

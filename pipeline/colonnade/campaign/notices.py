@@ -9,12 +9,11 @@ from math import hypot, pi, sin
 from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.channel import ALONG, Channel
 from colonnade.campaign.setup import Setup
-from colonnade.campaign.specimen import AnySpecimen
-from colonnade.dynamics import density
+from colonnade.campaign.specimen import Specimen
+from colonnade.dynamics import size
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.findings import Finding, note, serious, warning
-from colonnade.units import format_percent
-from colonnade.units.text import listed, number, quantity
+from colonnade.units.text import format_percent, listed, number, quantity
 
 OFF_SIDE = 0.02
 """Fraction of its radius by which the point of a line of sight may lie off the side of a round specimen."""
@@ -61,20 +60,17 @@ def notices(campaign: CampaignFile) -> tuple[Finding, ...]:
 
 def _unused(campaign: CampaignFile) -> Iterator[tuple[str, str]]:
     """Give what no stage uses yet, and where it is."""
-    channels = [
-        (f"setups.{name}.channels.{each}", channel)
-        for name, setup in campaign.setups.items()
-        for each, channel in setup.channels.items()
-        if channel.quantity != "other"
-    ]
-    for place, channel in channels:
-        on = "specimen" if channel.is_on_body else channel.on or "set-up"
-        if channel.quantity not in _USED.get(on, ()):
-            yield f'quantity = "{channel.quantity}" on the {on}', place
-        elif channel.quantity == "acceleration" and on == "specimen" and channel.at is None:
-            yield "an accelerometer on the specimen without `at`", place
-        elif on == "table" and channel.direction is not None and max(map(abs, channel.direction)) < ALONG:
-            yield "a motion of the table that is not along x, y or z", place
+    for setup_name, setup in campaign.setups.items():
+        for name, channel in setup.channels.items():
+            place, on = f"setups.{setup_name}.channels.{name}", "specimen" if channel.is_on_body else channel.on
+            if channel.quantity == "other":
+                continue
+            if channel.quantity not in _USED.get(on or "", ()):
+                yield f'quantity = "{channel.quantity}" on the {on or "set-up"}', place
+            elif channel.quantity == "acceleration" and on == "specimen" and channel.at is None:
+                yield "an accelerometer on the specimen without `at`", place
+            elif on == "table" and channel.direction is not None and max(map(abs, channel.direction)) < ALONG:
+                yield "a motion of the table that is not along x, y or z", place
 
 
 def _odd(campaign: CampaignFile) -> Iterator[Finding]:
@@ -95,19 +91,19 @@ def _odd(campaign: CampaignFile) -> Iterator[Finding]:
         yield warning("no test", "The campaign has no tests yet.")
 
 
-def _off_side(setup_name: str, setup: Setup, specimen_name: str, specimen: AnySpecimen) -> Iterator[Finding]:
+def _off_side(setup_name: str, setup: Setup, specimen_name: str, specimen: Specimen) -> Iterator[Finding]:
     """Report lines of sight whose point is not on the side of a round specimen."""
     for name, channel in setup.channels.items():
         if channel.sensing != "surface" or channel.normal is not None or channel.at is None:
             continue
         x, y, z = channel.at
-        radius = specimen.radius(z)
-        if radius is not None and abs(hypot(x, y) - radius) > OFF_SIDE * radius:
+        off, radius = hypot(x, y), specimen.radius(z)
+        if radius is not None and abs(off - radius) > OFF_SIDE * radius:
             yield warning(
                 "geometry",
-                f"setups.{setup_name}.channels.{name}.at is {quantity(hypot(x, y), 'mm', 4)} from the axis of "
-                f"{specimen_name}, but the side is {quantity(radius, 'mm', 4)} from the axis at that height. Give "
-                "the point where the line of sight meets the side.",
+                f"setups.{setup_name}.channels.{name}.at is {quantity(off, 'mm', 4)} from the axis of {specimen_name}, "
+                f"but the side is {quantity(radius, 'mm', 4)} from the axis at that height. Give the point where the "
+                "line of sight meets the side.",
             )
 
 
@@ -124,25 +120,25 @@ def _implausible(campaign: CampaignFile) -> Iterator[Finding]:
                 yield from (replace(found, about=f"setups.{setup}") for found in (*_place(*about), *_range(*about)))
 
 
-def _density(name: str, specimen: AnySpecimen) -> Iterator[Finding]:
+def _density(name: str, specimen: Specimen) -> Iterator[Finding]:
     if specimen.volume is None:
         return
     found = specimen.mass / specimen.volume
-    if density.is_likely(found):
+    if size.is_likely(found):
         return
-    unit, count = density.mistaken_lengths(found)
+    unit, count = size.mistaken_lengths(found)
     lengths = {1: "one of the lengths", 2: "two of the lengths", 3: "the lengths"}
     cause = f"were {lengths[count]} in {unit} read as m?" if count else "check the units of its lengths and mass."
     sizes = ", ".join(f"{key} {quantity(value, 'm', 4)}" for key, value in specimen.sizes().items())
-    weight = warning if density.FOAM <= found <= density.HEAVIEST else serious
+    weight = warning if size.FOAM <= found <= size.HEAVIEST else serious
     yield weight(
         "specimen",
         f"specimens.{name}: {sizes} and {quantity(specimen.mass, 'kg', 4)} give {number(found, 2)} kg/m³; "
-        f"{density.LIGHTEST:g} to {density.HEAVIEST:g} kg/m³ was expected: {cause}",
+        f"{size.LIGHTEST:g} to {size.HEAVIEST:g} kg/m³ was expected: {cause}",
     )
 
 
-def _size(specimen: AnySpecimen) -> tuple[float, float]:
+def _size(specimen: Specimen) -> tuple[float, float]:
     """Half width and height of a specimen, m; of a measured one those of a prism of the same pole distance."""
     sizes = specimen.sizes()
     if "height" in sizes:
@@ -151,7 +147,7 @@ def _size(specimen: AnySpecimen) -> tuple[float, float]:
     return side.pole_distance, 2 * side.pole_distance
 
 
-def _place(place: str, channel: Channel, name: str, specimen: AnySpecimen) -> Iterator[Finding]:
+def _place(place: str, channel: Channel, name: str, specimen: Specimen) -> Iterator[Finding]:
     """Report a transducer whose point is further from the specimen than a bracket reaches."""
     half_width, height = _size(specimen)
     x, y, z = channel.at or (0.0, 0.0, 0.0)
@@ -168,26 +164,21 @@ def _place(place: str, channel: Channel, name: str, specimen: AnySpecimen) -> It
     )
 
 
-def _range(place: str, channel: Channel, name: str, specimen: AnySpecimen) -> Iterator[Finding]:
+def _range(place: str, channel: Channel, name: str, specimen: Specimen) -> Iterator[Finding]:
     """Report a displacement transducer whose range does not fit the specimen's travel."""
     if channel.quantity != "displacement" or channel.at is None or channel.full_scale is None:
         return
     half_width, height = _size(specimen)
-    reach = abs(channel.full_scale)
-    arm = hypot(half_width, channel.at[2])
-    lying = 2 * arm * sin(pi / 4)
-    rocking = arm * specimen.block(STANDARD_GRAVITY).critical_angle
+    arm, reach = hypot(half_width, channel.at[2]), channel.full_scale
+    lying, rocking = 2 * arm * sin(pi / 4), arm * specimen.block(STANDARD_GRAVITY).critical_angle
     if reach > WIDEST_RANGE * max(lying, 0.1 * height):
-        yield warning(
-            "gain",
-            f"{place}: with its gain and range it reads up to {quantity(reach, 'mm', 4)}, "
-            f"{number(reach / lying, 2)} times the {quantity(lying, 'mm')} that this point of {name} moves until it "
-            "lies on its side. Check gain and unit.",
-        )
+        than, travel, end = f"{number(reach / lying, 2)} times", lying, "lies on its side"
     elif reach < NARROWEST_RANGE * rocking:
-        yield warning(
-            "gain",
-            f"{place}: with its gain and range it reads up to {quantity(reach, 'mm')}, "
-            f"{format_percent(reach / rocking, 1)} of the {quantity(rocking, 'mm')} that this point of {name} moves "
-            "until it overturns. Check gain and unit.",
-        )
+        than, travel, end = f"{format_percent(reach / rocking, 1)} of", rocking, "overturns"
+    else:
+        return
+    yield warning(
+        "gain",
+        f"{place}: with its gain and range it reads up to {quantity(reach, 'mm', 4)}, {than} the "
+        f"{quantity(travel, 'mm')} that this point of {name} moves until it {end}. Check gain and unit.",
+    )

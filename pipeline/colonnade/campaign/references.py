@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
+from colonnade.campaign.assembly import RESERVED, Whole
 from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.channel import MAIN, SURROUNDINGS
-from colonnade.campaign.setup import Align, Setup
+from colonnade.campaign.setup import Setup
 from colonnade.campaign.syntax.document import Place, unknown
 from colonnade.campaign.syntax.fields import shown
 from colonnade.campaign.syntax.names import clashes
-from colonnade.errors import nearest
 
 Problem = tuple[Place, str]
 
@@ -18,10 +18,11 @@ Problem = tuple[Place, str]
 def dangling(campaign: CampaignFile) -> Iterator[Problem]:
     """Find names that refer to nothing and ids that clash: the place of each, and what is wrong."""
     yield from _clashing(("specimens",), campaign.specimens)
+    yield from _assemblies(campaign)
     yield from _clashing(("setups",), campaign.setups)
     yield from _clashing(("assessments",), campaign.assessments)
     for name, setup in campaign.setups.items():
-        yield from _setup(("setups", name), setup, ("specimen", *SURROUNDINGS, *campaign.specimens))
+        yield from _setup(("setups", name), setup, ("specimen", *SURROUNDINGS, *campaign.bodies))
     for name in campaign.prototype:
         yield from unknown(("prototype", name), "specimen", name, campaign.specimens)
     for name, assessment in campaign.assessments.items():
@@ -54,7 +55,7 @@ def _clashing(place: Place, names: Iterable[str], *, as_variables: bool = False)
         yield (*place, name), f'This id differs from "{earlier}" only in {same}. Choose another.'
 
 
-def _setup(place: Place, setup: Setup, bodies: Collection[str]) -> Iterator[Problem]:
+def _setup(place: Place, setup: Setup, bodies: Sequence[str]) -> Iterator[Problem]:
     yield from _clashing((*place, "channels"), setup.channels, as_variables=True)
     yield from _clashing((*place, "recorders"), setup.further_recorders)
     for name, channel in setup.channels.items():
@@ -62,31 +63,48 @@ def _setup(place: Place, setup: Setup, bodies: Collection[str]) -> Iterator[Prob
         yield from unknown((*where, "recorder"), "recorder", channel.recorder, setup.recorders, " in this set-up")
         if channel.on is not None:
             yield from unknown((*where, "on"), "body", channel.on, bodies)
+        if channel.relative_to is not None:
+            against = (*SURROUNDINGS, *bodies[1 + len(SURROUNDINGS) :])
+            yield from unknown((*where, "relative_to"), "body", channel.relative_to, against)
     for name, recorder in setup.further_recorders.items():
-        if not isinstance(recorder.clock, Align):
-            continue
-        where = (*place, "recorders", name, "clock", "align")
-        for linked, owner in ((recorder.clock.channel, MAIN), (recorder.clock.own_channel, name)):
+        for linked, owner in (
+            zip(recorder.clock.align, (MAIN, name), strict=True) if recorder.clock != "trigger" else ()
+        ):
             own = [each for each, channel in setup.channels.items() if channel.recorder == owner]
-            if linked not in setup.channels:
-                yield where, f"Unknown channel {shown(linked)} in this set-up.{nearest(linked, own)}"
-            elif linked not in own:
-                yield where, f'{shown(linked)} is not a channel of recorder "{owner}".{nearest(linked, own)}'
+            where = (*place, "recorders", name, "clock", "align")
+            yield from unknown(where, "channel", linked, own, f' of recorder "{owner}"')
+
+
+def _assemblies(campaign: CampaignFile) -> Iterator[Problem]:
+    """Find ids of assemblies and bodies that are taken, and bodies of no specimen."""
+    taken = {name: "specimen" for name in campaign.specimens if not isinstance(campaign.specimens[name], Whole)}
+    for name, table in campaign.assemblies.items():
+        place = ("assemblies", name)
+        if name in RESERVED or name in taken:
+            said = f"a {taken[name]} has it" if name in taken else "it has a meaning of its own"
+            yield place, f"{shown(name)} cannot be the id of an assembly: {said}. Choose another."
+        if bool(table.stack) == bool(table.bodies):
+            yield place, "Either `stack`, a list of specimens from bottom to top, or `bodies` was expected."
+        for body, each in table.placed.items():
+            where = (*place, "bodies", body) if table.bodies else (*place, "stack")
+            if body in RESERVED:
+                yield where, f"{shown(body)} cannot be the id of a body: it has a meaning of its own. Choose another."
+            known = [name for name in campaign.specimens if name in taken]
+            yield from unknown((*where, "specimen") if table.bodies else where, "specimen", each.specimen, known)
 
 
 def _faces(campaign: CampaignFile) -> Iterator[Problem]:
     """Find transducers that look at the face of a specimen that is not round, without its normal."""
-    found = set()
+    found: dict[Place, str] = {}
     for test in campaign.tests:
         specimen, setup = campaign.specimens.get(test.specimen), campaign.setups.get(test.setup)
         if specimen is None or setup is None or specimen.shape not in ("prism", "measured"):
             continue
         for name, channel in setup.channels.items():
-            place = ("setups", test.setup, "channels", name, "normal")
-            if channel.sensing == "surface" and channel.normal is None and place not in found:
-                found.add(place)
-                yield (
-                    place,
+            if channel.sensing == "surface" and channel.normal is None:
+                found.setdefault(
+                    ("setups", test.setup, "channels", name, "normal"),
                     f'It is missing. Specimen "{test.specimen}" is not round, so a "surface" transducer '
                     "needs the outward normal of the face that it looks at, such as [1, 0, 0].",
                 )
+    yield from found.items()

@@ -6,51 +6,29 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
 
 from colonnade.campaign.setup import Setup
 from colonnade.campaign.syntax.document import Place, Source, key_lines, parse, read_text, refusal, unknown, validated
-from colonnade.campaign.syntax.fields import (
-    FACTOR,
-    Day,
-    Interval,
-    Kind,
-    Text,
-    number,
-    one_of,
-    outside,
-    schema_version,
-    shown,
-)
+from colonnade.campaign.syntax.fields import FACTOR, Day, Interval, Number, Several, Text, outside, shown
 from colonnade.campaign.syntax.names import inside
 from colonnade.campaign.syntax.table import Table
 from colonnade.campaign.test import Test
 from colonnade.errors import CampaignError
 
 FILE_NAME = "review.toml"
-SCHEMA = 1
-"""Version of the form of review.toml."""
 
 
-def _tests(value: object) -> tuple[str, ...]:
-    ids = value if isinstance(value, list) else [value]
-    if not ids or not all(isinstance(each, str) and each for each in ids):
-        raise ValueError(f'{shown(value)} was found. The id of a test, or a list of ids, was expected: "free-01".')
-    return tuple(dict.fromkeys(ids))
-
-
-def _factor(value: object) -> float:
-    factor = number(value)
+def _factor(factor: float) -> float:
     if factor == 0.0:
         raise ValueError("A factor of zero would erase the recording. To leave the channel out, [[exclude]] it.")
     if expected := outside(factor, FACTOR):
-        raise ValueError(f"{shown(value)} was found. {expected}")
+        raise ValueError(f"{shown(factor)} was found. {expected}")
     return factor
 
 
 _TESTS = {"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 1}]}
-Tests = Annotated[tuple[str, ...], Kind(_tests, _TESTS)]
-Factor = Annotated[float, Kind(_factor, {"type": "number"})]
+Tests = Annotated[Several, WithJsonSchema(_TESTS)]
 
 
 class Entry(Table):
@@ -107,7 +85,7 @@ class FlagStretch(Entry):
     """The channel."""
     window: Interval
     """The stretch, in the file's own time, such as ["3.2 s", "3.4 s"]."""
-    flag: Annotated[Literal["suspect", "fail"], one_of("suspect", "fail")] = Field(alias="as")
+    flag: Literal["suspect", "fail"] = Field(alias="as")
     """"suspect" (reported, still used) or "fail" (bridged)."""
 
     form = "channel {0.channel} from {0.window[0]:g} s to {0.window[1]:g} s flagged as {0.flag}"
@@ -118,7 +96,7 @@ class Correct(Entry):
 
     channel: Text
     """The channel."""
-    factor: Factor
+    factor: Annotated[Number, AfterValidator(_factor)]
     """What the gain has to be multiplied by: -1 turns the sign."""
 
     form = "gain of channel {0.channel} multiplied by {0.factor:g}"
@@ -127,7 +105,7 @@ class Correct(Entry):
 class ReviewFile(Table):
     """A review.toml as written."""
 
-    version: Annotated[int, schema_version(SCHEMA, "review files")] = Field(alias="schema")
+    version: Literal[1] = Field(alias="schema")
     """Version of the review file's form: 1."""
     exclude: tuple[Exclude, ...] = ()
     """Tests or channels that are left out."""

@@ -9,25 +9,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, cast
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from colonnade.campaign.syntax.fields import (
     STEP,
     Angle,
     Duration,
-    Kind,
-    count_between,
-    number_between,
-    one_of,
-    or_word,
-    quantity,
+    Frequency,
+    Length,
+    Number,
+    OneOf,
+    Pressure,
+    Quantity,
+    Whole,
     shown,
 )
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.contact.law import DEFAULT_STEP, STATIC_PENETRATION
-from colonnade.dynamics.models.registry import MODELS, model_of
+from colonnade.dynamics.models import MODELS, model_of
 from colonnade.errors import nearest
 
 DEFAULT_MODELS = tuple(name for name, model in MODELS.items() if model.is_default)
@@ -47,28 +48,26 @@ def _models(value: object) -> tuple[str, ...]:
     return tuple(names)
 
 
-AutoFrequency = Annotated[Literal["auto"] | float, or_word(quantity("frequency"), "auto")]
+AutoFrequency = Literal["auto"] | Frequency
 _MODELS = {"type": "array", "items": {"enum": list(MODELS)}, "minItems": 1, "uniqueItems": True}
-Models = Annotated[tuple[str, ...], Kind(_models, _MODELS)]
+Models = Annotated[tuple[str, ...], BeforeValidator(_models), WithJsonSchema(_MODELS)]
 
 
-def setting(default: Any, unit: str = "") -> Any:
-    """Give the field of a setting, with its default in SI and its unit."""
-    return Field(default=default, json_schema_extra={"unit": unit} if unit else None)
+def setting(default: Any, unit: str = "", **bounds: float) -> Any:
+    """Give the field of a setting, with its default in SI, its unit, and bounds as of `Field`."""
+    return Field(default=default, json_schema_extra={"unit": unit} if unit else None, **cast(Any, bounds))
 
 
 class QualitySettings(Table):
     """Settings of the quality checks in `ingest`."""
 
-    spike_threshold: Annotated[float, number_between(1.0, 1000.0, exclusive=True)] = setting(
-        8.0, "robust standard deviations"
-    )
+    spike_threshold: Number = setting(8.0, "robust standard deviations", gt=1.0, lt=1000.0)
     """A sample that differs from its neighbours by more than this is flagged as a spike and bridged."""
     flat_duration: Duration = setting(0.5, "s")
     """A value that stays exactly the same for longer than this is flagged as flat."""
-    gap: Annotated[float, number_between(1.0, 1000.0, exclusive=True)] = setting(1.5, "sampling intervals")
+    gap: Number = setting(1.5, "sampling intervals", gt=1.0, lt=1000.0)
     """A longer step of the clock is a gap."""
-    jitter: Annotated[float, number_between(0.0, 1.0, exclusive=True)] = setting(0.05, "sampling intervals")
+    jitter: Number = setting(0.05, "sampling intervals", gt=0.0, lt=1.0)
     """A clock whose steps differ by more than this is flagged."""
 
 
@@ -81,7 +80,7 @@ class ConditionSettings(Table):
     """Cut-off of the zero-phase low-pass of channels on the specimen; "auto" chooses it from specimen and rate."""
     base_lowpass: AutoFrequency = setting("auto", "Hz")
     """Cut-off of the zero-phase low-pass of channels on the table; "auto" chooses it from the rate."""
-    filter_order: Annotated[int, count_between(1, 10)] = setting(4)
+    filter_order: Whole = setting(4, ge=1, le=10)
     """Order of the Butterworth low-pass, before it is run forwards and backwards."""
     rest_duration: Duration = setting(0.5, "s")
     """Shortest quiet stretch that counts as rest."""
@@ -92,52 +91,54 @@ class ConditionSettings(Table):
 class RestitutionSettings(Table):
     """Settings of the identification of the coefficient of restitution."""
 
-    lowest_amplitude: Annotated[float, number_between(1e-6, 1.0, exclusive=True)] = setting(0.02, "of α")
+    lowest_amplitude: Number = setting(0.02, "of α", gt=1e-6, lt=1.0)
     """Peaks below this fraction of the critical angle are left out."""
-    level: Annotated[float, number_between(0.5, 0.999999, exclusive=True)] = setting(0.95)
+    level: Number = setting(0.95, gt=0.5, lt=0.999999)
     """Probability of the interval that is given for e."""
 
 
 class ContactEnsembleSettings(Table):
     """Settings of the contact model's ensembles: the number of runs, and the ranges of its inputs."""
 
-    members: Annotated[int, count_between(0, 100_000)] = setting(0)
+    members: Whole = setting(0, ge=0, le=100_000)
     """Runs of the contact model over its unknown inputs, each as long as its prediction; 0 for no ensemble."""
-    friction: Annotated[float, number_between(0.0, 1.0)] = setting(0.2, "of the friction")
+    friction: Number = setting(0.2, "of the friction", ge=0.0, le=1.0)
     """Half of the range of friction, about that of the contact model; all values in it are equally likely."""
-    damping_fraction: Annotated[float, number_between(0.0, 1.0)] = setting(0.2, "of the damping fraction")
+    damping_fraction: Number = setting(0.2, "of the damping fraction", ge=0.0, le=1.0)
     """Half of the range of the contact's damping, about that of the contact model."""
     out_of_plane: Angle = setting(1e-3, "rad")
     """Half of the range of the rotation about x at the start, about that of the contact model."""
+    misplacement: Length = setting(1e-3, "m")
+    """How far each body of an assembly may stand off its place, along x and along y."""
 
 
 class MeasurementSettings(Table):
     """How well the measured rocking angle is known, and how uncertain a prediction may become."""
 
-    angle_gain: Annotated[float, number_between(0.0, 0.5)] = setting(0.005, "of the angle")
+    angle_gain: Number = setting(0.005, "of the angle", ge=0.0, le=0.5)
     """Standard deviation of the calibration of the measured rocking angle."""
-    angle_zero: Annotated[float, number_between(0.0, 0.5)] = setting(5e-4, "of α")
+    angle_zero: Number = setting(5e-4, "of α", ge=0.0, le=0.5)
     """Standard deviation of the zero of the measured rocking angle; that of its drift between the rests, if larger."""
-    horizon: Annotated[float, number_between(0.0, 10.0, exclusive=True)] = setting(0.2, "of α")
+    horizon: Number = setting(0.2, "of α", gt=0.0, lt=10.0)
     """A history is predicted up to the first time at which the 95 % band of its runs is wider than this."""
 
 
 class PlaneEnsembleSettings(Table):
     """Settings of the plane models' ensembles: the number of runs, and how well their inputs are known."""
 
-    members: Annotated[int, count_between(0, 1_000_000)] = setting(100)
+    members: Whole = setting(100, ge=0, le=1_000_000)
     """Runs of each model over its uncertain inputs; 0 for no ensemble."""
-    restitution: Annotated[float, number_between(0.0, 0.5)] = setting(0.005)
+    restitution: Number = setting(0.005, ge=0.0, le=0.5)
     """Standard deviation of e from test to test if fewer than two free vibrations show it."""
-    critical_angle: Annotated[float, number_between(0.0, 0.5)] = setting(0.005, "of α")
+    critical_angle: Number = setting(0.005, "of α", ge=0.0, le=0.5)
     """Standard deviation of the critical angle."""
-    p: Annotated[float, number_between(0.0, 0.5)] = setting(0.005, "of p")
+    p: Number = setting(0.005, "of p", ge=0.0, le=0.5)
     """Standard deviation of the frequency parameter."""
-    gain: Annotated[float, number_between(0.0, 0.5)] = setting(0.005, "of the acceleration")
+    gain: Number = setting(0.005, "of the acceleration", ge=0.0, le=0.5)
     """Standard deviation of the calibration of the table's acceleration."""
-    clock: Annotated[float, number_between(0.0, 0.1)] = setting(1e-5, "of the sampling interval")
+    clock: Number = setting(1e-5, "of the sampling interval", ge=0.0, le=0.1)
     """Standard deviation of the recorder's clock rate."""
-    filter: Annotated[float, number_between(0.0, 0.5)] = setting(0.1, "of the cut-off")
+    filter: Number = setting(0.1, "of the cut-off", ge=0.0, le=0.5)
     """Standard deviation of the low-pass cut-off of the table's acceleration: how much its choice matters."""
 
 
@@ -151,22 +152,20 @@ class EnsembleSettings(MeasurementSettings, PlaneEnsembleSettings):
 class ContactSettings(Table):
     """Settings of the contact model."""
 
-    mesh: Annotated[str, one_of(*MESHES)] = setting("rigid")
+    mesh: Annotated[str, OneOf(MESHES)] = setting("rigid")
     """Body of the contact model: "rigid" (a round base on whole circles), or elastic on a "coarse", "medium" or "fine"
     mesh."""
-    step: Annotated[float, quantity("time", between=STEP, example="10 us")] = setting(DEFAULT_STEP, "s")
+    step: Annotated[float, Quantity("time", between=STEP, example="10 us")] = setting(DEFAULT_STEP, "s")
     """Time step of the contact model; it has to be stable."""
-    damping_fraction: Annotated[Literal["auto"] | float, or_word(number_between(0.0, 10.0), "auto")] = setting("auto")
+    damping_fraction: Literal["auto"] | Annotated[Number, Field(ge=0.0, le=10.0)] = setting("auto")
     """Critical damping fraction of the contact; "auto" finds the one that gives the specimen's restitution."""
-    penetration: Annotated[float, number_between(1e-10, 0.01, exclusive=True)] = setting(
-        STATIC_PENETRATION, "of the height of the centre of mass"
-    )
+    penetration: Number = setting(STATIC_PENETRATION, "of the height of the centre of mass", gt=1e-10, lt=0.01)
     """How deep the standing specimen sinks into its contact, which sets the contact's stiffness."""
-    friction: Annotated[float, number_between(0.0, 10.0)] = setting(0.6)
+    friction: Number = setting(0.6, ge=0.0, le=10.0)
     """Coulomb's coefficient between specimen and table."""
-    modulus: Annotated[float, quantity("pressure")] = setting(2e11, "Pa")
+    modulus: Pressure = setting(2e11, "Pa")
     """Young's modulus of an elastic specimen."""
-    poisson_ratio: Annotated[float, number_between(-0.999, 0.4999, exclusive=True)] = setting(0.3)
+    poisson_ratio: Number = setting(0.3, gt=-0.999, lt=0.4999)
     """Poisson's ratio of an elastic specimen."""
     out_of_plane: Angle = setting(0.0, "rad")
     """Rotation about x at the start of the contact model: a disturbance out of the plane."""
@@ -177,7 +176,7 @@ class PredictSettings(Table):
 
     models: Models = setting(DEFAULT_MODELS)
     """Models of rocking that are run on the recorded base motion."""
-    rest_angle: Annotated[float, number_between(1e-10, 0.1, exclusive=True)] = setting(1e-6, "of α")
+    rest_angle: Number = setting(1e-6, "of α", gt=1e-10, lt=0.1)
     """An arc after an impact that stays below this fraction of the critical angle counts as rest."""
     ensemble: EnsembleSettings = EnsembleSettings()
     """The ensembles of the predictions."""
@@ -192,13 +191,13 @@ class PredictSettings(Table):
 class NextSettings(Table):
     """Settings of the advice on which test tells most."""
 
-    largest_risk: Annotated[float, number_between(0.0, 1.0, exclusive=True)] = setting(0.6)
+    largest_risk: Number = setting(0.6, gt=0.0, lt=1.0)
     """Largest probability of overturning of a test that is advised."""
-    boundary_width: Annotated[float, number_between(0.02, 1.0)] = setting(0.05, "of the amplitude")
+    boundary_width: Number = setting(0.05, "of the amplitude", ge=0.02, le=1.0)
     """Wanted width of the 90 % interval of the amplitude at which the specimen overturns half the time."""
-    discrepancy: Annotated[float, number_between(0.005, 1.0)] = setting(0.15, "of the amplitude")
+    discrepancy: Number = setting(0.15, "of the amplitude", ge=0.005, le=1.0)
     """Standard deviation of that amplitude about the one that the models predict."""
-    restitution_width: Annotated[float, number_between(1e-5, 0.5)] = setting(0.005)
+    restitution_width: Number = setting(0.005, ge=1e-5, le=0.5)
     """Wanted width of the interval of e."""
 
 

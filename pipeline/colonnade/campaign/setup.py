@@ -2,27 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from functools import cached_property
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
-from pydantic_core import InitErrorDetails
-
-from colonnade.campaign.channel import MAIN, SURROUNDINGS, Channel
-from colonnade.campaign.syntax.fields import (
-    Acceleration,
-    Angle,
-    Frequency,
-    Kind,
-    Length,
-    PositiveAngle,
-    Velocity,
-    shown,
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    GetJsonSchemaHandler,
+    ValidationError,
+    WithJsonSchema,
+    model_validator,
 )
+from pydantic_core import CoreSchema, InitErrorDetails
+
+from colonnade import units
+from colonnade.campaign.channel import MAIN, SURROUNDINGS, Channel, Unit
+from colonnade.campaign.syntax import fields
+from colonnade.campaign.syntax.fields import shown
 from colonnade.campaign.syntax.names import Identifier, identifier
-from colonnade.campaign.syntax.table import Table, problem, refuse
-from colonnade.errors import nearest
+from colonnade.campaign.syntax.table import Table, missing, problem, refuse
+from colonnade.errors import UnitError, nearest
 
 
 class FileOptions(BaseModel):
@@ -42,23 +44,26 @@ class FileOptions(BaseModel):
     format: str | None = None
     options: dict[str, Any] = {}
 
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Give the schema of what is written: a format with its options."""
+        from colonnade.readers.registry import formats
 
-class Align(BaseModel):
-    """
-    Two linked channels that give a recorder's delay relative to the main one.
+        kinds = []
+        for format in formats().values():
+            options = format.options.model_json_schema(by_alias=True, mode="validation")
+            options |= {"title": format.name, "description": format.summary}
+            named = {"const": format.name, "description": "The format; recognised from the file if it is not given."}
+            options["properties"] = {"format": named} | options.get("properties", {})
+            kinds.append(options)
+        return {"title": "FileOptions", "description": "How a raw file is read; every key is optional.", "anyOf": kinds}
 
-    Attributes
-    ----------
-    channel : str
-        Of the main recorder.
-    own_channel : str
-        Of this recorder.
-    """
 
-    model_config = ConfigDict(frozen=True)
+class Align(Table):
+    """Two linked channels that give a recorder's delay relative to the main one."""
 
-    channel: str
-    own_channel: str
+    align: tuple[str, str]
+    """A channel of the main recorder, and one of this recorder that measures the same."""
 
 
 def _file_options(value: object) -> FileOptions:
@@ -93,18 +98,6 @@ def _option_problem(error: Any, options: type[BaseModel], format_name: str) -> I
     return problem(f"{shown(error['input'])} was found: {said.rstrip('.')}.", *place)
 
 
-def _clock(value: object) -> Literal["trigger"] | Align:
-    if value == "trigger":
-        return "trigger"
-    named = value.get("align") if isinstance(value, Mapping) and set(value) == {"align"} else None
-    if not (isinstance(named, list) and len(named) == 2 and all(isinstance(name, str) for name in named)):
-        raise ValueError(
-            f'{shown(value)} was found. Expected: "trigger" if the recorders start together, else '
-            '{align = ["a channel of the main recorder", "its channel that measures the same"]}.'
-        )
-    return Align(channel=named[0], own_channel=named[1])
-
-
 def _recorder_id(value: object) -> str:
     name = identifier(value)
     if name.casefold() == MAIN:
@@ -114,20 +107,8 @@ def _recorder_id(value: object) -> str:
     return name
 
 
-_CLOCK_SCHEMA = {
-    "anyOf": [
-        {"const": "trigger"},
-        {
-            "type": "object",
-            "properties": {"align": {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}},
-            "required": ["align"],
-            "additionalProperties": False,
-        },
-    ]
-}
-FileTable = Annotated[FileOptions, Kind(_file_options, {"type": "object"})]
-Clock = Annotated[Literal["trigger"] | Align, Kind(_clock, _CLOCK_SCHEMA)]
-RecorderId = Annotated[str, Kind(_recorder_id, {"type": "string"})]
+FileTable = Annotated[FileOptions, BeforeValidator(_file_options)]
+RecorderId = Annotated[str, BeforeValidator(_recorder_id), WithJsonSchema({"type": "string"})]
 
 
 class Recorder(Table):
@@ -135,39 +116,100 @@ class Recorder(Table):
 
     file: FileTable = FileOptions()
     """How its raw files are read; every option that is not given is sniffed."""
-    sampling_rate: Frequency | None = None
+    sampling_rate: fields.Frequency | None = None
     """Samples per second, such as "200 Hz", if the file has no time column."""
-    clock: Clock = "trigger"
+    clock: Literal["trigger"] | Align = "trigger"
     """"trigger" if it starts with the main recorder, else {align = ["main's channel", "its channel"]}."""
+
+
+class Tracking(Table):
+    """An optical system that follows markers."""
+
+    axes: tuple[fields.Direction, fields.Direction, fields.Direction] = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    """Its X, Y and Z in the frame of the table, such as [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]."""
+    relative_to: Literal["table", "ground"] = "ground"
+    """What its cameras stand on: "ground" or "table"."""
+
+
+class Marker(Table):
+    """A marker that an optical system follows; it becomes three displacement channels, ID_x, ID_y and ID_z."""
+
+    columns: tuple[fields.Column, fields.Column, fields.Column]
+    """Its columns along X, Y and Z of the system, such as ["m1 X", "m1 Y", "m1 Z"]."""
+    recorder: Identifier = MAIN
+    """Recorder that has the columns."""
+    unit: Unit
+    """Unit of the values in the file, such as "mm"."""
+    on: Identifier
+    """What it is fixed to: a body, "specimen" or "table"."""
+    at: fields.Position | None = None
+    """Where it is on the body, from the centre of the body's base, such as ["150 mm", "0 mm", "180 mm"]."""
+
+    def channels(self, name: str, tracking: Tracking) -> dict[str, Channel]:
+        """Return its channels by id."""
+        placed: dict[str, Any] = {} if self.on in SURROUNDINGS else {"at": self.at, "relative_to": tracking.relative_to}
+        return {
+            f"{name}_{axis}": Channel.model_construct(
+                None, recorder=self.recorder, quantity="displacement", unit=self.unit, on=self.on, column=column,
+                direction=direction, **placed,
+            )
+            for axis, column, direction in zip("xyz", self.columns, tracking.axes, strict=True)
+        }  # fmt: skip
+
+    @model_validator(mode="after")
+    def _is_a_length(self) -> Self:
+        try:
+            units.factor_to_si(self.unit, "length")
+        except UnitError as error:
+            raise refuse("Marker", [problem(str(error), "unit")]) from None
+        if self.at is None and self.on not in SURROUNDINGS:
+            raise refuse("Marker", [problem(missing(Channel, "at"), "at")])
+        return self
 
 
 class Setup(Table):
     """
     How tests were recorded.
 
-    `recorders` holds all of them, the one of the set-up's own `file` first, under the name "main".
+    `recorders` holds all of them, the one of the set-up's own `file` first, under the name "main"; `channels` those of
+    the markers too.
     """
 
     file: FileTable = FileOptions()
     """How the raw files are read; every option that is not given is sniffed."""
-    sampling_rate: Frequency | None = None
+    sampling_rate: fields.Frequency | None = None
     """Samples per second, such as "200 Hz", if the file has no time column."""
     further_recorders: dict[RecorderId, Recorder] = Field(default={}, alias="recorders")
     """Additional recorders, by id."""
-    catch: PositiveAngle | None = None
+    catch: fields.PositiveAngle | None = None
     """Rotation at which the safety frame catches the specimen, such as "0.3 rad"."""
-    table_tilt: Angle | None = None
+    table_tilt: fields.Angle | None = None
     """Tilt of the table at rest, such as "0.1 deg": rotation about +y, positive where its +x side is the lower one."""
-    channels: dict[Identifier, Channel] = Field(min_length=1)
+    channels: dict[Identifier, Channel] = Field(default={})
     """The channels, by id."""
+    tracking: Tracking = Tracking()
+    """The optical system, if there is one."""
+    markers: dict[Identifier, Marker] = Field(default={})
+    """Its markers, by id."""
 
-    def channels_of(self, specimen: str) -> dict[str, Channel]:
-        """Give the channels in a test of a specimen: on it, its table or the ground, and not on another body."""
+    @model_validator(mode="after")
+    def _with_markers(self) -> Self:
+        if not (self.channels or self.markers):
+            raise refuse("Setup", [problem(missing(Setup, "channels"), "channels")])
+        found: dict[str, Channel] = {}
+        for name, marker in self.markers.items():
+            found |= marker.channels(name, self.tracking)
+        if again := sorted(found.keys() & self.channels.keys()):
+            raise refuse("Setup", [problem("A marker has a channel of this id. Choose another.", "channels", again[0])])
+        return self.model_copy(update={"channels": self.channels | found}) if found else self
+
+    def channels_of(self, specimen: str, bodies: Collection[str] = ()) -> dict[str, Channel]:
+        """Give the channels in a test of a specimen: on it or its bodies, its table or the ground, on no other."""
         always = (None, "specimen", *SURROUNDINGS)
         return {
-            name: each if each.on in always else each.model_copy(update={"on": "specimen"})
+            name: each if each.on in (*always, *bodies) else each.model_copy(update={"on": "specimen"})
             for name, each in self.channels.items()
-            if each.on in (*always, specimen)
+            if each.on in (*always, *bodies, specimen)
         }
 
     @cached_property
@@ -181,9 +223,9 @@ class Setup(Table):
 class ShakeTable(Table):
     """Limits of the shake table, each at its peak; motions beyond one are not advised."""
 
-    acceleration: Acceleration | None = None
+    acceleration: fields.Acceleration | None = None
     """Largest acceleration, such as "1.2 g"."""
-    velocity: Velocity | None = None
+    velocity: fields.Velocity | None = None
     """Largest velocity, such as "0.8 m/s"."""
-    stroke: Length | None = None
+    stroke: fields.Length | None = None
     """Largest displacement from the middle, such as "75 mm"."""

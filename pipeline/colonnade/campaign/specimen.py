@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from math import cos, tan
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -13,9 +13,8 @@ from colonnade.campaign.syntax import fields
 from colonnade.campaign.syntax.fields import FREQUENCY_PARAMETER, outside
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
-from colonnade.dynamics.density import UnlikelyBlockWarning, cone_volume, prism_volume
-from colonnade.units import format_percent
-from colonnade.units.text import quantity
+from colonnade.dynamics.size import UnlikelyBlockWarning, cone_volume, prism_volume
+from colonnade.units.text import format_percent, quantity
 
 # The notices report it for a campaign's specimens.
 warnings.filterwarnings("ignore", category=UnlikelyBlockWarning, module=r"colonnade\.campaign\.specimen")
@@ -37,7 +36,24 @@ _VOLUMES: dict[str, Callable[..., float]] = {
     "cone": cone_volume,
 }
 
+_TANGENT = "the tangent of the angle, half width over height of the centre of mass"
+_HEIGHT = "the height of the centre of mass, not its distance from the pole"
+
+Deviation = Annotated[fields.Number, Field(ge=0.0, le=0.5)]
+"""A relative standard deviation."""
+
 _MEASURED = {"critical_angle": "rad", "pole_distance": "mm", "inertia": "kg m²"}
+
+
+class SpecimenUncertainty(Table):
+    """How well a specimen is known, as relative standard deviations; a key left out is that of the settings."""
+
+    critical_angle: Deviation | None = None
+    """Of the critical angle; default: `processing.predict.ensemble.critical_angle`."""
+    p: Deviation | None = None
+    """Of the frequency parameter; default: `processing.predict.ensemble.p`."""
+    angle_gain: Deviation | None = None
+    """Of the calibration of the measured rocking angle; default: `processing.predict.ensemble.angle_gain`."""
 
 
 class Specimen(Table):
@@ -49,14 +65,26 @@ class Specimen(Table):
     """Mass, such as "26.10 kg"."""
     scale: fields.Scale | None = None
     """Scale of the model: 20 means 1:20."""
-    critical_angle: fields.SidedAngle | None = None
+    critical_angle: fields.Sided[fields.PositiveAngle] | None = None
     """Rotation that brings the centre of mass above the pole, such as "0.1864 rad"."""
-    pole_distance: fields.SidedLength | None = None
+    pole_distance: fields.Sided[fields.Length] | None = None
     """Distance of the centre of mass from the pole, such as "232 mm"."""
-    inertia: fields.SidedInertia | None = None
+    inertia: fields.Sided[fields.Inertia] | None = None
     """Moment of inertia about the pole, such as "1.873 kg m^2"."""
-    restitution: fields.SidedRestitution | None = None
+    restitution: fields.Sided[fields.Restitution] | None = None
     """Coefficient of restitution, a plain number such as 0.976; without it the identified one is used."""
+    uncertainty: SpecimenUncertainty | None = None
+    """How well its critical angle, p and measured angle are known, if not as the settings say."""
+
+    @property
+    def is_assembly(self) -> bool:
+        """Whether it is several bodies."""
+        return False
+
+    @property
+    def is_in_plane(self) -> bool:
+        """Whether it rocks as one block, so that models in the plane move it."""
+        return True
 
     def sizes(self) -> dict[str, float]:
         """Outer dimensions by their keys, m; none if the specimen has no dimensions."""
@@ -106,20 +134,11 @@ class Specimen(Table):
         block : Block
             Of the dimensions, with measured values in their place where given.
         """
+        measured: dict[str, Any] = {name: getattr(self, name) for name in _MEASURED}
         block = self.dimensions(gravity)
         if block is None:
-            if self.critical_angle is None or self.pole_distance is None or self.inertia is None:
-                raise ValueError("critical_angle, pole_distance and inertia are needed if no dimensions are given")
-            return Block.measured(
-                mass=self.mass,
-                pole_distance=self.pole_distance,
-                critical_angle=self.critical_angle,
-                inertia=self.inertia,
-                gravity=gravity,
-            )
-        return block.override(
-            critical_angle=self.critical_angle, pole_distance=self.pole_distance, inertia=self.inertia
-        )
+            return Block.measured(mass=self.mass, gravity=gravity, **measured)
+        return block.override(**measured)
 
     def deviations(self, gravity: float) -> list[str]:
         """
@@ -133,22 +152,14 @@ class Specimen(Table):
             return []
         side = block.governing
         slips = {
-            "critical_angle": (
-                tan(side.critical_angle),
-                "the tangent of the angle, half width over height of the centre of mass",
-            ),
-            "pole_distance": (
-                side.pole_distance * cos(side.critical_angle),
-                "the height of the centre of mass, not its distance from the pole",
-            ),
+            "critical_angle": (tan(side.critical_angle), _TANGENT),
+            "pole_distance": (side.pole_distance * cos(side.critical_angle), _HEIGHT),
         }
         sentences = []
         for name, unit in _MEASURED.items():
-            given: fields.Sided | None = getattr(self, name)
-            if given is None:
-                continue
+            given: fields.Sided[float] | None = getattr(self, name)
             expected = float(getattr(side, name))
-            for value in dict.fromkeys(pair(given)):
+            for value in dict.fromkeys(pair(given) if given is not None else ()):
                 if abs(value - expected) <= LARGEST_DEVIATION * expected:
                     continue
                 slip, meaning = slips.get(name, (0.0, ""))
@@ -203,11 +214,11 @@ class Measured(Specimen):
 
     shape: Literal["measured"]
     """Its shape."""
-    critical_angle: fields.SidedAngle
+    critical_angle: fields.Sided[fields.PositiveAngle]
     """Rotation that brings the centre of mass above the pole, such as "0.21 rad"."""
-    pole_distance: fields.SidedLength
+    pole_distance: fields.Sided[fields.Length]
     """Distance of the centre of mass from the pole, such as "610 mm"."""
-    inertia: fields.SidedInertia
+    inertia: fields.Sided[fields.Inertia]
     """Moment of inertia about the pole, such as "41.2 kg m^2"."""
 
 

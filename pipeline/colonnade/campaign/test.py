@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
-from pydantic import Field, ValidationInfo, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, WithJsonSchema, model_validator
 
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.syntax import fields
-from colonnade.campaign.syntax.fields import Day, shown, text
+from colonnade.campaign.syntax.fields import SOME_TEXT, once
 from colonnade.campaign.syntax.names import Identifier, inside
 from colonnade.campaign.syntax.table import Table, problem, refuse
 
-KINDS = ("free-vibration", "sine", "earthquake", "pulse", "noise", "tilt", "other")
-OUTCOMES = ("overturned", "not-overturned", "no-rocking", "rocking")
-ZEROS = ("auto", "start", "end", "none")
+Kind = Literal["free-vibration", "sine", "earthquake", "pulse", "noise", "tilt", "other"]
+KINDS: tuple[str, ...] = get_args(Kind)
+Outcome = Literal["overturned", "not-overturned", "no-rocking", "rocking"]
 
 
 def _files(value: object, info: ValidationInfo) -> dict[str, Path]:
@@ -38,19 +38,11 @@ def _files(value: object, info: ValidationInfo) -> dict[str, Path]:
     return paths
 
 
-_FILES = {"anyOf": [fields.SOME_TEXT, {"type": "object", "required": [MAIN], "additionalProperties": fields.SOME_TEXT}]}
-Files = Annotated[dict[str, Path], fields.Kind(_files, _FILES)]
+_FILES = {"anyOf": [SOME_TEXT, {"type": "object", "required": [MAIN], "additionalProperties": SOME_TEXT}]}
+Files = Annotated[dict[str, Path], BeforeValidator(_files), WithJsonSchema(_FILES)]
 
 
-def _photos(value: object) -> tuple[str, ...]:
-    """Take a list of paths as written: whether a photo can be shown is found out with the report."""
-    if not isinstance(value, (list, tuple)):
-        raise ValueError(f'{shown(value)} was found. A list of paths was expected, such as ["photos/free-01.jpg"].')
-    return tuple(dict.fromkeys(text(path).strip() for path in value))
-
-
-Photos = Annotated[tuple[str, ...], fields.Kind(_photos, {"type": "array", "items": fields.SOME_TEXT})]
-Zero = Annotated[str | tuple[float, float], fields.or_word(fields.INTERVAL, *ZEROS)]
+Zero = Literal["auto", "start", "end", "none"] | fields.Interval
 
 
 class Test(Table):
@@ -58,7 +50,7 @@ class Test(Table):
 
     id: Identifier
     """Its id, such as "free-01"; results are in a folder of this name."""
-    kind: Annotated[str, fields.one_of(*KINDS)]
+    kind: Kind
     """What was done: "free-vibration", "sine", "earthquake", "pulse", "noise", "tilt" or "other"."""
     specimen: str
     """Id of its specimen."""
@@ -80,13 +72,13 @@ class Test(Table):
     """The table's intensity setting."""
     time_scale: fields.PositiveNumber | None = None
     """Factor on the motion's time."""
-    observed_outcome: Annotated[str, fields.one_of(*OUTCOMES)] | None = None
+    observed_outcome: Outcome | None = None
     """What was seen: "overturned", "not-overturned", "no-rocking" or "rocking"."""
-    date: Day | None = None
+    date: fields.Day | None = None
     """The day of the test, such as 2013-04-26."""
     operator: fields.Text | None = None
     """Who ran it."""
-    photos: Photos = ()
+    photos: Annotated[tuple[fields.Text, ...], AfterValidator(once)] = ()
     """Photos of it, JPEG or PNG, from the folder of the campaign file."""
     notes: fields.Text | None = None
     """Anything worth keeping."""
@@ -98,7 +90,7 @@ def _path(value: object, info: ValidationInfo) -> Path:
     return inside(info.context["folder"] if info.context else Path.cwd(), value)
 
 
-MotionPath = Annotated[Path, fields.Kind(_path, fields.SOME_TEXT)]
+MotionPath = Annotated[Path, BeforeValidator(_path), WithJsonSchema(SOME_TEXT)]
 
 
 class ReferenceMotion(Table):

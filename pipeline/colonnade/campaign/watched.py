@@ -6,12 +6,13 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from string import Formatter
 from typing import Annotated, Any
 
-from pydantic import Field, ValidationInfo
+from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, WithJsonSchema
 
 from colonnade import units
-from colonnade.campaign.syntax.fields import SOME_TEXT, Duration, Kind, shown, text
+from colonnade.campaign.syntax.fields import SOME_TEXT, Duration, Text, shown
 from colonnade.campaign.syntax.names import inside
 from colonnade.campaign.syntax.table import Table
 from colonnade.campaign.test import Test
@@ -23,7 +24,6 @@ WORDS = ("kind", "specimen", "setup", "motion", "recorder")
 COUNTER = "number"
 """The part that only tells repeated tests apart."""
 
-_PART = re.compile(r"\{([^{}:]*)(?::([^{}]*))?\}")
 _NUMBER = r"\d{1,9}(?:[.,p]\d{1,9})?"
 _LONGEST = 200
 
@@ -57,23 +57,25 @@ class Pattern:
     given: dict[str, Any] = field(default_factory=dict)
 
     @cached_property
-    def units(self) -> dict[str, str]:
-        """Unit of each part, empty if it has none; in the order of the pattern."""
-        return {found[1]: found[2] or "" for found in _PART.finditer(self.text)}
+    def parts(self) -> list[tuple[str, str | None, str]]:
+        """The text before each part, its name and its unit; after the last one, text without a part."""
+        return [(before, name, unit or "") for before, name, unit, _ in Formatter().parse(self.text)]
 
     def problems(self) -> Iterator[str]:
         """Say what is wrong with the pattern, in finished sentences."""
         if len(self.text) > _LONGEST:
             yield f"A pattern of {len(self.text)} characters was found. At most {_LONGEST} were expected."
             return
-        outside = _PART.sub("", self.text)
-        if "{" in outside or "}" in outside:
+        try:
+            found = [(name, unit) for _, name, unit in self.parts if name is not None]
+        except ValueError:
             yield f"{quoted(self.text)} has a brace without its partner. Parts are written as {{specimen}}."
-        if outside.startswith("/") or "\\" in outside or ".." in self.text.split("/"):
+            return
+        if self.text.startswith("/") or "\\" in self.text or ".." in self.text.split("/"):
             yield f"{quoted(self.text)} is not a path from the watched folder."
-        names = [found[1] for found in _PART.finditer(self.text)]
-        for name, unit in self.units.items():
-            dimension = form.dimension if (form := Test.forms().get(name)) else ""
+        names = [name for name, _ in found]
+        for name, unit in dict(found).items():
+            dimension = Test.forms()[name].dimension if name in Test.forms() else ""
             if name not in parts():
                 yield f"Unknown part {{{name}}}.{nearest(name, parts())}"
             elif names.count(name) > 1:
@@ -100,16 +102,14 @@ class Pattern:
         parts : dict or None
             Values as a test in campaign.toml would have them, and `number`; None if the name does not fit.
         """
-        pieces, end = [], 0
-        for part in _PART.finditer(self.text):
-            pieces.append(re.escape(self.text[end : part.start()].casefold()))
+        form = ""
+        for before, name, _ in self.parts:
             # The longest word first, so that "cone-2" is not taken for "cone".
-            words = sorted(names.get(part[1], {}), key=len, reverse=True)
-            form = "|".join(map(re.escape, words)) or r"(?!)" if part[1] in WORDS else _NUMBER
-            pieces.append(f"(?P<{part[1]}>{form})")
-            end = part.end()
-        found = re.fullmatch("".join(pieces) + re.escape(self.text[end:].casefold()), path.casefold())
-        return found and {part: self._value(part, found[part], names) for part in self.units}
+            words = "|".join(map(re.escape, sorted(names.get(name or "", {}), key=len, reverse=True))) or "(?!)"
+            part = f"(?P<{name}>{words if name in WORDS else _NUMBER})" if name else ""
+            form += re.escape(before.casefold()) + part
+        found = re.fullmatch(form, path.casefold())
+        return found and {name: self._value(name, unit, found[name], names) for _, name, unit in self.parts if name}
 
     def entry(self, parts: Mapping[str, str | float]) -> dict[str, Any]:
         """Give the keys of a test whose file's name has these parts; what the name says counts more."""
@@ -121,19 +121,18 @@ class Pattern:
 
         return {key: filled(value) for key, value in self.given.items()} | dict(parts)
 
-    def _value(self, part: str, written: str, names: Mapping[str, Mapping[str, str]]) -> str | float:
+    @staticmethod
+    def _value(part: str, unit: str, written: str, names: Mapping[str, Mapping[str, str]]) -> str | float:
         if part in WORDS:
             return names[part][written]
-        if part == COUNTER:
-            return written
         number = re.sub("[,p]", ".", written)
-        return f"{number} {self.units[part]}" if self.units[part] else float(number)
+        return written if part == COUNTER else f"{number} {unit}" if unit else float(number)
 
 
-def _folder(value: object, info: ValidationInfo) -> str:
+def _folder(folder: str, info: ValidationInfo) -> str:
     if info.context:
-        inside(info.context["folder"], value)
-    return text(value).strip("/")
+        inside(info.context["folder"], folder)
+    return folder.strip("/")
 
 
 def _patterns(value: object) -> tuple[Pattern, ...]:
@@ -143,39 +142,36 @@ def _patterns(value: object) -> tuple[Pattern, ...]:
 def _named(value: object) -> Pattern:
     given = dict(value) if isinstance(value, Mapping) else {"file": value}
     written = given.pop("file", None)
-    if not isinstance(written, str):
+    if not isinstance(written, str) or not written.strip():
         raise ValueError(f'{shown(value)} was found. A pattern was expected, such as "{{specimen}}-{{number}}.csv".')
     allowed = Test.purposes().keys() - {"id", "file", "planned", "photos"}
     for key in given:
         if key not in allowed:
             raise ValueError(f"Unknown key {shown(key)} of a pattern.{nearest(str(key), ('file', *allowed))}")
-    pattern = Pattern(text(written).strip(), given)
+    pattern = Pattern(written.strip(), given)
     if problems := list(pattern.problems()):
         raise ValueError(" ".join(problems))
     return pattern
 
 
-def _words(value: object) -> dict[str, str]:
-    if not isinstance(value, Mapping) or not all(isinstance(each, str) for each in value.values()):
-        raise ValueError(f'{shown(value)} was found. Words of file names were expected: {{free = "free-vibration"}}.')
-    return {str(word).casefold(): meaning for word, meaning in value.items()}
+def _words(words: dict[str, str]) -> dict[str, str]:
+    return {word.casefold(): meaning for word, meaning in words.items()}
 
 
-_WORDS = {"type": "object", "additionalProperties": {"type": "string"}}
 _TABLE = {"type": "object", "required": ["file"], "properties": {"file": SOME_TEXT}}
-_ENTRY = [SOME_TEXT, _TABLE]
-_ENTRIES = {"anyOf": [*_ENTRY, {"type": "array", "items": {"anyOf": _ENTRY}}]}
+_ENTRY = {"anyOf": [SOME_TEXT, _TABLE]}
+_ENTRIES = {"anyOf": [*_ENTRY["anyOf"], {"type": "array", "items": _ENTRY}]}
 
 
 class Watched(Table):
     """Where raw files appear, when they are finished, and what their names say."""
 
-    folder: Annotated[str, Kind(_folder, SOME_TEXT)] = "raw"
+    folder: Annotated[Text, AfterValidator(_folder)] = "raw"
     """Folder in which raw files appear, from the folder of the campaign file."""
     settle: Duration = 1.0
     """A file is finished when its size and time have not changed for this long."""
-    pattern: Annotated[tuple[Pattern, ...], Kind(_patterns, _ENTRIES)] = ()
+    pattern: Annotated[tuple[Pattern, ...], BeforeValidator(_patterns), WithJsonSchema(_ENTRIES)] = ()
     """Names of raw files, such as "{specimen}-{kind}-{number}.csv", each file a test; or a list of them, each with
     keys of its tests: {file = "{specimen}-free-{number}.csv", kind = "free-vibration", setup = "bench"}."""
-    words: Annotated[dict[str, str], Kind(_words, _WORDS)] = Field(default={})
+    words: Annotated[dict[str, str], AfterValidator(_words)] = Field(default={})
     """What words in the names stand for, such as {free = "free-vibration"}."""

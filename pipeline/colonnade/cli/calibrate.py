@@ -55,29 +55,29 @@ def calibrate(
     made = calibrated(campaign, specimens=specimen, workers=workers, results=results)
     if as_json:
         show_json(made)
-        return int(any(each.restitution is None for each in made))
+        return int(any(each["restitution"] is None for each in made))
     rows = [
         (
-            each.specimen,
-            each.mesh,
-            "–" if each.step is None else f"{each.step * 1e6:.3g} µs",
-            _number(each.damping_fraction, ".3g"),
-            _number(each.effective_damping, ".3g"),
-            _number(each.stiffness, ".3g", " N/m³"),
-            _number(each.restitution, ".4f"),
-            each.source or "–",
-            _number(each.target, ".4f"),
-            _number(each.velocity_ratio, ".4f"),
+            each["specimen"],
+            each["mesh"],
+            _number(None if each["step"] is None else 1e6 * each["step"], ".3g", " µs"),
+            _number(each["damping_fraction"], ".3g"),
+            _number(each["effective_damping"], ".3g"),
+            _number(each["stiffness"], ".3g", " N/m³"),
+            _number(each["restitution"], ".4f"),
+            each["source"] or "–",
+            _number(each["target"], ".4f"),
+            _number(each["velocity_ratio"], ".4f"),
         )
         for each in made
     ]
     show_table(HEADS, rows)
     for each in made:
-        if each.reason:
-            say(f"{each.specimen}: {each.reason}")
-        if each.path is not None:
-            say(f"law: {each.path}")
-    return int(any(each.restitution is None for each in made))
+        if each["reason"]:
+            say("{specimen}: {reason}".format_map(each))
+        if each["path"] is not None:
+            say("law: {path}".format_map(each))
+    return int(any(each["restitution"] is None for each in made))
 
 
 def _number(value: float | None, form: str, unit: str = "") -> str:

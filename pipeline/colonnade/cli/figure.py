@@ -56,7 +56,7 @@ def figure(
     from colonnade.campaign import load
     from colonnade.figures.files.saving import MOVIE, PICTURES, TABLE, expect_place, save
     from colonnade.figures.style import journal
-    from colonnade.workflow.publishing.figure import chosen, draw
+    from colonnade.workflow.documents import chosen, draw
 
     path, identifier = campaign_and_id(arguments)
     campaign = load(path)

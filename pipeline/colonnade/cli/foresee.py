@@ -12,7 +12,7 @@ from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_optio
 from colonnade.cli.common.progress import work_progress
 
 if TYPE_CHECKING:
-    from colonnade.workflow.forecasting.foresee import Foreseen
+    from colonnade.workflow.foresee import Foreseen
 
 
 @click.command(
@@ -59,7 +59,7 @@ def foresee(
     as_json: bool,
 ) -> int:
     """Make forecasts, show them, and return the exit code."""
-    from colonnade.workflow.forecasting.foresee import foresee as make
+    from colonnade.workflow.foresee import foresee as make
 
     with work_progress("Foreseeing") as progress:
         made = make(

@@ -22,7 +22,8 @@ from colonnade.cli.common.options import (
 from colonnade.cli.common.progress import work_progress
 
 if TYPE_CHECKING:
-    from colonnade.workflow.assessing.fragility import Assessed, Where
+    from colonnade.workflow.assessing import Assessed
+    from colonnade.workflow.executors import Where
 
 
 @click.command(
@@ -76,7 +77,7 @@ def fragility(
     **options: Any,
 ) -> int:
     """Assess, show the answers, and return the exit code."""
-    from colonnade.workflow.assessing.fragility import Where
+    from colonnade.workflow.executors import Where
 
     if out is not None or data is not None:
         from colonnade.figures.files.saving import expect_places
@@ -102,7 +103,7 @@ def _assessed(
 ) -> list[Assessed]:
     from colonnade.campaign import load
     from colonnade.store.layout import Layout
-    from colonnade.workflow.assessing.fragility import assess_campaign, assess_own
+    from colonnade.workflow.assessing import assess_campaign, assess_own
     from colonnade.workflow.real_column import AskedColumn
 
     column = AskedColumn.of(options)
@@ -133,8 +134,7 @@ def _drawn(assessed: Assessed, out: Path | None, data: Path | None) -> list[Path
 def _show(assessed: Assessed) -> None:
     from colonnade.report.assessments_page.page import symbol
     from colonnade.store.records.assessment import NOT_COVERED, level, sentences
-    from colonnade.units import format_percent
-    from colonnade.units.text import number
+    from colonnade.units.text import format_percent, number
 
     record = assessed.record
     verdict, *others = sentences(record)

@@ -42,10 +42,12 @@ def init(folder: Path, as_json: bool) -> int:
 
     with work_progress("Reading raw files") as advance:
         drafted = draft(folder, progress=advance)
-    drawing = drafted.path.with_name(DRAWING)
-    expect_place(drawing)
+    drawing = None if drafted.asks_first else drafted.path.with_name(DRAWING)
+    if drawing:
+        expect_place(drawing)
     write_text(drafted.path, drafted.text)
-    save(of_draft(drafted.text), drawing)
+    if drawing:
+        save(of_draft(drafted.text), drawing)
     if as_json:
         show_json(
             {
@@ -63,16 +65,17 @@ def init(folder: Path, as_json: bool) -> int:
     return 0
 
 
-def _tell(drafted: CampaignDraft, drawing: Path) -> None:
+def _tell(drafted: CampaignDraft, drawing: Path | None) -> None:
     say(f"campaign: {drafted.path}")
-    say(f"drawing: {drawing}")
+    if drawing:
+        say(f"drawing: {drawing}")
     say(f"{count(drafted.tests, 'test')}, {count(drafted.setups, 'set-up')}")
     for name, reason in drafted.refused:
         say(f"  not used: {name}: {reason}")
     if drafted.asks_first:
         say(
-            f"First question: which of these {drafted.setups} kinds of files are recordings of tests? Delete the other "
-            "groups."
+            f"First question: which of these {drafted.setups} kinds of files are recordings of tests? Remove the # "
+            "from their groups."
         )
     show_table(
         ("line", "to fill in", "", "what is asked"),

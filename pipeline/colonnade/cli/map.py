@@ -25,7 +25,7 @@ from colonnade.errors import count
 
 if TYPE_CHECKING:
     from colonnade.identification.response.boundaries import Misfit
-    from colonnade.workflow.maps.stability import MapMade
+    from colonnade.workflow.maps import MapMade
 
 
 @click.command(
@@ -93,8 +93,8 @@ def map_command(
     """Make maps, show their limits and misfits, and return the exit code."""
     from math import radians
 
-    from colonnade.workflow.maps.plans import Wanted
-    from colonnade.workflow.maps.stability import make_maps
+    from colonnade.workflow.map_plans import Wanted
+    from colonnade.workflow.maps import make_maps
 
     asked = Wanted(model, omega, amplitude, phase=radians(phase), **wanted)
     with work_progress(f"Mapping by the {' and the '.join(model)} model") as progress:

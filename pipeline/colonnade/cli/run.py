@@ -125,7 +125,7 @@ predict = _up_to(
 @work_options
 def report(campaign: Path, *, with_pdf: bool, bundle: Path | None, results: Path | None, **choices: Any) -> int:
     """Run a campaign as far as the report, and write its PDF and its bundle if they are asked for."""
-    from colonnade.workflow.publishing.documents import write_bundle, write_pdf
+    from colonnade.workflow.documents import write_bundle, write_pdf
 
     documents: dict[str, Callable[[], Path]] = {}
     if with_pdf:
@@ -157,8 +157,11 @@ def _show_result(result: RunResult, *, verbose: bool) -> None:
         say(line)
     if any(predicted(known.tests[stage.subject]) for stage in redone if stage.of == "test"):
         say(LEGEND)
+    # Bodies of an assembly, and what they are made as, have no e of their own that a model takes.
+    alone = {test.specimen for test in known.tests.values() if not test.bodies}
     for name in dict.fromkeys(stage.subject for stage in redone if stage.of == "specimen"):
-        say(f"specimen {name}  {pooled(known.specimens[name].restitution)}")
+        if name in alone or known.specimens[name].restitution.source != "rigid-body":
+            say(f"specimen {name}  {pooled(known.specimens[name].restitution)}")
     for sentence in agreement(known.model_dump(mode="json")["tests"]):
         say(sentence)
     show_by_kind(result.findings)

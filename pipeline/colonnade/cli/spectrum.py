@@ -25,8 +25,7 @@ from colonnade.cli.common.options import (
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign
     from colonnade.store.layout import Layout
-    from colonnade.workflow.real_column import AskedColumn
-    from colonnade.workflow.spectra.spectrum import Overturning, Rocking
+    from colonnade.workflow.spectrum import Overturning, Rocking
 
 OF_MOTION = ("unit", "interval", "column", "peak", "baseline", "drift", "slenderness", "periods")
 OF_PULSE = ("omega", "cycles", "phase", "largest", "least_width")
@@ -37,7 +36,7 @@ SHAPE = ("cycles", "phase")
 
 
 def _pulses() -> Iterable[str]:
-    from colonnade.dynamics.spectra.pulses import PULSES
+    from colonnade.dynamics.pulses import PULSES
 
     return PULSES
 
@@ -106,23 +105,18 @@ def spectrum(campaign: Path, motion: str | None, pulse: str | None, results: Pat
     if pulse != "mavroeidis-papageorgiou":
         _refuse(SHAPE, "--pulse mavroeidis-papageorgiou")
     from colonnade.workflow.real_column import AskedColumn
-    from colonnade.workflow.spectra.asked import AskedMotion
+    from colonnade.workflow.spectrum import Asked, overturning_of, rocking_of
 
-    out, data = options.pop("out"), options.pop("data")
+    out, data, as_json = (options.pop(name) for name in ("out", "data", "as_json"))
     if out is not None or data is not None:
         from colonnade.figures.files.saving import expect_places
 
         expect_places(out, data)
     known, layout = _campaign(campaign, results)
-    column = AskedColumn.of(options)
-    common = {"points": options["points"], "model": options["model"]}
+    column, asked = AskedColumn.of(options), Asked.of(options)
     if motion is not None:
-        from colonnade.workflow.spectra.spectrum import rocking_of
-
-        asked = AskedMotion(motion, **_taken(options, "unit", "interval", "column", "peak", "baseline"))
-        more = _taken(options, "slenderness", "periods", "drift")
-        return _show(rocking_of(known, layout, column, asked, **more, **common), out, data, options["as_json"])
-    return _show(_overturning(known, layout, column, str(pulse), options, common), out, data, options["as_json"])
+        return _show(rocking_of(known, layout, column, motion, asked), out, data, as_json)
+    return _show(overturning_of(known, layout, column, str(pulse), asked), out, data, as_json)
 
 
 def _refuse(names: Iterable[str], only: str) -> None:
@@ -131,27 +125,6 @@ def _refuse(names: Iterable[str], only: str) -> None:
     for name in names:
         if context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
             raise click.UsageError(f"--{name.replace('_', '-')} is only for {only}.")
-
-
-def _overturning(
-    known: Campaign | None,
-    layout: Layout | None,
-    column: AskedColumn,
-    pulse: str,
-    options: dict[str, Any],
-    common: dict[str, Any],
-) -> Overturning:
-    from math import radians
-
-    from colonnade.workflow.spectra.spectrum import AskedPulse, overturning_of
-
-    shape = {"cycles": options["cycles"], "phase": radians(options["phase"])}
-    asked = AskedPulse(pulse, **shape, largest=options["largest"], width=options["least_width"])
-    return overturning_of(known, layout, column, asked, frequencies=options["omega"], **common)
-
-
-def _taken(options: dict[str, Any], *names: str) -> dict[str, Any]:
-    return {name: options[name] for name in names}
 
 
 def _campaign(path: Path, results: Path | None) -> tuple[Campaign | None, Layout | None]:
@@ -166,8 +139,8 @@ def _campaign(path: Path, results: Path | None) -> tuple[Campaign | None, Layout
 
 
 def _show(found: Rocking | Overturning, out: Path | None, data: Path | None, as_json: bool) -> int:
-    from colonnade.workflow.spectra import shown
-    from colonnade.workflow.spectra.spectrum import Rocking, picture_of
+    from colonnade.workflow import spectrum_shown as shown
+    from colonnade.workflow.spectrum import Rocking, picture_of
 
     written: list[Path] = []
     if out is not None or data is not None:

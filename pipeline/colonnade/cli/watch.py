@@ -14,7 +14,7 @@ from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_optio
 
 if TYPE_CHECKING:
     from colonnade.store.records.advice import Advice
-    from colonnade.workflow.watching.line import Line
+    from colonnade.workflow.watching.measure import Line
 
 
 @click.command(
@@ -57,7 +57,7 @@ def watch(
     as_json: bool,
 ) -> int:
     """Watch a campaign; return the exit code."""
-    from colonnade.workflow.watching.notify import command_of
+    from colonnade.workflow.watching.told import command_of
     from colonnade.workflow.watching.watch import watch as watch_campaign
 
     try:

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from math import atan2, hypot, pi
+from math import atan2, cos, hypot, isclose, pi, sin, sqrt
+from typing import Literal
 
-from colonnade.digest import Digested, written
-from colonnade.dynamics.density import cone_volume, expect_inertia, expect_metres, prism_volume
-from colonnade.dynamics.side import Side, Solid, TwoSided, expect_positive
-from colonnade.validation import instance, sided
+import numpy as np
+from numpy.typing import ArrayLike
+
+from colonnade.arrays import Array
+from colonnade.dynamics.size import cone_volume, expect_inertia, expect_metres, prism_volume
+from colonnade.units.text import Digested, written
+from colonnade.validation import described, instance, number, samples, sided, whole
 
 STANDARD_GRAVITY = 9.81
 """Default gravity of a campaign, m/s²; a laboratory's own value may be given."""
@@ -17,21 +21,104 @@ Sided = float | tuple[float, float]
 """One value for both sides, or a pair (for θ < 0, for θ > 0)."""
 
 
+MOST_COLUMNS = 10_000
+"""Of a frame."""
+
+LEAST, LARGEST = 1e-60, 1e60
+"""Of a length, a mass or an inertia in SI: products of several stay in the range of floating-point numbers."""
+
+
+@dataclass(frozen=True)
+class Side:
+    """
+    The block as it rocks about one edge of its base.
+
+    Attributes
+    ----------
+    critical_angle : float
+        α, rad: the rotation that brings the centre of mass above the pole.
+    pole_distance : float
+        R, m, from the pole to the centre of mass.
+    inertia : float
+        I₀, kg m², about the pole.
+    """
+
+    critical_angle: float
+    pole_distance: float
+    inertia: float
+
+    def __post_init__(self) -> None:
+        number("critical_angle", self.critical_angle, "an angle between 0 and π/2 rad", above=0.0, below=pi / 2)
+        expect_positive(pole_distance=self.pole_distance, inertia=self.inertia)
+
+    @property
+    def half_width(self) -> float:
+        """Distance b = R sin α of the pole from the vertical through the centre of mass, m."""
+        return self.pole_distance * sin(self.critical_angle)
+
+
+@dataclass(frozen=True)
+class Solid:
+    """
+    What plane rocking does not ask of a block, but motion in space does.
+
+    Attributes
+    ----------
+    base : {"rectangle", "circle"}
+    half_depth : float
+        m, along y; of a round base its radius.
+    inertia_x, inertia_z : float
+        kg m², about the axes through the centre of mass.
+    height : float
+        m, from the base to the top; 0 where it is not known.
+    top : (float, float)
+        m, half width and half depth of the flat top, on which other blocks may stand; of a round one its radius, twice.
+    """
+
+    base: Literal["rectangle", "circle"]
+    half_depth: float
+    inertia_x: float
+    inertia_z: float
+    height: float = 0.0
+    top: tuple[float, float] = (0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        if self.base not in ("rectangle", "circle"):
+            raise ValueError(f'base is {described(self.base)}; "rectangle" or "circle" was expected')
+        expect_positive(half_depth=self.half_depth, inertia_x=self.inertia_x, inertia_z=self.inertia_z)
+
+    def is_uniform(self, side: Side, mass: float) -> bool:
+        """Whether a side is that of an upright prism or cylinder of uniform density with these values."""
+        width, height = side.half_width, side.pole_distance * cos(side.critical_angle)
+        squares = {"rectangle": (4 / 3, 1 / 3, 1 / 3), "circle": (5 / 4, 1 / 4, 1 / 2)}
+        about_pole, across, along = squares[self.base]
+        depth = self.half_depth
+        expected = (
+            mass * (about_pole * width**2 + 4 / 3 * height**2),
+            mass * (across * depth**2 + height**2 / 3),
+            mass * along * (width**2 + depth**2 if self.base == "rectangle" else width**2),
+        )
+        return all(map(isclose, (side.inertia, self.inertia_x, self.inertia_z), expected))
+
+
 @dataclass(frozen=True, repr=False)
-class Block(Digested, TwoSided):
+class Block(Digested):
     """
     A rigid block that rocks in the plane x–z about the two edges of its base.
 
     Attributes
     ----------
     mass : float
-        kg.
+        kg; of a frame that of its columns and its beam.
     gravity : float
         m/s².
     negative, positive : Side
         Rocking at θ < 0 (about the pole at −x) and at θ > 0 (about the pole at +x). Equal for a symmetric block.
     solid : Solid or None
         For motion in space; None if only plane quantities are known. Not compared: plane rocking is the same.
+    beam_ratio : float
+        γ, dimensionless: mass of the beam over that of all columns of a frame; 0 for a block. The pole
+        distance of a frame is that of a column, its inertia that of all columns and, at 2 R, the beam.
 
     Notes
     -----
@@ -56,7 +143,12 @@ class Block(Digested, TwoSided):
     '5.631 rad/s'
     """
 
+    mass: float
+    gravity: float
+    negative: Side
+    positive: Side
     solid: Solid | None = field(default=None, compare=False)
+    beam_ratio: float = 0.0
 
     def __post_init__(self) -> None:
         expect_positive(mass=self.mass, gravity=self.gravity)
@@ -64,6 +156,7 @@ class Block(Digested, TwoSided):
         instance("positive", self.positive, Side)
         if self.solid is not None:
             instance("solid", self.solid, Solid)
+        number("beam_ratio", self.beam_ratio, "a share of the mass of the columns from 0 on", low=0.0, high=LARGEST)
 
     def digest(self) -> dict[str, str]:
         """
@@ -82,6 +175,130 @@ class Block(Digested, TwoSided):
             "rigid-body e": written(self.restitution),
             "mass": written(self.mass, "kg"),
         } | ({} if self.is_symmetric else {"sides": "differ"})
+
+    @property
+    def sides(self) -> tuple[Side, Side]:
+        """`negative` and `positive`, in this order."""
+        return self.negative, self.positive
+
+    @property
+    def governing(self) -> Side:
+        """The side with the smaller critical angle."""
+        return min(self.sides, key=lambda side: side.critical_angle)
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether both sides are the same."""
+        return self.negative == self.positive
+
+    @property
+    def critical_angle(self) -> float:
+        """Critical angle α of the governing side, rad."""
+        return self.governing.critical_angle
+
+    @property
+    def pole_distance(self) -> float:
+        """Pole distance R of the governing side, m."""
+        return self.governing.pole_distance
+
+    @property
+    def inertia(self) -> float:
+        """Inertia I₀ about the pole of the governing side, kg m²."""
+        return self.governing.inertia
+
+    @property
+    def p(self) -> float:
+        """Frequency parameter p = sqrt(m g R / I₀) of the governing side, rad/s."""
+        return self.side_p(self.governing)
+
+    def side_p(self, side: Side) -> float:
+        """
+        Frequency parameter of one side.
+
+        Parameters
+        ----------
+        side : Side
+            One of `sides`.
+
+        Returns
+        -------
+        p : float
+            sqrt(m g R / I₀), rad/s; the beam of a frame, which rises twice as far, counts twice in m.
+        """
+        instance("side", side, Side)
+        return sqrt(self._mass_at(1) * self.gravity * side.pole_distance / side.inertia)
+
+    def _mass_at(self, power: float) -> float:
+        """Mass by its distance from the pole to a power: that of a frame's beam is 2 R."""
+        return self.mass * (1 + float(2**power) * self.beam_ratio) / (1 + self.beam_ratio)
+
+    def critical_angle_at(self, angle: ArrayLike) -> Array:
+        """
+        Critical angle of the side that each angle is on.
+
+        Parameters
+        ----------
+        angle : array_like
+            θ, rad; an angle of 0 or NaN counts as θ > 0.
+
+        Returns
+        -------
+        critical_angle : ndarray, shape of `angle`
+            α, rad.
+        """
+        return self._at(angle, *(side.critical_angle for side in self.sides))
+
+    def pole_distance_at(self, angle: ArrayLike) -> Array:
+        """
+        Pole distance of the side that each angle is on.
+
+        Parameters
+        ----------
+        angle : array_like
+            θ, rad; an angle of 0 or NaN counts as θ > 0.
+
+        Returns
+        -------
+        pole_distance : ndarray, shape of `angle`
+            R, m.
+        """
+        return self._at(angle, *(side.pole_distance for side in self.sides))
+
+    def p_at(self, angle: ArrayLike) -> Array:
+        """
+        Frequency parameter of the side that each angle is on.
+
+        Parameters
+        ----------
+        angle : array_like
+            θ, rad; an angle of 0 or NaN counts as θ > 0.
+
+        Returns
+        -------
+        p : ndarray, shape of `angle`
+            rad/s.
+        """
+        return self._at(angle, *(self.side_p(side) for side in self.sides))
+
+    @staticmethod
+    def _at(angle: ArrayLike, negative: float, positive: float) -> Array:
+        plain = samples("angle", angle, dimensions=(0, 1, 2), fewest=0, finite=False)
+        return np.where(plain < 0, negative, positive)
+
+    @property
+    def restitution(self) -> float:
+        """
+        Rigid-body coefficient of restitution without bounce, e = 1 − (2 m R b / I₀) sin α (Housner 1963).
+
+        The beam of a frame counts four times in m: see `frame`.
+        """
+        side = self.governing
+        return 1 - 2 * self._mass_at(2) * side.pole_distance * side.half_width / side.inertia * sin(side.critical_angle)
+
+    @property
+    def uplift_acceleration(self) -> float:
+        """Base acceleration g tan α above which the block starts to rock, m/s²."""
+        return self.gravity * sin(self.critical_angle) / cos(self.critical_angle)
 
     @classmethod
     def prism(
@@ -117,7 +334,8 @@ class Block(Digested, TwoSided):
         expect_metres(mass / prism_volume(width, depth, height), width / height, width=width, height=height)
         half_width, centre_height = width / 2, height / 2
         inertia = mass * (width**2 + height**2) / 12 + mass * (half_width**2 + centre_height**2)
-        solid = Solid("rectangle", depth / 2, mass * (depth**2 + height**2) / 12, mass * (width**2 + depth**2) / 12)
+        about_x, about_z = mass * (depth**2 + height**2) / 12, mass * (width**2 + depth**2) / 12
+        solid = Solid("rectangle", depth / 2, about_x, about_z, height, (half_width, depth / 2))
         return cls._symmetric(half_width, centre_height, inertia, mass, gravity, solid)
 
     @classmethod
@@ -205,7 +423,7 @@ class Block(Digested, TwoSided):
         fourth = (base**4 + base**3 * top + base**2 * top**2 + base * top**3 + top**4) / 20
         inertia = mass * ((fourth + second) / area + base**2)
         transverse = mass * ((fourth + second) / area - (first / area) ** 2)
-        solid = Solid("circle", base, transverse, 2.0 * mass * fourth / area)
+        solid = Solid("circle", base, transverse, 2.0 * mass * fourth / area, height, (top, top))
         return cls._symmetric(base, first / area, inertia, mass, gravity, solid)
 
     @classmethod
@@ -250,6 +468,62 @@ class Block(Digested, TwoSided):
         return cls(mass, gravity, negative, positive)
 
     @classmethod
+    def frame(cls, column: Block, *, beam_mass: float, columns: int = 2) -> Block:
+        """
+        Build equal columns under a rigid beam that lies freely on them, which rock as one block.
+
+        Parameters
+        ----------
+        column : Block
+            One of the columns, made by `prism` or `cylinder`.
+        beam_mass : float
+            kg, from 0.
+        columns : int, optional
+            Their number, from 1.
+
+        Returns
+        -------
+        block : Block
+            Its angle is that of every column. For histories, maps, spectra and fragilities in the plane.
+
+        Raises
+        ------
+        ValueError
+            If the column is a cone, is measured or has unequal sides, or a number is out of its range.
+
+        Notes
+        -----
+        A column that turns about an edge of its base carries the beam on the opposite edge of its top, 2 R from the
+        pole, and the beam, on equal columns, moves without turning. With γ its mass over that of all columns, and m,
+        R, I₀ of one, potential and kinetic energy of the frame over the number of columns are
+        (1 + 2γ) m g R cos(α − |θ|) and (I₀ + 4γ m R²) θ̇²/2: a block of the same α with
+        p̂ = p sqrt((1 + 2γ)/(1 + 4γ m R²/I₀)) (Makris and Vassiliou 2013). At an impact the poles change, below and
+        above the columns. About the new pole of a column the angular momentum of the column and its share of the beam,
+        a point on the new edge of its top, is kept: (I₀ − 2 m R² sin²α + 4γ m R² cos 2α) ω before, (I₀ + 4γ m R²) ω
+        after, so that e = 1 − 2 (1 + 4γ) m R² sin²α/(I₀ + 4γ m R²).
+
+        Examples
+        --------
+        >>> column = Block.prism(width=0.9, depth=0.9, height=6.0, mass=12000.0)
+        >>> frame = Block.frame(column, beam_mass=24000.0, columns=2)
+        >>> round(frame.p / column.p, 4), round(column.restitution, 4), round(frame.restitution, 4)
+        (0.866, 0.967, 0.9587)
+        """
+        instance("column", column, Block)
+        mass = number("beam_mass", beam_mass, "a mass in kg from 0 on", low=0.0, high=LARGEST)
+        count = whole("columns", columns, 1, MOST_COLUMNS)
+        side, solid = column.negative, column.solid
+        if solid is None or column.beam_ratio or not (column.is_symmetric and solid.is_uniform(side, column.mass)):
+            raise ValueError(
+                "column is not an upright prism or cylinder of uniform density: a block of `Block.prism` or "
+                "`Block.cylinder` was expected, as a beam on a cone or a measured body lies at another distance"
+            )
+        ratio = mass / (count * column.mass)
+        inertia = count * (side.inertia + 4 * ratio * column.mass * side.pole_distance**2)
+        both = replace(side, inertia=inertia)
+        return cls(count * column.mass + mass, column.gravity, both, both, beam_ratio=ratio)
+
+    @classmethod
     def _symmetric(
         cls, half_width: float, centre_height: float, inertia: float, mass: float, gravity: float, solid: Solid
     ) -> Block:
@@ -291,6 +565,14 @@ class Block(Digested, TwoSided):
             }
             sides.append(replace(side, **changed))
         return replace(self, negative=sides[0], positive=sides[1])
+
+
+def expect_positive(**values: float) -> None:
+    """Refuse a length, a mass, an inertia or gravity that is not positive, by its name."""
+    for name, value in values.items():
+        number(name, value, "a positive number", above=0.0)
+        if not LEAST <= value <= LARGEST:
+            raise ValueError(f"{name} is {value:g}; a number from {LEAST:g} to {LARGEST:g} was expected")
 
 
 def pair(value: Sided) -> tuple[float, float]:

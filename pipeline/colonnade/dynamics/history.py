@@ -8,9 +8,9 @@ from typing import Literal
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.digest import Digested, written
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.models.registry import DEFAULT, MODELS
+from colonnade.dynamics.models import DEFAULT, MODELS
+from colonnade.units.text import Digested, written
 
 Outcome = Literal["no-rocking", "rocking", "overturned"]
 

@@ -53,16 +53,39 @@ def kernel(function: Function) -> Function:
     numba sees when a kernel's own file changes, but not when a kernel that it calls changes in another file. So the
     machine code is kept in a folder named by the hash of all sources that kernels are made of.
     """
+    return _compiled(function, _OPTIONS)
+
+
+def kernel_in_place(function: Function) -> Function:
+    """
+    Compile a function that only fills arrays that it is given, and makes and returns none, as `kernel` does.
+
+    No references are counted then, whatever its paths: a run on contact, of many kernels with many arrays, takes less
+    than half as long, and so does its compilation.
+    """
+    return _compiled(function, _OPTIONS | {"_nrt": False})
+
+
+def kernel_fused(function: Function) -> Function:
+    """
+    Compile a function as `kernel` does, but let a product and a sum be rounded once, where the processor can.
+
+    Chains of a polynomial then take half the time; the closed form of an arc is mostly these.
+    """
+    return _compiled(function, _OPTIONS | {"fastmath": {"contract"}})
+
+
+def _compiled(function: Function, options: Any) -> Function:
     folder = _cache_folder()
     if folder is None:
-        return cast(Function, numba.njit(**_OPTIONS)(function))
+        return cast(Function, numba.njit(**options)(function))
     with _DECORATING:
         # numba reads its setting when a function is decorated; kernels of other packages keep theirs.
         theirs, _SETTINGS.CACHE_DIR = _SETTINGS.CACHE_DIR, str(folder)
         try:
-            return cast(Function, numba.njit(cache=True, **_OPTIONS)(function))
+            return cast(Function, numba.njit(cache=True, **options)(function))
         except RuntimeError:  # no source file, as in a frozen program
-            return cast(Function, numba.njit(**_OPTIONS)(function))
+            return cast(Function, numba.njit(**options)(function))
         finally:
             _SETTINGS.CACHE_DIR = theirs
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
-from colonnade.digest import Digested, written
 from colonnade.dynamics.block import Block
+from colonnade.units.text import Digested, written
 from colonnade.validation import number, samples
 
 MOST_SAMPLES = 10_000_000

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
+from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.history import History
-from colonnade.dynamics.models.model import Case
-from colonnade.dynamics.models.registry import DEFAULT, model_of
+from colonnade.dynamics.models import DEFAULT, Case, model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.validation import described, instance, number
 
 if TYPE_CHECKING:
+    from colonnade.dynamics.contact.bodies import AssemblyHistory
     from colonnade.dynamics.contact.law import ContactLaw
 
 
@@ -31,6 +32,7 @@ LARGEST_VELOCITY = 1e6
 """In p, of the initial state."""
 
 
+@overload
 def rock(
     block: Block,
     motion: Motion | None = None,
@@ -43,13 +45,42 @@ def rock(
     rest_angle: float = DEFAULT_REST_ANGLE,
     contact: ContactLaw | None = None,
     out_of_plane: float = 0.0,
-) -> History:
+) -> History: ...
+
+
+@overload
+def rock(
+    block: Assembly,
+    motion: Motion | None = None,
+    *,
+    model: str,
+    theta0: float = 0.0,
+    omega0: float = 0.0,
+    duration: float | None = None,
+    contact: ContactLaw | None = None,
+) -> AssemblyHistory: ...
+
+
+def rock(
+    block: Block | Assembly,
+    motion: Motion | None = None,
+    *,
+    restitution: Sided | RestitutionLaw | Callable[[float], float] | None = None,
+    model: str = DEFAULT,
+    theta0: float = 0.0,
+    omega0: float = 0.0,
+    duration: float | None = None,
+    rest_angle: float = DEFAULT_REST_ANGLE,
+    contact: ContactLaw | None = None,
+    out_of_plane: float = 0.0,
+) -> History | AssemblyHistory:
     """
-    Compute how a block rocks.
+    Compute how a block rocks, or an assembly of blocks.
 
     Parameters
     ----------
-    block : Block
+    block : Block or Assembly
+        An assembly needs the contact model; θ₀ and ω₀ are those of the blocks on the table.
     motion : Motion, optional
         Base motion along x and, where given, z; without it the block rocks freely for `duration`. The contact model
         takes motion along y too.
@@ -76,7 +107,7 @@ def rock(
     Returns
     -------
     history : History
-        At the motion's samples; a `ContactHistory` of the contact model.
+        At the motion's samples; a `ContactHistory` of the contact model, an `AssemblyHistory` of an assembly.
 
     Raises
     ------
@@ -95,21 +126,36 @@ def rock(
     'rocking'
     """
     asked = model_of(model)
-    instance("block", block, Block)
+    if not isinstance(block, Assembly):
+        instance("block", block, Block)
     if motion is not None:
         instance("motion", motion, Motion)
         if duration is not None:
             raise ValueError(f"duration is {described(duration)}, and a motion is given; one of the two was expected")
     between = "an angle between −π/2 and π/2"
     theta0 = number("theta0", theta0, between, above=-HALF, below=HALF, unit="rad")
-    fastest = LARGEST_VELOCITY * max(block.side_p(side) for side in block.sides)
+    fastest = LARGEST_VELOCITY * _fastest_p(block)
     omega0 = number("omega0", omega0, f"less than {fastest:.4g} rad/s", above=-fastest, below=fastest, unit="rad/s")
     out_of_plane = number("out_of_plane", out_of_plane, between, above=-HALF, below=HALF, unit="rad")
     expected = f"a fraction of the critical angle from {LEAST_REST_ANGLE:g} to 1"
     rest_angle = number("rest_angle", rest_angle, expected, low=LEAST_REST_ANGLE, below=1.0)
     if contact is not None:
         _expect_law(contact)
+    if isinstance(block, Assembly):
+        if not asked.in_space or restitution is not None or out_of_plane != 0.0:
+            raise ValueError(
+                f'An assembly was given, with model "{model}", restitution {described(restitution)} and out_of_plane '
+                f'{out_of_plane:g} rad; model="contact" without the other two was expected'
+            )
+        from colonnade.dynamics.contact.simulate import simulate_assembly
+
+        return simulate_assembly(block, motion, law=contact, duration=duration, theta0=theta0, omega0=omega0)
     return asked.run(Case(block, motion, restitution, theta0, omega0, duration, rest_angle, contact, out_of_plane))
+
+
+def _fastest_p(block: Block | Assembly) -> float:
+    blocks = [body.block for body in block.bodies.values()] if isinstance(block, Assembly) else [block]
+    return max(one.side_p(side) for one in blocks for side in one.sides)
 
 
 def _expect_law(contact: object) -> None:

@@ -11,7 +11,7 @@ from colonnade.figures.histories import ANGLE_LABEL, Spread, draw_angle, limit_o
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.panels.layout import stacked_panels
 from colonnade.figures.style import INK, model_style, styled
-from colonnade.units import format_percent
+from colonnade.units.text import format_percent
 
 HEIGHT = 1.9
 """Of a model's panel, inches."""

@@ -10,14 +10,14 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, MaxNLocator, NullLocator, StrMethodFormatter
 
 from colonnade.arrays import Array
-from colonnade.dynamics.spectra.response import DAMPING
+from colonnade.dynamics.spectra import DAMPING
 from colonnade.figures.histories import draw_limit, largest_of, scale_symmetric, time_limits
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.panels.layout import BOTTOM, TOP, legend_above, margins
 from colonnade.figures.panels.lean import add_panel
 from colonnade.figures.panels.long import draw_curve
 from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, LineStyle, is_narrow, styled, width
-from colonnade.units import format_percent
+from colonnade.units.text import format_percent
 
 HISTORY_HEIGHT, SPECTRUM_HEIGHT, BETWEEN = 1.3, 1.6, 0.62
 """Heights of the panels and the room between them, inches."""

@@ -15,7 +15,7 @@ from colonnade.figures.panels.layout import BOTTOM, TOP, borrow_grid, legend_abo
 from colonnade.figures.panels.lean import add_panel
 from colonnade.figures.panels.long import draw_curve
 from colonnade.figures.style import FAINT, INK, LIMIT, MEASURED, SOFT, styled, width
-from colonnade.signals.spectra import Density
+from colonnade.signals.metrics import Density
 
 HEIGHT, GAP = 0.62, 0.21
 """Of a channel's row, and between rows; inches."""

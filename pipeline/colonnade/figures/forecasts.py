@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from colonnade.arrays import Array
 from colonnade.figures.style import LIMIT, SOFT, blank_figure, is_narrow, model_style, styled
-from colonnade.identification.verification.reliability import FEW, Reliability
+from colonnade.identification.calibration import FEW, Reliability
 
 FEW_BINS, BINS = 5, 10
 """Bins of the PIT histogram of fewer than `FEW` tests, and of more."""

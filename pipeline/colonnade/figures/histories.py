@@ -13,7 +13,7 @@ from colonnade.arrays import Array
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.panels.long import draw_band, draw_curve
 from colonnade.figures.style import INK, LIMIT, MEASURED, LineStyle, model_style
-from colonnade.units import format_percent
+from colonnade.units.text import format_percent
 
 SMALLEST_RATIO = 0.02
 """No θ/α axis is narrower than ± this, so that the noise of a block at rest does not look like rocking."""

@@ -24,6 +24,9 @@ FALLS = 0.5
 SIZE = (3.6, 4.0)
 """Of the picture, inches."""
 
+FACE = "#e8ecf1"
+"""Colour of a body."""
+
 
 @styled()
 def rocking_block(
@@ -82,7 +85,7 @@ def rocking_block(
     for name, curve in angles.items():
         look = MEASURED if name == "measured" else model_style(name)
         block = Polygon(corners, closed=True, label=_label(name), edgecolor=look["color"], linestyle=look["linestyle"])
-        block.set_facecolor("#e8ecf1" if name == "measured" else "none")
+        block.set_facecolor(FACE if name == "measured" else "none")
         axes.add_patch(block)
         blocks.append((block, _at(curve, times)))
     figure.legend(loc="upper left", ncols=2, fontsize=7, borderaxespad=0.3, columnspacing=1.0)
@@ -93,6 +96,54 @@ def rocking_block(
         for block, turned in blocks:
             block.set_xy(turn(corners, float(turned[frame]), poles) + aside)
         table.set_data(shift[frame] + np.array([-0.5, 0.5]) * body.height, [0.0, 0.0])
+        clock.set_text(f"{times[frame]:.2f} s" + (f", {speed:.2g} × faster" if speed > 1.01 else ""))
+
+    return Movie(figure, show, frames, RATE, title, description)
+
+
+@styled()
+def moving_bodies(
+    outlines: Mapping[str, Array], time: Array, *, title: str, description: str, figure: Figure | None = None
+) -> Movie:
+    """
+    Draw several bodies as they move, each by its outline, seen from the table.
+
+    Parameters
+    ----------
+    outlines : mapping of str to ndarray, shape (n, k, 2)
+        By body, x and z of its corners, m.
+    time : ndarray, shape (n,)
+        s.
+    title, description : str
+    figure : Figure, optional
+        To draw into, empty; a new one otherwise.
+
+    Returns
+    -------
+    movie : Movie
+        Of at most `MOST_FRAMES` frames.
+    """
+    lowest = np.min([outline.min(axis=(0, 1)) for outline in outlines.values()], axis=0)
+    highest = np.max([outline.max(axis=(0, 1)) for outline in outlines.values()], axis=0)
+    frames = min(max(ceil((time[-1] - time[0]) * RATE), 2), MOST_FRAMES)
+    times = np.linspace(time[0], time[-1], frames)
+    samples = np.clip(np.searchsorted(time, times), 0, time.size - 1)
+    speed, margin = (times[-1] - times[0]) * RATE / frames, 0.1 * float((highest - lowest).max())
+    figure = figure or Figure(figsize=SIZE)
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    axes.set_axis_off()
+    axes.set_aspect("equal")
+    axes.set_xlim(lowest[0] - margin, highest[0] + margin)
+    axes.set_ylim(min(0.0, lowest[1]) - margin, highest[1] + margin)
+    axes.plot([lowest[0] - margin, highest[0] + margin], [0.0, 0.0], color=INK, linewidth=2.0)
+    drawn = {name: Polygon(outline[0], edgecolor=INK, facecolor=FACE) for name, outline in outlines.items()}
+    for block in drawn.values():
+        axes.add_patch(block)
+    clock = axes.text(0.98, 0.02, "", transform=axes.transAxes, ha="right", fontsize=8, color=SOFT)
+
+    def show(frame: int) -> None:
+        for name, body in drawn.items():
+            body.set_xy(outlines[name][samples[frame]])
         clock.set_text(f"{times[frame]:.2f} s" + (f", {speed:.2g} × faster" if speed > 1.01 else ""))
 
     return Movie(figure, show, frames, RATE, title, description)

@@ -13,16 +13,18 @@ from matplotlib.axes import Axes
 
 from colonnade.assessment.fragility import Fragility
 from colonnade.assessment.measures import measure_of
-from colonnade.dynamics.ensembles.outcome import Ensemble
+from colonnade.dynamics.contact.bodies import AssemblyHistory
+from colonnade.dynamics.ensemble import Ensemble
 from colonnade.dynamics.history import History
-from colonnade.dynamics.maps.chart import StabilityMap
-from colonnade.dynamics.spectra.overturning import OverturningSpectrum
-from colonnade.dynamics.spectra.spectrum import RockingSpectrum
+from colonnade.dynamics.maps import StabilityMap
+from colonnade.dynamics.pulses import OverturningSpectrum
+from colonnade.dynamics.spectra import RockingSpectrum
 from colonnade.figures import fragility
 from colonnade.figures.drawing.parts import Body, Rocking
+from colonnade.figures.files.output import Movie
 from colonnade.figures.histories import SHADES, draw_angle, limit_of
 from colonnade.figures.maps.stability_map import stability_map
-from colonnade.figures.moving import SIZE, rocking_block
+from colonnade.figures.moving import SIZE, moving_bodies, rocking_block
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.panels.long import draw_band, draw_curve
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
@@ -30,10 +32,10 @@ from colonnade.figures.spectra.overturning import overturning_spectrum
 from colonnade.figures.spectra.rocking import rocking_spectrum
 from colonnade.figures.style import MEASURED, model_style
 from colonnade.identification.restitution.result import Restitution
-from colonnade.units import format_percent
+from colonnade.units.text import format_percent
 from colonnade.validation import described, instance
 
-KINDS = "a History, a Restitution, a StabilityMap, an Ensemble, a spectrum or a Fragility"
+KINDS = "a History, an AssemblyHistory, a Restitution, a StabilityMap, an Ensemble, a spectrum or a Fragility"
 
 FINE = 200
 """Points of a fragility curve."""
@@ -46,10 +48,11 @@ def plot(result: Any, ax: Axes | None = None) -> Axes:
 
     Parameters
     ----------
-    result : History, Restitution, StabilityMap, Ensemble, OverturningSpectrum, RockingSpectrum or Fragility
-        A history is drawn as θ/α over time; a restitution as e of each impact over the angular velocity before it, with
-        the value identified; a map and an overturning spectrum with their limits over Ω and A; an ensemble as its bands
-        over time; a rocking spectrum as largest angles over the size of blocks; a fragility as its curves.
+    result : History, AssemblyHistory, Restitution, StabilityMap, Ensemble, a spectrum or Fragility
+        A history is drawn as θ/α over time, one of an assembly joint by joint; a restitution as e of each impact over
+        the angular velocity before it, with the value identified; a map and an overturning spectrum with their limits
+        over Ω and A; an ensemble as its bands over time; a rocking spectrum as largest angles over the size of blocks;
+        a fragility as its curves.
     ax : matplotlib.axes.Axes, optional
         To draw into, as of several results one over the other; by default those of a new figure.
 
@@ -80,6 +83,17 @@ def _(result: History, ax: Axes | None = None) -> Axes:
     drawn = Curve(result.time, result.angle / result.block.critical_angle_at(result.angle))
     draw_angle(axes, None, {result.model: drawn}, max(limit_of([drawn]), _reach(axes)))
     axes.set_xlabel("time (s)")
+    axes.legend()
+    return axes
+
+
+@plot.register
+def _(result: AssemblyHistory, ax: Axes | None = None) -> Axes:
+    axes = _axes(ax)
+    for name, body in result.bodies.items():
+        axes.plot(result.time, body.relative.angle / result.assembly.critical_angles[name], label=name)
+    axes.set_xlabel("time (s)")
+    axes.set_ylabel("rocking angle at the joint / α")
     axes.legend()
     return axes
 
@@ -157,7 +171,7 @@ def animate(history: History) -> FuncAnimation:
 
     Parameters
     ----------
-    history : History
+    history : History or AssemblyHistory
         Its block is drawn from pole to pole, twice as high as its centre of mass: that is a prism.
 
     Returns
@@ -185,6 +199,10 @@ def animate(history: History) -> FuncAnimation:
     ...     Path(folder, "rocking.gif").read_bytes()[:3]
     b'GIF'
     """
+    if isinstance(history, AssemblyHistory):
+        figure = pyplot.figure(figsize=SIZE)
+        movie = moving_bodies(history.outlines(), history.time, title="", description="", figure=figure)
+        return _animation(movie)
     instance("history", history, History)
     rocking = Rocking.of(history.block)
     wide, solid = rocking.poles[1] - rocking.poles[0], history.block.solid
@@ -193,8 +211,10 @@ def animate(history: History) -> FuncAnimation:
     curve = Curve(history.time, history.angle)
     # A figure of pyplot: `pyplot.show()` plays it in a script.
     figure = pyplot.figure(figsize=SIZE)
-    movie = rocking_block({history.model: curve}, body, None, title="", description="", figure=figure)
+    return _animation(rocking_block({history.model: curve}, body, None, title="", description="", figure=figure))
 
+
+def _animation(movie: Movie) -> FuncAnimation:
     def show(frame: int) -> list[Artist]:
         movie.show(frame)
         return movie.figure.axes[0].get_children()

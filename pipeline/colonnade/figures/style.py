@@ -13,7 +13,7 @@ import matplotlib
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
-from colonnade.dynamics.models.registry import model_of
+from colonnade.dynamics.models import model_of
 
 STYLE_FILE = Path(__file__).with_name("colonnade.mplstyle")
 

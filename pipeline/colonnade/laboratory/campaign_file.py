@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from colonnade import units
 from colonnade.campaign.syntax.document import toml_key, toml_value
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.errors import CampaignError
-from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Trial, begun, raw_path
+from colonnade.laboratory.experiment import MAIN, Plan, Setup, Trial, begun, raw_path
 from colonnade.laboratory.files import FileFormat
 from colonnade.laboratory.instruments import VOLTS, Transducer
 from colonnade.readers.files import irregular
@@ -38,6 +39,8 @@ _CHANNELS = """
 # `at` is the point that the transducer follows: x along shaking, y across, z up, from the centre of the base.
 """
 
+_ALIGN = "# It starts separately. Two channels that measure the same motion, one on each recorder, give its delay."
+
 _TESTS = """
 # The tests, in the order in which they were done.
 """
@@ -45,19 +48,22 @@ _TESTS = """
 
 def campaign_text(plan: Plan) -> str:
     """Write out the campaign file of a plan."""
-    lines = [_HEAD, "schema = 1", f"campaign = {toml_value(plan.campaign)}", f"title = {toml_value(plan.title)}"]
-    lines.append(f"facility = {toml_value(FACILITY)}")
     gravity = next(iter(plan.specimens.values())).block.gravity
-    if gravity != STANDARD_GRAVITY:
-        lines.append(f'gravity = "{gravity} m/s^2"')
-    lines.append(_SPECIMENS + "[specimens]")
-    lines += [f"{toml_key(name)} = {toml_value(specimen.shape)}" for name, specimen in plan.specimens.items()]
+    head = {"schema": 1, "campaign": plan.campaign, "title": plan.title, "facility": FACILITY}
+    own_gravity = {} if gravity == STANDARD_GRAVITY else {"gravity": f"{gravity} m/s^2"}
+    lines = [_HEAD, *entries(head | own_gravity)]
+    lines += [_SPECIMENS + "[specimens]", *entries({name: each.shape for name, each in plan.specimens.items()})]
     for number, (name, setup) in enumerate(plan.setups.items()):
-        lines += _setup(name, setup, explained=number == 0)
+        lines += _setup(f"setups.{toml_key(name)}", setup, explained=number == 0)
     lines.append(_TESTS.rstrip())
     for position, trial in enumerate(plan.trials):
-        lines += _trial(plan, trial, position)
+        lines += ["", "[[tests]]", *entries(_trial(plan, trial, position))]
     return "\n".join([*lines, ""])
+
+
+def entries(values: Mapping[str, object]) -> list[str]:
+    """Write a line of TOML for each key."""
+    return [f"{toml_key(key)} = {toml_value(value)}" for key, value in values.items()]
 
 
 def refuse_foreign(folder: Path) -> None:
@@ -77,19 +83,19 @@ def refuse_foreign(folder: Path) -> None:
         )
 
 
-def _setup(name: str, setup: Setup, *, explained: bool) -> list[str]:
-    main = setup.recorders[MAIN]
-    lines = ["", *([f"# {setup.comment}"] if setup.comment else []), f"[setups.{toml_key(name)}]", *_file(main.flavour)]
+def _setup(key: str, setup: Setup, *, explained: bool) -> list[str]:
+    lines = ["", *([f"# {setup.comment}"] if setup.comment else []), f"[{key}]", *_file(setup.recorders[MAIN].flavour)]
     if setup.catch is not None:
         lines.append(f'catch = "{setup.catch:g} rad"    # where the safety frame catches the specimen')
-    for recorder_name, recorder in setup.recorders.items():
-        if recorder_name != MAIN:
-            lines += _recorder(name, recorder_name, recorder)
-    lines.append((_CHANNELS if explained else "\n") + f"[setups.{toml_key(name)}.channels]")
-    for recorder_name, recorder in setup.recorders.items():
-        lines += [
-            f"{toml_key(each.channel)} = {toml_value(_channel(each, recorder_name))}" for each in recorder.transducers
-        ]
+    for name, recorder in setup.recorders.items():
+        if name == MAIN:
+            continue
+        lines += ["", f"[{key}.recorders.{toml_key(name)}]    # a second recorder", *_file(recorder.flavour)]
+        if recorder.align is not None:
+            lines += [_ALIGN, f"clock = {{align = [{', '.join(map(toml_value, recorder.align))}]}}"]
+    lines.append((_CHANNELS if explained else "\n") + f"[{key}.channels]")
+    for name, recorder in setup.recorders.items():
+        lines += entries({each.channel: _channel(each, name) for each in recorder.transducers})
     return lines
 
 
@@ -98,21 +104,6 @@ def _file(flavour: FileFormat) -> list[str]:
     if not said:
         return ["# Delimiter, decimal sign, names and units are detected from the files."]
     return [f"file = {toml_value(said)}    # every key is optional: what is not given is detected"]
-
-
-def _recorder(setup: str, name: str, recorder: Recorder) -> list[str]:
-    lines = [
-        "",
-        f"[setups.{toml_key(setup)}.recorders.{toml_key(name)}]    # a second recorder",
-        *_file(recorder.flavour),
-    ]
-    if recorder.align is not None:
-        first, second = map(toml_value, recorder.align)
-        lines.append(
-            "# It starts separately. Two channels that measure the same motion, one on each recorder, give its delay."
-        )
-        lines.append(f"clock = {{align = [{first}, {second}]}}")
-    return lines
 
 
 def _channel(transducer: Transducer, recorder: str) -> dict[str, object]:
@@ -138,11 +129,16 @@ def _channel(transducer: Transducer, recorder: str) -> dict[str, object]:
     return entry
 
 
-def _trial(plan: Plan, trial: Trial, position: int) -> list[str]:
+def _trial(plan: Plan, trial: Trial, position: int) -> dict[str, object]:
     recorders = plan.setups[trial.setup].recorders
     paths = {name: raw_path(trial, name, recorder) for name, recorder in recorders.items()}
-    entry: dict[str, object] = {"id": trial.name, "kind": trial.kind, "specimen": plan.specimen_of(trial)}
-    entry["setup"] = trial.setup
-    entry["file"] = paths[MAIN] if len(paths) == 1 else paths
-    entry |= {"date": begun(position).date(), "operator": OPERATOR}
-    return ["", "[[tests]]", *(f"{key} = {toml_value(value)}" for key, value in (entry | dict(trial.entry)).items())]
+    return {
+        "id": trial.name,
+        "kind": trial.kind,
+        "specimen": plan.specimen_of(trial),
+        "setup": trial.setup,
+        "file": paths[MAIN] if len(paths) == 1 else paths,
+        "date": begun(position).date(),
+        "operator": OPERATOR,
+        **trial.entry,
+    }

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
-from typing import ClassVar, Protocol
+from typing import ClassVar
 
 import numpy as np
 
@@ -36,20 +37,22 @@ class Sheet:
     begun: np.datetime64
 
 
-class FileFormat(Protocol):
+class FileFormat(ABC):
     """A way to write raw files; `suffix` ends their names."""
 
     suffix: ClassVar[str]
 
     def declaration(self) -> Mapping[str, str]:
         """Keys of `file` in the campaign file; none where it is left to be sniffed."""
+        return {}
 
+    @abstractmethod
     def content(self, sheet: Sheet) -> bytes:
         """Bytes of a file; the same sheet gives the same bytes."""
 
 
 @dataclass(frozen=True)
-class Flavour:
+class Flavour(FileFormat):
     """
     How one recorder writes its text files.
 
@@ -78,10 +81,8 @@ class Flavour:
 
     def declaration(self) -> Mapping[str, str]:
         """Keys of `file` in the campaign file; none where it is left to be sniffed."""
-        if not self.declared:
-            return {}
         said = {"format": "delimited", "delimiter": self.delimiter, "decimal": self.decimal, "encoding": self.encoding}
-        return said | {"time": self.heading(self.time_name, "s")}
+        return said | {"time": self.heading(self.time_name, "s")} if self.declared else {}
 
     def content(self, sheet: Sheet) -> bytes:
         """Bytes of a file; four decimals of the times are written, six of the values."""
@@ -124,7 +125,7 @@ MATLAB_HEADER = b"MATLAB 5.0 MAT-file, Platform: virtual shake table"
 
 
 @dataclass(frozen=True)
-class Tdms:
+class Tdms(FileFormat):
     """LabVIEW's TDMS: one group, each channel with its unit and the properties of a waveform."""
 
     group: str = "Messung"
@@ -139,19 +140,14 @@ class Tdms:
         """Return the bytes of a file."""
         from nptdms import ChannelObject, GroupObject, RootObject, TdmsWriter
 
+        waveform = {
+            "wf_start_time": sheet.begun,
+            "wf_start_offset": 0.0,
+            "wf_increment": 1.0 / sheet.sampling_rate_hz,
+            "wf_samples": sheet.time.size,
+        }
         channels = [
-            ChannelObject(
-                self.group,
-                name,
-                values,
-                properties={
-                    "wf_start_time": sheet.begun,
-                    "wf_start_offset": 0.0,
-                    "wf_increment": 1.0 / sheet.sampling_rate_hz,
-                    "wf_samples": values.size,
-                    "unit_string": unit,
-                },
-            )
+            ChannelObject(self.group, name, values, properties={**waveform, "unit_string": unit})
             for name, (unit, values) in sheet.columns.items()
         ]
         stream = BytesIO()
@@ -161,7 +157,7 @@ class Tdms:
 
 
 @dataclass(frozen=True)
-class Matlab:
+class Matlab(FileFormat):
     """MATLAB's own files, version 5: the clock and each column a variable; it has no place for units."""
 
     time_name: str = "time"

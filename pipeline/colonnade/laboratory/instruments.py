@@ -64,26 +64,7 @@ class Transducer:
         return "length" if self.quantity == "displacement" else "acceleration"
 
     def sense(self, block: Block, table: TableMotion, time: Array, angle: Array) -> Array:
-        """
-        Physical value without any error.
-
-        Parameters
-        ----------
-        block : Block
-        table : TableMotion
-        time, angle : ndarray, shape (n,)
-            s; θ, rad.
-
-        Returns
-        -------
-        value : ndarray, shape (n,)
-            m or m/s², along `direction`.
-
-        Raises
-        ------
-        ValueError
-            If it is none of: displacement or acceleration of the table, displacement of a point of the specimen.
-        """
+        """Physical value along `direction` without any error, m or m/s², at times (s) with their angles."""
         if self.on == "table":
             motion = table.displacement(time) if self.quantity == "displacement" else table.acceleration(time)
             return motion * self.direction[0]
@@ -135,22 +116,8 @@ def measure(
     """
     Turn a physical value into volts as the recorder's converter sees them.
 
-    Parameters
-    ----------
-    value : ndarray, shape (n,)
-        m or m/s².
-    transducer : Transducer
-    imperfections : Imperfections
-    generator : numpy.random.Generator
-    spikes : tuple of int, optional
-        Samples at which a pulse of 2 to 5 V comes on top, towards the middle of the range.
-
-    Returns
-    -------
-    volts : ndarray, shape (n,)
-        On the converter's steps, within its range.
-    errors : dict
-        As truth.json gives them: `zero_volts` and `drift_volts` over the record, V; `spikes`, their samples.
+    At `spikes`, samples, a pulse of 2 to 5 V comes on top, towards the middle of the range. The errors are those of
+    truth.json: `zero_volts`, `drift_volts` over the record, and `spikes`.
     """
     zero = VOLTS * imperfections.zero * generator.uniform(-1.0, 1.0)
     drift = VOLTS * imperfections.drift * generator.choice([-1.0, 1.0])

@@ -11,7 +11,7 @@ sub-harmonic, and beyond the first overturning amplitude islands are survived: o
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import replace
 from math import sqrt
 from pathlib import Path
 from typing import NamedTuple
@@ -27,7 +27,7 @@ from colonnade.laboratory.files import COMMAS, GERMAN, TABS, FileFormat, Matlab,
 from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.table import ramped_sine, recorded
 from colonnade.readers.motion import EL_CENTRO, el_centro
-from colonnade.units import format_percent
+from colonnade.units.text import format_percent
 
 LENGTH_SCALE = 20
 """The specimens are 1:20 models, so that the time of an earthquake is divided by √20."""
@@ -171,96 +171,48 @@ def load_record(path: Path | None) -> tuple[str, Motion]:
     return path.stem, motion
 
 
-@dataclass(frozen=True)
-class Placed:
-    """
-    A specimen as tests name it.
-
-    Attributes
-    ----------
-    specimen : str
-        Its id.
-    block : Block
-    bench, table : str
-        Ids of its setups for free vibrations and for table tests.
-    prefix : str
-        What the ids of its tests begin with.
-    """
-
-    specimen: str
-    block: Block
-    bench: str
-    table: str
-    prefix: str = ""
-
-
-def free_vibrations(placed: Placed, generator: np.random.Generator) -> Iterator[Trial]:
-    """Plan three free vibrations; the generator draws exact angles and instants of release."""
+def free_vibrations(block: Block, generator: np.random.Generator) -> Iterator[Trial]:
+    """Plan three free vibrations on the bench; the generator draws exact angles and instants of release."""
     for number, ratio in enumerate(RELEASES, start=1):
         yield Trial(
-            f"{placed.prefix}free-{number:02d}",
+            f"free-{number:02d}",
             "free-vibration",
-            placed.bench,
+            "bench",
             duration=20.0,
-            theta0=(ratio + generator.uniform(-0.02, 0.02)) * placed.block.critical_angle,
+            theta0=(ratio + generator.uniform(-0.02, 0.02)) * block.critical_angle,
             release=QUIET + generator.uniform(-0.2, 0.2),
             entry={"notes": "held tilted, then released"},
-            specimen=placed.specimen,
         )
 
 
-def sine(placed: Placed, name: str, frequency: float, amplitude: float, *, cycles: int, ramp: int) -> Trial:
-    """
-    Plan a sine test.
-
-    Parameters
-    ----------
-    placed : Placed
-    name : str
-        Its id, without the prefix.
-    frequency, amplitude : float
-        Hz; A = a/(g tan α).
-    cycles, ramp : int
-        Of full amplitude, and of each ramp.
-    """
-    acceleration = amplitude * placed.block.uplift_acceleration
+def sine(block: Block, name: str, frequency: float, amplitude: float, *, cycles: int, ramp: int) -> Trial:
+    """Plan a sine test: frequency in Hz, amplitude A = a/(g tan α), cycles at full amplitude and of each ramp."""
+    acceleration = amplitude * block.uplift_acceleration
     table = ramped_sine(frequency, acceleration, start=QUIET, cycles=cycles, ramp=ramp)
     return Trial(
-        placed.prefix + name,
+        name,
         "sine",
-        placed.table,
+        "table",
         duration=table.stop + 4.0,
         table=table,
         entry={"frequency": f"{frequency:g} Hz"},
-        specimen=placed.specimen,
         steady=(QUIET + ramp / frequency, QUIET + (ramp + cycles) / frequency),
     )
 
 
-def earthquakes(placed: Placed, name: str, record: Motion) -> Iterator[Trial]:
-    """
-    Plan an earthquake at three Spans.
-
-    Parameters
-    ----------
-    placed : Placed
-    name : str
-        Of the record.
-    record : Motion
-        At full scale; its time is divided by √20, and its largest acceleration set to `PEAK_PER_SPAN` × Span.
-    """
+def earthquakes(name: str, record: Motion) -> Iterator[Trial]:
+    """Plan an earthquake at three Spans; its time is divided by √20, its peak set to `PEAK_PER_SPAN` × Span."""
     for span in SPANS:
         gain = PEAK_PER_SPAN * span / record.peak
         table = recorded(Motion(record.acceleration * gain, record.dt / sqrt(LENGTH_SCALE)), start=QUIET)
         yield Trial(
-            f"{placed.prefix}span-{span}",
+            f"span-{span}",
             "earthquake",
-            placed.table,
+            "table",
             duration=table.stop + 9.0,
             table=table,
             spikes=3,
             entry={"motion": name, "span": span, "time_scale": round(1 / sqrt(LENGTH_SCALE), 6)},
-            specimen=placed.specimen,
         )
 
 
@@ -278,15 +230,14 @@ def prism_programme(name: str, record: Motion, *, seed: int = 0) -> Plan:
         Of the exact releases.
     """
     prism = SPECIMENS["prism"]
-    placed = Placed("prism", prism.block, "bench", "table")
-    sines = (sine(placed, *each, cycles=round(4 * each[1]), ramp=RAMP) for each in SINES)
+    sines = (sine(prism.block, *each, cycles=round(4 * each[1]), ramp=RAMP) for each in SINES)
     generator = np.random.default_rng(seed)
     return Plan(
         campaign="virtual-prism",
         title="Rocking of a solid steel prism on a virtual shake table",
         specimens={"prism": prism},
         setups=setups(RIGS["prism"], table_range=0.050),
-        trials=(*free_vibrations(placed, generator), *sines, *earthquakes(placed, name, record)),
+        trials=(*free_vibrations(prism.block, generator), *sines, *earthquakes(name, record)),
     )
 
 
@@ -310,8 +261,9 @@ def paper_programme(name: str, record: Motion, *, seed: int = 0) -> Plan:
     trials: list[Trial] = []
     wired: dict[str, Setup] = {}
     for key, specimen in SPECIMENS.items():
-        placed = Placed(key, specimen.block, f"{key}-bench", f"{key}-table", "" if key == "prism" else f"{key}-")
-        trials += [*free_vibrations(placed, generator), *_climbed(placed), *earthquakes(placed, name, record)]
+        own = (*free_vibrations(specimen.block, generator), *_climbed(key), *earthquakes(name, record))
+        prefix = "" if key == "prism" else f"{key}-"
+        trials += (replace(each, name=prefix + each.name, setup=f"{key}-{each.setup}", specimen=key) for each in own)
         # At 1 Hz the table goes 61 mm.
         wired |= {f"{key}-{place}": setup for place, setup in setups(RIGS[key], table_range=0.100).items()}
     return Plan(
@@ -323,12 +275,12 @@ def paper_programme(name: str, record: Motion, *, seed: int = 0) -> Plan:
     )
 
 
-def _climbed(placed: Placed) -> Iterator[Trial]:
-    for frequency, amplitudes in LADDERS[placed.specimen].items():
+def _climbed(specimen: str) -> Iterator[Trial]:
+    for frequency, amplitudes in LADDERS[specimen].items():
         cycles, ramp = CYCLES.get(frequency, LASTING), RAMPS.get(frequency, RAMP)
         for amplitude in amplitudes:
             name = f"sine-{frequency:g}Hz-{amplitude:.3f}".removesuffix("0")
-            yield sine(placed, name, frequency, amplitude, cycles=cycles, ramp=ramp)
+            yield sine(SPECIMENS[specimen].block, name, frequency, amplitude, cycles=cycles, ramp=ramp)
 
 
 def setups(rig: Rig, *, table_range: float) -> dict[str, Setup]:
@@ -339,20 +291,15 @@ def setups(rig: Rig, *, table_range: float) -> dict[str, Setup]:
     """
     transducers, (alone, main, second) = frame(rig.radii, rig.ranges, rig.columns[:2]), rig.writers
     displacement, acceleration = table_displacement(table_range, rig.columns[2]), table_acceleration(rig.columns[3])
-    link = (displacement.channel, acceleration.channel)
+    own = Recorder((*transducers, displacement), 500.0, main)
+    later = Recorder((acceleration,), 400.0, second, late=LATE, align=(displacement.channel, acceleration.channel))
+    said = "Table tests: a second recorder for the accelerometer, at its own rate, started a little later."
     return {
         "bench": Setup(
             {MAIN: Recorder(transducers, 500.0, alone)},
             comment="Free vibrations: the specimen on the table at rest, one recorder.",
         ),
-        "table": Setup(
-            {
-                MAIN: Recorder((*transducers, displacement), 500.0, main),
-                "daq2": Recorder((acceleration,), 400.0, second, late=LATE, align=link),
-            },
-            catch=rig.catch,
-            comment="Table tests: a second recorder for the accelerometer, at its own rate, started a little later.",
-        ),
+        "table": Setup({MAIN: own, "daq2": later}, rig.catch, said),
     }
 
 
@@ -360,16 +307,9 @@ def frame(
     radii: tuple[float, float], ranges: tuple[float, float], columns: tuple[str, str] = ("LVDT 1", "LVDT 2")
 ) -> tuple[Transducer, ...]:
     """
-    Wire two displacement transducers, fixed to the frame on the table, to the specimen's side.
+    Wire two displacement transducers, fixed to the table's frame, to the specimen's side at `TOP` and `BOTTOM`.
 
-    Parameters
-    ----------
-    radii : pair of float
-        Half width of the specimen at `TOP` and `BOTTOM`, m.
-    ranges : pair of float
-        Physical value that gives 10 V, m.
-    columns : pair of str, optional
-        Names in the raw files.
+    `radii` are the half widths of the specimen there, `ranges` the physical values that give 10 V, m.
     """
     return tuple(
         Transducer(channel, column, "displacement", "specimen", full_scale, "mm", at=(radius, 0.0, height))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
+from functools import partial
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -104,59 +105,30 @@ def write(plan: Plan, folder: Path | str, *, seed: int = 0, workers: int | None 
 
 
 def run_tests(plan: Plan, folder: Path, seed: int, workers: int | None) -> dict[str, dict[str, Any]]:
-    """
-    Run all tests of a plan, each with a seed of its own, in so many processes (None: one a core).
-
-    Returns
-    -------
-    records : dict
-        By test, what `run_test` returns.
-    """
+    """Run all tests of a plan, each with a seed of its own, in so many processes; return records by test."""
     import joblib
+    from joblib.externals.loky import get_reusable_executor
 
     seeds = np.random.SeedSequence(seed).spawn(len(plan.trials))
     count = min(workers or joblib.cpu_count(), len(plan.trials))
-    jobs = [
-        joblib.delayed(run_test)(plan, trial, folder, own_seed)
-        for trial, own_seed in zip(plan.trials, seeds, strict=True)
-    ]
-    done = joblib.Parallel(n_jobs=count)(jobs)
+    # Processes that a run has left waiting are taken over; those of joblib.Parallel are of another kind.
+    over = map if count == 1 else get_reusable_executor(count).map
+    done = over(partial(run_test, plan), plan.trials, [folder] * len(seeds), seeds)
     return {trial.name: record for trial, record in zip(plan.trials, done, strict=True)}
 
 
 def run_test(plan: Plan, trial: Trial, folder: Path, seed: np.random.SeedSequence) -> dict[str, Any]:
-    """
-    Run one test: write its raw files and its true angle.
-
-    Parameters
-    ----------
-    plan : Plan
-    trial : Trial
-    folder : Path
-        The campaign's folder; raw files go to `raw/`, the true angle to `truth/<name>.csv`.
-    seed : numpy.random.SeedSequence
-        Of this test alone.
-
-    Returns
-    -------
-    record : dict
-        What is true of the test, for truth.json.
-
-    Raises
-    ------
-    StoreError
-        If a file cannot be written.
-    """
+    """Run one test: write its raw files and its true angle; return what is true of it, for truth.json."""
     generator = np.random.default_rng(seed)
     setup, specimen = plan.setups[trial.setup], plan.specimens[plan.specimen_of(trial)]
     starts = {
         name: recorder.late + (generator.uniform(-START_SCATTER, START_SCATTER) if recorder.late else 0.0)
         for name, recorder in setup.recorders.items()
     }
+    rates = {name: recorder.sampling_rate_hz for name, recorder in setup.recorders.items()}
     clocks = {
-        name: starts[name]
-        + np.arange(int((trial.duration - starts[name]) * recorder.sampling_rate_hz)) / recorder.sampling_rate_hz
-        for name, recorder in setup.recorders.items()
+        name: starts[name] + np.arange(int((trial.duration - starts[name]) * rate)) / rate
+        for name, rate in rates.items()
     }
     truth = simulate(
         specimen.block,
@@ -174,7 +146,12 @@ def run_test(plan: Plan, trial: Trial, folder: Path, seed: np.random.SeedSequenc
     return {
         "kind": trial.kind,
         "specimen": plan.specimen_of(trial),
-        **_facts(truth),
+        "outcome": truth.outcome,
+        "peak_ratio": truth.peak_ratio,
+        "peak_time": truth.peak_time,
+        "release_ratio": truth.release_ratio,
+        "overturning_time": truth.overturning_time if np.isfinite(truth.overturning_time) else None,
+        "impact_count": int(truth.impact_times.size),
         "pga": float(np.abs(trial.table.acceleration(clocks[MAIN])).max()),
         "theta0": trial.theta0,
         "release": trial.release,
@@ -226,43 +203,13 @@ def _draw_spikes(
     return drawn
 
 
-def _facts(truth: Truth) -> dict[str, Any]:
-    """Return outcome and figures, in JSON's terms."""
-    overturned = bool(np.isfinite(truth.overturning_time))
-    return {
-        "outcome": truth.outcome,
-        "peak_ratio": truth.peak_ratio,
-        "peak_time": truth.peak_time,
-        "release_ratio": truth.release_ratio,
-        "overturning_time": truth.overturning_time if overturned else None,
-        "impact_count": int(truth.impact_times.size),
-    }
-
-
 def write_truth(plan: Plan, records: Mapping[str, Mapping[str, Any]], folder: Path, seed: int) -> dict[str, Any]:
-    """
-    Write `truth/truth.json`: e and properties of each specimen, and what is true of each test.
-
-    Returns
-    -------
-    truth : dict
-        Its content.
-
-    Raises
-    ------
-    StoreError
-        If it cannot be written.
-    """
+    """Write truth/truth.json: e and properties of each specimen, what is true of each test; return it."""
     truth = {
         "seed": seed,
         "specimens": {
-            name: {
-                "restitution": specimen.restitution,
-                "critical_angle": specimen.block.critical_angle,
-                "pole_distance": specimen.block.pole_distance,
-                "inertia": specimen.block.inertia,
-                "p": specimen.block.p,
-            }
+            name: {"restitution": specimen.restitution}
+            | {key: getattr(specimen.block, key) for key in ("critical_angle", "pole_distance", "inertia", "p")}
             for name, specimen in plan.specimens.items()
         },
         "imperfections": asdict(plan.imperfections),
@@ -273,34 +220,16 @@ def write_truth(plan: Plan, records: Mapping[str, Mapping[str, Any]], folder: Pa
 
 
 def with_truth(truth: Mapping[str, Any], summary: Path) -> dict[str, Any]:
-    """
-    Put what a run found next to what is true.
-
-    Parameters
-    ----------
-    truth : mapping
-        Of a campaign of `write_campaign`: `specimens` and `tests` by id.
-    summary : Path
-        summary.json of its run.
-
-    Returns
-    -------
-    comparison : dict
-        `restitution` by specimen: the true one as `true`, and the fields of the summary; `tests` by id: outcome, peak
-        and release, each found and true, and what was predicted.
-    """
+    """Put what a run found next to what is true: e by specimen; outcome, peak, release by test."""
     read = json.loads(summary.read_text(encoding="utf-8"))
-    return {
-        "restitution": {
-            name: {"true": true["restitution"]} | read["specimens"][name]["restitution"]
-            for name, true in truth["specimens"].items()
-        },
-        "tests": {name: _test(true, read["tests"][name]) for name, true in truth["tests"].items()},
+    tests: dict[str, dict[str, Any]] = {}
+    for name, true in truth["tests"].items():
+        found = read["tests"][name]
+        tests[name] = {"predicted": found["predicted"]}
+        for key in ("outcome", "peak_ratio", "release_ratio"):
+            tests[name] |= {f"true_{key}": true[key], key: found[key]}
+    restitution = {
+        name: {"true": true["restitution"]} | read["specimens"][name]["restitution"]
+        for name, true in truth["specimens"].items()
     }
-
-
-def _test(true: Mapping[str, Any], found: Mapping[str, Any]) -> dict[str, Any]:
-    pairs: dict[str, Any] = {}
-    for name in ("outcome", "peak_ratio", "release_ratio"):
-        pairs |= {f"true_{name}": true[name], name: found[name]}
-    return pairs | {"predicted": found["predicted"]}
+    return {"restitution": restitution, "tests": tests}

@@ -10,10 +10,11 @@ import numpy as np
 import scipy
 
 from colonnade.arrays import Array
-from colonnade.campaign.syntax.document import toml_key, toml_value
+from colonnade.campaign.syntax.document import toml_key
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.spectra.pulses import mavroeidis_papageorgiou
+from colonnade.dynamics.pulses import mavroeidis_papageorgiou
+from colonnade.laboratory.campaign_file import entries
 from colonnade.laboratory.experiment import Plan, Specimen
 from colonnade.laboratory.files import put
 
@@ -56,19 +57,7 @@ _HEAD = """
 
 
 class SyntheticRecord(NamedTuple):
-    """
-    A synthetic ground motion and the earthquake that it is drawn for.
-
-    Attributes
-    ----------
-    name : str
-        Begins with "synthetic".
-    motion : Motion
-    magnitude, distance : float
-        Moment magnitude; m.
-    pulse_period : float or None
-        s, of the pulse that was added.
-    """
+    """A synthetic ground motion, moment magnitude and distance (m) of its earthquake, period of its pulse (s)."""
 
     name: str
     motion: Motion
@@ -145,25 +134,7 @@ def _record(number: int, seed: int) -> SyntheticRecord:
 
 
 def write_suite(folder: Path, records: list[SyntheticRecord]) -> Path:
-    """
-    Write the accelerations of a suite as CSV files, and their list.
-
-    Parameters
-    ----------
-    folder : Path
-        Made if it is not there.
-    records : list of SyntheticRecord
-
-    Returns
-    -------
-    path : Path
-        Of the list, `LIST`: file, unit, interval, record, magnitude, distance.
-
-    Raises
-    ------
-    StoreError
-        If a file cannot be written.
-    """
+    """Write the accelerations of a suite as CSV files, and their list (`LIST`), whose path is returned."""
     rows = ["file,unit,interval,record,magnitude,distance [km]"]
     for name, motion, magnitude, distance, _period in records:
         values = "\n".join(f"{value:.6e}" for value in motion.acceleration)
@@ -187,21 +158,7 @@ def annual_rate(velocity: float) -> float:
 
 
 def add_site(plan: Plan, campaign_file: Path, *, seed: int) -> None:
-    """
-    Add the real columns, the ground motions and the hazard to a campaign that was written.
-
-    Parameters
-    ----------
-    plan : Plan
-    campaign_file : Path
-    seed : int
-        Of the ground motions.
-
-    Raises
-    ------
-    StoreError
-        If a file cannot be written.
-    """
+    """Add the real columns, the ground motions (drawn by `seed`) and the hazard to a campaign that was written."""
     folder = campaign_file.parent
     write_suite(folder / FOLDER, synthetic_records(seed=seed))
     rows = [f"{level:.4g}, {annual_rate(level):.4g}" for level in LEVELS.tolist()]
@@ -209,9 +166,8 @@ def add_site(plan: Plan, campaign_file: Path, *, seed: int) -> None:
     lines = [_HEAD.rstrip()]
     for name, specimen in plan.specimens.items():
         asked = {"specimen": name, "records": f"{FOLDER}/{LIST}", "measure": "pgv", "hazard": HAZARD}
-        for table, entries in (("prototype", _column(specimen)), ("assessments", asked)):
-            lines += ["", f"[{table}.{toml_key(name)}]"]
-            lines += [f"{key} = {toml_value(value)}" for key, value in entries.items()]
+        for table, said in (("prototype", _column(specimen)), ("assessments", asked)):
+            lines += ["", f"[{table}.{toml_key(name)}]", *entries(said)]
     put(campaign_file, campaign_file.read_bytes() + "\n".join([*lines, ""]).encode())
 
 

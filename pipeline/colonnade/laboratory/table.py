@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
 from math import copysign, cos, pi, sin
 
@@ -19,39 +18,31 @@ PIECES_PER_CYCLE = 8
 
 
 @dataclass(frozen=True)
-class Piece:
-    """Acceleration (m/s²) as a smooth function of time between `start` and `stop`, s."""
-
-    start: float
-    stop: float
-    acceleration: Callable[[float], float]
-
-
-@dataclass(frozen=True)
 class TableMotion:
     """
-    What the table does along x; it is at rest before the first piece and after the last.
+    What the table does along x; it is at rest before the first edge and after the last.
 
     Attributes
     ----------
-    pieces : tuple of Piece
-        In order and without gaps; empty for a table that stands still.
+    edges : tuple of float
+        s, between which the acceleration is smooth; empty for a table that stands still.
+    acceleration_in : callable
+        Acceleration, m/s², at a time, s, by the formula of the piece with a number.
     displacement_of : callable
         Displacement, m, at an array of times, s.
     """
 
-    pieces: tuple[Piece, ...]
+    edges: tuple[float, ...]
+    acceleration_in: Callable[[float, int], float]
     displacement_of: Callable[[Array], Array]
 
     def acceleration(self, time: ArrayLike) -> Array:
         """Acceleration, m/s², at times of shape (n,), s: exactly what the specimen stands on."""
         instants = np.atleast_1d(np.asarray(time, dtype=np.float64))
-        starts = np.array([piece.start for piece in self.pieces])
-        index = np.searchsorted(starts, instants, side="right") - 1
+        pieces = np.minimum(np.searchsorted(self.edges, instants, side="right") - 1, len(self.edges) - 2)
         values = np.zeros(instants.size)
-        for position, (instant, number) in enumerate(zip(instants.tolist(), index.tolist(), strict=True)):
-            if number >= 0 and instant <= self.pieces[number].stop:
-                values[position] = self.pieces[number].acceleration(instant)
+        for moving in np.flatnonzero((pieces >= 0) & (instants <= self.stop)).tolist():
+            values[moving] = self.acceleration_in(float(instants[moving]), int(pieces[moving]))
         return values
 
     def displacement(self, time: ArrayLike) -> Array:
@@ -59,14 +50,24 @@ class TableMotion:
         return self.displacement_of(np.atleast_1d(np.asarray(time, dtype=np.float64)))
 
     @property
+    def pieces(self) -> Iterator[tuple[float, float, Callable[[float], float]]]:
+        """Start, stop (s) and acceleration at a time of each piece in order."""
+
+        def formula(number: int) -> Callable[[float], float]:
+            return lambda instant: self.acceleration_in(instant, number)
+
+        for number, (left, right) in enumerate(pairwise(self.edges)):
+            yield left, right, formula(number)
+
+    @property
     def stop(self) -> float:
         """Time when the table is at rest again, s."""
-        return self.pieces[-1].stop if self.pieces else 0.0
+        return self.edges[-1] if self.edges else 0.0
 
 
 def still() -> TableMotion:
     """Return the motion of a table that does not move."""
-    return TableMotion((), np.zeros_like)
+    return TableMotion((), lambda instant, piece: 0.0, np.zeros_like)
 
 
 def ramped_sine(frequency: float, acceleration: float, *, start: float, cycles: int, ramp: int) -> TableMotion:
@@ -109,7 +110,7 @@ def ramped_sine(frequency: float, acceleration: float, *, start: float, cycles: 
         grown = fraction**4 * (35 + fraction * (-84 + fraction * (70 - 20 * fraction)))
         return np.asarray(-acceleration / omega**2 * grown * np.sin(omega * (time - start)))
 
-    def acceleration_at(time: float) -> float:
+    def acceleration_in(time: float, piece: int) -> float:
         x = min(time - start, end - time) / ramp_duration
         phase = omega * (time - start)
         if x >= 1.0:
@@ -119,8 +120,7 @@ def ramped_sine(frequency: float, acceleration: float, *, start: float, cycles: 
         second = 420 * x**2 * (1 - x) ** 2 * (1 - 2 * x) / ramp_duration**2
         return acceleration * ((grown - second / omega**2) * sin(phase) - 2 * first / omega * cos(phase))
 
-    pieces = tuple(Piece(left, right, acceleration_at) for left, right in pairwise(edges.tolist()))
-    return TableMotion(pieces, shape)
+    return TableMotion(tuple(edges.tolist()), acceleration_in, shape)
 
 
 def recorded(motion: Motion, *, start: float) -> TableMotion:
@@ -142,18 +142,12 @@ def recorded(motion: Motion, *, start: float) -> TableMotion:
     acceleration = motion.acceleration - constant - slope * time
     velocity, displacement = _integrate(acceleration, dt)
 
-    def line(instant: float, *, origin: float, level: float, rate: float) -> float:
-        return level + rate * (instant - origin)
-
     rates = np.diff(acceleration) / dt
-    pieces = tuple(
-        Piece(
-            start + k * dt,
-            start + (k + 1) * dt,
-            partial(line, origin=start + k * dt, level=float(acceleration[k]), rate=float(rates[k])),
-        )
-        for k in range(rates.size)
-    )
+    edges = tuple(start + k * dt for k in range(rates.size + 1))
+    levels, slopes = acceleration.tolist(), rates.tolist()
+
+    def line(instant: float, piece: int) -> float:
+        return float(levels[piece] + slopes[piece] * (instant - edges[piece]))
 
     def shape(instants: Array) -> Array:
         k = np.clip(((instants - start) / dt).astype(np.int64), 0, rates.size - 1)
@@ -161,7 +155,7 @@ def recorded(motion: Motion, *, start: float) -> TableMotion:
         inside = displacement[k] + passed * (velocity[k] + passed * (acceleration[k] / 2 + passed * rates[k] / 6))
         return np.where((instants > start) & (instants < start + duration), inside, 0.0)
 
-    return TableMotion(pieces, shape)
+    return TableMotion(edges, line, shape)
 
 
 def _integrate(acceleration: Array, dt: float) -> tuple[Array, Array]:

@@ -21,8 +21,7 @@ from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
 from colonnade.arrays import Array
-from colonnade.dynamics.block import Block
-from colonnade.dynamics.side import Side
+from colonnade.dynamics.block import Block, Side
 from colonnade.laboratory.table import TableMotion, still
 
 Acceleration = Callable[[float], float]
@@ -84,30 +83,25 @@ class Truth:
     @property
     def peak_ratio(self) -> float | None:
         """Largest |θ|/α, of a free vibration after its first impact; None for a block that overturned."""
-        return None if self.outcome == "overturned" else float(self.amplitude[self._rocked].max())
+        return None if self._peak is None else float(self.amplitude[self._peak])
 
     @property
     def peak_time(self) -> float | None:
         """When that is, s."""
-        if self.outcome == "overturned":
-            return None
-        return float(self.time[self._rocked][np.argmax(self.amplitude[self._rocked])])
+        return None if self._peak is None else float(self.time[self._peak])
 
     @property
     def release_ratio(self) -> float | None:
         """|θ|/α from which a free vibration was released; None for other tests."""
-        return float(self.amplitude[0]) if self._is_released else None
+        return float(self.amplitude[0]) if self.angle[0] != 0.0 else None
 
     @property
-    def _is_released(self) -> bool:
-        return bool(self.angle[0] != 0.0)
-
-    @property
-    def _rocked(self) -> slice:
-        """Samples of a free vibration from its first impact on, of other tests all."""
-        if not (self._is_released and self.impact_times.size):
-            return slice(None)
-        return slice(int(np.searchsorted(self.time, self.impact_times[0])), None)
+    def _peak(self) -> int | None:
+        if self.outcome == "overturned":
+            return None
+        is_decay = self.release_ratio is not None and self.impact_times.size
+        first = int(np.searchsorted(self.time, self.impact_times[0])) if is_decay else 0
+        return first + int(np.argmax(self.amplitude[first:]))
 
 
 def simulate(
@@ -163,12 +157,11 @@ def simulate(
     return Truth(block, run.time, run.angles, impact_times, impact_velocities, overturning_time)
 
 
-def _pieces(table: TableMotion, start: float, stop: float) -> list[tuple[float, float, Callable[[float], float]]]:
+def _pieces(table: TableMotion, start: float, stop: float) -> list[tuple[float, float, Acceleration]]:
     """Pieces of the base motion from `start` to `stop`, rest included."""
-    first = table.pieces[0].start if table.pieces else stop
-    moving = ((piece.start, piece.stop, piece.acceleration) for piece in table.pieces)
-    pieces = [(start, first, _no_acceleration), *moving, (table.stop, stop, _no_acceleration)]
-    clipped = [(max(left, start), min(right, stop), function) for left, right, function in pieces]
+    first = table.edges[0] if table.edges else stop
+    pieces = [(start, first, _no_acceleration), *table.pieces, (table.stop, stop, _no_acceleration)]
+    clipped = ((max(left, start), min(right, stop), acceleration) for left, right, acceleration in pieces)
     return [piece for piece in clipped if piece[1] > piece[0]]
 
 

@@ -10,6 +10,7 @@ from itertools import islice
 from pathlib import Path
 
 from colonnade.errors import ReadError
+from colonnade.readers.files import unreachable
 from colonnade.readers.format import Recognition
 from colonnade.readers.text.encoding import encoding_of
 
@@ -82,9 +83,12 @@ class Head:
 
 
 def head_of(path: Path) -> Head:
-    """Read the beginning of a file; OSError where it cannot be opened."""
-    with path.open("rb") as stream:
-        return Head(path, stream.read(BYTES))
+    """Read the beginning of a file; ReadError where it cannot be opened."""
+    try:
+        with path.open("rb") as stream:
+            return Head(path, stream.read(BYTES))
+    except OSError as error:
+        raise ReadError(unreachable(path, error)) from error
 
 
 @dataclass(frozen=True)

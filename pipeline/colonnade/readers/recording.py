@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from datetime import datetime
+from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Annotated
 
@@ -13,6 +12,7 @@ from pydantic import AfterValidator
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError, nearest
+from colonnade.units.text import joined
 
 TIME_UNITS = {
     **dict.fromkeys(("s", "sec", "sec.", "secs", "second", "seconds", "sek", "sek.", "sekunde", "sekunden"), 1.0),
@@ -22,6 +22,9 @@ TIME_UNITS = {
     **dict.fromkeys(("h", "hr", "hour", "hours", "stunden"), 3600.0),
 }
 """Spellings of units of time, casefolded, in s."""
+DATENUM = (693_962.0, 767_011.0)
+"""Days of MATLAB's calendar from 1900 to 2100."""
+DAY = 86400.0
 
 
 def _time_unit(unit: str) -> str:
@@ -77,18 +80,34 @@ class RecordedChannel:
                 "one time for each value was expected"
             )
 
-    def in_seconds(self, unit: str | None = None) -> tuple[Array, str]:
+    def in_seconds(self, unit: str | None = None) -> tuple[Array, str, datetime | None]:
         """
-        Give its values as times, s, and say how they are understood.
+        Give its values as times.
 
-        In a unit that is given, else its own, else in seconds, as in one that is none of time; a clock has its times.
+        In a unit that is given, else its own or the one that its heading ends with (`t_ms`), else in seconds, as in one
+        that is none of time. Days of MATLAB's calendar are counted from the first; a clock has its times already.
+
+        Returns
+        -------
+        times : ndarray, shape (n,)
+            s.
+        how : str
+            How its values are understood.
+        start : datetime or None
+            When the times are zero, if the values are dates.
         """
         if self.is_clock and self.time is not None:
-            return self.time, "timestamps"
+            return self.time, "timestamps", None
+        known = self.values[np.isfinite(self.values)]
         unit = unit or self.unit
+        if unit is None and known.size and DATENUM[0] < known[0] <= known[-1] < min(DATENUM[1], known[0] + 30):
+            start = datetime(1, 1, 1) + timedelta(days=float(known[0]) - 367)
+            return (self.values - known[0]) * DAY, "days of MATLAB's calendar, from the first", start
+        _, line, ending = self.heading.rpartition("_")
+        unit = ending if unit is None and line and ending.casefold() in TIME_UNITS else unit
         factor = TIME_UNITS.get((unit or "s").casefold(), 1.0)
         how = f"in {unit}" if unit else "without a unit, taken as seconds"
-        return (self.values if factor == 1.0 else self.values * factor), how
+        return (self.values if factor == 1.0 else self.values * factor), how, None
 
 
 @dataclass(frozen=True)
@@ -130,8 +149,6 @@ class Recording:
         What was not as it should be: cells without a number, damaged lines; each with its line in the file.
     hint : str
         Said of a column that is missing, if the reader knows why it may be looked for.
-    left_out : tuple of (str, str)
-        Names of channels that are in the file and are not read, each with the reason.
     """
 
     path: Path
@@ -141,7 +158,6 @@ class Recording:
     notes: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
     hint: str = ""
-    left_out: tuple[tuple[str, str], ...] = ()
 
     def channel(self, column: str | int) -> RecordedChannel:
         """
@@ -157,48 +173,34 @@ class Recording:
         ReadError
             If no channel, or more than one, has this name; the message gives the nearest.
         """
+        there = len(self.channels)
+        hint = f" {self.hint}" if self.hint else ""
         if isinstance(column, int):
-            return self._numbered(column)
+            if 1 <= column <= there:
+                return self.channels[column - 1]
+            numbers = "1 column" if there == 1 else f"columns 1 to {there}"
+            raise ReadError(
+                f"{self.path.name}: column {column} is missing; it has {numbers}. Columns are counted from 1.{hint}"
+            )
         headings = [channel.heading for channel in self.channels]
         names = [channel.name for channel in self.channels]
-        for wanted, candidates in (
-            (column, headings),
-            (column, names),
-            (_plain(column), [_plain(heading) for heading in headings]),
-            (_plain(column), [_plain(name) for name in names]),
-        ):
-            found = [number for number, candidate in enumerate(candidates, 1) if candidate == wanted]
-            if len(found) == 1:
-                return self.channels[found[0] - 1]
-            if found:
-                raise ReadError(
-                    f'{self.path.name}: {len(found)} columns are called "{column}": {_listed(found)}. Give '
-                    "the number of the right one instead of its name."
-                )
-        for name, reason in self.left_out:
-            if _plain(name) == _plain(column):
-                raise ReadError(
-                    f'{self.path.name}: channel "{name}" is not read: {reason}. Export the file with its values '
-                    "converted, or as text."
-                )
+        for spelled in (str, _plain):
+            for candidates in (headings, names):
+                found = [number for number, each in enumerate(candidates, 1) if spelled(each) == spelled(column)]
+                if len(found) == 1:
+                    return self.channels[found[0] - 1]
+                if found:
+                    listed = joined([str(number) for number in found])
+                    raise ReadError(
+                        f'{self.path.name}: {len(found)} columns are called "{column}": columns {listed}. Give the '
+                        "number of the right one instead of its name."
+                    )
         raise ReadError(
-            f'{self.path.name}: no column is called "{column}"; it has {len(names)} column{"s" * (len(names) > 1)}.'
-            f"{nearest(column, names)}"
-            f"{self._hinted()}"
+            f'{self.path.name}: no column is called "{column}"; it has {there} column{"s" * (there > 1)}.'
+            f"{nearest(column, names)}{hint}"
         )
 
-    def _numbered(self, number: int) -> RecordedChannel:
-        if not 1 <= number <= len(self.channels):
-            raise ReadError(
-                f"{self.path.name}: column {number} is missing; it has {_numbers(len(self.channels))}. "
-                f"Columns are counted from 1.{self._hinted()}"
-            )
-        return self.channels[number - 1]
-
-    def _hinted(self) -> str:
-        return f" {self.hint}" if self.hint else ""
-
-    def clock(self, column: str | int, unit: str | None = None) -> tuple[RecordedChannel, Array, str]:
+    def clock(self, column: str | int, unit: str | None = None) -> tuple[int, Array, str]:
         """
         Find the channel that is given as a clock.
 
@@ -211,7 +213,8 @@ class Recording:
 
         Returns
         -------
-        clock : RecordedChannel
+        number : int
+            Of the channel, from 0.
         times : ndarray, shape (n,)
             s.
         how : str
@@ -223,13 +226,13 @@ class Recording:
             If it is missing or holds no number.
         """
         clock = self.channel(column)
-        times, how = clock.in_seconds(unit)
+        times, how, _ = clock.in_seconds(unit)
         if not np.isfinite(times).any():
             raise ReadError(
                 f'{self.path.name}: column "{clock.heading}" holds no number, so it cannot be the clock. '
                 "Name a column of times, or leave `time` out and give `sampling_rate`."
             )
-        return clock, times, how
+        return next(number for number, each in enumerate(self.channels) if each is clock), times, how
 
     def on_clock(self, column: str | int, time_column: str | int) -> RecordedChannel:
         """
@@ -243,22 +246,18 @@ class Recording:
         Raises
         ------
         ReadError
-            If either is missing, or the time column holds no number.
+            If either is missing, the time column holds no number, or they are not equally long.
         """
-        _, times, _ = self.clock(time_column)
-        return replace(self.channel(column), time=times)
+        channel = self.channel(column)
+        number, times, _ = self.clock(time_column)
+        if times.size != channel.values.size:
+            raise ReadError(
+                f'{self.path.name}: "{channel.heading}" has {channel.values.size} values, its clock '
+                f'"{self.channels[number].heading}" has {times.size}: one time for each value was expected.'
+            )
+        return replace(channel, time=times)
 
 
 def _plain(name: str) -> str:
     """Name without what people type differently: case and spaces."""
     return "".join(name.casefold().split())
-
-
-def _numbers(columns: int) -> str:
-    return "1 column" if columns == 1 else f"columns 1 to {columns}"
-
-
-def _listed(numbers: Sequence[int]) -> str:
-    """Numbers in a sentence: `columns 3, 7 and 8`."""
-    *first, last = (str(number) for number in numbers)
-    return f"columns {', '.join(first)} and {last}" if first else f"column {last}"

@@ -15,7 +15,7 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from colonnade.errors import ReadError, nearest, quoted
 from colonnade.readers.bounded.messages import Arrays, recording_of, told
 from colonnade.readers.bounded.process import Taken, run_bounded
-from colonnade.readers.files import in_one_line, irregular, refusing, unreachable
+from colonnade.readers.files import in_one_line, irregular, refusing
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import Head, from_head, head_of
 from colonnade.readers.recording import Recording, Window
@@ -81,10 +81,10 @@ def read(
     chosen, evidence = (_named(format), ()) if format is not None else _recognised(path)
     checked = check_options(chosen, options or {}, where=path.name)
     if chosen.in_process:
-        recording = _guarded(chosen, path, checked, window)
+        recording = _read(chosen, path, checked, window)
     else:
-        folder = path.resolve().parent if within is None else within.resolve()
-        others = _companions(chosen, path, checked, folder) if chosen.companions is not None else ()
+        folder = _folder(path, within)
+        others = _companions(chosen, path, checked, folder)
         for other in others:
             if not (to := other.resolve()).is_relative_to(folder):
                 raise ReadError(
@@ -118,23 +118,20 @@ def companions(
     """
     if irregular(path):
         return ()
-    several = [each for each in formats().values() if each.companions is not None]
-    if format is not None:
-        chosen = next((each for each in several if each.name == format), None)
-    else:
-        head = _head(path)
-        chosen = next((each for each in several if _recognition(each, head).yes), None)
+    several = {each.name: each for each in formats().values() if each.companions is not None}
+    chosen = several.get(format or "")
+    if format is None:
+        head = head_of(path)
+        chosen = next((each for each in several.values() if _recognition(each, head).yes), None)
     if chosen is None:
         return ()
-    folder = path.resolve().parent if within is None else within.resolve()
-    return _companions(chosen, path, check_options(chosen, options or {}, where=path.name), folder)
+    return _companions(chosen, path, check_options(chosen, options or {}, where=path.name), _folder(path, within))
 
 
 def companions_here(path: Path, format: str, options: Mapping[str, Any]) -> tuple[list[str], Arrays]:
     """Names of the other files that a raw file is in, found in this process for another one."""
     chosen = _named(format)
-    with refusing(path, f'"{format}"'):
-        return [] if chosen.companions is None else [*chosen.companions(path, chosen.options(**options))], []
+    return [] if chosen.companions is None else [*chosen.companions(path, chosen.options(**options))], []
 
 
 def read_here(
@@ -142,7 +139,7 @@ def read_here(
 ) -> tuple[dict[str, Any], Arrays]:
     """Read a raw file in this process for another one, whatever its format; see `read`."""
     chosen = _named(format)
-    return told(_guarded(chosen, path, chosen.options(**options), None if window is None else Window(**window)))
+    return told(_read(chosen, path, chosen.options(**options), None if window is None else Window(**window)))
 
 
 def check_options(format: Format, options: Mapping[str, Any], where: str) -> BaseModel:
@@ -160,19 +157,22 @@ def check_options(format: Format, options: Mapping[str, Any], where: str) -> Bas
         problems = []
         for problem in error.errors():
             key = ".".join(str(part) for part in problem["loc"])
-            if problem["type"] == "extra_forbidden":
-                hint = nearest(key, format.options.model_fields)
-                problems.append(f'{where}: format "{format.name}" has no option "{key}".{hint}')
-            else:
-                message = problem["msg"].removeprefix("Value error, ")
-                problems.append(
-                    f'{where}: option "{key}" of format "{format.name}" is {quoted(str(problem["input"]))}: {message}.'
-                )
+            what = f'has no option "{key}".{nearest(key, format.options.model_fields)}'
+            if problem["type"] != "extra_forbidden":
+                said = problem["msg"].removeprefix("Value error, ")
+                what = f'cannot use {quoted(str(problem["input"]))} as its option "{key}": {said}.'
+            problems.append(f'{where}: format "{format.name}" {what}')
         raise ReadError("\n".join(problems)) from error
+
+
+def _folder(path: Path, within: Path | None) -> Path:
+    return path.resolve().parent if within is None else within.resolve()
 
 
 def _companions(format: Format, path: Path, options: BaseModel, within: Path) -> tuple[Path, ...]:
     """Find the other files that a raw file is in; all are in its folder, whatever it says."""
+    if format.companions is None:
+        return ()
 
     def found(names: Any, arrays: Arrays) -> tuple[Path, ...]:
         names = TypeAdapter(list[str]).validate_python(names)
@@ -199,20 +199,20 @@ def _bounded(
     return run_bounded(where, path, given, take, kind=format.name, within=within, modules=format.modules, others=others)
 
 
-def _guarded(format: Format, path: Path, options: BaseModel, window: Window | None) -> Recording:
+def _read(format: Format, path: Path, options: BaseModel, window: Window | None) -> Recording:
     with refusing(path, f'"{format.name}"'):
         if window is not None and format.read_window is not None and path.stat().st_size > LONG_FILE:
             recording = format.read_window(path, options, window)
         else:
             recording = format.read(path, options)
-    if not any(channel.values.size for channel in recording.channels):
-        left_out = (note for note in recording.notes if "left out" in note)
-        known = "; ".join([*recording.warnings, *left_out][:5])
-        raise ReadError(
-            f'{path.name}: read as "{format.name}", no channel holds numbers{f" ({known})" if known else ""}. The file '
-            "is damaged, was cut off or is of another format, or nothing was recorded. Copy it from the recorder again."
-        )
-    return recording
+    if any(channel.values.size for channel in recording.channels):
+        return recording
+    left_out = (note for note in recording.notes if "left out" in note)
+    known = "; ".join([*recording.warnings, *left_out][:5])
+    raise ReadError(
+        f'{path.name}: read as "{format.name}", no channel holds numbers{f" ({known})" if known else ""}. The file is '
+        "damaged, was cut off or is of another format, or nothing was recorded. Copy it from the recorder again."
+    )
 
 
 def _named(name: str) -> Format:
@@ -224,7 +224,7 @@ def _named(name: str) -> Format:
 def _recognised(path: Path) -> tuple[Format, tuple[str]]:
     """Find the format of a file, with the reason."""
     refusals = []
-    head = _head(path)
+    head = head_of(path)
     if not head.content:
         raise ReadError(
             f"{path.name}: the file is empty (0 bytes): nothing was recorded, or a copy was interrupted. Put the "
@@ -245,22 +245,11 @@ def _recognised(path: Path) -> tuple[Format, tuple[str]]:
     )
 
 
-def _head(path: Path) -> Head:
-    try:
-        return head_of(path)
-    except OSError as error:
-        raise ReadError(unreachable(path, error)) from error
-
-
 def _recognition(format: Format, head: Head) -> Recognition:
     """Ask a format about a file; one that stumbles over it does not take it."""
     try:
         if isinstance(format.recognise, from_head):
             return format.recognise.looks(head)
         return format.recognise(head.path)
-    except MemoryError:
-        raise
     except Exception as error:
-        if isinstance(error, OSError) and error.errno is not None:
-            raise ReadError(unreachable(head.path, error)) from error
         return Recognition(False, f"it could not be examined ({in_one_line(error)})")

@@ -9,21 +9,19 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
+from typing import NamedTuple
 
 from colonnade.errors import ReadError, nearest, quoted
 from colonnade.readers.files import irregular, unreachable
-from colonnade.readers.text.encoding import detect_encoding, looks_binary, open_text
+from colonnade.readers.text.encoding import Text, looks_binary
 
 LARGEST_BYTES = 10_000_000
 MOST_ROWS = 10_000
 MOST_COLUMNS = 1000
 WORKBOOKS = (".xlsx", ".xlsm", ".xlsb", ".xls", ".ods")
 
-_HEAD = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*")
 
-
-@dataclass(frozen=True)
-class Head:
+class Head(NamedTuple):
     """Head of a column, `interval [ms]`: its name, and its unit or None."""
 
     name: str
@@ -126,7 +124,7 @@ def read_table(path: Path, what: str) -> SmallTable:
 
             delimiter, rows = "", list(enumerate(cells_of_first_sheet(path), 1))
         else:
-            with open_text(path, detect_encoding(path).name) as stream:
+            with Text.of(path).open() as stream:
                 text = stream.read(LARGEST_BYTES).removeprefix("\ufeff")
             if said := looks_binary(text.splitlines()):
                 raise ReadError(f"{path.name}: it is no text ({said}). {what.capitalize()} as CSV was expected.")
@@ -137,8 +135,8 @@ def read_table(path: Path, what: str) -> SmallTable:
         raise ReadError(unreachable(path, error)) from None
     except ValueError as error:
         raise ReadError(f"{path.name}: {error}.") from None
-    rows = [(number, [cell.strip() for cell in cells]) for number, cells in rows]
-    rows = [(number, cells) for number, cells in rows if any(cells) and not cells[0].startswith("#")]
+    stripped = ((number, [cell.strip() for cell in cells]) for number, cells in rows)
+    rows = [(number, cells) for number, cells in stripped if any(cells) and not cells[0].startswith("#")]
     if not rows:
         said = f" ({faults[0][1]})" if faults else ""
         expected = f"{what.capitalize()} with a row of column heads was expected."
@@ -162,7 +160,6 @@ def read_table(path: Path, what: str) -> SmallTable:
 def _rows(text: str, delimiter: str, faults: list[tuple[int, str]]) -> Iterator[tuple[int, list[str]]]:
     """Give the rows of CSV by number; those that are none go into the faults."""
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True)
-    number = 0
     while True:
         number = reader.line_num + 1
         try:
@@ -174,8 +171,5 @@ def _rows(text: str, delimiter: str, faults: list[tuple[int, str]]) -> Iterator[
 
 
 def _head(cell: str) -> Head:
-    found = _HEAD.fullmatch(cell)
-    if found is None:
-        return Head(cell.strip(), None)
-    unit = found["unit"]
-    return Head(found["name"].strip(), None if unit is None else unit.strip())
+    name, bracket, unit = cell.partition("[")
+    return Head(name.strip(), unit.strip().removesuffix("]").strip() if bracket else None)

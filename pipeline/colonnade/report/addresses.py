@@ -53,13 +53,18 @@ def of_setup(specimen: str, setup: str) -> str:
     return f"setups/{specimen}+{setup}.svg"
 
 
-def addresses(campaign: Campaign, optional: Iterable[str]) -> tuple[list[str], list[str]]:
+def of_campaign(optional: Iterable[str]) -> list[str]:
     """
-    Addresses of what shows one test, specimen or setup each, and of what shows the campaign; with their data.
+    Addresses of what shows the whole campaign, with scripts and data, the overview last.
 
     `optional` are the pages of `OPTIONAL` that this campaign has.
     """
+    whole = [*optional, *WHOLE.values()]
+    return [*LIBRARY, OWN, *map(of_data, whole), *whole]
+
+
+def addresses(campaign: Campaign, optional: Iterable[str]) -> list[str]:
+    """Addresses of everything that shows a campaign."""
     single = [*map(of_test, campaign.tests), *map(of_specimen, campaign.specimens)]
     setups = [of_setup(*pair) for pair in campaign.combinations]
-    whole = [*optional, *WHOLE.values()]
-    return [*single, *map(of_data, single), *setups], [*LIBRARY, OWN, *map(of_data, whole), *whole]
+    return [*single, *map(of_data, single), *setups, *of_campaign(optional)]

@@ -10,9 +10,10 @@ from math import isfinite, nan
 from typing import Any
 
 from colonnade import __version__
-from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.models import MODELS
 from colonnade.store.records.stored import Stored
-from colonnade.units import format_percent, text
+from colonnade.units import text
+from colonnade.units.text import format_percent
 
 LIBRARIES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "pandas", "matplotlib")
 """Libraries whose versions are shown."""

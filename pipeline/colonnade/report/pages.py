@@ -12,13 +12,15 @@ from markupsafe import Markup
 from colonnade import __version__
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import Setting
-from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.models import MODELS
 from colonnade.errors import count
 from colonnade.figures.files.output import Picture, link_to
 from colonnade.report import who_and_when
 from colonnade.report.addresses import of_specimen, of_test, scripts_of
 from colonnade.store.records import wording
-from colonnade.units import format_percent, text
+from colonnade.store.results import models_shown
+from colonnade.units import text
+from colonnade.units.text import format_percent
 
 KINDS = {
     "free-vibration": "Free vibrations",
@@ -136,7 +138,7 @@ def renderer_of(campaign: Campaign) -> Renderer:
     return Renderer(
         campaign=campaign,
         who_and_when=who_and_when.of_campaign(campaign),
-        models=campaign.processing.predict.models,
+        models=models_shown(campaign),
         registry=MODELS,
         gravity=text.quantity(campaign.gravity, "m/s²", 5),
         version=__version__,

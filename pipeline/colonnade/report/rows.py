@@ -11,6 +11,7 @@ from colonnade.findings import Severity
 from colonnade.identification.response.rank import is_within
 from colonnade.store.records import wording
 from colonnade.store.records.stored import Failure, Stored
+from colonnade.store.results import models_shown
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ class TestRow:
     def known(cls, campaign: Campaign, test: Test, record: TestSummary, failures: tuple[Failure, ...]) -> TestRow:
         """Make the row of a test whose failures are known."""
         review = campaign.review(test.id)
-        models = campaign.processing.predict.models
+        models = models_shown(campaign)
         return cls(test, record, models, failures, bool(review.sentences), review.excluded)
 
     @property

@@ -13,7 +13,7 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.forms.summary import Warned
 from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block, pair
-from colonnade.dynamics.similitude import at_prototype
+from colonnade.dynamics.size import at_prototype
 from colonnade.figures.files.output import Picture
 from colonnade.figures.stored.restitution import STAGE
 from colonnade.findings import in_order
@@ -24,8 +24,7 @@ from colonnade.report.pictures.subjects import Decaying, OfSpecimen, OfTest
 from colonnade.report.test_page import restitution
 from colonnade.report.test_page.restitution import EstimateText
 from colonnade.store.records.stored import Failure, Stored
-from colonnade.units import PERCENT
-from colonnade.units.text import NOTHING, interval, number, quantity
+from colonnade.units.text import NOTHING, interval, number, percent, quantity
 
 BOUNDS = ("restitution_low", "restitution_high", "level")
 
@@ -181,7 +180,7 @@ def _contact(pooled: Stored) -> list[tuple[str, str]]:
         ("step", quantity(value("contact_step"), "µs")),
         (
             "largest gap in the energy balance",
-            f"{number(100 * value('energy_residual'), 2)}{PERCENT} of the largest energy",
+            f"{percent(value('energy_residual'))} of the largest energy",
         ),
     ]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -43,9 +44,7 @@ SIGNIFICANCE = 4.0
 LEAST_CHANGE = 5e-4
 """s; a delay that changes less than this over the motion is left as it is."""
 
-ITERATIONS = 6
-
-_HELD = 0.5
+HELD = 0.5
 """Correlation of a stretch below which its delay is not used."""
 
 
@@ -181,39 +180,29 @@ def find_offset(reference: Array, values: Array, interval: float, *, longest: fl
     reach = min(int(np.ceil(longest / interval)), first.size - 2)
     if not power > 0 or reach < 1:
         return Offset(0.0, float("inf"), 0.0)
-    correlation = scipy.signal.correlate(second, first, mode="full", method="fft") / power
-    middle = first.size - 1
-    window = correlation[middle - reach : middle + reach + 1]
-    best = int(np.argmax(window))
-    shift = float(best - reach)
-    if 0 < best < window.size - 1:
-        before, peak, after = window[best - 1 : best + 2]
+    everywhere = scipy.signal.correlate(second, first, mode="full", method="fft") / power
+    correlation = everywhere[first.size - 1 - reach : first.size + reach]
+    best, furthest = int(np.argmax(correlation)), int(np.argmax(everywhere)) - first.size + 1
+    at_border = best in (0, 2 * reach)
+    shift, agreement = float(best - reach), max(float(correlation[best]), 0.0)
+    if not at_border:
+        before, peak, after = correlation[best - 1 : best + 2]
         shift += 0.5 * (before - after) / (before - 2 * peak + after)
-    agreement = float(window[best])
-    slope = np.gradient(first, interval)
     independent = max(2 * bandwidth_hz * interval * first.size, 1.0)
-    residual = float(np.sqrt(max(1 / max(agreement, 1e-3) ** 2 - 1, 0.0)) * first.std())
-    error = residual / max(float(np.sqrt((slope**2).mean())), 1e-300) / np.sqrt(independent)
-    rival = _rival(first, second, window, best, independent)
-    beyond = _beyond(correlation, best in (0, window.size - 1), agreement, middle, reach, independent)
+    residual = np.sqrt(max(1 / max(agreement, 1e-3) ** 2 - 1, 0.0)) * first.std()
+    slope = max(float(np.sqrt((np.gradient(first, interval) ** 2).mean())), 1e-300)
+    # Beyond what was looked for, a better one counts if the best one is at the border or fits far worse.
+    reached = float(everywhere.max())
+    is_beyond = abs(furthest) > reach and reached >= WEAKEST_CORRELATION
+    is_beyond &= at_border or _evidence(1 - agreement**2, 1 - reached**2, independent) > RIVAL_EVIDENCE
+    rival = _rival(first, second, correlation, best, independent)
     return Offset(
         shift * interval,
-        float(error),
-        max(agreement, 0.0),
+        float(residual / slope / np.sqrt(independent)),
+        agreement,
         None if rival is None else rival * interval,
-        None if beyond is None else beyond * interval,
+        furthest * interval if is_beyond else None,
     )
-
-
-def _beyond(
-    correlation: Array, at_border: bool, agreement: float, middle: int, reach: int, independent: float
-) -> int | None:
-    """Shift, in samples, beyond those looked for, with which the records agree better."""
-    best = int(np.argmax(correlation))
-    if abs(best - middle) <= reach or correlation[best] < WEAKEST_CORRELATION:
-        return None
-    near, far = (1 - max(each, 0.0) ** 2 for each in (agreement, float(correlation[best])))
-    return best - middle if at_border or _evidence(near, far, independent) > RIVAL_EVIDENCE else None
 
 
 def _evidence(misfit: float, other: float, independent: float) -> float:
@@ -225,8 +214,7 @@ def _rival(first: Array, second: Array, correlation: Array, best: int, independe
     """Shift, in samples, of a further peak of the correlation that fits the overlap as well as the best one."""
     reach = correlation.size // 2
     misfit = _misfit(first, second, best - reach)
-    inner = correlation[1:-1]
-    peaks = 1 + np.flatnonzero((inner > correlation[:-2]) & (inner >= correlation[2:]) & (inner > 0))
+    peaks = scipy.signal.find_peaks(correlation, height=0.0)[0]
     for peak in sorted(peaks[peaks != best], key=lambda index: -float(correlation[index])):
         if _evidence(_misfit(first, second, int(peak) - reach), misfit, independent) < RIVAL_EVIDENCE:
             return int(peak) - reach
@@ -336,22 +324,12 @@ def find_rate(time: Array, reference: Array, values: Array, *, delay: float, ban
     if len(found) < FEWEST_STRETCHES:
         return None
     middles, delays, errors = np.array(sorted(found)).T
-    weights = 1 / errors**2
-    middle = float(np.average(middles, weights=weights))
-    across = middles - middle
-    leverage = float(weights @ across**2)
-    mean = float(np.average(delays, weights=weights))
-    slope = float(weights @ (across * delays)) / leverage
-    misfit = float(weights @ (delays - mean - slope * across) ** 2) / (middles.size - 2)
-    widened = float(np.sqrt(max(misfit, 1.0)))
-    return ClockRate(
-        slope,
-        widened / float(np.sqrt(leverage)),
-        mean,
-        widened / float(np.sqrt(weights.sum())),
-        middle,
-        slope * float(np.ptp(middles)),
-    )
+    middle = float(np.average(middles, weights=errors**-2))
+    line, covariance = np.polyfit(middles - middle, delays, 1, w=1 / errors, cov="unscaled")
+    misfit = ((delays - np.polyval(line, middles - middle)) / errors) ** 2
+    deviations = np.sqrt(np.diag(covariance) * max(float(misfit.sum()) / (middles.size - 2), 1.0))
+    (slope, mean), (slope_error, mean_error) = line.tolist(), deviations.tolist()
+    return ClockRate(slope, slope_error, mean, mean_error, middle, slope * float(np.ptp(middles)))
 
 
 def _stretches(time: Array, reference: Array, bandwidth_hz: float) -> list[tuple[int, int]]:
@@ -371,31 +349,24 @@ def _local_delay(
     time: Array, reference: Array, values: scipy.interpolate.CubicSpline, delay: float, bandwidth_hz: float
 ) -> tuple[float, float, float] | None:
     """Middle, delay and standard error of a stretch; None if it does not agree or leaves the record."""
+
+    def moved(time: Array, gain: float, shift: float) -> Array:
+        late = values(time + shift)
+        return np.asarray(gain * (late - late.mean()))
+
     centred = reference - reference.mean()
-    low, high = float(values.x[0]), float(values.x[-1])
-    shift = delay
-    for _ in range(ITERATIONS):
-        moved = time + shift
-        if moved[0] < low or moved[-1] > high:
-            return None
-        model, slope = values(moved), values(moved, 1)
-        model, slope = model - model.mean(), slope - slope.mean()
-        power = float(model @ model)
-        if not power > 0:
-            return None
-        gain = float(model @ centred) / power
-        columns = np.column_stack([model, gain * slope])
-        normal = columns.T @ columns
-        if not np.linalg.cond(normal) < 1e14:
-            return None
-        step = np.linalg.solve(normal, columns.T @ (centred - gain * model))
-        shift += float(step[1])
-    residual = centred - gain * model
-    agreement = 1 - float(residual @ residual) / max(float(centred @ centred), 1e-300)
-    if gain <= 0 or agreement < _HELD**2:
+    try:
+        with warnings.catch_warnings(action="ignore", category=scipy.optimize.OptimizeWarning):
+            (gain, shift), covariance = scipy.optimize.curve_fit(
+                moved, time, centred, p0=(1.0, delay), ftol=1e-13, xtol=1e-13
+            )
+    except RuntimeError:  # it does not converge
         return None
+    residual = centred - moved(time, gain, shift)
+    agreement = 1 - float(residual @ residual) / max(float(centred @ centred), 1e-300)
     independent = max(2 * bandwidth_hz * float(time[-1] - time[0]), 3.0)
-    variance = float(residual @ residual) / (independent - 2) / time.size * independent
-    covariance = variance * np.linalg.inv(normal) * time.size / independent
-    error = max(float(np.sqrt(covariance[1, 1])), 1e-9)
-    return float(time.mean()), shift, error
+    error = float(np.sqrt(covariance[1, 1] * (time.size - 2) / (independent - 2)))
+    is_inside = values.x[0] <= time[0] + shift and time[-1] + shift <= values.x[-1]
+    if not is_inside or gain <= 0 or agreement < HELD**2 or not np.isfinite(error):
+        return None
+    return float(time.mean()), float(shift), max(error, 1e-9)

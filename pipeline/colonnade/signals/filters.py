@@ -64,27 +64,15 @@ def lowpass(values: Array, interval: float, cutoff_hz: float, order: int = 4) ->
     ValueError
         If the cut-off is not between zero and half the sampling rate.
     """
-    sections, padding = lowpass_sections(values.shape[-1], interval, cutoff_hz, order)
-    return np.asarray(scipy.signal.sosfiltfilt(sections, values, padlen=padding), dtype=np.float64)
-
-
-def lowpass_sections(count: int, interval: float, cutoff_hz: float, order: int = 4) -> tuple[Array, int]:
-    """
-    Give the second-order sections of `lowpass`, shape (k, 6), and how many samples the odd extension of `count` has.
-
-    Raises
-    ------
-    ValueError
-        As `lowpass`.
-    """
     nyquist = 0.5 / interval
     if not 0 < cutoff_hz < nyquist:
         raise ValueError(
             f"the cut-off is {cutoff_hz:g} Hz; it was expected between 0 and {nyquist:g} Hz, half the sampling rate"
         )
-    sections = np.asarray(scipy.signal.butter(order, cutoff_hz, fs=1 / interval, output="sos"))
+    sections = scipy.signal.butter(order, cutoff_hz, fs=1 / interval, output="sos")
     # The odd extension has to outlast the filter's own memory; a short record has no more than itself to give.
-    return sections, min(int(3 * order / (cutoff_hz * interval)), count - 1)
+    padding = min(int(3 * order / (cutoff_hz * interval)), values.shape[-1] - 1)
+    return np.asarray(scipy.signal.sosfiltfilt(sections, values, padlen=padding), dtype=np.float64)
 
 
 def second_derivative(values: Array, interval: float, cutoff_hz: float) -> Array:

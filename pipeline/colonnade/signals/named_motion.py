@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
+from numpy.lib.stride_tricks import sliding_window_view
 
 from colonnade.arrays import Array
 from colonnade.findings import Finding, warning
@@ -168,21 +168,18 @@ def check_motion(
         )
         return [warning("polarity", text, follows=("sign",))]
     begun = f'the table did not move as "{name}" at time scale {scale:.4g} (correlation {found.correlation:.2f}'
-    enough = max(AGREES, abs(found.correlation) + BETTER)
-    other_scale = best_scale(record, named)
-    again = match(record, named.stretched(other_scale)).correlation
-    if abs(again) >= enough:
-        turned = " and the other polarity" if again < 0 else ""
-        text = f"{begun}), but with time scale {other_scale:.4g}{turned} ({again:.2f}): check time_scale"
-        return [warning("time scale", text)]
-    for other, series in others.items():
-        likely = [value for value in (scale, best_scale(record, series)) if value > 0]
-        fit = max((match(record, series.stretched(value)).correlation for value in likely), key=abs)
-        if abs(fit) >= enough:
-            text = (
-                f'{begun}): it moved as "{other}" ({fit:.2f}): another component was read, or the wrong motion is named'
-            )
-            return [warning("another motion", text)]
+    for other, series in {name: named, **others}.items():
+        likely = [each for each in (scale, best_scale(record, series)) if each > 0]
+        fits = {match(record, series.stretched(each)).correlation: each for each in likely}
+        fit = max(fits, key=abs)
+        if abs(fit) < max(AGREES, abs(found.correlation) + BETTER):
+            continue
+        if other == name:
+            turned = " and the other polarity" if fit < 0 else ""
+            text = f"{begun}), but with time scale {fits[fit]:.4g}{turned} ({fit:.2f}): check time_scale"
+            return [warning("time scale", text)]
+        text = f'{begun}): it moved as "{other}" ({fit:.2f}): another component was read, or the wrong motion is named'
+        return [warning("another motion", text)]
     text = f"{begun}; {AGREES:g} is needed): it is another motion, or the table did not follow"
     return [warning("another motion", text, follows=("dead channel", "table motion"))]
 
@@ -262,34 +259,24 @@ def _differences(record: Series, name: str, motion: Series, found: Match, scale:
         for part, share in lost.items()
         if share > LEAST_ENERGY
     ]
-    given = other[inside]
-    recorded = one[inside.start + begin : inside.stop + begin]
-    size = max(int(STRETCH * scale / interval), 4)
-    starts = np.arange(0, given.size - size + 1, size // 2)
-    gain = _usual_gain(recorded, given, starts, size)
-    off, due = (
-        np.array([np.sqrt(np.mean(values[start : start + size] ** 2)) for start in starts])
-        for values in (recorded - gain * given, gain * given)
+    size = min(max(int(STRETCH * scale / interval), 4), inside.stop - inside.start)
+    due, recorded = (
+        sliding_window_view(values, size)[:: size // 2]
+        for values in (other[inside], one[inside.start + begin : inside.stop + begin])
     )
-    odd = off > np.maximum(STANDS_OUT * np.quantile(off, QUIET), LEAST_DIFFERENCE * np.abs(gain * given).max())
-    odd &= off > OTHERWISE * due
-    if odd.any():
-        low, high = ((starts[np.flatnonzero(odd)[end]] + inside.start) * interval / scale for end in (0, -1))
-        told.append(
-            warning(
-                "cut motion",
-                f'the table did not move as "{name}" from {low:.3g} to {high + STRETCH:.3g} s of its own time: a part '
-                "is missing or differs",
-            )
-        )
-    return told
-
-
-def _usual_gain(recorded: Array, given: Array, starts: NDArray[np.intp], size: int) -> float:
-    """Recorded over given: the median of the stretches by their energy, so that a missing one does not matter."""
-    stretches = [slice(start, start + size) for start in starts]
-    energy = np.array([given[each] @ given[each] for each in stretches])
-    gains = np.array([recorded[each] @ given[each] for each in stretches]) / np.maximum(energy, 1e-300)
+    # The gain is the median of the stretches by their energy, so that a missing one does not matter.
+    strength = (due**2).sum(axis=1)
+    gains = (recorded * due).sum(axis=1) / np.maximum(strength, 1e-300)
     order = np.argsort(gains)
-    half = np.searchsorted(np.cumsum(energy[order]), 0.5 * energy.sum())
-    return float(gains[order][half])
+    gain = gains[order][np.searchsorted(np.cumsum(strength[order]), 0.5 * strength.sum())]
+    off, usual = np.sqrt(((recorded - gain * due) ** 2).mean(axis=1)), abs(gain) * np.sqrt(strength / size)
+    least = np.maximum(STANDS_OUT * np.quantile(off, QUIET), LEAST_DIFFERENCE * np.abs(gain * other[inside]).max())
+    odd = np.flatnonzero((off > least) & (off > OTHERWISE * usual))
+    if odd.size:
+        low, high = ((odd[end] * (size // 2) + inside.start) * interval / scale for end in (0, -1))
+        text = (
+            f'the table did not move as "{name}" from {low:.3g} to {high + STRETCH:.3g} s of its own time: a part '
+            "is missing or differs"
+        )
+        told.append(warning("cut motion", text))
+    return told

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Codes, Mask
+from colonnade.errors import count
 from colonnade.findings import Finding, Severity
-from colonnade.signals.stretches import filled_in, stretches
+from colonnade.signals.samples import BLOCK, blocks, filled_in, is_finite, stretches
 
 ENOUGH = 100_000
 """Number of samples that is enough for a median."""
@@ -19,12 +20,8 @@ ENOUGH = 100_000
 NEIGHBOURHOOD = 201
 """Samples whose roughness a spike is compared with."""
 
-BLOCK = 1 << 15
-"""Samples processed together, so that they stay in the processor's cache."""
-
-FEW = 0.02
-"""Share of doubtful samples up to which their neighbourhoods are examined one by one."""
-
+FEWEST = 15
+"""Samples of a record, in less spikes are not looked for."""
 
 FEW_SPIKES = 0.001
 """Share of the samples up to which spikes are only noted."""
@@ -137,12 +134,13 @@ def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
     limit = full_scale * (1 - 5e-4)
     if values.size == 0 or (values.max() < limit and values.min() > -limit):  # neither holds where a value is missing
         return Verdict.good(values.size)
-    where = np.abs(values) >= limit
+    size = np.abs(values)
+    where = size >= limit
     if not where.any():
         return Verdict.good(values.size)
-    if (np.abs(values) > BEYOND * full_scale).mean() > FEW_BEYOND:
+    if (size > BEYOND * full_scale).mean() > FEW_BEYOND:
         reason = (
-            f"{counted(where)} beyond the range of ±{full_scale:g}, up to {float(np.nanmax(np.abs(values))):.4g}: the "
+            f"{counted(where)} beyond the range of ±{full_scale:g}, up to {float(np.nanmax(size)):.4g}: the "
             "values are in another unit, of another column, or the range is wrong"
         )
         return Verdict(Flag.SUSPECT, where, reason, "unit", Severity.SERIOUS)
@@ -154,14 +152,13 @@ def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
 
 def check_flat(time: Array, values: Array, *, duration: float) -> Verdict:
     """Flag stretches on which the value stays exactly the same for longer than `duration` (s)."""
+    where = np.zeros(values.size, dtype=bool)
     # Runs of steps without a change, each from the sample before its first step to that after its last.
     starts, stops = stretches(values[1:] == values[:-1])
-    long = time[stops] - time[starts] > duration
-    if not long.any():
+    for run in np.flatnonzero(time[stops] - time[starts] > duration):
+        where[starts[run] : stops[run] + 1] = True
+    if not where.any():
         return Verdict.good(values.size)
-    where = np.zeros(values.size, dtype=bool)
-    for start, stop in zip(starts[long], stops[long], strict=True):
-        where[start : stop + 1] = True
     if where.all():
         reason = f"the channel is dead: every sample is {values[0]:g}"
         return Verdict(Flag.SUSPECT, where, reason, "dead channel", Severity.SERIOUS)
@@ -187,9 +184,10 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
     after it, and these samples agree. At an impact, where a record may have a cusp, a sample lies on one of the lines;
     a step lies on one as well, and passes.
     """
-    filled = _filled(values)
-    if filled is None:
+    known = np.isfinite(values)
+    if known.sum() < FEWEST:
         return Verdict.good(values.size)
+    filled = filled_in(values)
     every = max(1, (values.size - 2) // ENOUGH)
     usual = 1.4826 * float(np.median(_bend(filled[:-2:every], filled[1:-1:every], filled[2::every])))
     # A coarse converter gives mostly zeros: its step is then the least that can be told.
@@ -197,28 +195,18 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
     # A spike bends the line through the two samples before it by more than this; few others do.
     doubtful = _bent(filled, threshold * typical) + 2
     doubtful = doubtful[(doubtful >= 3) & (doubtful < values.size - 4)]
-    if doubtful.size == 0:
-        return Verdict.good(values.size)
     least = threshold * np.maximum(_roughness(filled, doubtful - 1), typical)
     single = doubtful[_standing_out(filled, doubtful, least, 1)]
     # Lines carried over two samples are less certain.
     double = doubtful[_standing_out(filled, doubtful, 1.5 * least, 2)]
     where = np.zeros(values.size, dtype=bool)
     where[np.concatenate((single, double, double + 1))] = True
-    if filled is not values:
-        where &= np.isfinite(values)
+    where &= known
     if not where.any():
         return Verdict.good(values.size)
     # They are bridged: a few do not touch the result.
     severity = Severity.NOTE if where.mean() <= FEW_SPIKES else Severity.WARNING
     return Verdict(Flag.FAIL, where, f"spikes on {counted(where)}{first_at(time, where)}", "spikes", severity)
-
-
-def _filled(values: Array) -> Array | None:
-    """Values with lines over the missing ones; None if there are too few of them."""
-    if values.size >= 15 and is_finite(values):
-        return values
-    return filled_in(values) if np.isfinite(values).sum() >= 15 else None
 
 
 def _bend(before: Array, sample: Array, behind: Array) -> Array:
@@ -230,22 +218,17 @@ def _smallest_step(values: Array, enough: float) -> float:
     """Smallest change between neighbours, or any that is not larger than `enough`; 0 if it has none."""
     smallest = np.inf
     for part in blocks(values.size - 1):
-        steps = np.abs(values[part.start + 1 : part.stop + 1] - values[part])
+        steps = np.abs(np.diff(values[part.start : part.stop + 1]))
         smallest = min(smallest, float(steps[steps > 0].min(initial=np.inf)))
         if smallest <= enough:
-            return smallest
+            break
     return smallest if np.isfinite(smallest) else 0.0
 
 
 def _bent(values: Array, limit: float) -> NDArray[np.intp]:
     """Places of second differences larger than a limit."""
-    found = []
-    for part in blocks(values.size - 2):
-        steps = np.diff(values[part.start : part.stop + 2])
-        bend = np.abs(np.subtract(steps[1:], steps[:-1]))
-        if not bend.max() <= limit:
-            found.append(np.flatnonzero(bend > limit) + part.start)
-    return np.concatenate([np.empty(0, dtype=np.intp), *found])
+    parts = ((part.start, np.diff(values[part.start : part.stop + 2], 2)) for part in blocks(values.size - 2))
+    return np.concatenate([np.flatnonzero(np.abs(bend) > limit) + start for start, bend in parts])
 
 
 def _roughness(values: Array, places: NDArray[np.intp]) -> Array:
@@ -253,15 +236,10 @@ def _roughness(values: Array, places: NDArray[np.intp]) -> Array:
     # The upper tenth, not the median: a motion recorded at few samples a period is rough now and then all along.
     bends = values.size - 2
     size = min(NEIGHBOURHOOD, bends)
-    if places.size > FEW * bends:
-        from scipy.ndimage import percentile_filter
-
-        bend = _bend(values[:-2], values[1:-1], values[2:])
-        return np.asarray(percentile_filter(bend, 90, size=size, mode="nearest")[places]) / 1.645
-    half, rank = size // 2, int(0.9 * size)
+    rank, shifts = int(0.9 * size), np.arange(size) - size // 2
     roughness = np.empty(places.size)
     for part in blocks(places.size, BLOCK // size):
-        around = np.clip(places[part, None] + np.arange(-half, size - half), 0, bends - 1)
+        around = np.clip(places[part, None] + shifts, 0, bends - 1)
         bend = _bend(values[around], values[around + 1], values[around + 2])
         roughness[part] = np.partition(bend, rank, axis=1)[:, rank] / 1.645
     return roughness
@@ -269,17 +247,13 @@ def _roughness(values: Array, places: NDArray[np.intp]) -> Array:
 
 def _standing_out(values: Array, places: NDArray[np.intp], least: Array, width: int) -> Mask:
     """Which places begin a run of `width` that stands out from the lines on both sides by more than `least`."""
-
-    def after(shift: int) -> Array:
-        return values[places + shift]
-
-    before, behind = after(-1), after(width)
+    earlier, before, behind, later = (values[places + shift] for shift in (-2, -1, width, width + 1))
     kept = np.ones(places.size, dtype=bool)
     height = np.full(places.size, np.inf)
     for place in range(width):
-        sample = after(place)
-        from_left = sample - (before + (place + 1) * (before - after(-2)))
-        from_right = sample - (behind + (width - place) * (behind - after(width + 1)))
+        sample = values[places + place]
+        from_left = sample - (before + (place + 1) * (before - earlier))
+        from_right = sample - (behind + (width - place) * (behind - later))
         kept &= (from_left * from_right > 0) & (np.minimum(np.abs(from_left), np.abs(from_right)) > least)
         height = np.minimum(height, np.abs(sample - 0.5 * (before + behind)))
     return kept & (np.abs(behind - before) < 0.5 * height)
@@ -324,21 +298,19 @@ def check_rails(time: Array, values: Array) -> Verdict:
     if np.isfinite(values).sum() < 4 * FIRST:
         return Verdict.good(values.size)
     filled = filled_in(values)
-    noise = 1.4826 * float(np.median(np.abs(np.diff(filled, 2)))) / np.sqrt(6.0)
     steps = np.abs(np.diff(filled))
+    noise = 1.4826 * float(np.median(np.abs(np.diff(filled, 2)))) / np.sqrt(6.0)
     noise = max(noise, 0.3 * float(steps[steps > 0].min(initial=np.inf)) if steps.any() else 0.0)
-    resting = (float(filled[:FIRST].mean()), float(filled[-FIRST:].mean()))
-    for sign in (1.0, -1.0):
-        signed = sign * filled
+    resting = np.array([filled[:FIRST].mean(), filled[-FIRST:].mean()])
+    for signed, rest in ((filled, resting.max()), (-filled, -resting.min())):
         top = float(signed.max())
-        if not top - max(sign * rest for rest in resting) > AWAY * float(np.ptp(filled)):
+        if not top - rest > AWAY * float(np.ptp(filled)):
             continue
         for start, stop in zip(*stretches(signed > top - BAND * noise), strict=True):
             half = (stop - start) // 2
             if stop - start < FEWEST_AT_RAIL or start < half or stop + half > signed.size:
                 continue
-            left, right = top - signed[start - half], top - signed[stop + half - 1]
-            if min(left, right) > STEEP * BAND * noise:
+            if top - max(signed[start - half], signed[stop + half - 1]) > STEEP * BAND * noise:
                 where[start:stop] = True
     if not where.any():
         return Verdict.good(values.size)
@@ -350,28 +322,9 @@ def check_rails(time: Array, values: Array) -> Verdict:
     return Verdict(Flag.SUSPECT, where, reason, "end of the range")
 
 
-def is_finite(values: Array) -> bool:
-    """Whether all values are finite; their sum shows it at once, except for very large ones."""
-    with np.errstate(all="ignore"):
-        return bool(np.isfinite(values.sum())) or bool(np.isfinite(values).all())
-
-
-def blocks(size: int, length: int = BLOCK) -> Iterator[slice]:
-    """
-    Go through an array piece by piece.
-
-    Examples
-    --------
-    >>> list(blocks(5, 3))
-    [slice(0, 3, None), slice(3, 5, None)]
-    """
-    return (slice(start, min(start + length, size)) for start in range(0, size, length))
-
-
 def counted(where: Mask) -> str:
     """Say how many samples."""
-    count = int(where.sum())
-    return f"{count} sample{'s' if count > 1 else ''}"
+    return count(int(where.sum()), "sample")
 
 
 def first_at(time: Array, where: Mask) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,8 +12,8 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Mask
 from colonnade.errors import count
-from colonnade.signals.quality import Flag, Verdict, blocks, counted, first_at
-from colonnade.signals.stretches import stretches
+from colonnade.signals.quality import Flag, Verdict, counted, first_at
+from colonnade.signals.samples import blocks, stretches
 
 ROUNDING = 0.75
 """Of the last digit; times that lie closer to an even clock than this were rounded (or cut off) from it."""
@@ -47,7 +48,7 @@ class Clock:
     resolution : float
         Last digit that the stamps were rounded to, s, where `time` is the even clock behind them; otherwise 0.
     is_exact : bool
-        Whether no stamp is further than `EXACT` from an even clock; its order, steps and gaps are then known.
+        Whether no stamp is further than `EXACT` from an even clock: no check of its order, steps and gaps flags one.
     """
 
     time: Array
@@ -94,17 +95,14 @@ def read_clock(stamps: Array) -> Clock:
 
 def check_order(stamps: Array, clock: Clock) -> Verdict:
     """Flag samples whose stamp does not fit in with the others."""
-    if clock.is_exact:
-        return Verdict.good(stamps.size)
     where = np.isfinite(stamps) & ~np.isfinite(clock.time)
     if not where.any():
         return Verdict.good(stamps.size)
-    back = np.flatnonzero(np.diff(stamps) <= 0) + 1
-    first = (
-        f"the first is sample {int(np.argmax(where)) + 1}"
-        if back.size == 0
-        else f"the clock goes from {stamps[back[0] - 1]:.6g} to {stamps[back[0]]:.6g} s at sample {back[0] + 1:,}"
-    )
+    first = f"the first is sample {int(np.argmax(where)) + 1}"
+    back = np.flatnonzero(np.diff(stamps) <= 0)
+    if back.size:
+        at, then = stamps[back[0] : back[0] + 2]
+        first = f"the clock goes from {at:.6g} to {then:.6g} s at sample {back[0] + 2:,}"
     return Verdict(Flag.FAIL, where, f"{counted(where)} whose time is out of order; {first}", "time column")
 
 
@@ -119,8 +117,6 @@ def loses_motion(values: Array, where: Mask) -> bool:
 
 def check_gaps(clock: Clock, *, factor: float) -> Verdict:
     """Flag the samples on either side of a step of the clock longer than `factor` intervals, lost stamps apart."""
-    if clock.is_exact and factor > 1 + 4 * EXACT:
-        return Verdict.good(clock.time.size)
     kept, steps, counts = _steps(clock)
     longer = steps - (counts - 1)
     after = np.flatnonzero(longer > factor)
@@ -128,17 +124,13 @@ def check_gaps(clock: Clock, *, factor: float) -> Verdict:
         return Verdict.good(clock.time.size)
     where = np.zeros(clock.time.size, dtype=bool)
     where[kept[after]] = where[kept[after + 1]] = True
-    lost = int(np.rint(longer[after] - 1).sum())
-    gaps = f"{count(after.size, 'gap')} in time"
-    return Verdict(
-        Flag.SUSPECT, where, f"{gaps}, about {count(lost, 'sample')} lost{first_at(clock.time, where)}", "lost samples"
-    )
+    lost = count(int(np.rint(longer[after] - 1).sum()), "sample")
+    reason = f"{count(after.size, 'gap')} in time, about {lost} lost{first_at(clock.time, where)}"
+    return Verdict(Flag.SUSPECT, where, reason, "lost samples")
 
 
 def check_jitter(clock: Clock, *, share: float, factor: float) -> Verdict:
     """Flag samples whose step differs from the interval by more than `share` of it, gaps (`factor`) apart."""
-    if clock.is_exact and share > 4 * EXACT:
-        return Verdict.good(clock.time.size)
     kept, steps, counts = _steps(clock)
     # Where a stamp is lost, its sample may be lost with it or not.
     off = np.minimum(np.abs(steps - 1), np.abs(steps - counts))
@@ -154,13 +146,9 @@ def check_jitter(clock: Clock, *, share: float, factor: float) -> Verdict:
 
 def _is_exact(stamps: Array) -> bool:
     """Whether all stamps lie on the line through the first and the last, within `EXACT` of its step."""
-    if stamps.size < 3:
-        return False
-    first, interval = float(stamps[0]), float(stamps[-1] - stamps[0]) / (stamps.size - 1)
-    if not 0 < interval < np.inf:
-        return False
-    return all(
-        np.abs(stamps[part] - first - interval * np.arange(part.start, part.stop)).max() <= EXACT * interval
+    interval = float(stamps[-1] - stamps[0]) / (stamps.size - 1) if stamps.size > 2 else 0.0
+    return 0 < interval < np.inf and all(
+        np.abs(stamps[part] - stamps[0] - interval * np.arange(part.start, part.stop)).max() <= EXACT * interval
         for part in blocks(stamps.size)
     )
 
@@ -182,7 +170,7 @@ def _in_order(stamps: Array, *, repeats: bool) -> NDArray[np.intp]:
     finite = np.flatnonzero(np.isfinite(stamps))
     steps = np.diff(stamps[finite])
     if (steps < 0).any() or not (repeats or (steps > 0).all()):
-        finite = finite[_longest_increasing(stamps[finite].tolist(), repeats=repeats)]
+        finite = finite[_longest_increasing(stamps[finite].tolist(), bisect_right if repeats else bisect_left)]
     # A wild stamp at an end is in order all the same, but further off than all others reach.
     if finite.size > 8:
         first, second, last_but_one, last = stamps[finite[[0, 1, -2, -1]]]
@@ -191,9 +179,8 @@ def _in_order(stamps: Array, *, repeats: bool) -> NDArray[np.intp]:
     return finite
 
 
-def _longest_increasing(values: list[float], *, repeats: bool) -> NDArray[np.intp]:
+def _longest_increasing(values: list[float], place: Callable[[list[float], float], int]) -> list[int]:
     """Indices of the longest subsequence in order, by patience sorting."""
-    place = bisect_right if repeats else bisect_left
     tops: list[float] = []
     on_top: list[int] = []
     before: list[int] = []
@@ -202,12 +189,10 @@ def _longest_increasing(values: list[float], *, repeats: bool) -> NDArray[np.int
         before.append(on_top[pile - 1] if pile else -1)
         tops[pile : pile + 1] = [value]
         on_top[pile : pile + 1] = [index]
-    chain = []
-    index = on_top[-1]
-    while index >= 0:
-        chain.append(index)
-        index = before[index]
-    return np.array(chain[::-1], dtype=np.intp)
+    chain = on_top[-1:]
+    while before[chain[-1]] >= 0:
+        chain.append(before[chain[-1]])
+    return chain[::-1]
 
 
 def _resolution(times: Array) -> float:
@@ -223,10 +208,9 @@ def _resolution(times: Array) -> float:
 
 def _even(numbers: NDArray[np.intp], times: Array, resolution: float) -> tuple[Array, float]:
     """Line of one slope through times over sample numbers, with a step at each gap; and the slope, s."""
-    interval = 0.0
-    for lag in (min(LAG, numbers.size - 1), numbers.size // 2):
-        if interval <= 0:
-            interval = float(np.median((times[lag:] - times[:-lag]) / (numbers[lag:] - numbers[:-lag])))
+    lags = (min(LAG, numbers.size - 1), numbers.size // 2)
+    intervals = (float(np.median((times[lag:] - times[:-lag]) / (numbers[lag:] - numbers[:-lag]))) for lag in lags)
+    interval = next((each for each in intervals if each > 0), 0.0)
     gaps = np.diff(times) > (np.diff(numbers) + 0.5) * interval + resolution
     stretch = np.concatenate(([0], np.cumsum(gaps)))
     sizes = np.bincount(stretch)
@@ -287,8 +271,7 @@ def resample(time: Array, values: Array, onto: Array, interval: float) -> tuple[
     """
     if time.size == onto.size and np.abs(time - onto).max() <= 1e-6 * interval:
         return values, np.zeros(onto.size, dtype=bool)
-    steps = np.diff(time)
-    gaps = np.flatnonzero(steps > 1.5 * interval)
+    gaps = np.flatnonzero(np.diff(time) > 1.5 * interval)
     knots, heights = time, values
     if gaps.size:
         # Points on the chord keep the spline from swinging out over a gap.
@@ -296,12 +279,10 @@ def resample(time: Array, values: Array, onto: Array, interval: float) -> tuple[
         knots = np.sort(np.concatenate([time, *filling]))
         heights = np.interp(knots, time, values)
     inside = np.clip(onto, time[0], time[-1])
-    resampled = (
-        scipy.interpolate.CubicSpline(knots, heights)(inside) if knots.size > 3 else np.interp(inside, knots, heights)
-    )
-    after = np.clip(np.searchsorted(time, onto, side="right"), 1, max(time.size - 1, 1))
-    within = time[after] - time[after - 1] > (LONGEST_BRIDGE + 0.5) * interval if time.size > 1 else np.ones(onto.size)
-    slack = 1e-6 * interval
-    outside = (onto < time[0] - slack) | (onto > time[-1] + slack)
-    on_sample = np.minimum(np.abs(onto - time[after - 1]), np.abs(onto - time[after])) <= slack
-    return np.asarray(resampled, dtype=np.float64), outside | (np.asarray(within, dtype=bool) & ~on_sample)
+    spline = scipy.interpolate.CubicSpline(knots, heights) if knots.size > 3 else None
+    resampled = np.interp(inside, knots, heights) if spline is None else spline(inside)
+    between = np.concatenate(([-np.inf], time, [np.inf]))
+    after = np.searchsorted(between, onto)
+    before, behind = onto - between[after - 1], between[after] - onto
+    is_far = before + behind > (LONGEST_BRIDGE + 0.5) * interval
+    return np.asarray(resampled, dtype=np.float64), is_far & (np.minimum(before, behind) > 1e-6 * interval)

@@ -14,7 +14,7 @@ from colonnade.assessment.intervals import Resampling
 from colonnade.assessment.measures import measure_of
 from colonnade.assessment.prototype import UNCERTAIN
 from colonnade.assessment.study import Study, counted_draws, judge
-from colonnade.dynamics.spectra.response import response_spectrum
+from colonnade.dynamics.spectra import response_spectrum
 from colonnade.errors import StageError
 from colonnade.findings import warning
 from colonnade.stages.assessing.answer import answer

@@ -13,9 +13,8 @@ from colonnade.dynamics.history import amplitude
 from colonnade.findings import MEASUREMENT, Finding, serious
 from colonnade.signals.metrics import nrmse
 from colonnade.stages.parts.inputs import Inputs
-from colonnade.stages.parts.peak import find_peak
 from colonnade.stages.parts.rank import horizons_and_ranks
-from colonnade.stages.parts.sine import Sine, sine
+from colonnade.stages.parts.sine import Sine, find_peak, sine
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -68,16 +67,19 @@ def compare(
     compared : xr.Dataset
         On the dimension `model`: `nrmse`, RMS(predicted − measured)/α until either first passes α, `compared_until`
         (s), `predicted_peak_ratio`, `peak_ratio_error` and `predicted_outcome`. NaN if nothing was measured. The
-        measured angle counts over the time that is predicted, about the true zero (`zero_offset`): its
-        `measured_peak_ratio` and `measured_peak_time` (s); of a free vibration the largest before that is the
-        `release_ratio`. Of a sine test also what `sine` adds; with ensembles what `horizons_and_ranks` adds.
+        measured angle counts over the time that is predicted, about its true zero and with its true gain
+        (`zero_offset`, `angle_gain`): its `measured_peak_ratio` and `measured_peak_time` (s); of a free vibration the
+        largest before that is the `release_ratio`. Of a sine test also what `sine` adds; with ensembles what
+        `horizons_and_ranks` adds.
     """
     import xarray as xr
 
     models = sorted(predicted)
-    offset = float(predicted[models[0]]["zero_offset"]) if models else 0.0
+    zero = {"zero_offset": 0.0, "angle_gain": 1.0}
+    zero = {name: float(predicted[models[0]][name]) for name in zero} if models else zero
     if "rocking_angle" in rocking:
-        rocking = rocking.assign(rocking_angle=rocking["rocking_angle"] - offset)
+        true = (rocking["rocking_angle"] - zero["zero_offset"]) / zero["angle_gain"]
+        rocking = rocking.assign(rocking_angle=true)
     peak = find_peak(rocking, predicted, inputs.block, free_vibration=inputs.free_vibration)
     rows = [_row(rocking, predicted[model], inputs.block) for model in models]
     ratios = np.array([float(predicted[model]["peak_ratio"]) for model in models])
@@ -100,7 +102,7 @@ def compare(
             "measured_peak_ratio": ((), peak.ratio),
             "measured_peak_time": ((), peak.time),
             "release_ratio": ((), peak.release),
-            "zero_offset": ((), offset),
+            **{name: ((), value) for name, value in zero.items()},
         }
         | steady.variables
         | horizons_and_ranks(rocking, ensembles or {}, models, inputs.block),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
@@ -176,6 +177,13 @@ def law_of(calibrated: xr.Dataset) -> ContactLaw:
     )
 
 
+def assembly_law(settings: ContactSettings) -> ContactLaw:
+    """Return the law of contact of several bodies: that of the settings, which no free vibration calibrates."""
+    law = ContactLaw(friction=settings.friction, penetration=settings.penetration)
+    given = settings.damping_fraction
+    return law if given == "auto" else replace(law, damping_fraction=float(given))
+
+
 def body_of(inputs: ContactInputs, law: ContactLaw) -> ContactBody:
     """
     Build the body of the contact model, with the modes that the step follows with a law.
@@ -196,7 +204,7 @@ def _whole_body(inputs: ContactInputs) -> ContactBody:
     """Build the body with all its modes; meshing takes its time, so the last few are kept."""
     settings, sizes = inputs.settings, dict(inputs.sizes)
     if settings.mesh == "rigid":
-        from colonnade.dynamics.contact.nodes import rigid_body
+        from colonnade.dynamics.contact.body import rigid_body
 
         return rigid_body(inputs.block)
     if not sizes:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.settings import ContactEnsembleSettings
-from colonnade.dynamics.ensembles.contact import INPUTS, ContactPlan, Range, gather, run_member
-from colonnade.dynamics.models.contact import CONTACT
+from colonnade.dynamics.contact.ensemble import AssemblyPlan, ContactPlan, Range
+from colonnade.dynamics.contact.simulate import plane_block
+from colonnade.dynamics.models import CONTACT
 from colonnade.errors import StageError
-from colonnade.stages.contact import ContactInputs, body_of, law_of
+from colonnade.stages.contact import ContactInputs, assembly_law, body_of, law_of
 from colonnade.stages.parts.beginning import begin
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.rank import MeasurementInputs, describe_bands, measurement_errors, rank_measured
@@ -52,8 +54,8 @@ class ContactEnsembleInputs(Inputs):
 def contact_ensemble(
     conditioned: xr.Dataset,
     rocking: xr.Dataset,
-    contact: xr.Dataset,
     inputs: ContactEnsembleInputs,
+    contact: xr.Dataset | None = None,
     identified: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """
@@ -63,16 +65,20 @@ def contact_ensemble(
     ----------
     conditioned : xr.Dataset
         Result of `condition`: cut-offs of the channels on the specimen.
-    rocking, contact : xr.Dataset
+    rocking : xr.Dataset
         As of `predict`.
     inputs : ContactEnsembleInputs
+    contact : xr.Dataset, optional
+        As of `predict`; several bodies have none.
     identified : xr.Dataset, optional
         As of `predict`.
 
     Returns
     -------
     bands : xr.Dataset
-        As of `ensemble`. By `input` it has the standard deviation of values that are equally likely in their range.
+        As of `ensemble`. By `input` it has the standard deviation of values that are equally likely in their range; of
+        an assembly by `body` the `body_overturning_probability` and, of the members in which it stands, the quantiles
+        of how far it moved for good, `body_moved_band` (m).
 
     Raises
     ------
@@ -80,31 +86,50 @@ def contact_ensemble(
         As `predict`.
     """
     beginning = begin(rocking, inputs.prediction, identified)
-    space, ranges, law = inputs.space, inputs.settings, law_of(contact)
-    plan = ContactPlan(
-        body_of(space, law),
-        law,
-        friction=_about(law.friction, ranges.friction * law.friction),
-        damping_fraction=_about(law.damping_fraction, ranges.damping_fraction * law.damping_fraction),
-        out_of_plane=_about(space.settings.out_of_plane, abs(ranges.out_of_plane)),
-        motion=beginning.motion,
-        theta0=beginning.theta0,
-        omega0=beginning.omega0,
-        gravity=space.block.gravity,
-        step=space.settings.step,
-        count=ranges.members,
-    )
+    space, ranges, assembled = inputs.space, inputs.settings, inputs.prediction.assembly
+    law = assembly_law(space.settings) if contact is None else law_of(contact)
+    common: dict[str, Any] = {
+        "law": law,
+        "friction": _about(law.friction, ranges.friction * law.friction),
+        "damping_fraction": _about(law.damping_fraction, ranges.damping_fraction * law.damping_fraction),
+        "motion": beginning.motion,
+        "theta0": beginning.theta0,
+        "omega0": beginning.omega0,
+        "count": ranges.members,
+    }
+    plan: AssemblyPlan | ContactPlan
+    if assembled is not None:
+        misplacement = ranges.misplacement
+        plan = AssemblyPlan(block=space.block, assembly=assembled.assembly, misplacement=misplacement, **common)
+    else:
+        body, tilt = body_of(space, law), _about(space.settings.out_of_plane, abs(ranges.out_of_plane))
+        block = plane_block(body, space.block.gravity)
+        plan = ContactPlan(block=block, body=body, out_of_plane=tilt, step=space.settings.step, **common)
     try:
-        found = gather(plan, [run_member(plan, member) for member in range(plan.count)])
+        found = plan.run()
     except ValueError as error:
         raise StageError(f"processing.predict.contact: {error}") from error
-    middles = dict(zip(INPUTS, (law.friction, law.damping_fraction, 1.0), strict=True))
-    deviations = {name: np.ptp(getattr(plan, name)) / np.sqrt(12.0) / (middles[name] or 1.0) for name in INPUTS}
+    middles = dict(zip(plan.names, (law.friction, law.damping_fraction, 1.0), strict=False))
+    deviations = {name: np.ptp(getattr(plan, name)) / np.sqrt(12.0) / (middles[name] or 1.0) for name in plan.names}
     start = beginning.theta0 if inputs.prediction.free_vibration else None
     errors = measurement_errors(conditioned, rocking, start, inputs.measurement)
     ranked = rank_measured(rocking, beginning, found, np.zeros(plan.count), errors, inputs.measurement)
     bands = describe_bands(rocking, beginning, found, deviations)
+    if isinstance(plan, AssemblyPlan):
+        bands = bands.assign(_ends(plan, found.levels))
     return bands.assign(ranked).assign_attrs(model=CONTACT.name, members=plan.count, warnings=[])
+
+
+def _ends(plan: AssemblyPlan, levels: Array) -> dict[str, Any]:
+    """How probably each body falls, and how far it moves for good where it stands."""
+    moved, fell = (np.array(each) for each in zip(*plan.ends, strict=True))
+    standing = [moved[fell[:, place] == 0, place] for place in range(fell.shape[1])]
+    bands = [np.quantile(each, levels) if each.size else np.full(levels.size, np.nan) for each in standing]
+    return {
+        "body": ("body", np.array(list(plan.assembly.bodies), dtype=object)),
+        "body_overturning_probability": ("body", fell.mean(axis=0)),
+        "body_moved_band": (("quantile", "body"), np.array(bands).T),
+    }
 
 
 def _about(middle: float, half: float) -> Range:

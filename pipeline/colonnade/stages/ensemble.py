@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,15 +10,15 @@ import numpy as np
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.channel import ALONG
 from colonnade.campaign.settings import PlaneEnsembleSettings
-from colonnade.dynamics.ensembles.ensemble import Plan, gather, run_members
-from colonnade.dynamics.ensembles.uncertainty import INPUTS, Uncertainty
-from colonnade.identification.response.as_measured import Measurement
+from colonnade.dynamics.ensemble import PlanePlan
+from colonnade.dynamics.uncertainty import INPUTS, Uncertainty
+from colonnade.identification.response.rank import Measurement
 from colonnade.stages.parts.beginning import RECORDED, begin
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.rank import MeasurementInputs, describe_bands, measurement_errors, rank_measured
 from colonnade.stages.parts.transducers import transducers
 from colonnade.stages.predict import PredictInputs, sides
-from colonnade.stages.specimen import restitution_spread
+from colonnade.stages.specimen import centre, spread_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -49,7 +50,7 @@ class EnsembleInputs(Inputs):
         along = transducers(campaign.channels(test)).accelerations
         return cls(
             prediction=PredictInputs.of(campaign, test, model),
-            settings=campaign.processing.predict.ensemble,
+            settings=campaign.ensemble_settings(test.specimen),
             filter_order=campaign.processing.filter_order,
             table=tuple(name for name, direction in along.items() if abs(direction[0]) >= ALONG),
             measurement=MeasurementInputs.of(campaign, test),
@@ -88,21 +89,22 @@ def ensemble(
     StageError
         As `predict`.
     """
-    beginning = begin(rocking, inputs.prediction, identified)
+    block = centre(specimen, inputs.prediction.block)
+    beginning = begin(rocking, inputs.prediction, identified, block)
     start = beginning.theta0 if inputs.prediction.free_vibration else None
     errors = measurement_errors(conditioned, rocking, start, inputs.measurement)
-    plan = Plan(
-        inputs.prediction.block,
-        beginning.motion,
-        sides(specimen),
-        _uncertainty(conditioned, specimen, errors, inputs, is_driven=beginning.driven_by == RECORDED),
+    plan = PlanePlan(
+        block=block,
+        motion=beginning.motion,
+        restitution=sides(specimen),
+        uncertainty=_uncertainty(conditioned, specimen, errors, inputs, is_driven=beginning.driven_by == RECORDED),
         count=inputs.settings.members,
         model=inputs.prediction.model,
         theta0=beginning.theta0,
         omega0=beginning.omega0,
         rest_angle=inputs.prediction.rest_angle,
     )
-    found = gather(plan, [run_members(plan, 0, plan.count)])
+    found = plan.run()
     deviations = dict(zip(INPUTS, plan.uncertainty.deviations.tolist(), strict=True))
     starts = found.inputs[:, INPUTS.index("theta0")]
     bands = describe_bands(rocking, beginning, found, deviations)
@@ -124,12 +126,8 @@ def _uncertainty(
     is_driven: bool,
 ) -> Uncertainty:
     noise, cutoff = _base_noise(conditioned, inputs.table) if is_driven else (0.0, None)
-    restitution, freedom = restitution_spread(specimen, inputs.settings.restitution)
-    return Uncertainty(
-        restitution=restitution,
-        restitution_freedom=freedom,
-        critical_angle=inputs.settings.critical_angle,
-        p=inputs.settings.p,
+    return replace(
+        spread_of(specimen, inputs.settings),
         gain=inputs.settings.gain if is_driven else 0.0,
         clock=inputs.settings.clock,
         noise=noise,

@@ -1,4 +1,4 @@
-"""Forecast: what was foreseen of a test and what was measured in it -> scores, as forecast and of the model alone."""
+"""Stage forecast: the ensemble of a forecast on any motion, and its scores by what was measured."""
 
 from __future__ import annotations
 
@@ -6,14 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colonnade.campaign.forms.forecast import ForecastFile
+from colonnade.campaign.forms.forecast import ForecastFile, ForecastInputs
+from colonnade.dynamics.ensemble import PlanePlan
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import StageError
-from colonnade.identification.verification.calibration import randomised_pit
-from colonnade.identification.verification.responses import Response, forecast_of, forecast_of_peaks
-from colonnade.identification.verification.scores import score
+from colonnade.identification.calibration import randomised_pit
+from colonnade.identification.forecasts import Response, forecast_of, forecast_of_peaks, score
 from colonnade.stages.parts.base_motion import base_acceleration
-from colonnade.stages.parts.foreseen import felt, plan_of, run_forecast
 from colonnade.stages.parts.inputs import Inputs
 
 if TYPE_CHECKING:
@@ -70,7 +69,7 @@ def score_forecast(rocking: xr.Dataset, forecast: ForecastFile, inputs: Forecast
             "rigid_body": forecast_of_peaks(model.rigid_body_peak_ratio),
         }
         if motion is not None:
-            members = run_forecast(plan_of(forecast.inputs, name, motion))
+            members = plan_of(forecast.inputs, name, motion).run()
             ensembles["on_recorded"] = forecast_of(members.peak_ratio, members.overturning_time)
         for basis, ensemble in ensembles.items():
             scores = vars(score(ensemble, observed))
@@ -85,4 +84,35 @@ def score_forecast(rocking: xr.Dataset, forecast: ForecastFile, inputs: Forecast
         | {"observed_amplitude": ((), observed.amplitude)},
         coords={"model": np.array(names, dtype=object), "basis": np.array(BASES, dtype=object)},
         attrs=attributes | {"outcome": outcome},
+    )
+
+
+def felt(inputs: ForecastInputs, motion: Motion) -> Motion:
+    """Add the table's tilt to its motion along x: a part of gravity acts as a base acceleration the other way would."""
+    pull = inputs.block.gravity * np.sin(inputs.table_tilt)
+    return Motion(motion.acceleration - pull, motion.dt)
+
+
+def plan_of(inputs: ForecastInputs, model: str, motion: Motion, *, rigid_body: bool = False) -> PlanePlan:
+    """
+    Plan the ensemble of a forecast.
+
+    Parameters
+    ----------
+    inputs : ForecastInputs
+    model : str
+    motion : Motion
+        Of the table, with its tilt in it.
+    rigid_body : bool, optional
+        Take the e of the rigid body: the reference.
+    """
+    return PlanePlan(
+        block=inputs.block.block(),
+        motion=motion,
+        restitution=inputs.restitution.rigid_body if rigid_body else inputs.restitution.value,
+        uncertainty=inputs.spread.uncertainty(),
+        count=inputs.members,
+        seed=inputs.seed,
+        model=model,
+        rest_angle=inputs.rest_angle,
     )

@@ -17,8 +17,8 @@ from colonnade.errors import StageError
 from colonnade.findings import Finding, Severity
 from colonnade.readers.recording import RecordedChannel, Recording, Window
 from colonnade.signals import quality, timing
-from colonnade.signals.parallel import side_by_side
-from colonnade.stages.ingesting import dates
+from colonnade.signals.samples import side_by_side
+from colonnade.stages.ingesting import columns
 from colonnade.stages.ingesting.columns import dimension_of, find_column, rounding, too_short, unit_findings, within
 from colonnade.stages.ingesting.quality import (
     ChannelInputs,
@@ -117,7 +117,7 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
 
     warnings = [Finding.of(each, RAW_FILE) for recording in recordings.values() for each in recording.warnings]
     begin = inputs.window[0] if inputs.window else 0.0
-    warnings += dates.contradictions(recordings, inputs.day, begin)
+    warnings += columns.contradictions(recordings, inputs.day, begin)
     stamps: dict[str, Array] = {}
     timed: dict[str, list[quality.Verdict]] = {}
     tracks: list[_Track] = []
@@ -148,7 +148,7 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
     dataset = xr.Dataset(
         variables,
         coords={dimension: (dimension, time) for dimension, time in stamps.items()},
-        attrs={"notes": "; ".join(_notes(recordings)), "recorded_at": dates.recorded_at(recordings, begin)},
+        attrs={"notes": "; ".join(_notes(recordings)), "recorded_at": columns.recorded_at(recordings, begin)},
     )
     dataset = flag_dead_on_specimen(dataset, inputs.channels, warnings)
     dataset.attrs["warnings"] = warnings

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from math import exp
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,20 +11,16 @@ import numpy as np
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.settings import RestitutionSettings
 from colonnade.dynamics.block import Block
+from colonnade.dynamics.uncertainty import Uncertainty
 from colonnade.errors import StageError
 from colonnade.findings import MEASUREMENT, Finding, warning
-from colonnade.identification.restitution.choice import disagreement
-from colonnade.identification.restitution.estimators.history import LinearHistory, NonlinearHistory
-from colonnade.identification.restitution.fitting.noise import ORDER
 from colonnade.identification.restitution.identify import identify_restitution
-from colonnade.identification.restitution.result import Estimate, Restitution
+from colonnade.identification.restitution.noise import ORDER
+from colonnade.identification.restitution.result import Restitution
 from colonnade.stages.parts.inputs import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr
-
-HISTORIES = (LinearHistory, NonlinearHistory)
-"""Estimators that give e for each model."""
 
 PEAKS = {
     "peak_time": "time",
@@ -40,23 +37,42 @@ IMPACTS = {
     "impact_restitution_standard_error": "restitution_standard_error",
     "impact_used": "used",
 }
+ENDS = {"": "value", "_low": "low", "_high": "high", "_standard_error": "standard_error"}
 HISTORY = {"fitted_elapsed": "time", "fitted_history": "angle", "history_residual": "residual"}
 """Variables of a result by the attribute of the identification that they are."""
 
 
 class RestitutionInputs(Inputs):
-    """What `restitution` reads of the campaign: the block, how e is identified, and the order of the low-pass."""
+    """
+    What `restitution` reads of the campaign.
+
+    Attributes
+    ----------
+    block : Block
+    settings : RestitutionSettings
+    critical_angle, p, angle_gain : float
+        How well α, p and the calibration of the angle are known: relative standard deviations.
+    filter_order : int
+        Of the low-pass.
+    """
 
     block: Block
     settings: RestitutionSettings
+    critical_angle: float
+    p: float
+    angle_gain: float
     filter_order: int = ORDER
 
     @classmethod
     def of(cls, campaign: Campaign, test: Test) -> RestitutionInputs:
         """Gather what `restitution` reads for one free vibration."""
+        known = campaign.ensemble_settings(test.specimen)
         return cls(
-            block=campaign.specimens[test.specimen].block(campaign.gravity),
+            block=campaign.block(test.specimen),
             settings=campaign.processing.restitution,
+            critical_angle=known.critical_angle,
+            p=known.p,
+            angle_gain=known.angle_gain,
             filter_order=campaign.processing.filter_order,
         )
 
@@ -89,23 +105,26 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
 
     expect_angle(rocking)
     result = _identified(rocking, inputs)
-    freed = _identified(rocking, inputs, free=("critical_angle",))
-    warnings = _warnings(result)
-    by_name = {estimate.name: estimate for estimate in result.estimates}
-    by_model = [by_name[history.name] for history in HISTORIES]
+    of_history, _ = result.estimates
     return xr.Dataset(
         {
             **{name: ((), _number(value)) for name, value in _scalars(result).items()},
             **_along("peak", PEAKS, result.peaks),
             **_along("impact", IMPACTS, result.impacts),
             **_along("fitted_elapsed", HISTORY, result.history),
-            **_region(freed),
-            **_columns("estimate", "estimator", result.estimates),
-            **_columns("restitution_history", "model", by_model),
-            "restitution_history_residual": ("model", np.array([_number(each.residual) for each in by_model])),
+            **_joint(result),
+            **{
+                f"{name}{end}": (dimension, np.array([_number(getattr(each, field)) for each in estimates]))
+                for name, dimension, estimates in (
+                    ("estimate", "estimator", result.estimates),
+                    ("restitution_history", "model", [of_history]),
+                )
+                for end, field in ENDS.items()
+            },
+            "restitution_history_residual": ("model", np.array([_number(of_history.residual)])),
         },
         coords={
-            "model": ("model", np.array([history.model for history in HISTORIES], dtype=object)),
+            "model": ("model", np.array(["nonlinear"], dtype=object)),
             "estimator": ("estimator", np.array([each.name for each in result.estimates], dtype=object)),
         },
         attrs={
@@ -114,12 +133,11 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
             "recommended": result.recommended,
             "estimate_assumptions": [each.assumptions for each in result.estimates],
             "estimate_reasons": [each.reason for each in result.estimates],
-            "history_model": "" if result.history is None else result.history.model,
+            "history_model": "" if result.history is None else "nonlinear",
             "departures": [found.sentence for found in result.departures],
-            "history_method": NonlinearHistory.method,
-            "history_reason": " ".join(dict.fromkeys(each.reason for each in by_model if each.reason)),
+            "history_reason": of_history.reason,
             "table_moves": "" if result.table_moves is None else str(result.table_moves).lower(),
-            "warnings": warnings,
+            "warnings": _warnings(result),
         },
     )
 
@@ -144,14 +162,14 @@ def _warnings(result: Restitution) -> list[Finding]:
     """Doubts about the value, or why it is missing."""
     doubts = [
         ("no restitution", f"No restitution from this test: {result.reason}" if result.reason else ""),
-        ("two values of e", disagreement(result)),
+        *((kind, text) for kind, text in result.doubts),
         # One that refuses the value is the reason already.
         *((found.name, found.sentence) for found in result.departures if found.sentence not in result.reason),
     ]
     return [warning(kind, text, follows=MEASUREMENT) for kind, text in doubts if text]
 
 
-def _identified(rocking: xr.Dataset, inputs: RestitutionInputs, *, free: tuple[str, ...] = ()) -> Restitution:
+def _identified(rocking: xr.Dataset, inputs: RestitutionInputs) -> Restitution:
     beside: dict[str, Any] = {
         name: rocking[variable].to_numpy()
         for name, variable in (("out_of_plane", "out_of_plane_angle"), ("slide", "slide"), ("uplift", "uplift"))
@@ -166,7 +184,7 @@ def _identified(rocking: xr.Dataset, inputs: RestitutionInputs, *, free: tuple[s
         noise=float(np.nanmedian(rocking["rocking_angle_standard_error"])),
         # A filter of another order is not the one that the fit knows: it finds the nearest one itself.
         lowpass=rocking["rocking_angle"].attrs.get("cutoff_hz") if inputs.filter_order == ORDER else None,
-        free=free,
+        uncertainty=Uncertainty(critical_angle=inputs.critical_angle, p=inputs.p, angle_gain=inputs.angle_gain),
         base_acceleration=rocking["base_acceleration"].to_numpy() if "base_acceleration" in rocking else None,
         **beside,
     )
@@ -184,6 +202,7 @@ def _scalars(result: Restitution) -> dict[str, float | None]:
         "restitution_standard_error": result.standard_error,
         "level": result.level,
         "zero_offset": result.zero_offset,
+        "angle_scale": 1.0 if result.joint is None else exp(float(result.joint.mean[1]) + result.joint.gain),
         "restitution_slope": result.constancy.slope,
         "restitution_slope_standard_error": result.constancy.slope_standard_error,
     }
@@ -198,26 +217,23 @@ def _along(dimension: str, names: Mapping[str, str], found: Any) -> dict[str, An
     }
 
 
-def _region(freed: Restitution) -> dict[str, Any]:
-    """Joint region of e and of the critical angle, both identified."""
-    history = freed.history
-    if history is None or "critical_angle" not in history.names:
+def _joint(result: Restitution) -> dict[str, Any]:
+    """What is known of e, α and p together: logarithms, and the region of e and α."""
+    joint = result.joint
+    if joint is None:
         return {}
-    place = [history.names.index(name) for name in ("restitution", "critical_angle")]
-    errors = np.sqrt(np.diag(history.covariance)[place])
-    values = {
-        "region_restitution": history.values[place[0]],
-        "region_critical_angle": history.values[place[1]],
-        "region_restitution_error": errors[0],
-        "region_critical_angle_error": errors[1],
-        "region_correlation": history.covariance[place[0], place[1]] / (errors[0] * errors[1]),
+    variables: dict[str, Any] = {
+        "joint_mean": ("joint", joint.mean),
+        "joint_covariance": (("joint", "joint_column"), joint.covariance),
     }
-    return {name: ((), float(value)) for name, value in values.items()}
-
-
-def _columns(name: str, dimension: str, estimates: Sequence[Estimate]) -> dict[str, Any]:
-    ends = {"": "value", "_low": "low", "_high": "high", "_standard_error": "standard_error"}
-    return {
-        f"{name}{end}": (dimension, np.array([_number(getattr(each, field)) for each in estimates]))
-        for end, field in ends.items()
-    }
+    centre, errors = np.exp(joint.mean[:2]), np.sqrt(np.diag(joint.covariance)[:2])
+    if (errors > 0).all():
+        region = {
+            "restitution": centre[0],
+            "critical_angle": centre[1],
+            "restitution_error": centre[0] * errors[0],
+            "critical_angle_error": centre[1] * errors[1],
+            "correlation": joint.covariance[0, 1] / (errors[0] * errors[1]),
+        }
+        variables |= {f"region_{name}": ((), float(value)) for name, value in region.items()}
+    return variables

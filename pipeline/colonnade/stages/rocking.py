@@ -13,17 +13,18 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline
 from colonnade.errors import StageError
 from colonnade.findings import Finding, serious, warning
-from colonnade.identification.fusion.motion import SEEN, SpecimenMotion, specimen_motion
-from colonnade.identification.fusion.readings import Circumstances, TableReadings
-from colonnade.identification.fusion.separation import UnseenRotationError
-from colonnade.identification.response.ending import ending
-from colonnade.identification.response.features import angle_features
+from colonnade.identification.fusion.motion import SEEN, Circumstances, specimen_motion
+from colonnade.identification.fusion.pose import SpecimenMotion
+from colonnade.identification.fusion.sensors import UnseenRotationError
+from colonnade.identification.response.outcome import angle_features, ending
 from colonnade.signals.quality import Flag
-from colonnade.signals.shock import single_shock
-from colonnade.signals.stretches import stretches
+from colonnade.signals.rest import single_shock
+from colonnade.signals.samples import stretches
 from colonnade.signals.timing import STRONG
+from colonnade.stages.parts.bodies import AssemblyInputs, measure, measured_variables, together
 from colonnade.stages.parts.conditioned import LEAST_NOISE, axes, base_motion, group
 from colonnade.stages.parts.inputs import Inputs
+from colonnade.stages.parts.markers import misplaced
 from colonnade.stages.parts.transducers import Transducers, outline, transducers
 
 if TYPE_CHECKING:
@@ -49,12 +50,15 @@ class RockingInputs(Inputs):
     transducers : Transducers
     catch : float or None
         Angle of the safety frame, rad.
+    assembly : AssemblyInputs or None
+        Of several bodies; the others then describe the one block as which they rock together.
     """
 
     block: Block
     outline: Outline
     transducers: Transducers
     catch: float | None
+    assembly: AssemblyInputs | None = None
     free_vibration: bool
     rest_duration: float
 
@@ -69,6 +73,7 @@ class RockingInputs(Inputs):
             outline=outline(specimen, block),
             transducers=transducers(campaign.channels(test)),
             catch=setup.catch,
+            assembly=AssemblyInputs.of(campaign, test),
             free_vibration=test.kind == "free-vibration",
             rest_duration=campaign.processing.rest_duration,
         )
@@ -90,8 +95,10 @@ def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
         `rocking_angle` (rad); where separated `slide`, `uplift`, `transverse_slide` (m), `out_of_plane_angle` and `yaw`
         (rad), each with the median of its standard error; `angle_deviation` (rad) where the error is one of history;
         `base_acceleration` (m/s²), `base_displacement` (m) and their like along y and z; `impact_time` (s), scalars of
-        the peak, residuals by transducer, and the attributes `outcome` and `separation`. Without a transducer on the
-        specimen, the base motion alone with an empty outcome.
+        the peak, residuals by transducer, and the attributes `outcome` and `separation`. Of an assembly these are of
+        the one block as which its bodies rock together, and the same by `body` of each: its motion relative to the
+        table, its angle in the joint below, how far and when that opened, what is left at the end. Without a
+        transducer on the specimen, the base motion alone with an empty outcome.
 
     Raises
     ------
@@ -120,6 +127,11 @@ def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
             "the two is needed. See the warnings of the earlier stages, and the set-up's channels."
         )
 
+    bodies = None
+    if inputs.assembly is not None:
+        warnings += misplaced(conditioned, inputs.assembly.markers, inputs.assembly.assembly)
+        bodies = measure(conditioned, inputs.assembly, _circumstances(time, inputs, base))
+        motion = together(motion, bodies, inputs.assembly)
     variables: dict[str, Any] = {name: ("elapsed", values) for name, values in base.items()}
     acceleration = base.get("base_acceleration")
     if acceleration is not None and not inputs.free_vibration:
@@ -133,6 +145,10 @@ def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
         variables |= _quality(conditioned, motion, used)
         if not inputs.free_vibration:
             warnings += _hidden_peak(time, motion.angle, inputs.block)
+    if inputs.assembly is not None and bodies is not None:
+        described, outcome = measured_variables(time, bodies, inputs.assembly, warnings)
+        variables |= described
+        attributes["outcome"] = outcome or attributes["outcome"]
     return xr.Dataset(variables, coords={"elapsed": ("elapsed", time)}, attrs=attributes)
 
 
@@ -193,21 +209,28 @@ def _motion(
             '(on = "table", quantity = "displacement"), or write relative_to = "table" if the transducer is fixed to '
             "the table."
         )
-    time, gravity = conditioned["elapsed"].to_numpy(), inputs.block.gravity
-    resting = inputs.free_vibration or "base_acceleration" in base
-    table = TableReadings(axes(base, "displacement", time), axes(base, "acceleration", time) if resting else None)
-    circumstances = Circumstances(float(time[1] - time[0]), inputs.rest_duration, ends_at_rest=inputs.free_vibration)
+    gravity = inputs.block.gravity
     motion = specimen_motion(
         group(conditioned, known.positions, gravity),
         group(conditioned, known.gyroscopes, gravity),
         group(conditioned, known.accelerometers, gravity),
-        table,
         inputs.block,
         inputs.outline,
-        circumstances,
+        _circumstances(conditioned["elapsed"].to_numpy(), inputs, base),
     )
     warnings += _contradicting(motion, known, used)
     return motion
+
+
+def _circumstances(time: Array, inputs: RockingInputs, base: Mapping[str, Array]) -> Circumstances:
+    resting = inputs.free_vibration or "base_acceleration" in base
+    return Circumstances(
+        float(time[1] - time[0]),
+        inputs.rest_duration,
+        ends_at_rest=inputs.free_vibration,
+        displacement=axes(base, "displacement", time),
+        acceleration=axes(base, "acceleration", time) if resting else None,
+    )
 
 
 def _contradicting(motion: SpecimenMotion, known: Transducers, used: list[str]) -> list[Finding]:
@@ -242,7 +265,8 @@ def _motion_variables(
         time, motion.angle, None if inputs.free_vibration else acceleration, found.verdict, inputs.block,
         error=median["rocking_angle"], duration=inputs.rest_duration, lever=_only_lever(inputs.transducers),
     )  # fmt: skip
-    attributes["warnings"] += [ended] if ended else []
+    # Bodies that slid on each other leave the one block leaning.
+    attributes["warnings"] += [ended] if ended and inputs.assembly is None else []
     variables: dict[str, Any] = {f"{name}_standard_error": ((), error) for name, error in median.items()}
     variables |= {name: ("elapsed", values) for name, values in motion.values.items()}
     if motion.is_integrated:
@@ -285,6 +309,6 @@ def _quality(conditioned: xr.Dataset, motion: SpecimenMotion, used: list[str]) -
     return {
         "rocking_angle_quality": ("elapsed", np.where(others, np.int8(Flag.SUSPECT), flags)),
         "transducer": ("transducer", [str(conditioned[name].attrs.get("channel", name)) for name in used]),
-        "residual_to_noise": ("transducer", motion.residual / noise),
-        "residual_to_reading": ("transducer", motion.residual / np.maximum(moved, 1e-300)),
+        "residual_to_noise": ("transducer", motion.residual_size / noise),
+        "residual_to_reading": ("transducer", motion.residual_size / np.maximum(moved, 1e-300)),
     }

@@ -10,9 +10,14 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign
+from colonnade.campaign.assembly import Whole
+from colonnade.campaign.settings import PlaneEnsembleSettings
 from colonnade.dynamics.block import Block, Sided, pair
+from colonnade.dynamics.uncertainty import Uncertainty, member_block
+from colonnade.errors import count
 from colonnade.findings import Finding, note, warning
-from colonnade.identification.restitution.pooling import pool
+from colonnade.identification.restitution.pooling import Pooled, pool
+from colonnade.identification.restitution.result import Joint
 from colonnade.stages.parts.inputs import Inputs
 
 if TYPE_CHECKING:
@@ -20,28 +25,59 @@ if TYPE_CHECKING:
 
 
 class SpecimenInputs(Inputs):
-    """What `specimen` reads of the campaign: the block, the restitution given in the file, the interval's level."""
+    """
+    What `specimen` reads of the campaign.
+
+    Attributes
+    ----------
+    block : Block
+    given : Sided or None
+        e given in the file.
+    level : float
+        Of the interval.
+    known : (float, float)
+        Relative standard deviations of α and p.
+    """
 
     block: Block
     given: Sided | None
     level: float
+    known: tuple[float, float] = (0.0, 0.0)
+    is_rocked: bool = True
 
     @classmethod
     def of(cls, campaign: Campaign, specimen: str) -> SpecimenInputs:
         """Gather what `specimen` reads for one specimen."""
-        entry = campaign.specimens[specimen]
+        settings = campaign.ensemble_settings(specimen)
         return cls(
-            block=entry.block(campaign.gravity), given=entry.restitution, level=campaign.processing.restitution.level
+            block=campaign.block(specimen),
+            given=campaign.specimens[specimen].restitution,
+            level=campaign.processing.restitution.level,
+            known=(settings.critical_angle, settings.p),
+            is_rocked=_is_rocked(campaign, specimen),
         )
+
+
+def _is_rocked(campaign: Campaign, specimen: str) -> bool:
+    """Whether a model in the plane may move it: not if it is only a part of assemblies, or several bodies that part."""
+    wholes = [each for each in campaign.specimens.values() if isinstance(each, Whole)]
+    if campaign.specimens[specimen].is_assembly:
+        return campaign.specimens[specimen].is_in_plane
+    is_part = any(body.specimen == specimen for whole in wholes for body in whole.placed.values())
+    return not is_part or any(test.specimen == specimen for test in campaign.tests.values())
 
 
 @dataclass(frozen=True)
 class _Identified:
-    """Ids of the free vibrations with an e, their e and standard errors, the method, and why others have none."""
+    """
+    Ids of free vibrations with an e, their e and errors, what they say of e, α and p, the method; why others have none.
+    """
 
     tests: tuple[str, ...] = ()
     values: Array = field(default_factory=lambda: np.empty(0))
     errors: Array = field(default_factory=lambda: np.empty(0))
+    means: Array = field(default_factory=lambda: np.empty((0, 3)))
+    covariances: Array = field(default_factory=lambda: np.empty((0, 3, 3)))
     method: str = ""
     refused: tuple[str, ...] = ()
 
@@ -69,6 +105,8 @@ def specimen(identified: Mapping[str, xr.Dataset], inputs: SpecimenInputs) -> xr
             tests,
             np.array([float(identified[name]["restitution"]) for name in tests]),
             np.array([float(identified[name]["restitution_standard_error"]) for name in tests]),
+            np.array([identified[name]["joint_mean"].to_numpy() for name in tests]).reshape(-1, 3),
+            np.array([identified[name]["joint_covariance"].to_numpy() for name in tests]).reshape(-1, 3, 3),
             identified[tests[0]].attrs["method"] if tests else "",
             tuple(refused),
         ),
@@ -92,11 +130,13 @@ def taken(stored: xr.Dataset | None, inputs: SpecimenInputs) -> xr.Dataset:
         As of `specimen`.
     """
     found = _Identified(refused=("the free vibrations have not been identified",))
-    if stored is not None and "test_method" in stored.attrs and _is_of(stored, inputs.block):
+    if stored is not None and "test_method" in stored.attrs and "known" in stored and _is_of(stored, inputs.block):
         found = _Identified(
             tuple(str(name) for name in stored["test_id"].to_numpy()),
             stored["test_restitution"].to_numpy(),
             stored["test_restitution_standard_error"].to_numpy(),
+            stored["test_joint_mean"].to_numpy(),
+            stored["test_joint_covariance"].to_numpy(),
             str(stored.attrs["test_method"]),
             tuple(stored.attrs["refused"]),
         )
@@ -107,8 +147,61 @@ def restitution_spread(pooled: xr.Dataset, usual: float) -> tuple[float, int | N
     """Give the standard deviation of e in a new test and its degrees of freedom, as of `Pooled.of_new_test`."""
     if pooled.attrs["restitution_source"] != "identified":
         return usual, None
-    tests = pool(pooled["test_restitution"].to_numpy(), pooled["test_restitution_standard_error"].to_numpy())
-    return tests.of_new_test(usual)
+    return pooled_of(pooled).of_new_test(usual)
+
+
+def centre(pooled: xr.Dataset, block: Block) -> Block:
+    """Return the block with the α and p that the free vibrations show; as it is where e is not identified from them."""
+    if pooled.attrs["restitution_source"] != "identified":
+        return block
+    _, critical_angle, p = np.exp(pooled_of(pooled).mean)
+    return member_block(block, float(critical_angle), float(p))
+
+
+def spread_of(pooled: xr.Dataset, usual: PlaneEnsembleSettings) -> Uncertainty:
+    """
+    Say how well e of a new test, α and p are known together.
+
+    Parameters
+    ----------
+    pooled : xr.Dataset
+        Result of `specimen`.
+    usual : PlaneEnsembleSettings
+        What counts where e is not identified; then the three vary by themselves.
+    """
+    e, freedom = restitution_spread(pooled, usual.restitution)
+    if pooled.attrs["restitution_source"] != "identified":
+        return Uncertainty(restitution=e, critical_angle=usual.critical_angle, p=usual.p)
+    found = pooled_of(pooled)
+    # e of a new test scatters besides; α and p are those of the specimen.
+    covariance = found.covariance.copy()
+    covariance[0, 0] = max(covariance[0, 0], (e / found.value) ** 2)
+    deviations = np.sqrt(np.diag(covariance))
+    known = np.where(deviations > 0.0, deviations, 1.0)
+    e_angle, e_p, angle_p = (covariance / np.outer(known, known))[np.triu_indices(3, 1)].tolist()
+    return Uncertainty(
+        restitution=e,
+        restitution_freedom=freedom,
+        critical_angle=float(deviations[1]),
+        p=float(deviations[2]),
+        correlations=(e_angle, e_p, angle_p),
+    )
+
+
+def pooled_of(pooled: xr.Dataset) -> Pooled:
+    """Give what the free vibrations in a result of `specimen` say of e, α and p together."""
+    found = _Identified(
+        values=pooled["test_restitution"].to_numpy(),
+        errors=pooled["test_restitution_standard_error"].to_numpy(),
+        means=pooled["test_joint_mean"].to_numpy(),
+        covariances=pooled["test_joint_covariance"].to_numpy(),
+    )
+    return _pooled(found, float(pooled["level"]), (float(pooled["known"][0]), float(pooled["known"][1])))
+
+
+def _pooled(found: _Identified, level: float, known: tuple[float, float]) -> Pooled:
+    joints = [Joint(mean, covariance) for mean, covariance in zip(found.means, found.covariances, strict=True)]
+    return pool(found.values, found.errors, level=level, joints=joints, known=known)
 
 
 def _is_of(stored: xr.Dataset, block: Block) -> bool:
@@ -130,11 +223,10 @@ def _taken(found: _Identified, inputs: SpecimenInputs) -> xr.Dataset:
     if inputs.given is not None:
         value, source, method = pair(inputs.given), "given", "given in the campaign file"
     elif found.tests:
-        pooled = pool(found.values, found.errors, level=inputs.level)
+        pooled = _pooled(found, inputs.level, inputs.known)
         value, source = pair(pooled.value), "identified"
         low, high, between = pooled.low, pooled.high, pooled.between
-        count = f"{len(found.tests)} free vibration{'s' if len(found.tests) > 1 else ''}"
-        method = f"{found.method}; random effects over {count}"
+        method = f"{found.method}; random effects over {count(len(found.tests), 'free vibration')}"
     else:
         value, source = pair(block.restitution), "rigid-body"
         reason = "; ".join(found.refused) or "no free vibration of this specimen was identified"
@@ -150,6 +242,9 @@ def _taken(found: _Identified, inputs: SpecimenInputs) -> xr.Dataset:
             **{name: ((), each) for name, each in _properties(block).items()},
             "test_restitution": ("test", found.values),
             "test_restitution_standard_error": ("test", found.errors),
+            "test_joint_mean": (("test", "joint"), found.means),
+            "test_joint_covariance": (("test", "joint", "joint_column"), found.covariances),
+            "known": ("property", np.array(inputs.known)),
         },
         coords={"test_id": ("test", np.array(found.tests, dtype=object))},
         attrs={
@@ -158,7 +253,7 @@ def _taken(found: _Identified, inputs: SpecimenInputs) -> xr.Dataset:
             "reason": reason,
             "test_method": found.method,
             "refused": list(found.refused),
-            "warnings": _warnings(source, value, found),
+            "warnings": _warnings(source, value, found) if inputs.is_rocked else [],
         },
     )
 

@@ -149,8 +149,13 @@ def _opened(path: Path) -> Iterator[netCDF4.Dataset]:
 
 
 def write_text(path: Path, text: str) -> bool:
+    """Write a text file, see `write_changed`."""
+    return write_changed(path, text.encode())
+
+
+def write_changed(path: Path, data: bytes) -> bool:
     """
-    Write a text file, unless it holds that text already.
+    Write a file, unless it holds these bytes already.
 
     Returns
     -------
@@ -161,7 +166,6 @@ def write_text(path: Path, text: str) -> bool:
     StoreError
         If it cannot be written.
     """
-    data = text.encode()
     try:
         if path.read_bytes() == data:
             return False

@@ -1,10 +1,18 @@
-"""Whether a result, a record or a page is up to date, by what it is made from, never by dates; and if not, why."""
+"""
+Whether a result, a record or a page is up to date, by what it is made from, never by dates; and if not, why.
+
+A result keeps that as attributes. A page, script, picture or PDF has a stamp: a comment behind its end with the key of
+what it was made from, and a hash of the rest.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import json
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from colonnade.store.provenance import hash_of
@@ -76,3 +84,26 @@ class Recipe:
         if before.get("upstream") != self.upstream:
             return "raw file changed" if self.stage == "ingest" else "upstream changed"
         return "settings changed" if before.get("settings") != hash_of(self.settings) else "code changed"
+
+
+_STAMP = re.compile(rb"(?:<!--|//|%) made from ([0-9a-f]+), content ([0-9a-f]+)(?: -->)?\n\Z")
+
+_COMMENTS = {".html": "<!-- {} -->\n", ".svg": "<!-- {} -->\n", ".js": "// {}\n", ".jpg": "% {}\n", ".pdf": "% {}\n"}
+"""How a comment is written behind the end of a file, by its suffix."""
+
+
+def stamped(data: bytes, key: str, suffix: str) -> bytes:
+    """Add to what a file of this suffix holds what it was made from."""
+    return data + _COMMENTS[suffix].format(f"made from {key}, content {hashlib.sha256(data).hexdigest()}").encode()
+
+
+def key_of(path: Path) -> str:
+    """Return the key of what a file was made from; empty if it is missing, not stamped, or was altered."""
+    try:
+        data = path.read_bytes()
+    except OSError:
+        return ""
+    found = _STAMP.search(data[-200:])
+    if found is None or found[2].decode() != hashlib.sha256(data[: -len(found[0])]).hexdigest():
+        return ""
+    return found[1].decode()

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import colonnade
-from colonnade.signals.parallel import side_by_side
+from colonnade.signals.samples import side_by_side
 from colonnade.store.results import STAGES, ResultId
 
 if TYPE_CHECKING:

@@ -167,7 +167,27 @@ class ResultId:
 
 def models_of(campaign: Campaign, test: Test) -> tuple[str, ...]:
     """Models that a test is predicted by."""
-    return () if test.kind in WITHOUT_PREDICTION else campaign.processing.predict.models
+    if test.kind in WITHOUT_PREDICTION:
+        return ()
+    whole, asked = campaign.specimens[test.specimen], campaign.processing.predict.models
+    if not whole.is_assembly:
+        return asked
+    # Bodies that do not rock as one block are for the contact model alone.
+    return (*(model for model in asked if whole.is_in_plane and model != _in_space()), _in_space())
+
+
+def _in_space() -> str:
+    """Name of the model that moves several bodies; imported late, as the commands' names are read without numpy."""
+    from colonnade.dynamics.models import CONTACT
+
+    return CONTACT.name
+
+
+def models_shown(campaign: Campaign) -> tuple[str, ...]:
+    """Models that a campaign's tests are predicted by: those asked for, and of assemblies the contact model."""
+    asked = campaign.processing.predict.models
+    has_bodies = any(campaign.specimens[test.specimen].is_assembly for test in campaign.tests.values())
+    return tuple(dict.fromkeys((*asked, _in_space()))) if has_bodies else asked
 
 
 def results_of(campaign: Campaign, test: Test) -> list[ResultId]:

@@ -1,12 +1,14 @@
-"""Numbers for people: SI values in their units, with sensible digits; a dash if unknown."""
+"""Numbers and words for people: SI values in their units with sensible digits, a dash if unknown; lists; results."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from math import floor, isfinite, log10
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from html import escape
+from math import ceil, floor, inf, isfinite, log10, nan
 
-from colonnade.units.quantity import from_si
+from colonnade.units import from_si
 
 MINUS = "−"
 """U+2212: as wide as a digit, and never broken off its number."""
@@ -19,6 +21,9 @@ NOTHING = "–"
 
 LEAST_RATIO = 1e-3
 """Angles below this share of the critical angle are noise: 0.1 mm at the top of a block of half a metre."""
+
+FEW_DIGITS = 2e-4
+"""Half-width of an interval of e below which it is rounded up to the fourth decimal."""
 
 USUAL_LEVEL = 0.95
 """± is half of the interval of this level; another level is named."""
@@ -52,6 +57,19 @@ def number(value: float | None, digits: int = 3) -> str:
     return with_minus(text if "e" not in text or abs(value) < 1e-4 else f"{float(text):.0f}")
 
 
+def written(value: float | None, unit: str = "", digits: int = 4) -> str:
+    """
+    Write a number with the unit that it is in.
+
+    Examples
+    --------
+    >>> written(0.41234, "rad"), written(None, "rad")
+    ('0.4123 rad', '–')
+    """
+    shown = number(value, digits)
+    return shown if shown == NOTHING else f"{shown} {unit}".rstrip()
+
+
 def ratio(value: float | None, digits: int = 3) -> str:
     """
     Write an angle or a misfit over the critical angle; of less than `LEAST_RATIO` nothing more is said.
@@ -73,9 +91,7 @@ def signed_ratio(value: float) -> str:
     >>> signed_ratio(0.0123), signed_ratio(-0.5), signed_ratio(-4e-6), signed_ratio(float("nan"))
     ('+0.012', '−0.5', '< 0.001', '–')
     """
-    if abs(value) < LEAST_RATIO or not isfinite(value):
-        return ratio(value)
-    return with_minus(f"{value:+.2g}")
+    return with_minus(f"{value:+.2g}") if LEAST_RATIO <= abs(value) < inf else ratio(value)
 
 
 def quantity(value: float | None, unit: str, digits: int = 3) -> str:
@@ -87,9 +103,7 @@ def quantity(value: float | None, unit: str, digits: int = 3) -> str:
     >>> quantity(0.23202, "mm", 4), quantity(None, "mm")
     ('232 mm', '–')
     """
-    if value is None or not isfinite(value):
-        return NOTHING
-    return f"{number(from_si(value, unit), digits)} {unit}".rstrip()
+    return NOTHING if value is None else written(from_si(value, unit), unit, digits)
 
 
 def acceleration(value: float | None) -> str:
@@ -98,12 +112,11 @@ def acceleration(value: float | None) -> str:
 
     Examples
     --------
-    >>> acceleration(2.3)
-    '2.3 m/s² (0.235 g)'
+    >>> acceleration(2.3), acceleration(None)
+    ('2.3 m/s² (0.235 g)', '–')
     """
-    if value is None or not isfinite(value):
-        return NOTHING
-    return f"{quantity(value, 'm/s²')} ({quantity(value, 'g')})"
+    shown = quantity(value, "m/s²")
+    return shown if shown == NOTHING else f"{shown} ({quantity(value, 'g')})"
 
 
 def interval(value: float | None, low: float | None, high: float | None, level: float | None = None) -> str:
@@ -114,60 +127,39 @@ def interval(value: float | None, low: float | None, high: float | None, level: 
     --------
     >>> interval(0.97608, 0.97528, 0.97688, 0.95), interval(0.97608, 0.97548, 0.97668, 0.9)
     ('0.9761 ± 0.0008', '0.9761 ± 0.0006 (90\xa0% interval)')
-    >>> interval(0.976, float("nan"), float("nan"))
-    '0.976'
+    >>> interval(0.976, float("nan"), float("nan")), interval(0.976, 0.975999, 0.976001)
+    ('0.976', '0.9760 ± 0.0001')
+
+    Notes
+    -----
+    No more than four decimals, the half-width rounded up: no block is known so well that more would mean something.
     """
-    if value is None or not isfinite(value):
-        return NOTHING
-    if low is None or high is None or not isfinite(high - low):
+    half_width = nan if low is None or high is None else (high - low) / 2
+    if value is None or not isfinite(value) or not isfinite(half_width):
         return number(value, 4)
-    named = (
-        "" if level is None or not isfinite(level) or level == USUAL_LEVEL else f" ({format_percent(level)} interval)"
-    )
-    return format_uncertain(value, (high - low) / 2) + named
+    named = f" ({format_percent(level)} interval)" if level and isfinite(level) and level != USUAL_LEVEL else ""
+    if half_width < FEW_DIGITS:
+        return f"{value:.4f} ± {max(ceil(1e4 * half_width - 1e-6), 1) / 1e4:.4f}" + named
+    return format_uncertain(value, half_width) + named
 
 
-def share(part: int, whole: int) -> str:
-    r"""
-    Write a part of a whole in per cent; what is there is never rounded to nothing.
+def format_uncertain(value: float, half_width: float, unit: str = "") -> str:
+    """
+    Write an SI value in `unit` with as many digits as its half-width allows: one, two where it starts with 1.
 
     Examples
     --------
-    >>> share(3, 40), share(3, 60000), share(0, 10)
-    ('7.5\xa0%', '< 0.01\xa0%', '0\xa0%')
+    >>> format_uncertain(0.97608, 0.0008), format_uncertain(0.23204, 0.0012, "mm")
+    ('0.9761 ± 0.0008', '232.0 ± 1.2 mm')
     """
-    if part == 0:
-        return f"0{PERCENT}"
-    percent = 100 * part / whole
-    return f"< 0.01{PERCENT}" if percent < 0.01 else f"{percent:.2g}{PERCENT}"
-
-
-def probability(value: float) -> str:
-    """
-    Write a probability in per cent; what is not certain is never rounded to certainty.
-
-    Examples
-    --------
-    >>> probability(0.432), probability(5e-17), probability(0.998), probability(1.0)
-    ('43 %', '< 1 %', '> 99 %', '100 %')
-    """
-    if value in (0.0, 1.0):
-        return f"{100 * value:.0f} %"
-    return "< 1 %" if value < 0.01 else "> 99 %" if value > 0.99 else f"{100 * value:.0f} %"
-
-
-def listed(names: Sequence[str], longest: int = 8) -> str:
-    """
-    List names, the first few of them where they are many.
-
-    Examples
-    --------
-    >>> listed(["a", "b"]), listed(list("abcdefgh"), longest=3)
-    ('a, b', 'a, b, c and 5 more')
-    """
-    if len(names) <= longest:
-        return ", ".join(names)
-    return f"{', '.join(names[:longest])} and {len(names) - longest} more"
+    value, half_width = from_si(value, unit), abs(from_si(half_width, unit))
+    if not (isfinite(half_width) and half_width > 0.0 and isfinite(value)):
+        return written(value, unit)
+    decimals = -floor(log10(half_width))
+    if round(half_width * 10.0**decimals, 1) < 2.0:
+        decimals += 1
+    shown, width = (f"{round(each, decimals):.{max(decimals, 0)}f}" for each in (value, half_width))
+    return f"{with_minus(shown)} ± {width} {unit}".rstrip()
 
 
 def format_percent(share: float, decimals: int = 0, *, signed: bool = False) -> str:
@@ -180,6 +172,32 @@ def format_percent(share: float, decimals: int = 0, *, signed: bool = False) -> 
     ('90\xa0%', '0.1\xa0%', '−25\xa0%', '+10\xa0%')
     """
     return with_minus(f"{100 * share:{'+' if signed else ''}.{decimals}f}{PERCENT}")
+
+
+def percent(share: float | None) -> str:
+    r"""
+    Write a share that may be very small in per cent, with two digits.
+
+    Examples
+    --------
+    >>> percent(0.00413), percent(2.5), percent(2.2e-7)
+    ('0.41\xa0%', '250\xa0%', '2.2·10⁻⁵\xa0%')
+    """
+    shown = NOTHING if share is None else number(100 * share, 2)
+    return shown if shown == NOTHING else shown + PERCENT
+
+
+def probability(value: float) -> str:
+    r"""
+    Write a probability in per cent; what is not certain is never rounded to certainty.
+
+    Examples
+    --------
+    >>> probability(0.432), probability(5e-17), probability(0.998), probability(1.0)
+    ('43\xa0%', '< 1\xa0%', '> 99\xa0%', '100\xa0%')
+    """
+    doubt = "< " if 0.0 < value < 0.01 else "> " if 0.99 < value < 1.0 else ""
+    return doubt + format_percent(min(max(value, 0.01), 0.99) if doubt else value)
 
 
 def with_minus(number: str) -> str:
@@ -196,25 +214,47 @@ def with_minus(number: str) -> str:
     return _EXPONENT.sub(lambda found: f"·10{str(int(found[1])).translate(_RAISED)}", number)
 
 
-def format_uncertain(value: float, half_width: float, unit: str = "") -> str:
+def listed(names: Sequence[str], longest: int = 8, what: str = "") -> str:
     """
-    Write an SI value in `unit` with as many digits as its half-width allows: one, two where it starts with 1.
+    List names, the first few of them where they are many.
 
     Examples
     --------
-    >>> format_uncertain(0.97608, 0.0008), format_uncertain(0.23204, 0.0012, "mm")
-    ('0.9761 ± 0.0008', '232.0 ± 1.2 mm')
+    >>> listed(["a", "b"]), listed(list("abcdefgh"), longest=3, what="tests")
+    ('a, b', 'a, b, c and 5 more tests')
     """
-    value, half_width = from_si(value, unit), abs(from_si(half_width, unit))
-    if not (isfinite(half_width) and half_width > 0.0 and isfinite(value)):
-        return f"{with_minus(f'{value:.4g}')} {unit}".rstrip()
-    decimals = _decimals(half_width)
-    shown = max(decimals, 0)
-    width = f"{round(half_width, decimals):.{shown}f}"
-    return f"{with_minus(f'{round(value, decimals):.{shown}f}')} ± {width} {unit}".rstrip()
+    shown = ", ".join(names[:longest])
+    return shown if len(names) <= longest else f"{shown} and {len(names) - longest} more {what}".rstrip()
 
 
-def _decimals(half_width: float) -> int:
-    """Decimals with which a half-width is written; negative if it is rounded to tens."""
-    decimals = -floor(log10(half_width))
-    return decimals + 1 if round(half_width * 10.0**decimals, 1) < 2.0 else decimals
+def joined(names: Sequence[str], last: str = "and") -> str:
+    """
+    List all names as in a sentence.
+
+    Examples
+    --------
+    >>> joined(["a"]), joined(["a", "b"]), joined(["a", "b", "c"], "or")
+    ('a', 'a and b', 'a, b or c')
+    """
+    return f" {last} ".join([*filter(None, [", ".join(names[:-1])]), *names[-1:]])
+
+
+class Digested(ABC):
+    """A result that gives its essence by `digest`: shown by `repr` in a line and by a notebook as a table."""
+
+    @abstractmethod
+    def digest(self) -> Mapping[str, str]:
+        """Return what is most worth knowing, by name, with units."""
+
+    def __repr__(self) -> str:
+        """Write it in a line."""
+        said = ", ".join(f"{name} {text}" for name, text in self.digest().items())
+        return f"<{type(self).__name__}: {said}>"
+
+    def _repr_html_(self) -> str:
+        """Write it as a table; whatever a text holds, it is shown as text."""
+        rows = "".join(
+            f'<tr><th scope="row" style="text-align: left">{escape(name)}</th><td>{escape(text)}</td></tr>'
+            for name, text in self.digest().items()
+        )
+        return f"<table><caption>{escape(type(self).__name__)}</caption><tbody>{rows}</tbody></table>"

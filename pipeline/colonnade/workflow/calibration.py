@@ -3,63 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from colonnade.campaign import load
-from colonnade.errors import CampaignError, nearest
+from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow.catalogue import Catalogue, stored_attributes
-from colonnade.workflow.execution.lock import only_run
-from colonnade.workflow.steps import Graph
+from colonnade.workflow.graph import Graph
+from colonnade.workflow.lock import only_run
+from colonnade.workflow.pooling import expect_specimens
 from colonnade.workflow.walk import Walk
 
-
-@dataclass(frozen=True)
-class Calibrated:
-    """
-    The law of contact of one specimen.
-
-    Attributes
-    ----------
-    specimen, mesh : str
-        Id of the specimen; mesh as in the settings.
-    reason : str
-        Why the calibration failed, or missed its target; else empty.
-    body : str
-        Description for people; empty, as the numbers below are None, if the calibration failed.
-    step : float or None
-        s.
-    target, restitution : float or None
-        e asked for, and e of the model's free vibration.
-    source : str
-        How the latter was found: `IDENTIFIED` from the rocking angle, or the `VELOCITY_RATIO` if the identification
-        gives no e.
-    velocity_ratio : float or None
-        Mean velocity ratio of the impacts of the same free vibration.
-    damping_fraction, effective_damping, stiffness : float or None
-        ξ at each node, ξ of the whole body, and the stiffness, N/m³.
-    energy_residual : float or None
-        Of the model's free vibration with this law.
-    path : Path or None
-        Where the law is stored.
-    """
-
-    specimen: str
-    mesh: str
-    reason: str
-    body: str = ""
-    step: float | None = None
-    target: float | None = None
-    restitution: float | None = None
-    source: str = ""
-    velocity_ratio: float | None = None
-    damping_fraction: float | None = None
-    effective_damping: float | None = None
-    stiffness: float | None = None
-    energy_residual: float | None = None
-    path: Path | None = None
+NUMBERS = {
+    "step": "contact_step",
+    "target": "restitution",
+    "restitution": "contact_restitution",
+    "velocity_ratio": "contact_velocity_ratio",
+    "damping_fraction": "damping_fraction",
+    "effective_damping": "effective_damping",
+    "stiffness": "contact_stiffness",
+    "energy_residual": "energy_residual",
+}
+"""Numbers of a law, and the variable of each in its result."""
 
 
 def calibrate(
@@ -68,9 +35,9 @@ def calibrate(
     specimens: Sequence[str] = (),
     workers: int | None = None,
     results: Path | str | None = None,
-) -> list[Calibrated]:
+) -> list[dict[str, Any]]:
     """
-    Find the contact damping with which each specimen rocks freely with its restitution.
+    Find the contact damping with which each specimen rocks freely with its restitution, and show the law.
 
     Parameters
     ----------
@@ -85,8 +52,9 @@ def calibrate(
 
     Returns
     -------
-    calibrated : list of Calibrated
-        Specimen by specimen.
+    laws : list of dict
+        Of each specimen its id, the mesh, why the calibration failed or missed its target, the body, the source of the
+        model's e and `NUMBERS` (SI; None if it failed), and where the law is stored.
 
     Raises
     ------
@@ -96,11 +64,8 @@ def calibrate(
         If a run is in progress, or results cannot be written.
     """
     loaded = load(Path(campaign))
-    layout = Layout.of(loaded.path, results)
-    for name in specimens:
-        if name not in loaded.specimens:
-            raise CampaignError(f'{loaded.path.name} has no specimen "{name}".{nearest(name, loaded.specimens)}')
-    chosen = list(specimens or loaded.specimens)
+    expect_specimens(loaded, specimens)
+    layout, chosen = Layout.of(loaded.path, results), list(specimens or loaded.specimens)
     mesh = loaded.processing.predict.contact.mesh
     with only_run(layout) as run_id:
         for name in chosen:
@@ -109,32 +74,19 @@ def calibrate(
                 raise CampaignError(f"{name}: its restitution is not known yet. Run `colonnade identify` first.")
         walk = Walk(Graph(loaded, layout, Catalogue(layout)), run_id, workers=workers)
         walk.pool()
+        failed = walk.failed["specimen"]
         for name in chosen:
-            if name in walk.failed_specimens:
-                raise CampaignError(f"{name}: {walk.failed_specimens[name]}")
+            if name in failed:
+                raise CampaignError(f"{name}: {failed[name]}")
         walk.calibrate(chosen)
-        failed = walk.failed_specimens
-        return [
-            Calibrated(name, mesh, failed[name]) if name in failed else _stored(name, mesh, layout) for name in chosen
-        ]
+        return [_law(name, mesh, layout.stage(name, "contact"), failed.get(name)) for name in chosen]
 
 
-def _stored(specimen: str, mesh: str, layout: Layout) -> Calibrated:
-    path = layout.stage(specimen, "contact")
+def _law(specimen: str, mesh: object, path: Path, failure: str | None) -> dict[str, Any]:
+    found: dict[str, Any] = {"specimen": specimen, "mesh": mesh, "reason": failure, "body": "", "source": ""}
+    if failure is not None:
+        return found | dict.fromkeys(NUMBERS) | {"path": None}
     law = files.read(path)
-    return Calibrated(
-        specimen,
-        mesh,
-        " ".join(map(str, law.attrs["warnings"])),
-        str(law.attrs["body"]),
-        step=float(law["contact_step"]),
-        target=float(law["restitution"]),
-        restitution=float(law["contact_restitution"]),
-        source=str(law.attrs["contact_restitution_source"]),
-        velocity_ratio=float(law["contact_velocity_ratio"]),
-        damping_fraction=float(law["damping_fraction"]),
-        effective_damping=float(law["effective_damping"]),
-        stiffness=float(law["contact_stiffness"]),
-        energy_residual=float(law["energy_residual"]),
-        path=path,
-    )
+    numbers = {name: float(law[variable]) for name, variable in NUMBERS.items()}
+    said = {"reason": " ".join(map(str, law.attrs["warnings"])), "body": str(law.attrs["body"])}
+    return found | said | {"source": str(law.attrs["contact_restitution_source"]), **numbers, "path": path}

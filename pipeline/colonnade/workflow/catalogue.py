@@ -1,4 +1,4 @@
-"""The catalogue: what raw files, results and pages held when they were last opened, so that they need not be again."""
+"""The catalogue: what raw files, results and pages held when they were last opened, and texts that are kept."""
 
 from __future__ import annotations
 
@@ -8,14 +8,13 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from colonnade.dynamics import models
-from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.models import MODELS
 from colonnade.errors import StoreError
 from colonnade.findings import from_text, to_text
 from colonnade.interruption import expect_none
 from colonnade.sources import code_hash, package_hash
-from colonnade.store import files, stamps
-from colonnade.store.freshness import Recipe
+from colonnade.store import files
+from colonnade.store.freshness import key_of
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
 
@@ -28,7 +27,7 @@ OWN_CODE_ONLY = ("colonnade.campaign", "colonnade.store", "colonnade.workflow")
 Mark = tuple[int, int, int]
 """Size (bytes), time (ns) and inode of a file. A file that replaces another by a rename has another inode."""
 
-_KINDS = ("raw", "results", "pages", "photos", "records", "code")
+_KINDS = ("raw", "results", "pages", "kept", "code")
 
 
 def mark_of(path: Path) -> Mark:
@@ -69,7 +68,7 @@ class Catalogue:
         Parameters
         ----------
         kind : str
-            raw, results, pages or photos.
+            raw, results or pages.
         path : Path
         ask : callable
             Opens the file and returns what it holds, as JSON can hold it.
@@ -101,7 +100,7 @@ class Catalogue:
 
     def stamp(self, page: Path) -> str:
         """Key of what a page shows; empty if it is missing or was altered."""
-        found = self.lookup("pages", page, stamps.key_of)
+        found = self.lookup("pages", page, key_of)
         return str(found[1]) if found else ""
 
     def code(self, made_by: Sequence[str], model: str | None = None) -> str:
@@ -142,17 +141,17 @@ class Catalogue:
         found = self.lookup("results", path, _kept)
         return hash_of(found[1]) if found else None
 
-    def record(self, subject: str, recipe: Recipe) -> str | None:
-        """Text of the record of a test or specimen if it was made by this recipe, else None."""
-        for known in (self._seen["records"].get(subject), self._known["records"].get(subject)):
-            if known is not None and not recipe.why({"key": known[0]}):
-                self._seen["records"][subject] = known
-                return str(known[1])
+    def kept(self, product: str, key: str) -> tuple[str, str] | None:
+        """Text that was kept of a product under this key, and why it could not be made; None if there is none."""
+        for known in (self._seen["kept"].get(product), self._known["kept"].get(product)):
+            if known is not None and known[0] == key:
+                self._seen["kept"][product] = known
+                return str(known[1]), str(known[2])
         return None
 
-    def remember(self, subject: str, recipe: Recipe, record: str) -> None:
-        """Keep a record for the next run."""
-        self._seen["records"][subject] = [recipe.key, record]
+    def keep(self, product: str, key: str, text: str, reason: str = "") -> None:
+        """Keep the text of a product for the next run, or why it could not be made."""
+        self._seen["kept"][product] = [key, text, reason]
 
     def save(self, *, is_whole: bool = True) -> None:
         """Write what was looked at; other entries belong to files that are gone, unless the run was not whole."""
@@ -165,9 +164,7 @@ class Catalogue:
 
 def _of_other_models(name: str) -> set[str]:
     """Give the modules that only other models use."""
-    others = [other for other in MODELS if other != name]
-    kinds = {type(MODELS[other]).__module__ for other in others} - {type(MODELS[name]).__module__}
-    return kinds | {f"{models.__name__}.{other}" for other in others}
+    return {model.engine for model in MODELS.values()} - {MODELS[name].engine}
 
 
 def stored_attributes(path: Path) -> dict[str, Any]:

@@ -1,10 +1,11 @@
-"""A chain: the steps of one test or specimen, brought up to date one after the other, often in a worker process."""
+"""A chain: results of one test or specimen, brought up to date one after the other, often in a worker process."""
 
 from __future__ import annotations
 
+import platform
 import time
 import traceback
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -19,16 +20,13 @@ from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin, global_attributes
 from colonnade.store.results import RUN_STAGES, ResultId
 from colonnade.workflow.catalogue import stored_attributes
-from colonnade.workflow.execution.lock import expect_run
+from colonnade.workflow.executors import WorkersEndedError
+from colonnade.workflow.lock import expect_run
 from colonnade.workflow.outcome import StageRun
-from colonnade.workflow.raw_files import RawFiles, expect_unchanged
-from colonnade.workflow.steps import Step
+from colonnade.workflow.product import Look, Product
 
 if TYPE_CHECKING:
     import xarray as xr
-
-Look = Callable[[Path], Mapping[str, Any]]
-"""Returns the stored attributes of a result, given its path."""
 
 _WORKER_LOST = (
     "The system stopped the process that worked on this test, twice: the second time nothing else was running. Either "
@@ -40,12 +38,12 @@ _WORKER_LOST = (
 @dataclass(frozen=True)
 class Chain:
     """
-    The steps of one test or specimen, with all that a worker needs to make them.
+    Results of one test or specimen, with all that a worker needs to make them.
 
     Attributes
     ----------
-    steps : sequence of Step
-        At least one.
+    products : sequence of Product
+        At least one; each is a result.
     results : sequence of ResultId
         All results of the test: those that follow a failed one are removed.
     layout : Layout
@@ -56,28 +54,31 @@ class Chain:
         The run that it belongs to; nothing is written once that has ended.
     start_from : str or None
         First stage whose results are recomputed whatever their state.
-    raw : mapping of str to RawFile
-        The raw files as they were hashed, by path within the campaign's folder.
     """
 
-    steps: Sequence[Step]
+    products: Sequence[Product]
     results: Sequence[ResultId]
     layout: Layout
     campaign_file: Path
     origin: Origin
     run_id: str
-    start_from: str | None
-    raw: RawFiles
+    start_from: str | None = None
 
     @property
     def subject(self) -> str:
         """Id of the test or specimen."""
-        return self.steps[0].result.subject
+        return self.products[0].result.subject
+
+    def why(self, product: Product, look: Look, recipe: Recipe | None = None) -> str:
+        """Say why a result has to be made; empty if it does not."""
+        if self.start_from is not None and product.result.order >= RUN_STAGES.index(self.start_from):
+            return "asked for"
+        return (recipe or product.recipe(look)).why(look(product.paths[0]))
 
 
 def bring_up_to_date(chain: Chain) -> list[StageRun]:
     """
-    Bring a chain up to date, up to the first step that fails; results that follow a failed one are removed.
+    Bring a chain up to date, up to the first result that fails; results that follow a failed one are removed.
 
     Raises
     ------
@@ -87,17 +88,29 @@ def bring_up_to_date(chain: Chain) -> list[StageRun]:
     with files.only_while(partial(expect_run, chain.layout, chain.run_id)):
         runs = list(_runs(chain))
         if runs[-1].action != "failed":
-            files.remove(chain.layout.error_log(chain.steps[0].result))
+            files.remove(chain.layout.error_log(chain.products[0].result))
     return runs
+
+
+def on_a_cluster(chain: Chain) -> list[StageRun]:
+    """Bring a chain up to date on a worker of a cluster, which has to see the campaign's folder."""
+    seen = {chain.campaign_file: "put the campaign there", chain.layout.processed: "give another one with --results"}
+    for path, advice in seen.items():
+        if not path.exists():
+            raise ColonnadeError(
+                f"{path}: a worker on {platform.node()} does not see this {'file' if path.suffix else 'folder'}. A "
+                f"folder that all of the cluster's workers share under the same path was expected; {advice}."
+            )
+    return bring_up_to_date(chain)
 
 
 def if_up_to_date(chain: Chain, look: Look) -> list[StageRun] | None:
     """Return what `bring_up_to_date` would for a chain with nothing to do, by the attributes from `look`; else None."""
     runs: list[StageRun] = []
-    for step in chain.steps:
-        if _why(chain, step, look):
+    for product in chain.products:
+        if chain.why(product, look):
             return None
-        runs.append(_unchanged(step, look(step.path)))
+        runs.append(_unchanged(product, look(product.paths[0])))
         if runs[-1].action == "failed":
             break
     return runs
@@ -105,20 +118,22 @@ def if_up_to_date(chain: Chain, look: Look) -> list[StageRun] | None:
 
 def why_pending(chain: Chain, look: Look) -> str | None:
     """Say why the results of a test cannot be shown: empty if it was never run, None if they are up to date."""
-    done = if_up_to_date(chain, look)
-    if done is not None:
+    if if_up_to_date(chain, look) is not None:
         return None
-    first, why = next((number, why) for number, step in enumerate(chain.steps) if (why := _why(chain, step, look)))
+    first, why = next((number, why) for number, each in enumerate(chain.products) if (why := chain.why(each, look)))
     if why != NEVER_RUN:
         return f"its results are out of date ({why}); run again"
-    return f"run only as far as {chain.steps[first - 1].result.stage}; `colonnade run` does the rest" if first else ""
+    return (
+        f"run only as far as {chain.products[first - 1].result.stage}; `colonnade run` does the rest" if first else ""
+    )
 
 
-def worker_lost(chain: Chain) -> StageRun:
+def worker_lost(chain: Chain) -> list[StageRun]:
     """Report a chain whose process was stopped; no failure is stored, so that the next run tries again."""
-    stopped = next((step for step in chain.steps if _why(chain, step, stored_attributes)), chain.steps[-1]).result
+    late = (product for product in chain.products if chain.why(product, stored_attributes))
+    stopped = next(late, chain.products[-1]).result
     remove_later(chain.layout, chain.results, stopped.order - 1)
-    return StageRun(stopped.subject, stopped.stage, "failed", stopped.model, _WORKER_LOST)
+    return [StageRun(stopped.subject, stopped.stage, "failed", stopped.model, _WORKER_LOST)]
 
 
 def remove_later(layout: Layout, results: Sequence[ResultId], order: int) -> None:
@@ -130,116 +145,100 @@ def remove_later(layout: Layout, results: Sequence[ResultId], order: int) -> Non
 
 def _runs(chain: Chain) -> Iterator[StageRun]:
     made: dict[Path, xr.Dataset] = {}
-    for number, step in enumerate(chain.steps):
+    for number, product in enumerate(chain.products):
         expect_run(chain.layout, chain.run_id)
-        run = _run_step(chain, step, made)
+        run = _run(chain, product, made)
         yield run
         if run.action == "failed":
-            remove_later(chain.layout, chain.results, step.result.order)
+            remove_later(chain.layout, chain.results, product.result.order)
             return
-        wanted = {path for later in chain.steps[number + 1 :] for path in later.upstream.values()}
+        wanted = {path for later in chain.products[number + 1 :] for path in later.upstream.values()}
         for path in made.keys() - wanted:
             del made[path]
 
 
-def _run_step(chain: Chain, step: Step, made: dict[Path, xr.Dataset]) -> StageRun:
+def _run(chain: Chain, product: Product, made: dict[Path, xr.Dataset]) -> StageRun:
     """Bring one result up to date; `made` holds the results of this chain, which are not read again."""
     expect_none()
-    stored = stored_attributes(step.path)
-    recipe = _recipe(chain, step, lambda path: made[path].attrs if path in made else stored_attributes(path))
-    because = _why(chain, step, lambda path: stored, recipe)
+    result, path = product.result, product.paths[0]
+    stored = stored_attributes(path)
+    recipe = product.recipe(lambda path: made[path].attrs if path in made else stored_attributes(path))
+    because = chain.why(product, lambda path: stored, recipe)
     if not because:
-        return _unchanged(step, stored)
+        return _unchanged(product, stored)
     started = time.perf_counter()
-    subject, stage, model = step.result.subject, step.result.stage, step.result.model
-    attributes = _attributes(chain, step, recipe)
+    attributes: dict[str, Any] = {**global_attributes(chain.origin, result), **recipe.attributes}
+    if result.stage == "ingest":
+        hashes = [digest or "" for digest in recipe.upstream.values()]
+        attributes |= {"raw_files": list(recipe.upstream), "raw_sha256": hashes}
     try:
-        if step.is_from_raw:
-            result = step.work(step.upstream, step.inputs)
-            expect_unchanged(chain.layout.folder, chain.raw)
-        else:
-            for path in step.upstream.values():
-                made[path] = made[path] if path in made else files.read(path)
-            result = step.work({name: made[path] for name, path in step.upstream.items()}, step.inputs)
-        made[step.path] = files.write(result, step.path, attributes=attributes)
+        read = {name: each for name, each in product.upstream.items() if isinstance(each, Path)}
+        for each in read.values():
+            made[each] = made[each] if each in made else files.read(each)
+        made[path] = files.write(
+            product.make({name: made[each] for name, each in read.items()}), path, attributes=attributes
+        )
     except RunEndedError:
         raise
     except Exception as error:
         expect_none()  # an interrupt in the import of a compiled module comes as an ImportError
-        reason = _store_failure(chain, step, error, attributes)
-        return StageRun(subject, stage, "failed", model, reason, because, time.perf_counter() - started)
-    found = tuple(at_stage(result.attrs.get("warnings", []), stage))
-    return StageRun(subject, stage, "done", model, "", because, time.perf_counter() - started, found)
-
-
-def _recipe(chain: Chain, step: Step, look: Look) -> Recipe:
-    if step.is_from_raw:
-        upstream = {name: file.sha256 for name, file in chain.raw.items()}
+        reason, action, findings = _stored_failure(chain, product, error, attributes), "failed", []
     else:
-        upstream = {name: look(path).get("content") for name, path in step.upstream.items()}
-    return Recipe(step.result.stage, step.code, step.inputs.model_dump_json(), {**upstream, **step.given})
+        reason, action, findings = "", "done", made[path].attrs.get("warnings", [])
+    seconds = time.perf_counter() - started
+    return _stage_run(result, action, reason, because, seconds, findings)
 
 
-def _why(chain: Chain, step: Step, look: Look, recipe: Recipe | None = None) -> str:
-    """Say why a result has to be made; empty if it does not."""
-    if chain.start_from is not None and step.result.order >= RUN_STAGES.index(chain.start_from):
-        return "asked for"
-    return (recipe or _recipe(chain, step, look)).why(look(step.path))
-
-
-def _unchanged(step: Step, stored: Mapping[str, Any]) -> StageRun:
-    subject, stage, model = step.result.subject, step.result.stage, step.result.model
+def _unchanged(product: Product, stored: Mapping[str, Any]) -> StageRun:
     if stored.get("status") == "failed":
-        return StageRun(subject, stage, "failed", model, str(stored.get("reason", "")))
-    findings = tuple(at_stage(stored.get("warnings", ()), stage))
-    return StageRun(subject, stage, "up-to-date", model, findings=findings)
+        return _stage_run(product.result, "failed", str(stored.get("reason", "")))
+    return _stage_run(product.result, "up-to-date", findings=stored.get("warnings", ()))
 
 
-def _attributes(chain: Chain, step: Step, recipe: Recipe) -> dict[str, Any]:
-    attributes: dict[str, Any] = {**global_attributes(chain.origin, step.result), **recipe.attributes}
-    if step.is_from_raw:
-        hashes = [digest or "" for digest in recipe.upstream.values()]
-        attributes |= {"raw_files": list(recipe.upstream), "raw_sha256": hashes}
-    return attributes
+def _stage_run(
+    result: ResultId, action: Any, reason: str = "", because: str = "", seconds: float = 0.0, findings: Any = ()
+) -> StageRun:
+    found = tuple(at_stage(findings, result.stage))
+    return StageRun(result.subject, result.stage, action, result.model, reason, because, seconds, found)
 
 
-def _store_failure(chain: Chain, step: Step, error: Exception, attributes: Mapping[str, Any]) -> str:
-    """Return why a step failed, and store it; a failure of the machine is not stored, so that the next run retries."""
+def _stored_failure(chain: Chain, product: Product, error: Exception, attributes: Mapping[str, Any]) -> str:
+    """Return why a result failed, and store it; a failure of the machine is not stored: the next run tries again."""
     if isinstance(error, ColonnadeError):
         reason = str(error)
     elif isinstance(error, MemoryError):
         reason = SHORT_OF_MEMORY
     else:  # a bug in colonnade: reported as such, the other tests go on
-        reason = _internal_error(chain.layout, step, error)
+        reason = _internal_error(chain.layout, product.result, error)
     if _is_machine_failure(error):
-        files.remove(step.path)
+        files.remove(product.paths[0])
         return reason
     try:
-        files.write_failed(step.path, reason, attributes=attributes)
+        files.write_failed(product.paths[0], reason, attributes=attributes)
     except StoreError as unwritable:
         return f"{reason} This failure could not be stored either: {unwritable}"
     return reason
 
 
 def _is_machine_failure(error: Exception) -> bool:
-    """Whether the disk, the memory or an interrupted import caused it, not the data."""
-    if isinstance(error, (StoreError, MemoryError, ImportError)):
+    """Whether the disk, the memory, a worker or an interrupted import caused it, not the data."""
+    if isinstance(error, (StoreError, WorkersEndedError, MemoryError, ImportError)):
         return True
     cause = error.__cause__
     return isinstance(cause, OSError) and cause.errno is not None and not isinstance(cause, FileNotFoundError)
 
 
-def _internal_error(layout: Layout, step: Step, error: Exception) -> str:
+def _internal_error(layout: Layout, result: ResultId, error: Exception) -> str:
     """Write the traceback to the error.log of the test or specimen; return the message."""
     frames = traceback.extract_tb(error.__traceback__)
     place = f"{frames[-1].filename.rpartition('colonnade')[2].lstrip('/')}:{frames[-1].lineno}" if frames else "?"
-    log = layout.error_log(step.result)
+    log = layout.error_log(result)
     where = f"its traceback is in {log.relative_to(layout.home).as_posix()}"
     try:
         files.write_text(log, "".join(traceback.format_exception(error)))
     except StoreError:
         where = "its traceback could not be written"
     return (
-        f"Internal error in {step.result.stage}, {type(error).__name__} at {place}: {error}. This is a bug in "
+        f"Internal error in {result.stage}, {type(error).__name__} at {place}: {error}. This is a bug in "
         f"colonnade, not an error in your campaign; {where}. Please report it with that file."
     )

@@ -8,15 +8,15 @@ from functools import lru_cache
 from pathlib import Path
 
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.assessing.assessment import Assessment
+from colonnade.campaign.assessment import Assessment
 from colonnade.errors import ReadError, StageError, count
 from colonnade.findings import Finding, Severity, at_stage, in_order, note, warning
 from colonnade.interruption import expect_none
 from colonnade.readers.recording import Recording
 from colonnade.store.results import models_of
-from colonnade.workflow.copies import digests_of_equal_sizes, with_copies
+from colonnade.workflow.photos import unshown_photos
 from colonnade.workflow.pooling import with_contradictions
-from colonnade.workflow.publishing.photos import unshown_photos
+from colonnade.workflow.raw_files import digests_of_equal_sizes, with_copies
 
 
 @dataclass

@@ -8,11 +8,11 @@ from math import isclose
 from typing import TYPE_CHECKING
 
 from colonnade.campaign import Campaign, Test
-from colonnade.errors import StoreError
+from colonnade.errors import CampaignError, StoreError, nearest
 from colonnade.findings import Finding, Severity
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.workflow.copies import listed
+from colonnade.workflow.raw_files import listed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -68,6 +68,23 @@ def _shares(campaign: Campaign, test: Test, other: Test) -> bool:
         for name in both
     )
     return test.specimen == other.specimen and bool(both) and all(same)
+
+
+def expect_specimens(campaign: Campaign, names: Iterable[str]) -> None:
+    """Refuse ids that are of no specimen of a campaign."""
+    for name in names:
+        if name not in campaign.specimens:
+            raise CampaignError(f'{campaign.path.name} has no specimen "{name}".{nearest(name, campaign.specimens)}')
+
+
+def one_specimen(campaign: Campaign, name: str | None) -> str:
+    """Give the specimen of this id or, without one, the only one of a campaign."""
+    if name is None and len(campaign.specimens) > 1:
+        listed = nearest("", campaign.specimens)
+        raise CampaignError(f"The campaign has several specimens. Name one with --specimen ID.{listed}")
+    chosen = next(iter(campaign.specimens)) if name is None else name
+    expect_specimens(campaign, [chosen])
+    return chosen
 
 
 def restitution_taken(campaign: Campaign, layout: Layout, specimen: str) -> xr.Dataset:

@@ -4,22 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from math import pi
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic import ValidationError
 
+from colonnade.assessment.prototype import Prototype as RealColumn
 from colonnade.campaign import Campaign
-from colonnade.campaign.assessing.prototype import Prototype
+from colonnade.campaign.assessment import Prototype
 from colonnade.campaign.specimen import OUTER_DIMENSIONS, SIZED
 from colonnade.campaign.syntax.fields import Scale
 from colonnade.campaign.syntax.table import Table
-from colonnade.dynamics.block import STANDARD_GRAVITY, Block
-from colonnade.dynamics.spectra.spectrum import rectangular
-from colonnade.errors import CampaignError, nearest
-from colonnade.stages.assessing.column import ColumnInputs
+from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
+from colonnade.dynamics.spectra import rectangular
+from colonnade.errors import CampaignError
+from colonnade.stages.assessing.column import ColumnInputs, real_column
 from colonnade.store.layout import Layout
-from colonnade.workflow.pooling import restitution_taken
+from colonnade.workflow.pooling import one_specimen, restitution_taken
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -75,20 +77,61 @@ class AskedColumn:
 @dataclass(frozen=True)
 class FoundColumn:
     """
-    A column with all that its properties follow from, for `stages.assessing.column.real_column`.
+    A column with all that its properties follow from.
 
     Attributes
     ----------
     specimen : str or None
-        Id; None of a column given by α and p.
+        Id; None of a column given by its sizes or by α and p.
     inputs : ColumnInputs
     pooled : xr.Dataset
         The e of the model, as of `stages.specimen`.
+    has_own_size : bool
+        Whether its size is said, but not how many times larger than a specimen that is.
     """
 
     specimen: str | None
     inputs: ColumnInputs
     pooled: xr.Dataset
+    has_own_size: bool
+
+    @cached_property
+    def real(self) -> tuple[RealColumn, str]:
+        """
+        The column, and where its e comes from: given, identified or rigid-body.
+
+        Raises
+        ------
+        CampaignError
+            If there can be no such column.
+        """
+        try:
+            return real_column(self.inputs, self.pooled)
+        except ValueError as error:
+            raise CampaignError(f"The column cannot be: {error}.") from None
+
+    @property
+    def block(self) -> Block:
+        """Of the column."""
+        return self.real[0].block
+
+    @property
+    def restitution(self) -> tuple[float, float]:
+        """e of impacts that end an arc at θ < 0, and at θ > 0."""
+        return pair(self.real[0].restitution)
+
+    @property
+    def scale(self) -> float | None:
+        """How many times larger it is than what the campaign tests; None if that is not said."""
+        return None if self.has_own_size else self.inputs.scale
+
+    @property
+    def name(self) -> str:
+        """What it is, in words."""
+        scale = self.inputs.scale
+        if self.specimen is None:
+            return f"α = {self.block.critical_angle:.4g} rad, p = {self.block.p:.4g} rad/s"
+        return self.specimen if scale == 1.0 else f"{self.specimen}, {scale:g} times larger"
 
 
 def find_column(
@@ -121,7 +164,7 @@ def find_column(
         )
     if campaign is None or layout is None or not asked.needs_specimen:
         return _without_specimen(asked, has_campaign=campaign is not None)
-    name = _specimen(campaign, asked.specimen)
+    name = one_specimen(campaign, asked.specimen)
     known = campaign.specimens[name]
     scale = checked(_Size, {"scale": asked.scale}).scale or (known.scale if is_real else None) or 1.0
     if is_real or scale != 1.0 or {"critical_angle", "p"} & asked.properties.keys():
@@ -135,7 +178,7 @@ def find_column(
         prototype=_prototype(written, asked.properties),
         usual_scatter=campaign.processing.predict.ensemble.restitution,
     )
-    return FoundColumn(name, inputs, restitution_taken(campaign, layout, name))
+    return FoundColumn(name, inputs, restitution_taken(campaign, layout, name), asked.has_own_size)
 
 
 class _Size(Table):
@@ -171,7 +214,8 @@ def _without_specimen(asked: AskedColumn, *, has_campaign: bool) -> FoundColumn:
             raise CampaignError(f"The column cannot be: {error}.") from None
         prototype = prototype.model_copy(update={"critical_angle": None, "p": None})
     inputs = ColumnInputs(block=block, scale=1.0, prototype=prototype)
-    return FoundColumn(None, inputs, taken(None, SpecimenInputs(block=block, given=None, level=0.95)))
+    pooled = taken(None, SpecimenInputs(block=block, given=None, level=0.95))
+    return FoundColumn(None, inputs, pooled, asked.has_own_size)
 
 
 def _sized(sizes: Mapping[str, Any]) -> Block:
@@ -180,17 +224,6 @@ def _sized(sizes: Mapping[str, Any]) -> Block:
         raise CampaignError(f"--{next(iter(sizes)).replace('_', '-')}: give its --shape too: {', '.join(SIZED)}.")
     other = {"mass": "1 kg", "depth": "1 m"} if sizes["shape"] == "prism" else {"mass": "1 kg"}
     return checked(SIZED[sizes["shape"]], other | dict(sizes)).block(STANDARD_GRAVITY)
-
-
-def _specimen(campaign: Campaign, name: str | None) -> str:
-    known = list(campaign.specimens)
-    if name is None and len(known) == 1:
-        return known[0]
-    if name is None:
-        raise CampaignError(f"The campaign has several specimens. Name one with --specimen ID.{nearest('', known)}")
-    if name not in known:
-        raise CampaignError(f'{campaign.path.name} has no specimen "{name}".{nearest(name, known)}')
-    return name
 
 
 def _prototype(written: dict[str, Any], given: Mapping[str, Any]) -> Prototype:

@@ -4,29 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from colonnade.campaign import Campaign, load
 from colonnade.campaign.forms.summary import Summary
 from colonnade.errors import CampaignError, nearest
 from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
+from colonnade.store.records.advice import Advice
 from colonnade.store.results import RUN_STAGES, results_of
-from colonnade.workflow.advising.kept import advice_shown
-from colonnade.workflow.arguments import check_run
+from colonnade.validation import described, text, whole
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.chain import remove_later
-from colonnade.workflow.copies import Digests, with_copies
-from colonnade.workflow.execution.lock import only_run
-from colonnade.workflow.forecasting.choosing import choose
-from colonnade.workflow.forecasting.records import finding_of, foreseen_of
+from colonnade.workflow.forecasts import choose, finding_of, foreseen_of
+from colonnade.workflow.graph import Graph
+from colonnade.workflow.lock import only_run
 from colonnade.workflow.outcome import RunResult
+from colonnade.workflow.pages import update_report
+from colonnade.workflow.photos import with_photos
 from colonnade.workflow.pooling import with_contradictions
-from colonnade.workflow.publishing.pages import update_report
-from colonnade.workflow.publishing.photos import with_photos
-from colonnade.workflow.raw_files import RawFiles, raw_files
-from colonnade.workflow.steps import Graph
+from colonnade.workflow.raw_files import Digests, RawFiles, raw_files, with_copies
 from colonnade.workflow.summary import write_summary
 from colonnade.workflow.walk import Progress, Walk
+
+MOST_WORKERS = 10_000
+"""Processes; no machine has as many cores."""
 
 
 def run(
@@ -88,15 +90,12 @@ def run(
     ...     print(str(error)[:25])
     no-such-folder: not found
     """
-    check_run(
-        campaign,
-        stages={"until": until, "start_from": start_from},
+    _check(
+        paths={"campaign": campaign, "results": results},
+        texts={"until": until, "start_from": start_from, "scheduler": scheduler},
+        flags={"verify": verify, "awaiting": awaiting},
         only=only,
         workers=workers,
-        scheduler=scheduler,
-        verify=verify,
-        awaiting=awaiting,
-        results=results,
         progress=progress,
     )
     loaded = load(Path(campaign)).awaiting() if awaiting else load(Path(campaign))
@@ -111,8 +110,8 @@ def run(
         for test in loaded.tests.values():
             if loaded.left_out(test.id):
                 remove_later(layout, results_of(loaded, test), order=-1)
-        graph = Graph(loaded, layout, catalogue)
-        walk = Walk(graph, run_id, raw, start_from, last, workers, scheduler, progress, notices.append)
+        graph = Graph(loaded, layout, catalogue, raw)
+        walk = Walk(graph, run_id, start_from, last, workers, scheduler, progress, notices.append)
         walk.through(tests)
         loaded, outdated, summary = _summed_up(walk, awaiting=awaiting)
         report = None
@@ -130,14 +129,14 @@ def _summed_up(walk: Walk, *, awaiting: bool) -> tuple[Campaign, dict[str, str],
     Return the campaign with what is wrong with forecasts and shaken tests, and why which tests are out of date.
     """
     campaign, layout = walk.graph.campaign, walk.graph.layout
-    stale = {name: why for name, why in walk.stale().items() if name not in walk.failed_tests}
+    stale = {name: why for name, why in walk.stale().items() if name not in walk.failed["test"]}
     outdated = stale | dict.fromkeys(campaign.tests.keys() - set(walk.included), "")
     forecasts = read_forecasts(layout)
     campaign = campaign.but(warnings=(*campaign.warnings, *map(finding_of, forecasts.refused)))
     campaign = with_contradictions(
         campaign, {stage.subject: stage.findings for stage in walk.stages if stage.stage == "condition"}
     )
-    chosen = choose(campaign, forecasts, walk.raw)
+    chosen = choose(campaign, forecasts, walk.graph.raw)
     if walk.until == "report":
         walk.score(chosen.scored, outdated)
         if not awaiting:  # while tests arrive, the answers about real columns wait for the last of them
@@ -147,10 +146,10 @@ def _summed_up(walk: Walk, *, awaiting: bool) -> tuple[Campaign, dict[str, str],
         layout,
         walk.graph.catalogue,
         outdated=outdated,
-        failed=walk.failed_tests,
+        failed=walk.failed["test"],
         outdated_assessments=walk.stale_assessments(),
-        failed_assessments=walk.failed_assessments,
-        foreseen=foreseen_of(layout, forecasts, chosen, outdated.keys() | walk.failed_tests.keys()),
+        failed_assessments=walk.failed["assessment"],
+        foreseen=foreseen_of(layout, forecasts, chosen, outdated.keys() | walk.failed["test"].keys()),
         workers=walk.workers,
     )
     return campaign, outdated, summary
@@ -160,9 +159,14 @@ def _reported(walk: Walk, campaign: Campaign, outdated: Mapping[str, str], summa
     """Bring maps, photos, advice and pages up to date; return the campaign with what is wrong with photos."""
     layout, catalogue = walk.graph.layout, walk.graph.catalogue
     walk.map(summary)
-    campaign = with_photos(campaign, layout, catalogue)
-    advice = advice_shown(campaign, layout, catalogue, summary, walk.workers)
-    return campaign, update_report(campaign, layout, catalogue, outdated, summary.forecasts, advice, walk.workers)
+    campaign, photos = with_photos(campaign, layout, catalogue)
+    advice: list[Advice] = []
+    if campaign.awaited or campaign.next.model_fields_set or campaign.table.model_fields_set:
+        from colonnade.workflow.advising.next import advice_shown
+
+        advice = advice_shown(campaign, layout, catalogue, summary, walk.workers)
+    made = update_report(campaign, layout, catalogue, outdated, summary.forecasts, advice, photos, walk.workers)
+    return campaign, made
 
 
 def _last_stage(start_from: str | None, until: str | None) -> str:
@@ -193,3 +197,32 @@ def _digests(campaign: Campaign, raw: dict[str, RawFiles]) -> Digests:
         for name, files in raw.items()
         if not campaign.left_out(name)
     }
+
+
+def _check(
+    *,
+    paths: Mapping[str, Any],
+    texts: Mapping[str, Any],
+    flags: Mapping[str, Any],
+    only: Any,
+    workers: Any,
+    progress: Any,
+) -> None:
+    """Check the type of each argument of `run`, as it comes from a notebook."""
+    for name, value in paths.items():
+        if not (isinstance(value, (str, Path)) or (name == "results" and value is None)):
+            raise ValueError(f"{name} is {described(value)}; a path was expected")
+    for name, value in texts.items():
+        if value is not None:
+            text(name, value, "an address" if name == "scheduler" else "the name of a stage")
+    if not isinstance(only, str) and not (
+        isinstance(only, (list, tuple, set, frozenset)) and all(isinstance(each, str) for each in only)
+    ):
+        raise ValueError(f"only is {described(only)}; the id of a test, or a list of ids, was expected")
+    if workers is not None:
+        whole("workers", workers, 1, MOST_WORKERS)
+    for name, value in flags.items():
+        if not isinstance(value, bool):
+            raise ValueError(f"{name} is {described(value)}; True or False was expected")
+    if progress is not None and not callable(progress):
+        raise ValueError(f"progress is {described(progress)}; a function was expected")

@@ -6,13 +6,13 @@ from reproduction.statement import Answer, Numbers, Statement
 from reproduction.statements import computation, earthquakes, free, maps, setting, sines, specimens
 
 STATEMENTS: tuple[Statement, ...] = (
-    *setting.STATEMENTS,
-    *specimens.STATEMENTS,
-    *computation.STATEMENTS,
-    *free.STATEMENTS,
-    *sines.STATEMENTS,
-    *maps.STATEMENTS,
-    *earthquakes.STATEMENTS,
+    *setting.stated,
+    *specimens.stated,
+    *computation.stated,
+    *free.stated,
+    *sines.stated,
+    *maps.stated,
+    *earthquakes.stated,
 )
 
 

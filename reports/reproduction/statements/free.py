@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from reproduction.printed import RESTITUTION
-from reproduction.statement import HISTORIES, Answer, Numbers, Statement, assumed, judged, undecided
+from reproduction.statement import HISTORIES, Answer, Numbers, Statements, judged
 
-PAGE = "free-vibration"
+stated = Statements("free-vibration")
 
 E_DIGIT = 0.001
 """One unit of the last digit of the paper's e."""
@@ -14,12 +14,23 @@ LEAST = 0.01
 """Of α: a misfit that rocking in space adds; less is not seen."""
 
 
-def _value(numbers: Numbers) -> str:
+@stated(
+    "2.1, 4",
+    "The prism's coefficient of restitution is e = 0.976.",
+    "identified from the virtual free vibrations, which were given this e",
+)
+def _e_of_the_prism(numbers: Numbers) -> str:
     found = numbers["restitution"]["prism"]
     return f"identified {found['value']:.4f}, the {found['true']:g} that the virtual prism was given"
 
 
-def _method(numbers: Numbers) -> Answer:
+@stated(
+    "2, 2.1",
+    "e is the value with which the linearised solution follows the measured free vibration best.",
+    "the same fit on free vibrations of known e",
+    f"each fit gives the true e to {E_DIGIT:g}",
+)
+def _e_by_best_fit(numbers: Numbers) -> Answer:
     found = numbers["restitution"]["prism"]
     fitted = found["by_the_linear_model"]
     known = [each for each in fitted if each is not None]
@@ -30,7 +41,13 @@ def _method(numbers: Numbers) -> Answer:
     )
 
 
-def _above_rigid(numbers: Numbers) -> Answer:
+@stated(
+    "2.1",
+    "e = 0.976 is used in the equations of a rigid block. (What these give by themselves is not compared.)",
+    "Housner's e of the prism, 1 − 1.5 sin² α",
+    "it is within 0.01 of 0.976",
+)
+def _e_of_a_rigid_body(numbers: Numbers) -> Answer:
     rigid = numbers["specimens"]["prism"]["rigid_restitution"]
     return judged(
         abs(rigid - RESTITUTION) <= 0.01,
@@ -38,13 +55,34 @@ def _above_rigid(numbers: Numbers) -> Answer:
     )
 
 
-def _fit(numbers: Numbers) -> Answer:
+stated.undecided(
+    "release",
+    "2.1",
+    "The specimen rocks freely to rest; how it is released is not said.",
+    "the virtual prism is held tilted and let go, which is assumed",
+    "released at about 0.60, −0.50 and 0.70 of α",
+)
+
+
+@stated(
+    "2.1, fig. 3",
+    "For the prism observed and predicted free vibration correlate well.",
+    "RMS misfit of the linear model on the virtual recordings",
+    f"at most {HISTORIES['good']:g} of α in all three",
+)
+def _prism_correlates(numbers: Numbers) -> Answer:
     found = [numbers["tests"][test]["predicted"]["linear"]["nrmse"] for test in numbers["free_vibrations"]]
     words = ", ".join(f"{each:.3f}" for each in found)
     return judged(max(found) <= HISTORIES["good"], f"linear model, RMS misfit over α: {words}")
 
 
-def _early(numbers: Numbers) -> Answer:
+@stated(
+    "2.1",
+    "Measured and predicted differ visibly at first, while amplitudes are large.",
+    "misfit of the linear model in the first four predicted arcs, and in the twelve after them",
+    "the first is larger, in all three",
+)
+def _early_discrepancy(numbers: Numbers) -> Answer:
     rows = [each["linear"] for each in numbers["free_vibrations"].values()]
     plane = [each["nonlinear"]["early"] for each in numbers["free_vibrations"].values()]
     words = "; ".join(f"{each['early']:.3f} then {each['late']:.3f}" for each in rows)
@@ -55,13 +93,26 @@ def _early(numbers: Numbers) -> Answer:
     )
 
 
-def _in_space(numbers: Numbers) -> Answer:
+@stated(
+    "2.1",
+    "That difference comes from rocking that turns three-dimensional; it is worst for the round specimens and "
+    "least for the prism.",
+    "the study of the contact model: disturbances of a release from 0.9 α",
+    "some disturbance adds 5 % of α to the misfit of cylinder and cone, and less than half of it to the prism's",
+)
+def _rocking_in_space(numbers: Numbers) -> Answer:
     found = numbers["three_dimensional"]["disturbances"]
     yes = [kind for kind, each in found.items() if each["size"] is not None]
     return judged(bool(yes), f"{len(yes)} of {len(found)} kinds of disturbance give that misfit: {', '.join(yes)}")
 
 
-def _slightest(numbers: Numbers) -> Answer:
+@stated(
+    "2.1",
+    "The slightest disturbance out of the plane makes the rocking three-dimensional.",
+    "the smallest size of each disturbance in that study",
+    "each adds 1 % of α to the misfit of each specimen",
+)
+def _slightest_disturbance(numbers: Numbers) -> Answer:
     rows = {
         (specimen, kind): misfit
         for specimen, kinds in numbers["three_dimensional"]["smallest"].items()
@@ -74,96 +125,16 @@ def _slightest(numbers: Numbers) -> Answer:
     )
 
 
-def _spoilt(numbers: Numbers) -> Answer:
+@stated(
+    "2.1",
+    "A prism gives e more accurately than a truncated cone.",
+    "identified e of the disturbed releases in that study",
+    "fewer of the prism's e are refused or wrong by 0.005 than of cylinder's and cone's",
+)
+def _prism_gives_e_more_accurately(numbers: Numbers) -> Answer:
     found = numbers["three_dimensional"]["e_spoilt"]
     words = ", ".join(f"{specimen} {100 * share:.0f} %" for specimen, share in found.items())
     return judged(
         all(found["prism"] < found[other] for other in ("cylinder", "cone")),
         f"e refused or more than 0.005 off in so many of the disturbed releases: {words}",
     )
-
-
-STATEMENTS = (
-    Statement(
-        "e-of-the-prism",
-        "2.1, 4",
-        "The prism's coefficient of restitution is e = 0.976.",
-        "identified from the virtual free vibrations, which were given this e",
-        "",
-        assumed(_value),
-        PAGE,
-    ),
-    Statement(
-        "e-by-best-fit",
-        "2, 2.1",
-        "e is the value with which the linearised solution follows the measured free vibration best.",
-        "the same fit on free vibrations of known e",
-        f"each fit gives the true e to {E_DIGIT:g}",
-        _method,
-        PAGE,
-    ),
-    Statement(
-        "e-of-a-rigid-body",
-        "2.1",
-        "e = 0.976 is used in the equations of a rigid block. (What these give by themselves is not compared.)",
-        "Housner's e of the prism, 1 − 1.5 sin² α",
-        "it is within 0.01 of 0.976",
-        _above_rigid,
-        PAGE,
-    ),
-    Statement(
-        "release",
-        "2.1",
-        "The specimen rocks freely to rest; how it is released is not said.",
-        "the virtual prism is held tilted and let go, which is assumed",
-        "",
-        undecided("released at about 0.60, −0.50 and 0.70 of α"),
-        PAGE,
-    ),
-    Statement(
-        "prism-correlates",
-        "2.1, fig. 3",
-        "For the prism observed and predicted free vibration correlate well.",
-        "RMS misfit of the linear model on the virtual recordings",
-        f"at most {HISTORIES['good']:g} of α in all three",
-        _fit,
-        PAGE,
-    ),
-    Statement(
-        "early-discrepancy",
-        "2.1",
-        "Measured and predicted differ visibly at first, while amplitudes are large.",
-        "misfit of the linear model in the first four predicted arcs, and in the twelve after them",
-        "the first is larger, in all three",
-        _early,
-        PAGE,
-    ),
-    Statement(
-        "rocking-in-space",
-        "2.1",
-        "That difference comes from rocking that turns three-dimensional; it is worst for the round specimens and "
-        "least for the prism.",
-        "the study of the contact model: disturbances of a release from 0.9 α",
-        "some disturbance adds 5 % of α to the misfit of cylinder and cone, and less than half of it to the prism's",
-        _in_space,
-        PAGE,
-    ),
-    Statement(
-        "slightest-disturbance",
-        "2.1",
-        "The slightest disturbance out of the plane makes the rocking three-dimensional.",
-        "the smallest size of each disturbance in that study",
-        "each adds 1 % of α to the misfit of each specimen",
-        _slightest,
-        PAGE,
-    ),
-    Statement(
-        "prism-gives-e-more-accurately",
-        "2.1",
-        "A prism gives e more accurately than a truncated cone.",
-        "identified e of the disturbed releases in that study",
-        "fewer of the prism's e are refused or wrong by 0.005 than of cylinder's and cone's",
-        _spoilt,
-        PAGE,
-    ),
-)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from itertools import combinations
 
-from reproduction.statement import BOUNDARIES, Answer, Numbers, Statement, judged
+from reproduction.statement import BOUNDARIES, Answer, Numbers, Statements, judged
 
-PAGE = "maps"
+stated = Statements("maps")
 
 NARROW = 0.1
 """In A: a band between onset and overturning that a minor increase of the amplitude crosses."""
@@ -21,44 +21,17 @@ STEEP = 2.0
 """From the lowest to the highest frequency a boundary that rises rapidly grows by this factor at least."""
 
 
-def _rises(numbers: Numbers) -> Answer:
-    """A bracket that lies wholly below one at a lower frequency shows a boundary that falls."""
-    brackets = [each["overturning"] for each in numbers["boundaries"]]
-    falls = any(above < below for (below, _), (_, above) in combinations(brackets, 2))
-    (low, first), (last, high) = brackets[0], brackets[-1]
-    words = ", ".join(f"{below:.2f}–{above:.2f}" for below, above in brackets)
-    omegas = [each["frequency_ratio"] for each in numbers["boundaries"]]
-    return judged(
-        not falls and last / first >= STEEP,
-        f"measured brackets from Ω = {omegas[0]:.2f} to {omegas[-1]:.2f}: A = {words}; it grows {last / first:.1f}- "
-        f"to {high / low:.1f}-fold",
-    )
-
-
-def _narrow(numbers: Numbers) -> Answer:
-    chart = numbers["fine_map"]
-    bands = [
-        None if lower is None else lower - onset
-        for lower, onset in zip(chart["lower"], chart["no_rocking"], strict=True)
-    ]
-    first, last = bands[0], next(each for each in reversed(bands) if each is not None)
-    test = numbers["boundaries"][0]
-    return judged(
-        first is not None and first < NARROW,
-        f"analytical model, from onset to lower limit: {first:.3f} in A at the lowest Ω, {last:.2f} at the highest; "
-        f"measured at the lowest: still at A = {test['rocking'][0]:.2f}, overturned at {test['overturning'][1]:.2f}",
-    )
-
-
-def _onset(numbers: Numbers) -> Answer:
-    brackets = [each["rocking"] for each in numbers["boundaries"]]
-    words = ", ".join(f"{below:.2f}–{above:.2f}" for below, above in brackets)
-    return judged(all(below <= 1 <= above for below, above in brackets), f"measured brackets: {words}")
-
-
-def _two_limits(which: str) -> Statement:
+def _two_limits(which: str) -> None:
     name = {"fine_map": "analytical", "contact": "numerical"}[which]
 
+    @stated(
+        {"analytical": "3.1, fig. 7", "numerical": "4.1, fig. 12"}[name],
+        f"The {name} model does not give one boundary of overturning but two lines: a lower and an upper limit.",
+        "limits of the computed map of the prism",
+        "at more than half of the Ω that have overturning an upper limit is apart from the lower one, or beyond the "
+        "map",
+        name=f"two-limits-{name}",
+    )
     def answer(numbers: Numbers) -> Answer:
         chart = numbers["fine_map"] if which == "fine_map" else numbers["maps"][which]
         pairs = [
@@ -73,32 +46,17 @@ def _two_limits(which: str) -> Statement:
             f"{numbers['made']['map']['cycles']} cycles, ramps of {numbers['made']['map']['ramp']})",
         )
 
-    return Statement(
-        f"two-limits-{name}",
-        {"analytical": "3.1, fig. 7", "numerical": "4.1, fig. 12"}[name],
-        f"The {name} model does not give one boundary of overturning but two lines: a lower and an upper limit.",
-        "limits of the computed map of the prism",
-        "at more than half of the Ω that have overturning an upper limit is apart from the lower one, or beyond the "
-        "map",
-        answer,
-        PAGE,
+
+def _agreement(which: str, limit: str, asked: str, identity: str, section: str, says: str) -> None:
+    """Hold a computed limit against the measured boundary."""
+
+    @stated(
+        section,
+        says,
+        "computed limit over the middle of the bracket between measured tests, at each frequency that has both",
+        f"RMS at most {100 * BOUNDARIES[asked]:g} % of the boundary's A",
+        name=identity,
     )
-
-
-def _single_line(numbers: Numbers) -> Answer:
-    words = "; ".join(
-        f"Ω = {each['frequency_ratio']:.2f}: stands again at A = "
-        + ", ".join(f"{level:.2f}" for level in each["stood_above"])
-        for each in numbers["boundaries"]
-        if each["stood_above"]
-    )
-    return judged(not words, words or "no test stands above one that overturned")
-
-
-def _agreement(which: str, limit: str, asked: str, words: tuple[str, str, str]) -> Statement:
-    """Hold a computed limit against the measured boundary; `words` are id, section and the paper's statement."""
-    identity, section, says = words
-
     def answer(numbers: Numbers) -> Answer:
         found = numbers["fine_map" if which == "fine_map" else "maps"]
         off = (found if which == "fine_map" else found[which])[f"{limit}_off"]
@@ -108,18 +66,144 @@ def _agreement(which: str, limit: str, asked: str, words: tuple[str, str, str]) 
             f"{off['frequencies']} frequencies",
         )
 
-    return Statement(
-        identity,
-        section,
-        says,
-        "computed limit over the middle of the bracket between measured tests, at each frequency that has both",
-        f"RMS at most {100 * BOUNDARIES[asked]:g} % of the boundary's A",
-        answer,
-        PAGE,
+
+@stated(
+    "2.2, fig. 5",
+    "The boundary between stable rocking and overturning rises rapidly with Ω.",
+    "brackets between the measured tests at each frequency",
+    f"no bracket is below one at a lower frequency, and the boundary grows {STEEP:g}-fold at least",
+)
+def _boundary_rises(numbers: Numbers) -> Answer:
+    """A bracket that lies wholly below one at a lower frequency shows a boundary that falls."""
+    brackets = [each["overturning"] for each in numbers["boundaries"]]
+    falls = any(above < below for (below, _), (_, above) in combinations(brackets, 2))
+    (low, first), (last, high) = brackets[0], brackets[-1]
+    words = ", ".join(f"{below:.2f}–{above:.2f}" for below, above in brackets)
+    omegas = [each["frequency_ratio"] for each in numbers["boundaries"]]
+    return judged(
+        not falls and last / first >= STEEP,
+        f"measured brackets from Ω = {omegas[0]:.2f} to {omegas[-1]:.2f}: A = {words}; it grows {last / first:.1f}- "
+        f"to {high / low:.1f}-fold",
     )
 
 
-def _better(numbers: Numbers) -> Answer:
+@stated(
+    "2.2, fig. 5",
+    "At small Ω a minor increase of A leads from no rocking to overturning.",
+    "onset and lower limit of the finely scanned map; the tests at the lowest frequency",
+    f"the band is narrower than {NARROW:g} in A at the lowest Ω",
+)
+def _narrow_band(numbers: Numbers) -> Answer:
+    chart = numbers["fine_map"]
+    bands = [
+        None if lower is None else lower - onset
+        for lower, onset in zip(chart["lower"], chart["no_rocking"], strict=True)
+    ]
+    first, last = bands[0], next(each for each in reversed(bands) if each is not None)
+    test = numbers["boundaries"][0]
+    return judged(
+        first is not None and first < NARROW,
+        f"analytical model, from onset to lower limit: {first:.3f} in A at the lowest Ω, {last:.2f} at the highest; "
+        f"measured at the lowest: still at A = {test['rocking'][0]:.2f}, overturned at {test['overturning'][1]:.2f}",
+    )
+
+
+@stated(
+    "2.2, fig. 5",
+    "The boundary between no rocking and rocking is at about A = 1 for every Ω.",
+    "brackets between the measured tests",
+    "each bracket holds A = 1",
+)
+def _onset_at_one(numbers: Numbers) -> Answer:
+    brackets = [each["rocking"] for each in numbers["boundaries"]]
+    words = ", ".join(f"{below:.2f}–{above:.2f}" for below, above in brackets)
+    return judged(all(below <= 1 <= above for below, above in brackets), f"measured brackets: {words}")
+
+
+_two_limits("fine_map")
+
+
+@stated(
+    "3.1, fig. 7",
+    "The experiment gives a single line between stable rocking and overturning.",
+    "the measured tests at each frequency, in the order of A",
+    "no measured test stands above one that overturned",
+)
+def _one_line_measured(numbers: Numbers) -> Answer:
+    words = "; ".join(
+        f"Ω = {each['frequency_ratio']:.2f}: stands again at A = "
+        + ", ".join(f"{level:.2f}" for level in each["stood_above"])
+        for each in numbers["boundaries"]
+        if each["stood_above"]
+    )
+    return judged(not words, words or "no test stands above one that overturned")
+
+
+_agreement(
+    "fine_map",
+    "lower",
+    "fairly good",
+    "analytical-overturning",
+    "3.1, fig. 7",
+    "The analytical boundary of overturning agrees fairly well with the measured one.",
+)
+
+
+_agreement(
+    "fine_map",
+    "no_rocking",
+    "fairly good",
+    "analytical-onset",
+    "3.1, fig. 7",
+    "The analytical boundary of the onset of rocking agrees fairly well with the measured one.",
+)
+
+
+_two_limits("contact")
+
+
+@stated(
+    "4.1, fig. 12",
+    "The numerical onset of rocking is at about A = 1 whatever Ω.",
+    "outcomes of the contact model's map",
+    "within 0.1 of A = 1 at every frequency",
+)
+def _numerical_onset_flat(numbers: Numbers) -> Answer:
+    found = [each for each in numbers["maps"]["contact"]["no_rocking"] if each is not None]
+    words = ", ".join(f"{each:.2f}" for each in found)
+    return judged(
+        all(abs(each - 1) <= ONSET for each in found),
+        f"A at which it begins to rock, searched between the levels, at the seven frequencies: {words}",
+    )
+
+
+_agreement(
+    "contact",
+    "lower",
+    "very good",
+    "numerical-overturning",
+    "4.1, fig. 12",
+    "The numerical lower limit agrees very well with the measured boundary of overturning.",
+)
+
+
+_agreement(
+    "contact",
+    "no_rocking",
+    "very good",
+    "numerical-onset",
+    "4.1, fig. 12",
+    "The numerical onset of rocking agrees very well with the measured one.",
+)
+
+
+@stated(
+    "4.1, fig. 13",
+    "The numerical lower limit is nearer to the measured boundary than the analytical one.",
+    "limits of all models by one rule, from the same levels at the tests' frequencies",
+    f"its RMS distance is smaller by {100 * NO_DIFFERENCE:g} % of A; if the two differ by less: cannot be decided",
+)
+def _numerical_is_better(numbers: Numbers) -> Answer:
     rows = {model: numbers["maps"][model]["lower_off"] for model in ("linear", "contact", "nonlinear")}
     words = ", ".join(
         f"{model} {100 * each['rms']:.1f} % ({each['frequencies']} frequencies)" for model, each in rows.items()
@@ -131,16 +215,13 @@ def _better(numbers: Numbers) -> Answer:
     return judged(gain > 0, ours)
 
 
-def _flat(numbers: Numbers) -> Answer:
-    found = [each for each in numbers["maps"]["contact"]["no_rocking"] if each is not None]
-    words = ", ".join(f"{each:.2f}" for each in found)
-    return judged(
-        all(abs(each - 1) <= ONSET for each in found),
-        f"A at which it begins to rock, searched between the levels, at the seven frequencies: {words}",
-    )
-
-
-def _trends(numbers: Numbers) -> Answer:
+@stated(
+    "5",
+    "Both models show the measured trends of stability over frequency and amplitude.",
+    "outcomes that they predict on the recorded motions of the prism's sine tests",
+    "each predicts 90 % of the measured outcomes at least",
+)
+def _same_trends(numbers: Numbers) -> Answer:
     rows = [
         (test["outcome"], {model: each["outcome"] for model, each in test["predicted"].items()})
         for name, test in numbers["tests"].items()
@@ -155,112 +236,3 @@ def _trends(numbers: Numbers) -> Answer:
         min(shares.values()) >= 0.9,
         f"predicted outcome on the recorded motion is the measured one in: {words} of tests",
     )
-
-
-STATEMENTS = (
-    Statement(
-        "boundary-rises",
-        "2.2, fig. 5",
-        "The boundary between stable rocking and overturning rises rapidly with Ω.",
-        "brackets between the measured tests at each frequency",
-        f"no bracket is below one at a lower frequency, and the boundary grows {STEEP:g}-fold at least",
-        _rises,
-        PAGE,
-    ),
-    Statement(
-        "narrow-band",
-        "2.2, fig. 5",
-        "At small Ω a minor increase of A leads from no rocking to overturning.",
-        "onset and lower limit of the finely scanned map; the tests at the lowest frequency",
-        f"the band is narrower than {NARROW:g} in A at the lowest Ω",
-        _narrow,
-        PAGE,
-    ),
-    Statement(
-        "onset-at-one",
-        "2.2, fig. 5",
-        "The boundary between no rocking and rocking is at about A = 1 for every Ω.",
-        "brackets between the measured tests",
-        "each bracket holds A = 1",
-        _onset,
-        PAGE,
-    ),
-    _two_limits("fine_map"),
-    Statement(
-        "one-line-measured",
-        "3.1, fig. 7",
-        "The experiment gives a single line between stable rocking and overturning.",
-        "the measured tests at each frequency, in the order of A",
-        "no measured test stands above one that overturned",
-        _single_line,
-        PAGE,
-    ),
-    _agreement(
-        "fine_map",
-        "lower",
-        "fairly good",
-        (
-            "analytical-overturning",
-            "3.1, fig. 7",
-            "The analytical boundary of overturning agrees fairly well with the measured one.",
-        ),
-    ),
-    _agreement(
-        "fine_map",
-        "no_rocking",
-        "fairly good",
-        (
-            "analytical-onset",
-            "3.1, fig. 7",
-            "The analytical boundary of the onset of rocking agrees fairly well with the measured one.",
-        ),
-    ),
-    _two_limits("contact"),
-    Statement(
-        "numerical-onset-flat",
-        "4.1, fig. 12",
-        "The numerical onset of rocking is at about A = 1 whatever Ω.",
-        "outcomes of the contact model's map",
-        "within 0.1 of A = 1 at every frequency",
-        _flat,
-        PAGE,
-    ),
-    _agreement(
-        "contact",
-        "lower",
-        "very good",
-        (
-            "numerical-overturning",
-            "4.1, fig. 12",
-            "The numerical lower limit agrees very well with the measured boundary of overturning.",
-        ),
-    ),
-    _agreement(
-        "contact",
-        "no_rocking",
-        "very good",
-        (
-            "numerical-onset",
-            "4.1, fig. 12",
-            "The numerical onset of rocking agrees very well with the measured one.",
-        ),
-    ),
-    Statement(
-        "numerical-is-better",
-        "4.1, fig. 13",
-        "The numerical lower limit is nearer to the measured boundary than the analytical one.",
-        "limits of all models by one rule, from the same levels at the tests' frequencies",
-        f"its RMS distance is smaller by {100 * NO_DIFFERENCE:g} % of A; if the two differ by less: cannot be decided",
-        _better,
-        PAGE,
-    ),
-    Statement(
-        "same-trends",
-        "5",
-        "Both models show the measured trends of stability over frequency and amplitude.",
-        "outcomes that they predict on the recorded motions of the prism's sine tests",
-        "each predicts 90 % of the measured outcomes at least",
-        _trends,
-        PAGE,
-    ),
-)

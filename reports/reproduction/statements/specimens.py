@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from reproduction.printed import LAST_DIGIT, TABLE_1
-from reproduction.statement import Answer, Numbers, Statement, judged
+from reproduction.statement import Answer, Numbers, Statements, judged
+
+stated = Statements("tables")
 
 UNITS = {"critical_angle": "rad", "pole_distance": "m", "inertia": "kg m²", "p": "rad/s"}
-WORDS = {
+QUANTITIES = {
     "critical_angle": "critical angle",
     "pole_distance": "distance of the centre of mass from the pole",
     "inertia": "moment of inertia about the pole",
@@ -26,15 +26,16 @@ def percent_off(printed: float, ours: float) -> str:
     return f"{round(100 * (printed / ours - 1), 2) + 0.0:+.2f} %"
 
 
-def _cells() -> Iterator[Statement]:
-    for specimen, row in TABLE_1.items():
-        for quantity, printed in row.printed.items():
-            yield _cell(specimen, quantity, printed)
-
-
-def _cell(specimen: str, quantity: str, printed: float) -> Statement:
+def _cell(specimen: str, quantity: str, printed: float) -> None:
     unit, digits = UNITS[quantity], DIGITS[quantity]
 
+    @stated(
+        "Table 1",
+        f"The {specimen}'s {QUANTITIES[quantity]} is {printed:g} {unit}.",
+        "computed from the dimensions and the mass, rigid body, g = 9.81 m/s²",
+        f"ours is within one unit of the last printed digit, {LAST_DIGIT[quantity]:g} {unit}",
+        name=f"table-1-{specimen}-{quantity.replace('_', '-')}",
+    )
     def answer(numbers: Numbers) -> Answer:
         ours = float(numbers["specimens"][specimen][quantity])
         return judged(
@@ -42,24 +43,31 @@ def _cell(specimen: str, quantity: str, printed: float) -> Statement:
             f"{ours:.{digits}f} {unit}; the table is {percent_off(printed, ours)} off",
         )
 
-    return Statement(
-        f"table-1-{specimen}-{quantity.replace('_', '-')}",
-        "Table 1",
-        f"The {specimen}'s {WORDS[quantity]} is {printed:g} {unit}.",
-        "computed from the dimensions and the mass, rigid body, g = 9.81 m/s²",
-        f"ours is within one unit of the last printed digit, {LAST_DIGIT[quantity]:g} {unit}",
-        answer,
-        "tables",
-    )
 
-
+@stated(
+    "1",
+    "The specimens are solid and of steel.",
+    "mass over the volume of the printed dimensions",
+    f"all three densities are between {STEEL[0]:g} and {STEEL[1]:g} kg/m³",
+)
 def _steel(numbers: Numbers) -> Answer:
     found = {name: each["density"] for name, each in numbers["specimens"].items()}
     words = ", ".join(f"{name} {density:.0f}" for name, density in found.items())
     return judged(all(STEEL[0] <= density <= STEEL[1] for density in found.values()), f"{words} kg/m³")
 
 
-def _tangents(numbers: Numbers) -> Answer:
+for specimen, row in TABLE_1.items():
+    for quantity, printed in row.printed.items():
+        _cell(specimen, quantity, printed)
+
+
+@stated(
+    "Table 1",
+    "The column headed critical rocking angle (rad) holds angles.",
+    "compared with half the base over the height of the centre of mass",
+    "the printed values are not the tangents, to one unit of the last digit",
+)
+def _critical_angles_are_angles(numbers: Numbers) -> Answer:
     rows = {
         name: (each["tangent"], TABLE_1[name].printed["critical_angle"]) for name, each in numbers["specimens"].items()
     }
@@ -68,7 +76,13 @@ def _tangents(numbers: Numbers) -> Answer:
     return judged(not are_tangents, f"the printed values are the tangents: {words}")
 
 
-def _heights(numbers: Numbers) -> Answer:
+@stated(
+    "Table 1",
+    "The column headed distance of the centre of mass from the pole holds distances, of cylinder and cone too.",
+    "compared with the height of the centre of mass",
+    "the printed values are not those heights, to one unit of the last digit",
+)
+def _distances_are_distances(numbers: Numbers) -> Answer:
     rows = {
         name: (numbers["specimens"][name]["centre_height"], TABLE_1[name].printed["pole_distance"])
         for name in ("cylinder", "cone")
@@ -80,14 +94,26 @@ def _heights(numbers: Numbers) -> Answer:
     return judged(not are_heights, f"the printed values are heights of the centre of mass: {words}")
 
 
-def _p_of_columns(numbers: Numbers) -> Answer:
+@stated(
+    "Table 1",
+    "p is the root of weight times distance over moment of inertia.",
+    "formed from the printed columns",
+    "all three give the printed p, to one unit of the last digit",
+)
+def _p_follows_from_its_columns(numbers: Numbers) -> Answer:
     found = {name: each["p_of_printed"] for name, each in numbers["specimens"].items()}
     words = ", ".join(f"{name} {value:.3f}" for name, value in found.items())
     same = all(abs(value - TABLE_1[name].printed["p"]) <= LAST_DIGIT["p"] for name, value in found.items())
     return judged(same, f"sqrt(W R / I) of the printed columns, W = {STANDARD_GRAVITY} m: {words} rad/s")
 
 
-def _one_p(numbers: Numbers) -> Answer:
+@stated(
+    "Table 1",
+    "All three specimens have one p, 5.631 rad/s.",
+    "from the dimensions",
+    "the three p differ by no more than one unit of the last digit",
+)
+def _one_p_for_all(numbers: Numbers) -> Answer:
     found = {name: each["p"] for name, each in numbers["specimens"].items()}
     spread = max(found.values()) - min(found.values())
     return judged(
@@ -96,68 +122,15 @@ def _one_p(numbers: Numbers) -> Answer:
     )
 
 
-def _text_angle(numbers: Numbers) -> Answer:
+@stated(
+    "2.2",
+    "The prism's critical angle is 0.1886 rad, by which its rocking angle is divided in the figures.",
+    "from the dimensions",
+    "ours is within one unit of the last digit",
+)
+def _critical_angle_in_the_text(numbers: Numbers) -> Answer:
     ours = numbers["specimens"]["prism"]
     return judged(
         abs(ours["critical_angle"] - 0.1886) <= LAST_DIGIT["critical_angle"],
         f"{ours['critical_angle']:.4f} rad; 0.1886 is its tangent, {ours['tangent']:.4f}",
     )
-
-
-STATEMENTS = (
-    Statement(
-        "steel",
-        "1",
-        "The specimens are solid and of steel.",
-        "mass over the volume of the printed dimensions",
-        f"all three densities are between {STEEL[0]:g} and {STEEL[1]:g} kg/m³",
-        _steel,
-        "tables",
-    ),
-    *_cells(),
-    Statement(
-        "critical-angles-are-angles",
-        "Table 1",
-        "The column headed critical rocking angle (rad) holds angles.",
-        "compared with half the base over the height of the centre of mass",
-        "the printed values are not the tangents, to one unit of the last digit",
-        _tangents,
-        "tables",
-    ),
-    Statement(
-        "distances-are-distances",
-        "Table 1",
-        "The column headed distance of the centre of mass from the pole holds distances, of cylinder and cone too.",
-        "compared with the height of the centre of mass",
-        "the printed values are not those heights, to one unit of the last digit",
-        _heights,
-        "tables",
-    ),
-    Statement(
-        "p-follows-from-its-columns",
-        "Table 1",
-        "p is the root of weight times distance over moment of inertia.",
-        "formed from the printed columns",
-        "all three give the printed p, to one unit of the last digit",
-        _p_of_columns,
-        "tables",
-    ),
-    Statement(
-        "one-p-for-all",
-        "Table 1",
-        "All three specimens have one p, 5.631 rad/s.",
-        "from the dimensions",
-        "the three p differ by no more than one unit of the last digit",
-        _one_p,
-        "tables",
-    ),
-    Statement(
-        "critical-angle-in-the-text",
-        "2.2",
-        "The prism's critical angle is 0.1886 rad, by which its rocking angle is divided in the figures.",
-        "from the dimensions",
-        "ours is within one unit of the last digit",
-        _text_angle,
-        "tables",
-    ),
-)

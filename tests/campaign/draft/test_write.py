@@ -93,12 +93,12 @@ def test_the_same_recording_in_two_formats_is_taken_once(folder):
     assert "# free.txt: the same columns as free.csv" in drafted.text
 
 
-def test_a_channel_that_an_earlier_setup_has_too_is_asked_about_with_a_hint(folder):
+def test_a_question_is_asked_in_full_again_in_another_setup(folder):
     folder.write("free-01.csv", {"LVDT 1 [V]": DECAY})
     folder.write("sine-01.csv", {"LVDT 1 [V]": noise(), "ACC [g]": SINE})
     _, drafted = folder.draft()
     asked = {question.key: question.asked for question in drafted.open}
-    assert asked["setups.setup-2.channels.lvdt_1.gain"] == "perhaps as in setup-1"
+    assert asked["setups.setup-2.channels.lvdt_1.gain"] == "from its calibration sheet"
 
 
 def test_repetitions_are_tests_of_their_own_in_one_setup(folder):
@@ -155,14 +155,14 @@ def test_the_day_of_a_file_is_drafted_and_what_no_file_tells_is_shown_once(folde
     document, drafted = folder.draft()
     assert [test["date"].isoformat() for test in document["tests"]] == ["2013-04-26"] * 2
     assert drafted.text.count("date = 2013-04-26    # from the file's own time") == 2
-    assert drafted.text.count("# operator = ") == 1
+    assert drafted.text.count('operator = "…"') == 1
 
 
 def test_a_file_without_a_date_leaves_the_day_to_people(folder):
     folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY})
     document, drafted = folder.draft()
     assert "date" not in document["tests"][0]
-    assert "# date = 2013-04-26" in drafted.text
+    assert "may also have date = 2013-04-26" in drafted.text
 
 
 def test_a_question_is_asked_in_full_once_in_a_setup(folder):

@@ -39,6 +39,7 @@ def test_the_contracts_example_is_read_and_written_unchanged_but_for_later_addit
         test["predicted"][model] = dict.fromkeys(("outcome", "peak_ratio", "nrmse"))
     expected["forecasts"] = test["forecast"] = None
     expected["assessments"] = {}
+    test["bodies"] = {}
     expected["specimens"]["prism"] |= dict.fromkeys(LATER["specimen"].split())
     test |= dict.fromkeys(LATER["test"].split())
     for prediction in test["predicted"].values():

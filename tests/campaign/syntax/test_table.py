@@ -42,7 +42,7 @@ def test_all_problems_are_told_at_once_each_at_its_key():
     [
         (Shelf, {"boxes": 3}, "3 was found. A table was expected."),
         (Shelf, {"boxes": {"a": "x"}}, '"x" was found. A table was expected.'),
-        (Box, {"width": "1 m", "labels": 5}, "5 was found. A list was expected."),
+        (Box, {"width": "1 m", "labels": 5}, "5 was found. A list was expected: words on it."),
     ],
 )
 def test_a_value_in_place_of_a_table_or_list_is_refused(table, value, told):

@@ -7,7 +7,7 @@ import pytest
 
 from colonnade.cli.app import app
 from colonnade.cli.common.options import models
-from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.models import MODELS
 
 
 def options(command):

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from colonnade.dynamics.contact.body import rigid_body
 from colonnade.dynamics.contact.history import EnergyBalance, impacts_of, tilt
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
@@ -69,12 +69,12 @@ def test_a_balance_that_does_not_close_is_told():
 
 
 def test_what_cannot_lift_the_block_is_not_missing():
-    """Shaken below its threshold, the block has hardly any energy to compare with."""
+    """Shaken below its threshold, the block has hardly any energy to compare with, and the balance closes."""
     body = rigid_body(PRISM)
     shaken = Motion(0.8 * PRISM.uplift_acceleration * np.sin(2 * np.pi * 3 * 0.005 * np.arange(401)), 0.005)
     history = simulate(body, shaken, law=ContactLaw.stiff(body, 9.81), step=2e-5)
     assert history.outcome == "no-rocking"
-    assert not history.energies.closes
+    assert history.energies.relative_residual < 1e-3
     assert history.warnings == ()
     overturning = PRISM.mass * 9.81 * PRISM.pole_distance * (1 - np.cos(ALPHA))
     part = {name: getattr(history.energies, name) for name in vars(history.energies)}
@@ -84,7 +84,7 @@ def test_what_cannot_lift_the_block_is_not_missing():
         leaking = EnergyBalance(**{**part, "dissipated_contact": lost})
         return type(history)(**{**vars(history), "energies": leaking}).warnings
 
-    assert told(0.009) == ()
+    assert told(0.0015) == ()
     assert "does not close" in told(0.02)[0]
 
 

@@ -7,15 +7,16 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact import simulate as simulation
+from colonnade.dynamics.contact.body import rigid_body
 from colonnade.dynamics.contact.elastic.assembly import assemble
 from colonnade.dynamics.contact.elastic.mesh import prism_mesh
 from colonnade.dynamics.contact.elastic.reduction import reduce_body, rigid_on_nodes
 from colonnade.dynamics.contact.law import STATIC_PENETRATION, ContactLaw
-from colonnade.dynamics.contact.modes import FOLLOWED, keep_modes, keep_modes_for_step
-from colonnade.dynamics.contact.nodes import rigid_body
+from colonnade.dynamics.contact.modes import FOLLOWED, keep_modes, keep_modes_for_step, longest_with
 from colonnade.dynamics.contact.simulate import simulate
-from colonnade.dynamics.contact.stability import highest_frequency, longest_step
+from colonnade.dynamics.contact.stability import highest_frequency
 from colonnade.dynamics.contact.start import Start
+from colonnade.dynamics.contact.structure import Structure
 from colonnade.dynamics.motion import Motion
 from every import every
 from prism import PRISM
@@ -75,23 +76,27 @@ def test_a_law_that_cannot_be_is_refused(wrong, message):
 BODY = rigid_body(PRISM)
 
 
+def _highest(law):
+    return highest_frequency(Structure.of_body(BODY, law, 9.81))
+
+
 def test_the_highest_frequency_is_that_of_rocking_on_springs_where_sliding_is_soft():
     law = ContactLaw(1e10, tangential_ratio=1e-9)
     stiffness = law.node_stiffness(BODY)
     bounce = math.sqrt(stiffness.sum() / BODY.mass)
     rock = math.sqrt((stiffness @ BODY.nodes[:, 0] ** 2) / BODY.inertia[1])
-    assert highest_frequency(BODY, law) == pytest.approx(max(bounce, rock), rel=1e-6)
+    assert _highest(law) == pytest.approx(max(bounce, rock), rel=1e-6)
 
 
 def test_without_damping_the_longest_step_is_two_over_the_frequency():
     law = ContactLaw(1e10, damping_fraction=0.0)
-    assert longest_step(BODY, law) == pytest.approx(2.0 / highest_frequency(BODY, law), rel=1e-4)
+    assert longest_with(BODY, law, math.inf) == pytest.approx(2.0 / _highest(law), rel=1e-4)
 
 
 @pytest.mark.parametrize("fraction", [0.0, 0.4, 2.0])
 def test_a_loaded_block_is_quiet_below_the_longest_step_and_not_above(fraction, monkeypatch):
     law = ContactLaw(1e10, damping_fraction=fraction, friction=math.inf)
-    limit = longest_step(BODY, law)
+    limit = longest_with(BODY, law, math.inf)
 
     def ringing(step):
         # Under a gravity that keeps all nodes on the table.
@@ -126,8 +131,8 @@ def test_a_step_of_ten_microseconds_keeps_modes_that_the_engine_advances_with_cl
     kept = keep_modes_for_step(reduced, law, 1e-5)
     count = kept.frequencies.size
     assert count >= 4
-    assert longest_step(kept, law) >= 1e-5 / FOLLOWED
-    assert longest_step(keep_modes(reduced, reduced.frequencies[count + 1]), law) < 1e-5 / FOLLOWED
+    assert longest_with(kept, law, math.inf) >= 1e-5 / FOLLOWED
+    assert longest_with(reduced, law, reduced.frequencies[count + 1]) < 1e-5 / FOLLOWED
     history = simulate(kept, law=law, theta0=0.05, duration=0.3, step=1e-5)
     assert history.impact_times.size == 1
     assert history.energies.closes

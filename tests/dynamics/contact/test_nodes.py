@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.nodes import rigid_body
+from colonnade.dynamics.contact.body import rigid_body
 from colonnade.dynamics.contact.simulate import plane_block
 
 PRISM = Block.prism(width=0.2, depth=0.3, height=0.9, mass=10.0)

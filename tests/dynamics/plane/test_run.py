@@ -5,13 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from colonnade.dynamics.models.linear import LINEAR
-from colonnade.dynamics.models.model import Case
-from colonnade.dynamics.models.nonlinear import NONLINEAR
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.models import LINEAR, NONLINEAR, Case
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic.motion import OUTCOMES
-from colonnade.dynamics.plane.outcomes import ends_of, prepared
-from colonnade.dynamics.plane.run import LARGEST_ACCELERATION, LONGEST_SAMPLE, run
+from colonnade.dynamics.plane.run import LARGEST_ACCELERATION, LONGEST_SAMPLE, OUTCOMES, ends_of, prepared, run
 from colonnade.dynamics.rock import rock
 from prism import PRISM
 
@@ -98,3 +95,15 @@ def test_ends_are_those_of_the_histories(model, vertical):
 def test_a_block_is_refused_whose_e_is_none():
     with pytest.raises(ValueError, match=r"restitution is 1\.1; a number between 0 and 1"):
         prepared(PRISM, 1.1)
+
+
+@pytest.mark.parametrize("model", ["linear", "nonlinear"])
+@pytest.mark.parametrize("critical", [0.14917578366258932, 0.19, 0.25])
+def test_a_motion_that_only_touches_the_threshold_makes_no_block_hop_without_end(model, critical):
+    block = Block.measured(mass=100.0, pole_distance=0.3, critical_angle=critical, inertia=12.0)
+    wave = np.sin(np.linspace(0.0, np.pi, 81))
+    touching = block.gravity * (np.tan(critical) if model == "nonlinear" else critical)
+    for steps in range(-6, 7):
+        motion = Motion(touching * (1.0 + steps * np.finfo(float).eps) * wave, 0.005)
+        history = rock(block, motion, restitution=0.97, model=model)
+        assert (history.impacts <= 2, history.outcome) == (True, "no-rocking"), steps

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.maps.steady import SteadyResponse
+from colonnade.dynamics.steady import SteadyResponse
 from colonnade.figures.maps.response_orders import REGIONS, response_orders
 from colonnade.identification.response.boundaries import MapPoint
 

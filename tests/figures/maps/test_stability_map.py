@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.maps.chart import stability_map as computed
+from colonnade.dynamics.maps import stability_map as computed
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.figures.maps.stability_map import stability_map
 from colonnade.identification.response.boundaries import MapPoint

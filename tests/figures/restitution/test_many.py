@@ -10,7 +10,7 @@ from colonnade.figures.restitution.impacts import ImpactSeries, Level
 from colonnade.figures.restitution.many import LINES, impacts_of_many, middle_of, peaks_of_many
 from colonnade.figures.restitution.peaks import PeakSeries
 from colonnade.figures.stored import restitution as pictures
-from colonnade.identification.restitution.arcs.energy import angle_of_energy
+from colonnade.identification.restitution.peaks import angle_of_energy
 from prism import PRISM
 
 LEVEL = Level(0.95, 0.949, 0.951, "e pooled")

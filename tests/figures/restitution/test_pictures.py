@@ -23,7 +23,7 @@ from colonnade.figures import (
 )
 from colonnade.figures.restitution.marks import draw_marks
 from colonnade.figures.style import MEASURED, model_style
-from colonnade.identification.restitution.arcs.energy import angle_of_energy
+from colonnade.identification.restitution.peaks import angle_of_energy
 from prism import PRISM
 
 NOTHING = EstimateRow("impact by impact", np.nan, np.nan, np.nan, remark="too few impacts")

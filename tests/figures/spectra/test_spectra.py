@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.spectra.overturning import overturning_spectrum
-from colonnade.dynamics.spectra.spectrum import rocking_spectrum
+from colonnade.dynamics.pulses import overturning_spectrum
+from colonnade.dynamics.spectra import rocking_spectrum
 from colonnade.figures.files.table import table_of
 from colonnade.figures.spectra import overturning, rocking
 from prism import PRISM

@@ -1,9 +1,9 @@
 """Hostile text and workbooks."""
 
 import pickle
-import zipfile
 
-from hostile.place import TIME, Hostile, Program
+from hostile.place import TIME, Hostile, Place, Program
+from workbooks import ods, sheet_xml, xlsx
 
 
 def pickle_as_text(place):
@@ -15,52 +15,20 @@ def pickle_as_text(place):
 
 def workbook_entity(place):
     """calamine: an entity that is another file, and one that swells."""
-    path = place.folder / "r.xlsx"
     spread = "".join(f'<!ENTITY e{n} "{f"&e{n - 1};" * 10}">' for n in range(1, 10))
-    secret = (place.secrets / "secret.txt").as_uri()
-    main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
-    relations = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
-    package = "http://schemas.openxmlformats.org/package/2006/relationships"
-    rows = "".join(f'<row r="{n}"><c r="A{n}"><v>{n}</v></c><c r="B{n}"><v>&s;&e9;</v></c></row>' for n in range(1, 50))
-    sheet = f'<!DOCTYPE x [<!ENTITY s SYSTEM "{secret}"><!ENTITY e0 "1">{spread}]>'
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("[Content_Types].xml", "<Types/>")
-        archive.writestr(
-            "_rels/.rels",
-            f'<Relationships xmlns="{package}"><Relationship Id="r0" Type="{relations}/officeDocument" '
-            'Target="xl/workbook.xml"/></Relationships>',
-        )
-        archive.writestr(
-            "xl/workbook.xml",
-            f'<workbook xmlns="{main}" xmlns:r="{relations}"><sheets><sheet name="a" sheetId="1" r:id="r1"/></sheets>'
-            "</workbook>",
-        )
-        archive.writestr(
-            "xl/_rels/workbook.xml.rels",
-            f'<Relationships xmlns="{package}"><Relationship Id="r1" Type="{relations}/worksheet" '
-            'Target="worksheets/sheet1.xml"/></Relationships>',
-        )
-        text = f'{sheet}<worksheet xmlns="{main}"><sheetData>{rows}</sheetData></worksheet>'
-        archive.writestr("xl/worksheets/sheet1.xml", text)
-    return Hostile(path)
+    entities = f'<!DOCTYPE x [<!ENTITY s SYSTEM "{_secret(place)}"><!ENTITY e0 "1">{spread}]>'
+    rows = sheet_xml([[n, "=→&s;&e9;"] for n in range(1, 50)])
+    return Hostile(xlsx(place.folder / "r.xlsx", a=entities + rows))
 
 
 def open_document_entity(place):
     """calamine, OpenDocument: an entity that is another file."""
-    path = place.folder / "r.ods"
-    secret = (place.secrets / "secret.txt").as_uri()
-    content = (
-        f'<!DOCTYPE x [<!ENTITY s SYSTEM "{secret}">]><office:document-content '
-        'xmlns:office="urn:oasis:names:tc:opendocument:xmlns:office:1.0" '
-        'xmlns:table="urn:oasis:names:tc:opendocument:xmlns:table:1.0" '
-        'xmlns:text="urn:oasis:names:tc:opendocument:xmlns:text:1.0"><office:body><office:spreadsheet>'
-        '<table:table table:name="a"><table:table-row><table:table-cell office:value-type="string"><text:p>&s;</text:p>'
-        "</table:table-cell></table:table-row></table:table></office:spreadsheet></office:body></office:document-content>"
-    )
-    with zipfile.ZipFile(path, "w") as archive:
-        archive.writestr("mimetype", "application/vnd.oasis.opendocument.spreadsheet")
-        archive.writestr("content.xml", content)
-    return Hostile(path)
+    entity = f'<!DOCTYPE x [<!ENTITY s SYSTEM "{_secret(place)}">]>'
+    return Hostile(ods(place.folder / "r.ods", [["&s;"]], head=entity))
+
+
+def _secret(place: Place) -> str:
+    return (place.secrets / "secret.txt").as_uri()
 
 
 def workbook_of_97(place):

@@ -5,15 +5,16 @@ from hypothesis import strategies as st
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import point_displacement
-from colonnade.identification.fusion.angle import fit_rocking, rocking_angle
+from colonnade.identification.fusion.pose import fit_pose, rocking_angle
+from colonnade.identification.fusion.sensors import Transducer
 from prism import PRISM
 
 TOP, BOTTOM, ALONG_X, UPWARDS = [0.043, 0.0, 0.440], [0.043, 0.0, 0.020], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]
 ANGLES = np.concatenate((np.linspace(-0.6, 0.6, 241), [0.0, 1e-9, -1e-9]))
 
 
-def _readings(at, direction, slide=0.0):
-    displacement = point_displacement(ANGLES, at, PRISM, slide)
+def _readings(at, direction):
+    displacement = point_displacement(ANGLES, at, PRISM)
     return np.einsum("mnk,mk->mn", displacement, np.asarray(direction))
 
 
@@ -38,33 +39,16 @@ def test_a_small_angle_reading_would_miss_it():
     assert np.abs((top - bottom) / 0.420 - ANGLES).max() > 1e-2
 
 
-def test_slide_is_separated_by_two_heights():
-    at, direction = [TOP, BOTTOM], [ALONG_X, ALONG_X]
-    slide = 0.004 * np.sin(np.arange(ANGLES.size))
-    fit = fit_rocking(_readings(at, direction, slide), at, direction, PRISM)
-    np.testing.assert_allclose(fit.angle, ANGLES, rtol=0, atol=1e-12)
-    np.testing.assert_allclose(fit.values["slide"], slide, rtol=0, atol=1e-12)
-    assert "angle and slide" in fit.separation
-
-
-def test_the_standard_error_is_the_scatter_of_the_angle():
-    at, direction = [TOP, BOTTOM], [ALONG_X, ALONG_X]
-    rng = np.random.default_rng(0)
-    noise = np.array([5e-5, 2e-5])
-    readings = _readings(at, direction) + rng.normal(size=(2, ANGLES.size)) * noise[:, None]
-    fit = fit_rocking(readings, at, direction, PRISM, noise=noise)
-    stated = fit.standard_error["rocking_angle"]
-    assert np.std((fit.angle - ANGLES) / stated) == pytest.approx(1.0, rel=0.15)
-    assert stated[np.argmin(np.abs(ANGLES))] == pytest.approx(np.hypot(*noise) / 0.420, rel=1e-6)
-
-
 def test_disagreeing_transducers_raise_the_standard_error():
     at, direction = [TOP, BOTTOM, [0.0, 0.0, 0.3]], [ALONG_X] * 3
-    readings = _readings(at, direction)
+    transducers = [Transducer("point", tuple(ALONG_X), tuple(point)) for point in at]
+    agreeing, readings = _readings(at, direction), _readings(at, direction)
     readings[2] *= 1.1
-    fit = fit_rocking(readings, at, direction, PRISM, noise=[1e-5] * 3)
-    agreeing = fit_rocking(_readings(at, direction), at, direction, PRISM, noise=[1e-5] * 3)
-    assert np.median(fit.standard_error["rocking_angle"] / agreeing.standard_error["rocking_angle"]) > 20
+    error, least = (
+        fit_pose(each, transducers, PRISM, noise=[1e-5] * 3).standard_error["rocking_angle"]
+        for each in (readings, agreeing)
+    )
+    assert np.median(error / least) > 20
 
 
 @given(scale=st.floats(0.1, 10))

@@ -4,9 +4,15 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.rock import rock
-from colonnade.identification.fusion.gyroscopes import REST_ERROR, angle_from_rate, disagreement, mean_rate, upright
-from colonnade.identification.fusion.inertial import Gyroscope
-from colonnade.identification.fusion.smoother import smooth
+from colonnade.identification.fusion.inertial import (
+    REST_ERROR,
+    angle_from_rate,
+    disagreement,
+    mean_rate,
+    smooth,
+    upright,
+)
+from colonnade.identification.fusion.sensors import Gyroscope
 from prism import PRISM
 
 INTERVAL, NOISE, BIAS = 0.002, 3e-3, 4e-4
@@ -106,32 +112,26 @@ def test_gyroscopes_that_are_turned_or_inclined_count_by_their_part_about_y():
 
 def test_the_smoother_is_the_least_squares_solution_of_the_whole_record():
     rng = np.random.default_rng(0)
-    count, size = 40, 3
-    transition = np.array([[1.0, 0.1, 0.005], [0.0, 1.0, 0.1], [0.0, 0.0, 1.0]])
-    inputs = rng.normal(size=(count, size))
-    process = np.array([np.diag(rng.uniform(0.1, 1.0, size)) for _ in range(count)])
-    readings = rng.normal(size=(count, size))
-    variances = np.where(rng.random((count, size)) < 0.3, rng.uniform(0.1, 1.0, (count, size)), np.inf)
-    start = np.array([4.0, 2.0, 1.0])
+    count, interval, start = 40, 0.1, np.array([2.0, 1.4, 1.0])
+    derivative, deviation = rng.normal(size=count), rng.uniform(0.3, 1.0, count)
+    tracked = np.where(rng.random(count) < 0.3, rng.normal(size=count), np.nan)
+    errors = rng.uniform(0.3, 1.0, count)
 
-    rows, right = [np.eye(count * size)[row] / np.sqrt(start[row]) for row in range(size)], [0.0] * size
-    for index in range(count):
-        for row in range(size):
-            if np.isfinite(variances[index, row]):
-                rows.append(np.eye(count * size)[index * size + row] / np.sqrt(variances[index, row]))
-                right.append(readings[index, row] / np.sqrt(variances[index, row]))
+    # Unknown are the first state and the noise of each step; every state is a linear function of them.
+    transition = np.array([[1.0, interval, interval**2 / 2], [0.0, 1.0, interval], [0.0, 0.0, 1.0]])
+    push = np.array([interval**2 / 2, interval, 0.0])
+    states, given = [np.eye(3, 3 + count - 1)], [np.zeros(3)]
     for index in range(count - 1):
-        for row in range(size):
-            step = np.zeros(count * size)
-            step[(index + 1) * size + row] = 1.0
-            step[index * size : (index + 1) * size] -= transition[row]
-            scale = np.sqrt(process[index, row, row])
-            rows.append(step / scale)
-            right.append(inputs[index, row] / scale)
-    matrix = np.array(rows)
+        states.append(transition @ states[-1] + np.outer(push, np.eye(3 + count - 1)[3 + index]))
+        given.append(transition @ given[-1] + push * derivative[index : index + 2].mean())
+    known = np.isfinite(tracked)
+    rows = [np.diag(1 / np.concatenate((start, deviation[:-1]))), np.array(states)[known, 0] / errors[known, None]]
+    right = np.concatenate((np.zeros(3 + count - 1), (tracked - np.array(given)[:, 0])[known] / errors[known]))
+    matrix = np.concatenate(rows)
     covariance = np.linalg.inv(matrix.T @ matrix)
-    expected = covariance @ matrix.T @ np.array(right)
+    expected = np.array(states) @ (covariance @ matrix.T @ right) + given
+    spread = [np.sqrt(np.diagonal(each @ covariance @ each.T)) for each in states]
 
-    states, deviations = smooth(transition, inputs, process, readings, variances, start)
-    np.testing.assert_allclose(states.ravel(), expected, atol=1e-10)
-    np.testing.assert_allclose(deviations.ravel(), np.sqrt(np.diagonal(covariance)), rtol=1e-9)
+    found, deviations = smooth(derivative, deviation, interval, tracked, errors, start)
+    np.testing.assert_allclose(found, expected, atol=1e-10)
+    np.testing.assert_allclose(deviations, spread, rtol=1e-9)

@@ -8,9 +8,8 @@ from hypothesis import strategies as st
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.findings import Severity
-from colonnade.identification.plausibility.factors import UNKNOWN, as_expected, cause
-from colonnade.identification.plausibility.scale import scale_of
-from colonnade.identification.plausibility.since_last import ChannelState, changes
+from colonnade.identification.plausibility.scale import UNKNOWN, as_expected, cause, scale_of
+from colonnade.identification.plausibility.transducers import ChannelState, changes
 from colonnade.signals.filters import lowpass
 from every import every
 from prism import PRISM

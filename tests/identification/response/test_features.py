@@ -5,9 +5,7 @@ import pytest
 
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
-from colonnade.identification.response.ending import ending
-from colonnade.identification.response.features import DRIFT_FACTOR, NOISE_FACTOR, angle_features
-from colonnade.identification.response.outcome import judge
+from colonnade.identification.response.outcome import DRIFT_FACTOR, NOISE_FACTOR, angle_features, ending, judge
 from prism import PRISM
 
 ALPHA = PRISM.critical_angle

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from colonnade.identification.response.base_motion import LEAST_MOTION, base_velocity, table_moves
+from colonnade.identification.response.base_motion import LEAST_MOTION, base_velocity, fit_forcing, table_moves
 from colonnade.identification.response.boundaries import Bracket, MapPoint, Misfit, bracket_boundaries, limit_misfit
-from colonnade.identification.response.forcing import fit_forcing
 from prism import PRISM
 
 

@@ -86,6 +86,12 @@ def test_what_does_not_repeat_is_irregular_and_its_spectrum_no_comb(frequency, a
     assert max(comb_share(history, frequency, order, 12) for order in (1, 2, 3, 4)) < 0.8
 
 
+def margin(found):
+    """How far the verdict is from another, as a difference of misfit."""
+    rivals = found.misfit if found.order == "irregular" else found.misfit[: found.order]
+    return np.abs(rivals - TOLERANCE).min()
+
+
 @pytest.mark.parametrize("seed", range(5))
 def test_noise_does_not_change_the_order(seed):
     for frequency in (3.0, 4.0, 5.0, 6.0, 7.0):
@@ -93,7 +99,7 @@ def test_noise_does_not_change_the_order(seed):
             truth = order_of(shaken(frequency, amplitude), frequency)
             seen = order_of(shaken(frequency, amplitude), frequency, noise=1e-3 * ALPHA, seed=seed)
             np.testing.assert_allclose(seen.misfit, truth.misfit, atol=0.01)
-            if truth.margin > 0.01:
+            if margin(truth) > 0.01:
                 assert seen.order == truth.order
 
 
@@ -104,7 +110,7 @@ def test_a_closed_history_of_known_order_is_found_beside_a_decaying_transient(or
     transient = 0.5 * np.exp(-time / 5) * np.sin(2 * np.pi * 0.37 * time)
     found = response_order(time, 0.02 * (steady + transient), 1.0, start=0.0, stop=20.0, threshold=1e-4)
     assert found.order == order
-    assert found.margin > 0.05
+    assert margin(found) > 0.05
 
 
 @pytest.mark.parametrize(("cycles", "order"), [(11, "irregular"), (13, 4)])
@@ -132,7 +138,6 @@ def test_what_cannot_be_told_has_no_order_but_a_reason(angle, stop, words):
     found = response_order(time, angle, 1.0, start=0.0, stop=stop, threshold=1e-4)
     assert found.order is None
     assert words in found.reason
-    assert np.isnan(found.margin)
 
 
 def test_missing_samples_are_passed_over():

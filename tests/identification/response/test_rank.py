@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from colonnade.identification.response.as_measured import Measurement, as_measured
-from colonnade.identification.response.rank import FEWEST, distances, is_within, rank
+from colonnade.identification.response.rank import FEWEST, Measurement, as_measured, distances, is_within, rank
 from colonnade.signals.filters import lowpass
 
 
@@ -21,7 +20,7 @@ def histories(random, number, *, length=60):
 def test_a_true_model_is_called_outside_as_often_as_it_is_said(members):
     random = np.random.default_rng(members)
     drawn = [histories(random, members + 1) for _ in range(1500)]
-    ranks = [rank(found.measured, found.members) for found in (distances(each[0], each[1:]) for each in drawn)]
+    ranks = [rank(*distances(each[0], each[1:])) for each in drawn]
     nominal = (np.floor(0.95 * members) + 1) / (members + 1)
     allowed = 3.0 * np.sqrt(nominal * (1 - nominal) / len(ranks))
     assert np.mean([is_within(each) for each in ranks]) == pytest.approx(nominal, abs=allowed)
@@ -30,8 +29,8 @@ def test_a_true_model_is_called_outside_as_often_as_it_is_said(members):
 
 def test_each_history_is_measured_by_the_median_and_band_of_all_others():
     everyone = histories(np.random.default_rng(5), 31)
-    found = distances(everyone[0], everyone[1:])
-    for number, expected in enumerate((found.measured, *found.members)):
+    measured, members = distances(everyone[0], everyone[1:])
+    for number, expected in enumerate((measured, *members)):
         low, middle, high = np.quantile(np.delete(everyone, number, axis=0), (0.025, 0.5, 0.975), axis=0)
         deviation = everyone[number] - middle
         half = np.where(deviation > 0, high - middle, middle - low)
@@ -42,8 +41,7 @@ def test_a_history_that_leaves_the_runs_for_a_moment_is_outside():
     random = np.random.default_rng(7)
     everyone = histories(random, 101)
     everyone[0, 20] += 8.0
-    found = distances(everyone[0], everyone[1:])
-    assert not is_within(rank(found.measured, found.members))
+    assert not is_within(rank(*distances(everyone[0], everyone[1:])))
 
 
 def test_missing_samples_of_the_measured_history_count_for_none():
@@ -54,8 +52,8 @@ def test_missing_samples_of_the_measured_history_count_for_none():
         distances(gap, everyone[1:]),
         distances(*(np.delete(each, np.s_[10:20], -1) for each in (gap, everyone[1:]))),
     )
-    assert found.measured == short.measured
-    np.testing.assert_array_equal(found.members, short.members)
+    assert found[0] == short[0]
+    np.testing.assert_array_equal(found[1], short[1])
 
 
 def test_equal_distances_count_by_half():

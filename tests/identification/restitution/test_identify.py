@@ -1,13 +1,16 @@
 """Restitution from peaks: truth is the full nonlinear equation, integrated adaptively between impacts."""
 
 import functools
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 from colonnade.dynamics.rock import rock
+from colonnade.identification.restitution import identify
 from colonnade.identification.restitution.identify import identify_restitution
+from colonnade.identification.restitution.result import Estimate
 from prism import PRISM
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
@@ -47,8 +50,9 @@ def test_a_tilted_table_is_found_and_does_not_refuse_e(degrees, noise):
     assert result.low <= 0.976 <= result.high
     assert result.value == pytest.approx(0.976, abs=1e-4)
     assert "moving table" not in {each.name for each in result.departures}
-    (sides,) = [each for each in result.departures if each.name == "unequal sides"]
-    assert sides.size == pytest.approx(np.deg2rad(degrees), rel=0.03)
+    sides = [each.size for each in result.departures if each.name == "unequal sides"]
+    # Named from 0.5 % of α on; e allows for it always.
+    assert sides == ([pytest.approx(np.deg2rad(degrees), rel=0.03)] if abs(np.deg2rad(degrees)) > 0.005 * ALPHA else [])
 
 
 def test_intervals_hold_the_truth_as_often_as_they_say():
@@ -62,27 +66,13 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
 
 
 def test_restitution_that_differs_from_impact_to_impact_widens_the_interval():
-    rng = np.random.default_rng(5)
-    block, velocity, time, angle = PRISM, 0.0, [], []
-    state, now = 0.5 * ALPHA, 0.0
-    while abs(state) > 0.02 * ALPHA:
-        history = rock(block, restitution=float(np.clip(rng.normal(0.976, 0.01), 0, 1)), theta0=state, duration=2.0)
-        first = history.impact_times[0]
-        velocity = history.impact_velocities[0]
-        arc = history.time < first
-        time.append(now + history.time[arc])
-        angle.append(history.angle[arc])
-        energy = (velocity / (P * ALPHA) * rng.normal(0.976, 0.01)) ** 2
-        following = -np.sign(state) * ALPHA * (1 - np.sqrt(1 - energy))
-        rise = np.arccosh(1 / (1 - abs(following) / ALPHA)) / P
-        ascent = np.arange(0, rise, history.time[1])
-        time.append(now + first + ascent)
-        angle.append(np.sign(following) * (ALPHA - (ALPHA - abs(following)) * np.cosh(P * (rise - ascent))))
-        now, state = now + first + rise, following
-    uneven = identify_restitution(np.concatenate(time), np.concatenate(angle), PRISM)
-    steady = identify_restitution(*_nonlinear_decay(0.976), PRISM)
+    steady, uneven = (
+        rock(PRISM, restitution=law, theta0=0.5 * ALPHA, duration=12.0, model="nonlinear")
+        for law in (0.976, lambda speed: 0.976 + 0.003 * np.sin(400 * np.asarray(speed)))
+    )
+    steady, uneven = (identify_restitution(each.time, each.angle, PRISM) for each in (steady, uneven))
     assert uneven.standard_error > 20 * steady.standard_error
-    assert abs(uneven.value - 0.976) < 4 * uneven.standard_error
+    assert uneven.low < 0.976 < uneven.high
 
 
 def _refusal(angle, interval=0.002):
@@ -113,3 +103,11 @@ def test_what_is_no_free_rocking_is_refused_with_its_reason(angle, words):
 def test_time_that_does_not_increase_is_an_error():
     with pytest.raises(ValueError, match="does not increase"):
         identify_restitution([0.0, 1.0, 1.0], [0.0, 0.0, 0.0], PRISM)
+
+
+def test_an_interval_beyond_all_numbers_ends_above_one():
+    empty = Estimate("peaks", None, None, None, None, 0.95, "", "")
+    solved = SimpleNamespace(mean=[0.0], quantile=lambda share: 4000.0 * (share - 0.5))
+    found = identify._estimate(empty, solved, logarithm=-0.05)
+    assert (found.low, found.value) == (0.0, pytest.approx(np.exp(-0.05)))
+    assert 1.0 < found.high < 10.0

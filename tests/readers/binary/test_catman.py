@@ -34,14 +34,6 @@ def test_the_sign_of_an_overflow_is_missing_and_told(written):
     assert recording.warnings == ('"top": 2 of 40 values are catman\'s sign of an overflow or an open input; missing',)
 
 
-def test_a_file_that_ends_within_its_values_says_how_many_are_there(written):
-    path = written("catman", ("top", "mm", TOP), kind=0)
-    path.write_bytes(path.read_bytes()[:-80])
-    recording = read(path)
-    assert recording.channel("top").values.size == 30
-    assert recording.warnings == ('"top": the file ends after 30 of its 40 values',)
-
-
 def test_a_file_that_ends_within_its_headers_is_refused(written):
     path = written("catman", ("top", "mm", TOP))
     path.write_bytes(path.read_bytes()[:200])

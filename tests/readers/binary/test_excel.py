@@ -3,130 +3,21 @@
 import datetime as dt
 import io
 import zipfile
-from xml.sax.saxutils import escape
 
 import numpy as np
 import pytest
-import xlwt
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
 from every import every
+from workbooks import ROWS, SAMPLES, ods, sheet_xml, xls, xlsx
 
-HEAD = '<?xml version="1.0" encoding="UTF-8" standalone="yes"?>'
-MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
-RELATIONS = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
-PACKAGE = "http://schemas.openxmlformats.org/package/2006"
-DATE_STYLE = 1
-
-ROWS = [["Versuch 7", 26.4], [], ["Zeit", "Weg oben", "Beschl."], ["s", "mm", "g"]]
-SAMPLES = [[k * 0.005, float(np.sin(k / 9)), k / 10] for k in range(50)]
-
-
-def letters(column):
-    return (letters(column // 26 - 1) if column >= 26 else "") + chr(65 + column % 26)
-
-
-def cell(value, reference):
-    if isinstance(value, dt.datetime):
-        days = (value - dt.datetime(1899, 12, 30)) / dt.timedelta(days=1)
-        return f'<c r="{reference}" s="{DATE_STYLE}"><v>{days!r}</v></c>'
-    if isinstance(value, str) and value.startswith("="):
-        formula, _, cached = value[1:].partition("→")
-        return f'<c r="{reference}"><f>{escape(formula)}</f><v>{cached}</v></c>'
-    if isinstance(value, str):
-        return f'<c r="{reference}" t="inlineStr"><is><t>{escape(value)}</t></is></c>'
-    return f'<c r="{reference}"><v>{value!r}</v></c>'
-
-
-def sheet_xml(rows):
-    body = []
-    for number, row in enumerate(rows, 1):
-        cells = [cell(value, f"{letters(k)}{number}") for k, value in enumerate(row) if value is not None]
-        body.append(f'<row r="{number}">{"".join(cells)}</row>')
-    return f'{HEAD}<worksheet xmlns="{MAIN}"><sheetData>{"".join(body)}</sheetData></worksheet>'
-
-
-def xlsx(path, **sheets):
-    listed = "".join(f'<sheet name="{name}" sheetId="{k}" r:id="r{k}"/>' for k, name in enumerate(sheets, 1))
-    links = "".join(
-        f'<Relationship Id="r{k}" Type="{RELATIONS}/worksheet" Target="worksheets/sheet{k}.xml"/>'
-        for k in range(1, len(sheets) + 1)
-    )
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr(
-            "[Content_Types].xml",
-            f'{HEAD}<Types xmlns="{PACKAGE}/content-types"><Default Extension="xml" ContentType="application/xml"/>'
-            "</Types>",
-        )
-        archive.writestr(
-            "_rels/.rels",
-            f'{HEAD}<Relationships xmlns="{PACKAGE}/relationships"><Relationship Id="a" '
-            f'Type="{RELATIONS}/officeDocument" Target="xl/workbook.xml"/></Relationships>',
-        )
-        archive.writestr(
-            "xl/workbook.xml",
-            f'{HEAD}<workbook xmlns="{MAIN}" xmlns:r="{RELATIONS}"><sheets>{listed}</sheets></workbook>',
-        )
-        archive.writestr(
-            "xl/_rels/workbook.xml.rels",
-            f'{HEAD}<Relationships xmlns="{PACKAGE}/relationships">{links}<Relationship Id="s" '
-            f'Type="{RELATIONS}/styles" Target="styles.xml"/></Relationships>',
-        )
-        archive.writestr(
-            "xl/styles.xml",
-            f'{HEAD}<styleSheet xmlns="{MAIN}"><cellXfs><xf numFmtId="0"/><xf numFmtId="22"/></cellXfs></styleSheet>',
-        )
-        for number, content in enumerate(sheets.values(), 1):
-            archive.writestr(f"xl/worksheets/sheet{number}.xml", content)
-    return path
-
-
-def ods(path, rows, repeated=1):
-    names = (
-        'xmlns:office="urn:oasis:names:tc:opendocument:xmlns:office:1.0" '
-        'xmlns:table="urn:oasis:names:tc:opendocument:xmlns:table:1.0" '
-        'xmlns:text="urn:oasis:names:tc:opendocument:xmlns:text:1.0"'
-    )
-    body = []
-    for row in rows:
-        cells = [
-            f'<table:table-cell office:value-type="string"><text:p>{value}</text:p></table:table-cell>'
-            if isinstance(value, str)
-            else f'<table:table-cell office:value-type="float" office:value="{value!r}"/>'
-            for value in row
-        ]
-        body.append(f'<table:table-row table:number-rows-repeated="{repeated}">{"".join(cells)}</table:table-row>')
-    content = (
-        f'<office:document-content {names}><office:body><office:spreadsheet><table:table table:name="Blatt">'
-        f"{''.join(body)}</table:table></office:spreadsheet></office:body></office:document-content>"
-    )
-    kind = "application/vnd.oasis.opendocument.spreadsheet"
-    with zipfile.ZipFile(path, "w") as archive:
-        archive.writestr("mimetype", kind)
-        archive.writestr("META-INF/manifest.xml", "<manifest/>")
-        archive.writestr("content.xml", HEAD + content, zipfile.ZIP_DEFLATED)
-    return path
-
-
-def xls(path, rows):
-    book = xlwt.Workbook()
-    sheet = book.add_sheet("Blatt")
-    for number, row in enumerate(rows):
-        for column, value in enumerate(row):
-            sheet.write(number, column, value)
-    book.save(str(path))
-    return path
+WRITERS = {"xlsx": lambda path, rows: xlsx(path, Blatt=rows), "xls": xls, "ods": ods}
 
 
 @every("kind", ["xlsx", "xls", "ods"])
 def test_names_units_and_clock_are_found_above_and_among_the_rows_of_numbers(tmp_path, kind):
-    path = tmp_path / f"a.{kind}"
-    if kind == "xlsx":
-        xlsx(path, Blatt=sheet_xml([*ROWS, *SAMPLES]))
-    else:
-        {"xls": xls, "ods": ods}[kind](path, [*ROWS, *SAMPLES])
-    recording = read(path)
+    recording = read(WRITERS[kind](tmp_path / f"a.{kind}", [*ROWS, *SAMPLES]))
     assert recording.format == "excel"
     assert [(each.name, each.unit) for each in recording.channels] == [
         ("Zeit", "s"),
@@ -140,10 +31,8 @@ def test_names_units_and_clock_are_found_above_and_among_the_rows_of_numbers(tmp
 
 
 def test_the_sheet_with_the_samples_is_found_or_given(tmp_path):
-    cover = sheet_xml([["Laboratory", 3], ["Date", "today"]])
-    path = xlsx(
-        tmp_path / "a.xlsx", Cover=cover, Daten=sheet_xml([["Time [s]", "x [mm]"], *[row[:2] for row in SAMPLES]])
-    )
+    samples = [["Time [s]", "x [mm]"], *[row[:2] for row in SAMPLES]]
+    path = xlsx(tmp_path / "a.xlsx", Cover=[["Laboratory", 3], ["Date", "today"]], Daten=samples)
     recording = read(path)
     assert any(
         'sheet "Daten", the one with most rows of numbers; not read: "Cover"' in note for note in recording.notes
@@ -158,14 +47,14 @@ def test_the_sheet_with_the_samples_is_found_or_given(tmp_path):
 def test_dates_with_times_are_a_clock_with_a_start(tmp_path):
     start = dt.datetime(2013, 4, 26, 10, 15)
     rows = [[start + dt.timedelta(milliseconds=500 * k), float(k)] for k in range(20)]
-    recording = read(xlsx(tmp_path / "a.xlsx", A=sheet_xml([["Datum", "x"], *rows])))
+    recording = read(xlsx(tmp_path / "a.xlsx", A=[["Datum", "x"], *rows]))
     np.testing.assert_allclose(recording.channel("x").time, np.arange(20) * 0.5, atol=2e-3)
     assert recording.start == start
 
 
 def test_formulas_give_their_cached_value_and_text_is_only_text(tmp_path):
     rows = [[k * 0.1, f"=A{k + 2}*2→{k * 0.2!r}", 'HYPERLINK("http://example.org")'] for k in range(10)]
-    recording = read(xlsx(tmp_path / "a.xlsx", A=sheet_xml([["t [s]", "x [mm]", "note"], *rows])))
+    recording = read(xlsx(tmp_path / "a.xlsx", A=[["t [s]", "x [mm]", "note"], *rows]))
     np.testing.assert_allclose(recording.channel("x").values, np.arange(10) * 0.2)
     assert np.isnan(recording.channel("note").values).all()
 
@@ -173,7 +62,7 @@ def test_formulas_give_their_cached_value_and_text_is_only_text(tmp_path):
 def test_cells_that_are_no_numbers_are_told_with_their_rows(tmp_path):
     samples = [list(row) for row in SAMPLES]
     samples[4][1], samples[6][2], samples[9] = "abc", "0,5", ["pause", None, None]
-    recording = read(xlsx(tmp_path / "a.xlsx", A=sheet_xml([*ROWS, *samples, ["measured by M. Rossi"]])))
+    recording = read(xlsx(tmp_path / "a.xlsx", A=[*ROWS, *samples, ["measured by M. Rossi"]]))
     assert recording.channel("Beschl.").values[6] == 0.5
     assert np.isnan(recording.channel("Weg oben").values[4])
     told = " ".join(recording.warnings)
@@ -183,14 +72,14 @@ def test_cells_that_are_no_numbers_are_told_with_their_rows(tmp_path):
 
 def test_the_clock_and_the_rows_of_names_can_be_given(tmp_path):
     rows = [["old", "names"], ["n", "x"], *[[k * 5.0, float(k)] for k in range(9)]]
-    path = xlsx(tmp_path / "a.xlsx", A=sheet_xml(rows))
+    path = xlsx(tmp_path / "a.xlsx", A=rows)
     recording = read(path, options={"time": "n", "time_unit": "ms", "names_row": 2})
     np.testing.assert_allclose(recording.channel("x").time, np.arange(9) * 0.005)
 
 
 def test_heads_that_are_numbers_keep_their_digits(tmp_path):
     heads = ["t", 1234567, 123456789012345]
-    path = xlsx(tmp_path / "record.xlsx", log=sheet_xml([heads, *SAMPLES]))
+    path = xlsx(tmp_path / "record.xlsx", log=[heads, *SAMPLES])
     recording = read(path, options={"names_row": 1, "time": 1})
     assert [channel.name for channel in recording.channels] == ["t", "1234567", "123456789012345"]
     np.testing.assert_array_equal(recording.channel("1234567").values, [row[1] for row in SAMPLES])
@@ -206,14 +95,10 @@ def test_a_stray_cell_far_outside_is_refused_with_its_cause(tmp_path):
 
 @every("kind", ["xlsx", "xls"])
 def test_a_workbook_that_was_cut_off_is_refused(tmp_path, kind):
-    path = tmp_path / f"a.{kind}"
-    if kind == "xls":
-        xls(path, [*ROWS, *SAMPLES])
-    else:
-        xlsx(path, A=sheet_xml([*ROWS, *SAMPLES]))
+    path = WRITERS[kind](tmp_path / f"a.{kind}", [*ROWS, *SAMPLES])
     whole = path.read_bytes()
     path.write_bytes(whole[: len(whole) * 2 // 3])
-    with pytest.raises(ReadError, match=r"cannot be opened as a workbook .* was cut off"):
+    with pytest.raises(ReadError, match=r'(cannot be read as "excel" |crashed).* was cut off'):
         read(path)
 
 
@@ -225,7 +110,7 @@ def test_a_changed_byte_is_found_by_the_check_sum(tmp_path):
     content = stored.read_bytes()
     assert content.count(b"<v>0.005</v>") == 1
     stored.write_bytes(content.replace(b"<v>0.005</v>", b"<v>0.015</v>"))
-    with pytest.raises(ReadError, match=r"b.xlsx: it cannot be opened as a workbook .*Invalid checksum"):
+    with pytest.raises(ReadError, match=r'b.xlsx: it cannot be read as "excel" .*Invalid checksum'):
         read(stored)
 
 
@@ -235,7 +120,7 @@ def test_a_chain_of_sectors_that_comes_back_to_itself_is_refused(tmp_path):
     table = (int.from_bytes(content[76:80], "little") + 1) * 512
     content[table + 4 * 5 : table + 4 * 6] = (4).to_bytes(4, "little")
     path.write_bytes(content)
-    with pytest.raises(ReadError, match="cannot be opened as a workbook"):
+    with pytest.raises(ReadError, match='cannot be read as "excel"'):
         read(path)
 
 
@@ -250,29 +135,14 @@ def test_another_zip_archive_is_no_workbook(tmp_path):
 
 def test_a_workbook_without_numbers_says_so(tmp_path):
     with pytest.raises(ReadError, match=r'no sheet holds rows of numbers \("A"\)'):
-        read(xlsx(tmp_path / "a.xlsx", A=sheet_xml([["only", "words"], ["in", "it"]])))
-
-
-def test_a_damaged_workbook_is_read_or_refused(tmp_path):
-    path = xlsx(tmp_path / "a.xlsx", A=sheet_xml([*ROWS, *SAMPLES]))
-    content, chance, refused = path.read_bytes(), np.random.default_rng(3), 0
-    for _ in range(60):
-        damaged = bytearray(content)
-        for place in chance.integers(0, len(content), 1 + int(chance.integers(4))):
-            damaged[place] ^= 1 << int(chance.integers(8))
-        path.write_bytes(damaged[: None if chance.random() < 0.7 else int(chance.integers(len(content)))])
-        try:
-            read(path)
-        except ReadError:
-            refused += 1
-    assert 30 < refused < 60
+        read(xlsx(tmp_path / "a.xlsx", A=[["only", "words"], ["in", "it"]]))
 
 
 def test_numbers_that_run_on_from_row_to_row_are_one_channel(tmp_path):
     steps = np.random.default_rng(3).standard_normal(400)
     series = np.round(np.convolve(steps, np.hanning(9), "same"), 4).tolist()
     wrapped = [series[row : row + 8] for row in range(0, 400, 8)]
-    path = xlsx(tmp_path / "a.xlsx", A=sheet_xml([["400 points at equal spacing of 0.02 sec, units are g"], *wrapped]))
+    path = xlsx(tmp_path / "a.xlsx", A=[["400 points at equal spacing of 0.02 sec, units are g"], *wrapped])
     recording = read(path)
     (channel,) = recording.channels
     assert (channel.values.tolist(), channel.unit) == (series, "g")

@@ -4,12 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as some
 
-from colonnade.readers.binary.matlab_columns import (
-    MOST_COLUMNS,
-    find_columns,
-    numbered_channels,
-    object_reason,
-)
+from colonnade.readers.binary.matlab_columns import MOST_COLUMNS, find_columns, numbered_channels, object_reason
 from every import every
 
 VECTOR = np.arange(50.0).reshape(-1, 1)
@@ -53,8 +48,8 @@ def test_single_numbers_are_kept_and_what_is_no_table_is_left_out():
     )
     assert found.scalars == {"fs": 200.0}
     assert found.columns == []
-    assert found.left_out["cube"].startswith("it has 3 dimensions")
-    assert "more than the 1000 channels" in found.left_out["wide"]
+    assert found.left_out["cube"].startswith("an array of 2 × 3 × 4; vectors")
+    assert "matrices of up to 1000 channels" in found.left_out["wide"]
 
 
 NODES = some.recursive(

@@ -6,6 +6,7 @@ import h5py
 import numpy as np
 import pytest
 import xarray as xr
+from scipy.io import netcdf_file
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
@@ -105,3 +106,70 @@ def test_the_clock_that_was_given_is_taken(tmp_path):
     np.testing.assert_allclose(
         read(tmp_path / "a.h5", options={"time": "n", "time_unit": "ms"}).channel("top").time, TIME, atol=1e-12
     )
+
+
+def test_what_is_not_read_is_left_out_with_its_reason(tmp_path):
+    path = tmp_path / "a.h5"
+    with h5py.File(path, "w") as file:
+        file["text"] = "words"
+        file["soft"] = h5py.SoftLink("/text")
+        file["elsewhere"] = h5py.ExternalLink("b.h5", "/x")
+        file.create_dataset("external", (4,), "<i4", external=[(str(tmp_path / "b"), 0, 16)])
+        file["empty"] = h5py.Empty("f8")
+        file["run/top"] = np.arange(3.0)
+        file["run/circle"] = file["run"]
+        file["run/whole"] = file["/"]
+        file["again"] = file["run/top"]
+    recording = read(path)
+    assert [each.heading for each in recording.channels] == ["again", "run/top"]
+    assert {note for note in recording.notes if "left out" in note} == {
+        "text is left out: it holds no numbers",
+        "soft is left out: it is a link to another place or file; only this file is read",
+        "elsewhere is left out: it is a link to another place or file; only this file is read",
+        "external is left out: its numbers are in another file; only this file is read",
+        "empty is left out: it holds nothing",
+        "run/circle is left out: it is another name of a group that is read",
+        "run/whole is left out: it is another name of a group that is read",
+    }
+
+
+def test_variables_keep_the_order_in_which_they_were_made(path):
+    with h5py.File(path, "w", track_order=True) as file:
+        for name in ("top", "bottom", "table"):
+            file[name] = np.arange(5.0)
+    assert [channel.name for channel in read(path).channels] == ["top", "bottom", "table"]
+
+
+def test_a_damaged_variable_costs_no_other(path):
+    with h5py.File(path, "w") as file:
+        file["sound"] = np.arange(5.0)
+        file.create_dataset("packed", data=np.arange(10_000.0), chunks=True, compression="gzip", fletcher32=True)
+    content = bytearray(path.read_bytes())
+    content[-40:-8] = bytes(32)
+    path.write_bytes(content)
+    recording = read(path)
+    assert "sound" in [each.name for each in recording.channels]
+    assert any(warning.startswith("packed is damaged") for warning in recording.warnings)
+
+
+def test_classic_netcdf_is_read_and_its_text_left_out(path):
+    with netcdf_file(path, "w") as file:
+        file.createDimension("n", 4)
+        file.createVariable("top", "f4", ("n",))[:] = np.arange(4)
+        file.createVariable("who", "c", ("n",))[:] = b"abcd"
+        file.variables["top"].units = "mm"
+    recording = read(path)
+    (top,) = recording.channels
+    assert (top.name, top.unit, top.values.tolist()) == ("top", "mm", [0, 1, 2, 3])
+    assert "who is left out: it holds text" in recording.notes
+    path.write_bytes(b"CDF\x05" + path.read_bytes()[4:])
+    with pytest.raises(ReadError, match=r"variant CDF-5, which is not read. Convert it: nccopy -k nc4 record.raw"):
+        read(path)
+
+
+def test_a_file_that_was_cut_off_is_refused(path):
+    with h5py.File(path, "w") as file:
+        file["top"] = np.arange(1000.0)
+    path.write_bytes(path.read_bytes()[:-100])
+    with pytest.raises(ReadError, match=r"record.raw: it cannot be read as .*truncated file.* was cut off"):
+        read(path)

@@ -48,25 +48,22 @@ def test_numbers_that_are_cut_off_are_told(written, is_binary):
     assert any("should have 40 numbers" in told and "cut off" in told for told in recording.warnings)
 
 
-def test_a_file_without_functions_of_time_is_refused(tmp_path):
-    path = tmp_path / "record.uff"
+def test_a_file_without_functions_of_time_is_refused(path):
     path.write_text("    -1\n    58\n" + "too short\n" * 3, encoding="ascii")
     with pytest.raises(ReadError, match=r"no channel holds numbers .*data set 58 at byte 7 is damaged"):
         read(path)
 
 
 @every("line_end", ["\n", "\r\n"])
-def test_a_universal_file_without_functions_is_refused_as_such(tmp_path, line_end):
+def test_a_universal_file_without_functions_is_refused_as_such(path, line_end):
     nodes = [f"{node:10d}{0:10d}{0:10d}{0:10d}{0.1 * node:13.5E}{0:13.5E}{0:13.5E}" for node in range(1, 40)]
     lines = ["    -1", "   151", "model", "    -1", "    -1", "    15", *nodes, "    -1", ""]
-    path = tmp_path / "model.unv"
     path.write_bytes(line_end.join(lines).encode())
     with pytest.raises(ReadError, match=r"universal file without functions: .* sets 151, 15, but no data set 58"):
         read(path)
 
 
-def test_a_column_of_numbers_that_starts_as_a_data_set_would_stays_a_column(tmp_path):
-    path = tmp_path / "column.txt"
+def test_a_column_of_numbers_that_starts_as_a_data_set_would_stays_a_column(path):
     path.write_text("-1\n15\n" + "".join(f"{row % 7}\n" for row in range(40)))
     assert read(path).format == "delimited"
 

@@ -24,26 +24,24 @@ def trace(channel, values, rate, after=0.0, **header):
     return obspy.Trace(np.asarray(values, dtype=np.float32), told)
 
 
-def stored(path, kind, *traces):
+def stored(folder, kind, *traces):
+    path = folder / f"r.{kind.lower()}"
     obspy.Stream(list(traces)).write(str(path), format=kind)
     return path
 
 
+ONES = trace("ACC", np.ones(50), 100)
+
+
 def test_every_channel_keeps_its_own_rate_and_start(tmp_path):
-    path = stored(
-        tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(50), 200), trace("LVD", np.ones(10), 50, after=0.125)
-    )
-    recording = read(path)
+    recording = read(stored(tmp_path, "MSEED", ONES, trace("LVD", np.ones(10), 50, after=0.125)))
     acceleration, displacement = recording.channel("TABLE..ACC"), recording.channel("TABLE..LVD")
-    np.testing.assert_allclose(acceleration.time, np.arange(50) / 200, atol=1e-9)
+    np.testing.assert_allclose(acceleration.time, np.arange(50) / 100, atol=1e-9)
     np.testing.assert_allclose(displacement.time, 0.125 + np.arange(10) / 50, atol=1e-9)
 
 
 def test_a_gap_is_missing_and_told(tmp_path):
-    path = stored(
-        tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(50), 100), trace("ACC", 2 * np.ones(50), 100, after=0.6)
-    )
-    recording = read(path)
+    recording = read(stored(tmp_path, "MSEED", ONES, trace("ACC", 2 * np.ones(50), 100, after=0.6)))
     (channel,) = recording.channels
     assert channel.values.size == 110
     assert np.isnan(channel.values[50:60]).all()
@@ -53,10 +51,7 @@ def test_a_gap_is_missing_and_told(tmp_path):
 
 
 def test_pieces_that_lie_years_apart_are_not_filled_up(tmp_path):
-    path = stored(
-        tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(50), 100), trace("ACC", np.ones(50), 100, after=1e8)
-    )
-    recording = read(path)
+    recording = read(stored(tmp_path, "MSEED", ONES, trace("ACC", np.ones(50), 100, after=1e8)))
     assert recording.channels[0].values.size == 100
     assert "far apart" in recording.warnings[0]
 
@@ -65,37 +60,22 @@ def test_pieces_that_lie_years_apart_are_not_filled_up(tmp_path):
 def test_pieces_of_different_rates_keep_their_own_times(tmp_path, first, second):
     rng, times = np.random.default_rng(1), (np.arange(400) / first, 400 / first + np.arange(300) / second)
     values = [np.sin(12 * each) + rng.normal(0, 1e-3, each.size) for each in times]
-    path = stored(
-        tmp_path / "r.mseed",
-        "MSEED",
-        trace("ACC", values[0], first),
-        trace("ACC", values[1], second, after=400 / first),
-    )
-    recording = read(path)
+    pieces = trace("ACC", values[0], first), trace("ACC", values[1], second, after=400 / first)
+    recording = read(stored(tmp_path, "MSEED", *pieces))
     [channel] = recording.channels
     np.testing.assert_allclose(channel.time, np.concatenate(times), atol=1e-5)
     np.testing.assert_allclose(channel.values, np.sin(12 * np.asarray(channel.time)), atol=6e-3)
     assert f"2 pieces have rates of {first} Hz and {second} Hz; each has its own times" in recording.warnings[0]
 
 
-def test_the_step_of_a_sac_file_is_not_rounded_to_microseconds(tmp_path):
-    path = stored(tmp_path / "r.sac", "SAC", trace("ACC", np.ones(4096), 2048))
-    assert obspy.read(str(path))[0].stats.delta == pytest.approx(1 / 2048, rel=1e-3, abs=0)
-    recording = read(path)
-    time = recording.channels[0].time
-    assert time is not None
-    assert time[-1] == pytest.approx(4095 / 2048, rel=1e-9)
-    assert any("2048 Hz" in note for note in recording.notes)
+@every("rate", [2048, 100])  # in single precision, 10 ms are not 10 ms
+def test_the_step_of_a_sac_file_is_not_rounded_to_microseconds_or_single_precision(tmp_path, rate):
+    recording = read(stored(tmp_path, "SAC", trace("ACC", np.ones(4096), rate)))
+    assert recording.channels[0].time[-1] == pytest.approx(4095 / rate, rel=1e-12)
+    assert any(f"{rate} Hz" in note for note in recording.notes)
 
 
-def test_a_sac_file_at_100_hz_has_steps_of_10_ms_whatever_single_precision_says(tmp_path):
-    time = read(stored(tmp_path / "r.sac", "SAC", trace("ACC", np.ones(1000), 100))).channels[0].time
-    assert time is not None
-    assert time[-1] == pytest.approx(9.99, rel=1e-12)
-
-
-def test_a_file_without_a_date_has_no_start(tmp_path):
-    path = tmp_path / "r.sac"
+def test_a_file_without_a_date_has_no_start(path):
     obspy.Trace(np.ones(10, dtype=np.float32), {"delta": 0.01}).write(str(path), format="SAC")
     recording = read(path)
     assert recording.start is None
@@ -103,13 +83,11 @@ def test_a_file_without_a_date_has_no_start(tmp_path):
 
 
 def test_the_start_is_in_utc(tmp_path):
-    start = read(stored(tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(10), 100))).start
-    assert start is not None
+    start = read(stored(tmp_path, "MSEED", ONES)).start
     assert start.isoformat() == "2013-04-26T10:15:00+00:00"
 
 
-def test_a_pickle_is_never_opened(tmp_path):
-    path = tmp_path / "record.pickle"
+def test_a_pickle_is_never_opened(path):
     path.write_bytes(pickle.dumps({"opened": True}))
     with pytest.raises(ReadError, match="format PICKLE is not read here") as refused:
         read(path, "waveform", {"kind": "pickle"})
@@ -120,7 +98,7 @@ def test_a_pickle_is_never_opened(tmp_path):
 
 @every("kind", ["CSS", "NNSA_KB_CORE", "Q", "SEGY", "MSED"])
 def test_a_kind_that_is_not_read_is_refused_with_the_export_to_make(tmp_path, kind):
-    path = stored(tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(10), 100))
+    path = stored(tmp_path, "MSEED", ONES)
     assert companions(path, "waveform", {"kind": kind}) == ()
     with pytest.raises(ReadError, match=rf"r.mseed: ObsPy's format {kind} is not read here.* Convert the"):
         read(path, "waveform", {"kind": kind})
@@ -136,19 +114,19 @@ def test_the_kinds_that_are_read_are_known_to_obspy_under_these_names():
 
 
 def test_a_name_with_signs_of_a_pattern_is_just_a_name(tmp_path):
-    path = stored(tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(10), 100))
+    path = stored(tmp_path, "MSEED", ONES)
     named = path.rename(tmp_path / "run[1]?.mseed") if sys.platform != "win32" else path
-    assert read(named).channels[0].values.size == 10
+    assert read(named).channels[0].values.size == 50
 
 
 def test_a_sac_file_that_was_cut_off_is_refused(tmp_path):
-    path = stored(tmp_path / "r.sac", "SAC", trace("ACC", np.ones(1000), 100))
+    path = stored(tmp_path, "SAC", trace("ACC", np.ones(1000), 100))
     path.write_bytes(path.read_bytes()[:2000])
     with pytest.raises(ReadError, match=r"r.sac: it cannot be read as SAC .* cut off"):
         read(path)
 
 
-def test_counts_of_k_net_become_metres_per_second_squared(tmp_path):
+def test_counts_of_k_net_become_metres_per_second_squared(path):
     head = [
         *("Origin Time       2018/01/24 19:51:00", "Lat.              41.0", "Long.             142.5"),
         *("Depth. (km)       30", "Mag.              6.2", "Station Code      AOM001", "Station Lat.      41.5267"),
@@ -158,26 +136,10 @@ def test_counts_of_k_net_become_metres_per_second_squared(tmp_path):
         "Memo.             ",
     ]
     rows = ["".join(f"{count:9d}" for count in range(first, first + 8)) for first in range(0, 96, 8)]
-    path = tmp_path / "AOM001.EW"
     path.write_text("\n".join([*head, *rows, ""]), encoding="ascii")
     channel = read(path).channels[0]
     assert channel.unit == "m/s^2"
     np.testing.assert_allclose(channel.values, np.arange(96) * 39.20 / 6182761)
-
-
-def test_damaged_waveforms_are_read_or_refused(written):
-    chance = np.random.default_rng(4)
-    path = written("waveform", samples=400)
-    content = bytearray(path.read_bytes())
-    for _ in range(60):
-        flipped = bytearray(content)
-        for place in chance.integers(0, len(content), 8):
-            flipped[place] ^= 1 << int(chance.integers(8))
-        path.write_bytes(flipped[: int(chance.integers(64, len(content)))])
-        try:
-            assert read(path).channels
-        except ReadError as error:
-            assert path.name in str(error)  # noqa: PT017 - either outcome is right
 
 
 def mini_seed(year=2013, order=">", quality=b"D"):
@@ -221,15 +183,13 @@ def kinemetrics(length=2040):
         (b"", None),
     ],
 )
-def test_a_kind_is_told_by_the_first_bytes(tmp_path, head, kind):
-    path = tmp_path / "a"
+def test_a_kind_is_told_by_the_first_bytes(path, head, kind):
     path.write_bytes(head)
     assert kind_of_waveform(head_of(path)) == kind
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=80, deadline=None)
 @given(some.binary(max_size=700))
-def test_any_bytes_are_of_a_known_kind_or_of_none(tmp_path, content):
-    path = tmp_path / "a"
+def test_any_bytes_are_of_a_known_kind_or_of_none(path, content):
     path.write_bytes(content)
     assert kind_of_waveform(head_of(path)) in {*READERS, None}

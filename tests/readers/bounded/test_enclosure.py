@@ -109,12 +109,6 @@ with watched_memory(Bounds(int(sys.argv[1]), 60, 60.0)):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="without a shell")
 def test_where_a_system_has_no_such_limit_a_process_ends_itself_with_a_code_of_its_own():
-    by_shell = [
-        "sh",
-        "-c",
-        '"$0" -c "$1" "$2"; exit $?',
-        sys.executable,
-        WATCHED,
-    ]
+    by_shell = ["sh", "-c", '"$0" -c "$1" "$2"; exit $?', sys.executable, WATCHED]
     codes = [subprocess.run([*by_shell, str(bound)]).returncode for bound in (300_000_000, 50_000_000)]
     assert codes == [0, OUT_OF_MEMORY]

@@ -9,7 +9,6 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -69,9 +68,11 @@ def test_one_process_serves_all_files_and_each_is_read_in_a_copy(do):
         assert len({first, second, server}) == 3
 
 
-@pytest.mark.parametrize(("deed", "name"), [("crash", "SIGSEGV"), ("abort", "SIGABRT")])
-def test_a_crash_fails_its_own_file_alone(do, deed, name):
-    with pytest.raises(ReadError, match=rf"reading it as .hostile. crashed the library .* \({name}\)") as crash:
+@pytest.mark.parametrize("deed", ["crash", "abort"])
+def test_a_crash_fails_its_own_file_alone(do, deed):
+    with pytest.raises(
+        ReadError, match=r"reading it as .hostile. took .* or crashed the library that does it"
+    ) as crash:
         do(deed)
     assert crash.value.__cause__ is None  # kept against the file
     server = do().channels[0].values[1]
@@ -96,7 +97,7 @@ def test_an_exception_is_told_with_its_message_and_a_refusal_as_it_is(do):
 @on_linux
 def test_what_swells_is_stopped_at_its_bound(do, monkeypatch):
     monkeypatch.setattr(enclosure, "MEMORY", 200_000_000)
-    with pytest.raises(ReadError, match=r"reading it as .hostile. took more than 200 MB of memory"):
+    with pytest.raises(ReadError, match=r"reading it as .hostile. took too much memory \(more than 200 MB\)"):
         do("swell")
     assert came_of(do("swell_natively")) == 0
     monkeypatch.undo()
@@ -107,10 +108,10 @@ def test_what_swells_is_stopped_at_its_bound(do, monkeypatch):
 def test_what_does_not_end_is_stopped(do, monkeypatch):
     monkeypatch.setattr(enclosure, "SECONDS", 1)
     monkeypatch.setattr(enclosure, "PATIENCE", 100)
-    with pytest.raises(ReadError, match=r"reading it as .hostile. took more than 1 s of processor time"):
+    with pytest.raises(ReadError, match=r"reading it as .hostile. took .* time \(more than 1 s\)"):
         do("spin")
     monkeypatch.setattr(enclosure, "PATIENCE", 1.5)
-    with pytest.raises(ReadError, match=r"reading it as .hostile. took more than 2 s") as late:
+    with pytest.raises(ReadError, match=r"reading it as .hostile. took .* time") as late:
         do("sleep")
     assert isinstance(late.value.__cause__, OSError)  # the machine may have been busy: the next run tries again
     assert do().channels
@@ -150,7 +151,7 @@ def test_other_files_of_the_campaign_may_be_read_and_not_written(do, tmp_path):
 
 
 def test_a_reader_that_lies_is_not_believed(do):
-    with pytest.raises(ReadError, match=r"reading it as .hostile. crashed the library"):
+    with pytest.raises(ReadError, match=r"reading it as .hostile. .* crashed the library"):
         do("lie")
     assert do().channels
 
@@ -186,7 +187,6 @@ def test_the_process_does_not_outlive_the_one_that_asks(installed, tmp_path, dee
     path.write_bytes(b"1")
     script = [sys.executable, "-c", SCRIPT, str(installed), str(path), *([deed] if deed else [])]
     asking = subprocess.Popen(script, stdout=subprocess.PIPE, text=True)
-    assert asking.stdout is not None
     server = int(asking.stdout.readline())
     if deed:
         time.sleep(0.5)
@@ -221,16 +221,17 @@ def test_a_system_without_safe_copies_reads_in_the_process_itself(installed, tmp
     path = tmp_path / "free-01.hostile"
     path.write_bytes(b"1")
     function, given = "colonnade.readers.registry:read_here", {"format": "hostile", "options": {}, "window": None}
-    request = messages.Request(function, str(path), str(tmp_path), given, "hostile", (), enclosure.bounds_of(path))
+    told = {"function": function, "path": path, "within": tmp_path, "kind": "hostile", "modules": ()}
+    request = messages.Request(**told, options=given, bounds=enclosure.bounds_of(path))
     serve = (
         "import sys; sys.path.insert(0, sys.argv[1]); from colonnade.readers.bounded import server; "
         "server.serve(sys.stdin.buffer, sys.stdout.buffer, server.in_place)"
     )
     elsewhere = tmp_path.parent / f"{tmp_path.name}-secret"
     elsewhere.write_text("secret")
-    deed = replace(request, options={**given, "options": {"deed": "look", "victim": str(elsewhere)}})
+    deed = request.model_copy(update={"options": {**given, "options": {"deed": "look", "victim": str(elsewhere)}}})
     lines = request.line() + deed.line() + request.line()
-    told = subprocess.run([sys.executable, "-c", serve, str(installed)], input=lines, capture_output=True, check=True)
-    first, refused, last = (part.split(b"\n", 1)[0] for part in told.stdout.split(messages.BEGUN)[1:])
+    said = subprocess.run([sys.executable, "-c", serve, str(installed)], input=lines, capture_output=True, check=True)
+    first, refused, last = (part.split(b"\n", 1)[0] for part in said.stdout.split(messages.BEGUN)[1:])
     assert json.loads(first)["arrays"] == json.loads(last)["arrays"] == [{"dtype": "<f8", "shape": [2]}]
     assert "outside the campaign's folder" in json.loads(refused)["refusal"]

@@ -1,14 +1,13 @@
 """The process that reads: one answer for each request, in order, whatever comes of it."""
 
 import io
-from dataclasses import replace
 from importlib import import_module
 
 import pytest
 
 from colonnade.readers import registry
 from colonnade.readers.bounded import messages, server
-from colonnade.readers.bounded.enclosure import OUT_OF_MEMORY, bounds_of
+from colonnade.readers.bounded.enclosure import bounds_of
 from colonnade.readers.bounded.messages import Request
 
 
@@ -16,7 +15,8 @@ def request(path, format="delimited", **options):
     given = {"format": format, "options": options, "window": None}
     modules = registry.formats()[format].modules
     function = "colonnade.readers.registry:read_here"
-    return Request(function, str(path), str(path.parent), given, format, modules, bounds_of(path))
+    told = {"function": function, "path": path, "within": path.parent, "options": given, "kind": format}
+    return Request(**told, modules=modules, bounds=bounds_of(path))
 
 
 @pytest.fixture
@@ -53,15 +53,6 @@ def test_a_refusal_without_an_error_of_the_machine_is_the_files_own(table):
     (refused,) = answers(request(table))
     assert refused.refusal.startswith("a.csv: no rows of numbers were found")
     assert (refused.error_number, refused.exit_code) == (None, None)
-
-
-def test_what_swells_says_so(table, monkeypatch):
-    def swell(path, options):
-        raise MemoryError
-
-    swelling = replace(registry.formats()["delimited"], read=swell)
-    monkeypatch.setattr(registry, "formats", lambda: {"delimited": swelling})
-    assert answers(request(table))[0].exit_code == OUT_OF_MEMORY
 
 
 def test_what_a_format_needs_is_imported_before_its_file_is_opened(table, monkeypatch):

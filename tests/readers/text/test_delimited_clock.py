@@ -9,7 +9,7 @@ from colonnade.errors import ReadError
 from colonnade.readers.recording import Window
 from colonnade.readers.registry import read
 from colonnade.readers.text import delimited
-from colonnade.readers.text.delimited_header import DelimitedOptions
+from colonnade.readers.text.delimited import DelimitedOptions
 from delimited_text import recorded
 from every import every
 
@@ -50,7 +50,6 @@ def test_the_clock_can_be_given(tmp_path):
 
 def test_each_column_goes_by_the_clock_on_its_left(tmp_path):
     recording = recorded(tmp_path, "Time 1;a;Time 2;b\n0;1;0;1\n1;2;10;2\n2;3;20;3\n")
-    assert recording.channel("a").time is not None
     assert recording.channel("a").time.tolist() == [0, 1, 2]
     assert recording.channel("b").time.tolist() == [0, 10, 20]
     assert recording.on_clock("a", "Time 2").time.tolist() == [0, 10, 20]
@@ -64,31 +63,21 @@ def test_a_clock_that_was_given_leaves_the_other_clocks_to_be_chosen(tmp_path):
     assert recording.on_clock("a", "X").time.tolist() == [5, 6, 7]
 
 
+MORNING, LATE = datetime(2013, 4, 26, 10, 15, 0, 500000), datetime(2013, 4, 26, 23, 59, 59, 500000)
+
+
 @every(
     ("stamps", "start"),
     [
-        (
-            ["2013-04-26T10:15:00.5", "2013-04-26T10:15:01", "2013-04-26T10:15:01.5"],
-            datetime(2013, 4, 26, 10, 15, 0, 500000),
-        ),
-        (
-            ["2013/04/26 23:59:59.5", "2013/04/27 00:00:00.0", "2013/04/27 00:00:00.5"],
-            datetime(2013, 4, 26, 23, 59, 59, 500000),
-        ),
-        (
-            ["26.04.2013 10:15:00,5", "26.04.2013 10:15:01,0", "26.04.2013 10:15:01,5"],
-            datetime(2013, 4, 26, 10, 15, 0, 500000),
-        ),
-        (
-            ["2013-04-26T10:15:00.5+03:00", "2013-04-26T10:15:01+03:00", "2013-04-26T10:15:01.5+03:00"],
-            datetime(2013, 4, 26, 7, 15, 0, 500000, UTC),
-        ),
+        (["2013-04-26T10:15:00.5", "2013-04-26T10:15:01", "2013-04-26T10:15:01.5"], MORNING),
+        (["2013/04/26 23:59:59.5", "2013/04/27 00:00:00.0", "2013/04/27 00:00:00.5"], LATE),
+        (["26.04.2013 10:15:00,5", "26.04.2013 10:15:01,0", "26.04.2013 10:15:01,5"], MORNING),
+        ([f"2013-04-26T12:15:{second}+02:00" for second in ("00.5", "01", "01.5")], MORNING.replace(tzinfo=UTC)),
         (["23:59:59.5", "00:00:00.0", "00:00:00.5"], None),
     ],
 )
 def test_timestamps_are_seconds_from_the_first(tmp_path, stamps, start):
     recording = recorded(tmp_path, "timestamp;a\n" + "".join(f"{stamp};{row}\n" for row, stamp in enumerate(stamps)))
-    assert recording.channel("a").time is not None
     np.testing.assert_allclose(recording.channel("a").time, [0, 0.5, 1.0], atol=1e-9)
     assert recording.start == start
 
@@ -110,8 +99,6 @@ def test_a_window_of_a_long_file_is_what_the_whole_file_holds_there(long, window
     whole = read(long)
     part = delimited.read(long, DelimitedOptions(), Window(*window))
     for all_of_it, some in zip(whole.channels, part.channels, strict=True):
-        assert all_of_it.time is not None
-        assert some.time is not None
         inside, there = ((time >= window[0]) & (time <= window[1]) for time in (all_of_it.time, some.time))
         np.testing.assert_array_equal(some.time[there], all_of_it.time[inside])
         np.testing.assert_array_equal(some.values[there], all_of_it.values[inside])

@@ -5,9 +5,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
 
 from colonnade.errors import ReadError
-from colonnade.readers.text.delimited_header import DelimitedOptions, TableOptions, read_header
-from colonnade.readers.text.encoding import text_of
-from colonnade.readers.text.heading import HeadingLines
+from colonnade.readers.text.delimited import DelimitedOptions, TableOptions, read_header
+from colonnade.readers.text.encoding import Text
 from every import every
 
 ROWS = "".join(f"{number},0;{number},25;{-number},5\n" for number in range(30))
@@ -16,33 +15,29 @@ ROWS = "".join(f"{number},0;{number},25;{-number},5\n" for number in range(30))
 def header(path, text, encoding="utf-8", **options):
     path.write_bytes(text.encode(encoding))
     given = DelimitedOptions.model_validate(options)
-    return read_header(text_of(path, given.encoding), given)
+    return read_header(Text.of(path, given.encoding), given)
 
 
 def test_the_head_gives_dialect_names_units_and_claims(tmp_path):
     found = header(tmp_path / "a.csv", "Prüfung 3, interval 0.01 s\nZeit;Weg\xa0oben;ACC\ns;mm;g\n" + ROWS, "cp1252")
     dialect = found.form.dialect
-    assert (dialect.delimiter, dialect.decimal, dialect.encoding) == (";", ",", "cp1252")
+    assert (dialect.delimiter, dialect.decimal, found.text.encoding.name) == (";", ",", "cp1252")
     assert found.heading.units == ("s", "mm", "g")
-    assert (found.heading.first, found.is_named) == (3, True)
+    assert (found.first, found.heading.is_named) == (3, True)
     assert found.claims.step == 0.01
-
-
-def test_empty_columns_at_the_end_are_no_columns(tmp_path):
-    found = header(tmp_path / "a.csv", "a;b;\n" + "1;2;\n" * 20)
-    assert (found.form.kinds, found.form.trailing) == (("number", "number"), 1)
 
 
 def test_words_between_single_blanks_may_be_a_sentence(tmp_path):
     rows = "1.5 2.5 3.5\n" * 20
-    assert header(tmp_path / "a.txt", "three plain words\n" + rows).is_named is False
-    assert header(tmp_path / "a.txt", "three plain words\n" + rows, names_row=1).is_named is True
-    assert header(tmp_path / "a.txt", rows).is_named is False
+    assert header(tmp_path / "a.txt", "three plain words\n" + rows).heading.is_named is False
+    assert header(tmp_path / "a.txt", "three plain words\n" + rows, names_row=1).heading.is_named is True
+    assert header(tmp_path / "a.txt", rows).heading.is_named is False
 
 
 @every(
     ("text", "options", "told"),
     [
+        ("", {}, "the file is empty"),
         ("\n \n", {}, "the file is empty"),
         ("\x01\x02\x03" * 100, {}, "not printable"),
         ("only words\n" * 5, {}, "no rows of numbers were found in the first 5 lines"),
@@ -57,7 +52,7 @@ def test_a_text_without_rows_is_refused_with_the_reason(tmp_path, text, options,
 def test_text_in_another_encoding_than_given_is_refused(tmp_path):
     (tmp_path / "a.csv").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(ReadError, match="utf-32"):
-        read_header(text_of(tmp_path / "a.csv", "utf-32"), DelimitedOptions(encoding="utf-32"))
+        read_header(Text.of(tmp_path / "a.csv", "utf-32"), DelimitedOptions(encoding="utf-32"))
 
 
 @every(("word", "sign"), [("tab", "\t"), ("Semicolon", ";"), ("spaces", " "), ("|", "|")])
@@ -75,10 +70,7 @@ def test_whatever_is_above_the_rows_these_are_found(tmp_path, above, delimiter, 
     rows = [delimiter.join(f"{row + column}.5" for column in range(width)) for row in range(200)]
     found = header(tmp_path / "a.csv", "\n".join([*above, *rows, ""]))
     assert len(found.form.kinds) == width
-    assert found.heading.first <= len(above) + 1
-
-
-FOUND = HeadingLines(2, 3)
+    assert found.first <= len(above) + 1
 
 
 @every(
@@ -92,21 +84,7 @@ FOUND = HeadingLines(2, 3)
     ],
 )
 def test_lines_of_names_and_units_are_as_given_else_as_found(options, names, units):
-    assert TableOptions(**options).heading_lines(FOUND) == HeadingLines(names, units)
-
-
-@every(
-    ("kinds", "options", "kind"),
-    [
-        (("number", "number"), TableOptions(layout="running"), "running"),
-        (("time", "number"), TableOptions(), "columns"),
-        (("number", "number"), TableOptions(time=1), "columns"),
-        (("number", "number"), TableOptions(), None),
-    ],
-)
-def test_the_layout_is_as_given_or_as_the_columns_kinds_leave_it(kinds, options, kind):
-    layout = options.given_layout(kinds)
-    assert (None if layout is None else layout.kind) == kind
+    assert TableOptions(**options).heading_lines((2, 3)) == (names, units)
 
 
 NAMELESS = ["column 1", "column 2", "column 3"]
@@ -120,4 +98,4 @@ NAMELESS = ["column 1", "column 2", "column 3"]
 def test_words_with_commas_above_columns_between_blanks(tmp_path, above, names):
     path = tmp_path / "record.txt"
     path.write_text(f"{above}\n" + "".join(f"{n / 100:.2f}  {n % 7}.5  {n % 5}.25\n" for n in range(30)))
-    assert list(read_header(text_of(path), DelimitedOptions()).heading.names) == names
+    assert list(read_header(Text.of(path), DelimitedOptions()).heading.names) == names

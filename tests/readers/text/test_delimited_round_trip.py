@@ -1,6 +1,6 @@
 """What is written as delimited text comes back equal, however it is written."""
 
-from dataclasses import dataclass
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -27,25 +27,11 @@ NAMES = ["LVDT 1", "Kraft oben", "ACC-X", "µ-strain", "Table accel XXXX", "1281
 UNITS = ["mm", "V", "kN", "m/s²", "g", "°", "Volts"]
 
 
-@dataclass(frozen=True)
-class Writing:
-    """One way of writing a table."""
-
-    separator: str
-    decimal: str
-    encoding: str
-    preamble: list[str]
-    naming: str
-    line_end: str
-    trailing: bool
-    quoted_names: bool
-    last_line_ended: bool
-
-
 @st.composite
 def writings(draw):
+    """One way of writing a table."""
     separator = draw(st.sampled_from(list(SEPARATORS.values())))
-    return Writing(
+    return SimpleNamespace(
         separator=separator,
         decimal="." if separator == "," else draw(st.sampled_from([".", ","])),
         encoding=draw(st.sampled_from(ENCODINGS)),
@@ -97,8 +83,7 @@ def write(path, table, writing):
 
 @settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(table=tables(), writing=writings())
-def test_numbers_names_and_units_come_back(tmp_path, table, writing):
-    path = tmp_path / "record.txt"
+def test_numbers_names_and_units_come_back(path, table, writing):
     names, units = write(path, table, writing)
     recording = read(path)
     assert recording.warnings == ()
@@ -115,30 +100,17 @@ def test_numbers_names_and_units_come_back(tmp_path, table, writing):
     values=st.lists(st.floats(-1e12, 1e12, allow_subnormal=False), min_size=5, max_size=20),
     style=st.sampled_from(["{:.15g}", "{:.9e}", "{:+.4E}"]),
 )
-def test_numbers_of_fifteen_digits_are_exact_in_any_notation(tmp_path, values, style):
+def test_numbers_of_fifteen_digits_are_exact_in_any_notation(path, values, style):
     texts = [style.format(value if abs(value) > 1e-6 else 0.0) for value in values]
-    path = tmp_path / "record.csv"
     path.write_text("a;b\n" + "".join(f"{text};{text}\n" for text in texts))
     np.testing.assert_allclose(read(path).channel("b").values, [float(text) for text in texts], rtol=3e-16, atol=0)
 
 
-@pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r"])
-def test_a_file_longer_than_a_piece_is_read_whole(tmp_path, line_end, monkeypatch):
-    monkeypatch.setattr("colonnade.readers.text.encoding.PIECE", 20_000)
-    path = tmp_path / "record.csv"
-    expected = np.arange(9000) / 8
-    path.write_bytes(line_end.join(["t,x", *(f"{value},{-value}" for value in expected)]).encode())
-    recording = read(path)
-    np.testing.assert_array_equal(recording.channel("t").values, expected)
-    np.testing.assert_array_equal(recording.channel("x").values, -expected)
-
-
 @pytest.mark.parametrize("size", [700, 4000, 1_000_000])
-def test_what_is_read_does_not_depend_on_the_pieces(tmp_path, size, monkeypatch):
+def test_what_is_read_does_not_depend_on_the_pieces(path, size, monkeypatch):
     rows = [f"{number / 8};{number % 7},5;ä{number}" for number in range(2000)]
     rows[900:900] = ["", "", ""]
     rows[1200], rows[1500] = "150,125;-;ä", "# a remark"
-    path = tmp_path / "record.csv"
     path.write_text("t;x;said\r\n" + "\r\n".join(rows).replace(".", ","), encoding="utf-8", newline="")
     expected = read(path)
     monkeypatch.setattr("colonnade.readers.text.encoding.PIECE", size)

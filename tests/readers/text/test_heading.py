@@ -1,7 +1,7 @@
 """Names and units are taken apart as people write them."""
 
-from colonnade.readers.text.cells import Dialect
-from colonnade.readers.text.heading import HeadingLines, describe_columns, looks_like_unit, take_apart
+from colonnade.readers.text.dialect import Dialect
+from colonnade.readers.text.heading import looks_like_unit, read_heading, take_apart
 from every import every
 
 
@@ -15,13 +15,19 @@ from every import every
         ("ACC [m/s^2]", "ACC", "m/s^2"),
         ("Dehnung [µε]", "Dehnung", "µε"),
         ("Angle []", "Angle", None),
+        ("Time [s] - Plot 0", "Time - Plot 0", "s"),
+        ("Amplitude (mm) - Plot 0", "Amplitude - Plot 0", "mm"),
     ],
 )
-def test_a_unit_is_split_off(heading, name, unit):
+def test_a_unit_is_split_off_also_in_front_of_a_graphs_name(heading, name, unit):
     assert take_apart(heading) == (name, unit)
 
 
-@every("heading", ["Accel (top)", "LVDT [3]", "Table accel XXXX", "input/output", "[mm]", "distance in front"])
+WITHOUT = ["Accel (top)", "LVDT [3]", "Table accel XXXX", "input/output", "[mm]", "distance in front"]
+WITHOUT += ["Table [North] - Plot 0"]
+
+
+@every("heading", WITHOUT)
 def test_what_is_no_unit_stays_with_the_name(heading):
     assert take_apart(heading) == (heading, None)
 
@@ -39,12 +45,6 @@ def test_names_are_no_units(text):
     assert not looks_like_unit(text)
 
 
-def test_the_unit_in_front_of_a_graphs_name_is_found():
-    assert take_apart("Time [s] - Plot 0") == ("Time - Plot 0", "s")
-    assert take_apart("Amplitude (mm) - Plot 0") == ("Amplitude - Plot 0", "mm")
-    assert take_apart("Table [North] - Plot 0") == ("Table [North] - Plot 0", None)
-
-
 @every(
     ("heads", "units"),
     [
@@ -56,7 +56,7 @@ def test_the_unit_in_front_of_a_graphs_name_is_found():
     ],
 )
 def test_letters_that_tell_columns_of_one_name_apart_are_no_units(heads, units):
-    dialect = Dialect("utf-8", delimiter=";", decimal=".")
-    heading = describe_columns([";".join(heads), "1;2"], HeadingLines(0, None), 1, dialect, 2)
+    dialect = Dialect(delimiter=";", decimal=".")
+    heading = read_heading([";".join(heads), "1;2"], (0, None), dialect, ("number", "number"))
     assert heading.units == units
     assert all((name == head) is (unit is None) for name, head, unit in zip(heading.names, heads, units, strict=True))

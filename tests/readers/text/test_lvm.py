@@ -10,7 +10,6 @@ from hypothesis import strategies as some
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
 from colonnade.readers.text.lvm import read_preamble, read_segments
-from colonnade.readers.text.numbered import NumberedLines
 from every import every
 
 PREAMBLE = "LabVIEW Measurement\nSeparator\tTab\nDecimal_Separator\t,\nX_Columns\tMulti\n***End_of_Header***\n\n"
@@ -18,26 +17,21 @@ HEAD = "Channels\t1\nSamples\t2\nY_Unit_Label\tmm\n***End_of_Header***\nX_Value\
 
 
 def segments(path, text):
-    path.write_text(text, encoding="utf-8")
-    with NumberedLines(path) as lines:
-        return read_segments(path, lines, read_preamble(path, lines))
+    lines = text.split("\n")
+    return read_segments(path, lines, read_preamble(path, lines))
 
 
-def test_the_preamble_says_how_numbers_are_written(tmp_path):
-    path = tmp_path / "a.lvm"
-    path.write_text(PREAMBLE.replace("Tab", "Semicolon").replace("\t", ";"), encoding="utf-8")
-    with NumberedLines(path) as lines:
-        preamble = read_preamble(path, lines)
+def test_the_preamble_says_how_numbers_are_written(path):
+    preamble = read_preamble(path, PREAMBLE.replace("Tab", "Semicolon").replace("\t", ";").split("\n"))
     assert (preamble.dialect.delimiter, preamble.dialect.decimal, preamble.clocks) == (";", ",", "multi")
 
 
-def test_each_header_begins_a_segment_and_rows_below_a_blank_line_another_of_the_same(tmp_path):
+def test_each_header_begins_a_segment_and_rows_below_a_blank_line_go_on(tmp_path):
     rows = "0\t1,5\n1\t2,5\n"
     found, warnings = segments(tmp_path / "a.lvm", PREAMBLE + HEAD + rows + "\n" + rows + "\n" + HEAD + rows)
     assert warnings == []
-    assert [segment.names for segment in found] == [("X_Value", "top")] * 3
-    assert [segment.columns[1].tolist() for segment in found] == [[1.5, 2.5]] * 3
-    assert found[0].entries is found[1].entries
+    assert [segment.names for segment in found] == [["X_Value", "top"]] * 2
+    assert [segment.columns[1].tolist() for segment in found] == [[1.5, 2.5, 1.5, 2.5], [1.5, 2.5]]
     said = [found[0].entry(key, column) for key, column in (("Y_Unit_Label", 1), ("Y_Unit_Label", 9), ("x", 0))]
     assert said == ["mm", "", ""]
 
@@ -58,16 +52,16 @@ def test_a_file_that_ends_too_early_says_where(tmp_path, text, told):
 
 
 def test_a_later_header_that_is_not_whole_is_a_warning(tmp_path):
-    found, warnings = segments(tmp_path / "a.lvm", PREAMBLE + HEAD + "0\t1\n\nChannels\t1\n")
+    found, warnings = segments(tmp_path / "a.lvm", PREAMBLE + HEAD + "0\t1\n1\t2\n\nChannels\t1\n")
     assert len(found) == 1
-    assert warnings == ["the segment that starts on line 14 ends within its header: the file was cut off"]
+    assert warnings == ["the segment that starts on line 15 ends within its header: the file was cut off"]
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=50, deadline=None)
 @given(some.text("0123456789,\t\n*abC", max_size=60))
 def test_any_text_below_a_sound_segment_leaves_that_as_it_is(tmp_path, below):
     found, _ = segments(tmp_path / "a.lvm", PREAMBLE + HEAD + "0\t1\n1\t2\n\n" + below)
-    assert found[0].columns[1].tolist() == [1, 2]
+    assert found[0].columns[1][:2].tolist() == [1, 2]
 
 
 FILE_HEADER = """LabVIEW Measurement
@@ -93,27 +87,25 @@ X_Value\ttop\ttable\tComment
 """
 
 
-def header(clocks, decimal="."):
-    return FILE_HEADER.format(clocks=clocks, decimal=decimal)
-
-
 def segment(rows, time="10:15:01.5", x0="0.0", samples=None):
     return SEGMENT.format(samples=samples or len(rows), time=time, x0=x0) + "\n".join(rows) + "\n"
 
 
-def written(tmp_path, text):
-    path = tmp_path / "record.lvm"
-    path.write_bytes(text.encode("latin-1"))
-    return path
+ONE, TWO = ([f"\t{row + first}\t0" for row in range(3)] for first in (0, 10))
+
+
+def recorded(folder, *segments, clocks="No", decimal="."):
+    path = folder / "record.lvm"
+    path.write_bytes((FILE_HEADER.format(clocks=clocks, decimal=decimal) + "".join(segments)).encode("latin-1"))
+    return read(path)
 
 
 def test_without_x_columns_time_comes_from_the_header(tmp_path):
     rows = [f"\t{row}.5\t-{row}.25" for row in range(4)]
-    recording = read(written(tmp_path, header("No") + segment(rows, x0="1.0")))
+    recording = recorded(tmp_path, segment(rows, x0="1.0"))
     top, table = recording.channels
     assert (top.name, top.unit, table.name, table.unit) == ("top", "Volts", "table", "g")
     assert top.values.tolist() == [0.5, 1.5, 2.5, 3.5]
-    assert top.time is not None
     np.testing.assert_allclose(top.time, [1.0, 1.005, 1.01, 1.015], atol=1e-12)
     assert recording.start == datetime(2013, 4, 26, 10, 15, 2, 500000)
 
@@ -121,16 +113,14 @@ def test_without_x_columns_time_comes_from_the_header(tmp_path):
 @every("decimal", [".", ","])
 def test_the_header_decides_the_decimal_sign(tmp_path, decimal):
     rows = [f"{row * 0.005:.3f}\t{row}.125\t1.5E-1".replace(".", decimal) for row in range(3)]
-    recording = read(written(tmp_path, header("One", decimal) + segment(rows)))
+    recording = recorded(tmp_path, segment(rows), clocks="One", decimal=decimal)
     assert recording.channel("top").values.tolist() == [0.125, 1.125, 2.125]
     assert recording.channel("table").values.tolist() == [0.15] * 3
     assert recording.channels[0].is_clock
 
 
 def test_segments_are_joined_by_their_dates_and_times(tmp_path):
-    one, two = ([f"\t{row + first}\t0" for row in range(3)] for first in (0, 10))
-    text = header("No") + segment(one, "10:15:01.5") + segment(two, "10:15:03.25")
-    recording = read(written(tmp_path, text))
+    recording = recorded(tmp_path, segment(ONE, "10:15:01.5"), segment(TWO, "10:15:03.25"))
     top = recording.channel("top")
     assert top.values.tolist() == [0, 1, 2, 10, 11, 12]
     np.testing.assert_allclose(top.time, [0, 0.005, 0.01, 1.75, 1.755, 1.76], atol=1e-9)
@@ -139,7 +129,7 @@ def test_segments_are_joined_by_their_dates_and_times(tmp_path):
 
 def test_x_values_that_go_on_are_not_shifted_by_their_segments_time(tmp_path):
     one, two = ([f"{(row + first) * 0.005:.3f}\t{row}\t0" for row in range(3)] for first in (0, 3))
-    recording = read(written(tmp_path, header("One") + segment(one) + segment(two, "10:15:01.515")))
+    recording = recorded(tmp_path, segment(one), segment(two, "10:15:01.515"), clocks="One")
     np.testing.assert_allclose(recording.channel("top").time, 0.005 * np.arange(6), atol=1e-12)
 
 
@@ -147,45 +137,43 @@ def test_x_values_since_1904_give_the_start(tmp_path):
     epoch = datetime(1904, 1, 1)
     begin = (datetime(2013, 4, 26, 8, 0) - epoch).total_seconds()
     rows = [f"{begin + 0.5 * row:.3f}\t{row}\t0" for row in range(3)]
-    recording = read(written(tmp_path, header("One") + segment(rows)))
+    recording = recorded(tmp_path, segment(rows), clocks="One")
     np.testing.assert_allclose(recording.channel("top").time, [0, 0.5, 1])
     assert recording.start == datetime(2013, 4, 26, 8, 0)
 
 
 def test_channels_of_unequal_length_keep_their_own(tmp_path):
     rows = ["\t1\t5", "\t2\t6", "\t3", "\t4"]
-    recording = read(written(tmp_path, header("No") + segment(rows).replace("Samples\t4\t4", "Samples\t4\t2")))
+    recording = recorded(tmp_path, segment(rows).replace("Samples\t4\t4", "Samples\t4\t2"))
     assert recording.channel("top").values.tolist() == [1, 2, 3, 4]
     assert recording.channel("table").values.tolist() == [5, 6]
     assert recording.warnings == ()
 
 
 def test_fewer_rows_than_announced_are_told(tmp_path):
-    recording = read(written(tmp_path, header("No") + segment(["\t1\t2", "\t3\t4"], samples=500)))
+    recording = recorded(tmp_path, segment(["\t1\t2", "\t3\t4"], samples=500))
     assert recording.warnings == ('the samples below line 19 end too early: the header says 500, "top" has 2',)
 
 
 def test_a_cell_without_a_number_is_missing_and_told_with_its_line(tmp_path):
     rows = ["\t1\t2\tLOST COMMUNICATION", "\tOVL\t4", "\t5\t6\tOK"]
-    recording = read(written(tmp_path, header("No") + segment(rows)))
+    recording = recorded(tmp_path, segment(rows))
     np.testing.assert_array_equal(recording.channel("top").values, [1, np.nan, 5])
     assert recording.warnings == ('"top": 1 cell holds no number (on line 21: "OVL"); missing',)
 
 
 def test_special_blocks_are_no_samples(tmp_path):
     rows = ["\t1\t2", "***Start_Special***", "\t99\t99", "***End_Special***", "\t3\t4"]
-    recording = read(written(tmp_path, header("No") + segment(rows, samples=2)))
+    recording = recorded(tmp_path, segment(rows, samples=2))
     assert recording.channel("top").values.tolist() == [1, 3]
 
 
 @every("place", ["before", "within"])
 def test_notes_in_a_segments_header_are_no_damage(tmp_path, place):
-    one, two = ([f"\t{row + first}\t0" for row in range(3)] for first in (0, 10))
-    pieces = [segment(one, "10:15:01.5"), segment(two, "10:15:03.5")]
+    pieces = [segment(ONE, "10:15:01.5"), segment(TWO, "10:15:03.5")]
     note = "Notes\tthe prism was turned\tafter 3 s\n"
     moved = "Channels\t2\n" + note if place == "within" else note + "Channels\t2\n"
-    text = header("No") + "".join(piece.replace("Channels\t2\n", moved) for piece in pieces)
-    recording = read(written(tmp_path, text))
+    recording = recorded(tmp_path, *(piece.replace("Channels\t2\n", moved) for piece in pieces))
     assert recording.warnings == ()
     assert recording.channel("top").values.tolist() == [0, 1, 2, 10, 11, 12]
     np.testing.assert_allclose(recording.channel("top").time, [0, 0.005, 0.01, 2, 2.005, 2.01], atol=1e-9)
@@ -193,4 +181,4 @@ def test_notes_in_a_segments_header_are_no_damage(tmp_path, place):
 
 def test_a_file_that_ends_before_its_first_row_is_refused(tmp_path):
     with pytest.raises(ReadError, match="no channel holds numbers"):
-        read(written(tmp_path, header("No") + segment([])))
+        recorded(tmp_path, segment([]))

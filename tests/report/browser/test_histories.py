@@ -197,7 +197,7 @@ def test_the_block_moves_with_the_cursor_and_plays(page):
 def test_an_overturned_block_stays_where_it_fell(visit):
     page = visit("tests/sine-3hz-too-strong-for-the-block-1.html")
     page.wait_for_function(READY)
-    end = page.evaluate("colonnade.page.block.bodies[0].end")
+    end = page.evaluate("colonnade.page.block.bodies[0].parts[0].end")
     assert end < page.evaluate("colonnade.page.whole.to") - 1.0
     page.evaluate("end => colonnade.page.move(end)", end)
     assert "measured θ" in page.locator(".moving p").inner_text()

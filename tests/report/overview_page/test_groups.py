@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.dynamics.maps.chart import stability_map
+from colonnade.dynamics.maps import stability_map
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored import record
 from colonnade.report.overview_page import groups, maps, peaks, spans

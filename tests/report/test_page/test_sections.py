@@ -152,7 +152,7 @@ def test_the_recommended_estimator_gives_the_value_with_its_interval(reported):
     assert " ± 0.0" in facts["e"]
     assert "refused" not in facts
     (chosen,) = (each for each in restitution.estimates_of(stored) if each.recommended)
-    assert facts["recommended estimator"] == chosen.name
+    assert facts["from"] == chosen.name
     assert facts["assumptions"] == chosen.assumptions
     assert "interval" not in chosen.value
 

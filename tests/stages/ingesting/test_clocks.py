@@ -45,7 +45,7 @@ def shaking(time):
     return envelope * (np.sin(2 * np.pi * 2.3 * time) + 0.6 * np.sin(2 * np.pi * 3.7 * time + 1.0))
 
 
-ALIGNED = {"main": Recorder(), "second": Recorder.model_construct(clock=Align(channel="one", own_channel="other"))}
+ALIGNED = {"main": Recorder(), "second": Recorder.model_construct(clock=Align(align=("one", "other")))}
 
 
 @every(

@@ -6,7 +6,7 @@ import pytest
 import chain
 from chain import measured
 from colonnade.identification.response.rank import is_within, rank
-from colonnade.identification.restitution.arcs.arcs import find_impacts
+from colonnade.identification.restitution.arcs import find_impacts
 from colonnade.stages import ensemble as running
 from colonnade.stages.parts.beginning import AT_REST, NOT_RECORDED, RECORDED
 from prism import PRISM
@@ -79,6 +79,24 @@ def test_a_prediction_from_the_true_zero_keeps_time_better(small_campaign, relea
     assert float(misfits[1]["zero_offset"]) == float(identified["zero_offset"])
     true_peak = np.abs(angle[time > float(misfits[1]["measured_peak_time"]) - 0.01]).max() / ALPHA
     assert float(misfits[1]["measured_peak_ratio"]) == pytest.approx(true_peak, abs=5e-4)
+
+
+def test_a_gain_that_the_free_vibration_shows_is_that_of_start_and_comparison(
+    small_campaign, released, predicted, compared
+):
+    """Of α and the gain it shows the product; predictions start and are compared by the gain for their own α."""
+    recordings, time, angle = released(E)
+    _, rocking = measured(small_campaign, "free-01", recordings)
+    scaled = rocking.assign(rocking_angle=1.004 * rocking["rocking_angle"])
+    identified = chain.identified(small_campaign, scaled)
+    without, prediction = predicted(scaled), predicted(scaled, identified)
+    gain = float(prediction["angle_gain"])
+    assert gain == pytest.approx(1.004, abs=2e-4)  # e is given here, so predictions move the block as given
+    late, late_without = (np.sqrt(np.mean(lateness(each, time, angle) ** 2)) for each in (prediction, without))
+    assert late < 0.25 * late_without
+    misfits = [compared(scaled, each) for each in (without, prediction)]
+    assert float(misfits[1]["angle_gain"]) == gain
+    assert float(misfits[1]["nrmse"][0]) < 0.25 * float(misfits[0]["nrmse"][0])
 
 
 @pytest.mark.parametrize("every", [5, 8], ids=["100 Hz", "62.5 Hz"])

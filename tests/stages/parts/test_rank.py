@@ -7,9 +7,9 @@ import pytest
 import xarray as xr
 
 from colonnade.campaign.settings import MeasurementSettings
-from colonnade.dynamics.ensembles.outcome import LEVELS, Ensemble
-from colonnade.dynamics.ensembles.uncertainty import INPUTS
+from colonnade.dynamics.ensemble import LEVELS, Ensemble
 from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.uncertainty import INPUTS
 from colonnade.identification.response.rank import FEWEST
 from colonnade.stages.parts import rank as ranking
 from colonnade.stages.parts.beginning import Beginning

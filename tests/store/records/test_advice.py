@@ -30,7 +30,7 @@ def test_only_passed_limits_are_said():
 
 def test_a_line_says_test_risk_and_reason():
     advice = Advice("prism", "sine", "5 Hz at 0.3 g", False, "because", risk=0.42, left=1, beyond=("too far",))
-    assert advice.text() == "next sine of prism: 5 Hz at 0.3 g, risk 42 %, 1 test left; because; too far"
+    assert advice.text() == "next sine of prism: 5 Hz at 0.3 g, risk 42\u00a0%, 1 test left; because; too far"
     enough = Advice("prism", "sine", "5 Hz at 0.3 g", True, "known", risk=0.42, left=0)
     assert enough.text() == "next sine of prism: enough; known"
 

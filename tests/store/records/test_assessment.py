@@ -1,6 +1,6 @@
 """The answer in words, also where there is none."""
 
-from colonnade.campaign.assessing.assessed import UNCORRECTED, AssessmentSummary, Estimate, Variant
+from colonnade.campaign.forms.assessed import UNCORRECTED, AssessmentSummary, Estimate, Variant
 from colonnade.store.records.assessment import sentences
 
 KNOWN = {

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from colonnade.dynamics.maps.chart import StabilityMap
+from colonnade.dynamics.maps import StabilityMap
 from colonnade.store import files
 from colonnade.store.records.stability_map import as_dataset, as_map
 

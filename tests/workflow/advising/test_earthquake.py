@@ -6,14 +6,14 @@ import pytest
 from colonnade.campaign import load
 from colonnade.store.records.summary import read_summary
 from colonnade.workflow.advising.earthquake import STEP, advise_earthquakes
-from colonnade.workflow.forecasting.foresee import foresee
+from colonnade.workflow.foresee import foresee
 
 
 def as_earthquake(small, setup=""):
     """Call the first pulse of the small campaign an earthquake of Span 1, and give its one piece of advice."""
     small.edit('id = "pulse-01"\nkind = "pulse"', EARTHQUAKE)
     small.edit("[setups.frame.channels]", f"[setups.frame]\n{setup}\n[setups.frame.channels]")
-    small.edit("members = 20", "members = 100")  # one of 20 is too large a risk
+    small.edit("members = 20", "members = 100\ngain = 0.05")  # one of 20 is too large a risk
     campaign, summary = load(small.folder), read_summary(small.layout)
     assert summary is not None
     (advice,) = advise_earthquakes(campaign, small.layout, "prism", summary.tests)

@@ -13,8 +13,8 @@ def test_free_vibrations_are_advised_from_the_pooled_restitution(undisturbed):
     (free,) = found.advice
     assert (free.specimen, free.kind) == ("prism", "free-vibration")
     assert free.values["restitution"] == pytest.approx(0.930, abs=2e-3)
-    assert free.values["half_width_after"] < free.values["half_width"]
-    assert free.left is None or free.left >= 1
+    assert (free.is_enough, free.left) == (True, 0)
+    assert free.reason.endswith("from 2, as narrow as wanted")
     assert not found.awaited
 
 

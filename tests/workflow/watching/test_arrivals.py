@@ -11,7 +11,7 @@ from colonnade.campaign.forms import summary
 from colonnade.campaign.forms.summary import IdentifiedSummary, PredictionSummary, RestitutionSummary, Warned
 from colonnade.findings import Severity, serious
 from colonnade.workflow.watching.arrivals import Arrivals, last_change, marks_of
-from colonnade.workflow.watching.line import Line
+from colonnade.workflow.watching.measure import Line
 
 FILE = Path("raw/free-01.csv")
 

@@ -8,7 +8,7 @@ from contextlib import suppress
 
 import pytest
 
-from colonnade.workflow.execution.lock import only_run
+from colonnade.workflow.lock import only_run
 from colonnade.workflow.watching.behind import Behind, Ended
 
 

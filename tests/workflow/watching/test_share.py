@@ -7,12 +7,10 @@ import time
 import pytest
 
 from colonnade.errors import CampaignError
-from colonnade.workflow.watching import folders
-from colonnade.workflow.watching import notify as module
-from colonnade.workflow.watching.arrivals import Arrivals
-from colonnade.workflow.watching.folders import Bell, listening
-from colonnade.workflow.watching.notify import command_of, notify
-from colonnade.workflow.watching.share import Share
+from colonnade.workflow.watching import arrivals as folders
+from colonnade.workflow.watching import told as module
+from colonnade.workflow.watching.arrivals import Arrivals, Bell, Share, listening
+from colonnade.workflow.watching.told import command_of, notify
 
 
 @pytest.fixture

@@ -8,11 +8,11 @@ import pytest
 
 from colonnade.errors import StoreError
 from colonnade.store.records.advice import Advice
-from colonnade.workflow.execution.lock import only_watch
+from colonnade.workflow.lock import only_watch
 from colonnade.workflow.watching import watch as module
+from colonnade.workflow.watching.arrivals import Bell
 from colonnade.workflow.watching.behind import Ended
-from colonnade.workflow.watching.folders import Bell
-from colonnade.workflow.watching.line import Line
+from colonnade.workflow.watching.measure import Line
 from colonnade.workflow.watching.watch import watch
 from prism import entry
 

@@ -1,16 +1,18 @@
-"""The content of a folder of raw files: each readable file, its columns and what their signals look like."""
+"""The content of a folder of raw files: columns, what their signals look like, and which files belong to one test."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import date
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 import numpy as np
 
 from colonnade.arrays import Array
+from colonnade.campaign.channel import MAIN
+from colonnade.campaign.draft.words import as_id, unique
 from colonnade.campaign.syntax.document import natural, toml_value
 from colonnade.campaign.syntax.names import inside
 from colonnade.errors import ColonnadeError
@@ -27,9 +29,6 @@ NO_RECORDINGS = (
     *(".m", ".ipynb", ".tdms_index", ".lnk", ".ini", ".bak", ".tmp"),
 )
 """Endings of files that are kept with recordings but are not recordings."""
-
-WRITING = ("delimiter ", "decimal sign ", "one column", "numbers run on")
-"""Notes of readers about how numbers are written."""
 
 LOG_HEADS = {"id", "kind", "specimen"}
 """Column heads by which a table is a log of tests."""
@@ -102,8 +101,6 @@ class RawFile:
         Hz and s, if it has a clock.
     warnings : tuple of str
         Of the reader.
-    writing : str
-        How its numbers are written, as far as the reader says so.
     day : date or None
         Of its first sample, if the file gives it.
     """
@@ -114,21 +111,21 @@ class RawFile:
     rate: float | None
     duration: float | None
     warnings: tuple[str, ...]
-    writing: str = ""
     day: date | None = None
 
     @property
     def layout(self) -> tuple[object, ...]:
-        """
-        What files of one recorder have in common: format and headings.
-
-        Without headings it is how they are written, their rate and their ending; the number of columns says nothing.
-        """
+        """What files of one recorder have in common: format and headings; without headings their rate and ending."""
         headings = tuple(column.heading for column in self.columns)
         if any(column.heading != f"column {column.number}" for column in self.columns):
             return self.format, *headings
         rate = None if self.rate is None else f"{self.rate:.3g}"
-        return self.format, *headings, self.writing, rate, Path(self.relative).suffix.casefold()
+        return self.format, *headings, rate, Path(self.relative).suffix.casefold()
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Names of its columns but the clock, in small letters."""
+        return frozenset(column.name.casefold() for column in self.columns if not column.is_clock)
 
     @property
     def stem(self) -> str:
@@ -157,7 +154,7 @@ def survey(
     """
     folder = folder.resolve()
     found, refused = [], []
-    paths = sorted(_candidates(folder), key=lambda path: _order(path.relative_to(folder)))
+    paths = sorted(_candidates(folder), key=lambda path: (natural(path.with_suffix("").as_posix()), path.suffix))
     for number, path in enumerate(paths, start=1):
         relative = path.relative_to(folder).as_posix()
         try:
@@ -177,10 +174,6 @@ def survey(
         if progress is not None:
             progress(number, len(paths))
     return found, refused
-
-
-def _order(relative: Path) -> tuple[object, ...]:
-    return natural(relative.with_suffix("").as_posix()), relative.suffix
 
 
 def _candidates(folder: Path) -> Iterator[Path]:
@@ -216,21 +209,17 @@ def _seen(relative: str, recording: Recording) -> RawFile:
         steps = np.diff(clock[np.isfinite(clock)])
         if steps.size and (step := float(np.median(steps))) > 0:
             rate, duration = 1 / step, float(np.nansum(steps))
-    columns = tuple(_column(number, channel) for number, channel in enumerate(recording.channels, start=1))
-    # Of `delimiter ";" (3 cells on …)` what files have in common.
-    writing = "; ".join(note.partition(" (")[0] for note in recording.notes if note.startswith(WRITING))
+    columns = tuple(
+        Column(number, each.name, each.heading, each.unit, each.is_clock, each.time is not None, shape_of(each))
+        for number, each in enumerate(recording.channels, start=1)
+    )
     day = recording.start and recording.start.date()
-    return RawFile(relative, recording.format, columns, rate, duration, recording.warnings, writing, day)
+    return RawFile(relative, recording.format, columns, rate, duration, recording.warnings, day)
 
 
-def _column(number: int, channel: RecordedChannel) -> Column:
-    shape = shape_of(channel.values, channel.time)
-    has_clock = channel.time is not None
-    return Column(number, channel.name, channel.heading, channel.unit, channel.is_clock, has_clock, shape)
-
-
-def shape_of(values: Array, time: Array | None) -> Shape:
-    """Look at a signal; without its times, s, no frequency is found."""
+def shape_of(channel: RecordedChannel) -> Shape:
+    """Look at a signal; without its times no frequency is found."""
+    values, time = channel.values, channel.time
     known = np.isfinite(values) if time is None else np.isfinite(values) & np.isfinite(time)
     signal = values[known][:LONGEST]
     if signal.size < 2 or not np.ptp(signal) > 0:
@@ -275,3 +264,61 @@ def steady_sine(signal: Array, interval: float) -> float | None:
     left, middle, right = np.log(np.maximum(power[peak - 1 : peak + 2], 1e-300))
     shift = 0.5 * (left - right) / (left - 2 * middle + right)
     return float((peak + shift) / (part.size * interval))
+
+
+Files = dict[str, RawFile]
+"""Files of a test by recorder, the main one first."""
+
+_RECORDER = re.compile(r"(?:daq|das|rec|recorder|logger|box|unit|device|scope|system)[ _-]?[0-9]*", re.IGNORECASE)
+_TAGGED = re.compile(r"(.*[^ _.\-/])[ _.\-]+([A-Za-z]+[ _\-]?[0-9]*)", re.DOTALL)
+
+
+def arrange(files: Sequence[RawFile]) -> tuple[list[list[Files]], list[tuple[str, str]]]:
+    """
+    Arrange raw files into setups and tests.
+
+    Files of the same format and columns are of one recorder. `span-2.csv` and `span-2-daq2.csv`, `x_box1.csv` and
+    `x_box2.csv`, or `daq1/x.csv` and `daq2/x.csv` are of two recorders of one test; so are `x.csv` and `x-top.csv`
+    if they have no column in common.
+
+    Parameters
+    ----------
+    files : sequence of RawFile
+        In the order of the tests.
+
+    Returns
+    -------
+    setups : list of list of dict of str to RawFile
+        Tests that were recorded in the same way: of each its files by recorder, the main one first.
+    copies : list of (str, str)
+        Files left out as a second copy of the same recording, with the reason.
+    """
+    copies: list[tuple[str, str]] = []
+    first: dict[tuple[str, frozenset[str]], str] = {}
+    tests: list[Files] = []
+    named: dict[str, Files] = {}
+    for file in files:
+        if (used := first.setdefault((file.stem, file.names), file.relative)) != file.relative:
+            copies.append((file.relative, f"the same columns as {used}, so it is treated as a copy"))
+            continue
+        for name, tag in _names(file):
+            test = named.get(name)
+            if test and tag and (_RECORDER.fullmatch(tag) or not test[MAIN].names & file.names):
+                test[unique([*test, as_id(tag, "recorder")], "recorder")[-1]] = file
+                break
+        else:
+            tests.append({MAIN: file})
+            named = {name: tests[-1] for name, _ in _names(file, as_main=True)} | named
+    setups: dict[tuple[object, ...], list[Files]] = {}
+    for test in tests:
+        setups.setdefault(tuple((name, file.layout) for name, file in test.items()), []).append(test)
+    return list(setups.values()), copies
+
+
+def _names(file: RawFile, *, as_main: bool = False) -> Iterator[tuple[str, str]]:
+    """Give the names of the tests that a file may belong to, each with the recorder that it is then of."""
+    path, tagged = PurePosixPath(file.stem), _TAGGED.fullmatch(file.stem)
+    if tagged and (not as_main or _RECORDER.fullmatch(tagged[2])):
+        yield tagged[1], tagged[2]
+    yield file.stem, PurePosixPath(file.relative).suffix.lstrip(".")
+    yield str(path.parent.parent / path.name), path.parent.name

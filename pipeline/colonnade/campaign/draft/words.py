@@ -42,7 +42,7 @@ class Line:
     reason: str = ""
     question: str = ""
 
-    def text(self) -> str:
+    def __str__(self) -> str:
         """Write the line, followed by its reason or question."""
         said = f"? {self.question}" if self.question else self.reason
         if self.question and self.reason:

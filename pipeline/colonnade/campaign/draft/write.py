@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from colonnade.campaign.campaign import SCHEMA
 from colonnade.campaign.channel import MAIN
-from colonnade.campaign.draft.guess import DraftSetup, arrange, kind_lines, names_of
-from colonnade.campaign.draft.survey import RawFile, survey
+from colonnade.campaign.draft.guess import channel_lines, draft_channels, kind_lines
+from colonnade.campaign.draft.survey import Column, Files, arrange, survey
 from colonnade.campaign.draft.words import Line, as_id, comment, find, unique
 from colonnade.campaign.loading import FILE_NAME
+from colonnade.campaign.specimen import OUTER_DIMENSIONS, SIZED
 from colonnade.campaign.syntax.document import toml_key, toml_value
 from colonnade.errors import CampaignError
 from colonnade.readers.files import irregular
@@ -24,21 +26,6 @@ MOST_TOLD = 5
 MOST_SETUPS = 5
 """Largest usual number of ways of recording in one campaign; with more, most files are something else."""
 
-KEPT = ("column", "recorder", "id", "kind", "frequency", "motion", "span", "specimen", "setup", "file")
-"""Keys of a group that can stay before it is known whether it is needed."""
-
-PUBLISHED = ("cosmos", "peer")
-"""Formats in which networks publish base motions."""
-
-_SIZES = {
-    "prism": {
-        "width": "along x, the direction of shaking",
-        "depth": "along y, across the shaking",
-        "height": "along z",
-    },
-    "cylinder": {"diameter": "its diameter", "height": "its height"},
-    "cone": {"base_diameter": "of the base circle", "top_diameter": "its top diameter", "height": "its height"},
-}
 _SHAPES = (
     'or "cylinder" (diameter, height), "cone" (base_diameter, top_diameter, height), "measured" (critical_angle, '
     "pole_distance, inertia)"
@@ -47,13 +34,14 @@ _FIRST_LINES = (
     comment("Drafted by `colonnade init` from the raw files. The text after each # says why a value was chosen."),
     comment('Fill in each "?" in a value before the first run; check each guess that is marked "# ?".'),
     comment("`colonnade check` lists what is still open, with its line."),
+    comment(
+        'A test may also have date = 2013-04-26, operator = "…", photos = ["photos/….jpg"], a channel offset, range'
+    ),
+    comment("and delay; `colonnade schema campaign` lists all keys."),
 )
 _GROUPED = (
-    comment(
-        'Each group asks this once, at format = "?". If they are recordings: replace "?" by the format named after it,'
-    ),
-    comment("and remove the # from the lines that you need. Until then the channels are kept as recorded."),
-    comment("If they are not: delete the group, from its line with ==== to the next one."),
+    comment("Which are recordings of tests? Remove the # from each line of their groups, delete the other groups."),
+    comment('Ground motions as published belong under [motions]: "its name" = "its file".'),
 )
 
 Lines = list[Line | str]
@@ -125,17 +113,20 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     if not files:
         raise CampaignError("\n".join([f"{folder}: no readable recording found.", *_told(refused)]))
     arranged, copies = arrange(files)
-    setups = [setup for setup in arranged if setup.drafted.channels]
-    refused += [each for setup in arranged if not setup.drafted.channels for each in _without_channels(setup)]
+    refused += copies
+    setups = [DraftSetup(tests) for tests in arranged]
+    refused += [unused for each in setups if not each.channels for unused in each.without_channels()]
+    setups = [each for each in setups if each.channels]
+    for number, each in enumerate(setups, start=1):
+        each.name = "setup" if len(setups) == 1 else f"setup-{number}"
     if not setups:
         raise CampaignError("\n".join([f"{folder}: no file has a column that measures anything.", *_told(refused)]))
     home = folder.parent if folder.name.casefold() in RAW_FOLDERS else folder
-    lines = written(as_id(home.name, "campaign"), setups, copies, refused)
-    asked = list(_questions(lines))
+    lines, asked = _asked(written(as_id(home.name, "campaign"), setups, refused))
     return CampaignDraft(
         folder / FILE_NAME,
-        text_of(lines),
-        sum(len(setup.tests) for setup in setups),
+        "\n".join([*lines, ""]),
+        sum(len(each.tests) for each in setups),
         len(setups),
         tuple(each for each in asked if each.is_open),
         tuple(each for each in asked if not each.is_open),
@@ -164,37 +155,31 @@ def _expected(folder: Path) -> Path:
 
 def _told(refused: Sequence[tuple[str, str]]) -> list[str]:
     lines = [f"  {name}: {reason}" for name, reason in refused[:MOST_TOLD]]
-    if len(refused) > MOST_TOLD:
-        lines.append(f"  and {len(refused) - MOST_TOLD} more")
-    return lines or ["  It contains only documents. Name the folder with the raw files."]
+    more = [f"  and {len(refused) - MOST_TOLD} more"] if len(refused) > MOST_TOLD else []
+    return lines + more or ["  It contains only documents. Name the folder with the raw files."]
 
 
-def _without_channels(setup: DraftSetup) -> Iterator[tuple[str, str]]:
-    reasons = "; ".join(f'"{heading}": {reason}' for _, heading, reason in setup.drafted.left_out[:MOST_TOLD])
-    for test in setup.tests:
-        for file in test.files.values():
-            yield file.relative, f"none of its columns measures anything ({reasons})"
-
-
-def _questions(lines: Lines) -> Iterator[Question]:
-    section = ""
+def _asked(lines: Lines) -> tuple[list[str], list[Question]]:
+    """Write the lines, each question in full once only; and give all questions."""
+    section, texts, asked = "", [], []
+    before: set[str] = set()
     for number, line in enumerate(lines, start=1):
         if isinstance(line, Line):
             section = f"tests[{line.value.strip(chr(34))}]" if section == "tests" and line.key == "id" else section
             if line.question:
-                yield Question(number, f"{section}.{line.key}".lstrip("."), line.value, line.question)
+                shown = replace(line, question="as above") if line.question in before else line
+                before.add(line.question)
+                asked.append(Question(number, f"{section}.{line.key}".lstrip("."), line.value, shown.question))
+                line = shown
         elif line.startswith("["):
             section = line.strip("[]")
+            if section.count(".") == 1:  # another specimen or set-up
+                before.clear()
+        texts.append(str(line))
+    return texts, asked
 
 
-def text_of(lines: Lines) -> str:
-    """Write the file."""
-    return "\n".join(line.text() if isinstance(line, Line) else line for line in lines) + "\n"
-
-
-def written(
-    name: str, setups: Sequence[DraftSetup], copies: Sequence[tuple[str, str]], refused: Sequence[tuple[str, str]]
-) -> Lines:
+def written(name: str, setups: Sequence[DraftSetup], refused: Sequence[tuple[str, str]]) -> Lines:
     """
     Write out what was found.
 
@@ -203,13 +188,16 @@ def written(
     name : str
         Id of the campaign.
     setups : sequence of DraftSetup
-    copies, refused : sequence of (str, str)
-        Files that are left out, with the file that is used instead, or the reason.
+    refused : sequence of (str, str)
+        Files that are left out, with the reason.
     """
-    _name(setups)
-    tests = [test for setup in setups for test in setup.tests]
-    shapes = [found[0] if (found := find(test.main.stem, "shapes")) else "" for test in tests]
-    of_setup = _tests(setups, shapes)
+    tests = [test for each in setups for test in each.tests]
+    stems = [PurePosixPath(test[MAIN].stem) for test in tests]
+    often = Counter(stem.name for stem in stems)
+    names = [stem.name if often[stem.name] == 1 else "-".join(stem.parts[-2:]) for stem in stems]
+    shapes = [found[0] if (found := find(test[MAIN].stem, "shapes")) else "" for test in tests]
+    entries = iter(zip(unique(names, "test"), shapes, strict=True))
+    of_tests = [[line for test in each.tests for line in each.test(test, *next(entries))] for each in setups]
     specimens = [line for shape in dict.fromkeys(shapes) for line in _specimen(shape)]
     lines: Lines = [
         *_FIRST_LINES,
@@ -218,168 +206,103 @@ def written(
         Line("title", toml_value(f"Campaign {name}"), "title of the report; write a better one"),
         comment('facility = "…"         the laboratory and its table'),
     ]
+    lines += specimens
     if len(setups) > MOST_SETUPS:
-        files = sum(len(test.files) for test in tests)
-        asked = (
-            f"{files} files of {len(setups)} kinds were found. The first question is: which are recordings of tests?"
-        )
-        lines += ["", comment(asked), *_GROUPED]
-        for number, setup in enumerate(setups, start=1):
-            described = [*_described(setup), *of_setup[setup.name]]
-            lines += _group(f"{number} of {len(setups)}: {_some(setup)}", setup, described)
-        lines += ["", comment("==== For all groups"), *specimens]
-    else:
-        lines += specimens
-        for setup in setups:
-            how_many = "1 test" if len(setup.tests) == 1 else f"{len(setup.tests)} tests, all recorded in the same way"
-            lines += ["", comment(f"The set-up of {how_many}: {_some(setup)}"), *_described(setup)]
-        lines += [line for setup in setups for line in of_setup[setup.name]]
-    if copies or refused:
-        lines += ["", comment("Files that are not used:")]
-        lines += [comment(f"{file}: the same columns as {taken}, so it is treated as a copy") for file, taken in copies]
-        lines += [comment(f"{file}: {reason}") for file, reason in refused]
+        files = sum(len(test) for test in tests)
+        lines += ["", comment(f"{files} files of {len(setups)} kinds were found."), *_GROUPED]
+    for number, (each, own) in enumerate(zip(setups, of_tests, strict=True), start=1):
+        if len(setups) > MOST_SETUPS:
+            lines += ["", comment(f"==== Group {number} of {len(setups)}: {each.some}")]
+            lines += [f"# {line}".rstrip() for line in (*each.lines(), *own)]
+        else:
+            how_many = "1 test" if len(each.tests) == 1 else f"{len(each.tests)} tests, all recorded in the same way"
+            lines += ["", comment(f"The set-up of {how_many}: {each.some}"), *each.lines(), *own]
+    if refused:
+        lines += ["", comment("Files that are not used:"), *(comment(f"{file}: {why}") for file, why in refused)]
     return lines
-
-
-def _name(setups: Sequence[DraftSetup]) -> None:
-    """Name the setups; a channel that an earlier one has too is asked about with a hint at that one."""
-    first: dict[str, str] = {}
-    for number, setup in enumerate(setups, start=1):
-        setup.name = "setup" if len(setups) == 1 else f"setup-{number}"
-        asked: set[str] = set()
-        channels = []
-        for channel in setup.drafted.channels:
-            lines = [_briefly(line, asked) for line in channel.lines]
-            if channel.id in first and not channel.id.startswith("column_"):
-                lines = [_asked(line, f"perhaps as in {first[channel.id]}") for line in lines]
-            channels.append(replace(channel, lines=tuple(lines)))
-            first.setdefault(channel.id, setup.name)
-        setup.drafted = replace(setup.drafted, channels=tuple(channels))
 
 
 def _specimen(shape: str) -> Lines:
-    first = (
-        Line("shape", toml_value(shape), "from the names of files") if shape else Line("shape", '"prism"', "", _SHAPES)
-    )
-    sizes = [Line(size, toml_value("? mm"), question=said) for size, said in _SIZES[shape or "prism"].items()]
+    first = Line("shape", '"prism"', "", _SHAPES)
+    if shape:
+        first = Line("shape", toml_value(shape), "from the names of files")
+    purposes = SIZED[shape or "prism"].purposes()
+    sizes = [Line(size, '"? mm"', question=purposes[size].lower()) for size in OUTER_DIMENSIONS if size in purposes]
     return ["", f"[specimens.{shape or 'specimen'}]", first, *sizes, Line("mass", '"? kg"', question="weighed")]
 
 
-def _described(setup: DraftSetup) -> Lines:
-    """Lines of a set-up: its recorders, its channels, and what is left out."""
-    drafted, place = setup.drafted, f"setups.{toml_key(setup.name)}"
-    lines: Lines = [f"[{place}]", *_recorder_lines(setup, MAIN)]
-    lines.append(comment('catch = "0.3 rad"      the rotation at which a safety frame catches the specimen'))
-    table = {
-        each.recorder: each.id
-        for each in reversed(drafted.channels)
-        if each.meaning.is_of_table and each.meaning.axis in (None, "x")
-    }
-    for recorder in setup.recorders[1:]:
-        lines += ["", f"[{place}.recorders.{toml_key(recorder)}]", *_recorder_lines(setup, recorder)]
-        if {MAIN, recorder} <= table.keys():
-            reason = "both record the table's motion, which shows how late it started"
-            align = toml_value({"align": [table[MAIN], table[recorder]]})
-            lines.append(Line("clock", align, reason, '"trigger" if both start together'))
-        else:
-            either = 'or {align = ["a channel of main", "a channel of this one that measures the same"]}'
-            lines.append(Line("clock", '"trigger"', "", either))
-    note = "A channel may also have offset, range and delay; `colonnade schema campaign` lists all keys."
-    lines += ["", comment(note)]
-    for channel in drafted.channels:
-        lines += ["", f"[{place}.channels.{toml_key(channel.id)}]", *channel.lines]
-    if drafted.left_out:
-        lines += ["", comment("Columns that are left out; to use one, add a table like those above:")]
-    for reason in dict.fromkeys(reason for _, _, reason in drafted.left_out):
-        headings = [f'"{heading}"' for _, heading, own in drafted.left_out if own == reason]
-        some = ", ".join(headings[:4]) + (f" … {headings[-1]}" if len(headings) > 4 else "")
-        lines.append(comment(f"  {some}: {reason}"))
-    return lines
+class DraftSetup:
+    """Tests that were recorded in the same way, their channels, and the other columns by the reason."""
 
+    def __init__(self, tests: list[Files]) -> None:
+        self.name, self.tests = "setup", tests
+        self.columns = {name: self._moving(name) for name in tests[0]}
+        self.channels, self.left_out = draft_channels(self.columns)
 
-def _recorder_lines(setup: DraftSetup, recorder: str) -> Lines:
-    file = setup.tests[0].files[recorder]
-    lines: Lines = [Line("file", toml_value({"format": file.format}), "recognised; the rest is detected")]
-    if not any(column.has_clock for column in file.columns):
-        lines.append(Line("sampling_rate", '"? Hz"', question="no time column found: give the samples per second"))
-    return lines
-
-
-def _some(setup: DraftSetup) -> str:
-    files = [test.main.relative for test in setup.tests]
-    return ", ".join(files[:3]) + (f" … {files[-1]}" if len(files) > 3 else "")
-
-
-def _group(title: str, setup: DraftSetup, lines: Lines) -> Lines:
-    """
-    Turn the draft of a set-up and its tests into a group that asks one question: whether they are recordings of tests.
-
-    Its channels are kept as recorded; what else is known or asked about them is there as a comment.
-    """
-    form = setup.tests[0].main.format
-    asked = f"recordings of tests ({_some(setup)})? Then {toml_value({'format': form})}; if not, delete this group"
-    kept: Lines = ["", comment(f"==== Group {title}")]
-    if form in PUBLISHED:
-        kept.append(
-            comment('In a format of seismic networks: a base motion belongs under [motions], "its name" = "its file"')
+    def _moving(self, recorder: str) -> tuple[Column, ...]:
+        """Columns of a recorder, each as it is in the file where it moves most."""
+        return tuple(
+            max(alike, key=lambda column: column.shape.spread if column.shape.spread > 0 else -1.0)
+            for alike in zip(*(test[recorder].columns for test in self.tests), strict=True)
         )
-    for line in lines:
-        if isinstance(line, str):
-            kept.append(line)
-        elif line.key == "file" and asked:
-            kept.append(Line("file", toml_value({"format": "?"}), question=asked))
-            asked = ""
-        elif line.key == "quantity":
-            guess = f"or {line.value}, {line.reason}, with the lines below".replace(", ,", ",")
-            kept.append(Line("quantity", '"other"', "" if "?" in line.value else guess))
-        else:
-            kept.append(line if line.key in KEPT else comment(line.text()))
-    return kept
 
+    @property
+    def some(self) -> str:
+        """Some of its files."""
+        files = [test[MAIN].relative for test in self.tests]
+        return ", ".join(files[:3]) + (f" … {files[-1]}" if len(files) > 3 else "")
 
-def _tests(setups: Sequence[DraftSetup], shapes: Sequence[str]) -> dict[str, Lines]:
-    """Lines of the tests of each set-up."""
-    tests = [(setup, test) for setup in setups for test in setup.tests]
-    ids = unique(names_of(test for _, test in tests), "test")
-    asked: set[str] = set()
-    lines: dict[str, Lines] = {setup.name: [] for setup in setups}
-    for name, shape, (setup, test) in zip(ids, shapes, tests, strict=True):
-        paths = {recorder: file.relative for recorder, file in test.files.items()}
-        file = test.main
+    def without_channels(self) -> list[tuple[str, str]]:
+        """Give its files with the reason why none of their columns is a channel."""
+        reasons = [f'"{heading}": {reason}' for reason, headings in self.left_out.items() for heading in headings]
+        reason = f"none of its columns measures anything ({'; '.join(reasons[:MOST_TOLD])})"
+        return [(file.relative, reason) for test in self.tests for file in test.values()]
+
+    def lines(self) -> Lines:
+        """Give its recorders, its channels, and what is left out."""
+        place = f"setups.{toml_key(self.name)}"
+        lines: Lines = [f"[{place}]", *self._recorder(MAIN)]
+        lines.append(comment('catch = "0.3 rad"      the rotation at which a safety frame catches the specimen'))
+        of_table = [each for each in self.channels if each.is_of_table and each.axis in (None, "x")]
+        table = {each.recorder: each.id for each in reversed(of_table)}
+        for recorder in list(self.tests[0])[1:]:
+            lines += ["", f"[{place}.recorders.{toml_key(recorder)}]", *self._recorder(recorder)]
+            if {MAIN, recorder} <= table.keys():
+                reason = "both record the table's motion, which shows how late it started"
+                align = toml_value({"align": [table[MAIN], table[recorder]]})
+                lines.append(Line("clock", align, reason, '"trigger" if both start together'))
+            else:
+                either = 'or {align = ["a channel of main", "a channel of this one that measures the same"]}'
+                lines.append(Line("clock", '"trigger"', "", either))
+        for channel in self.channels:
+            lines += ["", f"[{place}.channels.{toml_key(channel.id)}]"]
+            lines += channel_lines(channel, self.columns[channel.recorder])
+        if self.left_out:
+            lines += ["", comment("Columns that are left out; to use one, add a table like those above:")]
+        for reason, headings in self.left_out.items():
+            some = ", ".join(f'"{heading}"' for heading in headings[:MOST_TOLD])
+            lines.append(comment(f"  {some}{' …' if len(headings) > MOST_TOLD else ''}: {reason}"))
+        return lines
+
+    def _recorder(self, recorder: str) -> Lines:
+        file = self.tests[0][recorder]
+        lines: Lines = [Line("file", toml_value({"format": file.format}), "recognised; the rest is detected")]
+        if not any(column.has_clock for column in file.columns):
+            lines.append(Line("sampling_rate", '"? Hz"', question="no time column found: give the samples per second"))
+        return lines
+
+    def test(self, test: Files, name: str, shape: str) -> Lines:
+        """Give the entry of a test."""
+        file, paths = test[MAIN], {recorder: file.relative for recorder, file in test.items()}
         rate = f"{file.rate:.6g} Hz, {file.duration:.4g} s" if file.rate and file.duration else ""
-        lines[setup.name] += [
-            "",
-            "[[tests]]",
+        lines: Lines = [
+            *("", "[[tests]]"),
             Line("id", toml_value(name)),
-            *(_briefly(line, asked) for line in kind_lines(test, setup.drafted.channels, setup.tests)),
+            *kind_lines(test, self.channels, self.tests),
             Line("specimen", toml_value(shape or "specimen")),
-            Line("setup", toml_value(setup.name)),
+            Line("setup", toml_value(self.name)),
             Line("file", toml_value(paths[MAIN] if len(paths) == 1 else paths), rate),
-            *_who_and_when(file, is_first=not lines[setup.name]),
-            *(comment(f"the file: {warning}") for warning in file.warnings[:3]),
         ]
-    return lines
-
-
-def _who_and_when(file: RawFile, *, is_first: bool) -> Iterator[Line | str]:
-    """Give the day in the file and, once, the keys that no file contains."""
-    if file.day:
-        yield Line("date", file.day.isoformat(), "from the file's own time")
-    elif is_first:
-        yield comment("date = 2013-04-26")
-    if is_first:
-        yield comment('operator = "…"         who ran it; also photos = ["photos/….jpg"]')
-
-
-def _briefly(line: Line | str, asked: set[str]) -> Line | str:
-    """Ask in full once only."""
-    question = line.question if isinstance(line, Line) else ""
-    if question in asked:
-        return _asked(line, "as above")
-    asked.add(question)
-    return line
-
-
-def _asked(line: Line | str, question: str) -> Line | str:
-    """Return a line with another question, if it asks one."""
-    return replace(line, question=question) if isinstance(line, Line) and line.question else line
+        if file.day:
+            lines.append(Line("date", file.day.isoformat(), "from the file's own time"))
+        return [*lines, *(comment(f"the file: {warning}") for warning in file.warnings[:3])]

@@ -8,16 +8,16 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from colonnade.campaign.syntax.table import Record
-from colonnade.dynamics.block import Block
-from colonnade.dynamics.ensembles.uncertainty import Uncertainty
-from colonnade.dynamics.models.registry import MODELS
-from colonnade.dynamics.side import Side
+from colonnade.dynamics.block import Block, Side
+from colonnade.dynamics.models import MODELS
+from colonnade.dynamics.uncertainty import Uncertainty
 
 MOST_MEMBERS = 1_000_000
 """Of an ensemble; as many as the settings allow."""
 
 Probability = Annotated[float, Field(ge=0.0, le=1.0)]
 NotNegative = Annotated[float, Field(ge=0.0)]
+Correlation = Annotated[float, Field(ge=-1.0, le=1.0)]
 Positive = Annotated[float, Field(gt=0.0)]
 Peaks = Annotated[tuple[NotNegative | None, ...], Field(min_length=2, max_length=MOST_MEMBERS)]
 Sha256 = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
@@ -86,6 +86,8 @@ class ForecastSpread(Record):
     """Of α, relative."""
     p: NotNegative
     """Of p, relative."""
+    correlations: tuple[Correlation, Correlation, Correlation] = (0.0, 0.0, 0.0)
+    """Of e with α, of e with p, and of α with p."""
     gain: NotNegative
     """Of the calibration of the table's acceleration, relative."""
     clock: NotNegative
@@ -100,7 +102,7 @@ class ForecastInputs(Record):
     """What the models were run with."""
 
     block: ForecastBlock
-    """As the campaign file gives the specimen."""
+    """Of the specimen, as predictions take it: with its identified α and p, else as the campaign file gives it."""
     restitution: ForecastRestitution
     """Coefficient of restitution."""
     spread: ForecastSpread

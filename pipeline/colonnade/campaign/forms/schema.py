@@ -63,13 +63,6 @@ def schema_text(name: str) -> str:
 
 def _campaign() -> dict[str, Any]:
     schema = CampaignFile.model_json_schema(by_alias=True, mode="validation", ref_template="#/$defs/{model}")
-    schema["$defs"]["FileOptions"] = _file_options()
-    for recorder in ("Setup", "Recorder"):
-        file = schema["$defs"][recorder]["properties"]["file"]
-        schema["$defs"][recorder]["properties"]["file"] = {
-            "$ref": "#/$defs/FileOptions",
-            "description": file["description"],
-        }
     tests = schema["properties"]["tests"]
     log = {"type": "string", "description": "path of the test log, CSV or Excel"}
     schema["properties"]["tests"] = {
@@ -84,7 +77,7 @@ def _campaign() -> dict[str, Any]:
 
 
 def _tidied(node: Any) -> Any:
-    """Leave out what TOML does not have (null) and titles that only repeat the key; close tables whose keys are ids."""
+    """Leave out null, titles and what is said once for each item of a list; close tables whose keys are ids."""
     if isinstance(node, list):
         return [_tidied(item) for item in node]
     if not isinstance(node, dict):
@@ -98,6 +91,9 @@ def _tidied(node: Any) -> Any:
             tidied = kept[0] | tidied
         else:
             tidied["anyOf"] = kept
+    items = tidied.get("prefixItems", [])
+    if items and all(item == items[0] for item in items):
+        tidied["items"] = tidied.pop("prefixItems")[0]
     if "patternProperties" in tidied:
         tidied["additionalProperties"] = False
     return tidied
@@ -110,17 +106,3 @@ def _as_written(key: dict[str, Any]) -> None:
         key.pop("default", None)
     elif key.get("type") == "string" and not isinstance(default, str):
         key["default"] = f"{default:g} {key.get('unit', '')}".rstrip()
-
-
-def _file_options() -> dict[str, Any]:
-    from colonnade.readers.registry import formats
-
-    kinds = []
-    for format in formats().values():
-        options = format.options.model_json_schema(by_alias=True, mode="validation")
-        options["title"] = format.name
-        options["description"] = format.summary
-        named = {"const": format.name, "description": "The format; recognised from the file if it is not given."}
-        options["properties"] = {"format": named} | options.get("properties", {})
-        kinds.append(options)
-    return {"title": "FileOptions", "description": "How a raw file is read; every key is optional.", "anyOf": kinds}

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from colonnade.campaign.assessing.assessed import AssessmentSummary
+from colonnade.campaign.forms.assessed import AssessmentSummary
 from colonnade.campaign.forms.foreseen import ForecastsSummary, TestForecast
 from colonnade.campaign.syntax.table import Known, Record
 from colonnade.findings import Finding, Severity
@@ -164,6 +164,42 @@ class Warned(Record):
         )
 
 
+class BodyPrediction(Record):
+    """What a model gives of one body of an assembly."""
+
+    outcome: Outcome | None = None
+    """Predicted outcome."""
+    peak_ratio: Known = None
+    """Largest rocking angle in the joint below, over the critical angle of all that turns there; null where it fell."""
+    residual_x: Known = None
+    """Displacement along x of the centre of its base at the end, from where it stood, m."""
+    residual_y: Known = None
+    """The same along y, m."""
+    residual_yaw: Known = None
+    """Rotation about the vertical at the end, rad."""
+    moved_low: Known = None
+    """Of the model's runs in which it stands, 95 % move it farther than this and less than the next, m."""
+    moved_high: Known = None
+    """The upper end of that band, m."""
+    overturning_probability: Known = None
+    """Share of the model's runs in which it falls."""
+
+
+class BodySummary(BodyPrediction):
+    """One body of an assembly, as measured."""
+
+    outcome: Outcome | None = None
+    """Measured outcome; null where it was not measured."""
+    opening: Known = None
+    """Largest gap of the joint below, m."""
+    opening_time: Known = None
+    """When that joint first opened, s; null where it did not."""
+    separation: str | None = None
+    """What its transducers separate, or why it was not measured."""
+    predicted: dict[str, BodyPrediction] = Field(default={})
+    """By model."""
+
+
 class TestSummary(Record):
     """A test."""
 
@@ -219,6 +255,8 @@ class TestSummary(Record):
     """At prototype scale, where the campaign file gives the specimen's scale."""
     predicted: dict[str, PredictionSummary] = Field(default={})
     """By model."""
+    bodies: dict[str, BodySummary] = Field(default={})
+    """Of an assembly: each body by its id, from the bottom to the top."""
     forecast: TestForecast | None = None
     """What was foreseen of it; null without a forecast."""
 

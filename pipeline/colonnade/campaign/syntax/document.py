@@ -77,7 +77,7 @@ def validated(
     try:
         return model.model_validate(document, context={"folder": folder}), []
     except ValidationError as error:
-        return None, [(tuple(part for part in each["loc"] if part != "[key]"), each["msg"]) for each in error.errors()]
+        return None, [(each["loc"], each["msg"]) for each in error.errors()]
 
 
 def refusal(paragraphs: Iterable[str]) -> CampaignError:
@@ -135,17 +135,15 @@ def written(place: Place, document: Mapping[str, Any]) -> str:
     >>> written(("tests", 0, "kind"), {"tests": [{"id": "free-01"}]})
     'tests[free-01].kind'
     """
-    if len(place) > 1 and place[0] == "tests" and isinstance(place[1], int):
-        tests = document.get("tests")
-        named = tests[place[1]] if isinstance(tests, list) and place[1] < len(tests) else None
-        name = named.get("id") if isinstance(named, dict) else None
-        start = f"tests[{_short(name) if isinstance(name, str) and name else place[1] + 1}]"
-        place = place[2:]
-    else:
-        start, place = "", place
-    for part in place:
-        start += f"[{part + 1}]" if isinstance(part, int) else f"{'.' if start else ''}{_short(part)}"
-    return start
+    path = ""
+    for index, part in enumerate(place):
+        if not isinstance(part, int):
+            path += f"{'.' if path else ''}{_short(part)}"
+            continue
+        tests = document.get("tests") if place[:index] == ("tests",) else None
+        name = tests[part].get("id") if isinstance(tests, list) and isinstance(tests[part], dict) else None
+        path += f"[{_short(name) if isinstance(name, str) and name else part + 1}]"
+    return path
 
 
 def _short(part: str) -> str:
@@ -174,37 +172,24 @@ class Source:
     log: str = ""
     rows: tuple[int, ...] = ()
 
-    def order(self, place: Place) -> tuple[int, int]:
-        """Sort problems in the order of the files, those without a line first."""
-        if self._in_log(place):
-            return len(self.lines) + 1_000_000, self.rows[int(place[1])]
-        return self._line(place) or 0, 0
-
-    def _in_log(self, place: Place) -> bool:
-        return bool(self.log) and len(place) > 1 and place[0] == "tests" and isinstance(place[1], int)
-
-    def _line(self, place: Place) -> int | None:
-        return next((self.lines[place[:end]] for end in range(len(place), 0, -1) if place[:end] in self.lines), None)
+    def where(self, place: Place) -> tuple[tuple[int, int], str]:
+        """Give the order of a place in the files, those without a line first; and its file with line, or row."""
+        if self.log and len(place) > 1 and place[0] == "tests" and isinstance(place[1], int):
+            row, key = self.rows[place[1]], place[2:4] if place[2:3] == ("file",) else place[2:3]
+            column = f', column "{".".join(map(str, key))}"' if key else ""
+            return (len(self.lines) + 1_000_000, row), f"{self.log}, row {row}{column}"
+        line = next((self.lines[place[:end]] for end in range(len(place), 0, -1) if place[:end] in self.lines), 0)
+        return (line, 0), f"{self.name}, line {line}" if line else self.name
 
     def paragraph(self, place: Place, message: str, document: Mapping[str, Any]) -> str:
         """Write one problem: file, line, the key's whole path, and what is wrong."""
         path = written(place, document)
-        if self._in_log(place):
-            where = f"{self.log}, row {self.rows[int(place[1])]}" + (
-                f', column "{_head(place)}"' if len(place) > 2 else ""
-            )
-            return f"{where}: {path}: {message}"
-        line = self._line(place)
-        return f"{self.name}{f', line {line}' if line else ''}: {f'{path}: ' if path else ''}{message}"
+        return f"{self.where(place)[1]}: {f'{path}: ' if path else ''}{message}"
 
     def paragraphs(self, problems: Iterable[tuple[Place, str]], document: Mapping[str, Any]) -> list[str]:
         """Write all problems in the order of the files."""
-        ordered = sorted(problems, key=lambda each: self.order(each[0]))
+        ordered = sorted(problems, key=lambda each: self.where(each[0])[0])
         return [self.paragraph(place, message, document) for place, message in ordered]
-
-
-def _head(place: Place) -> str:
-    return f"file.{place[3]}" if place[2] == "file" and len(place) > 3 else str(place[2])
 
 
 def unknown(place: Place, what: str, name: str, known: Collection[str], where: str = "") -> Iterator[tuple[Place, str]]:

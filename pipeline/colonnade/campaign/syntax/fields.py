@@ -1,21 +1,20 @@
-"""The kinds of value in a campaign file, parsed to SI within bounds; an error says what was expected."""
+"""The values of a campaign file as types: each takes what is written to SI within bounds, and says its JSON Schema."""
 
 from __future__ import annotations
 
 import re
 import reprlib
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from datetime import date, datetime, time
-from inspect import signature
 from math import hypot, isfinite
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeAlias, TypeVar
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import AfterValidator, BeforeValidator, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, WithJsonSchema
+from pydantic.types import AllowInfNan, Strict
 from pydantic_core import CoreSchema, core_schema
 
 from colonnade import units
-from colonnade.errors import nearest, quoted
+from colonnade.errors import quoted
 
 UNITS = {"frequency": "Hz", "acceleration": "m/s^2", "inertia": "kg m^2", "pressure": "Pa", "mass": "kg"} | {
     "length": "m",
@@ -70,13 +69,11 @@ MOST_POINTS = 10_000
 """Of either axis of a map."""
 
 Vector = tuple[float, float, float]
-Sided = float | tuple[float, float]
 
 _LONGEST_INTEGER = 256
 """Bits of an integer that a message repeats."""
 
 _QUANTITY_PATTERN = rf"^\s*{units.NUMBER_PATTERN}\s*[^\s0-9.,].*$"
-
 
 FIRST_YEAR, LAST_YEAR = 1900, 2100
 """Years between which a test was done; another is a slip of the pen."""
@@ -137,50 +134,44 @@ def outside(value: float, between: tuple[float, float], unit: str = "") -> str:
     return f"A value between {written[0]} and {written[1]} was expected."
 
 
-@dataclass(frozen=True, eq=False)
-class Kind:
-    """A kind of value, as annotation of a type: what takes it as written or says what was expected; its JSON Schema."""
-
-    take: Callable[..., Any]
-    schema: Mapping[str, Any]
-
-    def then(self, refine: Callable[[Any, object], Any]) -> Kind:
-        """Return the kind whose values are taken further; `refine` gets the value and what was written."""
-        return Kind(lambda value: refine(self.take(value), value), self.schema)
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """Have pydantic take the value; some need its context too."""
-        if len(signature(self.take).parameters) == 2:
-            return core_schema.with_info_before_validator_function(self.take, handler(source))
-        return core_schema.no_info_before_validator_function(self.take, handler(source))
-
-    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """Give the schema of what is written."""
-        return dict(self.schema)
-
-
-def quantity(
-    dimension: str, *, signed: bool = False, example: str = "", between: tuple[float, float] | None = None
-) -> Kind:
+@dataclass(frozen=True)
+class Quantity:
     """
-    Give the kind of a quantity in text, such as ``"86 mm"``, that becomes its SI value.
+    A quantity in text, such as ``"86 mm"``, that becomes its SI value; annotation of a float.
 
     It is above zero and lies between bounds, SI, by default those of its dimension; if `signed`, it has either sign.
     """
-    example = example or f"1 {units.DIMENSIONS[dimension][1]}"
-    unit, largest = UNITS[dimension], AT_MOST.get(dimension, CONVERSION[1])
-    low, high = (-largest, largest) if signed else between or BETWEEN[dimension]
 
-    def take(value: object) -> float:
+    dimension: str
+    signed: bool = False
+    example: str = ""
+    between: tuple[float, float] | None = None
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Least and largest value, SI."""
+        largest = AT_MOST.get(self.dimension, CONVERSION[1])
+        return (-largest, largest) if self.signed else self.between or BETWEEN[self.dimension]
+
+    @property
+    def such_as(self) -> str:
+        """A value as it is written."""
+        return self.example or f"1 {units.DIMENSIONS[self.dimension][1]}"
+
+    def take(self, value: object) -> float:
+        """Take what is written."""
         if not isinstance(value, str):
-            raise ValueError(f'{shown(value)} has no unit. A quantity in quotes was expected, such as "{example}".')
+            example = f'A quantity in quotes was expected, such as "{self.such_as}".'
+            raise ValueError(f"{shown(value)} has no unit. {example}")
         if "?" in value:
-            raise ValueError(f'{shown(value)} still has to be filled in. A quantity such as "{example}" was expected.')
-        number = units.to_si(value, dimension)
+            example = f'A quantity such as "{self.such_as}" was expected.'
+            raise ValueError(f"{shown(value)} still has to be filled in. {example}")
+        number, unit = units.to_si(value, self.dimension), UNITS[self.dimension]
         if not isfinite(number):
             raise ValueError(f"{shown(value)} is too large.")
-        if signed:
-            expected = "" if abs(number) <= largest else f"At most {largest:g} {unit} was expected."
+        low, high = self.bounds
+        if self.signed:
+            expected = "" if abs(number) <= high else f"At most {high:g} {unit} was expected."
         elif number <= 0.0:
             expected = "A value above zero was expected."
         else:
@@ -189,156 +180,32 @@ def quantity(
             raise ValueError(f"{shown(value)} was found. {expected}")
         return number
 
-    return Kind(
-        take,
-        {
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Have pydantic take the value."""
+        return core_schema.no_info_before_validator_function(self.take, handler(source))
+
+    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Give the schema of what is written."""
+        unit = UNITS[self.dimension]
+        return {
             "type": "string",
             "pattern": _QUANTITY_PATTERN,
-            "description": f"{dimension}, with its unit",
-            "examples": [example],
+            "description": f"{self.dimension}, with its unit",
+            "examples": [self.such_as],
             "unit": unit,
-            "between": f"{low:g} {unit} and {high:g} {unit}",
-        },
-    )
+            "between": " and ".join(f"{bound:g} {unit}" for bound in self.bounds),
+        }
 
 
-def number(value: object) -> float:
-    """Take a finite number that has no unit."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ValueError(f"{shown(value)} was found. A plain number was expected, without quotes and without a unit.")
-    try:
-        converted = float(value)
-    except OverflowError:
-        raise ValueError("The number is too large.") from None
-    if not isfinite(converted):
-        raise ValueError(f"{shown(value)} was found. A finite number was expected.")
-    return converted
+@dataclass(frozen=True)
+class OneOf:
+    """One of a few words that another module lists; annotation of text, as `Literal` for words that are known here."""
 
+    words: tuple[str, ...]
 
-def number_between(low: float, high: float, *, exclusive: bool = False) -> Kind:
-    """Give the kind of a number within bounds, the bounds themselves included or not."""
-    word, end = ("between", "and") if exclusive else ("from", "to")
-    expected = f"A number {word} {low:g} {end} {high:g}"
-
-    def take(value: object) -> float:
-        converted = number(value)
-        if not low <= converted <= high or (exclusive and converted in (low, high)):
-            raise ValueError(f"{shown(value)} was found. {expected} was expected.")
-        return converted
-
-    least, most = ("exclusiveMinimum", "exclusiveMaximum") if exclusive else ("minimum", "maximum")
-    return Kind(take, {"type": "number", least: low, most: high})
-
-
-def count_between(low: int, high: int) -> Kind:
-    """Give the kind of a whole number within bounds, the bounds included."""
-
-    def take(value: object) -> int:
-        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-            raise ValueError(f"{shown(value)} was found. A whole number from {low} to {high} was expected.")
-        return value
-
-    return Kind(take, {"type": "integer", "minimum": low, "maximum": high})
-
-
-def or_word(kind: Kind, *words: str) -> Kind:
-    """Give the kind of another one, or of one of a few words in its place."""
-    listed = ", ".join(f'"{word}"' for word in words)
-
-    def take(value: object) -> Any:
-        if isinstance(value, str) and value in words:
-            return value
-        try:
-            return kind.take(value)
-        except ValueError as error:
-            raise ValueError(f"{error} Or {listed}.") from None
-
-    return Kind(take, {"anyOf": [{"enum": list(words)}, kind.schema]})
-
-
-def _restitution(value: object) -> float:
-    converted = number(value)
-    if not 0.0 < converted <= 1.0:
-        raise ValueError(f"{shown(value)} was found. A coefficient of restitution above 0, at most 1, was expected.")
-    return converted
-
-
-RESTITUTION = Kind(_restitution, {"type": "number", "exclusiveMinimum": 0, "maximum": 1})
-
-
-def list_of(count: int, kind: Kind, what: str) -> Kind:
-    """Give the kind of a list of values of one kind."""
-
-    def take(value: object) -> tuple[Any, ...]:
-        if not isinstance(value, (list, tuple)) or len(value) != count:
-            raise ValueError(f"{shown(value)} was found. A list of {count} was expected: {what}.")
-        return tuple(map(kind.take, value))
-
-    array = {"type": "array", "items": kind.schema, "minItems": count, "maxItems": count, "description": what}
-    return Kind(take, array)
-
-
-def _sided(kind: Kind) -> Kind:
-    """Give the kind of one value, or of a pair where the specimen is not symmetric."""
-    pair = list_of(2, kind, "[for θ < 0, for θ > 0]")
-
-    def take(value: object) -> Any:
-        return (pair if isinstance(value, (list, tuple)) else kind).take(value)
-
-    return Kind(take, {"anyOf": [kind.schema, pair.schema]})
-
-
-def _unit_vector(vector: Vector, written: object) -> Vector:
-    length = hypot(*vector)
-    if not (length > 0.0 and isfinite(length)):
-        raise ValueError(f"{shown(written)} was found. A direction other than zero was expected, such as [1, 0, 0].")
-    x, y, z = vector
-    return x / length, y / length, z / length
-
-
-def _rising(times: tuple[float, float], written: object) -> tuple[float, float]:
-    if not times[0] < times[1]:
-        raise ValueError(f"{shown(written)} was found. The end has to come after the start.")
-    return times
-
-
-def text(value: object) -> str:
-    """Take text that is not empty."""
-    if not isinstance(value, str):
-        raise ValueError(f"{shown(value)} was found. Text in quotes was expected.")
-    if not value.strip():
-        raise ValueError("It is empty. Text was expected.")
-    return value
-
-
-def schema_version(schema: int, files: str) -> Kind:
-    """Give the kind of the version of a file's form."""
-
-    def take(value: object) -> int:
-        if value != schema or isinstance(value, bool) or not isinstance(value, int):
-            raise ValueError(f"{shown(value)} was found. This colonnade reads {files} of schema {schema}.")
-        return value
-
-    return Kind(take, {"const": schema})
-
-
-def one_of(*choices: str) -> Kind:
-    """Give the kind of a word out of a few."""
-
-    def take(value: object) -> str:
-        if not isinstance(value, str) or value not in choices:
-            raise ValueError(f"{shown(value)} was found.{nearest(str(value), choices)}")
-        return value
-
-    return Kind(take, {"type": "string", "enum": list(choices)})
-
-
-def _column(value: object) -> str | int:
-    if isinstance(value, str) and value.strip():
-        return value
-    if isinstance(value, int) and not isinstance(value, bool) and value >= 1:
-        return value
-    raise ValueError(f"{shown(value)} was found. A column's name, or its number from 1, was expected.")
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Have pydantic take the word."""
+        return core_schema.literal_schema(list(self.words))
 
 
 def day(value: object) -> date:
@@ -401,34 +268,73 @@ def _calendar_day(year: int, month: int, of_month: int) -> date | None:
         return None
 
 
+def _filled(value: str) -> str:
+    if not value.strip():
+        raise ValueError("It is empty. Text was expected.")
+    return value
+
+
+def _listed(value: object) -> object:
+    return value if isinstance(value, (list, tuple)) else [value]
+
+
+def once(values: tuple[str, ...]) -> tuple[str, ...]:
+    """Keep each text once, without blanks around it."""
+    return tuple(dict.fromkeys(value.strip() for value in values))
+
+
+def _unit_vector(vector: Vector) -> Vector:
+    length = hypot(*vector)
+    if not (length > 0.0 and isfinite(length)):
+        raise ValueError(f"{shown(vector)} was found. A direction other than zero was expected, such as [1, 0, 0].")
+    x, y, z = vector
+    return x / length, y / length, z / length
+
+
+def _rising(limits: tuple[float, float]) -> tuple[float, float]:
+    if not limits[0] < limits[1]:
+        raise ValueError(f"{limits[0]:g} and {limits[1]:g} (SI) were found. The second has to be the larger one.")
+    return limits
+
+
+Value = TypeVar("Value")
+Sided: TypeAlias = Value | Annotated[tuple[Value, Value], Field(description="[for θ < 0, for θ > 0]")]
+"""One value, or a pair if the specimen is not symmetric."""
+Limits: TypeAlias = Annotated[tuple[Value, Value], AfterValidator(_rising)]
+"""Two values, the second larger than the first."""
+
+MOST_TEXTS = 100
+
 SOME_TEXT = {"type": "string", "minLength": 1}
 """JSON Schema of text that is not empty."""
+_DAY = {"type": "string", "format": "date", "description": "a date of TOML, or text", "examples": ["2013-04-26"]}
 
-INTERVAL = list_of(2, quantity("time", signed=True), 'start and end, such as ["2 s", "14 s"]').then(_rising)
-"""Two times, the second after the first."""
+Number = Annotated[float, Strict(), AllowInfNan(False)]
+Whole = Annotated[int, Strict()]
+Text = Annotated[str, Field(min_length=1), AfterValidator(_filled)]
+Several = Annotated[
+    tuple[Text, ...], Field(min_length=1, max_length=MOST_TEXTS), BeforeValidator(_listed), AfterValidator(once)
+]
+"""A list of texts, or one of them; each once."""
+Column = Text | Annotated[Whole, Field(ge=1)]
+Day = Annotated[date, BeforeValidator(day), WithJsonSchema(_DAY)]
 
-_NUMBERS = list_of(3, Kind(number, {"type": "number"}), "x, y and z, such as [1, 0, 0]")
-
-Length = Annotated[float, quantity("length")]
-Mass = Annotated[float, quantity("mass")]
-Duration = Annotated[float, quantity("time")]
-Delay = Annotated[float, quantity("time", signed=True)]
-Frequency = Annotated[float, quantity("frequency")]
-Angle = Annotated[float, quantity("angle", signed=True)]
-PositiveAngle = Annotated[float, quantity("angle")]
-Velocity = Annotated[float, quantity("velocity")]
-Acceleration = Annotated[float, quantity("acceleration")]
-Gravity = Annotated[float, quantity("acceleration", example="9.81 m/s^2")]
-SidedAngle = Annotated[Sided, _sided(quantity("angle"))]
-SidedLength = Annotated[Sided, _sided(quantity("length"))]
-SidedInertia = Annotated[Sided, _sided(quantity("inertia"))]
-SidedRestitution = Annotated[Sided, _sided(RESTITUTION)]
-Position = Annotated[Vector, list_of(3, quantity("length", signed=True), 'x, y and z, each as "1 mm"')]
-Direction = Annotated[Vector, _NUMBERS.then(_unit_vector)]
-PositiveNumber = Annotated[float, number_between(*PLAIN)]
-Scale = Annotated[float, number_between(*SCALE)]
-Text = Annotated[str, Kind(text, SOME_TEXT)]
-Interval = Annotated[tuple[float, float], INTERVAL]
-Column = Annotated[str | int, Kind(_column, {"anyOf": [SOME_TEXT, {"type": "integer", "minimum": 1}]})]
-DAY_SCHEMA = {"type": "string", "format": "date", "description": "a date of TOML, or text", "examples": ["2013-04-26"]}
-Day = Annotated[date, Kind(day, DAY_SCHEMA)]
+Length = Annotated[float, Quantity("length")]
+Coordinate = Annotated[float, Quantity("length", signed=True)]
+Mass = Annotated[float, Quantity("mass")]
+Inertia = Annotated[float, Quantity("inertia")]
+Pressure = Annotated[float, Quantity("pressure")]
+Duration = Annotated[float, Quantity("time")]
+Delay = Annotated[float, Quantity("time", signed=True)]
+Frequency = Annotated[float, Quantity("frequency")]
+Angle = Annotated[float, Quantity("angle", signed=True)]
+PositiveAngle = Annotated[float, Quantity("angle")]
+Velocity = Annotated[float, Quantity("velocity")]
+Acceleration = Annotated[float, Quantity("acceleration")]
+FrequencyParameter = Annotated[float, Quantity("angular_velocity", between=FREQUENCY_PARAMETER, example="1.26 rad/s")]
+Restitution = Annotated[Number, Field(gt=0.0, le=1.0)]
+PositiveNumber = Annotated[Number, Field(ge=PLAIN[0], le=PLAIN[1])]
+Scale = Annotated[Number, Field(ge=SCALE[0], le=SCALE[1])]
+Position = tuple[Coordinate, Coordinate, Coordinate]
+Direction = Annotated[tuple[Number, Number, Number], AfterValidator(_unit_vector)]
+Interval = Limits[Delay]

@@ -7,7 +7,9 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
-from colonnade.campaign.syntax.fields import Kind, shown
+from pydantic import BeforeValidator, WithJsonSchema
+
+from colonnade.campaign.syntax.fields import shown
 from colonnade.readers import files
 
 ID_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]*$"
@@ -110,4 +112,4 @@ def inside(folder: Path, value: object) -> Path:
         raise ValueError(f"{error} {_EXAMPLE}.") from None
 
 
-Identifier = Annotated[str, Kind(identifier, {"type": "string", "pattern": ID_PATTERN})]
+Identifier = Annotated[str, BeforeValidator(identifier), WithJsonSchema({"type": "string", "pattern": ID_PATTERN})]

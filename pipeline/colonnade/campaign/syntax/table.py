@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator, Mapping
 from functools import cache
 from math import isnan
 from typing import Annotated, Any, NamedTuple, Self
@@ -44,9 +46,7 @@ class Table(BaseModel):
         try:
             return handler(data)
         except ValidationError as error:
-            raise ValidationError.from_exception_data(
-                cls.__name__, [_explained(cls, each) for each in error.errors()]
-            ) from None
+            raise refuse(cls.__name__, list(_explained(cls, data, error.errors()))) from None
 
     @classmethod
     def purposes(cls) -> dict[str, str]:
@@ -55,20 +55,26 @@ class Table(BaseModel):
 
     @classmethod
     @cache
+    def alternatives(cls) -> dict[str, list[dict[str, Any]]]:
+        """Keys as in the file, with the JSON Schema of each value that a key may have."""
+        properties = cls.model_json_schema()["properties"]
+        return {key: schema.get("anyOf", [schema]) for key, schema in properties.items()}
+
+    @classmethod
+    @cache
     def forms(cls) -> dict[str, Form]:
         """Keys as in the file, with what each may be, by the types of the fields."""
-        return {name: _form(schema) for name, schema in cls.model_json_schema()["properties"].items()}
+        return {key: _form(either) for key, either in cls.alternatives().items()}
 
 
-def _form(schema: dict[str, Any]) -> Form:
-    either = schema.get("anyOf", [schema])
+def _form(either: list[dict[str, Any]]) -> Form:
     dimensions = {unit: dimension for dimension, unit in UNITS.items()}
-    lists = [each.get("items", {}) for each in either if each.get("type") == "array"]
+    lists = [each.get("prefixItems", [{}]) for each in either if each.get("type") == "array"]
     return Form(
         any(each.get("type") in ("number", "integer") for each in either),
         next((dimensions[each["unit"]] for each in either if "unit" in each), ""),
-        any("unit" in items for items in lists),
-        any("unit" not in items for items in lists),
+        any("unit" in items[0] for items in lists),
+        any("unit" not in items[0] for items in lists),
     )
 
 
@@ -84,34 +90,116 @@ def refuse(title: str, problems: list[InitErrorDetails]) -> ValidationError:
     return ValidationError.from_exception_data(title, problems)
 
 
-def _explained(table: type[Table], error: ErrorDetails) -> InitErrorDetails:
-    place, found = error["loc"], error["input"]
-    kind, context = error["type"], error.get("ctx", {})
+_OF_LISTS = ("list_type", "tuple_type", "too_long", "too_short", "missing")
+_TEXT = ("string_type", "string_too_short")
+_BOUNDS = ("int_type", "int_from_float", "greater_than", "greater_than_equal", "less_than", "less_than_equal")
+_WANTED = {
+    "float_type": "A plain number was expected, without quotes and without a unit.",
+    "finite_number": "A finite number was expected.",
+} | dict.fromkeys(("model_type", "dict_type", "model_attributes_type"), "A table was expected.")
+
+Place = tuple[str | int, ...]
+
+
+def _explained(table: type[Table], data: Any, errors: list[ErrorDetails]) -> Iterator[InitErrorDetails]:
+    """Give the problems of a table; of a key that may be of several kinds those of the kind that was meant."""
+    of_keys: dict[str | int, list[tuple[Place, ErrorDetails]]] = {}
+    for error in errors:
+        of_keys.setdefault(error["loc"][0] if error["loc"] else "", []).append((_place(data, error), error))
+    for key, found in of_keys.items():
+        has_parts = isinstance(data, Mapping) and isinstance(data.get(key), (list, Mapping))
+        meant = [each for each in found if has_parts == (len(each[0]) > 1 or each[1]["type"] in _OF_LISTS)] or found
+        words = [error for _, error in meant if error["type"] == "literal_error"] if len(meant) > 1 else []
+        others = [each for each in meant if each[1] not in words]
+        is_vague = len(others) > 1 or (words and others[0][1]["type"] == "problem")
+        if is_vague and all(place == (key,) for place, _ in others):  # none of them says all that is possible
+            yield problem(f"{_found(others[0][1])} Expected: {_purpose(table, (key,))}", key)
+            continue
+        ending = f" Or {', '.join(map(shown, _words(words[0])))}." if words else ""
+        for place, error in others:
+            yield problem(_sentence(table, place, error) + ending, *place, value=error["input"])
+
+
+def _place(data: Any, error: ErrorDetails) -> Place:
+    """Give a place in the file, without pydantic's marks for a key, and for the kind that it tried."""
+    place: list[str | int] = []
+    is_absent = error["type"] == "problem" or (error["type"] == "missing" and isinstance(error["loc"][-1], str))
+    for part in error["loc"]:
+        is_key = isinstance(data, Mapping) and part in data
+        is_there = is_key or (isinstance(data, list) and isinstance(part, int) and part < len(data))
+        is_mark = "[" in str(part) or (isinstance(data, Mapping) and part == data.get("shape"))
+        if is_there or (is_absent and isinstance(part, str) and not is_mark):
+            place.append(part)
+            data = data[part] if is_there else None
+    return tuple(place)
+
+
+def _found(error: ErrorDetails) -> str:
+    return f"{shown(error['input'])} was found."
+
+
+def _words(error: ErrorDetails) -> list[str]:
+    return re.findall("'([^']*)'", error["ctx"].get("expected") or error["ctx"]["expected_tags"])
+
+
+def _sentence(table: type[Table], place: Place, error: ErrorDetails) -> str:
+    kind, found = error["type"], _found(error)
     if kind == "problem":
-        message = context["message"]
-    elif kind == "value_error":
-        message = str(context["error"])
-    elif kind == "extra_forbidden":
-        message = f"Unknown key.{nearest(str(place[-1]), table.purposes())}"
-    elif kind == "missing":
-        message = f"It is missing. {_purpose(table, place)}".rstrip()
-    elif kind == "union_tag_not_found":
-        message = '"shape" is missing. Choose one of: "prism", "cylinder", "cone", "measured".'
-    elif kind == "union_tag_invalid":
-        shapes = [shape.strip("' ") for shape in context["expected_tags"].split(",")]
-        message = f"Unknown shape {shown(context['tag'])}.{nearest(str(context['tag']), shapes)}"
-    elif kind in {"model_type", "dict_type", "model_attributes_type"}:
-        message = f"{shown(found)} was found. A table was expected."
-    elif kind in {"list_type", "tuple_type"}:
-        message = f"{shown(found)} was found. A list was expected."
+        return str(error["ctx"]["message"])
+    if kind == "value_error":
+        return str(error["ctx"]["error"])
+    if kind == "extra_forbidden":
+        return f"Unknown key.{nearest(str(place[-1]), table.purposes())}"
+    if kind == "missing" and isinstance(error["loc"][-1], str):
+        return missing(table, str(place[0]))
+    if kind == "literal_error" and place == ("schema",):
+        return f"{found} This colonnade reads schema {error['ctx']['expected']}."
+    if kind == "literal_error":
+        return found + nearest(str(error["input"]), _words(error))
+    if kind == "union_tag_not_found":
+        return '"shape" is missing. Choose one of: "prism", "cylinder", "cone", "measured".'
+    if kind == "union_tag_invalid":
+        shape = error["ctx"]["tag"]
+        return f"Unknown shape {shown(shape)}.{nearest(str(shape), _words(error))}"
+    either = table.alternatives().get(str(place[0]), []) if place else []
+    if kind in _OF_LISTS or kind in _TEXT:
+        said = _list(either) if kind in _OF_LISTS else "Text in quotes"
+        return f"{found} {said} was expected: {_purpose(table, place)}"
+    return f"{found} {_number(either) if kind in _BOUNDS else _WANTED.get(kind, error['msg'] + '.')}"
+
+
+def _list(either: list[dict[str, Any]]) -> str:
+    """Say which list was expected."""
+    low, high = next(((each.get("minItems"), each["maxItems"]) for each in either if "maxItems" in each), (None, None))
+    if high is None:
+        return "A list"
+    return f"A list of {high}" if low == high else f"A list of {low} to {high} values"
+
+
+def _number(either: list[dict[str, Any]]) -> str:
+    """Say which number was expected."""
+    kinds = [*either, *(item for each in either for item in each.get("prefixItems", ()))]
+    bounds: dict[str, Any] = next((each for each in kinds if each.get("type") in ("number", "integer")), {})
+    words = {"minimum": "at least", "exclusiveMinimum": "above", "maximum": "at most", "exclusiveMaximum": "below"}
+    ends = [f"{bounds[key]:.10g}" for key in words if key in bounds]
+    if {"minimum", "maximum"} <= bounds.keys():
+        said = f"from {ends[0]} to {ends[1]}"
+    elif {"exclusiveMinimum", "exclusiveMaximum"} <= bounds.keys():
+        said = f"between {ends[0]} and {ends[1]}"
     else:
-        message = f"{shown(found)} was found. {error['msg']}."
-    return problem(message, *place, value=found)
+        said = "".join(f"{words[key]} {bounds[key]:.10g}, " for key in words if key in bounds).strip()
+    return f"A {'whole ' if bounds.get('type') == 'integer' else ''}number {said} was expected."
 
 
-def _purpose(table: type[Table], place: tuple[str | int, ...]) -> str:
-    purpose = table.purposes().get(str(place[0]), "") if len(place) == 1 else ""
-    return f"Expected: {purpose[0].lower()}{purpose[1:]}" if purpose else ""
+def missing(table: type[Table], key: str) -> str:
+    """Say that a key is missing, and what it is for."""
+    return f"It is missing. Expected: {_purpose(table, (key,))}"
+
+
+def _purpose(table: type[Table], place: Place) -> str:
+    """Say what a key is for, to follow a colon."""
+    purpose = table.purposes().get(str(place[0]), "") if place else ""
+    return f"{purpose[0].lower()}{purpose[1:]}" if purpose else "see `colonnade schema campaign`."
 
 
 def _known(value: Any) -> Any:

@@ -10,6 +10,7 @@ from typing import Any
 from colonnade.cli.common.console import say, say_marked
 from colonnade.errors import count
 from colonnade.findings import Finding, Severity, in_order
+from colonnade.units.text import listed
 
 IN_FULL = 3
 """Findings of one kind that are written in full; of the others only their subjects."""
@@ -106,6 +107,4 @@ def counted(severities: Mapping[Severity, int]) -> str:
 
 
 def _named(subjects: Sequence[str]) -> str:
-    unique = list(dict.fromkeys(subjects))
-    more = f" and {len(unique) - NAMED} more" if len(unique) > NAMED else ""
-    return ", ".join(unique[:NAMED]) + more
+    return listed(list(dict.fromkeys(subjects)), NAMED)

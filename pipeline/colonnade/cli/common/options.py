@@ -30,14 +30,14 @@ MODEL = "nonlinear"
 
 def models() -> Iterable[str]:
     """Names of the models."""
-    from colonnade.dynamics.models.registry import MODELS
+    from colonnade.dynamics.models import MODELS
 
     return MODELS
 
 
 def plane_models() -> Iterable[str]:
     """Names of the models in the plane."""
-    from colonnade.dynamics.models.registry import PLANE_MODELS
+    from colonnade.dynamics.models import PLANE_MODELS
 
     return PLANE_MODELS
 

@@ -1,16 +1,51 @@
-"""A body as the contact engine sees it: rigid mass, base nodes, and elastic modes at those nodes."""
+"""A body as the contact engine sees it: rigid mass, base nodes and rings, and elastic modes at those nodes."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import cos, pi
 
 import numpy as np
 
 from colonnade.arrays import Array
+from colonnade.dynamics.block import Block
+
+GRID = (5, 5)
+"""Nodes of a rectangular base along x and y."""
+
+RINGS = (4, None)
+"""Rings of a round base, and nodes on each; None for whole circles."""
 
 
-@dataclass(frozen=True, eq=False)
-class ContactBody:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Nodes:
+    """
+    Where a body can touch another, or the table.
+
+    Attributes
+    ----------
+    nodes : ndarray, shape (n, 3)
+        Relative to the centre of mass in the body's axes, m; z is upwards, the base at z = −h. Of a ring its point at
+        +x.
+    node_mass, node_area : ndarray, shape (n,)
+        kg and m²: the mass and the area of the base that each node stands for.
+    ring_radii : ndarray, shape (n,)
+        m. Where positive, the node is a ring: a whole circle of this radius about the body's axis at the node's height,
+        with its mass and area spread evenly around. 0, the default, is a point. Rings are of rigid bodies only.
+    """
+
+    nodes: Array
+    node_mass: Array
+    node_area: Array
+    ring_radii: Array = field(default_factory=lambda: np.zeros(0))
+
+    def __post_init__(self) -> None:
+        if self.ring_radii.size == 0:
+            object.__setattr__(self, "ring_radii", np.zeros(len(self.nodes)))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ContactBody(Nodes):
     """
     A body in its principal axes about the centre of mass, with the nodes at which it can touch the table.
 
@@ -20,20 +55,12 @@ class ContactBody:
         kg.
     inertia : ndarray, shape (3,)
         Principal moments about the centre of mass, for the x, y and z axis of the body, kg m².
-    nodes : ndarray, shape (n, 3)
-        Base nodes relative to the centre of mass in the body's axes, m; z is upwards, the base at z = −h. Of a ring its
-        point at +x.
-    node_mass, node_area : ndarray, shape (n,)
-        kg and m²: the mass and the area of the base that each node stands for.
     modes : ndarray, shape (n, 3, m)
         Mass-normalised elastic mode shapes at the base nodes, kg^-½; m is 0 for a rigid body.
     frequencies, modal_damping : ndarray, shape (m,)
         rad/s; fraction of critical.
     description : str
         For people: shape, mesh, degrees of freedom, how reduced.
-    ring_radii : ndarray, shape (n,)
-        m. Where positive, the node is a ring: a whole circle of this radius about the body's axis at the node's height,
-        with its mass and area spread evenly around. 0, the default, is a point. Rings are of rigid bodies only.
 
     Notes
     -----
@@ -44,50 +71,10 @@ class ContactBody:
 
     mass: float
     inertia: Array
-    nodes: Array
-    node_mass: Array
-    node_area: Array
-    modes: Array
-    frequencies: Array
-    modal_damping: Array
     description: str
-    ring_radii: Array = field(default_factory=lambda: np.zeros(0))
-
-    def __post_init__(self) -> None:
-        count, kept = len(self.nodes), len(self.frequencies)
-        if count == 0:
-            raise ValueError("The body has no base nodes; at least one was expected")
-        if len(self.ring_radii) == 0:
-            object.__setattr__(self, "ring_radii", np.zeros(count))
-        shapes = {
-            "inertia": (3,),
-            "nodes": (count, 3),
-            "node_mass": (count,),
-            "node_area": (count,),
-            "ring_radii": (count,),
-            "modes": (count, 3, kept),
-            "frequencies": (kept,),
-            "modal_damping": (kept,),
-        }
-        for name, shape in shapes.items():
-            values = np.ascontiguousarray(getattr(self, name), dtype=np.float64)
-            if values.shape != shape:
-                raise ValueError(f"{name} has shape {values.shape}; {shape} was expected")
-            if not np.isfinite(values).all():
-                raise ValueError(f"{name} holds a value that is not finite")
-            object.__setattr__(self, name, values)
-        for name in ("mass", "inertia", "node_mass", "node_area", "frequencies"):
-            if not np.all(getattr(self, name) > 0.0):
-                raise ValueError(f"{name} is {getattr(self, name)}; positive values were expected")
-        if np.any(self.modal_damping < 0.0):
-            raise ValueError(f"modal_damping is {self.modal_damping}; values from 0 on were expected")
-        if np.any(self.ring_radii < 0.0) or (kept > 0 and self.has_rings):
-            raise ValueError(
-                f"ring_radii is {self.ring_radii} m with {kept} modes; radii from 0 on were expected, 0 with modes"
-            )
-        offset = np.hypot(*(self.nodes[:, :2] - np.column_stack((self.ring_radii, np.zeros(count)))).T)
-        if np.any((self.ring_radii > 0.0) & (offset > 1e-9 * self.ring_radii)):
-            raise ValueError("A ring's node is not its point at +x; (radius, 0, −h) was expected")
+    modes: Array = field(default_factory=lambda: np.zeros((0, 3, 0)))
+    frequencies: Array = field(default_factory=lambda: np.zeros(0))
+    modal_damping: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
     def height(self) -> float:
@@ -103,3 +90,115 @@ class ContactBody:
     def has_rings(self) -> bool:
         """Whether the base touches along whole circles."""
         return bool(np.any(self.ring_radii > 0.0))
+
+
+def rigid_body(block: Block, *, grid: tuple[int, int] = GRID, rings: tuple[int, int | None] = RINGS) -> ContactBody:
+    """
+    Place nodes on the base of a rigid block.
+
+    Parameters
+    ----------
+    block : Block
+        Half width, height of the centre of mass and inertia about y follow from its α, R and I₀ (of both sides, in the
+        mean); depth and the other inertias from its `solid`. A block without one is assumed to be as deep as wide, its
+        inertia about x as that about y, and about z as of a prism of that base.
+    grid : tuple of int, optional
+        Nodes of a rectangular base along x and y, at least 2 along x. Equal spacing with nodes on the edges; corners
+        stand for a quarter of the area of an inner node.
+    rings : tuple of int and (int or None), optional
+        Rings of a round base, outermost on the rim, equally spaced; and nodes on each. None, the default, takes them as
+        whole circles. A number makes them polygons, on which a body rolls with a resistance of its own: for comparison.
+
+    Returns
+    -------
+    body : ContactBody
+        Without modes. Each node's mass is the body's, by its share of the area.
+
+    Raises
+    ------
+    ValueError
+        If there are too few nodes.
+    """
+    solid = block.solid
+    sides = (block.negative, block.positive)
+    widths = [side.half_width for side in sides]
+    half_width = 0.5 * sum(widths)
+    height = 0.5 * sum(side.pole_distance * cos(side.critical_angle) for side in sides)
+    about_y = 0.5 * sum(side.inertia - block.mass * side.pole_distance**2 for side in sides)
+    if not about_y > 0.0:
+        raise ValueError(
+            f"I₀ − m R² is {about_y:.4g} kg m²; more than 0 was expected: the inertia about the pole "
+            "has to exceed that of the mass at the pole distance"
+        )
+    round_base = solid is not None and solid.base == "circle"
+    if solid is None:
+        half_depth = half_width
+        inertia = np.array([about_y, about_y, block.mass * (half_width**2 + half_depth**2) / 3.0])
+    else:
+        half_depth = half_width if round_base else solid.half_depth
+        inertia = np.array([about_y if round_base else solid.inertia_x, about_y, solid.inertia_z])
+    if round_base:
+        nodes, area = round_nodes(half_width, *rings)
+    else:
+        nodes, area = grid_nodes(-widths[0], widths[1], half_depth, *grid)
+    whole = round_base and rings[1] is None
+    return ContactBody(
+        nodes=np.column_stack((nodes, np.full(len(nodes), -height))),
+        node_mass=block.mass * area / area.sum(),
+        node_area=area,
+        ring_radii=nodes[:, 0] if whole else np.zeros(len(nodes)),
+        mass=block.mass,
+        inertia=inertia,
+        description=_describe(block, len(nodes), whole),
+    )
+
+
+def _describe(block: Block, count: int, whole: bool) -> str:
+    if whole:
+        return f"rigid, round base, {count} whole {'ring' if count == 1 else 'rings'}"
+    if block.solid is None:
+        return f"rigid, rectangular base taken to be as deep as wide, {count} nodes"
+    return f"rigid, {'round' if block.solid.base == 'circle' else 'rectangular'} base, {count} nodes"
+
+
+def grid_nodes(left: float, right: float, half_depth: float, along: int, across: int) -> tuple[Array, Array]:
+    """Give the equally spaced nodes of a rectangle along x and y, shape (n, 2), and the area of each."""
+    if along < 2 or across < 1:
+        raise ValueError(f"grid is ({along}, {across}); at least 2 nodes along x and 1 across were expected")
+    x = np.linspace(left, right, along)
+    y = np.linspace(-half_depth, half_depth, across) if across > 1 else np.zeros(1)
+    nodes = np.column_stack([part.ravel() for part in np.meshgrid(x, y, indexing="ij")])
+    return nodes, np.outer(_shares(along), _shares(across)).ravel() * (right - left) * 2.0 * half_depth
+
+
+def _shares(count: int) -> Array:
+    """Shares of equally spaced points, the ends with half of an inner one's."""
+    shares = np.ones(count)
+    if count > 1:
+        shares[[0, -1]] = 0.5
+    return np.asarray(shares / shares.sum())
+
+
+def round_nodes(radius: float, rings: int, around: int | None) -> tuple[Array, Array]:
+    """Give the nodes of a disc on equally spaced rings, the outermost on its rim, and the area of each."""
+    if rings < 1 or (around is not None and around < 3):
+        raise ValueError(f"rings is ({rings}, {around}); at least 1 ring of 3 nodes, or of None, was expected")
+    count = around or 1
+    angle = 2.0 * pi * np.arange(count) / count
+    radii = radius * np.arange(1, rings + 1) / rings
+    # A ring takes the area up to midway to its neighbours, the innermost all within, the outermost up to the rim.
+    edges = np.concatenate(([0.0], 0.5 * (radii[:-1] + radii[1:]), [radius]))
+    area = pi * np.diff(edges**2) / count
+    nodes = np.column_stack((np.outer(radii, np.cos(angle)).ravel(), np.outer(radii, np.sin(angle)).ravel()))
+    return nodes, np.repeat(area, count)
+
+
+def propagators(body: ContactBody, step: float) -> Array:
+    """Exact free motion of each mode over a step: η → a η + b η̇, η̇ → c η + d η̇; rows a, b, c, d, shape (4, m)."""
+    frequency, damping = body.frequencies, body.modal_damping
+    turning = frequency * np.sqrt((1.0 - damping**2).astype(complex))
+    turning = np.where(np.abs(turning) < 1e-9 * frequency, 1e-9 * frequency, turning)
+    fading = np.exp(-damping * frequency * step)
+    cosine, sine = np.cos(turning * step), np.sin(turning * step) / turning
+    rows = (cosine + damping * frequency * sine, sine, -(frequency**2) * sine, cosine - damping * frequency * sine)
+    return np.ascontiguousarray(np.real(np.array(rows) * fading).reshape(4, -1))

@@ -6,18 +6,19 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import pairwise
 from math import acosh, ceil, exp, isnan, log, nan
 
 import numpy as np
+from scipy.optimize import brentq
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.modes import keep_modes, keep_modes_for_step
+from colonnade.dynamics.contact.modes import keep_modes_for_step, longest_with
 from colonnade.dynamics.contact.simulate import plane_block, simulate
-from colonnade.dynamics.contact.stability import longest_step
 
 Identify = Callable[[ContactHistory], tuple[float, str]]
 
@@ -188,133 +189,78 @@ def calibrate(
             f"release is {release} of the critical angle and impacts {impacts}; a release from {SMALLEST_RELEASE:g} "
             "to 1 and at least one impact were expected"
         )
-    runs = _Runs(body, law, gravity, step, release, impacts, restitution, identify)
-    tried = FRACTIONS if fractions is None else fractions
-    if not runs.reach(1.0, tried) and vary_stiffness:
-        order = HARDER_FIRST if runs.lowest() > restitution else SOFTER_FIRST
-        for stiffness in order:
-            if runs.reach(stiffness, tried):
-                break
-    return runs.result()
+    theta0 = release * plane_block(body, gravity).critical_angle
+    duration = _duration(release, restitution, impacts) / plane_block(body, gravity).p
+    law = law.under(body.mass * gravity / float(body.node_area.sum()), body.height)
+    identify = identify or (lambda history: (free_restitution(history, impacts=impacts), VELOCITY_RATIO))
+    found: dict[tuple[float, float], tuple[float, str, ContactHistory]] = {}
+    costs: list[float] = []
 
-
-class _Runs:
-    """Free vibrations with different damping fractions, each computed once."""
-
-    def __init__(
-        self,
-        body: ContactBody,
-        law: ContactLaw,
-        gravity: float,
-        step: float | None,
-        release: float,
-        impacts: int,
-        restitution: float,
-        identify: Identify | None,
-    ) -> None:
-        self._body, self._law, self._gravity, self._step, self._impacts = body, law, gravity, step, impacts
-        self._identify = identify or partial(_by_velocities, impacts=impacts)
-        self._target = restitution
-        block = plane_block(body, gravity)
-        self._theta0 = release * block.critical_angle
-        self._duration = _duration(release, restitution, impacts) / block.p
-        self._found: dict[tuple[float, float], tuple[float, str, ContactHistory]] = {}
-        self._costs: list[float] = []
-
-    def reach(self, stiffness: float, fractions: Sequence[float]) -> bool:
-        """Close in on the restitution at a multiple of the stiffness, if two of the fractions bracket it."""
-        run = partial(self._run, stiffness)
-        bracket = _bracket(run, self._target, fractions)
-        if bracket is not None:
-            _close_in(run, self._target, *bracket)
-        return bracket is not None
-
-    def lowest(self) -> float:
-        """Give the smallest restitution so far; NaN without any."""
-        return min((value for value, _, _ in self._found.values() if not isnan(value)), default=nan)
-
-    def _run(self, stiffness: float, fraction: float) -> float:
-        if (stiffness, fraction) not in self._found:
-            law = replace(self._law, stiffness=stiffness * self._law.stiffness, damping_fraction=fraction)
+    def run(stiffness: float, fraction: float) -> float:
+        """Give e at a multiple of the stiffness and a damping fraction, each pair computed once; NaN if unstable."""
+        if (stiffness, fraction) not in found:
+            own = replace(law, stiffness=stiffness * (law.stiffness or nan), damping_fraction=fraction)
             try:
-                body = self._body if self._step is None else keep_modes_for_step(self._body, law, self._step)
+                kept = body if step is None else keep_modes_for_step(body, own, step)
             except ValueError:
                 return nan
             began = time.process_time()
-            history = simulate(
-                body,
-                law=law,
-                gravity=self._gravity,
-                theta0=self._theta0,
-                duration=self._duration,
-                step=self._step,
-            )
-            self._costs.append((time.process_time() - began) / self._duration)
-            self._found[stiffness, fraction] = *self._identify(history), history
-        return self._found[stiffness, fraction][0]
+            history = simulate(kept, law=own, gravity=gravity, theta0=theta0, duration=duration, step=step)
+            costs.append((time.process_time() - began) / duration)
+            found[stiffness, fraction] = *identify(history), history
+        return found[stiffness, fraction][0]
 
-    def result(self) -> Calibration:
-        """Take the run whose restitution is nearest."""
-        values = np.array([value for value, _, _ in self._found.values()])
-        if self._step is not None and values.size == 0:
-            longest = longest_step(keep_modes(self._body, 0.0), self._law)
-            raise ValueError(
-                f"step is {self._step:.4g} s; at most {longest:.4g} s was expected: beyond it the contact of this body "
-                f"({self._body.description}) is unstable. Use a shorter step or a softer contact."
-            )
-        if not np.isfinite(values).any():
-            raise ValueError(
-                f"No free vibration of this body ({self._body.description}) gave a restitution; a block that rocks was "
-                "expected"
-            )
-        value, source, history = list(self._found.values())[int(np.nanargmin(np.abs(values - self._target)))]
-        return Calibration(
-            law=history.law,
-            restitution=value,
-            source=source,
-            velocity_ratio=free_restitution(history, impacts=self._impacts),
-            target=self._target,
-            fractions=np.array([fraction for _, fraction in self._found]),
-            stiffnesses=np.array([stiffness for stiffness, _ in self._found]),
-            restitutions=values,
-            effective_damping=history.effective_damping,
-            step=history.step,
-            cost=float(np.median(self._costs[1:] or self._costs)),
-            residual=history.energies.relative_residual,
-            body=history.body,
+    tried = FRACTIONS if fractions is None else fractions
+    reached = _reach(partial(run, 1.0), restitution, tried)
+    if not reached and vary_stiffness:
+        lowest = min((value for value, _, _ in found.values() if not isnan(value)), default=nan)
+        order = HARDER_FIRST if lowest > restitution else SOFTER_FIRST
+        any(_reach(partial(run, stiffness), restitution, tried) for stiffness in order)
+    values = np.array([value for value, _, _ in found.values()])
+    if step is not None and values.size == 0:
+        raise ValueError(
+            f"step is {step:.4g} s; at most {longest_with(body, law, 0.0):.4g} s was expected: beyond it the contact "
+            f"of this body ({body.description}) is unstable. Use a shorter step or a softer contact."
         )
+    if not np.isfinite(values).any():
+        raise ValueError(
+            f"No free vibration of this body ({body.description}) gave a restitution; a block that rocks was expected"
+        )
+    value, source, history = list(found.values())[int(np.nanargmin(np.abs(values - restitution)))]
+    return Calibration(
+        law=history.law,
+        restitution=value,
+        source=source,
+        velocity_ratio=free_restitution(history, impacts=impacts),
+        target=restitution,
+        fractions=np.array([fraction for _, fraction in found]),
+        stiffnesses=np.array([stiffness for stiffness, _ in found]),
+        restitutions=values,
+        effective_damping=history.effective_damping,
+        step=history.step,
+        cost=float(np.median(costs[1:] or costs)),
+        residual=history.energies.relative_residual,
+        body=history.body,
+    )
 
 
-def _by_velocities(history: ContactHistory, *, impacts: int) -> tuple[float, str]:
-    return free_restitution(history, impacts=impacts), VELOCITY_RATIO
+def _reach(run: Callable[[float], float], target: float, fractions: Sequence[float]) -> bool:
+    """Close in on a restitution between the first two neighbours between which e falls through it, if there are any."""
+    for low, high in pairwise(fractions):
+        if run(low) >= target >= run(high):
+            near = min((low, high), key=lambda fraction: abs(run(fraction) - target))
+            if abs(run(near) - target) > TOLERANCE:
+                # Within the tolerance it is a root: the search ends there.
+                brentq(partial(_misfit, run, target), low, high, xtol=1e-9, maxiter=MOST_RUNS, disp=False)
+            return True
+    # A single fraction is only computed.
+    return bool(len(fractions) == 1 and abs(run(fractions[0]) - target) <= TOLERANCE)
 
 
-def _bracket(runs: Callable[[float], float], target: float, fractions: Sequence[float]) -> tuple[float, float] | None:
-    """Find the first two neighbours between which e falls through the target."""
-    before = None
-    for fraction in fractions:
-        value = runs(fraction)
-        if before is not None and runs(before) >= target >= value:
-            return before, fraction
-        before = fraction
-    return None
-
-
-def _close_in(runs: Callable[[float], float], target: float, low: float, high: float) -> None:
-    """Narrow a bracket by the secant (Illinois), kept from its ends, up to the tolerance."""
-    above, below = runs(low) - target, runs(high) - target
-    for _ in range(MOST_RUNS):
-        if abs(above) <= TOLERANCE or abs(below) <= TOLERANCE or high - low <= 1e-9:
-            return
-        share = min(max(above / (above - below), 0.02), 0.98)
-        middle = low + share * (high - low)
-        found = runs(middle) - target
-        if abs(found) <= TOLERANCE:
-            return
-        if found > 0.0:
-            low, above, below = middle, found, 0.5 * below
-        else:
-            high, below, above = middle, found, 0.5 * above
+def _misfit(run: Callable[[float], float], target: float, fraction: float) -> float:
+    """Give how far e is from the target; 0 within the tolerance."""
+    missing = run(fraction) - target
+    return 0.0 if abs(missing) <= TOLERANCE else missing
 
 
 def _duration(release: float, restitution: float, impacts: int) -> float:

@@ -11,8 +11,8 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.history import NO_ROCKING_RATIO, History
-from colonnade.dynamics.models.contact import CONTACT
-from colonnade.units import PERCENT
+from colonnade.dynamics.models import CONTACT
+from colonnade.units.text import PERCENT
 
 LARGEST_RESIDUAL = 0.01
 """Of the energy balance, over its largest part; beyond it the run says that the balance does not close."""
@@ -154,11 +154,8 @@ class ContactHistory(History):
     def warnings(self) -> tuple[str, ...]:
         """What the reader of this history has to know, one sentence each."""
         alpha, weight = self.block.critical_angle, self.block.mass * self.block.gravity
-        # What cannot lift the block to where rocking counts is not missed. A block that stands has hardly any energy to
-        # compare with: there the gap, which grows with the step and the time, is held against what overturns it.
+        # What cannot lift the block to where rocking counts is not missed.
         lift = np.cos((1.0 - NO_ROCKING_RATIO) * alpha) - np.cos(alpha)
-        if self.outcome == "no-rocking":
-            lift = LARGEST_RESIDUAL * (1.0 - np.cos(alpha))
         least = weight * self.block.pole_distance * lift
         if self.energies.closes or np.abs(self.energies.residual).max() <= least:
             return ()

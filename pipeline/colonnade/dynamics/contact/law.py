@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import sqrt
 
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.body import ContactBody, Nodes
 from colonnade.validation import number
 
 STATIC_PENETRATION = 1e-7
@@ -26,8 +26,9 @@ class ContactLaw:
 
     Attributes
     ----------
-    stiffness : float
-        Normal penalty stiffness k per area of the base, N/m³.
+    stiffness : float or None, optional
+        Normal penalty stiffness k per area of the base, N/m³. Default: at each interface by the weight above it, which
+        sinks by `penetration`, so that bodies of all sizes are served alike.
     damping_fraction : float
         ξ, the critical damping fraction: 2 ξ sqrt(m k) v acts while the node is in contact, m the node's mass.
     friction : float
@@ -36,6 +37,8 @@ class ContactLaw:
         Stiffness against elastic slip, over k.
     tangential_damping : float
         Damping of the elastic slip, over the normal one. A node that slides is not damped.
+    penetration : float, optional
+        Depth under what stands on an interface, over the height of its centre of mass.
 
     Notes
     -----
@@ -48,14 +51,15 @@ class ContactLaw:
     annulus that the ring stands for.
     """
 
-    stiffness: float
+    stiffness: float | None = None
     damping_fraction: float = 0.4
     friction: float = 0.6
     tangential_ratio: float = 1.0
     tangential_damping: float = 1.0
+    penetration: float = STATIC_PENETRATION
 
     def __post_init__(self) -> None:
-        for name in ("stiffness", "tangential_ratio"):
+        for name in ("tangential_ratio", "penetration") + (() if self.stiffness is None else ("stiffness",)):
             number(name, getattr(self, name), "a positive number", above=0.0)
         for name in ("damping_fraction", "friction", "tangential_damping"):
             number(name, getattr(self, name), "a number from 0 on", low=0.0, finite=name != "friction")
@@ -71,25 +75,29 @@ class ContactLaw:
         penetration: float = STATIC_PENETRATION,
     ) -> ContactLaw:
         """
-        Choose the stiffness by how deep the standing body sinks, so that bodies of all sizes are served alike.
+        Choose the stiffness by how deep a standing body sinks.
 
         Parameters
         ----------
         body : ContactBody
         gravity : float
             m/s².
-        damping_fraction, friction : float, optional
-        penetration : float, optional
-            Depth under the body's weight over the height of its centre of mass.
+        damping_fraction, friction, penetration : float, optional
         """
-        pressure = body.mass * gravity / body.node_area.sum()
-        return cls(float(pressure / (penetration * body.height)), damping_fraction=damping_fraction, friction=friction)
+        law = cls(damping_fraction=damping_fraction, friction=friction, penetration=penetration)
+        return law.under(body.mass * gravity / float(body.node_area.sum()), body.height)
 
-    def node_stiffness(self, body: ContactBody) -> Array:
+    def under(self, pressure: float, height: float) -> ContactLaw:
+        """Return the law with its stiffness under a pressure (Pa) by what has its centre of mass at a height (m)."""
+        return self if self.stiffness is not None else replace(self, stiffness=pressure / (self.penetration * height))
+
+    def node_stiffness(self, body: Nodes) -> Array:
         """Normal stiffness of each base node, N/m, shape (n,)."""
+        if self.stiffness is None:
+            raise ValueError("The law has no stiffness yet; `under` gives it one, or `ContactLaw.stiff` of a body")
         return self.stiffness * body.node_area
 
-    def node_damping(self, body: ContactBody) -> Array:
+    def node_damping(self, body: Nodes) -> Array:
         """Normal damping 2 ξ sqrt(m k) of each base node, N s/m, shape (n,)."""
         return np.asarray(2.0 * self.damping_fraction * np.sqrt(body.node_mass * self.node_stiffness(body)))
 

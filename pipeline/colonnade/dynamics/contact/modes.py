@@ -6,9 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.stability import longest_step
+from colonnade.dynamics.contact.structure import Structure
 
 FOLLOWED = 0.25
 """Of the longest stable step of a mode: a step that is longer does not follow it, and the energy balance suffers."""
@@ -65,16 +67,20 @@ def keep_modes_for_step(body: ContactBody, law: ContactLaw, step: float) -> Cont
     ValueError
         If the step is too long even for the rigid body; the message gives the one that is not.
     """
-    rigid = keep_modes(body, 0.0)
-    if step > longest_step(rigid, law):
+    longest = longest_with(body, law, 0.0)
+    if step > longest:
         raise ValueError(
-            f"The step is {step:.3g} s; even the rigid body on this contact needs one of at most "
-            f"{longest_step(rigid, law):.3g} s"
+            f"The step is {step:.3g} s; even the rigid body on this contact needs one of at most {longest:.3g} s"
         )
     frequencies = np.append(0.0, body.frequencies)
     low, high = 0, body.frequencies.size + 1
     while high - low > 1:
         middle = (low + high) // 2
-        allowed = longest_step(keep_modes(body, frequencies[middle]), law) >= step / FOLLOWED
+        allowed = longest_with(body, law, frequencies[middle]) >= step / FOLLOWED
         low, high = (middle, high) if allowed else (low, middle)
     return keep_modes(body, frequencies[low])
+
+
+def longest_with(body: ContactBody, law: ContactLaw, highest_frequency: float) -> float:
+    """Give the longest stable step of a body on a law, s, with its modes up to a frequency, rad/s."""
+    return longest_step(Structure.of_body(keep_modes(body, highest_frequency), law, STANDARD_GRAVITY))

@@ -1,20 +1,25 @@
-"""One run of the contact model: body, law and table motion in, history out."""
+"""One run of the contact model: body or assembly, law and table motion in, history out."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import ceil, hypot
+from typing import NamedTuple
 
 import numpy as np
 
 from colonnade.arrays import Array, Mask
+from colonnade.dynamics.assembly import Assembly, standing_on
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
+from colonnade.dynamics.contact.bodies import AssemblyHistory, BodyHistory, Pose
 from colonnade.dynamics.contact.body import ContactBody
-from colonnade.dynamics.contact.engine.run import run
-from colonnade.dynamics.contact.engine.state import COLUMNS, POINTS, Body, Near, State
 from colonnade.dynamics.contact.history import ContactHistory, EnergyBalance, impacts_of, tilt
 from colonnade.dynamics.contact.law import DEFAULT_STEP, ContactLaw
+from colonnade.dynamics.contact.march import march
 from colonnade.dynamics.contact.stability import longest_step
-from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
+from colonnade.dynamics.contact.start import Start, rotation_matrices, standing, standing_assembly
+from colonnade.dynamics.contact.state import IMPACT, Near, State, Whole
+from colonnade.dynamics.contact.structure import Structure
 from colonnade.dynamics.motion import Motion, at_rest
 from colonnade.validation import number
 
@@ -75,7 +80,7 @@ def simulate(
 
     Examples
     --------
-    >>> from colonnade.dynamics.contact.nodes import rigid_body
+    >>> from colonnade.dynamics.contact.body import rigid_body
     >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
     >>> body = rigid_body(block)
     >>> law = ContactLaw.stiff(body, block.gravity, damping_fraction=0.4)
@@ -84,18 +89,73 @@ def simulate(
     """
     block = plane_block(body, gravity)
     motion = at_rest(block, duration) if motion is None else motion
-    interval, parts = _division(body, law, motion, step)
+    structure = Structure.of_body(body, law, gravity)
+    law = structure.interfaces[0].law
+    interval, parts = _division(structure, motion, step)
     _check(motion, theta0, omega0, out_of_plane)
     if start is None:
         start = standing(body, law, gravity, theta0=theta0, omega0=omega0, out_of_plane=out_of_plane, yaw=yaw)
-    table = np.zeros((motion.acceleration.size, 3))
-    for axis, values in enumerate((motion.acceleration, motion.transverse, motion.vertical)):
-        if values is not None:
-            table[:, axis] = values
-    samples, impacts = _run(body, law, gravity, start, table, interval, parts)
-    falls = samples[-1] if len(samples) < len(table) else None
-    overturned = falls is not None or _falls_later(body, law, block, samples[-1], interval, parts)
-    return _history(body, law, block, motion, interval / parts, samples, impacts, overturned)
+    run = _run(structure, [start], _table(motion), interval, parts)
+    overturned = len(run.samples) < motion.acceleration.size or (
+        run.tilt()[-1, 0] > block.critical_angle and not run.afterwards(structure, block.p).stands[0]
+    )
+    return _history(body, law, block, motion, interval / parts, run, overturned)
+
+
+def simulate_assembly(
+    assembly: Assembly,
+    motion: Motion | None = None,
+    *,
+    law: ContactLaw | None = None,
+    duration: float | None = None,
+    step: float | None = None,
+    theta0: float = 0.0,
+    omega0: float = 0.0,
+    starts: Mapping[str, Start] | None = None,
+    structure: Structure | None = None,
+) -> AssemblyHistory:
+    """
+    Compute how the bodies of an assembly move on a table and on each other.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    motion, duration, step
+        As of `simulate`.
+    law : ContactLaw, optional
+        Of all interfaces. Without a stiffness, each has its own by the weight above it.
+    theta0, omega0 : float, optional
+        rad and rad/s, of the bodies on the table; what stands on one of them alone turns with it, what stands on
+        several stays level.
+    starts : mapping of str to Start, optional
+        Of single bodies by name, instead.
+    structure : Structure, optional
+        With other nodes than the default; its law counts.
+
+    Returns
+    -------
+    history : AssemblyHistory
+        At the motion's samples.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or the step is longer than the longest stable one, which is then given.
+    """
+    law = ContactLaw() if law is None else law
+    structure = Structure.of_assembly(assembly, law) if structure is None else structure
+    block = next(iter(assembly.bodies.values())).block
+    motion = at_rest(block, duration) if motion is None else motion
+    interval, parts = _division(structure, motion, step)
+    _check(motion, theta0, omega0, 0.0)
+    begin = standing_assembly(assembly, structure, theta0=theta0, omega0=omega0) | dict(starts or {})
+    lowest = np.array([assembly.levels[name] if placed.on else -np.inf for name, placed in assembly.bodies.items()])
+    run = _run(structure, [begin[name] for name in assembly.bodies], _table(motion), interval, parts, lowest)
+    leans = _leans(assembly, run)
+    stands = run.stands > 0
+    if stands.any() and (leans[-1, stands] > 1.0).any():
+        stands = run.afterwards(structure, block.p, lowest).stands > 0
+    return _assembly_history(assembly, law, structure, motion, run, leans, ~stands)
 
 
 def plane_block(body: ContactBody, gravity: float) -> Block:
@@ -110,8 +170,8 @@ def plane_block(body: ContactBody, gravity: float) -> Block:
     )
 
 
-def _division(body: ContactBody, law: ContactLaw, motion: Motion, step: float | None) -> tuple[float, int]:
-    longest = longest_step(body, law)
+def _division(structure: Structure, motion: Motion, step: float | None) -> tuple[float, int]:
+    longest = longest_step(structure)
     if step is None:
         step = min(DEFAULT_STEP, STEP_SHARE * longest)
     step = number("step", step, "a positive step", above=0.0, unit="s")
@@ -138,70 +198,71 @@ def _check(motion: Motion, theta0: float, omega0: float, out_of_plane: float) ->
         raise ValueError(f"omega0 is {omega0} rad/s; a finite number was expected")
 
 
+def _table(motion: Motion) -> Array:
+    """Give the table's acceleration along x, y and z, shape (n, 3)."""
+    table = np.zeros((motion.acceleration.size, 3))
+    for axis, values in enumerate((motion.acceleration, motion.transverse, motion.vertical)):
+        if values is not None:
+            table[:, axis] = values
+    return table
+
+
+class _Run(NamedTuple):
+    """What the engine gives: samples as far as it came, with their interval and steps; which bodies still stand."""
+
+    samples: Array
+    joints: Array
+    sums: Array
+    impacts: Array
+    stands: Whole
+    interval: float
+    parts: int
+
+    def tilt(self) -> Array:
+        """Give the angle of each body's axis with the vertical, rad, shape (n, b)."""
+        return np.stack([tilt(one[:, 6:10]) for one in np.moveaxis(self.samples, 1, 0)], axis=1)
+
+    def afterwards(self, structure: Structure, p: float, lowest: Array | None = None) -> _Run:
+        """Go on from the last sample with the table at rest."""
+        last = self.samples[-1]
+        matrices = rotation_matrices(last[:, 6:10])
+        starts = [
+            Start(one[:3], one[3:6], one[6:10], matrix @ one[10:13]) for one, matrix in zip(last, matrices, strict=True)
+        ]
+        table = np.zeros((ceil(AFTERMATH / (p * self.interval)) + 1, 3))
+        return _run(structure, starts, table, self.interval, self.parts, lowest)
+
+
 def _run(
-    body: ContactBody, law: ContactLaw, gravity: float, start: Start, table: Array, interval: float, parts: int
-) -> tuple[Array, Array]:
-    """Call the engine; return the samples that it reached, shape (n, COLUMNS), and the impacts."""
-    step = interval / parts
-    orientation = start.orientation / np.linalg.norm(start.orientation)
-    spin = body.inertia * (rotation_matrices(orientation[None])[0].T @ start.angular_velocity)
-    normal, damping = law.node_stiffness(body), law.node_damping(body)
-    contact = np.column_stack((normal, damping, law.tangential_ratio * normal, law.tangential_damping * damping))
-    samples = np.zeros((len(table), COLUMNS))
-    fixed = Body(
-        float(body.mass),
-        float(gravity),
-        body.inertia,
-        body.nodes,
-        body.modes,
-        body.frequencies,
-        _propagators(body, 0.5 * step),
-        body.ring_radii,
-        np.concatenate(([0], np.cumsum(np.where(body.ring_radii > 0.0, POINTS, 1)))),
-        np.array(np.polynomial.legendre.leggauss(POINTS)),
-        body.half_width,
-        body.height,
-        contact,
-        float(law.friction),
+    structure: Structure, starts: list[Start], table: Array, interval: float, parts: int, lowest: Array | None = None
+) -> _Run:
+    """Call the engine from the bodies' starts; `lowest`: heights below which they have fallen, m."""
+    bodies, joints = len(structure.bodies), len(structure.joints)
+    system = structure.system(interval / parts, np.full(bodies, -np.inf) if lowest is None else lowest)
+    rigid = []
+    for body, start in zip(structure.bodies, starts, strict=True):
+        orientation = start.orientation / np.linalg.norm(start.orientation)
+        spin = body.inertia * (rotation_matrices(orientation[None])[0].T @ start.angular_velocity)
+        rigid.append(np.concatenate((start.position, start.velocity, orientation, spin)))
+    state, near = State.begin(system, np.array(rigid)), Near.room(system)
+    samples, sums, contact = (
+        np.zeros((len(table), bodies, 13)),
+        np.zeros((len(table), 4)),
+        np.zeros((len(table), joints, 8)),
     )
-    state = State.begin(fixed, np.concatenate((start.position, start.velocity, orientation, spin)))
-    count, impacts = run(fixed, state, Near.room(fixed), table, interval, parts, samples)
-    return samples[:count], impacts
-
-
-def _propagators(body: ContactBody, step: float) -> Array:
-    """Exact free motion of each mode over a step: η → a η + b η̇, η̇ → c η + d η̇; rows a, b, c, d, shape (4, m)."""
-    frequency, damping = body.frequencies, body.modal_damping
-    turning = frequency * np.sqrt((1.0 - damping**2).astype(complex))
-    turning = np.where(np.abs(turning) < 1e-9 * frequency, 1e-9 * frequency, turning)
-    fading = np.exp(-damping * frequency * step)
-    cosine, sine = np.cos(turning * step), np.sin(turning * step) / turning
-    rows = (cosine + damping * frequency * sine, sine, -(frequency**2) * sine, cosine - damping * frequency * sine)
-    return np.ascontiguousarray(np.real(np.array(rows) * fading).reshape(4, -1))
-
-
-def _falls_later(body: ContactBody, law: ContactLaw, block: Block, last: Array, interval: float, parts: int) -> bool:
-    """Whether a body that is past α at the end falls, the table being at rest from there on."""
-    if tilt(last[None, 6:10])[0] <= block.critical_angle:
-        return False
-    orientation = last[6:10]
-    angular = rotation_matrices(orientation[None])[0] @ last[10:13]
-    table = np.zeros((ceil(AFTERMATH / (block.p * interval)) + 1, 3))
-    start = Start(last[:3], last[3:6], orientation, angular)
-    return len(_run(body, law, block.gravity, start, table, interval, parts)[0]) < len(table)
+    found, count, stands = np.zeros((2 * joints * parts, IMPACT)), 0, True
+    while count < len(table) and stands:
+        count = march(system, state, near, table, interval, parts, samples, contact, sums, found, count)
+        found, stands = np.concatenate((found, np.zeros_like(found))), bool(state.stands.any())
+    impacts = found[: state.hits[0]]
+    return _Run(samples[:count], contact[:count], sums[:count], impacts, state.stands, interval, parts)
 
 
 def _history(
-    body: ContactBody,
-    law: ContactLaw,
-    block: Block,
-    motion: Motion,
-    step: float,
-    samples: Array,
-    impacts: Array,
-    overturned: bool,
+    body: ContactBody, law: ContactLaw, block: Block, motion: Motion, step: float, run: _Run, overturned: bool
 ) -> ContactHistory:
     """Name the columns; hold the last state of a body that lies."""
+    samples, joint = run.samples[:, 0], run.joints[:, 0]
     matrices = rotation_matrices(samples[:, 6:10])
     axis = matrices[:, :, 2]
     turning = np.einsum("nij,nj->ni", matrices, samples[:, 10:13])
@@ -212,7 +273,8 @@ def _history(
     side = np.where(angle < 0.0, -1.0, 1.0)
     pole = np.column_stack((side * body.half_width, np.zeros(len(side)), np.full(len(side), -body.height)))
     slide = (samples[:, :3] + np.einsum("nij,nj->ni", matrices, pole) - pole)[:, :2]
-    times, speeds, rebounds = impacts_of(impacts, block)
+    times, speeds, rebounds = impacts_of(run.impacts, block)
+    kinetic = 0.5 * body.mass * (samples[:, 3:6] ** 2).sum(axis=1) + 0.5 * samples[:, 10:13] ** 2 @ body.inertia
 
     def whole(values: Array) -> Array:
         return np.concatenate((values, np.repeat(values[-1:], missing, axis=0))) if missing else values
@@ -225,7 +287,7 @@ def _history(
         times,
         speeds,
         rebounds,
-        _passed(motion.time, tilt(samples[:, 6:10]) > block.critical_angle) if overturned else float("nan"),
+        _passed(motion.time, run.tilt()[:, 0] > block.critical_angle) if overturned else float("nan"),
         body=body,
         law=law,
         step=step,
@@ -236,10 +298,19 @@ def _history(
         out_of_plane=whole(np.arctan2(-axis[:, 1], axis[:, 2])),
         yaw=whole(np.unwrap(2.0 * np.arctan2(samples[:, 9], samples[:, 6]))),
         slide=whole(slide),
-        uplift=whole(samples[:, 13]),
-        base_force=whole(samples[:, 14:17]),
-        energies=EnergyBalance(*(whole(samples[:, column]) for column in range(17, 25))),
-        airborne=float(samples[-1, 25]),
+        uplift=whole(joint[:, 0]),
+        base_force=whole(joint[:, 4:7]),
+        energies=EnergyBalance(
+            kinetic=whole(kinetic + run.sums[:, 2]),
+            potential=whole(body.mass * block.gravity * samples[:, 2]),
+            strain=whole(run.sums[:, 3]),
+            contact=whole(joint[:, 1]),
+            work=whole(run.sums[:, 0]),
+            dissipated_contact=whole(joint[:, 2]),
+            dissipated_friction=whole(joint[:, 3]),
+            dissipated_bulk=whole(run.sums[:, 1]),
+        ),
+        airborne=float(joint[-1, 7]),
     )
 
 
@@ -253,3 +324,115 @@ def _rocking(axis: Array, turning: Array) -> tuple[Array, Array]:
 def _passed(time: Array, over: Mask) -> float:
     """Give the time of the first sample of the last stretch that is `over` α, which lasts to the end."""
     return float(time[int(len(over) - np.argmin(over[::-1])) if not over.all() else 0])
+
+
+def _leans(assembly: Assembly, run: _Run) -> Array:
+    """Give the lean of each body, shape (n, b), as `BodyHistory` has it."""
+    numbers = {name: number for number, name in enumerate(assembly.bodies)}
+    leans = np.zeros(run.samples.shape[:2])
+    for name, placed in assembly.bodies.items():
+        with_it, own = standing_on(assembly, name), run.samples[:, numbers[name]]
+        masses = np.array([assembly.bodies[other].block.mass for other in with_it])
+        places = run.samples[:, [numbers[other] for other in with_it], :3]
+        axis = rotation_matrices(own[:, 6:10])[:, :, 2]
+        arm = np.einsum("nbi,b->ni", places, masses / masses.sum()) - (own[:, :3] - placed.centre_height * axis)
+        leans[:, numbers[name]] = np.arctan2(np.hypot(arm[:, 0], arm[:, 1]), arm[:, 2]) / assembly.critical_angles[name]
+    return leans
+
+
+def _assembly_history(
+    assembly: Assembly,
+    law: ContactLaw,
+    structure: Structure,
+    motion: Motion,
+    run: _Run,
+    leans: Array,
+    fallen: Mask,
+) -> AssemblyHistory:
+    """Name the columns body by body."""
+    missing = motion.acceleration.size - len(run.samples)
+    samples, joints, sums, leans = (
+        np.concatenate((values, np.repeat(values[-1:], missing, axis=0)))
+        for values in (run.samples, run.joints, run.sums, leans)
+    )
+    matrices = np.array([rotation_matrices(samples[:, number, 6:10]) for number in range(samples.shape[1])])
+    numbers = {name: number for number, name in enumerate(assembly.bodies)}
+    bodies: dict[str, BodyHistory] = {}
+    base_force, joint = np.zeros((len(samples), 3)), 0
+    for (name, placed), body in zip(assembly.bodies.items(), structure.bodies, strict=True):
+        number, own = numbers[name], list(range(joint, joint + max(1, len(placed.on))))
+        joint = own[-1] + 1
+        place, level = samples[:, number, :3], assembly.levels[name]
+        supports = {}
+        for below, first in zip(placed.on, own, strict=False):
+            target, turned = samples[:, numbers[below], :3], np.swapaxes(matrices[numbers[below]], 1, 2)
+            apart = np.einsum("nij,nj->ni", turned, place - target) - structure.joints[first][0].apart
+            supports[below] = Pose(**_pose(placed.block, body, turned @ matrices[number], apart))
+        if not placed.on:
+            base_force += joints[:, own[0], 4:7]
+        impacts = [
+            impacts_of(run.impacts[run.impacts[:, -1] == one], plane_block(body, assembly.gravity)) for one in own
+        ]
+        order = np.argsort(np.concatenate([times for times, _, _ in impacts]), kind="stable")
+        times, before, after = (np.concatenate([found[i] for found in impacts])[order] for i in range(3))
+        rest = place - [*placed.position, level + body.height]
+        over = leans[:, number] > 1.0
+        fell = _passed(motion.time, over) if over[-1] else float(motion.time[-1])
+        bodies[name] = BodyHistory(
+            **_pose(placed.block, body, matrices[number], rest),
+            supports=supports,
+            lean=leans[:, number],
+            position=place,
+            orientation=samples[:, number, 6:10],
+            impact_times=times,
+            impact_velocities=before,
+            rebound_velocities=after,
+            dissipated_contact=joints[:, own, 2].sum(axis=1),
+            dissipated_friction=joints[:, own, 3].sum(axis=1),
+            overturning_time=fell if fallen[number] else float("nan"),
+        )
+    masses, inertias = (
+        np.array([one.mass for one in structure.bodies]),
+        np.array([one.inertia for one in structure.bodies]),
+    )
+    speeds, turning = (samples[:, :, 3:6] ** 2).sum(axis=2), (samples[:, :, 10:13] ** 2 * inertias).sum(axis=2)
+    nothing = np.zeros(len(samples))
+    energies = EnergyBalance(
+        kinetic=0.5 * (speeds @ masses + turning.sum(axis=1)),
+        potential=assembly.gravity * samples[:, :, 2] @ masses,
+        strain=nothing,
+        contact=joints[:, :, 1].sum(axis=1),
+        work=sums[:, 0],
+        dissipated_contact=joints[:, :, 2].sum(axis=1),
+        dissipated_friction=joints[:, :, 3].sum(axis=1),
+        dissipated_bulk=nothing,
+    )
+    return AssemblyHistory(
+        assembly=assembly,
+        law=law,
+        time=motion.time,
+        bodies=bodies,
+        energies=energies,
+        base_force=base_force,
+        step=run.interval / run.parts,
+    )
+
+
+def _pose(block: Block, body: ContactBody, matrices: Array, moved: Array) -> dict[str, Array]:
+    """Give the pose of a body, turned by matrices and with its centre of mass `moved` from where it is at rest."""
+    axis, half = matrices[:, :, 2], np.array([body.half_width, float(np.abs(body.nodes[:, 1]).max()), 0.0])
+    angle = np.arctan2(axis[:, 0], axis[:, 2])
+    pole = np.column_stack(
+        (np.where(angle < 0.0, -1.0, 1.0) * body.half_width, np.zeros(len(angle)), np.full(len(angle), -body.height))
+    )
+    slide = moved + np.einsum("nij,nj->ni", matrices, pole) - pole
+    across = np.abs(matrices[:, 2, :2])
+    is_round = block.solid is not None and block.solid.base == "circle"
+    reach = body.half_width * np.hypot(*across.T) if is_round else across @ half[:2]
+    return {
+        "angle": angle,
+        "out_of_plane_angle": np.arctan2(-axis[:, 1], axis[:, 2]),
+        "yaw": np.unwrap(np.arctan2(matrices[:, 1, 0] - matrices[:, 0, 1], matrices[:, 0, 0] + matrices[:, 1, 1])),
+        "slide": slide[:, :2],
+        "uplift": moved[:, 2] + body.height * (1.0 - axis[:, 2]) - reach,
+    }

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import hypot, tan
 
 import numpy as np
 import scipy
 
 from colonnade.arrays import Array
+from colonnade.dynamics.assembly import Assembly, Placed
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.structure import Structure, on_face
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,7 @@ def standing(
     omega0: float = 0.0,
     out_of_plane: float = 0.0,
     yaw: float = 0.0,
+    weight: float | None = None,
 ) -> Start:
     """
     Put a body on the table, so deep that its contact bears its weight, and give it a rocking velocity.
@@ -57,6 +60,8 @@ def standing(
         rad.
     omega0 : float, optional
         rad/s, about the pole at ±x on the side of θ₀ (of ω₀ where θ₀ is 0).
+    weight : float, optional
+        N, what the contact bears; default: the body's own.
 
     Returns
     -------
@@ -75,7 +80,7 @@ def standing(
         ]
     )
     matrix = rotation_matrices(orientation[None])[0]
-    stiffness, weight = law.node_stiffness(body), body.mass * gravity
+    stiffness, weight = law.node_stiffness(body), body.mass * gravity if weight is None else weight
     if body.has_rings:
         height = _ring_height(body, matrix[2], stiffness, weight)
     else:
@@ -84,6 +89,54 @@ def standing(
     arm = -matrix @ np.array([side * body.half_width, 0.0, -body.height])
     angular = np.array([0.0, omega0, 0.0])
     return Start(np.array([0.0, 0.0, height]) + _feet(body, matrix, side), np.cross(angular, arm), orientation, angular)
+
+
+def standing_assembly(
+    assembly: Assembly, structure: Structure, *, theta0: float = 0.0, omega0: float = 0.0
+) -> dict[str, Start]:
+    """
+    Put the bodies of an assembly on the table and on each other, so deep that each contact bears what is above it.
+
+    Bodies on the table begin as `standing`; one that stands on a single other turns with it, one on several stays
+    level and goes along with the uppermost points of their tops.
+    """
+    starts: dict[str, Start] = {}
+    joints = iter(zip(structure.joints, structure.loads, strict=True))
+    for (name, placed), body in zip(assembly.bodies.items(), structure.bodies, strict=True):
+        if not placed.on:
+            (side,), load = next(joints)
+            on_table = standing(body, side.law, assembly.gravity, theta0=theta0, omega0=omega0, weight=load)
+            starts[name] = replace(on_table, position=on_table.position + np.append(placed.position, 0.0))
+            continue
+        found = []
+        for below in placed.on:
+            sides, load = next(joints)
+            bearing = sum(float(side.law.node_stiffness(side) @ on_face(side)) for side in sides)
+            rest = np.array(sides[0].apart) - [0.0, 0.0, load / bearing]
+            found.append(_carried(starts[below], rest, assembly.bodies[below], len(placed.on) == 1))
+        starts[name] = Start(
+            np.mean([one.position for one in found], axis=0),
+            np.mean([one.velocity for one in found], axis=0),
+            found[0].orientation,
+            found[0].angular_velocity,
+        )
+    return starts
+
+
+def _carried(below: Start, rest: Array, placed: Placed, turns: bool) -> Start:
+    """Give the start of a body that at rest is `rest` from the centre of mass of the one that it stands on."""
+    matrix = rotation_matrices(below.orientation[None])[0]
+    if turns:
+        arm = matrix @ rest
+        velocity = below.velocity + np.cross(below.angular_velocity, arm)
+        return Start(below.position + arm, velocity, below.orientation, below.angular_velocity)
+    solid = placed.block.solid
+    assert solid is not None  # the assembly has seen to it
+    tilted = -np.sign(matrix[0, 2]) if abs(matrix[0, 2]) > 0.0 else 0.0
+    corner = np.array([tilted * solid.top[0], 0.0, solid.height - placed.centre_height])
+    arm = matrix @ corner
+    velocity = below.velocity + np.cross(below.angular_velocity, arm)
+    return Start(below.position + arm - corner + rest, velocity)
 
 
 def _feet(body: ContactBody, matrix: Array, side: float) -> Array:

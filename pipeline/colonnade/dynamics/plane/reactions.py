@@ -8,10 +8,10 @@ from math import pi
 import numpy as np
 
 from colonnade.arrays import Array, Mask
-from colonnade.digest import Digested, written
 from colonnade.dynamics.history import History
-from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.models import MODELS
 from colonnade.dynamics.motion import Motion
+from colonnade.units.text import Digested, written
 from colonnade.validation import instance, number
 
 
@@ -157,6 +157,8 @@ def reactions(history: History, motion: Motion, *, friction: float | None = None
     else:
         turning = -square * (lift * np.sin(lean) + pull * np.cos(lean))
     turning = np.where(rests, 0.0, turning)
+    # The beam of a frame turns at twice the distance.
+    distance = distance * (1 + 2 * block.beam_ratio) / (1 + block.beam_ratio)
     along = motion.acceleration + distance * (turning * np.cos(lean) + velocity**2 * np.sin(lean))
     above = weight + distance * (turning * np.sin(lean) - velocity**2 * np.cos(lean))
     lies = np.abs(angle) >= 0.5 * pi

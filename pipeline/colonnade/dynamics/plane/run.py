@@ -1,28 +1,36 @@
-"""One run of a plane model under a sampled base motion: checks, the law of restitution, and the model's kernels."""
+"""Runs of the plane models under a sampled base motion: a history, and how many blocks end."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
+from math import pi
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from colonnade.arrays import Array, Codes
 from colonnade.dynamics.block import Block, Sided
-from colonnade.dynamics.history import History
+from colonnade.dynamics.history import NO_ROCKING_RATIO, History
 from colonnade.dynamics.motion import Motion, at_rest
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.validation import sided
 
 if TYPE_CHECKING:
-    from colonnade.dynamics.models.model import Case
-    from colonnade.dynamics.plane.nonlinear import BySeries
-from colonnade.dynamics.models.plane import PlaneModel
+    from colonnade.dynamics.models import Case, PlaneModel
+    from colonnade.dynamics.plane.march import Forcing
+    from colonnade.dynamics.plane.sides import Sides
 
 LARGEST_ACCELERATION = 1e6
 """In g; no table reaches more."""
 
 LONGEST_SAMPLE = 300.0
 """In p dt; hyperbolic functions of more leave the range of floating-point numbers."""
+
+OUTCOMES = ("no-rocking", "rocking", "overturned")
+"""What the codes 0, 1 and 2 mean."""
+
+STANDS, ROCKS, OVERTURNS = range(len(OUTCOMES))
+"""Indices into `OUTCOMES`."""
 
 
 def run(model: PlaneModel, case: Case) -> History:
@@ -34,17 +42,28 @@ def run(model: PlaneModel, case: Case) -> History:
     ValueError
         If the case asks for what only a model in space has, or an argument is out of its range.
     """
+    # The kernels are decorated on import.
+    from colonnade.dynamics.plane.march import propagate
+    from colonnade.dynamics.plane.sides import sides_of
+
     if case.contact is not None or case.out_of_plane:
         raise ValueError(f'contact and out_of_plane are for models in space; the model is "{model.name}"')
-    motion = at_rest(case.block, case.duration) if case.motion is None else case.motion
-    law = _law(case.block, case.restitution)
-    expect_usable(case.block, motion)
+    block = case.block
+    motion = at_rest(block, case.duration) if case.motion is None else case.motion
+    law = _law(block, case.restitution)
+    expect_usable(block, motion)
+    forcing = forcing_of(motion, block.gravity)
     while True:
-        history = _propagated(model, case, motion, law)
-        wider = law.reaching(history.impact_velocities) if isinstance(law, RestitutionLaw) else law
+        sides = sides_of(block, law, case.rest_angle)
+        angle, velocity, times, before, end = propagate(
+            forcing, sides, is_linearised=model.is_linearised, angle=case.theta0, velocity=case.omega0
+        )
+        wider = law.reaching(before) if isinstance(law, RestitutionLaw) else law
         if wider is law:
-            return history
+            break
         law = wider
+    e = law(np.abs(before)) if isinstance(law, RestitutionLaw) else np.where(before > 0.0, *law)
+    return History(block, motion.time, angle, velocity, times, before, e * before, end.time, model.name)
 
 
 def _law(
@@ -60,42 +79,12 @@ def _law(
     return sided("restitution", restitution, "a number between 0 and 1", low=0.0, high=1.0)
 
 
-def _propagated(model: PlaneModel, case: Case, motion: Motion, law: RestitutionLaw | tuple[float, float]) -> History:
-    # The kernels are decorated on import.
-    from colonnade.dynamics.plane.sampled_march import propagate
-    from colonnade.dynamics.plane.sides import sides_of
+def forcing_of(motion: Motion, gravity: float) -> Forcing:
+    """Put a base motion along x and, if given, z into the form that the kernels take; gravity in m/s²."""
+    from colonnade.dynamics.plane.march import NONE, Forcing
 
-    block = case.block
-    angle, velocity, impact_times, impact_velocities, overturning_time = propagate(
-        motion.acceleration / block.gravity,
-        motion.dt,
-        sides_of(block, law, case.rest_angle),
-        case.theta0,
-        case.omega0,
-        series_of(model, motion, block.gravity),
-    )
-    e = law(np.abs(impact_velocities)) if isinstance(law, RestitutionLaw) else np.where(impact_velocities > 0.0, *law)
-    return History(
-        block,
-        motion.time,
-        angle,
-        velocity,
-        impact_times,
-        impact_velocities,
-        e * impact_velocities,
-        overturning_time,
-        model.name,
-    )
-
-
-def series_of(model: PlaneModel, motion: Motion, gravity: float) -> BySeries | None:
-    """Prepare the solution by series of a model under a motion (`gravity` in m/s²); None if it has a closed form."""
-    from colonnade.dynamics.plane.nonlinear import by_series
-
-    if model.is_linearised and motion.vertical is None:
-        return None
-    vertical = np.zeros_like(motion.acceleration) if motion.vertical is None else motion.vertical / gravity
-    return by_series(vertical, model.is_linearised)
+    weights = NONE if motion.vertical is None else 1.0 + motion.vertical / gravity
+    return Forcing(0.0, 0.5 * pi, motion.dt, NONE, motion.acceleration / gravity, weights)
 
 
 def expect_usable(block: Block, motion: Motion) -> None:
@@ -126,3 +115,90 @@ def expect_usable(block: Block, motion: Motion) -> None:
             f"vertical is {motion.vertical.min():.6g} m/s² at sample {int(motion.vertical.argmin())}: the base falls "
             f"faster than the block; more than −{block.gravity:g} m/s² was expected"
         )
+
+
+class Ends(NamedTuple):
+    """
+    How the histories of n blocks end.
+
+    Attributes
+    ----------
+    outcome : ndarray of int8, shape (n,)
+        Index into `OUTCOMES`.
+    peak_ratio : ndarray, shape (n,)
+        Largest |θ|/α at the samples; NaN if the block overturns.
+    instant : ndarray, shape (n,)
+        s, of that peak, 0 without rocking; if the block overturns, when |θ| passed α for good.
+    peak_velocity : ndarray, shape (n,)
+        Largest |ω| at the samples up to overturning, rad/s.
+    """
+
+    outcome: Codes
+    peak_ratio: Array
+    instant: Array
+    peak_velocity: Array
+
+
+def prepared(block: Block, restitution: Sided | None = None) -> Sides:
+    """
+    Put a block and its e, by default the rigid-body value, into the form that the kernels take.
+
+    Raises
+    ------
+    ValueError
+        If e is not between 0 and 1.
+    """
+    from colonnade.dynamics.plane.sides import sides_of
+    from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
+
+    given = block.restitution if restitution is None else restitution
+    return sides_of(
+        block, sided("restitution", given, "a number between 0 and 1", low=0.0, high=1.0), DEFAULT_REST_ANGLE
+    )
+
+
+def ends_of(motion: Motion, blocks: Sequence[Sides], *, gravity: float, model: str) -> Ends:
+    """
+    Run blocks from rest under one motion.
+
+    Parameters
+    ----------
+    motion : Motion
+        Along x and, if given, z; usable as `expect_usable` says.
+    blocks : sequence of Sides
+        Each `prepared`.
+    gravity : float
+        m/s².
+    model : str
+        A plane one.
+
+    Returns
+    -------
+    ends : Ends
+        The same, to the last bit, as outcome, `peak_ratio` and `peak_time` of `rock`.
+
+    Notes
+    -----
+    A block that the motion cannot uplift is not run: with a vertical component none is left out.
+    """
+    from colonnade.dynamics.models import plane_model_of
+    from colonnade.dynamics.plane.march import propagate
+
+    chosen, forcing = plane_model_of(model), forcing_of(motion, gravity)
+    largest = np.inf if forcing.weights.size > 0 else float(np.abs(forcing.levels).max())
+    codes = np.full(len(blocks), STANDS, dtype=np.int8)
+    peaks, instants, speeds = np.zeros((3, len(blocks)))
+    for number, sides in enumerate(blocks):
+        if largest <= chosen.uplift_threshold(min(sides.critical)):
+            continue
+        angles, velocities, _, _, (time, _, _) = propagate(forcing, sides, is_linearised=chosen.is_linearised)
+        if np.isfinite(time):
+            codes[number], peaks[number], instants[number] = OVERTURNS, np.nan, time
+            speeds[number] = np.abs(velocities[: int(time / motion.dt) + 1]).max()
+            continue
+        low, high = int(angles.argmin()), int(angles.argmax())
+        sizes = -angles[low] / sides.critical[0], angles[high] / sides.critical[1]
+        peaks[number], speeds[number] = max(sizes), np.abs(velocities).max()
+        instants[number] = motion.dt * (low if sizes[0] > sizes[1] else high)
+        codes[number] = ROCKS if peaks[number] > NO_ROCKING_RATIO else STANDS
+    return Ends(codes, peaks, instants, speeds)

@@ -13,7 +13,7 @@ from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block
 from colonnade.errors import CampaignError, UnitError, count
 from colonnade.figures.drawing.body import words_of_angle
-from colonnade.figures.drawing.parts import Body, Point, Rocking, Transducer
+from colonnade.figures.drawing.parts import MARKER, Body, Point, Rocking, Transducer
 from colonnade.figures.drawing.setup import Drawn, setup_drawings
 from colonnade.figures.files.output import Picture
 from colonnade.units.text import listed, quantity
@@ -27,9 +27,6 @@ SIGNS = (
 )
 """What the marks of a drawing mean."""
 
-MOST_DRAFTED = 12
-"""Setups of a draft that are drawn; of more, it asks first which are recordings of tests."""
-
 STAND_IN = Body("rectangle", (0.1, 0.1), (0.1, 0.1), 0.5, is_known=False, rocking=None)
 """Body of a draft, in which no dimension is known yet."""
 
@@ -37,7 +34,12 @@ STAND_IN = Body("rectangle", (0.1, 0.1), (0.1, 0.1), 0.5, is_known=False, rockin
 def drawn_of(campaign: Campaign, specimen: str, setup: str) -> Drawn:
     """Describe a specimen with the transducers of a setup."""
     body = body_of(campaign.specimens[specimen], campaign.block(specimen))
-    transducers = [transducer_of(name, each) for name, each in campaign.setups[setup].channels_of(specimen).items()]
+    channels, markers = campaign.channels_in(specimen, setup), campaign.setups[setup].markers
+    followed = {f"{name}_{axis}" for name in markers for axis in "xyz"}
+    transducers = [transducer_of(name, each) for name, each in channels.items() if name not in followed]
+    # A marker is one point, which is followed along three axes.
+    seen = {name: channels[f"{name}_x"] for name in markers if f"{name}_x" in channels}
+    transducers += [transducer_of(name, each)._replace(quantity=MARKER, direction=None) for name, each in seen.items()]
     shown = [each for each in transducers if each.on]
     others = [each.name for each in transducers if not each.on]
     words = [*body.words, "", *SIGNS]
@@ -156,7 +158,7 @@ def of_draft(text: str) -> Picture:
             STAND_IN._replace(words=words),
             [_drafted(channel, keys) for channel, keys in setup["channels"].items() if keys.get("on", "?") != "?"],
         )
-        for name, setup in list(setups.items())[:MOST_DRAFTED]
+        for name, setup in setups.items()
     ]
     said = (
         "Directions of positive readings as guessed; the specimen stands in for one whose dimensions are not known yet."

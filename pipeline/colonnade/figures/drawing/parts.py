@@ -56,6 +56,10 @@ class Rocking(NamedTuple):
         return cls((-(left + right) / 2, (left + right) / 2), ((left - right) / 2, height), angles)
 
 
+MARKER = "marker"
+"""Quantity of a point that is followed along three axes."""
+
+
 class Transducer(NamedTuple):
     """
     A channel, as it is fixed and reads.
@@ -66,7 +70,7 @@ class Transducer(NamedTuple):
     on : str
         "specimen", "table" or "ground".
     direction : Point or None
-        Of a positive reading; of an angle its axis. None if it is not known.
+        Of a positive reading; of an angle its axis. None if it is not known, or of a marker.
     at : Point or None
         None if it is not known.
     relative_to : str

@@ -8,7 +8,7 @@ from math import hypot
 import numpy as np
 
 from colonnade.figures.drawing.body import GAP, TABLE
-from colonnade.figures.drawing.parts import Body, Point, Transducer
+from colonnade.figures.drawing.parts import MARKER, Body, Point, Transducer
 from colonnade.figures.drawing.view import Spot, View
 from colonnade.figures.style import INK
 
@@ -66,7 +66,7 @@ def places_of(transducers: Sequence[Transducer], body: Body, half_table: float, 
 
 def draw_transducer(view: View, number: int, one: Transducer, place: Point, *, named: bool) -> None:
     """Draw one transducer and ask for its label: number, name and what it reads, or its number alone."""
-    spot, colour = view.spot(place), COLOURS[one.relative_to]
+    spot, colour = view.spot(place), COLOURS.get(one.relative_to, COLOURS["table"])
     if one.anchor is not None:
         end = view.spot(one.anchor)
         view.line(spot, end, color=colour, linestyle=(0, (5.0, 1.5)), zorder=5)
@@ -118,4 +118,4 @@ def _draw_sight(view: View, one: Transducer, spot: Spot, colour: str) -> None:
 def _detail(one: Transducer) -> str:
     said = one.quantity.replace("_", " ")
     said += f", to {one.relative_to}" if one.relative_to else f" of {one.on}" if one.on != "specimen" else ""
-    return said if one.direction is not None else f"{said}, direction ?"
+    return said if one.direction is not None or one.quantity == MARKER else f"{said}, direction ?"

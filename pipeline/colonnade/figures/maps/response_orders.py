@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.dynamics.history import NO_ROCKING_RATIO
-from colonnade.dynamics.maps.steady import AT_REST, IRREGULAR, LARGEST_ORDER, OVERTURNED, SteadyResponse
+from colonnade.dynamics.steady import AT_REST, IRREGULAR, LARGEST_ORDER, OVERTURNED, SteadyResponse
 from colonnade.figures.histories import SMALLEST_RATIO
 from colonnade.figures.maps.measured_map import draw_points
 from colonnade.figures.maps.stability_map import (

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from colonnade.arrays import Array
-from colonnade.dynamics.maps.chart import StabilityMap
+from colonnade.dynamics.maps import StabilityMap
 from colonnade.figures.maps.measured_map import LOGARITHMIC, draw_points, label_logarithmic, name_axes
 from colonnade.figures.style import (
     BASE,

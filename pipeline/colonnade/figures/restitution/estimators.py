@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from colonnade.figures.style import FIT, INK, LIMIT, MEASURED, SOFT, styled, width
-from colonnade.units import format_uncertain
+from colonnade.units.text import format_uncertain
 
 ROW, GROUP = 0.21, 0.26
 """Heights of an estimate's row and of a group's title, inches."""

@@ -17,8 +17,8 @@ from colonnade.figures.panels.layout import legend_above, stacked_panels
 from colonnade.figures.restitution.impacts import HEIGHT, ImpactSeries, Level, draw_level, draw_rigid
 from colonnade.figures.restitution.peaks import PeakSeries, label_energies
 from colonnade.figures.style import FAINT, MEASURED, styled
-from colonnade.identification.restitution.arcs.energy import released_energy
-from colonnade.units import format_percent
+from colonnade.identification.restitution.peaks import released_energy
+from colonnade.units.text import format_percent
 
 LINES = 40
 """Records that have a line of their own, spread evenly over all."""

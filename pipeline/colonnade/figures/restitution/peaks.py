@@ -17,8 +17,8 @@ from colonnade.figures.panels.layout import legend_outside
 from colonnade.figures.panels.long import draw_band
 from colonnade.figures.restitution.marks import draw_marks
 from colonnade.figures.style import FIT, blank_figure, styled
-from colonnade.identification.restitution.arcs.energy import released_energy
-from colonnade.units import PERCENT
+from colonnade.identification.restitution.peaks import released_energy
+from colonnade.units.text import PERCENT
 
 COLUMNS = 3
 

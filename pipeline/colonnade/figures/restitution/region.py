@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 from colonnade.arrays import Array
 from colonnade.figures.panels.layout import legend_outside
 from colonnade.figures.style import FIT, LIMIT, MEASURED, blank_figure, styled
-from colonnade.units import format_percent
+from colonnade.units.text import format_percent
 
 POINTS = 181
 """Of an ellipse."""

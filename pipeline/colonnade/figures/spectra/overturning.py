@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from colonnade.dynamics.spectra.overturning import OverturningSpectrum
+from colonnade.dynamics.pulses import OverturningSpectrum
 from colonnade.figures.maps.measured_map import LOGARITHMIC, label_logarithmic, name_axes
 from colonnade.figures.maps.stability_map import OVERTURNED_COLOUR, words_of_restitution
 from colonnade.figures.style import SMALL_TEXT, SOFT, blank_figure, is_narrow, model_style, styled

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from colonnade.dynamics.spectra.spectrum import RockingSpectrum
+from colonnade.dynamics.spectra import RockingSpectrum
 from colonnade.figures.style import LIMIT, SMALL_TEXT, SOFT, LineStyle, blank_figure, is_narrow, styled
 
 CURVES: tuple[LineStyle, ...] = (

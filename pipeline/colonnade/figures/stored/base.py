@@ -10,15 +10,14 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.spectra.response import DAMPING, response_spectrum
+from colonnade.dynamics.spectra import DAMPING, response_spectrum
 from colonnade.figures.base_motion import BaseSpectra, base_motion
 from colonnade.figures.files.output import Picture
 from colonnade.figures.panels.curve import Curve
 from colonnade.signals.named_motion import Laid, Series, laid_on
 from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load, reference_files
 from colonnade.store.records.stored import Stored
-from colonnade.units import format_percent
-from colonnade.units.text import number, quantity
+from colonnade.units.text import format_percent, number, quantity
 
 SHORTEST, LONGEST = 0.02, 4.0
 """Periods of the spectra, s; no shorter than `FEWEST` samples, no longer than a quarter of the record."""

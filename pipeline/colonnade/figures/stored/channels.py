@@ -14,8 +14,8 @@ from colonnade.errors import count
 from colonnade.figures.channels import MOST_SPIKES, Channel, Scale, Spike, channels_as_recorded
 from colonnade.figures.files.output import Picture
 from colonnade.figures.panels.curve import Curve
+from colonnade.signals.metrics import Density, density
 from colonnade.signals.quality import Flag
-from colonnade.signals.spectra import Density, density
 from colonnade.store.records.stored import Stored
 from colonnade.units import from_si
 from colonnade.units.text import CHANNEL_UNITS

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.figures.histories import Spread
 from colonnade.figures.panels.curve import Curve
@@ -17,12 +18,13 @@ from colonnade.units import from_si
 
 def measured_ratio(stored: Stored, block: Block, *, as_recorded: bool = False) -> Curve | None:
     """Return the measured θ/α about the zero of the predictions, or as recorded; None if it was not measured."""
-    return _ratio(stored, block, "rocking", offset=0.0 if as_recorded else zero_offset(stored))
+    return _ratio(stored, block, "rocking", as_recorded=as_recorded)
 
 
-def zero_offset(stored: Stored) -> float:
-    """Return the zero of the predictions in the measured angle, rad."""
-    return float(np.nan_to_num(stored.value("compare", "zero_offset")))
+def true_angle(stored: Stored, measured: Array) -> Array:
+    """Return a measured angle about the zero of the predictions, with the gain that a free vibration shows, rad."""
+    offset, gain = (stored.value("compare", name) for name in ("zero_offset", "angle_gain"))
+    return (measured - float(np.nan_to_num(offset))) / float(np.nan_to_num(gain, nan=1.0))
 
 
 def predicted_ratios(stored: Stored, block: Block) -> dict[str, Curve]:
@@ -85,10 +87,13 @@ def base_displacement(stored: Stored) -> tuple[Curve | None, str]:
     return None, "not recorded, drawn at rest"
 
 
-def _ratio(stored: Stored, block: Block, stage: str, model: str | None = None, *, offset: float = 0.0) -> Curve | None:
+def _ratio(
+    stored: Stored, block: Block, stage: str, model: str | None = None, *, as_recorded: bool = True
+) -> Curve | None:
     if not stored.has(stage, "rocking_angle", model):
         return None
-    time, angle = stored.array(stage, "elapsed", model), stored.array(stage, "rocking_angle", model) - offset
+    time, angle = stored.array(stage, "elapsed", model), stored.array(stage, "rocking_angle", model)
+    angle = angle if as_recorded else true_angle(stored, angle)
     # An overturned test ends where it overturns: what a frame or a floor does to it then is no rocking.
     fall = stored.value(stage, "overturning_time", model)
     ended = time.size if np.isnan(fall) else int(np.searchsorted(time, fall)) + 1

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from colonnade.dynamics.maps.chart import StabilityMap
-from colonnade.dynamics.maps.steady import SteadyResponse
+from colonnade.dynamics.maps import StabilityMap
+from colonnade.dynamics.steady import SteadyResponse
 from colonnade.figures.files.output import Picture
 from colonnade.figures.maps.measured_map import measured_map
 from colonnade.figures.maps.response_orders import response_orders

@@ -9,7 +9,7 @@ from colonnade.figures.drawing.described import body_of
 from colonnade.figures.files.output import Movie
 from colonnade.figures.moving import rocking_block
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.stored.curves import base_displacement, zero_offset
+from colonnade.figures.stored.curves import base_displacement, true_angle
 from colonnade.store.records.stored import Stored
 
 
@@ -20,7 +20,7 @@ def animation(test: Test, specimen: Specimen, stored: Stored, block: Block) -> M
     for name, stage, model in histories:
         if stored.has(stage, "rocking_angle", model):
             times, values = (stored.array(stage, each, model) for each in ("elapsed", "rocking_angle"))
-            angles[name] = Curve(times, values - zero_offset(stored) if stage == "rocking" else values)
+            angles[name] = Curve(times, true_angle(stored, values) if stage == "rocking" else values)
     if not angles:
         return None
     base, how = base_displacement(stored)

@@ -18,8 +18,7 @@ from colonnade.figures.stored.curves import measured_ratio, misfits, motion, pre
 from colonnade.stages.parts.beginning import RECORDED
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import driven_by, predicted_peak_time
-from colonnade.units import format_percent
-from colonnade.units.text import number, quantity
+from colonnade.units.text import format_percent, number, quantity
 
 MOTIONS = (
     ("slide", "slide", "slide", "mm"),

@@ -20,12 +20,14 @@ from colonnade.figures.restitution.many import MIDDLE, MIDDLE_SHARE, impacts_of_
 from colonnade.figures.restitution.peaks import PeakSeries, peak_decay
 from colonnade.figures.restitution.region import Region, joint_region
 from colonnade.figures.stored.curves import measured_ratio
-from colonnade.identification.restitution.estimators.registry import ESTIMATORS
-from colonnade.identification.restitution.fitting.confidence_band import confidence_band
+from colonnade.identification.restitution.peaks import confidence_band
 from colonnade.store.records.stored import Stored
 from colonnade.units.text import number
 
 STAGE = "restitution"
+
+LABELS = {"history": "whole history", "peaks": "peaks, a cross-check"}
+"""Of the two values of e."""
 
 MOST_SIDE_BY_SIDE = 12
 """Free vibrations of a specimen that are drawn side by side; more share one panel, where they are summarised."""
@@ -40,8 +42,7 @@ def estimate_rows(stored: Stored) -> list[EstimateRow]:
     values, low, high = (stored.by("estimator", STAGE, f"estimate{end}") for end in ("", "_low", "_high"))
     recommended = stored.text(STAGE, "recommended")
     return [
-        EstimateRow(ESTIMATORS[name].label, value, low[name], high[name], name == recommended)
-        for name, value in values.items()
+        EstimateRow(LABELS[name], value, low[name], high[name], name == recommended) for name, value in values.items()
     ]
 
 
@@ -160,7 +161,7 @@ def region(test: Test, stored: Stored) -> Picture | None:
         joint_region([Region(test.id, np.array([e, ratio]), covariance)], fixed=fixed),
         f"region-{test.id}",
         f"{test.id}: joint region of e and the critical angle",
-        f"With the critical angle freed: e = {e:.4f}, α {ratio:.4f} times that given.",
+        f"Together: e = {e:.4f}, α {ratio:.4f} times that given.",
     )
 
 

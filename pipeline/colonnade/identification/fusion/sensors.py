@@ -1,21 +1,34 @@
-"""The reading of a transducer for a pose of the specimen, and how it changes with the pose."""
+"""Sensors on a specimen: what each reads of its pose or motion, and what they separate together."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Generic, Literal, TypeVar
 
 import numpy as np
 
 from colonnade.arrays import Array, Mask, Vector
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, Pose, pole_displacement, pole_position, rotation_matrix
+from colonnade.units.text import joined
+
+Kind = TypeVar("Kind", covariant=True)
 
 UNKNOWNS = ("rocking_angle", "slide", "out_of_plane_angle", "transverse_slide", "yaw", "uplift")
 """Of a pose, in the order in which they are looked for."""
 
 GRAZING = 1e-3
 """A line of sight that leaves a round side is followed no further than to this fraction of its radius from the rim."""
+
+LARGEST_AMPLIFICATION = 10.0
+"""An unknown is fitted if, together with the others, no standard error grows by more than this factor."""
+
+SIGHT = 0.1
+"""Share of a motion, of a rotation times the pole distance, that a transducer has to read in order to see it."""
+
+_ROTATIONS = ("rocking_angle", "out_of_plane_angle", "yaw")
+_WORDS = {name: name.replace("_", " ").replace("out of plane", "out-of-plane") for name in UNKNOWNS}
+_WORDS["rocking_angle"] = "angle"
 
 
 @dataclass(frozen=True)
@@ -53,25 +66,53 @@ class Transducer:
 
 
 @dataclass(frozen=True)
-class _Carried:
-    """A pose as the transducers see it: rotation (3, 3, n), the active pole at rest (3,) and moved (3, n)."""
+class Gyroscope:
+    """An angular velocity about `direction`, right-handed; it turns with the specimen."""
 
-    rotation: Array
-    pole: Array
-    moved_pole: Array
-
-    def carry(self, at: Array) -> Array:
-        """Bring a material point to its place, shape (3, n)."""
-        return np.asarray(self.moved_pole + np.einsum("ijn,j->in", self.rotation, at - self.pole))
+    direction: Vector
 
 
 @dataclass(frozen=True)
-class _Reading:
-    """A reading (n,) and its rate of change with the velocity of the pole and with the rotation about it, (3, n)."""
+class Accelerometer:
+    """
+    An accelerometer on the specimen at `at` (m, specimen frame at rest), along `direction`; it turns with the specimen.
 
-    value: Array
-    force: Array
-    moment: Array
+    Notes
+    -----
+    It senses specific force Rᵀ(a + g ẑ): at rest, gravity upwards.
+    """
+
+    direction: Vector
+    at: Vector
+
+
+@dataclass(frozen=True)
+class Readings(Generic[Kind]):
+    """
+    What the sensors of one kind read.
+
+    Attributes
+    ----------
+    sensors : list of length m
+    values : ndarray, shape (m, n)
+        Changes from rest, SI; NaN where missing.
+    noise, cutoff_hz : ndarray, shape (m,)
+        Standard deviation after the low-pass, and its cut-off.
+    """
+
+    sensors: list[Kind]
+    values: Array
+    noise: Array
+    cutoff_hz: Array
+
+    def white(self, interval: float) -> Array:
+        """Noise of each sample were it white: what integration and smoothing have to count with."""
+        return self.noise / np.sqrt(np.minimum(2 * self.cutoff_hz * interval, 1.0))
+
+    def only(self, chosen: Mask) -> Readings[Kind]:
+        """Those of some of the sensors."""
+        sensors = [each for each, is_chosen in zip(self.sensors, chosen, strict=True) if is_chosen]
+        return Readings(sensors, self.values[chosen], self.noise[chosen], self.cutoff_hz[chosen])
 
 
 def predict(
@@ -111,11 +152,16 @@ def predict(
     to_ground = to_table if base is None else to_table + base
     spins, speeds = _rates(pose, pole[0])
     readings, columns = [], []
-    for transducer in transducers:
-        carried = _Carried(turn, pole, to_ground if transducer.on_ground else to_table)
-        found = _read(transducer, carried, outline)
-        readings.append(found.value)
-        columns.append(np.einsum("kin,in->kn", speeds, found.force) + np.einsum("kin,in->kn", spins, found.moment))
+    for each in transducers:
+        moved = to_ground if each.on_ground else to_table
+        if each.sensing == "angle":
+            reading, moment = _angle(np.array(each.direction), turn)
+            work = np.zeros_like(moment[0])
+        else:
+            reading, place, force = _read(each, turn, pole, moved, outline)
+            moment, work = np.cross(place - moved, force, axis=0), np.einsum("kin,in->kn", speeds, force)
+        readings.append(reading)
+        columns.append(work + np.einsum("kin,in->kn", spins, moment))
     return np.array(readings), np.array(columns)
 
 
@@ -136,55 +182,42 @@ def _rates(pose: Pose, reach: float) -> tuple[Array, Array]:
     return spins, speeds
 
 
-def _read(transducer: Transducer, carried: _Carried, outline: Outline) -> _Reading:
+def _read(
+    transducer: Transducer, turn: Array, pole: Array, moved: Array, outline: Outline
+) -> tuple[Array, Array, Array]:
+    """Reading, the place where it is taken, and its rate with the velocity of that place."""
     at, direction = np.array(transducer.at), np.array(transducer.direction)
-    if transducer.sensing == "angle":
-        return _angle(direction, carried)
-    if transducer.sensing == "wire":
-        return _wire(at, direction, np.array(transducer.anchor), carried)
+    place = moved + np.einsum("ijn,j->in", turn, at - pole)
     if transducer.sensing == "point":
-        place = carried.carry(at)
-        force = np.broadcast_to(direction[:, None], place.shape)
-        return _at_place(direction @ (place - at[:, None]), place, force, carried)
+        return direction @ (place - at[:, None]), place, np.broadcast_to(direction[:, None], place.shape)
+    if transducer.sensing == "wire":
+        # Its change of length, counted positive where the point moves along the direction.
+        anchor = np.array(transducer.anchor)
+        sign, span = np.copysign(1.0, (at - anchor) @ direction), place - anchor[:, None]
+        length = np.sqrt((span**2).sum(axis=0))
+        return sign * (length - np.linalg.norm(at - anchor)), place, sign * span / length
     if transducer.normal is not None:
-        return _face(at, direction, np.array(transducer.normal), carried)
-    return _round_side(at, direction, carried, outline)
+        facing = np.einsum("ijn,j->in", turn, np.array(transducer.normal))
+        way = (facing * (place - at[:, None])).sum(axis=0) / (direction @ facing)
+        reading = way
+    else:
+        way, reading, facing = _round_side(at, direction, turn, pole, moved, outline)
+    return reading, at[:, None] + way * direction[:, None], facing / (direction @ facing)
 
 
-def _at_place(value: Array, place: Array, force: Array, carried: _Carried) -> _Reading:
-    return _Reading(value, force, np.cross(place - carried.moved_pole, force, axis=0))
-
-
-def _wire(at: Array, direction: Array, anchor: Array, carried: _Carried) -> _Reading:
-    """Change of length, counted positive where the point moves along the direction."""
-    place = carried.carry(at)
-    span = place - anchor[:, None]
-    length = np.sqrt((span**2).sum(axis=0))
-    sign = 1.0 if (at - anchor) @ direction >= 0 else -1.0
-    return _at_place(sign * (length - np.linalg.norm(at - anchor)), place, sign * span / length, carried)
-
-
-def _face(at: Array, direction: Array, normal: Array, carried: _Carried) -> _Reading:
-    """Way along the fixed line of sight to the moved plane."""
-    facing = np.einsum("ijn,j->in", carried.rotation, normal)
-    along = direction @ facing
-    way = (facing * (carried.carry(at) - at[:, None])).sum(axis=0) / along
-    return _at_place(way, at[:, None] + way * direction[:, None], facing / along, carried)
-
-
-def _round_side(at: Array, direction: Array, carried: _Carried, outline: Outline) -> _Reading:
-    """Way along the fixed line of sight to the moved cylinder or cone, in the specimen's own frame."""
-    start = np.einsum("jin,jn->in", carried.rotation, at[:, None] - carried.moved_pole) + carried.pole[:, None]
-    ray = np.einsum("jin,j->in", carried.rotation, direction)
-    hit_at_rest = _way_to_side(at[:, None], direction[:, None], direction, at, outline)[0]
+def _round_side(
+    at: Array, direction: Array, turn: Array, pole: Array, moved: Array, outline: Outline
+) -> tuple[Array, Array, Array]:
+    """Way along the line of sight to the moved cylinder or cone, the reading (NaN beside it), and the normal there."""
+    # In the specimen's own frame.
+    start = np.einsum("jin,jn->in", turn, at[:, None] - moved) + pole[:, None]
+    ray = np.einsum("jin,j->in", turn, direction)
     way, missed = _way_to_side(start, ray, direction, at, outline)
     hit = start + way * ray
     radius = outline.half_width + outline.taper * hit[2]
-    facing = np.einsum("ijn,jn->in", carried.rotation, np.array([hit[0], hit[1], -outline.taper * radius]))
-    reading = _at_place(
-        way - hit_at_rest, at[:, None] + way * direction[:, None], facing / (direction @ facing), carried
-    )
-    return _Reading(np.where(missed, np.nan, reading.value), reading.force, reading.moment)
+    facing = np.einsum("ijn,jn->in", turn, np.array([hit[0], hit[1], -outline.taper * radius]))
+    at_rest = _way_to_side(at[:, None], direction[:, None], direction, at, outline)[0]
+    return way, np.where(missed, np.nan, way - at_rest), facing
 
 
 def _way_to_side(start: Array, ray: Array, direction: Array, at: Array, outline: Outline) -> tuple[Array, Mask]:
@@ -200,16 +233,184 @@ def _way_to_side(start: Array, ray: Array, direction: Array, at: Array, outline:
     return -constant / (half + (root if facing >= 0 else -root)), discriminant < 0
 
 
-def _angle(axis: Array, carried: _Carried) -> _Reading:
+def _angle(axis: Array, turn: Array) -> tuple[Array, Array]:
     """Part of the rotation vector along the axis; its rate is that of the inverse left Jacobian of SO(3)."""
-    turn = carried.rotation
     skew = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / 2
-    sine = np.sqrt((skew**2).sum(axis=0))
-    size = np.arctan2(sine, (np.trace(turn) - 1) / 2)
-    small = size < 1e-4
-    safe = np.where(small, 1.0, size)
-    vector = skew * np.where(small, 1.0, safe / np.where(small, 1.0, sine))
-    curvature = np.where(small, 1 / 12, 1 / safe**2 - (1 + np.cos(safe)) / (2 * safe * np.where(small, 1.0, sine)))
+    size = np.arctan2(np.sqrt((skew**2).sum(axis=0)), (np.trace(turn) - 1) / 2)
+    vector = skew / np.sinc(size / np.pi)
+    half = np.maximum(size, 1e-4) / 2
+    curvature = (1 - half / np.tan(half)) / (4 * half**2)
     once = np.cross(vector, axis[:, None], axis=0)
     moment = axis[:, None] + once / 2 + curvature * np.cross(vector, once, axis=0)
-    return _Reading(axis @ vector, np.zeros_like(vector), moment)
+    return axis @ vector, moment
+
+
+def specific_force(
+    accelerometers: list[Accelerometer], pose: Pose, base: Array, interval: float, block: Block
+) -> Array:
+    """
+    Specific force of accelerometers for a motion, as changes from rest.
+
+    Parameters
+    ----------
+    accelerometers : list of Accelerometer, length m
+    pose : Pose
+        Of n samples, smooth enough to be differentiated twice.
+    base : ndarray, shape (3, n)
+        Acceleration of the table, m/s².
+    interval : float
+        s.
+    block : Block
+
+    Returns
+    -------
+    readings : ndarray, shape (m, n)
+        m/s²; NaN at the first and last sample.
+
+    Notes
+    -----
+    The place of each accelerometer over time is differentiated twice, which holds every tangential, centripetal and
+    sliding part, and turned into the specimen's axes together with gravity.
+    """
+    side = np.where(pose.angle < 0, -1.0, 1.0)
+    turn = rotation_matrix(pose)
+    pole = np.zeros((3, side.size))
+    pole[0] = side * pole_position(block)
+    moved = pole + pole_displacement(pose, side, block)
+    readings = []
+    for each in accelerometers:
+        place = moved + np.einsum("ijn,jn->in", turn, np.array(each.at)[:, None] - pole)
+        acceleration = np.full_like(place, np.nan)
+        acceleration[:, 1:-1] = np.diff(place, 2, axis=1) / interval**2
+        acceleration += base
+        acceleration[2] += block.gravity
+        sensed = np.einsum("jin,jn->in", turn, acceleration)
+        readings.append(np.array(each.direction) @ sensed - block.gravity * each.direction[2])
+    return np.array(readings).reshape(len(accelerometers), side.size)
+
+
+def angular_velocity(gyroscopes: list[Gyroscope], pose: Pose, interval: float) -> Array:
+    """
+    Angular velocity in the specimen's axes for a motion, shape (m, n), rad/s.
+
+    Notes
+    -----
+    Of R₋ᵀR₊ over two samples, whose skew part is the rotation between them to the second order of the interval.
+    """
+    turn = rotation_matrix(pose)
+    between = np.einsum("jin,jkn->ikn", turn[:, :, :-2], turn[:, :, 2:])
+    rate = np.full((3, pose.angle.size), np.nan)
+    skew = np.array([between[2, 1] - between[1, 2], between[0, 2] - between[2, 0], between[1, 0] - between[0, 1]])
+    rate[:, 1:-1] = skew / (4 * interval)
+    return np.array([np.array(each.direction) @ rate for each in gyroscopes]).reshape(len(gyroscopes), pose.angle.size)
+
+
+class UnseenRotationError(ValueError):
+    """The transducers on a specimen do not see its rotation; the message says what would."""
+
+
+@dataclass(frozen=True)
+class Separation:
+    """
+    What is fitted.
+
+    Attributes
+    ----------
+    unknowns : tuple of str
+        Of `UNKNOWNS`, in that order; the rocking angle always.
+    designs : ndarray, shape (2, m, k)
+        Derivatives of the readings by the unknowns at rest, about the pole of θ < 0 and of θ > 0.
+    text : str
+        What is separated and what is not, for the report.
+    """
+
+    unknowns: tuple[str, ...]
+    designs: Array
+    text: str
+
+
+def separate(transducers: list[Transducer], sigma: Array, block: Block, outline: Outline) -> Separation:
+    """
+    Decide which unknowns of a pose are fitted.
+
+    Parameters
+    ----------
+    transducers : list of Transducer, length m
+    sigma : ndarray, shape (m,)
+        Standard deviations of the readings, m or rad.
+    block : Block
+    outline : Outline
+
+    Returns
+    -------
+    separation : Separation
+
+    Raises
+    ------
+    UnseenRotationError
+        A ValueError, if no transducer measures the rotation about both poles.
+
+    Notes
+    -----
+    Unknowns are taken one after the other, each where it is seen and the design about either pole keeps all of them
+    apart; what is left out counts as zero. Uplift of the pole takes two transducers that look along z: a single one
+    with others is a check of the angle rather than a measurement of bounce.
+    """
+    designs = design_at_rest(transducers, block, outline)
+    sizes = np.array([block.pole_distance if name in _ROTATIONS else 1.0 for name in UNKNOWNS])
+    seen_by = (np.abs(designs) > SIGHT * sizes).any(axis=0).sum(axis=0)
+    _refuse_unseen(designs[:, :, 0])
+    fitted: list[int] = [0]
+    mixed: list[int] = []
+    for index in (each for each in range(1, len(UNKNOWNS)) if seen_by[each]):
+        enough = seen_by[index] > 1 or UNKNOWNS[index] != "uplift"
+        is_fitted = enough and is_separated(designs[:, :, [*fitted, index]], sigma)
+        (fitted if is_fitted else mixed).append(index)
+    unseen = [index for index in range(1, len(UNKNOWNS)) if not seen_by[index]]
+    names = tuple(UNKNOWNS[index] for index in fitted)
+    return Separation(names, designs[:, :, fitted], _text(names, mixed, unseen, transducers))
+
+
+def design_at_rest(transducers: list[Transducer], block: Block, outline: Outline) -> Array:
+    """Derivatives of readings at rest by all unknowns, about the pole of θ < 0 and of θ > 0, shape (2, m, 6)."""
+    rest = Pose(*np.zeros((len(UNKNOWNS), 1)))
+    return np.array([predict(transducers, rest, side, block, outline)[1][..., 0] for side in (-1.0, 1.0)])
+
+
+def is_separated(designs: Array, sigma: Array) -> bool:
+    """Whether columns (2, m, k) are independent enough about either pole; sigma is infinite of a missing reading."""
+    for design in designs / sigma[:, None]:
+        lengths = np.sqrt((design**2).sum(axis=0))
+        if not lengths.all():
+            return False
+        scaled = design / lengths
+        correlation = scaled.T @ scaled
+        is_singular = np.linalg.eigvalsh(correlation)[0] < 1e-9
+        if is_singular or np.sqrt(np.linalg.inv(correlation).diagonal().max()) >= LARGEST_AMPLIFICATION:
+            return False
+    return True
+
+
+def _refuse_unseen(rotation: Array) -> None:
+    seen = np.asarray((np.abs(rotation) > 0).any(axis=1))
+    if not seen.any():
+        raise UnseenRotationError(
+            "No transducer measures the rotation: each is at the height of the base, or points across the plane. Add "
+            "a displacement transducer above the base, with a direction along x"
+        )
+    if not seen.all():
+        raise UnseenRotationError(
+            f"No transducer measures the rotation at θ {'>' if seen[0] else '<'} 0: each is on the edge that the "
+            "specimen then rocks about. Add a vertical one on the other edge, or one above the base along x"
+        )
+
+
+def _text(names: tuple[str, ...], mixed: list[int], unseen: list[int], transducers: list[Transducer]) -> str:
+    fitted = f"{_WORDS[names[0]]} only" if len(names) == 1 else joined([_WORDS[name] for name in names])
+    kind = "transducer" if any(each.sensing == "angle" for each in transducers) else "displacement transducer"
+    text = f"{fitted}, from {f'one {kind}' if len(transducers) == 1 else f'{len(transducers)} {kind}s'}"
+    others, missed = ([_WORDS[UNKNOWNS[index]] for index in each] for each in (mixed, unseen))
+    if others:
+        it, verb = "it" if len(names) == 1 else "these", "is" if len(others) == 1 else "are"
+        text += f"; {joined(others)} cannot be separated from {it} and {verb} taken as zero"
+    return f"{text}; no transducer measures {joined(missed, 'or')}" if missed else text

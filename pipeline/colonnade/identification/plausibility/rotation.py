@@ -10,8 +10,8 @@ import numpy as np
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
-from colonnade.identification.plausibility.scale import UNKNOWN_SCALE, Scale, scale_of
-from colonnade.signals.stretches import filled_in
+from colonnade.identification.plausibility.scale import UNKNOWN_SCALE, Scale, cause, scale_of
+from colonnade.signals.samples import filled_in
 
 SMALL = 0.05
 """rad; slope of a transducer's reading over the angle is taken between ± this."""
@@ -24,6 +24,12 @@ AT_REST = 3.0
 
 ELSEWHERE = 0.1
 """... which is less than this share of its largest angle away."""
+
+
+def lever(angles: Array, response: Array) -> float:
+    """Give the slope about rest of what a transducer reads (m or rad) over the angle (rad)."""
+    low, high = np.interp((-SMALL, SMALL), angles, response)
+    return float(high - low) / (2 * SMALL)
 
 
 @dataclass(frozen=True)
@@ -67,13 +73,7 @@ class Rotation:
     @property
     def levers(self) -> Array:
         """Reading over angle about rest, shape (m,)."""
-        return np.array([self.lever(self.angles, response) for response in self.responses])
-
-    @staticmethod
-    def lever(angles: Array, response: Array) -> float:
-        """Give the slope about rest of what a transducer reads (m or rad) over the angle (rad)."""
-        low, high = np.interp((-SMALL, SMALL), angles, response)
-        return float(high - low) / (2 * SMALL)
+        return np.array([lever(self.angles, response) for response in self.responses])
 
     def measures_angle(self, index: int) -> bool:
         """Whether one is an inclinometer."""
@@ -106,20 +106,17 @@ class Rotation:
         fine = scale_of(interval, angle, noise / rough.value, acceleration, block, blur=self.blur)
         return fine.times(rough.value)
 
+    def cause(self, index: int, scale: float) -> str:
+        """Probable cause of the scale of one."""
+        return cause(scale, "angle" if self.measures_angle(index) else "displacement")
+
     def only(self, chosen: Sequence[int]) -> Rotation:
         """Some of them."""
         picked = list(chosen)
-        return replace(
-            self,
-            names=tuple(self.names[index] for index in picked),
-            readings=self.readings[picked],
-            responses=self.responses[picked],
-            noise=self.noise[picked],
-            gains=self.gains[picked],
-            quantities=tuple(self.quantities[index] for index in picked) if self.quantities else (),
-            refixed=None if self.refixed is None else self.refixed[picked],
-            flagged=None if self.flagged is None else self.flagged[picked],
-        )
+        arrays = ("readings", "responses", "noise", "gains", "refixed", "flagged")
+        of_each = {name: values[picked] for name in arrays if (values := getattr(self, name)) is not None}
+        quantities = tuple(self.quantities[index] for index in picked) if self.quantities else ()
+        return replace(self, names=tuple(self.names[index] for index in picked), quantities=quantities, **of_each)
 
     def exchanged(self, first: int, second: int, *, with_gains: bool) -> Rotation:
         """The same with the readings of two exchanged: as recorded, or with the gains that made them."""

@@ -1,17 +1,48 @@
-"""The scale of a transducer's rotation relative to the equation of motion, from its record alone."""
+"""How many times too large a record is: by the equation of motion, and the mistake that a factor points to."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import isfinite, log
 
 import numpy as np
 import scipy
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
-from colonnade.identification.plausibility.factors import STANDING
-from colonnade.signals.stretches import filled_in
+from colonnade.findings import Finding, serious
+from colonnade.signals.samples import filled_in
+
+LOOSE = 1.5
+"""A scale within this factor of one is as expected: dimensions, friction and noise are in it."""
+
+CLOSE = 1.12
+"""A scale within this factor of a known one is a sign of it."""
+
+STANDING = 8.0
+"""Times its noise below which a channel does not move."""
+
+DEAD = 0.1
+"""Share of what others give below which a channel is dead."""
+
+MISLEADING = 0.1
+"""Relative departure of a scale from which on results are wrong."""
+
+UNKNOWN = "look at its gain and unit"
+"""Cause of a scale that is a sign of nothing."""
+
+_LENGTH = ((25.4, "inches read as mm, or the reverse"), (2.54, "inches read as cm, or the reverse"))
+_CAUSES = {
+    "acceleration": ((9.80665, "g read as m/s² or the reverse, or a gain wrong by a factor of 10"),),
+    "displacement": ((10.0, "a gain wrong by a factor of 10, or cm read as mm"), *_LENGTH),
+    "angle": ((57.29578, "degrees read as radians, or the reverse"), (10.0, "a gain wrong by a factor of 10")),
+}
+_EVERY = (
+    (100.0, "a gain wrong by a factor of 100, or cm read as m, or Gal as m/s²"),
+    (1000.0, "a gain wrong by a factor of 1000, or mm read as m, or mV as V"),
+    (10.0, "a gain wrong by a factor of 10"),
+)
 
 WINDOW = 0.4
 """Length over which the equation of motion is held against the record, over p: shorter than all arcs that count."""
@@ -46,6 +77,35 @@ UNEXPLAINED = 0.5
 STEPS = 12
 LARGEST_STEP = 2.0
 """Factor by which a step changes the scale at most."""
+
+
+def as_expected(scale: float) -> bool:
+    """Whether a scale is one, as far as such a comparison shows; its sign does not count."""
+    return isfinite(scale) and scale != 0 and abs(log(abs(scale))) < log(LOOSE)
+
+
+def cause(scale: float, quantity: str) -> str:
+    """
+    Probable cause of a scale.
+
+    Examples
+    --------
+    >>> cause(0.101, "displacement"), cause(3.3, "angle")
+    ('a gain wrong by a factor of 10, or cm read as mm', 'look at its gain and unit')
+    """
+    for factor, words in (*_CAUSES.get(quantity, ()), *_EVERY):
+        if abs(abs(log(abs(scale))) - log(factor)) < log(CLOSE):
+            return words
+    return UNKNOWN
+
+
+def dead(still: str, shown: float, due: float, unit: str, by: str) -> Finding:
+    """Say that a channel stands still (RMS in a unit) although others, `by`, give more."""
+    return serious(
+        "dead channel",
+        f"channel {still} hardly moves ({shown:.2g} {unit} RMS), although {by} would give {due:.2g} {unit}: it is "
+        "dead, or its gain is far too small. Check cable and sensor",
+    )
 
 
 @dataclass(frozen=True)
@@ -87,6 +147,11 @@ class Scale:
     def differs(self) -> bool:
         """Whether it is known, and not one."""
         return self.is_known and abs(self.value - 1) > max(CALIBRATED * self.value, SURE * self.error)
+
+    @property
+    def misleads(self) -> bool:
+        """Whether it makes results wrong."""
+        return abs(log(abs(self.value))) > log(1 + MISLEADING)
 
     @property
     def base_is_known(self) -> bool:
@@ -149,12 +214,14 @@ def scale_of(
     freed, freed_errors, left = least_squares(bend / value, [turning, *columns], within, independent)
     if left > UNEXPLAINED * float(np.std(bend[within])) / value:
         return UNKNOWN_SCALE
-    squared, is_shaken = max(float(freed[0]), 1e-9), acceleration is not None
+    squared = max(float(freed[0]), 1e-9)
+    shaken = (found, errors) if acceleration is not None else np.full((2, 2), np.nan)
+    base, base_error = (float(value * each[1]) for each in shaken)
     return Scale(
         value,
         float(value * errors[0]),
-        base=float(value * found[1]) if is_shaken else np.nan,
-        base_error=float(value * errors[1]) if is_shaken else np.nan,
+        base,
+        base_error,
         rate=squared**0.5,
         rate_error=float(freed_errors[0]) / 2,
         without_rate=value * (1 + float(freed[1]) / squared),

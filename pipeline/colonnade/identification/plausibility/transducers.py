@@ -1,8 +1,9 @@
-"""Whether transducers on a rocking specimen agree with each other, with the table and with the equation of motion."""
+"""Whether transducers agree: with each other, the table, the equation of motion, and themselves in the last test."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from math import cos, log, tan
 
 import numpy as np
@@ -10,12 +11,10 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.findings import Finding, serious, warning
-from colonnade.identification.plausibility.factors import DEAD, MISLEADING, STANDING, UNKNOWN, as_expected, cause, dead
+from colonnade.identification.plausibility.mistakes import mistakes
 from colonnade.identification.plausibility.rotation import Rotation
-from colonnade.identification.plausibility.scale import SURE, Scale
-from colonnade.identification.plausibility.stuck import stuck
-from colonnade.identification.plausibility.undone import undone
-from colonnade.signals.stretches import filled_in
+from colonnade.identification.plausibility.scale import DEAD, STANDING, SURE, UNKNOWN, Scale, as_expected, dead
+from colonnade.signals.samples import filled_in
 
 ALIKE = 0.05
 """Relative difference up to which scales are one."""
@@ -31,6 +30,18 @@ PLAIN_UNITS = {1.0: "m", 1e-2: "cm", 1e-3: "mm", 1e-6: "µm", 0.0254: "inches"}
 
 FOLLOWS = 0.9
 """Correlation with which one transducer turns with another."""
+
+NOISE_FACTOR = 4.0
+"""Noise that differs by more than this between two tests comes from another gain, cable or filter."""
+
+STILL = 3.0
+"""A channel that moves by less than this many times its noise does not move."""
+
+ALIVE = 20.0
+"""A channel that moves by more than this many times its noise moves."""
+
+WANDERED = 0.25
+"""Of the largest motion of both tests: a zero that shifts by more wandered."""
 
 
 def suspicions(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> list[Finding]:
@@ -57,16 +68,11 @@ def suspicions(interval: float, rotation: Rotation, acceleration: Array | None, 
     """
     scales = rotation.scales(interval, acceleration, block)
     known = [index for index, scale in enumerate(scales) if scale.is_known]
-    if mistakes := _mistakes(interval, rotation, scales, acceleration, block):
-        return mistakes
+    if found := mistakes(interval, rotation, scales, acceleration, block):
+        return found
     if not known:
         return []
-    right = [index for index in known if not scales[index].differs]
-    return [
-        *_gains(rotation, scales, known, block),
-        *_dead(rotation, scales, right),
-        *_signs(rotation, scales, known),
-    ]
+    return [*_gains(rotation, scales, known, block), *_dead(rotation, scales), *_signs(rotation, scales, known)]
 
 
 def base_scale(interval: float, rotation: Rotation, acceleration: Array, block: Block) -> float | None:
@@ -77,22 +83,12 @@ def base_scale(interval: float, rotation: Rotation, acceleration: Array, block: 
     """
     scales = rotation.scales(interval, acceleration, block)
     found = [
-        scale.value / scale.base
-        for scale in scales
-        if scale.is_known and scale.base_is_known and as_expected(scale.value)
+        each.value / each.base for each in scales if each.is_known and each.base_is_known and as_expected(each.value)
     ]
-    if not found or _mistakes(interval, rotation, scales, acceleration, block):
+    if not found or mistakes(interval, rotation, scales, acceleration, block):
         return None
     # Transducers that turn against each other do not show the sign; see `suspicions`.
     return float(np.median(np.abs(found))) * (-1.0 if max(found) < 0 else 1.0)
-
-
-def _mistakes(
-    interval: float, rotation: Rotation, scales: Sequence[Scale], acceleration: Array | None, block: Block
-) -> list[Finding]:
-    """What has to be mended before a scale means anything."""
-    mistake = undone(interval, rotation, acceleration, block)
-    return [mistake] if mistake else stuck(interval, rotation, scales, acceleration, block)
 
 
 def _gains(rotation: Rotation, scales: Sequence[Scale], known: list[int], block: Block) -> list[Finding]:
@@ -105,27 +101,19 @@ def _gains(rotation: Rotation, scales: Sequence[Scale], known: list[int], block:
         return [_of_all(rotation, known, common, block)]
     others = [rotation.names[index] for index in known if index not in wrong]
     shown = f", and that {', '.join(others)} {'shows' if len(others) == 1 else 'show'}" if others else ""
-    return [
-        _weighted(
-            "gain",
-            scales[index],
-            f"channel {rotation.names[index]} shows {scales[index].value:.3g} times the rotation that the equation of "
-            f"motion gives{shown}: {_why(rotation, index, scales[index].value)}",
-            follows=("unit",),
-        )
-        for index in wrong
-    ]
+    found = []
+    for index in wrong:
+        value = scales[index].value
+        text = f"channel {rotation.names[index]} shows {value:.3g} times the rotation that the equation of motion gives"
+        build = serious if scales[index].misleads else warning
+        found.append(build("gain", f"{text}{shown}: {_why(rotation, index, value)}", follows=("unit",)))
+    return found
 
 
 def _is_near(scale: Scale, value: float) -> bool:
     """Whether a scale may be another one, and rather that than one."""
     departure = abs(scale.value / value - 1)
     return departure < max(ALIKE, SURE * scale.error / scale.value) and departure < abs(scale.value - 1)
-
-
-def _weighted(kind: str, scale: Scale, text: str, *, follows: tuple[str, ...]) -> Finding:
-    build = serious if abs(log(abs(scale.value))) > log(1 + MISLEADING) else warning
-    return build(kind, text, follows=follows)
 
 
 def _of_all(rotation: Rotation, wrong: list[int], scale: Scale, block: Block) -> Finding:
@@ -149,29 +137,27 @@ def _of_all(rotation: Rotation, wrong: list[int], scale: Scale, block: Block) ->
         f"for {2e3 * half:.3g} mm or a height × {high:.3g}"
     )
     kind, causes = "gain", (gains, sizes, "another sampling rate")
+    follows: tuple[str, ...] = ("unit",)
     is_clock = abs(log(max(scale.without_rate, 1e-9))) < abs(log(value)) / 2
+    likeliest = ""
     if is_clock and abs(scale.rate - 1) > max(SURE * scale.rate_error, LEAST_RATE):
         clock = f"a sampling rate × {1 / scale.rate:.3g} (all times change alike), or all sizes × {scale.rate**-2:.3g}"
         kind, causes = "clock", (clock, gains, sizes)
-    elif not 1 / FAR < value < FAR or _cause(rotation, wrong[0], value) != UNKNOWN:
+    elif not 1 / FAR < value < FAR or rotation.cause(wrong[0], value) != UNKNOWN:
         end = f"{', in all of them' if several else ''}; or the specimen's dimensions, or the sampling rate"
-        return _weighted("gain", scale, text + _why(rotation, wrong[0], value) + end, follows=("unit", "specimen"))
+        likeliest, follows = _why(rotation, wrong[0], value) + end, ("unit", "specimen")
     elif scale.base_is_known and scale.base > 0:
         if abs(log(scale.base)) < abs(log(scale.base / value)):
             kind, causes = "specimen", (sizes, f"{gains}, and that of the table's acceleration", causes[2])
         else:
             causes = (gains, f"a sampling rate × {scale.base**-0.5:.3g}", f"{sizes}, and another table's acceleration")
-    likeliest = f"{causes[0]}; or {causes[1]}; or {causes[2]}"
-    return _weighted(kind, scale, f"{text}{likeliest}, would make them agree", follows=("unit",))
-
-
-def _cause(rotation: Rotation, index: int, scale: float) -> str:
-    return cause(scale, "angle" if rotation.measures_angle(index) else "displacement")
+    likeliest = likeliest or f"{'; or '.join(causes)}, would make them agree"
+    return (serious if scale.misleads else warning)(kind, text + likeliest, follows=follows)
 
 
 def _why(rotation: Rotation, index: int, scale: float) -> str:
     """Probable cause of a scale; an odd one of a channel that is given no gain is that of a transducer in volts."""
-    known, is_angle = _cause(rotation, index, scale), rotation.measures_angle(index)
+    known, is_angle = rotation.cause(index, scale), rotation.measures_angle(index)
     unit = PLAIN_UNITS.get(float(rotation.gains[index]))
     if known != UNKNOWN or not 1 / FAR < scale < FAR:
         is_plain = known == UNKNOWN and unit and not is_angle
@@ -181,21 +167,19 @@ def _why(rotation: Rotation, index: int, scale: float) -> str:
     return f"its gain × {1 / scale:.3g}{'' if is_angle else place} would make them agree"
 
 
-def _dead(rotation: Rotation, scales: Sequence[Scale], right: list[int]) -> list[Finding]:
+def _dead(rotation: Rotation, scales: Sequence[Scale]) -> list[Finding]:
     """Name transducers that stand still while others turn."""
+    right = [index for index, scale in enumerate(scales) if scale.is_known and not scale.differs]
     if not right:
         return []
-    levers = rotation.levers
+    levers, found = rotation.levers, []
     angle = np.median([filled_in(rotation.readings[index]) / levers[index] for index in right], axis=0)
-    others = ", ".join(rotation.names[index] for index in right)
-    found = []
+    by = f"the rotation measured by {', '.join(rotation.names[index] for index in right)}"
     for index, name in enumerate(rotation.names):
-        expected = float(np.std(levers[index] * angle))
-        shown = float(np.nanstd(rotation.readings[index]))
-        moves = expected > STANDING * max(rotation.noise[index], 1e-12)
-        if not scales[index].is_known and moves and shown < DEAD * expected:
-            by = f"the rotation measured by {others}"
-            found.append(dead(name, 1e3 * shown, 1e3 * expected, "mm", by))
+        due, shown = float(np.std(levers[index] * angle)), float(np.nanstd(rotation.readings[index]))
+        moves = due > STANDING * max(rotation.noise[index], 1e-12)
+        if not scales[index].is_known and moves and shown < DEAD * due:
+            found.append(dead(name, 1e3 * shown, 1e3 * due, "mm", by))
     return found
 
 
@@ -203,21 +187,27 @@ def _signs(rotation: Rotation, scales: Sequence[Scale], known: list[int]) -> lis
     """Name transducers that turn against the others, or all of them if they turn against the table."""
     sides = _sides(rotation, known)
     against = {index: scales[index].base < 0 for index in sides if scales[index].base_is_known}
-    if len(set(sides.values())) > 1:
-        return [_against_each_other(rotation, sides, against)]
+    wrong = "(`direction`, or the sign of the gain)"
+    groups = [[index for index in sides if sides[index] == side] for side in (1.0, -1.0)]
+    if all(groups):
+        # Wrong are those that turn against the table if that is known, else the fewer.
+        fewer, more = sorted(groups, key=len)
+        sure = len(fewer) < len(more)
+        if against:
+            fewer, sure = [index for index in sides if against.get(index)] or fewer, True
+            more = [index for index in sides if index not in fewer]
+        names, others = (", ".join(rotation.names[index] for index in group) for group in (fewer, more))
+        which = f"the sign of {names} is wrong" if sure else f"the sign of one of the two is wrong, {names} or {others}"
+        return [serious("sign", f"channel {names} turns opposite to {others}: {which} {wrong}")]
     if not against or not all(against.values()):
         return []
-    names = " and ".join(rotation.names[index] for index in sides)
-    channels, which = (
-        (f"channels {names} turn", "all of them") if len(sides) > 1 else (f"channel {names} turns", "this channel")
+    names, several = " and ".join(rotation.names[index] for index in sides), len(sides) > 1
+    channels = f"channels {names} turn" if several else f"channel {names} turns"
+    text = (
+        f"{channels} opposite to the table's acceleration: the sign of the table's acceleration is wrong, or that of "
+        f"{'all of them' if several else 'this channel'} {wrong}"
     )
-    return [
-        serious(
-            "sign",
-            f"{channels} opposite to the table's acceleration: the sign of the table's acceleration is wrong, or that "
-            f"of {which} (`direction`, or the sign of the gain)",
-        )
-    ]
+    return [serious("sign", text)]
 
 
 def _sides(rotation: Rotation, known: list[int]) -> dict[int, float]:
@@ -233,16 +223,68 @@ def _sides(rotation: Rotation, known: list[int]) -> dict[int, float]:
     return sides
 
 
-def _against_each_other(rotation: Rotation, sides: dict[int, float], against: dict[int, bool]) -> Finding:
-    """Name the wrong ones of two groups: those that turn against the table if that is known, else the fewer."""
-    groups = [[index for index in sides if sides[index] == side] for side in (1.0, -1.0)]
-    fewer, more = sorted(groups, key=len)
-    sure = len(fewer) < len(more)
-    if against:
-        fewer = [index for index in sides if against.get(index)] or fewer
-        more, sure = [index for index in sides if index not in fewer], True
-    names, others = (", ".join(rotation.names[index] for index in group) for group in (fewer, more))
-    which = f"the sign of {names} is wrong" if sure else f"the sign of one of the two is wrong, {names} or {others}"
-    return serious(
-        "sign", f"channel {names} turns opposite to {others}: {which} (`direction`, or the sign of the gain)"
-    )
+@dataclass(frozen=True)
+class ChannelState:
+    """
+    A channel in one test, in its own SI unit.
+
+    Attributes
+    ----------
+    zero : float
+        Reading at rest.
+    noise : float
+        Standard deviation at rest.
+    motion : float
+        Largest magnitude about the zero.
+    """
+
+    zero: float
+    noise: float
+    motion: float
+
+    @property
+    def is_still(self) -> bool:
+        """Whether it does not move."""
+        return self.motion <= STILL * self.noise
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether it moves beyond doubt."""
+        return self.motion > ALIVE * self.noise
+
+
+def changes(now: Mapping[str, ChannelState], before: Mapping[str, ChannelState], last: str) -> Iterator[Finding]:
+    """
+    Compare the channels of a test with those of the last test of the same set-up.
+
+    Parameters
+    ----------
+    now, before : mapping of str to ChannelState
+        By channel.
+    last : str
+        Id of the last test.
+
+    Yields
+    ------
+    finding : Finding
+    """
+    something_moves = any(state.is_alive for state in now.values())
+    for name in now.keys() & before.keys():
+        here, there = now[name], before[name]
+        if something_moves and here.is_still and there.is_alive:
+            yield serious(
+                "dead channel",
+                f"Channel {name} does not move, as it did in {last}, while others do. Check its cable and its core.",
+            )
+        elif there.noise > 0.0 and not 1 / NOISE_FACTOR < here.noise / there.noise < NOISE_FACTOR:
+            yield warning(
+                "gain",
+                f"The noise of channel {name} is {here.noise / there.noise:.2g} times that in {last}. "
+                "Was its gain, range or filter changed?",
+            )
+        elif abs(here.zero - there.zero) > WANDERED * max(here.motion, there.motion):
+            share = abs(here.zero - there.zero) / max(here.motion, there.motion)
+            yield warning(
+                "zero",
+                f"The zero of channel {name} moved since {last} by {share:.2g} times its largest motion. Was it moved?",
+            )

@@ -1,14 +1,25 @@
-"""Whether the table moves under a free vibration: the one rule for what drives identification and prediction."""
+"""What the table does: whether it moves under a free vibration, and the steady part of its sine."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
 
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
+from colonnade.signals.samples import stretches
 
 LEAST_MOTION = 0.003
 """Share of p α, the RMS change of the block's angular velocity by the base above which the table moves."""
+
+STEADY = 0.05
+"""Largest departure of the amplitude from its level, as a fraction, within the steady part."""
+
+FEWEST_CYCLES = 3
+"""A steady part is at least this many periods long."""
 
 
 def base_velocity(acceleration: ArrayLike, interval: float, block: Block) -> float:
@@ -54,3 +65,111 @@ def table_moves(acceleration: ArrayLike, interval: float, block: Block) -> bool:
     Above `LEAST_MOTION` the recorded acceleration drives identification and prediction; below it the table is at rest.
     """
     return base_velocity(acceleration, interval, block) > LEAST_MOTION
+
+
+@dataclass(frozen=True)
+class Forcing:
+    """
+    A steady sine.
+
+    Attributes
+    ----------
+    frequency : float
+        Hz.
+    amplitude, amplitude_spread : float
+        In the unit of the motion: of the fundamental over the steady part, and the standard deviation of its level
+        from period to period.
+    start, stop : float
+        s, of the steady part.
+    distortion : float
+        RMS of what is not the fundamental over that of the fundamental.
+    """
+
+    frequency: float
+    amplitude: float
+    amplitude_spread: float
+    start: float
+    stop: float
+    distortion: float
+
+    @property
+    def cycles(self) -> float:
+        """Length of the steady part in periods."""
+        return (self.stop - self.start) * self.frequency
+
+
+def fit_forcing(time: ArrayLike, motion: ArrayLike) -> Forcing | None:
+    """
+    Fit a sine to the steady part of a base motion.
+
+    Parameters
+    ----------
+    time, motion : array_like, shape (n,)
+        s, at equal steps; the motion in any unit. Samples that are not finite are taken as zero.
+
+    Returns
+    -------
+    forcing : Forcing or None
+        None if no stretch of `FEWEST_CYCLES` periods has an even amplitude.
+
+    Notes
+    -----
+    The first guess of the frequency is the highest line of the spectrum. The motion times exp(−2πi f t), averaged over
+    one period, is the complex amplitude at each instant: its modulus shows where the motion is steady, and the slope of
+    its phase there corrects the frequency. Amplitude and distortion are then by least squares.
+    """
+    times = np.asarray(time, dtype=np.float64)
+    values = np.nan_to_num(np.asarray(motion, dtype=np.float64))
+    if times.size < 16 or not np.any(values):
+        return None
+    interval = float(times[-1] - times[0]) / (times.size - 1)
+    frequency = _strongest_line(values - values.mean(), interval)
+    steady = slice(0, 0)
+    for _ in range(3):
+        samples = round(1 / (frequency * interval))
+        if samples < 4 or samples * FEWEST_CYCLES > times.size:
+            return None
+        turning = values * np.exp(-2j * np.pi * frequency * times)
+        level = 2 * (
+            scipy.ndimage.uniform_filter1d(turning.real, samples, mode="constant")
+            + 1j * scipy.ndimage.uniform_filter1d(turning.imag, samples, mode="constant")
+        )
+        steady = _steady_part(np.abs(level), samples)
+        if steady.stop - steady.start < FEWEST_CYCLES * samples:
+            return None
+        phase = np.unwrap(np.angle(level[steady]))
+        frequency += float(np.polyfit(times[steady] - times[steady.start], phase, 1)[0]) / (2 * np.pi)
+    return _fitted(times[steady], values[steady], np.abs(level[steady])[::samples], frequency)
+
+
+def _strongest_line(values: Array, interval: float) -> float:
+    """Frequency of the highest line of the spectrum, Hz; zero padding makes the lines four times as dense."""
+    size = 4 * values.size
+    spectrum = np.abs(np.fft.rfft(values * np.hanning(values.size), size))
+    return float(max(int(np.argmax(spectrum[1:])) + 1, 1) / (size * interval))
+
+
+def _steady_part(level: Array, samples: int) -> slice:
+    """Longest stretch on which the level stays within `STEADY` of its usual height, but for its ends."""
+    usual = float(np.median(level[level > 0.5 * level.max()]))
+    for _ in range(3):
+        near = np.abs(level - usual) <= STEADY * usual
+        starts, stops = stretches(near)
+        if not starts.size:
+            return slice(0, 0)
+        longest = int(np.argmax(stops - starts))
+        usual = float(np.median(level[starts[longest] : stops[longest]]))
+    # The level is an average over a period, and a ramp begins gently: half a period at either end is left out.
+    start, stop = int(starts[longest]) + samples // 2, int(stops[longest]) - samples // 2
+    return slice(start, stop) if stop - start > samples else slice(0, 0)
+
+
+def _fitted(time: Array, values: Array, levels: Array, frequency: float) -> Forcing:
+    angle = 2 * np.pi * frequency * (time - time[0])
+    design = np.column_stack((np.ones_like(angle), np.sin(angle), np.cos(angle)))
+    coefficients, *_ = np.linalg.lstsq(design, values, rcond=None)
+    amplitude = float(np.hypot(coefficients[1], coefficients[2]))
+    rest = values - design @ coefficients
+    deviation = float(np.std(levels, ddof=1)) if levels.size > 1 else 0.0
+    distortion = float(np.sqrt(2 * np.mean(rest**2))) / amplitude
+    return Forcing(frequency, amplitude, deviation, float(time[0]), float(time[-1]), distortion)

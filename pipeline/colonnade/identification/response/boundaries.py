@@ -143,34 +143,24 @@ def limit_misfit(boundaries: Iterable[Boundaries], frequency_ratio: ArrayLike, l
     misfit : Misfit or None
         Limit, linear between its Ω, minus the middle of each bracket; None if no frequency has both.
     """
+    middles = {each.frequency_ratio: middle for each in boundaries if (middle := each.overturning.middle) is not None}
     omega, computed = np.asarray(frequency_ratio, dtype=np.float64), np.asarray(limit, dtype=np.float64)
-    measured = [(each.frequency_ratio, each.overturning.middle) for each in boundaries]
-    differences = [
-        float(np.interp(at, omega, computed)) - middle
-        for at, middle in measured
-        if middle is not None and omega[0] <= at <= omega[-1]
-    ]
-    known = np.array([difference for difference in differences if np.isfinite(difference)])
-    if known.size == 0:
-        return None
-    return Misfit(float(known.mean()), float(np.sqrt((known**2).mean())), int(known.size))
+    differences = np.interp([*middles], omega, computed, left=np.nan, right=np.nan) - [*middles.values()]
+    known = differences[np.isfinite(differences)]
+    return Misfit(float(known.mean()), float(np.sqrt((known**2).mean())), known.size) if known.size else None
 
 
 def _of_group(group: list[MapPoint]) -> Boundaries:
-    still = [point.amplitude_ratio for point in group if point.outcome == "no-rocking"]
-    rocked = [point.amplitude_ratio for point in group if point.outcome == "rocking"]
-    fell = [point.amplitude_ratio for point in group if point.outcome == "overturned"]
-    rocking = Bracket.between(still, [*rocked, *fell])
-    overturning = Bracket.between(rocked or still, fell)
-    notes = []
-    for what, bracket in (("rocking", rocking), ("overturning", overturning)):
-        if bracket.exceptions:
-            amplitudes = ", ".join(f"{amplitude:.3g}" for amplitude in bracket.exceptions)
-            notes.append(f"{what} at A = {bracket.above:.3g}, but not at {amplitudes}")
-    if rocking.below is None:
-        notes.append("no test without rocking")
-    if rocking.above is None:
-        notes.append("no test with rocking")
-    if overturning.above is None:
-        notes.append("no test that overturned")
+    still, rocked, fell = (
+        [point.amplitude_ratio for point in group if point.outcome == outcome]
+        for outcome in ("no-rocking", "rocking", "overturned")
+    )
+    rocking, overturning = Bracket.between(still, [*rocked, *fell]), Bracket.between(rocked or still, fell)
+    notes = [
+        f"{what} at A = {bracket.above:.3g}, but not at {', '.join(f'{each:.3g}' for each in bracket.exceptions)}"
+        for what, bracket in (("rocking", rocking), ("overturning", overturning))
+        if bracket.exceptions
+    ]
+    sides = (rocking.below, "without rocking"), (rocking.above, "with rocking"), (overturning.above, "that overturned")
+    notes += [f"no test {what}" for side, what in sides if side is None]
     return Boundaries(sum(point.frequency_ratio for point in group) / len(group), rocking, overturning, tuple(notes))

@@ -51,14 +51,6 @@ class Response:
     misfit: Array = field(default_factory=lambda: np.empty(0))
     impacts_per_cycle: float = float("nan")
 
-    @property
-    def margin(self) -> float:
-        """How far the verdict is from another, as a difference of misfit; NaN without an order."""
-        if self.order is None:
-            return float("nan")
-        rivals = self.misfit if self.order == "irregular" else self.misfit[: self.order]
-        return float(np.abs(rivals - TOLERANCE).min())
-
 
 def response_order(
     time: ArrayLike,
@@ -122,14 +114,11 @@ def response_order(
     if times.size < 2:
         return Response(None, "No angle was measured.")
     start, stop = max(start, float(times[0])), min(stop, float(times[-1]))
-    cycles = int((stop - start) * frequency + 1e-6)
+    cycles = max(int((stop - start) * frequency + 1e-6), 0)
     if cycles < FEWEST_CYCLES:
-        return Response(
-            None,
-            f"The base motion is steady over {max(cycles, 0)} periods; at least {FEWEST_CYCLES} are needed.",
-        )
-    period = 1 / frequency
-    points = np.interp(stop - np.arange(cycles * POINTS, -1, -1) * (period / POINTS), times, angles)
+        reason = f"The base motion is steady over {cycles} periods; at least {FEWEST_CYCLES} are needed."
+        return Response(None, reason)
+    points = np.interp(stop - np.arange(cycles * POINTS, -1, -1) / (frequency * POINTS), times, angles)
     last = points[-FEWEST_CYCLES * POINTS :]
     if np.abs(last).max() <= threshold:
         return Response(None, "The specimen does not rock while the base motion is steady.")
@@ -141,10 +130,10 @@ def response_order(
         after = "every period" if order == 1 else f"every {order} periods"
         reason = f"The angle repeats {after} of the table; misfit {misfit[order - 1]:.2g}, {TOLERANCE:g} is allowed."
         return Response(order, reason, misfit, impacts)
-    best = int(np.argmin(misfit)) + 1
     reason = (
-        f"The angle repeats after none of 1 to {misfit.size} periods of the table; nearest after {best}, misfit "
-        f"{misfit[best - 1]:.2g}, {TOLERANCE:g} is allowed. It is irregular, or a transient that has not died out."
+        f"The angle repeats after none of 1 to {misfit.size} periods of the table; nearest after "
+        f"{np.argmin(misfit) + 1}, misfit {misfit.min():.2g}, {TOLERANCE:g} is allowed. It is irregular, or a "
+        "transient that has not died out."
     )
     return Response("irregular", reason, misfit, impacts)
 

@@ -1,4 +1,4 @@
-"""The outcome of a test from its measured angle: no rocking, rocking or overturned."""
+"""What a measured angle shows: the outcome of a test, its impacts and peak, and how the record ends."""
 
 from __future__ import annotations
 
@@ -8,14 +8,54 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.history import Outcome, amplitude
-from colonnade.signals.stretches import stretches
+from colonnade.dynamics.history import NO_ROCKING_RATIO, Outcome, amplitude
+from colonnade.findings import Finding, serious, warning
+from colonnade.identification.restitution.arcs import find_impacts
+from colonnade.signals.filters import lowpass
+from colonnade.signals.rest import drift, find_rest
+from colonnade.signals.samples import stretches
 
 HELD = 0.5
 """Shortest time, s, for which a specimen caught by its frame rests in it."""
 
 PLATEAU = 0.05
 """Half-width of a plateau as a fraction of its angle: a frame is soft, and a transducer near its range not linear."""
+
+NOISE_FACTOR = 6.0
+"""Standard errors of the angle below which a rotation may be noise, over records of some 10⁴ samples."""
+
+DRIFT_FACTOR = 1.5
+"""A specimen that stands has no angle: what differs between the rests before and after is the transducers' drift."""
+
+LARGEST_DRIFT = 0.02
+"""Fraction of α; a specimen that is further off at an end of its record is held tilted, or has overturned."""
+
+RETURNING, FURTHEST = 1.6, 2.0
+"""|θ|/α from which no block comes back; rad, beyond which it lies."""
+
+UPRIGHT = 0.02
+"""|θ|/α below which a specimen at rest stands: drifts and dust are in it."""
+
+LASTING = 0.05
+"""|θ|/α above which it matters that a record ends in motion."""
+
+SHAKEN = 0.1
+"""Of its peak acceleration, above which the table has not come to rest."""
+
+ROCKS_AT_MOST = 10.0
+"""Over p: angular frequency up to which a table rocks a block; above it a base derived from displacement is noise."""
+
+CYCLES = 3.0
+"""Over p: length of the end of a record on which small rocking shows its middle."""
+
+SMALL = 0.3
+"""|θ|/α of rocking whose period is shorter than that."""
+
+FEWEST_PASSES = 3
+"""Times that a specimen passes the angle at which it comes to rest, if that is its true zero."""
+
+LOST = ("end of the range", "dead channel")
+"""Kinds of findings of a transducer that lost the specimen."""
 
 
 @dataclass(frozen=True)
@@ -52,39 +92,30 @@ def judge(time: Array, angle: Array, block: Block, *, threshold: float, catch: f
     ratio = amplitude(angle, block)
     if not angle.size or np.abs(angle).max() <= threshold:
         return Verdict("no-rocking", np.nan)
-    caught = _held(time, angle, block, catch)
-    if caught is not None:
-        return Verdict("overturned", _passing(time, ratio, caught))
-    tail = time >= time[-1] - 0.02
-    slope = np.polyfit(time[tail], np.abs(angle[tail]), 1)[0] if tail.sum() > 1 else 0.0
-    # On a base at rest (linear model) |θ| − α + ω/p keeps its sign: outwards of the unstable equilibrium it falls.
-    beyond = float(np.mean(np.abs(angle[tail]) - block.critical_angle_at(angle[tail])))
-    if beyond + slope / block.p > 0:
-        return Verdict("overturned", _passing(time, ratio, time.size - 1))
-    return Verdict("rocking", np.nan)
+    fell = _held(time, angle, block, catch)
+    if fell is None:
+        tail = time >= time[-1] - 0.02
+        slope = np.polyfit(time[tail], np.abs(angle[tail]), 1)[0] if tail.sum() > 1 else 0.0
+        # On a base at rest (linear model) |θ| − α + ω/p keeps its sign: outwards of the unstable equilibrium it falls.
+        beyond = float(np.mean(np.abs(angle[tail]) - block.critical_angle_at(angle[tail])))
+        if not beyond + slope / block.p > 0:
+            return Verdict("rocking", np.nan)
+        fell = time.size - 1
+    return Verdict("overturned", _passing(time, ratio, fell))
 
 
 def _held(time: Array, angle: Array, block: Block, catch: float | None) -> int | None:
-    """Index at which the first plateau on the frame begins; None without one."""
+    """First index from which a specimen on its frame stays within a plateau's width for `HELD`; None without one."""
     magnitude = np.abs(angle)
-    lowest = (1 - PLATEAU) * catch if catch is not None else block.critical_angle
-    on_frame = magnitude >= lowest
-    for start, stop in zip(*stretches(on_frame), strict=True):
-        settled = _settled(time[start:stop], magnitude[start:stop])
-        if settled is not None:
-            return int(start) + settled
-    return None
-
-
-def _settled(time: Array, magnitude: Array) -> int | None:
-    """First index from which the angle stays within the plateau's width for `HELD`, None if it never does."""
-    last = np.searchsorted(time, time + HELD)
-    for index in range(0, time.size, max(time.size // 400, 1)):
-        if last[index] >= time.size:
-            return None
-        window = magnitude[index : last[index] + 1]
-        if np.ptp(window) <= 2 * PLATEAU * window.mean():
-            return index
+    on_frame = magnitude >= ((1 - PLATEAU) * catch if catch is not None else block.critical_angle)
+    for start, stop in zip(*(each.tolist() for each in stretches(on_frame)), strict=True):
+        for index in range(start, stop, max((stop - start) // 400, 1)):
+            last = int(np.searchsorted(time, time[index] + HELD))
+            if last >= stop:
+                break
+            window = magnitude[index : last + 1]
+            if np.ptp(window) <= 2 * PLATEAU * window.mean():
+                return int(index)
     return None
 
 
@@ -98,3 +129,158 @@ def _passing(time: Array, ratio: Array, index: int) -> float:
         return float(time[index])
     share = (1 - ratio[last]) / (ratio[last + 1] - ratio[last])
     return float(time[last] + share * (time[last + 1] - time[last]))
+
+
+@dataclass(frozen=True)
+class AngleFeatures:
+    """
+    A rocking angle in a few numbers.
+
+    Attributes
+    ----------
+    verdict : Verdict
+    threshold : float
+        Noise threshold of the rotation, rad.
+    standard_error : float
+        Of the angle, with the drift between the rests, rad.
+    drift : float
+        Between the rests, rad; 0 if it is not known.
+    impact_times : ndarray
+        s, up to overturning.
+    peak_time, peak_angle, peak_ratio : float
+        s, rad and |θ|/α; the ratio is NaN of a specimen that overturned.
+    """
+
+    verdict: Verdict
+    threshold: float
+    standard_error: float
+    drift: float
+    impact_times: Array
+    peak_time: float
+    peak_angle: float
+    peak_ratio: float
+
+
+def angle_features(
+    time: Array, angle: Array, error: float, block: Block, *, rest_duration: float, catch: float | None
+) -> AngleFeatures:
+    """
+    Sum up a measured angle.
+
+    Parameters
+    ----------
+    time, angle : ndarray, shape (n,)
+        s, rad; NaN where missing.
+    error : float
+        Standard error of the angle, rad.
+    block : Block
+    rest_duration : float
+        Of the rests before and after, s.
+    catch : float or None
+        Angle of the safety frame, rad.
+
+    Returns
+    -------
+    features : AngleFeatures
+    """
+    drifted = drift(time, angle, duration=rest_duration, noise=error)
+    if drifted > LARGEST_DRIFT * block.critical_angle:
+        drifted = 0.0
+    threshold = max(NOISE_FACTOR * error + DRIFT_FACTOR * drifted, NO_ROCKING_RATIO * block.critical_angle)
+    verdict = judge(time, angle, block, threshold=threshold, catch=catch)
+    standing = time <= verdict.overturning_time if np.isfinite(verdict.overturning_time) else np.isfinite(time)
+    ratio = np.where(standing & np.isfinite(angle), amplitude(angle, block), -1.0)
+    peak = int(np.argmax(ratio))
+    return AngleFeatures(
+        verdict,
+        threshold,
+        float(np.hypot(error, drifted / np.sqrt(3))),
+        drifted,
+        find_impacts(time[standing], angle[standing], lowest=threshold),
+        float(time[peak]),
+        float(angle[peak]),
+        np.nan if verdict.outcome == "overturned" else float(ratio[peak]),
+    )
+
+
+def ending(
+    time: Array, angle: Array, base: Array | None, verdict: Verdict, block: Block, *,
+    error: float, duration: float, lever: float | None,
+) -> Finding | None:  # fmt: skip
+    """
+    Say what the end of a record means, if the specimen does not stand where it began.
+
+    Parameters
+    ----------
+    time, angle : ndarray, shape (n,)
+        s; rad; NaN where missing.
+    base : ndarray, shape (n,), or None
+        Acceleration of the table, m/s²; None if it stands still.
+    verdict : Verdict
+    block : Block
+    error : float
+        Standard error of the angle, rad.
+    duration : float
+        Of a rest, s.
+    lever : float or None
+        Height of the transducer that alone gives the angle, m; None if several separate it from a slide.
+    """
+    highest = float(amplitude(angle[np.isfinite(angle)], block).max(initial=0.0))
+    if highest * block.critical_angle > FURTHEST or (highest > RETURNING and verdict.outcome == "rocking"):
+        return serious(
+            "impossible angle",
+            f"The angle reaches {highest:.2g} α, as no block that comes back does: degrees read as radians, a wrong "
+            "gain, or a code for overload or missing values such as -9999, which has to be empty in the file.",
+            follows=("gain", "unit", *LOST),
+        )
+    if verdict.outcome == "overturned":
+        return None
+    rest = find_rest(time, {"": (angle, error)}, end=True, duration=max(duration, CYCLES / block.p))
+    tail = angle[(time >= rest.start) & np.isfinite(angle)]
+    if not tail.size:
+        return None
+    shaken = base is not None and _share_at_end(time, base, block, rest.start) > SHAKEN
+    lasting = float(amplitude(tail, block).max())
+    if not rest.quiet and (shaken or lasting > SMALL):
+        # On a table at rest the motion only dies.
+        if not (shaken and lasting > LASTING):
+            return None
+        return warning(
+            "record ends in motion",
+            f"The record ends at {time[-1]:.4g} s while the table shakes and the specimen moves by {lasting:.2g} α. "
+            f'What it did next is not known: the outcome "{verdict.outcome}" is that on a table at rest from then on, '
+            "and a later peak is missed. Record until it rests.",
+        )
+    level = float(tail.max() + tail.min()) / 2
+    share = float(amplitude(np.array([level]), block)[0])
+    if share < UPRIGHT or (not rest.quiet and tail.min() < 0.0 < tail.max()):
+        return None
+    before = time < rest.start
+    passes = find_impacts(time[before], angle[before] - level, lowest=max(10 * error, 0.1 * abs(level))).size
+    if passes >= FEWEST_PASSES:
+        walked = f", or the block walked by {abs(1e3 * level * lever):.2g} mm under its transducer" if lever else ""
+        return (serious if share > LASTING else warning)(
+            "zero",
+            f"The specimen rocks about, and comes to rest at, {share:.2g} α: its zero was taken while it leaned or was "
+            f"held (`zero`){walked}. Angles and peaks of either side are wrong by up to as much.",
+            follows=(*LOST, "AC coupling"),
+        )
+    if not rest.quiet:
+        return None
+    cause = "a transducer that tore off or lost its signal"
+    if share > 0.8 * highest:
+        cause = "a transducer that saturates or sticks there, or a safety frame (the set-up's `catch`)"
+    return serious(
+        "rest",
+        f"At its end the specimen is at rest at {share:.2g} α, where no block stands by itself: {cause}; or a zero "
+        "taken while it leaned (`zero`). It may have overturned; the peak and the outcome are not to be used.",
+        follows=(*LOST, "AC coupling"),
+    )
+
+
+def _share_at_end(time: Array, base: Array, block: Block, start: float) -> float:
+    """Largest acceleration that can rock the block from `start` on, over the largest of the record."""
+    interval = float(np.median(np.diff(time)))
+    cutoff = min(ROCKS_AT_MOST * block.p / (2 * np.pi), 0.4 / interval)
+    felt = np.abs(lowpass(np.nan_to_num(base), interval, cutoff))
+    return float(felt[time >= start].max() / felt.max(initial=np.finfo(float).tiny))

@@ -1,14 +1,14 @@
-"""Whether a measured history could be one more run of a model: its distance from the runs, ranked among their own."""
+"""Whether a measured history could be one more run of a model: recorded like it, and ranked by its distance."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from colonnade.arrays import Array
-from colonnade.dynamics.kernel import kernel
+from colonnade.signals.filters import lowpass
 
 WITHIN = 0.95
 """Largest rank of a measured history that is within a model's own spread."""
@@ -19,6 +19,9 @@ BAND = (0.025, 0.5, 0.975)
 FEWEST = 20
 """Runs below which no rank is given: with fewer no history can be among the outermost 5 %."""
 
+AT_A_TIME = 1000
+"""Samples that are ranked at a time, so that large ensembles need little memory."""
+
 _LEAST = 1e-9
 """rad; half a band is at least as wide."""
 
@@ -28,27 +31,12 @@ def is_within(rank: float) -> bool | None:
     return None if np.isnan(rank) else bool(rank <= WITHIN)
 
 
-@dataclass(frozen=True)
-class Distances:
-    """
-    Largest scaled distances from the median; 1 is the edge of the 95 % band of all others.
-
-    Attributes
-    ----------
-    measured : float
-    members : ndarray, shape (m,)
-    """
-
-    measured: float
-    members: Array
-
-
 def rank(measured: float, members: Array) -> float:
     """Return the share of the members' values, shape (m,), that are below the measured one, equal ones by half."""
     return float(np.mean(members < measured) + 0.5 * np.mean(members == measured))
 
 
-def distances(measured: ArrayLike, members: ArrayLike) -> Distances | None:
+def distances(measured: ArrayLike, members: ArrayLike) -> tuple[float, Array] | None:
     """
     Measure how far a measured history and each run of a model are from the middle of all others.
 
@@ -61,8 +49,9 @@ def distances(measured: ArrayLike, members: ArrayLike) -> Distances | None:
 
     Returns
     -------
-    distances : Distances or None
-        None for fewer than `FEWEST` runs, or without a finite sample.
+    measured, members : float and ndarray, shape (m,), or None
+        Largest scaled distances from the median; 1 is the edge of the 95 % band of all others. None for fewer than
+        `FEWEST` runs, or without a finite sample.
 
     Raises
     ------
@@ -83,34 +72,121 @@ def distances(measured: ArrayLike, members: ArrayLike) -> Distances | None:
     known = np.isfinite(seen)
     if runs.shape[0] < FEWEST or not known.any():
         return None
-    everyone = np.vstack((seen[known], runs[:, known])).T.copy()
-    largest = _largest(everyone, np.sort(everyone, axis=1), np.array(BAND), _LEAST)
-    return Distances(float(largest[0]), largest[1:])
+    everyone = np.vstack((seen[known], runs[:, known])).T
+    largest = np.zeros(runs.shape[0] + 1)
+    for now in np.array_split(everyone, len(everyone) // AT_A_TIME + 1):
+        low, middle, high = _without_each(now)
+        half = np.where(now > middle, high - middle, middle - low)
+        largest = np.maximum(largest, (np.abs(now - middle) / np.maximum(half, _LEAST)).max(axis=0))
+    return float(largest[0]), largest[1:]
 
 
-@kernel
-def _largest(everyone: Array, ranked: Array, levels: Array, least: float) -> Array:
+def _without_each(everyone: Array) -> list[Array]:
+    """Quantiles `BAND` of all others, for each history (columns) at each time (rows)."""
+    ranked, found = np.sort(everyone, axis=1), []
+    for level in BAND:
+        below, share = divmod(level * (everyone.shape[1] - 2), 1.0)
+        # Without this history, every rank from its own on is that of the next one.
+        first, second, third = (ranked[:, int(below) + k, None] for k in range(3))
+        lower, upper = np.where(everyone > first, first, second), np.where(everyone > second, second, third)
+        found.append((1 - share) * lower + share * upper)
+    return found
+
+
+@dataclass(frozen=True)
+class Measurement:
     """
-    Largest scaled distance of each of m + 1 histories from the median of the m others, shape (m + 1,).
+    Errors of a measured rocking angle.
 
-    `everyone`, shape (n, m + 1), has all at each time; `ranked` the same in order; `levels` are the quantiles.
+    Attributes
+    ----------
+    interval : float
+        Between samples, s.
+    gain : float
+        Standard deviation of its calibration, relative.
+    zero : float
+        Standard deviation of its zero, rad.
+    noise : float
+        Standard deviation of its noise, after the low-pass, rad.
+    drift : ndarray, shape (n,)
+        Standard deviation of an error that grows over the record, as of an integrated angle, rad; one draw a record.
+    cutoff_hz : float or None
+        Of the zero-phase low-pass that it went through; None for none.
+    filter_order : int
+    start : float or None
+        rad, measured angle from which the model starts, in error by the same gain and zero; None if it starts at rest.
+    start_error : float
+        Standard deviation of what else the start is in error by, rad.
     """
-    times, count = everyone.shape
-    largest = np.zeros(count)
-    share, below = np.empty(levels.size), np.empty(levels.size, dtype=np.int64)
-    for k in range(levels.size):
-        below[k] = int(levels[k] * (count - 2))
-        share[k] = levels[k] * (count - 2) - below[k]
-    quantiles = np.empty(levels.size)
-    for time in range(times):
-        for history in range(count):
-            value = everyone[time, history]
-            # Without this history, every rank from its own on is that of the next one.
-            for k in range(levels.size):
-                first, second, third = ranked[time, below[k]], ranked[time, below[k] + 1], ranked[time, below[k] + 2]
-                lower, upper = first if value > first else second, second if value > second else third
-                quantiles[k] = (1 - share[k]) * lower + share[k] * upper
-            low, middle, high = quantiles
-            half = high - middle if value > middle else middle - low
-            largest[history] = max(largest[history], abs(value - middle) / max(half, least))
-    return largest
+
+    interval: float
+    gain: float
+    zero: float
+    noise: float
+    drift: Array
+    cutoff_hz: float | None
+    filter_order: int = 4
+    start: float | None = None
+    start_error: float = 0.0
+
+    @property
+    def start_deviation(self) -> float:
+        """Standard deviation of the angle that the model starts from, rad."""
+        if self.start is None:
+            return 0.0
+        return float(np.hypot(np.hypot(self.gain * self.start, self.zero), self.start_error))
+
+    def thinned(self, first: int, stride: int) -> Measurement:
+        """Return the errors of every `stride`-th sample from `first` on."""
+        return replace(self, interval=stride * self.interval, drift=self.drift[first::stride])
+
+
+def as_measured(
+    histories: NDArray[np.float32], starts: Array, measurement: Measurement, random: np.random.Generator
+) -> Array:
+    """
+    Give each run errors of its own.
+
+    Parameters
+    ----------
+    histories : ndarray, shape (m, n)
+        rad.
+    starts : ndarray, shape (m,)
+        rad, by how much each began above the measured start.
+    measurement : Measurement
+    random : numpy.random.Generator
+
+    Returns
+    -------
+    recorded : ndarray, shape (m, n)
+        rad.
+    """
+    angle, error, noise = histories.astype(np.float64), np.empty(histories.shape), np.empty(histories.shape)
+    for number, start in enumerate(starts.tolist()):
+        gain, zero = _calibration(measurement, start, random)
+        angle[number] *= 1 + gain
+        error[number] = zero + measurement.drift * random.standard_normal()
+        noise[number] = random.standard_normal(angle.shape[1])
+    if measurement.cutoff_hz is not None and measurement.cutoff_hz < 0.5 / measurement.interval:
+        # What begins at rest or at a peak has its mirror image before it.
+        memory = int(3 * measurement.filter_order / (measurement.cutoff_hz * measurement.interval))
+        for values in (angle, noise):
+            mirrored = np.concatenate((values[:, memory:0:-1], values), axis=1)
+            smooth = lowpass(mirrored, measurement.interval, measurement.cutoff_hz, measurement.filter_order)
+            values[:] = smooth[:, -values.shape[1] :]
+        noise /= noise.std(axis=1, keepdims=True)
+    return np.asarray(angle + error + measurement.noise * noise)
+
+
+def _calibration(measurement: Measurement, start: float, random: np.random.Generator) -> tuple[float, float]:
+    """Draw errors of gain and zero; of a run that began above the measured start, those that explain it."""
+    drawn = random.standard_normal(3) * (measurement.gain, measurement.zero, measurement.start_error)
+    total = measurement.start_deviation**2
+    if measurement.start is None or total == 0.0:
+        return float(drawn[0]), float(drawn[1])
+    # Conditional normal draws: what is measured at the start is (1 + gain) θ + zero + the rest, and is known.
+    missing = -start - (drawn[0] * measurement.start + drawn[1] + drawn[2])
+    return (
+        float(drawn[0] + missing * measurement.gain**2 * measurement.start / total),
+        float(drawn[1] + missing * measurement.zero**2 / total),
+    )

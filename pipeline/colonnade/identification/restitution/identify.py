@@ -1,33 +1,65 @@
-"""Identification of the coefficient of restitution from one free vibration, by all estimators."""
+"""Identification of the coefficient of restitution from one free vibration."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from math import exp, hypot, log
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.identification.restitution.choice import RULE, choose
-from colonnade.identification.restitution.departures.findings import find_departures
-from colonnade.identification.restitution.departures.free_rocking import objection
-from colonnade.identification.restitution.departures.single_impacts import found_by_impact, scatters
-from colonnade.identification.restitution.departures.two_sides import LEAST_TILT, UNEQUAL_SIDES
-from colonnade.identification.restitution.estimators.history import NonlinearHistory
-from colonnade.identification.restitution.estimators.history_scatter import ScatteredHistory
-from colonnade.identification.restitution.estimators.impact_by_impact import ImpactByImpact
-from colonnade.identification.restitution.estimators.peaks import PeakDecay
-from colonnade.identification.restitution.estimators.registry import CANDIDATES, ESTIMATORS
-from colonnade.identification.restitution.fitting.driven_decay import BaseMotion, moving_base
-from colonnade.identification.restitution.fitting.samples import thinned
-from colonnade.identification.restitution.free_vibration import FreeVibration
-from colonnade.identification.restitution.result import Departure, Peaks, Restitution
-from colonnade.validation import described, instance, number, samples
+from colonnade.dynamics.uncertainty import Uncertainty
+from colonnade.identification.restitution.departures import (
+    Seen,
+    find_bouncing,
+    find_first_loss,
+    find_rotation,
+    find_sliding,
+    find_turned,
+    found_by_impact,
+    scatters,
+    unequal_sides,
+)
+from colonnade.identification.restitution.estimator import ASSUMPTIONS, METHOD, Estimated, estimate, first_path
+from colonnade.identification.restitution.path import Priors, UnfollowedError
+from colonnade.identification.restitution.peaks import ASSUMPTIONS as OF_PEAKS
+from colonnade.identification.restitution.peaks import FEWEST_PEAKS, fit_peaks, single_impacts
+from colonnade.identification.restitution.peaks import METHOD as BY_PEAKS
+from colonnade.identification.restitution.record import Record, moving_base, objection, thinned
+from colonnade.identification.restitution.result import (
+    Constancy,
+    Departure,
+    Estimate,
+    FittedHistory,
+    Impacts,
+    Joint,
+    Peaks,
+    Restitution,
+)
+from colonnade.identification.restitution.scatter import Solved
+from colonnade.units.text import format_percent
+from colonnade.validation import instance, number, samples
 
-FEWEST_SAMPLES = 8
-FEWEST_PEAKS = 2
+FEWEST_SAMPLES, FEWEST_ARCS = 8, 2
+
+LARGEST_ERROR = 0.01
+"""Standard error of e above which no value is given."""
+
+DISAGREEMENT, NEGLIGIBLE = 3.0, 0.01
+"""Standard errors of both together beyond which history and peaks disagree, if by more than this share of 1 − e."""
+
+WIDEST = 2.0
+"""ln e at most, where an interval ends; above 0 there is no e."""
+
+FAR = 2.0
+"""Prior widths beyond which a shift of α, of the gain or of p is a doubt."""
+
+KNOWN = Uncertainty(critical_angle=0.005, p=0.005, angle_gain=0.005)
+"""How well a laboratory knows its specimen if it does not say."""
 
 
 def identify_restitution(
@@ -39,7 +71,7 @@ def identify_restitution(
     lowest_amplitude: float = 0.02,
     noise: float | None = None,
     lowpass: float | None = None,
-    free: tuple[str, ...] = (),
+    uncertainty: Uncertainty = KNOWN,
     out_of_plane: ArrayLike | None = None,
     slide: ArrayLike | None = None,
     uplift: ArrayLike | None = None,
@@ -62,15 +94,15 @@ def identify_restitution(
     lowpass : float, optional
         Cut-off of the zero-phase low-pass (Butterworth, order 4, both ways) that the record went through, Hz; default:
         found from the residuals of the fit.
-    free : tuple of {"critical_angle", "p"}, optional
-        What the whole histories identify with e: worn edges, an uncertain inertia.
+    uncertainty : Uncertainty, optional
+        Of the block and the angle: `critical_angle`, `p` and `angle_gain` count. `Uncertainty()` is an exactly known
+        block.
     out_of_plane, slide, uplift : array_like, shape (n,), optional
         Rotation about x (rad), displacement of the pole and height of the base (m), if measured: departures from
         plane rocking are then seen directly.
     base_acceleration : array_like, shape (n,), optional
         Of the base along x, m/s², at even steps. If it moves the table (`base_motion.table_moves`), and the angle is
-        explained better so than by a table at rest and a noisy accelerometer, it drives the history; only the whole
-        history with an e of its own at each impact can follow that.
+        explained better so than by a table at rest and a noisy accelerometer, it drives the history.
 
     Returns
     -------
@@ -85,174 +117,272 @@ def identify_restitution(
 
     Notes
     -----
-    Each `Estimate` says what its estimator assumes. All are made; one is recommended (`choice.RULE`). Each impact
-    multiplies the energy of the peaks by e² (Housner 1963).
+    Penalised least squares on the samples: unknown are ln e and its departure at each impact, the first peak and its
+    time, the zero and its drift; ln of α, of p and of the angle's gain as far as `uncertainty` says. If no history
+    follows the record, the energies of its peaks give e. See docs/explanation/restitution.md.
 
     Examples
     --------
     >>> from colonnade.dynamics.rock import rock
     >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-    >>> history = rock(block, theta0=0.09, restitution=0.9, duration=5.0)
+    >>> history = rock(block, theta0=0.09, restitution=0.9, duration=5.0, model="nonlinear")
     >>> round(identify_restitution(history.time, history.angle, block).value, 3)
     0.9
     """
-    free = check_settings(
-        block, level=level, lowest_amplitude=lowest_amplitude, noise=noise, lowpass=lowpass, free=free
-    )
-    times, angles = check_records(
+    _check_settings(block, level, lowest_amplitude, noise, lowpass, uncertainty)
+    times, angles = _check_records(
         time, angle, out_of_plane=out_of_plane, slide=slide, uplift=uplift, base_acceleration=base_acceleration
     )
     if np.isfinite(angles).sum() < FEWEST_SAMPLES:
         return _refused(f"The record holds fewer than {FEWEST_SAMPLES} values.", level, Peaks())
-    record = FreeVibration.seen(
-        thinned(times, angles, block), block,
-        lowest_amplitude=lowest_amplitude, noise=noise, level=level, lowpass=lowpass, free=free,
-    )  # fmt: skip
+    record = Record.seen(thinned(times, angles, block), block, lowest_amplitude, noise)
     if reason := _no_free_rocking(record):
         return _refused(reason, level, record.peaks)
-    try:
-        record = _driven(record, moving_base(times, base_acceleration, block))
-    except ValueError as error:
-        return _refused(str(error), level, record.peaks)
-    zero = record.fitted(ScatteredHistory()).zero_offset
-    departures: tuple[Departure, ...] = ()
-    if record.base is not None:
-        record = replace(record, zero=zero)
-    else:
-        # Impacts are where the angle passes its true zero.
-        record = record.about(zero)
-        departures = _departures(record, times, angles - zero, out_of_plane=out_of_plane, slide=slide, uplift=uplift)
-        record = record.without_first(max((departure.left_out for departure in departures), default=0))
-        if scatters(record.fitted(ScatteredHistory())):
-            measured = {"out_of_plane": out_of_plane, "slide": slide, "uplift": uplift}
-            record, departures = _on_tilted_table(record, departures, times, angles - zero, **measured)
-    whole = record.fitted(ScatteredHistory())
-    result = _result(record, departures + found_by_impact(whole, driven=record.base is not None))
-    return replace(result, table_moves=None if base_acceleration is None else record.base is not None)
-
-
-def _driven(record: FreeVibration, base: BaseMotion | None) -> FreeVibration:
-    """
-    Let the recorded motion of the table drive the history, unless a table at rest explains the angle better.
-
-    An accelerometer may have more noise than a table at rest may move. A motion that did not happen spoils the history;
-    one that did, and is left out, makes e of single impacts scatter.
-    """
-    if base is None:
-        return record
-    driven = replace(record, base=base, fits={})
-    at_rest = record.fitted(ScatteredHistory())
-    if at_rest.estimate.residual is None or scatters(at_rest):
-        return driven
-    with_motion = driven.fitted(ScatteredHistory()).estimate.residual
-    return driven if with_motion is not None and with_motion < at_rest.estimate.residual else record
-
-
-def _on_tilted_table(
-    record: FreeVibration, departures: tuple[Departure, ...], time: Array, angle: Array, **measured: ArrayLike | None
-) -> tuple[FreeVibration, tuple[Departure, ...]]:
-    """Give the block the sides that a tilted table makes, if e of single impacts scatters no more then."""
-    found = _departures(record, time, angle, least_tilt=0.0, **measured)
-    for sides in (each for each in found if each.name == UNEQUAL_SIDES):
-        block = record.block
-        negative, positive = (
-            replace(side, critical_angle=side.critical_angle + sign * sides.size)
-            for side, sign in zip(block.sides, (-1.0, 1.0), strict=True)
+    known = Priors.of(uncertainty.critical_angle, uncertainty.p, uncertainty.angle_gain)
+    found, why = _followed(record, known, lowpass)
+    driven, departures = False, list[Departure]()
+    if base_acceleration is not None:
+        try:
+            base = moving_base(times, base_acceleration, block)
+        except ValueError as error:
+            return _refused(str(error), level, record.peaks)
+        if base is not None:
+            recorded, turned = (
+                _followed(replace(record, samples=thinned(times, angles, block, sign * base)), known, lowpass)
+                for sign in (1.0, -1.0)
+            )
+            departures += find_turned(turned[0], recorded[0], found)
+            # An accelerometer may have more noise than a table at rest may move.
+            better = found is None or (recorded[0] is not None and recorded[0].path.power < found.path.power)
+            driven = better or bool(departures) or (found is not None and scatters(found))
+            found, why = recorded if driven else (found, why)
+    is_turned = bool(departures)
+    if not driven:
+        measured = {"out_of_plane": out_of_plane, "slide": slide, "uplift": uplift}
+        record, found, why, departures = _departed(record, found, why, known, lowpass, times, angles, measured)
+    if found is not None and not is_turned and (by_impact := found_by_impact(found, driven=driven)) is not None:
+        departures.append(by_impact)
+    result = _result(record, found, why, uncertainty, level, driven=driven)
+    refusing = [departure.sentence for departure in departures if departure.refuses]
+    if refusing:
+        result = replace(
+            result, value=None, low=None, high=None, standard_error=None, reason=refusing[0], recommended="", joint=None
         )
-        tilted = replace(record, block=replace(block, negative=negative, positive=positive), fits={})
-        if not scatters(tilted.fitted(ScatteredHistory())):
-            return tilted, (*(each for each in departures if each.name != UNEQUAL_SIDES), sides)
-    return record, departures
+    moves = None if base_acceleration is None else driven
+    return replace(result, departures=tuple(departures), table_moves=moves)
 
 
-def _departures(
-    record: FreeVibration, time: Array, angle: Array, *, least_tilt: float = LEAST_TILT, **measured: ArrayLike | None
-) -> tuple[Departure, ...]:
-    """Find the departures that arcs and samples show; the angle (rad) is about its zero."""
-    arcs, (impact_time, covariance) = record.arcs, record.arcs.impacts
-    return find_departures(
-        time,
-        angle,
-        record.block,
-        impact_time=impact_time,
-        impact_standard_error=np.sqrt(np.diag(covariance)),
-        peak_angle=arcs.peak_angle,
-        peak_standard_error=arcs.peak_standard_error,
-        used=record.usable,
-        least_tilt=least_tilt,
-        **measured,
+def _followed(
+    record: Record, known: Priors, lowpass: float | None, *, left_out: int = 0
+) -> tuple[Estimated | None, str]:
+    """Follow a record from the first arc that enters; what is found, or why nothing is."""
+    try:
+        peaks, times = record.run(left_out)
+        path = first_path(record.samples, record.block, peaks, times)
+        return estimate(path, known, lowpass, record.least, whole=left_out == 0), ""
+    except UnfollowedError as error:
+        return None, f"No simulated history follows the record: {error}."
+
+
+def _departed(
+    record: Record,
+    found: Estimated | None,
+    why: str,
+    known: Priors,
+    lowpass: float | None,
+    times: Array,
+    angles: Array,
+    measured: dict[str, ArrayLike | None],
+) -> tuple[Record, Estimated | None, str, list[Departure]]:
+    """Find departures from plane rocking on a table at rest, and leave out the arcs that they spoil."""
+    across, slid, lifted = (
+        None if given is None else np.asarray(given, dtype=np.float64) for given in measured.values()
     )
+    block = record.block
+    if found is None:
+        fit = fit_peaks(record.peaks, block, record.noise, (0.0, 0.0))
+        zero = 0.0 if fit is None else fit.offset
+    else:
+        zero = found.zero
+    record = record.about(zero)
+    seen = Seen.of(record.arcs, record.usable, 0.0, block)
+    if seen.number.size < 3:
+        return record, found, why, []
+    spatial = None
+    if across is not None:
+        spatial = find_rotation(times, across, seen)
+    elif found is not None:
+        spatial = find_first_loss(found, seen)
+    departures = [
+        spatial,
+        None if slid is None else find_sliding(times, angles - zero, slid, block, seen),
+        find_bouncing(times, angles - zero, lifted, block, seen),
+    ]
+    if spatial is not None:
+        record = replace(record, usable=record.usable & (np.arange(record.usable.size) >= spatial.left_out))
+        found, why = _followed(record, known, lowpass, left_out=spatial.left_out)
+    if found is not None:
+        critical = float(np.prod(block.critical_angle_at(np.array([-1.0, 1.0]))) ** 0.5)
+        departures.append(unequal_sides(*found.tilt, critical))
+    return record, found, why, [departure for departure in departures if departure is not None]
 
 
-def _no_free_rocking(record: FreeVibration) -> str:
+def _no_free_rocking(record: Record) -> str:
     """Why the record is not a free rocking of the block from which e could be found; empty if it is."""
     count = int(record.usable.sum())
-    if count >= FEWEST_PEAKS:
-        return objection(record.arcs, record.usable, record.block)
+    if count >= FEWEST_ARCS:
+        return objection(record)
     return (
-        f"At least {FEWEST_PEAKS} peaks between two impacts, above "
+        f"At least {FEWEST_ARCS} peaks between two impacts, above "
         f"{record.lowest / record.block.critical_angle:.2g} of the critical angle, are needed; the record has {count}."
     )
 
 
-def _result(record: FreeVibration, departures: tuple[Departure, ...]) -> Restitution:
-    """Gather what all estimators give, with the value of the recommended one unless a departure refuses it."""
-    peaks, impacts = record.fitted(PeakDecay()), record.fitted(ImpactByImpact())
-    chosen, reason = choose([record.fitted(each) for each in CANDIDATES])
-    refusing = [departure.sentence for departure in departures if departure.refuses]
-    if refusing:
-        chosen, reason = None, refusing[0]
-    result = Restitution(
-        None,
-        None,
-        None,
-        None,
-        record.level,
-        RULE,
+def _result(
+    record: Record, found: Estimated | None, why: str, uncertainty: Uncertainty, level: float, *, driven: bool
+) -> Restitution:
+    """Give the value of the history, or if none follows the record that of the peaks."""
+    of_history = Estimate("history", None, None, None, None, level, ASSUMPTIONS, why)
+    of_peaks = Estimate("peaks", None, None, None, None, level, OF_PEAKS, "The table moves: it is taken to be at rest.")
+    peaks, fit = record.peaks, None
+    if not driven:
+        widths = uncertainty.critical_angle, uncertainty.angle_gain
+        fit = fit_peaks(record.peaks, record.block, record.noise, widths)
+        reason = f"At least {FEWEST_PEAKS} peaks between two impacts, above the noise, are needed."
+        of_peaks = replace(of_peaks, reason=reason)
+    if fit is not None:
+        peaks, of_peaks = fit.peaks, replace(_estimate(of_peaks, fit.solved, fit.logarithm), reason="")
+    zero = record.zero + (fit.offset if fit is not None else 0.0)
+    history, joint, constancy = None, None, Constancy()
+    doubts: list[tuple[str, str]] = []
+    if found is not None:
+        path = found.path
+        zero = found.zero if driven or fit is None else zero
+        counted = path.counted
+        inside = slice(int(np.argmax(counted)), counted.size - int(np.argmax(counted[::-1])))
+        cutoff = None if path.passed is None else path.passed.cutoff_hz
+        history = FittedHistory(path.samples.time[inside], path.seen[inside], path.residual[inside], cutoff)
+        of_history = replace(_estimate(of_history, found.answer, found.logarithm_of_path), residual=path.power**0.5)
+        joint, constancy = found.joint, _constancy(found)
+        doubts = [*_shifts(joint, uncertainty), ("two values of e", _disagreement(of_history, of_peaks))]
+    chosen = of_peaks if found is None else of_history
+    if found is None and fit is not None:
+        joint = _joint_of_peaks(chosen, uncertainty)
+    reason = _objection(chosen, why)
+    given = replace(chosen, value=None, low=None, high=None, standard_error=None) if reason else chosen
+    impacts = single_impacts(record.arcs, zero - record.zero, record.usable, record.block) if not driven else Impacts()
+    return Restitution(
+        given.value,
+        given.low,
+        given.high,
+        given.standard_error,
+        level,
+        METHOD if chosen is of_history else BY_PEAKS,
         reason,
-        zero_offset=record.zero + peaks.zero_offset,
-        peaks=peaks.peaks or record.peaks,
-        impacts=impacts.impacts,
-        estimates=tuple(record.fitted(each).estimate for each in ESTIMATORS.values()),
-        history=record.fitted(ScatteredHistory()).fitted or record.fitted(NonlinearHistory()).fitted,
-        departures=departures,
-        constancy=impacts.constancy,
+        zero_offset=zero,
+        peaks=peaks,
+        impacts=impacts,
+        estimates=(of_history, of_peaks),
+        history=history,
+        recommended="" if reason else chosen.name,
+        constancy=constancy,
+        joint=None if reason else joint,
+        doubts=tuple(doubt for doubt in doubts if doubt[1]),
     )
-    if chosen is None:
-        return result
-    return replace(
-        result,
-        value=chosen.value,
-        low=chosen.low,
-        high=chosen.high,
-        standard_error=chosen.standard_error,
-        method=ESTIMATORS[chosen.name].method,
-        recommended=chosen.name,
+
+
+def _estimate(empty: Estimate, solved: Solved, logarithm: float) -> Estimate:
+    """Fill in e from the distribution of ln e as a step from where the model was made linear."""
+    value = exp(logarithm + float(solved.mean[0]))
+    # A record that says next to nothing has an interval beyond all numbers.
+    low, high = (exp(min(logarithm + solved.quantile(0.5 + sign * empty.level / 2), WIDEST)) for sign in (-1, 1))
+    # Of the normal distribution whose interval is as wide.
+    error = (high - low) / 2 / float(scipy.special.ndtri((1 + empty.level) / 2))
+    return replace(empty, value=value, low=low, high=high, standard_error=error)
+
+
+def _objection(chosen: Estimate, why: str) -> str:
+    """Why no value is given; empty if it is."""
+    if chosen.value is None or chosen.high is None or chosen.standard_error is None:
+        return " ".join(dict.fromkeys(each for each in (why, chosen.reason) if each))
+    if chosen.high >= 1:
+        return (
+            f"The motion does not decay: e would be {chosen.value:.4f}, between {chosen.low:.4f} and "
+            f"{chosen.high:.4f}; below 1 was expected. A free vibration on a table at rest is needed."
+        )
+    if chosen.standard_error > LARGEST_ERROR:
+        return (
+            f"e would be {chosen.value:.3f} with a standard error of {chosen.standard_error:.1g}; at most "
+            f"{LARGEST_ERROR:g} was expected. The amplitude is too low for this noise, or the impacts are too few or "
+            "too unlike each other; release from a larger angle."
+        )
+    return ""
+
+
+def _joint_of_peaks(chosen: Estimate, uncertainty: Uncertainty) -> Joint | None:
+    """Peaks say nothing of α and p."""
+    if chosen.value is None or chosen.standard_error is None:
+        return None
+    widths = np.array([chosen.standard_error / chosen.value, uncertainty.critical_angle, uncertainty.p])
+    return Joint(np.array([log(chosen.value), 0.0, 0.0]), np.diag(widths**2))
+
+
+def _constancy(found: Estimated) -> Constancy:
+    """Change of e with the speed of impact, and its scatter."""
+    e, scatter = exp(found.logarithm), exp(found.logarithm) * found.solved.scatter
+    extent = float(np.ptp(found.landing))
+    if found.landing.size < 3 or not extent > 0:
+        return Constancy(scatter=scatter)
+    change, error = (e * each for each in found.trend)
+    return Constancy(change / extent, error / extent, change, scatter)
+
+
+def _shifts(joint: Joint, uncertainty: Uncertainty) -> list[tuple[str, str]]:
+    """Doubts about what was given of the block and of the angle, if the record asks for something else."""
+    doubts = []
+    scale, known = float(joint.mean[1]) + joint.gain, hypot(uncertainty.critical_angle, uncertainty.angle_gain)
+    for kind, fitted, shift, width, check in (
+        ("critical angle or gain", "a critical angle, or a gain of the angle,", scale, known,
+         "the gains and lever arms of the transducers, and the dimensions of the block"),
+        ("frequency parameter", "a frequency parameter p", float(joint.mean[2]), uncertainty.p,
+         "the sampling rate, and the dimensions and the mass of the block"),
+    ):  # fmt: skip
+        if abs(shift) > FAR * width > 0:
+            off = format_percent(shift, 1, signed=True)
+            said = (
+                f"The record fits {fitted} that differs by {off} from what was given, {abs(shift) / width:.2g} times "
+            )
+            doubts.append((kind, f"{said}what its uncertainty allows. Check {check}."))
+    return doubts
+
+
+def _disagreement(history: Estimate, peaks: Estimate) -> str:
+    """Say by how much the history is off the peaks, if this is beyond their errors."""
+    if history.value is None or peaks.value is None:
+        return ""
+    difference = history.value - peaks.value
+    error = hypot(history.standard_error or 0.0, peaks.standard_error or 0.0)
+    if abs(difference) <= max(DISAGREEMENT * error, NEGLIGIBLE * (1 - peaks.value)):
+        return ""
+    return (
+        f"The whole history gives e = {history.value:.5f}, the peaks alone {peaks.value:.5f}: "
+        f"{abs(difference) / error:.2g} standard errors apart; at most {DISAGREEMENT:g} were expected. The times of "
+        "impact are not quite those of this block: check the sampling rate, its dimensions and mass, and for slide or "
+        "rotation out of plane. The value of the whole history is used."
     )
 
 
 def _refused(reason: str, level: float, peaks: Peaks) -> Restitution:
-    """Return a result without a value, from no estimator."""
-    refused = (each.refuse(level, f"No value to start from: {reason}") for each in ESTIMATORS.values())
-    estimates = tuple(each.estimate for each in refused)
-    return Restitution(None, None, None, None, level, RULE, reason, peaks=peaks, estimates=estimates)
+    """Return a result without a value."""
+    why = f"No value to start from: {reason}"
+    estimates = (
+        Estimate("history", None, None, None, None, level, ASSUMPTIONS, why),
+        Estimate("peaks", None, None, None, None, level, OF_PEAKS, why),
+    )
+    return Restitution(None, None, None, None, level, METHOD, reason, peaks=peaks, estimates=estimates)
 
 
-FREED = ("critical_angle", "p")
-"""What may be identified with e."""
-
-
-def check_settings(
-    block: Any, *, level: Any, lowest_amplitude: Any, noise: Any, lowpass: Any, free: Any
-) -> tuple[str, ...]:
-    """
-    Check the settings given to `identify_restitution`; return `free`.
-
-    Raises
-    ------
-    ValueError
-        If an argument is out of its range or of another kind; the message names it.
-    """
+def _check_settings(block: Any, level: Any, lowest_amplitude: Any, noise: Any, lowpass: Any, uncertainty: Any) -> None:
     instance("block", block, Block)
     number("level", level, "a probability between 0 and 1", above=0.0, below=1.0)
     number("lowest_amplitude", lowest_amplitude, "a fraction of the critical angle from 0 to 1", low=0.0, below=1.0)
@@ -260,22 +390,11 @@ def check_settings(
         number("noise", noise, "a standard deviation in rad, zero or more,", low=0.0)
     if lowpass is not None:
         number("lowpass", lowpass, "a positive frequency in Hz", above=0.0)
-    if not isinstance(free, (tuple, list)):
-        raise ValueError(f"free is {described(free)}; a tuple of names was expected, such as ('p',)")
-    if unknown := [name for name in free if not isinstance(name, str) or name not in FREED]:
-        raise ValueError(f"free names {unknown[0]!r}; 'critical_angle' and 'p' were expected")
-    return tuple(free)
+    instance("uncertainty", uncertainty, Uncertainty)
 
 
-def check_records(time: Any, angle: Any, **others: Any) -> tuple[Array, Array]:
-    """
-    Check time and angle, and what was measured with them (None if it was not); return the two.
-
-    Raises
-    ------
-    ValueError
-        If one is not an array of real numbers, they differ in shape or time does not increase.
-    """
+def _check_records(time: Any, angle: Any, **others: Any) -> tuple[Array, Array]:
+    """Return time and angle, checked with what was measured with them (None if it was not)."""
     times, angles = samples("time", time, fewest=0), samples("angle", angle, fewest=0, finite=False)
     for name, values in {"angle": angles, **others}.items():
         if values is not None and samples(name, values, fewest=0, finite=False).shape != times.shape:

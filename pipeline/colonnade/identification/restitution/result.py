@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
 from colonnade.arrays import Array, Mask
-from colonnade.digest import Digested, written
-from colonnade.units import format_percent
+from colonnade.units.text import Digested, format_percent, interval
 
 
 def _none() -> Array:
@@ -23,11 +21,12 @@ def _nothing() -> Mask:
 @dataclass(frozen=True)
 class Estimate:
     """
-    One estimator's value of e, or the reason why it gives none.
+    A value of e, or the reason why there is none.
 
     Attributes
     ----------
-    name : {"peaks", "impact-by-impact", "history-linear", "history-nonlinear", "history-scatter"}
+    name : {"history", "peaks"}
+        From the samples of the whole history; from the peaks alone, the cross-check.
     value, low, high, standard_error : float or None
         e, its interval of confidence at `level` and its standard error; None if refused.
     level : float
@@ -75,7 +74,7 @@ class Impacts:
     restitution, restitution_standard_error : ndarray
         e of this impact alone, from the arcs before and after; NaN where one of them has no peak.
     used : ndarray of bool
-        Whether it entered the impact-by-impact estimate.
+        Whether both arcs have a peak that counts.
     """
 
     time: Array = field(default_factory=_none)
@@ -110,21 +109,12 @@ class Constancy:
 @dataclass(frozen=True)
 class FittedHistory:
     """
-    The history that a whole-history fit lays through the record.
+    The history laid through the record.
 
     Attributes
     ----------
     time, angle, residual : ndarray, shape (n,)
-        s; rad, fitted, with the zero offset; rad, measured − fitted, NaN where a sample was missing.
-    model : str
-    names : tuple of str
-        Of the unknowns: "restitution", "peak" and "time" (the first peak, rad, s), "zero_offset" (rad), and where freed
-        "critical_angle" and "p", as factors on the block's.
-    values : ndarray, shape (k,)
-    covariance : ndarray, shape (k, k)
-        Of these values.
-    probability : float
-        That noise alone leaves as much over, arc by arc.
+        s; rad, as the record shows it; rad, measured − fitted, NaN where a sample did not count.
     cutoff_hz : float or None
         Low-pass that the record went through, given or found.
     """
@@ -132,12 +122,28 @@ class FittedHistory:
     time: Array
     angle: Array
     residual: Array
-    model: str
-    names: tuple[str, ...] = ()
-    values: Array = field(default_factory=_none)
-    covariance: Array = field(default_factory=lambda: np.empty((0, 0)))
-    probability: float = np.nan
     cutoff_hz: float | None = None
+    model: str = "nonlinear"
+
+
+@dataclass(frozen=True)
+class Joint:
+    """
+    What a record says of e, α and p together.
+
+    Attributes
+    ----------
+    mean : ndarray, shape (3,)
+        Of ln e, and of ln of α and of p over those of the block.
+    covariance : ndarray, shape (3, 3)
+        Of these, over all scatters of e that the record allows.
+    gain : float
+        ln of the angle's gain, its posterior mean.
+    """
+
+    mean: Array
+    covariance: Array
+    gain: float = 0.0
 
 
 @dataclass(frozen=True, repr=False)
@@ -148,7 +154,8 @@ class Restitution(Digested):
     Attributes
     ----------
     value, low, high : float or None
-        The recommended e and its interval of confidence at `level`; None if refused.
+        e and its interval of confidence at `level`, for the mean of all impacts like those of this record; None if
+        refused.
     standard_error : float or None
         Of e.
     level : float
@@ -162,9 +169,8 @@ class Restitution(Digested):
     peaks : Peaks
     impacts : Impacts
     estimates : tuple of Estimate
-        Of every estimator, whichever is recommended.
+        From the whole history, and from the peaks.
     history : FittedHistory or None
-        Of the recommended whole history.
     departures : tuple of Departure
         From the plane model with one e.
     recommended : str
@@ -173,6 +179,11 @@ class Restitution(Digested):
         Of e from impact to impact.
     table_moves : bool or None
         Whether the recorded motion of the table drives the history; None if it was not recorded, or refused before.
+    joint : Joint or None
+        Of e, α and p; None if refused.
+    doubts : tuple of (str, str)
+        Kind and sentence of what makes the value doubtful: α, p or the gain far from what was given, or peaks that say
+        otherwise.
 
     Examples
     --------
@@ -180,8 +191,8 @@ class Restitution(Digested):
     >>> block = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
     >>> history = colonnade.rock(block, theta0=0.09, restitution=0.9, duration=5.0, model="nonlinear")
     >>> found = colonnade.identify_restitution(history.time, history.angle, block)
-    >>> round(found.value, 6), found.recommended, found.reason
-    (0.9, 'peaks', '')
+    >>> round(found.value, 4), found.recommended, found.reason
+    (0.9, 'history', '')
     >>> sorted(found.digest())
     ['e', 'method', 'peaks used']
     """
@@ -198,10 +209,12 @@ class Restitution(Digested):
     impacts: Impacts = field(default_factory=Impacts)
     estimates: tuple[Estimate, ...] = ()
     history: FittedHistory | None = None
-    departures: tuple[Any, ...] = ()
+    departures: tuple[Departure, ...] = ()
     recommended: str = ""
     constancy: Constancy = field(default_factory=Constancy)
     table_moves: bool | None = None
+    joint: Joint | None = None
+    doubts: tuple[tuple[str, str], ...] = ()
 
     def digest(self) -> dict[str, str]:
         """
@@ -212,11 +225,9 @@ class Restitution(Digested):
         digest : dict of str to str
             Names and values with their units, as a notebook shows them.
         """
-        if self.value is None:
-            return {"e": written(None), "reason": self.reason}
-        e = written(self.value, digits=5)
-        if self.low is not None and self.high is not None:
-            e += f" ({self.low:.5g} to {self.high:.5g}, {format_percent(self.level)})"
+        if self.value is None or self.low is None or self.high is None:
+            return {"e": "–", "reason": self.reason}
+        e = f"{interval(self.value, self.low, self.high)} ({format_percent(self.level)}, mean of such impacts)"
         seen = f"{int(self.peaks.used.sum())} of {self.peaks.used.size}"
         return {"e": e, "method": self.recommended or self.method, "peaks used": seen}
 
@@ -229,8 +240,8 @@ class Departure:
     Attributes
     ----------
     name : str
-        "three-dimensional rocking", "sliding", "bouncing", "unequal restitution", "unequal sides", "zero drift",
-        "speed-dependent restitution" or "moving table".
+        "three-dimensional rocking", "sliding", "bouncing", "unequal sides", "speed-dependent restitution" or
+        "moving table".
     size, standard_error : float
         In `unit`; the sentence says what is measured.
     unit : str
@@ -240,7 +251,7 @@ class Departure:
     left_out : int
         Number of the first arcs that the departure spoils: they are not to enter an estimate of e.
     refuses : bool
-        Whether too little is left for an e of the plane model.
+        Whether no e of the plane model is left.
     """
 
     name: str

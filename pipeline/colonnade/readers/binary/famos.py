@@ -3,30 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from colonnade.arrays import Array
-from colonnade.readers.binary.numbers import Bytes, StoredNumbers, values_at
+from colonnade.readers.binary.numbers import Bytes, numbers_at
 from colonnade.readers.clock import even_times, moment_after, on_one_zero
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, by_mark, from_head
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
 
-SIGNATURE = b"|CF,"
 NUMBERS = {1: "u1", 2: "i1", 3: "u2", 4: "i2", 5: "u4", 6: "i4", 7: "f4", 8: "f8", 11: "u2", 12: "u8", 14: "i8"}
 """Kinds of numbers, by the block CP."""
-BYTE_ORDERS = {1: "<", 2: ">"}
-"""Of the block CF: Intel, Motorola."""
-LARGEST_BLOCK_HEAD = 40
 WIDEST = 32
 """Bits of a word that may be digital channels; their numbers are exact in what they are read as."""
+LARGEST_HEAD = 40
 PARAMETERS = {
-    "CF": "w",  # byte order
+    "CF": "w",  # byte order: 1 Intel, 2 Motorola
     "CG": "-w",  # 1: one component, its x even
     "CC": "",
     "CD": "n-t",  # step and unit of x
@@ -42,95 +37,73 @@ _Said = dict[str, Any]
 """The parameters of the blocks that describe one channel, by their keys; of CN those of each."""
 
 
-@dataclass
-class _File:
-    """All channels, where the bytes of each block CS stand, and what the blocks that come now belong to."""
-
-    order: str = "<"
-    data_set: _Said = field(default_factory=dict)
-    current: _Said = field(default_factory=dict)
-    components: list[_Said] = field(default_factory=list)
-    bytes_at: dict[int, tuple[int, int]] = field(default_factory=dict)
-    warnings: list[str] = field(default_factory=list)
-
-
 @from_head
 def recognise(head: Head) -> Recognition:
     """Say whether the first bytes are those of a FAMOS file."""
-    return by_mark(head, (SIGNATURE,), '"|CF,", the mark of imc FAMOS')
+    return by_mark(head, (b"|CF,",), '"|CF,", the mark of imc FAMOS')
 
 
 def read(path: Path, options: Options) -> Recording:
     """Read an imc FAMOS file."""
     content = np.memmap(path, dtype=np.uint8, mode="r")
-    file = _File()
-    for place, key, block in _blocks(content, file):
+    warnings: list[str] = []
+    components: list[_Said] = []
+    places: dict[int, Bytes] = {}
+    data_set: _Said = {}
+    current, order = data_set, "<"
+    for place, key, block in _blocks(content, warnings):
         try:
-            _take(file, key, block)
+            if key == "CS":
+                number = block[:LARGEST_HEAD].tobytes().split(b",", 1)[0]
+                places[int(number)] = block[len(number) + 1 :]
+                continue
+            told = _parameters(block.tobytes(), PARAMETERS[key])
+            if key == "CF":
+                order = ">" if told[0] == 2 else "<"
+            elif key == "CG":
+                data_set = current = {key: told}
+            elif key == "CC":
+                components.append(current := {**data_set})
+            elif key == "CN":
+                current[key] = [*current.get(key, ()), told]
+            elif key == "NT":
+                day, month, year, hour, minute, seconds = told
+                current[key] = datetime(year, month, day, hour, minute) + timedelta(seconds=seconds)
+            else:
+                current[key] = told
         except (ValueError, OverflowError):
-            shown = "".join(character if character.isprintable() else " " for character in block[:30].decode("latin-1"))
-            file.warnings.append(f'the block {key} at byte {place} is damaged ("{shown}"); it is left out')
-    if "CG" in file.current and file.current is file.data_set:
-        file.warnings.append("the last data set has no channel: the file was cut off")
+            warnings.append(f"the block {key} at byte {place} is damaged; it is left out")
+    if "CG" in current and current is data_set:
+        warnings.append("the last data set has no channel: the file was cut off")
     channels: list[RecordedChannel] = []
-    for said in file.components:
-        found = _values(content, file, said)
-        if found.size:
-            channels += _named(said, found, len(channels) + 1, file.warnings)
+    for said in components:
+        channels += _channels(said, places, order, len(channels) + 1, warnings)
     timed, start = on_one_zero(channels)
     has_clock = any(channel.time is not None for channel in timed)
     notes = ["clock: each channel's own start and step" if has_clock else "no clock: x is not a time"]
-    if not all(map(_is_plain, file.components)):
+    if not all(map(_is_plain, components)):
         notes.append("a data set of pairs (x, y): both are channels, neither is used as a clock")
-    return Recording(path, "famos", timed, start, tuple(notes), tuple(file.warnings))
+    return Recording(path, "famos", timed, start, tuple(notes), tuple(warnings))
 
 
-def _blocks(content: Bytes, file: _File) -> Iterator[tuple[int, str, bytes]]:
-    """Go from block to block; of a block of bytes, CS, only its place is noted."""
+def _blocks(content: Bytes, warnings: list[str]) -> Iterator[tuple[int, str, Bytes]]:
+    """Go from block to block: where each starts, its key, and what it holds."""
     place, size = 0, content.size
     while place < size:
-        gap = content[place : place + 4096].tobytes()
-        skipped = len(gap) - len(gap.lstrip(b" \t\r\n\0"))
-        place += skipped
-        if skipped == len(gap):
+        if content[place] in b" \t\r\n\0":
+            place += 1
             continue
-        parts = content[place : place + LARGEST_BLOCK_HEAD].tobytes().split(b",", 4)
-        if parts[0][:1] != b"|" or len(parts) < 4 or not parts[1].strip().isdigit() or not parts[2].strip().isdigit():
-            file.warnings.append(f"a block was expected at byte {place}: what follows is damaged and not read")
+        parts = content[place : place + LARGEST_HEAD].tobytes().split(b",", 3)
+        if parts[0][:1] != b"|" or len(parts) < 4 or not parts[2].strip().isdigit():
+            warnings.append(f"a block was expected at byte {place}: what follows is damaged and not read")
             return
-        key, length = parts[0][1:].decode("latin-1"), int(parts[2])
-        begin = place + sum(len(part) + 1 for part in parts[:3])
-        if key == "CS":
-            if len(parts) < 5 or not parts[3].strip().isdigit():
-                file.warnings.append(f"the block CS at byte {place} is damaged: what follows is not read")
-                return
-            file.bytes_at[int(parts[3])] = (begin + len(parts[3]) + 1, min(begin + length, size))
-        else:
-            yield place, key, content[begin : begin + length].tobytes()
-        if begin + length > size:
-            file.warnings.append(f"the file ends within the block {key} at byte {place}: it was cut off")
-        place = begin + length + 1
-
-
-def _take(file: _File, key: str, block: bytes) -> None:
-    """Add what a block says to the data set or the channel that it belongs to."""
-    if key not in PARAMETERS:
-        return
-    told = _parameters(block, PARAMETERS[key])
-    if key == "CF":
-        file.order = BYTE_ORDERS.get(told[0], "<")
-    elif key == "CG":
-        file.data_set = file.current = {key: told}
-    elif key == "CC":
-        file.current = {**file.data_set}
-        file.components.append(file.current)
-    elif key == "CN":
-        file.current[key] = [*file.current.get(key, ()), told]
-    elif key == "NT":
-        day, month, year, hour, minute, seconds = told
-        file.current[key] = datetime(year, month, day, hour, minute) + timedelta(seconds=seconds)
-    else:
-        file.current[key] = told
+        name, begin = parts[0][1:].decode("latin-1"), place + sum(len(part) + 1 for part in parts[:3])
+        end = begin + int(parts[2])
+        if name == "CS" or name in PARAMETERS:
+            yield place, name, content[begin:end]
+        if end > size:
+            warnings.append(f"the file ends within the block {name} at byte {place}: it was cut off")
+        place = end + 1
 
 
 def _parameters(block: bytes, kinds: str) -> list[Any]:
@@ -152,74 +125,48 @@ def _is_plain(said: _Said) -> bool:
     return "CG" not in said or said["CG"][0] == 1
 
 
-def _name(said: _Said) -> str:
-    """What a channel itself is called; empty of digital ones."""
-    return next((name for bit, name in said.get("CN", ()) if bit <= 0 and name), "")
-
-
-def _digital(said: _Said) -> list[tuple[int, str]]:
-    """Channels that are single bits of the numbers."""
-    return [(bit, name) for bit, name in said.get("CN", ()) if bit > 0]
-
-
-def _values(content: Bytes, file: _File, said: _Said) -> Array:
-    """Take a channel's values, scaled; none, with a warning, where that cannot be done."""
-    digital = _digital(said)
-    title = _name(said) or ", ".join(name for _, name in digital[:3])
+def _channels(
+    said: _Said, places: dict[int, Bytes], order: str, number: int, warnings: list[str]
+) -> Iterator[RecordedChannel]:
+    """Make a channel of a component, or one of each bit of its words that has a name."""
+    digital = [(bit, name) for bit, name in said.get("CN", ()) if bit > 0]
+    own = next((name for bit, name in said.get("CN", ()) if bit <= 0 and name), "")
+    title = own or ", ".join(name for _, name in digital[:3])
     size, kind, bits, mask, apart = said.get("CP", (0, 0, 0, 0, 0))
+    index, first, shift, filled, x0, added = said.get("Cb", (0, 0, 0, None, 0.0, 0.0))
     form = NUMBERS.get(kind, "")
     is_known = bool(form) and int(form[1]) == size
     # Of a word of digital channels some bits may be unused.
     is_whole = is_known and mask == apart == 0 and (bool(digital) or bits == 8 * size)
-    index, first, shift, filled, *_ = said.get("Cb", (0, 0, 0, None))
     reason = ""
     if digital and (not is_known or form[0] == "f"):
         reason = "digital channels have to be whole numbers, and these are not; left out"
-    elif filled is None:
-        reason = "the block that says where its values are is missing: the file is damaged or was cut off"
     elif filled and not is_whole:
         reason = "its numbers are interleaved or of an unknown kind; left out"
-    elif filled and index not in file.bytes_at:
-        reason = "the block with its values is missing: the file was cut off"
+    elif filled is None or (filled and index not in places):
+        reason = "a block that its values need is missing: the file is damaged or was cut off"
     if reason or not filled:
-        file.warnings += [f'"{title}": {reason}'] if reason else []
-        return np.empty(0)
-    begin, end = file.bytes_at[index]
-    is_scaled, factor, offset, _ = said.get("CR", (0, 1.0, 0.0, ""))
-    factor, offset = (factor, offset) if is_scaled == 1 and not digital else (1.0, 0.0)
-    stored = StoredNumbers(
-        title, file.order + form, begin + first + shift, filled // size, size, offset, factor, end=end
-    )
-    values, told = values_at(content, stored)
-    file.warnings += told
-    return values
-
-
-def _clock(said: _Said, count: int) -> tuple[Array | None, datetime | None]:
-    """Times of a channel whose x is time, and the moment of their zero."""
-    step, unit = said.get("CD", (0.0, ""))
-    scale = TIME_UNITS.get(unit.casefold())
-    if step <= 0 or scale is None or not _is_plain(said):
-        return None, None
-    *_, x0, added = said["Cb"]
-    return even_times(count, step * scale, x0 * scale), moment_after(said.get("NT"), added)
-
-
-def _named(said: _Said, values: Array, number: int, warnings: list[str]) -> Iterator[RecordedChannel]:
-    """Make a channel of values, or one of each bit of words that has a name."""
-    name = _name(said) or f"channel {number}"
-    time, start = _clock(said, values.size)
-    digital = _digital(said)
-    if not digital:
-        yield RecordedChannel(name, said["CR"][-1] or None if "CR" in said else None, values, time, start=start)
+        warnings += [f'"{title}": {reason}'] if reason else []
         return
-    words = values.astype(np.int64)
-    for bit, own in digital:
+    is_scaled, factor, offset, unit = said.get("CR", (0, 1.0, 0.0, ""))
+    scale = (offset, factor) if is_scaled == 1 and not digital else (0.0, 1.0)
+    values = numbers_at(places[index], title, order + form, first + shift, filled // size, warnings, scale=scale)
+    if not values.size:
+        return
+    step, of_x = said.get("CD", (0.0, ""))
+    second = TIME_UNITS.get(of_x.casefold())
+    time = start = None
+    if step > 0 and second is not None and _is_plain(said):
+        time = even_times(values.size, step * second, x0 * second)
+        start = moment_after(said.get("NT"), added)
+    if not digital:
+        yield RecordedChannel(own or f"channel {number}", unit or None, values, time, start=start)
+    for bit, name in digital:
         if bit > WIDEST:
-            warnings.append(f'"{own}": it is bit {bit} of a word, which has at most {WIDEST}; left out')
+            warnings.append(f'"{name}": it is bit {bit} of a word, which has at most {WIDEST}; left out')
             continue
-        is_set = (words >> (bit - 1) & 1).astype(np.float64)
-        yield RecordedChannel(own or f"{name} bit {bit}", None, is_set, time, start=start)
+        is_set = (values.astype(np.int64) >> (bit - 1) & 1).astype(np.float64)
+        yield RecordedChannel(name or f"{own or number} bit {bit}", None, is_set, time, start=start)
 
 
 FORMAT = Format(

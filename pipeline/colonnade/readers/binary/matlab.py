@@ -2,24 +2,45 @@
 
 from __future__ import annotations
 
+import struct
+import warnings
+from collections.abc import Iterator
 from dataclasses import replace
+from io import BytesIO
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from pydantic import Field
 
 from colonnade.errors import ReadError, nearest
-from colonnade.readers.binary.matlab_5 import read_v5
-from colonnade.readers.binary.matlab_73 import read_v73
-from colonnade.readers.binary.matlab_columns import Node, Tree, find_columns, lacking_channels, numbered_channels
-from colonnade.readers.binary.numbers import ClockOptions, recorded
-from colonnade.readers.clock import find_vector_clocks, given_clock
+from colonnade.readers.binary.matlab_columns import (
+    FUNCTION,
+    Node,
+    find_columns,
+    lacking_channels,
+    numbered_channels,
+    object_reason,
+)
+from colonnade.readers.binary.numbers import ClockOptions, Told, UnreadableError, member, recorded
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import HDF5, Head, from_head
 from colonnade.readers.recording import Recording
 
+if TYPE_CHECKING:
+    import h5py
+
 MARK = b"MATLAB "
 USER_BLOCK = 512
 """Bytes before HDF5's own start in a file of version 7.3."""
+HEADER = 128
+"""Bytes of the header of the versions before."""
+VARIABLES = (14, 15)
+"""Elements of these that hold a variable: plain, compressed."""
+NUMERIC = frozenset(
+    ("double", "single", "logical", *(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)))
+)
+"""Classes of version 7.3 that are numbers."""
 
 
 class MatlabOptions(ClockOptions):
@@ -34,7 +55,7 @@ def recognise(head: Head) -> Recognition:
     first = head.content
     if first[USER_BLOCK:].startswith(HDF5) and first.startswith(MARK):
         return Recognition(True, "starts as a MATLAB file of version 7.3")
-    if first.startswith(MARK) and first[126:128] in (b"IM", b"MI"):
+    if first.startswith(MARK) and first[126:HEADER] in (b"IM", b"MI"):
         return Recognition(True, "starts as a MATLAB file of version 5 to 7")
     if first.startswith(MARK):
         return Recognition(
@@ -52,41 +73,170 @@ def read(path: Path, options: MatlabOptions) -> Recording:
     Raises
     ------
     ReadError
-        If it is not MATLAB's, is damaged, holds no column of numbers, or lacks a variable that the options name.
+        If it is not MATLAB's, holds no column of numbers, or lacks a variable that the options name.
     """
-    first = recognise.expected(path).content
-    tree = read_v73(path) if first[USER_BLOCK:].startswith(HDF5) else read_v5(path)
-    chosen = _chosen(path, tree, options.variables)
+    told = Told()
+    is_hdf5 = recognise.expected(path).content[USER_BLOCK:].startswith(HDF5)
+    variables = (read_v73 if is_hdf5 else read_v5)(path, told)
+    for name in options.variables:
+        if name not in variables:
+            reason = f"cannot be read: {told.left_out[name]}." if name in told.left_out else "is missing."
+            raise ReadError(f'{path.name}: variable "{name}" {reason}{nearest(name, variables)}')
+    chosen = {name: variables[name] for name in options.variables or variables}
     others, columns, scalars, notes = numbered_channels(chosen)
     found = find_columns(others)
     columns = [*columns, *found.columns]
-    left_out = [f"{place} is left out: {why}" for place, why in {**tree.left_out, **found.left_out}.items()]
+    left_out = [f"{place} is left out: {why}" for place, why in {**told.left_out, **found.left_out}.items()]
     if not columns:
-        raise ReadError(_nothing(path, tree, left_out))
-    warnings = [*tree.warnings, *lacking_channels(chosen, columns)]
-    recording = recorded(path, "matlab", columns)
-    if options.time is None:
-        clocks = find_vector_clocks(recording.channels, {**found.scalars, **scalars}, options.time_unit)
+        held = ", ".join(list(variables)[:8]) or "no variable"
+        message = f"{path.name}: no column of numbers in it; it holds {held}."
+        raise ReadError("\n  ".join([message, *told.warnings, *left_out]))
+    recording = recorded(path, "matlab", columns, options, {**found.scalars, **scalars})
+    said = (*told.warnings, *lacking_channels(chosen, columns), *recording.warnings)
+    return replace(recording, notes=(*notes, *recording.notes, *left_out), warnings=said)
+
+
+def read_v5(path: Path, told: Told) -> dict[str, Node]:
+    """Read all variables of a MATLAB file of version 5 to 7, one by one, so that a damaged one does no harm."""
+    from scipy.io import loadmat
+    from scipy.io.matlab import MatlabOpaque
+
+    variables: dict[str, Node] = {}
+    content = path.read_bytes()
+    for number, element in enumerate(_elements(content, told), 1):
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                loaded = loadmat(BytesIO(content[:HEADER] + element), simplify_cells=True)
+        except Exception as error:
+            told.warnings.append(f"variable {number} is damaged and not read: {error}")
+            continue
+        for name, value in loaded.items():
+            own = value["s0"].item().decode("latin-1") if isinstance(value, MatlabOpaque) else name
+            if own.startswith("__"):  # MATLAB's own data about its objects
+                continue
+            node = told.guarded(own, _node, value, own, told)
+            if node is not None:
+                variables[own] = node
+    return variables
+
+
+def _elements(content: bytes, told: Told) -> Iterator[bytes]:
+    """The bytes of each variable; that the file ends too early, or what follows is damaged, is warned of."""
+    order, place = "<" if content[126:HEADER] == b"IM" else ">", HEADER
+    while place < len(content):
+        kind, size = struct.unpack(order + "II", content[place : place + 8].ljust(8, b"\0"))
+        end = place + 8 + size
+        if kind not in VARIABLES or end > len(content):
+            cut = f"it ends after {len(content)} of {end} bytes, within its last variable" if end > len(content) else ""
+            told.warnings.append(f"{cut or 'it is damaged'}: what is at byte {place} and behind it is not read")
+            return
+        yield content[place:end]
+        place = end
+
+
+def _node(value: Any, path: str, told: Told) -> Node:
+    """
+    Take apart what SciPy has read.
+
+    Raises
+    ------
+    UnreadableError
+        If it is not data. A part that is not is left out with its reason, by the path from the variable to it.
+    """
+    if isinstance(value, dict):
+        parts = {name: (f"{path}.{name}", part) for name, part in value.items()}
+    elif isinstance(value, list) or (isinstance(value, np.ndarray) and value.dtype.kind == "O"):
+        listed = value if isinstance(value, list) else value.ravel(order="F").tolist()
+        brackets = "()" if any(isinstance(part, dict) for part in listed) else "{}"
+        parts = {k: (f"{path}{brackets[0]}{k}{brackets[1]}", part) for k, part in enumerate(listed, 1)}
     else:
-        clocks = given_clock(recording, options.time, options.time_unit)
-    recording = clocks.applied(replace(recording, notes=tuple(notes), warnings=(*warnings, *recording.warnings)))
-    return replace(recording, notes=(*recording.notes, *left_out))
+        return _data(value)
+    nodes = {key: told.guarded(place, _node, part, place, told) for key, (place, part) in parts.items()}
+    nodes = {key: node for key, node in nodes.items() if node is not None}
+    return nodes if isinstance(value, dict) else list(nodes.values())
 
 
-def _chosen(path: Path, tree: Tree, wanted: tuple[str, ...]) -> dict[str, Node]:
-    """Take the variables that were asked for."""
-    for name in wanted:
-        if name in tree.left_out and name not in tree.variables:
-            raise ReadError(f"{path.name}: {name} cannot be read: {tree.left_out[name]}.")
-        if name not in tree.variables:
-            raise ReadError(f'{path.name}: variable "{name}" not found.{nearest(name, tree.variables)}')
-    return {name: node for name, node in tree.variables.items() if not wanted or name in wanted}
+def _data(value: Any) -> Node:
+    """Numbers or text; UnreadableError if it is neither."""
+    from scipy.io.matlab import MatlabFunction, MatlabObject, MatlabOpaque
+    from scipy.sparse import issparse
+
+    if issparse(value):
+        raise UnreadableError("it is a sparse matrix")
+    if isinstance(value, MatlabFunction):
+        raise UnreadableError(FUNCTION)
+    if isinstance(value, (MatlabOpaque, MatlabObject)):
+        is_opaque = isinstance(value, MatlabOpaque)
+        raise UnreadableError(object_reason(value["s2"].item().decode("latin-1") if is_opaque else value.classname))
+    array = np.asarray(value)
+    if array.dtype.kind == "U":
+        return "\n".join(text.rstrip() for text in array.ravel().tolist())
+    if array.dtype.kind not in "fiub":
+        raise UnreadableError("it holds complex numbers" if array.dtype.kind == "c" else "it holds no numbers")
+    return array
 
 
-def _nothing(path: Path, tree: Tree, left_out: list[str]) -> str:
-    held = ", ".join(list(tree.variables)[:8]) or "no variable"
-    reasons = "\n  ".join([*tree.warnings, *left_out])
-    return f"{path.name}: no column of numbers in it; it holds {held}." + (f"\n  {reasons}" if reasons else "")
+def read_v73(path: Path, told: Told) -> dict[str, Node]:
+    """Read all variables of a MATLAB file of version 7.3."""
+    import h5py
+
+    with h5py.File(path, "r") as file:
+        return _members(file, "", told)
+
+
+def _members(group: h5py.Group, path: str, told: Told) -> dict[str, Node]:
+    """Variables or fields, in MATLAB's order if the file keeps it, without those of MATLAB's own."""
+    ordered = [b"".join(np.asarray(each).tolist()).decode("latin-1") for each in group.attrs.get("MATLAB_fields", ())]
+    names = [name for name in ordered if name in group] or [name for name in group if name[:1] != "#"]
+    found = {}
+    for name in names:
+        place = f"{path}.{name}" if path else name
+        item = told.guarded(place, member, group, name)
+        node = None if item is None else told.guarded(place, _node_73, item, place, told)
+        if node is not None:
+            found[name] = node
+    return found
+
+
+def _node_73(item: h5py.Group | h5py.Dataset, path: str, told: Told) -> Node:
+    """A struct, an array of structs, numbers, text or cells; UnreadableError if it is no data."""
+    import h5py
+
+    matlab_class = _class(item)
+    if matlab_class == "function_handle":
+        raise UnreadableError(FUNCTION)
+    if "MATLAB_object_decode" in item.attrs or (
+        matlab_class and matlab_class not in NUMERIC | {"char", "cell", "struct"}
+    ):
+        raise UnreadableError(object_reason(matlab_class or "?"))
+    if isinstance(item, h5py.Group):
+        if "MATLAB_sparse" in item.attrs:
+            raise UnreadableError("it is a sparse matrix")
+        fields = _members(item, path, told)
+        # Of an array of structs each field is a list of references, one an element.
+        lists = {name: value for name, value in fields.items() if isinstance(value, list) and not _class(item[name])}
+        count = max(map(len, lists.values()), default=0)
+        return [{name: value[k] for name, value in lists.items() if k < len(value)} for k in range(count)] or fields
+    if item.attrs.get("MATLAB_empty", 0):
+        return "" if matlab_class == "char" else np.empty((0, 0))
+    if h5py.check_ref_dtype(item.dtype) is h5py.Reference:
+        places = {f"{path}{{{number}}}": each for number, each in enumerate(item[()].ravel().tolist(), 1)}
+        cells = [told.guarded(place, _node_73, item.file[each], place, told) for place, each in places.items()]
+        return [cell for cell in cells if cell is not None]
+    if item.dtype.kind not in "fiub":
+        is_complex = item.dtype.names == ("real", "imag")
+        raise UnreadableError("it holds complex numbers" if is_complex else "it holds no numbers")
+    numbers = np.atleast_2d(item[()].T)
+    if matlab_class != "char":
+        return numbers
+    rows = numbers.reshape(len(numbers), -1).tolist()
+    return "\n".join("".join(chr(code) for code in row if 0 < code < 0x110000).rstrip() for row in rows)
+
+
+def _class(item: Any) -> str:
+    told = item.attrs.get("MATLAB_class", b"")
+    return told.decode("latin-1") if isinstance(told, bytes) else str(told)
 
 
 FORMAT = Format(

@@ -20,25 +20,6 @@ Node = Numbers | str | list[Any] | dict[str, Any]
 nodes; an array of structs is a list of dictionaries."""
 
 
-@dataclass
-class Tree:
-    """
-    Variables of a MATLAB file, as far as they could be read.
-
-    Attributes
-    ----------
-    variables : dict of str to Node
-    left_out : dict of str to str
-        Path of what was not read -> why: classes that are not data, or that would have to be executed.
-    warnings : list of str
-        Where the file is cut off or damaged.
-    """
-
-    variables: dict[str, Node] = field(default_factory=dict)
-    left_out: dict[str, str] = field(default_factory=dict)
-    warnings: list[str] = field(default_factory=list)
-
-
 FUNCTION = "it is a function; nothing in a recording is executed"
 OPAQUE = {
     "timeseries": "in MATLAB: t = x.Time; values = x.Data; save them instead",
@@ -84,6 +65,10 @@ class Found:
     left_out: dict[str, str] = field(default_factory=dict)
 
 
+Leaf = tuple[str, tuple[str, ...], dict[str, Node], Numbers]
+"""An array with its path, the structs that contain it, and the fields next to it."""
+
+
 def find_columns(variables: dict[str, Node]) -> Found:
     """
     Find the columns of numbers among a file's variables.
@@ -92,91 +77,70 @@ def find_columns(variables: dict[str, Node]) -> Found:
     it has columns; else its longer side counts as that of the samples.
     """
     found = Found()
-    lengths = set(_vector_lengths(variables))
-    for name, node in variables.items():
-        _walk(node, name, (), lengths, found, None)
+    leaves = [leaf for name, node in variables.items() for leaf in _leaves(node, name, (), {})]
+    lengths = {numbers.size for *_, numbers in leaves if 1 < numbers.size == max(numbers.shape)}
+    for path, scope, beside, numbers in leaves:
+        if numbers.size == 1:
+            found.scalars[path] = float(numbers.ravel()[0])
+        elif numbers.size:
+            _take(
+                found, path, scope, {name.casefold(): node for name, node in beside.items()}, numbers.squeeze(), lengths
+            )
     return found
 
 
-def _vector_lengths(node: Node) -> Iterator[int]:
+def _leaves(node: Node, path: str, scope: tuple[str, ...], beside: dict[str, Node]) -> Iterator[Leaf]:
     if isinstance(node, np.ndarray):
-        if 1 < node.size == max(node.shape):
-            yield node.size
-    elif isinstance(node, dict):
-        for child in node.values():
-            yield from _vector_lengths(child)
-    elif isinstance(node, list):
-        for child in node:
-            yield from _vector_lengths(child)
-
-
-def _walk(
-    node: Node, path: str, scope: tuple[str, ...], lengths: set[int], found: Found, beside: dict[str, Node] | None
-) -> None:
-    if isinstance(node, np.ndarray):
-        _numbers(node, path, scope, lengths, found, beside or {})
+        yield path, scope, beside, node
     elif isinstance(node, dict):
         for name, child in node.items():
-            _walk(child, f"{path}.{name}", (*scope, path), lengths, found, node)
+            yield from _leaves(child, f"{path}.{name}", (*scope, path), node)
     elif isinstance(node, list):
-        brackets = "()" if node and isinstance(node[0], dict) else "{}"
+        opening, closing = "()" if node and isinstance(node[0], dict) else "{}"
         for number, child in enumerate(node, 1):
-            if not isinstance(child, str):
-                _walk(child, f"{path}{brackets[0]}{number}{brackets[1]}", scope, lengths, found, None)
+            yield from _leaves(child, f"{path}{opening}{number}{closing}", scope, {})
 
 
-def _numbers(
-    numbers: Numbers, path: str, scope: tuple[str, ...], lengths: set[int], found: Found, beside: dict[str, Node]
+def _take(
+    found: Found, path: str, scope: tuple[str, ...], beside: dict[str, Node], numbers: Numbers, lengths: set[int]
 ) -> None:
     """Split an array into columns; other fields of its struct may give names and units."""
-    if numbers.size == 0:
-        return
-    if numbers.size == 1:
-        found.scalars[path] = float(numbers.ravel()[0])
-        return
-    numbers = numbers.squeeze()
-    told = {name.casefold(): text for name, text in beside.items()}
     is_value = path.rpartition(".")[2].casefold() in VALUE_FIELDS
-    name = _text(told, NAME_FIELDS) if is_value else None
-    unit = _text(told, UNIT_FIELDS) if is_value else None
+    name = _text(beside, NAME_FIELDS) if is_value else None
+    unit = _text(beside, UNIT_FIELDS) if is_value else None
     if numbers.ndim == 1:
         found.columns.append(RecordedChannel(name or "", unit, numbers, heading=path, scope=scope))
         return
-    if numbers.ndim > 2:
-        found.left_out[path] = f"it has {numbers.ndim} dimensions; vectors and matrices are read"
-        return
-    rows, columns = numbers.shape
+    rows, columns, *more = numbers.shape
+    size = " × ".join(map(str, numbers.shape))
     if (columns in lengths) > (rows in lengths) or ((columns in lengths) == (rows in lengths) and columns > rows):
         numbers = numbers.T
-    if numbers.shape[1] > MOST_COLUMNS:
-        found.left_out[path] = (
-            f"it is a matrix of {rows} × {columns}, more than the {MOST_COLUMNS} channels that are read"
-        )
+    if more or numbers.shape[1] > MOST_COLUMNS:
+        found.left_out[path] = f"an array of {size}; vectors, and matrices of up to {MOST_COLUMNS} channels, are read"
         return
-    names = _list_of_names(told, numbers.shape[1])
-    for number in range(numbers.shape[1]):
-        own, own_unit = take_apart(names[number]) if names else (f"{name}[{number + 1}]" if name else None, unit)
-        place, part = f"{path}[{number + 1}]", numbers[:, number]
-        found.columns.append(RecordedChannel(own or "", own_unit, part, heading=place, scope=scope))
+    names = _list_of_names(beside, numbers.shape[1])
+    for number, part in enumerate(numbers.T, 1):
+        own, own_unit = take_apart(names[number - 1]) if names else (f"{name}[{number}]" if name else None, unit)
+        found.columns.append(RecordedChannel(own or "", own_unit, part, heading=f"{path}[{number}]", scope=scope))
 
 
-def _text(told: dict[str, Node], keys: frozenset[str]) -> str | None:
-    found = (told[key] for key in told if key in keys)
-    return next((text.strip() for text in found if isinstance(text, str) and text.strip()), None)
+def _text(beside: dict[str, Node], keys: frozenset[str]) -> str | None:
+    texts = (text.strip() for key, text in beside.items() if key in keys and isinstance(text, str))
+    return next(filter(None, texts), None)
 
 
-def _list_of_names(told: dict[str, Node], count: int) -> list[str]:
+def _list_of_names(beside: dict[str, Node], count: int) -> list[str]:
     """Names of a matrix's columns, if a cell array or lines of text next to it give as many."""
-    for key, node in told.items():
+    for key, node in beside.items():
         names = node.splitlines() if isinstance(node, str) else node
-        if key in LIST_FIELDS and isinstance(names, list) and len(names) == count:
+        if key in LIST_FIELDS and isinstance(names, list):
             texts = [name.strip() for name in names if isinstance(name, str) and name.strip()]
-            if len(texts) == count:
+            if len(texts) == len(names) == count:
                 return texts
     return []
 
 
-BRISTOL_DATA = re.compile(r"Channel_(\d+)_Data")
+BRISTOL = re.compile(r"(?:Channel_(\d+)|File)_(?:Header|(Data))")
 
 
 def numbered_channels(
@@ -201,45 +165,26 @@ def numbered_channels(
     notes : list of str
         Empty if the file has another layout.
     """
-    numbers = sorted(int(match[1]) for name in variables if (match := BRISTOL_DATA.fullmatch(name)))
-    arrays = {number: variables[f"Channel_{number}_Data"] for number in numbers}
+    parts = {name: match for name in variables if (match := BRISTOL.fullmatch(name))}
     columns: list[RecordedChannel] = []
-    for number, values in arrays.items():
+    for number in sorted(int(match[1]) for match in parts.values() if match[1] and match[2]):
+        place, header = f"Channel_{number}_Data", variables.get(f"Channel_{number}_Header")
+        values = variables[place]
         if not isinstance(values, np.ndarray) or values.size < 2 or values.size != max(values.shape):
             continue
-        header = variables.get(f"Channel_{number}_Header")
-        name, unit = _told(header, "SignalName"), _told(header, "Unit")
+        told = header if isinstance(header, dict) else {}
+        name, unit = (_text({"": told.get(key, "")}, frozenset(("",))) for key in ("SignalName", "Unit"))
         if number == 1 and rising_share(values.ravel().astype(np.float64)) >= RISING_SHARE:
             name = "time"
-        columns.append(RecordedChannel(name or "", unit, values.ravel(), heading=f"Channel_{number}_Data"))
+        columns.append(RecordedChannel(name or "", unit, values.ravel(), heading=place))
     if not columns:
         return variables, [], {}, []
-    others = {
-        name: node
-        for name, node in variables.items()
-        if not re.fullmatch(r"(?:Channel_\d+|File)_(?:Header|Data)", name)
-    }
+    others = {name: node for name, node in variables.items() if name not in parts}
     notes = ["layout of Bristol: Channel_i_Data, with names and units in Channel_i_Header"]
-    rate = _number(variables.get("File_Header"), "SampleFrequency")
     if columns[0].name == "time":
         return others, columns, {}, [*notes, "Channel_1_Data rises: it is the clock"]
+    rate = _number(variables.get("File_Header"), "SampleFrequency")
     return others, columns, {"File_Header.SampleFrequency": rate} if rate else {}, notes
-
-
-def lacking_channels(variables: dict[str, Node], columns: list[RecordedChannel]) -> list[str]:
-    """Warn where the layout `t`, `chan1` … `chann`, `No_Channels` has fewer channels than it says."""
-    said = variables.get("No_Channels")
-    if not isinstance(said, np.ndarray) or said.size != 1:
-        return []
-    there = sum(re.fullmatch(r"chan\d+|output\[\d+\]", column.heading) is not None for column in columns)
-    if there == 0 or there == int(said.ravel()[0]):
-        return []
-    return [f"No_Channels says {int(said.ravel()[0])}, but {there} channels are in the file"]
-
-
-def _told(header: Node | None, field: str) -> str | None:
-    text = header.get(field) if isinstance(header, dict) else None
-    return text.strip() or None if isinstance(text, str) else None
 
 
 def _number(header: Node | None, field: str) -> float | None:
@@ -249,3 +194,12 @@ def _number(header: Node | None, field: str) -> float | None:
     except (ValueError, TypeError, IndexError):
         return None
     return number if number > 0 else None
+
+
+def lacking_channels(variables: dict[str, Node], columns: list[RecordedChannel]) -> list[str]:
+    """Warn where the layout `t`, `chan1` … `chann`, `No_Channels` has fewer channels than it says."""
+    said = variables.get("No_Channels")
+    there = sum(re.fullmatch(r"chan\d+|output\[\d+\]", column.heading) is not None for column in columns)
+    if not isinstance(said, np.ndarray) or said.size != 1 or there in (0, int(said.ravel()[0])):
+        return []
+    return [f"No_Channels says {int(said.ravel()[0])}, but {there} channels are in the file"]

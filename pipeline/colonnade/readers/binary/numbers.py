@@ -1,129 +1,82 @@
-"""Numbers of a binary file as the values of channels: at a place of its bytes, or in structs and groups."""
+"""Numbers of a binary file as the values of channels: at a place of its bytes, in groups of HDF5, in structs."""
 
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
 from colonnade.arrays import Array
+from colonnade.readers.clock import with_clocks
 from colonnade.readers.format import Options
 from colonnade.readers.recording import RecordedChannel, Recording, TimeUnit
 
+if TYPE_CHECKING:
+    import h5py
+
 Bytes = NDArray[np.uint8]
-
-
-@dataclass(frozen=True)
-class StoredNumbers:
-    """
-    Where a channel's numbers stand.
-
-    Attributes
-    ----------
-    name : str
-        Of the channel.
-    form : str
-        As numpy spells it, `<f8`.
-    first : int
-        Byte of the first number.
-    count : int
-    stride : int
-        Bytes from one number to the next.
-    offset, factor : float
-        Value = number × factor + offset.
-    end : int or None
-        Byte behind the last one that may be the channel's; that of the file otherwise.
-    """
-
-    name: str
-    form: str
-    first: int
-    count: int
-    stride: int
-    offset: float = 0.0
-    factor: float = 1.0
-    end: int | None = None
-
-
-def values_at(content: Bytes, stored: StoredNumbers, file: str = "the file") -> tuple[Array, list[str]]:
-    """
-    Take a channel's numbers out of the bytes of a file, called `file` in a warning.
-
-    Returns
-    -------
-    values : ndarray, shape (n,)
-        As many as there are; NaN where one is missing.
-    warnings : list of str
-        Whether the bytes end too early.
-    """
-    form = np.dtype(stored.form)
-    end = content.size if stored.end is None else stored.end
-    room = (end - stored.first - form.itemsize) // stored.stride + 1
-    there = max(min(stored.count, room), 0) if stored.first >= 0 else 0
-    warnings = []
-    if there < stored.count:
-        warnings.append(f'"{stored.name}": {file} ends after {there} of its {stored.count} values')
-    if not there:
-        return np.empty(0), warnings
-    raw = np.ndarray(there, form, content, offset=stored.first, strides=(stored.stride,))
-    with np.errstate(invalid="ignore", over="ignore"):
-        values = raw.astype(np.float64) * stored.factor + stored.offset
-    values[~np.isfinite(values)] = np.nan
-    return values, warnings
 
 
 class UnreadableError(Exception):
     """A part of a file that is whole, but not read; its text is the reason."""
 
 
-def recorded(path: Path, format: str, columns: list[RecordedChannel]) -> Recording:
+DAMAGE = (OSError, KeyError, ValueError, TypeError, RuntimeError, UnicodeError, MemoryError)
+"""What h5py raises for a part of a file that is damaged or too large."""
+
+
+@dataclass
+class Told:
     """
-    Make a recording of columns of any numbers, with warnings of infinite values.
+    What is said of parts that are not read.
 
-    A column without a name has the last part of its heading, or all of it if another column has that part.
-    """
-    last = [column.name or column.heading.rpartition(".")[2] for column in columns]
-    counts = Counter(last)
-    channels, warnings = [], []
-    for column, short in zip(columns, last, strict=True):
-        values, infinite = as_values(column.values)
-        channels.append(replace(column, name=short if counts[short] == 1 else column.heading, values=values))
-        warnings += [f"{column.heading}: {infinite}"] if infinite else []
-    return Recording(path, format, tuple(channels), warnings=tuple(warnings))
-
-
-def as_values(numbers: NDArray[Any]) -> tuple[Array, str]:
-    """
-    Take numbers as a channel's values.
-
-    Parameters
+    Attributes
     ----------
-    numbers : ndarray, shape (n,)
-        Booleans, integers or floats.
-
-    Returns
-    -------
-    values : ndarray of float64, shape (n,)
-        The array itself where it is one already and needs no change; NaN in place of infinities.
-    warning : str
-        How many infinities there were, such as "2 values are infinite, …"; empty if there are none.
+    left_out : dict of str to str
+        Path -> why.
+    warnings : list of str
+        Of parts that are damaged.
     """
-    values = np.ascontiguousarray(numbers, dtype=np.float64)
-    with np.errstate(all="ignore"):
-        if np.isfinite(values.sum()):  # one pass without a copy: the usual case
-            return values, ""
-    infinite = np.isinf(values)
-    if not infinite.any():
-        return values, ""
-    count = int(infinite.sum())
-    first = int(np.argmax(infinite)) + 1
-    what = "1 value is" if count == 1 else f"{count} values are"
-    return np.where(infinite, np.nan, values), f"{what} infinite, the first at sample {first}: taken as missing"
+
+    left_out: dict[str, str] = field(default_factory=dict)
+    warnings: list[str] = field(default_factory=list)
+
+    def guarded(self, path: str, read: Callable[..., Any], *arguments: Any) -> Any:
+        """What a part gives; None if it is left out or damaged, which is noted."""
+        try:
+            return read(*arguments)
+        except UnreadableError as reason:
+            self.left_out[path] = str(reason)
+        except DAMAGE as error:
+            self.warnings.append(f"{path} is damaged and not read: {error}")
+        return None
+
+
+def member(group: h5py.Group, name: str) -> h5py.Group | h5py.Dataset:
+    """
+    Open a member of a group.
+
+    Raises
+    ------
+    UnreadableError
+        If it is a link, or its numbers are elsewhere: netCDF4 and h5py would follow both into other files.
+    """
+    import h5py
+
+    if not isinstance(group.get(name, getlink=True), h5py.HardLink):
+        raise UnreadableError("it is a link to another place or file; only this file is read")
+    item = group[name]
+    if isinstance(item, h5py.Dataset) and (item.external or item.is_virtual):
+        raise UnreadableError("its numbers are in another file; only this file is read")
+    if not isinstance(item, h5py.Group) and getattr(item, "shape", None) is None:
+        raise UnreadableError("it holds nothing")
+    return item
 
 
 class ClockOptions(Options):
@@ -133,3 +86,89 @@ class ClockOptions(Options):
         default=None, description="Channel, by name or number from 1, that is the clock of all that are as long as it."
     )
     time_unit: TimeUnit | None = Field(default=None, description="Unit of the times.")
+
+
+def numbers_at(
+    content: Bytes,
+    name: str,
+    form: str,
+    first: int,
+    count: int,
+    warnings: list[str],
+    *,
+    stride: int = 0,
+    scale: tuple[float, float] = (0.0, 1.0),
+    file: str = "the file",
+) -> Array:
+    """
+    Take a channel's numbers out of the bytes of a file; that some are missing is warned of.
+
+    Parameters
+    ----------
+    content : ndarray of uint8
+        Those that may be the channel's.
+    name : str
+        Of the channel.
+    form : str
+        As numpy spells it, `<f8`.
+    first, count : int
+        Byte of the first number, and how many there should be.
+    warnings : list of str
+    stride : int
+        Bytes from one number to the next; their size by default.
+    scale : (float, float)
+        Offset and factor: value = offset + number × factor.
+    file : str
+        What the bytes are of, in a warning.
+
+    Returns
+    -------
+    values : ndarray, shape (n,)
+        As many as there are; NaN where one is missing.
+    """
+    kind = np.dtype(form)
+    stride = stride or kind.itemsize
+    room = (content.size - first - kind.itemsize) // stride + 1
+    there = max(min(count, room), 0) if first >= 0 else 0
+    if there < count:
+        warnings.append(f'"{name}": {file} ends after {there} of its {count} values')
+    if not there:
+        return np.empty(0)
+    raw = np.ndarray(there, kind, content, offset=first, strides=(stride,))
+    with np.errstate(invalid="ignore", over="ignore"):
+        values = raw.astype(np.float64) * scale[1] + scale[0]
+    values[~np.isfinite(values)] = np.nan
+    return values
+
+
+def recorded(
+    path: Path,
+    format: str,
+    columns: Sequence[RecordedChannel],
+    options: ClockOptions | None = None,
+    scalars: Mapping[str, float] | None = None,
+    otherwise: Mapping[int, Array] | None = None,
+) -> Recording:
+    """
+    Make a recording of columns of any numbers, on the clocks that they have or that are found.
+
+    A column without a name has the last part of its heading, or all of it if another column has that part. Infinite
+    values are missing, with a warning.
+    """
+    last = [column.name or column.heading.rpartition(".")[2] for column in columns]
+    counts = Counter(last)
+    channels, warnings = [], []
+    for column, short in zip(columns, last, strict=True):
+        values = np.ascontiguousarray(column.values, dtype=np.float64)
+        with np.errstate(all="ignore"):
+            is_finite = np.isfinite(values.sum())  # one pass without a copy: the usual case
+        infinite = np.isinf(values) if not is_finite else np.zeros(0, dtype=bool)
+        if count := int(infinite.sum()):
+            values = np.where(infinite, np.nan, values)
+            what = "1 value is" if count == 1 else f"{count} values are"
+            first = int(np.argmax(infinite)) + 1
+            warnings.append(f"{column.heading}: {what} infinite, the first at sample {first}: taken as missing")
+        channels.append(replace(column, name=short if counts[short] == 1 else column.heading, values=values))
+    recording = Recording(path, format, tuple(channels), warnings=tuple(warnings))
+    given = options or ClockOptions()
+    return with_clocks(recording, given.time, given.time_unit, scalars, otherwise)

@@ -16,7 +16,7 @@ from colonnade.readers.clock import even_times
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
-from colonnade.readers.text.numbered import read_running
+from colonnade.readers.text.running import read_running
 
 MARK = b"-1"
 HEADER_LINES = 11
@@ -28,7 +28,6 @@ REAL_KINDS = {2: "f4", 4: "f8"}
 """Kinds of ordinates that are real, in single and double precision."""
 IEEE = "2"
 BYTE_ORDERS = {"1": "<", "2": ">"}
-LONGEST_LINE = 4096
 OPENING = re.compile(rb" {4}-1 *\r?\n *\d{2,4} *\r?\n")
 """As Fortran writes the mark and the number of a data set; numbers of a table look otherwise."""
 KNOWN_SETS = frozenset(
@@ -45,11 +44,8 @@ DIRECTIONS = {
 def recognise(head: Head) -> Recognition:
     """Say whether the first lines open a data set: one of any number, if they are written as universal files are."""
     lines = [line.strip() for line in head.content.split(b"\n")]
-    opened = lines[0] == b"-1" and len(lines) > 1
-    if opened and lines[1].split(b" ")[0] in (b"58", b"58b"):
-        return Recognition(True, "it opens with a data set 58")
-    found = opened and any(one == b"-1" and two.split(b" ")[0] in (b"58", b"58b") for one, two in pairwise(lines))
-    if found:
+    opened = lines[0] == MARK and len(lines) > 1
+    if opened and any(one == MARK and two.split(b" ")[0] in (b"58", b"58b") for one, two in pairwise(lines)):
         return Recognition(True, "it opens with -1 and holds a data set 58")
     if opened and OPENING.match(head.content) and int(lines[1]) in KNOWN_SETS:
         return Recognition(True, f"it opens with -1 and a data set {int(lines[1])}")
@@ -68,25 +64,24 @@ def read(path: Path, options: Options) -> Recording:
     warnings: list[str] = []
     notes: list[str] = []
     channels: list[RecordedChannel] = []
-    functions, others = 0, dict[str, None]()
+    others: list[str] = []
+    has_functions = False
     with path.open("rb") as stream:
-        for place, header in _data_sets(stream):
-            fields = header.split()
+        for place, fields in _data_sets(stream):
             if fields[0] not in ("58", "58b"):
                 notes.append(f"data set {fields[0]} at byte {place}: left out")
-                others[fields[0]] = None
+                others.append(fields[0])
                 continue
-            functions += 1
+            has_functions = True
             try:
-                channels += _function(stream, fields, warnings, notes, place)
+                channels += _function(stream, fields, warnings, notes)
             except (ValueError, IndexError, OverflowError) as error:
                 warnings.append(f"the data set 58 at byte {place} is damaged or was cut off ({error}); left out")
-    if not functions:
-        held = ", ".join(others) or "of no kind"
+    if not has_functions:
+        held = ", ".join(dict.fromkeys(others)) or "of no kind"
         raise ReadError(
-            f"{path.name}: a universal file without functions: it holds data sets {held}, but no "
-            'data set 58, the one with recorded histories. Export the time histories ("functions at '
-            'nodal DOF", data set 58).'
+            f"{path.name}: a universal file without functions: it holds data sets {held}, but no data set 58, the one "
+            'with recorded histories. Export the time histories ("functions at nodal DOF", data set 58).'
         )
     if len({channel.name for channel in channels}) < len(channels):
         notes.append("several functions have the same name: refer to them by number")
@@ -95,67 +90,55 @@ def read(path: Path, options: Options) -> Recording:
     return Recording(path, "uff", tuple(channels), notes=tuple(notes), warnings=tuple(warnings))
 
 
-def _data_sets(stream: BinaryIO) -> Iterator[tuple[int, str]]:
+def _data_sets(stream: BinaryIO) -> Iterator[tuple[int, list[str]]]:
     """Find the data sets; each is left to the caller to read from the line below its number on."""
-    while line := stream.readline(LONGEST_LINE):
+    while line := stream.readline():
         if line.strip() == MARK:
             header = MARK
             while header == MARK:  # the mark that closes one set and the one that opens the next
                 place = stream.tell()
-                header = stream.readline(LONGEST_LINE).strip()
+                header = stream.readline().strip()
             if header:
-                yield place, header.decode("latin-1")
+                yield place, header.decode("latin-1").split()
 
 
-def _function(
-    stream: BinaryIO, fields: list[str], warnings: list[str], notes: list[str], place: int
-) -> Iterator[RecordedChannel]:
+def _function(stream: BinaryIO, fields: list[str], warnings: list[str], notes: list[str]) -> Iterator[RecordedChannel]:
     """Read a data set 58, its eleven lines by their columns; ValueError or IndexError if it is incomplete."""
-    title, *_, kinds, form, abscissa, ordinate, _, _ = (
-        _decoded(stream.readline(LONGEST_LINE)).rstrip("\r\n") for _ in range(HEADER_LINES)
-    )
+    title, *_, kinds, form, abscissa, ordinate, _, _ = (_decoded(stream.readline()) for _ in range(HEADER_LINES))
     direction = DIRECTIONS.get(int(kinds[51:55] or 0), "")
-    node = f"{kinds[31:41].strip()} {kinds[41:51].strip()} {direction}".replace("NONE", "").strip()
-    name = _label(title) or f"node {node}"
-    if len(form.split()) < 5:
-        raise ValueError("its header is not whole")
-    number, points, spacing, start, interval, *_ = form.split()
+    node = f"node {kinds[31:41].strip()} {kinds[41:51].strip()} {direction}"
+    name = _label(title) or node.replace("NONE", "").strip()
+    number, points, spacing, start, interval = (*form.split(), *[""] * 5)[:5]
     function, kind, size, begin, step = int(kinds[:5]), int(number), int(points), float(start), float(interval)
-    is_even, is_time = int(spacing) == 1, int(abscissa[:10]) == TIME
     if size < 0:
         raise ValueError(f"{size} points")
+    is_even, is_time = int(spacing) == 1, int(abscissa[:10]) == TIME
     if kind not in REAL_KINDS or not (is_time or function == TIME_RESPONSE):
         notes.append(f'"{name}": not a real function of time (kind {function}); left out')
         return
     if fields[0] == "58b":
         numbers = _binary(stream, fields, kind, is_even=is_even)
     else:
-        lines = enumerate(
-            takewhile(lambda line: line.strip() != MARK, iter(lambda: stream.readline(LONGEST_LINE), b"")), 1
-        )
-        numbers, told = read_running((number, line.decode("latin-1")) for number, line in lines)
-        warnings += [f'"{name}", the data set at byte {place}: {text}' for text in told]
+        rows = takewhile(lambda line: line.strip() != MARK, iter(stream.readline, b""))
+        numbers, told = read_running(enumerate((row.decode("latin-1") for row in rows), 1))
+        warnings += [f'"{name}", below its header: {text}' for text in told]
     wanted = size if is_even else 2 * size
     if numbers.size < wanted:
         warnings.append(f'"{name}": the data set should have {wanted} numbers but has {numbers.size}: cut off')
-    numbers = numbers[:wanted]
-    time: Array | None
-    if is_even:
-        values, time = numbers, even_times(numbers.size, step, begin) if step > 0 else None
-    else:
-        values = numbers[1::2]
-        time = numbers[0::2][: values.size].copy()
-    if time is not None:
-        time *= TIME_UNITS.get(_label(abscissa[46:66]).casefold(), 1.0)
-    yield RecordedChannel(name, _label(ordinate[46:66]) or None, values, time)
+    values = numbers[:wanted] if is_even else numbers[1:wanted:2]
+    time = None if is_even else numbers[: 2 * values.size : 2]
+    if is_even and step > 0:
+        time = even_times(values.size, step, begin)
+    second = TIME_UNITS.get(_label(abscissa[46:66]).casefold(), 1.0)
+    yield RecordedChannel(name, _label(ordinate[46:66]) or None, values, None if time is None else time * second)
 
 
 def _decoded(line: bytes) -> str:
     """Text of a header's line: UTF-8 if it is valid, else Windows-1252."""
     try:
-        return line.decode("utf-8")
+        return line.decode("utf-8").rstrip("\r\n")
     except UnicodeDecodeError:
-        return line.decode("cp1252", errors="replace")
+        return line.decode("cp1252", errors="replace").rstrip("\r\n")
 
 
 def _label(text: str) -> str:
@@ -165,12 +148,12 @@ def _label(text: str) -> str:
 
 def _binary(stream: BinaryIO, fields: list[str], kind: int, *, is_even: bool) -> Array:
     """Read binary numbers; uneven abscissae are in single precision."""
-    order, size = BYTE_ORDERS.get(fields[1]), int(fields[4])
-    if order is None or fields[2] != IEEE or size < 0:
+    order = BYTE_ORDERS.get(fields[1])
+    if order is None or fields[2] != IEEE:
         raise ValueError(f"byte order {fields[1]}, floating point {fields[2]}")
     ordinate = [("y", order + REAL_KINDS[kind])]
     form = np.dtype(ordinate if is_even else [("x", order + "f4"), *ordinate])
-    content = stream.read(size)
+    content = stream.read(int(fields[4]))
     found = np.frombuffer(content[: len(content) // form.itemsize * form.itemsize], form)
     return np.column_stack([found[each].astype(np.float64) for each in form.names or ()]).ravel()
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 import struct
 import warnings
 from collections.abc import Sequence
-from datetime import UTC, datetime
+from datetime import UTC
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -37,20 +38,26 @@ READERS = {
 LONGEST_STEP = 1e5
 """Seconds; a header with a larger one is none of SAC's."""
 STARTS = {
-    b"Origin Time": "KNET",
-    b"WID2 ": "GSE2",
-    b"BEGIN GSE2": "GSE2",
-    b"BEGIN IMS": "GSE2",
-    b"WID1 ": "GSE1",
-    b"XW01 ": "GSE1",
-    b"\x55\x3a": "SEG2",
-    b"\x3a\x55": "SEG2",
+    "KNET": rb"Origin Time",
+    "GSE1": rb"WID1 |XW01 ",
+    "GSE2": rb"WID2 |BEGIN GSE2|BEGIN IMS",
+    "SEG2": rb"\x55\x3a|\x3a\x55",
+    "SLIST": rb"TIMESERIES [^\n]*SLIST",
+    "TSPAIR": rb"TIMESERIES [^\n]*TSPAIR",
+    "WAV": rb"RIFF.{4}WAVE",
+    # A number of six digits or blanks, a letter for the kind of record, a blank; then a year of two bytes, or the
+    # volume's first blockette.
+    "MSEED": rb"[0-9 \0]{6}(?:[DRQM][ \0].{12}(?:[\x07\x08].|.[\x07\x08]).{26}|V.010.{36})",
+    # A tag: K, byte order, then a file header (type 1) of one of two lengths.
+    "KINEMETRICS_EVT": rb"K(?:\x01..\0\0\0\x01(?:\x07\xf8|\x0a\xb0)|\0..\x01\0\0\0(?:\xf8\x07|\xb0\x0a)).{6}",
 }
-"""Kinds, as ObsPy names them, by what their files start with."""
+"""What files of a kind, as ObsPy names it, start with; other kinds have no sign that separates them from noise."""
 UNITS = {"KNET": "m/s^2", "KINEMETRICS_EVT": "m/s^2"}
 """Units of kinds whose header gives the factor to them."""
 LARGEST_GAP = 10.0
 """Gaps, as a multiple of what was recorded, that are still filled with missing values."""
+LARGEST_OFFSET = 0.1
+"""Of a piece from the steps of the first one, in steps, with which it is still joined to it."""
 ROUNDED = 1e-6
 """Relative difference to a rate of three decimals, in Hz, within which a step in single precision is meant to be it."""
 
@@ -83,7 +90,6 @@ def read(path: Path, options: WaveformOptions) -> Recording:
     ReadError
         If the kind is not known, ObsPy cannot read it, or it holds no samples.
     """
-    path.stat()  # ObsPy has no message of its own for a file that is not there
     kind = _kind(path, options)
     stream, told = _stream(path, kind)
     grouped: dict[str, list[Any]] = {}
@@ -96,18 +102,22 @@ def read(path: Path, options: WaveformOptions) -> Recording:
     channels, notes = [], [f"{kind}, read by ObsPy"]
     for name, traces in grouped.items():
         traces.sort(key=lambda trace: trace.stats.starttime)
-        step, note = _step(traces, kind)
-        time, values, found = _joined(name, traces, step, origin)
-        calibration = float(traces[0].stats.calib)
+        calibration, step = float(traces[0].stats.calib), float(traces[0].stats.delta)
+        rate = round(1 / step, 3)
+        if kind == "SAC" and rate > 0 and abs(step * rate - 1) < ROUNDED:
+            # A step in single precision: 1/2048 s is exact in it, 1/100 s is not.
+            step = 1 / rate
+            notes.append(f"step {step:.10g} s: {rate:g} Hz, which the header's single precision allows")
+        time, values = _joined(name, traces, step, origin, told)
         if kind in UNITS:
             values = values * calibration
-        channels.append(RecordedChannel(name, UNITS.get(kind), values, time))
-        told += found
-        notes += [note] if note else []
-        if kind not in UNITS and calibration != 1.0:
+        elif calibration != 1.0:
             notes.append(f'"{name}": the header gives a calibration of {calibration:g}, which is not applied')
-    start = _start(origin)
-    if start is None:
+        channels.append(RecordedChannel(name, UNITS.get(kind), values, time))
+    start = None
+    if origin.year > 1970:  # what ObsPy puts in the place of a date that is not known
+        start = origin.datetime.replace(tzinfo=UTC)
+    else:
         notes.append("the file gives no date: times count from its earliest sample")
     return Recording(path, "waveform", tuple(channels), start, tuple(dict.fromkeys(notes)), tuple(told))
 
@@ -119,44 +129,10 @@ def kind_of_waveform(head: Head) -> str | None:
     Returns
     -------
     kind : str or None
-        As ObsPy calls it; None if the first bytes are none of those known here. Other kinds that ObsPy reads have
-        no sign that separates them from text or noise.
+        As ObsPy calls it; None if the first bytes are none of those known here.
     """
-    first = head.content
-    for start, kind in STARTS.items():
-        if first.startswith(start):
-            return kind
-    if first.startswith(b"TIMESERIES "):
-        first = first.split(b"\n", 1)[0]
-        return next((kind for kind in ("SLIST", "TSPAIR") if kind.encode() in first), None)
-    if first.startswith(b"RIFF") and first[8:12] == b"WAVE":
-        return "WAV"
-    for looks, kind in ((_is_mini_seed, "MSEED"), (_is_kinemetrics, "KINEMETRICS_EVT"), (_is_sac, "SAC")):
-        if looks(first):
-            return kind
-    return None
-
-
-def _is_mini_seed(head: bytes) -> bool:
-    """Six digits or blanks, a letter for the kind of record, a blank; then a year, or the volume's first blockette."""
-    if len(head) < 48 or not all(byte in b"0123456789 \0" for byte in head[:6]):
-        return False
-    if head[6:7] == b"V":
-        return head[8:11] == b"010"
-    years = (struct.unpack_from(order + "H", head, 20)[0] for order in "<>")
-    return (
-        head[6:7] in (b"D", b"R", b"Q", b"M")
-        and head[7:8] in (b" ", b"\0")
-        and any(1900 < year < 2200 for year in years)
-    )
-
-
-def _is_kinemetrics(head: bytes) -> bool:
-    """A tag: K, byte order, then a file header (type 1) of one of two lengths."""
-    if len(head) < 16 or head[:1] != b"K" or head[1] not in (0, 1):
-        return False
-    kind, length = struct.unpack_from((">" if head[1] else "<") + "LH", head, 4)
-    return kind == 1 and length in (2040, 2736)
+    known = (kind for kind, start in STARTS.items() if re.match(start, head.content, re.DOTALL))
+    return next(known, "SAC" if _is_sac(head.content) else None)
 
 
 def _is_sac(head: bytes) -> bool:
@@ -172,15 +148,15 @@ def _is_sac(head: bytes) -> bool:
 
 
 def _kind(path: Path, options: WaveformOptions) -> str:
-    kind = (options.kind or kind_of_waveform(head_of(path)) or "").upper()
+    found = kind_of_waveform(head_of(path))  # ObsPy has no message of its own for a file that is not there
+    kind = (options.kind or found or "").upper()
     if not kind:
         raise ReadError(
             f'{path.name}: its first bytes do not show its format. Give it, for example kind = "SAC"; '
             f"{', '.join(READERS)} are read."
         )
     if kind not in READERS:
-        convert = f'obspy.read("{path.name}", format="{kind}").write("{path.stem}.mseed")'
-        advice = f" Convert the file to miniSEED, for example with ObsPy: {convert}." if kind != "PICKLE" else ""
+        advice = "" if kind == "PICKLE" else " Convert the file to miniSEED, for example with ObsPy."
         raise ReadError(f"{path.name}: ObsPy's format {kind} is not read here.{nearest(kind, READERS)}{advice}")
     return kind
 
@@ -197,56 +173,35 @@ def _stream(path: Path, kind: str) -> tuple[Any, list[str]]:
     return stream, [text for text in told if "eprecat" not in text]
 
 
-def _step(traces: Sequence[Any], kind: str) -> tuple[float, str]:
-    """Time step of a channel, s, and what was mended of it."""
-    step = float(traces[0].stats.delta)
-    if kind != "SAC":
-        return step, ""
-    # A step in single precision: 1/2048 s is exact in it, 1/100 s is not.
-    rate = round(1 / step, 3)
-    if rate > 0 and abs(step * rate - 1) < ROUNDED:
-        return 1 / rate, f"step {1 / rate:.10g} s: {rate:g} Hz, which the header's single precision allows"
-    return step, f"step {step:.10g} s, in the header's single precision"
-
-
-def _joined(name: str, traces: Sequence[Any], step: float, origin: Any) -> tuple[Array, Array, list[str]]:
-    """Join the pieces of one channel, on a clock from the recording's first sample on."""
+def _joined(name: str, traces: Sequence[Any], step: float, origin: Any, told: list[str]) -> tuple[Array, Array]:
+    """Times, from the recording's first sample on, and values of the pieces of one channel."""
     begins = [float(trace.stats.starttime - origin) for trace in traces]
     pieces = [np.ma.filled(np.ma.asarray(trace.data, dtype=np.float64), np.nan) for trace in traces]
-    told = []
     places = [round((begin - begins[0]) / step) for begin in begins]
-    sizes = [piece.size for piece in pieces]
-    total = max(place + size for place, size in zip(places, sizes, strict=True))
-    steps = [float(trace.stats.delta) for trace in traces]
-    rates_differ = any(abs(each / steps[0] - 1) > ROUNDED for each in steps)
-    if rates_differ or total > (1 + LARGEST_GAP) * sum(sizes):
-        time = np.concatenate([even_times(*each) for each in zip(sizes, steps, begins, strict=True)])
-        rates = " and ".join(f"{1 / each:.6g} Hz" for each in dict.fromkeys(steps))
-        what = f"have rates of {rates}; each has its own times" if rates_differ else "are far apart"
-        told.append(f'"{name}": its {len(traces)} pieces {what}; the gaps are not filled')
-        return time, np.concatenate(pieces), told
-    values = np.full(total, np.nan)
-    overlaps = 0
-    for place, piece in zip(places, pieces, strict=True):
-        part = values[place : place + piece.size]
-        overlaps += int(np.isfinite(part).sum())
-        part[:] = np.where(np.isfinite(part), part, piece)
-    if missing := int(np.isnan(values).sum()):
-        told.append(
-            f'"{name}": {len(traces)} pieces with gaps of {missing} samples ({missing * step:g} s) in all; missing'
-        )
-    if overlaps:
-        told.append(f'"{name}": its pieces overlap by {overlaps} samples; the earlier ones are used')
     late = max(abs(begin - begins[0] - place * step) for begin, place in zip(begins, places, strict=True))
-    if late > 0.1 * step:
-        told.append(f'"{name}": a piece is {late:g} s off the steps of the first one')
-    return even_times(total, step, begins[0]), values, told
-
-
-def _start(origin: Any) -> datetime | None:
-    """Date and time of the first sample; none where ObsPy has put 1970 in its place."""
-    moment: datetime = origin.datetime
-    return None if moment.year <= 1970 else moment.replace(tzinfo=UTC)
+    steps = [float(trace.stats.delta) for trace in traces]
+    recorded = sum(piece.size for piece in pieces)
+    total = max(place + piece.size for place, piece in zip(places, pieces, strict=True))
+    why = ""
+    if any(abs(each / steps[0] - 1) > ROUNDED for each in steps):
+        why = f"have rates of {' and '.join(f'{1 / each:.6g} Hz' for each in dict.fromkeys(steps))}"
+    elif total > (1 + LARGEST_GAP) * recorded or late > LARGEST_OFFSET * step:
+        why = "are far apart" if late <= LARGEST_OFFSET * step else f"are {late:g} s off the steps of the first"
+    if why:
+        told.append(f'"{name}": its {len(pieces)} pieces {why}; each has its own times, and gaps are not filled')
+        times = [even_times(piece.size, *clock) for piece, *clock in zip(pieces, steps, begins, strict=True)]
+        return np.concatenate(times), np.concatenate(pieces)
+    values = np.full(total, np.nan)
+    for place, piece in reversed([*zip(places, pieces, strict=True)]):  # where they overlap the earlier ones stay
+        values[place : place + piece.size] = piece
+    missing = int(np.isnan(values).sum())
+    if missing:
+        told.append(
+            f'"{name}": {len(pieces)} pieces with gaps of {missing} samples ({missing * step:g} s) in all; missing'
+        )
+    if overlaps := recorded - total + missing:
+        told.append(f'"{name}": its pieces overlap by {overlaps} samples; the earlier ones are used')
+    return even_times(total, step, begins[0]), values
 
 
 FORMAT = Format(

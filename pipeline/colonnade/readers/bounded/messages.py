@@ -8,7 +8,6 @@ sentences, nothing that has to be trusted. A hijacked reader can lie about its f
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass
 from datetime import datetime
 from math import prod
 from pathlib import Path
@@ -29,23 +28,18 @@ BEGUN = b"begun\n"
 
 
 class BrokenAnswerError(Exception):
-    """The answer is not valid: the reading process cannot be trusted."""
+    """The answer is not valid or not whole: the reading process ended, or cannot be trusted."""
 
 
-class EndedError(Exception):
-    """An answer that is not whole: the reader ended."""
-
-
-@dataclass(frozen=True)
-class Request:
+class Request(BaseModel):
     """
-    A file that a function is to read.
+    A file that a function is to read; it is written as a line of JSON.
 
     Attributes
     ----------
     function : str
         `module:name`; it takes the path and the options, and returns a header for JSON and arrays.
-    path, within : str
+    path, within : Path
         The file, and the folder whose files may be read.
     options : dict
     kind : str
@@ -56,22 +50,16 @@ class Request:
     """
 
     function: str
-    path: str
-    within: str
-    options: dict[str, Any]
+    path: Path
+    within: Path
+    options: dict[str, JsonValue]
     kind: str
     modules: tuple[str, ...]
     bounds: Bounds
 
     def line(self) -> bytes:
-        """Write it as one line."""
-        return json.dumps(asdict(self)).encode() + b"\n"
-
-    @classmethod
-    def of(cls, line: bytes) -> Request:
-        """Read it."""
-        said = json.loads(line)
-        return cls(**{**said, "modules": tuple(said["modules"]), "bounds": Bounds(**said["bounds"])})
+        """Write it as one line; names of files need not be valid UTF-8."""
+        return json.dumps(self.model_dump(), default=str).encode() + b"\n"
 
 
 class Form(BaseModel):
@@ -94,7 +82,7 @@ class Answer(BaseModel):
     error_number : int or None
         The system's own number of what went wrong, where it did.
     exit_code : int or None
-        How the copy of the process that was to read it ended, or would have, where there is no answer.
+        How the copy of the process that was to read it ended, where there is no answer.
     header : JSON
     arrays : tuple of Form
     """
@@ -133,13 +121,11 @@ def receive(stream: IO[bytes], largest: int) -> tuple[Answer, Arrays]:
     Raises
     ------
     BrokenAnswerError
-        If the message is not a valid answer.
-    EndedError
-        If the stream ends before it does.
+        If the message is not a valid answer, or the stream ends before it does.
     """
     line = stream.readline(LONGEST_LINE)
     if not line.endswith(b"\n"):
-        raise BrokenAnswerError("the answer has no end") if len(line) == LONGEST_LINE else EndedError
+        raise BrokenAnswerError("the answer has no end")
     try:
         answer = Answer.model_validate_json(line)
     except ValueError as error:
@@ -150,16 +136,13 @@ def receive(stream: IO[bytes], largest: int) -> tuple[Answer, Arrays]:
     arrays = []
     for form, size in zip(answer.arrays, sizes, strict=True):
         content = np.empty(size, dtype=np.uint8)
-        left = memoryview(content.data)
-        while left and (count := stream.readinto(left)):  # type: ignore[attr-defined]
-            left = left[count:]
-        if left:
-            raise EndedError
+        if stream.readinto(content.data) < size:  # type: ignore[attr-defined]
+            raise BrokenAnswerError("the answer has no end")
         arrays.append(content.view(form.dtype).reshape(form.shape))
     return answer, arrays
 
 
-SAME = ("format", "notes", "warnings", "hint", "left_out")
+SAME = ("format", "notes", "warnings", "hint")
 """What a header and a recording both have, in the same form."""
 
 
@@ -178,7 +161,6 @@ class Header(BaseModel):
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
     hint: str
-    left_out: tuple[tuple[str, str], ...]
     columns: tuple[tuple[str, str | None, str, bool, NonNegativeInt, NonNegativeInt | None], ...]
 
 

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, TypeVar
@@ -17,8 +17,8 @@ from typing import Any, TypeVar
 import colonnade
 from colonnade.errors import ReadError
 from colonnade.readers.bounded import messages
-from colonnade.readers.bounded.enclosure import MEGABYTE, OUT_OF_MEMORY, bounds_of
-from colonnade.readers.bounded.messages import Answer, Arrays, BrokenAnswerError, EndedError, Request
+from colonnade.readers.bounded.enclosure import MEGABYTE, bounds_of
+from colonnade.readers.bounded.messages import Answer, Arrays, BrokenAnswerError, Request
 
 Taken = TypeVar("Taken")
 
@@ -30,8 +30,6 @@ PIPE = 1 << 20
 """Bytes that the system may hold between the two processes, where it lets itself be asked."""
 STOPPED = 128 + 9
 """Exit code of a process that was killed."""
-OUT_OF_TIME = 128 + 24
-"""Exit code of a process whose processor time was over."""
 
 _COMMAND = "import sys; sys.path[:] = sys.argv[1:]; from colonnade.readers.bounded.server import main; main()"
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS", "NUMEXPR_MAX_THREADS")
@@ -75,8 +73,15 @@ def run_bounded(
     ReadError
         If the function refuses the file, or reading it crashes, swells or does not end.
     """
-    folder = str(within.resolve())
-    request = Request(function, str(path.absolute()), folder, options, kind, modules, bounds_of(path, *others))
+    request = Request(
+        function=function,
+        path=path.absolute(),
+        within=within.resolve(),
+        options=options,
+        kind=kind,
+        modules=modules,
+        bounds=bounds_of(path, *others),
+    )
     answer, arrays = _ask(request)
     if answer.exit_code is not None:
         raise _failure(request, answer.exit_code)
@@ -112,7 +117,7 @@ class _Reader:
 
     def ask(self, request: Request) -> tuple[Answer, Arrays]:
         """Request a file; raises ReadError and ends the process if no answer comes."""
-        late: list[float] = []
+        late = threading.Event()
         begun = False
         try:
             with self._deadline(START, late):
@@ -122,23 +127,27 @@ class _Reader:
             if begun:
                 with self._deadline(request.bounds.elapsed, late):
                     return messages.receive(self.answers, request.bounds.memory)
-        except (OSError, EndedError):
+        except (OSError, BrokenAnswerError):
             pass  # its exit code says why
-        except BaseException as error:
+        except BaseException:
             self.kill()  # what is still to come would be taken for the next answer
             self.end()
-            if isinstance(error, BrokenAnswerError):
-                raise _failure(request) from None
             raise
         code = self.end()
-        raise _failure(request, code, late) if begun else _no_start(request)
+        if begun:
+            raise _failure(request, code, is_late=late.is_set())
+        raise _refusal(
+            f"{request.path.name}: the process that reads binary files could not be started, so the file was not "
+            "looked at. Run again with less else open.",
+            errno.EAGAIN,
+        )
 
     @contextmanager
-    def _deadline(self, seconds: float, late: list[float]) -> Iterator[None]:
+    def _deadline(self, seconds: float, late: threading.Event) -> Iterator[None]:
         """End the process if it takes longer, and note that in `late`."""
 
         def pass_by() -> None:
-            late.append(seconds)
+            late.set()
             self.kill()
 
         timer = threading.Timer(seconds, pass_by)
@@ -203,35 +212,21 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_forget)
 
 
-def _failure(request: Request, code: int = 0, late: Sequence[float] = ()) -> ReadError:
+def _failure(request: Request, code: int = 0, *, is_late: bool = False) -> ReadError:
     """What to say of a file that had no answer, or one that cannot be trusted."""
-    name = Path(request.path).name
-    if code == STOPPED and not late:
+    name, bounds = request.path.name, request.bounds
+    if code == STOPPED and not is_late:
         return _refusal(
             f"{name}: the system stopped the process that read it, most often because memory ran out. Run again with "
             "less else open, or with fewer workers.",
             errno.ENOMEM,
         )
-    signals = {128 + each: f" ({each.name})" for each in signal.Signals}
-    known = {
-        OUT_OF_TIME: f"took more than {request.bounds.processor} s of processor time",
-        OUT_OF_MEMORY: f"took more than {request.bounds.memory // MEGABYTE} MB of memory",
-    }
-    how = known.get(code, f"crashed the library that does it{signals.get(code, '')}")
-    how = f"took more than {late[0]:.0f} s" if late else how
-    stray = "holds a cell far outside its table" if request.kind == "excel" else "was made to cause this"
     return _refusal(
-        f'{name}: reading it as "{request.kind}" {how}. The file is damaged, was cut off, or {stray}. Nothing else was '
-        "affected. Copy it from the recorder again, or export it as text.",
-        errno.ETIMEDOUT if late else None,
-    )
-
-
-def _no_start(request: Request) -> ReadError:
-    return _refusal(
-        f"{Path(request.path).name}: the process that reads binary files could not be started, so the file was not "
-        "looked at. Run again with less else open.",
-        errno.EAGAIN,
+        f'{name}: reading it as "{request.kind}" took too much memory (more than {bounds.memory // MEGABYTE} MB) or '
+        f"time (more than {bounds.processor} s), or crashed the library that does it. The file is damaged, was cut "
+        "off, was made to cause this, or is a workbook with a cell far outside its table. Nothing else was affected. "
+        "Copy it from the recorder again, or export it as text.",
+        errno.ETIMEDOUT if is_late else None,  # the machine may have been busy: the next run tries again
     )
 
 

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import faulthandler
+import json
 import os
 import select
 import signal
 import sys
 from collections.abc import Callable
 from importlib import import_module
-from pathlib import Path
 from typing import IO, Any
 
 from colonnade.errors import ReadError
 from colonnade.readers.bounded import messages
-from colonnade.readers.bounded.enclosure import OUT_OF_MEMORY, enclose, limit, own_folders, watch, watched_memory
+from colonnade.readers.bounded.enclosure import enclose, limit, own_folders, watch, watched_memory
 from colonnade.readers.bounded.messages import Arrays, Request
+from colonnade.readers.files import refusing
 
 BACKSTOP = 5.0
 """Seconds by which this process outlives its time, if whoever asks does not end it."""
@@ -44,7 +45,7 @@ def serve(requests: IO[bytes], answers: IO[bytes], handle: Callable[[Request, IO
     own_folders()
     formats()
     while line := requests.readline():
-        request = Request.of(line)
+        request = Request.model_validate(json.loads(line))
         for module in (request.function.partition(":")[0], *request.modules):
             import_module(module)
         handle(request, requests, answers)
@@ -55,24 +56,36 @@ def in_a_fork(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None
     own = os.getpid()
     ended, alive = os.pipe()
     copy = os.fork()
-    if copy:
-        os.close(alive)
-        _expect_end(copy, ended, requests, answers)
-        return
-    try:
-        _end_with(own)
-        requests.close()
-        enclose(request.bounds, Path(request.within))
-        _handle(request, answers, lambda: os.write(alive, ANSWERING))
-    except BaseException:
+    if not copy:
+        try:
+            _end_with(own)
+            requests.close()
+            enclose(request.bounds, request.within)
+            _handle(request, answers, lambda: os.write(alive, ANSWERING))
+        except BaseException:
+            os._exit(1)
+        os._exit(0)
+    os.close(alive)
+    poll = select.poll()
+    for descriptor in (ended, requests.fileno()):
+        poll.register(descriptor, 0)  # the other end was closed; the next request may be there already
+    if ended not in {descriptor for descriptor, _ in poll.poll()}:  # nobody is left who asks
+        os.kill(copy, signal.SIGKILL)
         os._exit(1)
-    os._exit(0)
+    has_answered = os.read(ended, 1) == ANSWERING
+    os.close(ended)
+    code = os.waitstatus_to_exitcode(os.waitpid(copy, 0)[1])
+    code = code if code >= 0 else 128 - code
+    if not has_answered:
+        messages.send(answers, [], exit_code=code)
+    elif code:
+        os._exit(code)  # half an answer would run into the next one: whoever asks starts another process
 
 
 def in_place(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None:
     """Handle a request in this process, where a system has no safe copies of one."""
     limit(request.bounds)
-    watch([Path(request.within), *own_folders()])
+    watch([request.within, *own_folders()])
     with watched_memory(request.bounds):
         _handle(request, answers, lambda: None)
 
@@ -91,31 +104,12 @@ def _handle(request: Request, answers: IO[bytes], announce: Callable[[], object]
 def _answer(request: Request) -> tuple[Arrays, dict[str, Any]]:
     module, _, name = request.function.partition(":")
     try:
-        header, arrays = getattr(import_module(module), name)(Path(request.path), **request.options)
+        with refusing(request.path, f'"{request.kind}"'):
+            header, arrays = getattr(import_module(module), name)(request.path, **request.options)
         return arrays, {"header": header}
     except ReadError as error:
         cause: Any = error.__cause__
         return [], {"refusal": str(error), "error_number": cause.errno if isinstance(cause, OSError) else None}
-    except MemoryError:
-        return [], {"exit_code": OUT_OF_MEMORY}
-
-
-def _expect_end(copy: int, ended: int, requests: IO[bytes], answers: IO[bytes]) -> None:
-    """Wait for a copy; say how it ended where it gave no answer, and end both where nobody is left who asks."""
-    poll = select.poll()
-    for descriptor in (ended, requests.fileno()):
-        poll.register(descriptor, 0)  # the other end was closed; the next request may be there already
-    if ended not in {descriptor for descriptor, _ in poll.poll()}:
-        os.kill(copy, signal.SIGKILL)
-        os._exit(1)
-    answered = os.read(ended, 1) == ANSWERING
-    os.close(ended)
-    code = os.waitstatus_to_exitcode(os.waitpid(copy, 0)[1])
-    code = code if code >= 0 else 128 - code
-    if not answered:
-        messages.send(answers, [], exit_code=code)
-    elif code:
-        os._exit(code)  # half an answer would run into the next one: whoever asks starts another process
 
 
 def _end_with(parent: int) -> None:

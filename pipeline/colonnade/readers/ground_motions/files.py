@@ -1,4 +1,4 @@
-"""The files of a set of ground motions: what their names say, and the components that each holds."""
+"""The files of a set of ground motions: a list of them or a folder, what names say, the components that each holds."""
 
 from __future__ import annotations
 
@@ -6,28 +6,144 @@ import re
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from math import isfinite
 from pathlib import Path
 from typing import NamedTuple
 
+from colonnade import units
 from colonnade.dynamics.motion import Motion
-from colonnade.errors import ReadError, count
-from colonnade.readers.files import irregular, sha256_of, unreachable
-from colonnade.readers.ground_motions.listed import Entry, LeftOut, inside
+from colonnade.errors import ReadError, UnitError, count, quoted
+from colonnade.readers.files import inside, irregular, sha256_of, unreachable
 from colonnade.readers.motion import read_motions
 from colonnade.readers.registry import companions
+from colonnade.readers.small_table import SmallTable, read_table
+
+COLUMNS = ("file", "unit", "interval", "scale", "component", "record", "column", "magnitude", "distance")
+"""Heads that a list may have; `file` is needed, and `record` with `component`."""
+NUMBERS = {"interval": "time", "scale": "dimensionless", "magnitude": "dimensionless", "distance": "length"}
+"""Those of numbers, with their dimensions."""
 
 
-class Named(NamedTuple):
+@dataclass(frozen=True)
+class Entry:
     """
-    What a name says.
+    A file of a set of ground motions, and what is said of it.
 
     Attributes
     ----------
+    path : Path
+    place : str
+        Its row in the list, or its name in the folder, for messages.
+    unit : str or None
+        Of the acceleration.
+    interval : float or None
+        s.
+    scale : float
+        What its values are multiplied by.
+    component : str
+        x, y, z, or empty if its name or its columns say it.
     record : str
-        The name without its direction.
-    direction : str
-        x, y or z; an azimuth in degrees, such as "180"; empty if it says none.
+        Name that the components of a record share; empty if its name says it.
+    column : str
+        Head of the column, or its number from 1; empty for the only one, or one for each component.
+    magnitude, distance : float or None
+        Of the earthquake; m.
     """
+
+    path: Path
+    place: str
+    unit: str | None = None
+    interval: float | None = None
+    scale: float = 1.0
+    component: str = ""
+    record: str = ""
+    column: str = ""
+    magnitude: float | None = None
+    distance: float | None = None
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """What of a set is not used, and why."""
+
+    name: str
+    reason: str
+
+
+def read_list(path: Path) -> tuple[list[Entry], list[LeftOut], list[str]]:
+    """
+    Read a list of records.
+
+    Parameters
+    ----------
+    path : Path
+        CSV with the heads `COLUMNS`, a row each file; units in the heads' brackets, `distance [km]`, or in the cells.
+
+    Returns
+    -------
+    entries : list of Entry
+    left_out : list of LeftOut
+        Rows that cannot be used.
+    notes : list of str
+
+    Raises
+    ------
+    ReadError
+        If it is no list of records.
+    """
+    table = read_table(path, "a list of records")
+    places, notes = table.places(COLUMNS, "says nothing of a record")
+    if "file" not in places:
+        raise ReadError(
+            f'{table.name}: no column "file". A list of records was expected, with the heads {", ".join(COLUMNS)}.'
+        )
+    if "component" in places and "record" not in places:
+        raise ReadError(f'{table.name}: "component" without "record", the name that the components of a record share.')
+    entries, left_out = [], [LeftOut(f"{path.name}, line {line}", fault) for line, fault in table.faults]
+    for line, cells in table.rows:
+        try:
+            entries.append(_entry(path, line, cells, table, places))
+        except (ReadError, ValueError) as error:
+            left_out.append(LeftOut(f"{path.name}, line {line}", str(error)))
+    return entries, left_out, notes
+
+
+def _entry(path: Path, line: int, cells: tuple[str, ...], table: SmallTable, places: dict[str, int]) -> Entry:
+    given = {name: cells[index] for name, index in places.items() if cells[index]}
+    if "file" not in given:
+        raise ReadError("the cell of the file is empty.")
+
+    numbers: dict[str, float] = {}
+    for name, dimension in NUMBERS.items():
+        if name in given:
+            text = table.quantity(places[name], given[name])
+            try:
+                numbers[name] = units.to_si(text, dimension)
+            except UnitError as error:
+                raise ReadError(f"{name}: {error}") from None
+            if not isfinite(numbers[name]):
+                raise ReadError(f"{name} is {quoted(text)}; a finite number was expected.")
+    component = given.get("component", "").casefold()
+    if component not in ("", "x", "y", "z"):
+        raise ReadError(f"component is {quoted(component)}; x, y or z (vertical) was expected.")
+    if numbers.get("scale") == 0.0:
+        raise ReadError("scale is 0; a factor on the accelerations was expected.")
+    if not numbers.get("interval", 1.0) > 0.0:
+        raise ReadError(f"interval is {numbers['interval']:g} s; a positive time between samples was expected.")
+    unit = table.heads[places["unit"]].unit if "unit" in places else None
+    return Entry(
+        inside(path.resolve().parent, given["file"].replace("\\", "/"), "the folder of the list"),
+        f"{path.name}, line {line}, {given['file']}",
+        unit=given.get("unit", unit) or table.heads[places["file"]].unit,
+        component=component,
+        record=given.get("record", ""),
+        column=given.get("column", ""),
+        **numbers,
+    )
+
+
+class Named(NamedTuple):
+    """What a name says: itself without a direction; x, y, z or an azimuth in degrees, such as "180", or nothing."""
 
     record: str
     direction: str
@@ -110,8 +226,8 @@ def in_folder(folder: Path, left_out: list[LeftOut]) -> list[Entry]:
             if path.name.startswith(".") or path.is_dir():
                 continue
             try:
-                entries.append(Entry(inside(root, path.name), path.name))
-            except ReadError:
+                entries.append(Entry(inside(root, path.name, "this folder"), path.name))
+            except ValueError:
                 left_out.append(LeftOut(path.name, "it is a link to outside this folder. Put the file itself there."))
     except OSError as error:
         raise ReadError(unreachable(folder, error)) from None

@@ -41,7 +41,7 @@ def read_hazard(path: Path, *, measure: str, unit: str) -> Hazard:
     if table.faults:
         line, fault = table.faults[0]
         raise ReadError(f"{table.name}, line {line}: {fault}")
-    values = np.array([_pair(table, line, cells) for line, cells in table.rows]).reshape(-1, 2)
+    values = np.array([_number(table, line, cell) for line, cells in table.rows for cell in cells]).reshape(-1, 2)
     if len(values) < 2:
         raise ReadError(f"{table.name}: {len(values)} rows of numbers; at least two were expected.")
     lines = [line for line, _ in table.rows]
@@ -92,17 +92,14 @@ def _factor(table: SmallTable, measure: str, unit: str) -> float:
     return factor
 
 
-def _pair(table: SmallTable, line: int, cells: tuple[str, ...]) -> tuple[float, float]:
-    values = []
-    for cell in cells:
-        try:
-            value = float(cell.replace(",", ".") if table.has_decimal_comma else cell)
-        except ValueError:
-            value = float("nan")
-        if not (isfinite(value) and value > 0.0):
-            raise ReadError(f"{table.name}, line {line}: {quoted(cell)} is not a positive number.")
-        values.append(value)
-    return values[0], values[1]
+def _number(table: SmallTable, line: int, cell: str) -> float:
+    try:
+        value = float(cell.replace(",", ".") if table.has_decimal_comma else cell)
+    except ValueError:
+        value = 0.0
+    if not (isfinite(value) and value > 0.0):
+        raise ReadError(f"{table.name}, line {line}: {quoted(cell)} is not a positive number.")
+    return value
 
 
 def _same(text: str) -> str:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import ColonnadeError, ReadError
 from colonnade.readers.files import in_one_line
-from colonnade.readers.ground_motions.files import Component, components_of, in_folder
-from colonnade.readers.ground_motions.listed import LeftOut, read_list
+from colonnade.readers.ground_motions.files import Component, LeftOut, components_of, in_folder, read_list
 from colonnade.readers.registry import companions
 
 MOST_FILES = 2000
@@ -76,15 +76,11 @@ def files_of(path: Path) -> list[Path]:
     """
     if path.is_dir():
         return [entry.path for entry in in_folder(path, [])]
-    listed = [entry.path for entry in read_list(path)[0]]
-    return list(dict.fromkeys((path, *listed, *(other for each in listed for other in _companions(each)))))
-
-
-def _companions(path: Path) -> tuple[Path, ...]:
-    try:
-        return companions(path)
-    except (ReadError, OSError):
-        return ()
+    listed = [path, *(entry.path for entry in read_list(path)[0])]
+    for each in listed[1:]:
+        with suppress(ReadError, OSError):
+            listed += companions(each)
+    return list(dict.fromkeys(listed))
 
 
 def read_record_set(path: Path | str) -> RecordSet:
@@ -94,7 +90,7 @@ def read_record_set(path: Path | str) -> RecordSet:
     Parameters
     ----------
     path : Path or str
-        A folder, whose files of any format are read, or a CSV list, see `listed.read_list`. In a folder the names of
+        A folder, whose files of any format are read, or a CSV list, see `files.read_list`. In a folder the names of
         the files, or of their columns, say which belong together: `lefkada_x`, `I-ELC180`, `AOM001.EW`, `KRP.HNE`.
 
     Returns

@@ -3,33 +3,30 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 from datetime import UTC, datetime
-from itertools import islice
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
-from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times, moment_after, on_one_zero
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.text.numbered import NumberedLines, read_running, shortage
+from colonnade.readers.text.encoding import Text
 from colonnade.readers.text.peer import spelled
+from colonnade.readers.text.running import read_running, shortage
 
 RAW_COUNTS = re.compile(r"\s*Raw\b", re.IGNORECASE)
 """How the first line of a record of volume 0 starts: counts of the recorder."""
-END_OF_DATA = re.compile(r"/&|end.of.data", re.IGNORECASE)
-FIRST_LINE = re.compile(r"\(Format v[\d.]+\s+with\s+(?P<lines>\d{1,12})\s+text lines\)", re.IGNORECASE)
-BLOCK = re.compile(
-    r"\s*\d+\s+(?P<kind>Integer|Real)-header values follow on\s+(?P<lines>\d{1,12})\s+lines"
-    r".*?\(\d*[EFI](?P<width>[1-9]\d{0,3})",
+END_OF_DATA = re.compile(r"\s*(?:/&|end.of.data|$)", re.IGNORECASE)
+FIRST_LINE = re.compile(r"\(Format v[\d.]+\s+with\s+\d{1,12}\s+text lines\)", re.IGNORECASE)
+REALS = re.compile(
+    r"\s*\d+\s+Real-header values follow on\s+(?P<lines>\d{1,12})\s+lines.*?\(\d*[EFI](?P<width>[1-9]\d{0,3})",
     re.IGNORECASE,
 )
-COMMENTS = re.compile(r"\s*(?P<lines>\d{1,12})\s+Comment line", re.IGNORECASE)
 DATA = re.compile(
     r"\s*(?P<points>\d{1,12})\s+(?P<quantity>\w+)\s+(?:pts|points|data)\b"
     r"(?:.*?approx\s+(?P<seconds>\d+\.?\d*|\.\d+)\s+secs)?.*?units?\s*=\s*(?P<unit>[^(,\s]*).*?\((?P<count>\d{0,4})[EFI](?P<width>[1-9]\d{0,3})",
@@ -41,10 +38,6 @@ START = re.compile(
     r"start time\s*:\s*(\d{1,4})/(\d{1,4})/(\d{1,4}),?\s+(\d{1,2}):(\d{1,2}):([\d.]+)\s*(\w*)", re.IGNORECASE
 )
 COMPONENT = re.compile(r"^Sta\s+Cha\w*[\s:]*(?P<name>.*?)\s*(?:\(Rcrdr|Location|$)", re.IGNORECASE)
-
-
-Part = tuple[RecordedChannel, str, str]
-"""A record within a file: one channel, as far as it is there, its component, and a note."""
 
 
 @from_head
@@ -64,83 +57,65 @@ def read(path: Path, options: Options) -> Recording:
     ReadError
         If a header is not whole or gives no time step.
     """
-    with NumberedLines(path) as lines:
-        strays: list[str] = []
-        warnings: list[str] = []
-        parts = list(_parts(path, lines, strays, warnings))
+    lines = Text.of(path).lines()
+    starts = [number for number, line in enumerate(lines) if FIRST_LINE.search(line)]
     channels: list[RecordedChannel] = []
     notes: list[str] = []
-    told = [f"{stray} does not belong to a channel: the file may have been cut off there" for stray in strays[:1]]
-    for channel, component, note in parts:
-        name = channel.name
-        if name in [other.name for other in channels]:
-            name = f"{name} {component or len(parts)}"
-        channels.append(replace(channel, name=name, heading=name))
-        notes.append(f'"{name}": {note}')
+    warnings: list[str] = []
+    for number, (first, end) in enumerate(pairwise([*starts, len(lines)]), 1):
+        channel, component, note = _channel(path, lines, first, end, warnings)
+        if channel.name in [other.name for other in channels]:
+            channel = replace(channel, name=(name := f"{channel.name} {component or number}"), heading=name)
+        channels.append(channel)
+        notes.append(f'"{channel.name}": {note}')
     timed, start = on_one_zero(channels)  # a damaged header may lack its zone
-    return Recording(path, "cosmos", timed, start, tuple(notes), (*told, *warnings))
+    return Recording(path, "cosmos", timed, start, tuple(notes), tuple(warnings))
 
 
-def _parts(path: Path, lines: NumberedLines, strays: list[str], warnings: list[str]) -> Iterator[Part]:
-    """Read channel after channel; lines between them are added to the strays."""
-    while (line := lines.peek()) is not None:
-        found = FIRST_LINE.search(line)
-        if found is None:
-            lines.take()
-            if line.strip() and not END_OF_DATA.match(line.strip()):
-                strays.append(f'line {lines.number} ("{line.strip()[:30]}")')
-            continue
-        if RAW_COUNTS.match(line):
-            raise ReadError(
-                f"{path.name}: this is a COSMOS record of volume 0 (V0): raw counts of the recorder, not "
-                "accelerations. Download or export the same record as volume 1 (V1) or volume 2 (V2)."
-            )
-        texts = [text for _, text in islice(lines.rest(), int(found["lines"]))]
-        reals: Array = np.empty(0)
-        data = None
-        while (line := lines.take()) is not None and data is None:
-            if block := BLOCK.match(line):
-                below = islice(lines.rest(), int(block["lines"]))
-                values, _ = read_running(below, width=int(block["width"]))
-                reals = values if block["kind"].casefold() == "real" else reals
-            elif comments := COMMENTS.match(line):
-                lines.skip(int(comments["lines"]))
-            elif data := DATA.match(line):
-                break
-            elif line.strip():
-                raise ReadError(
-                    f'{path.name}: line {lines.number} is "{line.strip()[:50]}"; a COSMOS header was expected there.'
-                )
-        if data is None:
-            raise ReadError(f"{path.name}: the file ends within the headers, on line {lines.number}: it was cut off.")
-        yield _part(path, lines, texts, reals, data, warnings)
-
-
-def _part(
-    path: Path, lines: NumberedLines, texts: list[str], reals: Array, data: re.Match[str], warnings: list[str]
-) -> Part:
-    """Read a channel's numbers."""
-    line = lines.number
-    points, width = int(data["points"]), int(data["width"])
+def _channel(
+    path: Path, lines: list[str], first: int, end: int, warnings: list[str]
+) -> tuple[RecordedChannel, str, str]:
+    """Read the channel between two lines, with its component and a note."""
+    if RAW_COUNTS.match(lines[first]):
+        raise ReadError(
+            f"{path.name}: this is a COSMOS record of volume 0 (V0): raw counts of the recorder, not "
+            "accelerations. Download or export the same record as volume 1 (V1) or volume 2 (V2)."
+        )
+    matches = ((number, match) for number in range(first, end) if (match := DATA.match(lines[number])))
+    at, data = next(matches, (end, None))
+    if data is None:
+        last = end - (lines[end - 1] == "")
+        raise ReadError(f"{path.name}: the file ends within the headers, on line {last}: it was cut off.")
+    reals = np.empty(0)
+    for number in range(first, at):
+        if block := REALS.match(lines[number]):
+            below = lines[number + 1 : min(number + 1 + int(block["lines"]), at)]
+            reals, _ = read_running(enumerate(below, number + 2), width=int(block["width"]))
+    points = int(data["points"])
     step = float(reals[STEP]) / 1000 if reals.size > STEP else float("nan")
     if not 0 < step < np.inf:
-        raise ReadError(f"{path.name}: the real header values above line {line} give no time step (value {STEP + 1}).")
-    rows = -(-points // int(data["count"] or 1))
-    values, told = read_running(islice(lines.rest(), rows), width=width)
+        raise ReadError(
+            f"{path.name}: the real header values above line {at + 1} give no time step (value {STEP + 1})."
+        )
+    stop = min(at + 1 - (-points // int(data["count"] or 1)), end)
+    stray = next((number for number in range(stop, end) if not END_OF_DATA.match(lines[number])), None)
+    if stray is not None:
+        told = f'line {stray + 1} ("{lines[stray].strip()[:30]}")'
+        warnings.append(f"{told} does not belong to a channel: the file may have been cut off there")
+    values, told_of = read_running(enumerate(lines[at + 1 : stop], at + 2), width=int(data["width"]))
     values = values[:points]
-    warnings += [*told, *shortage(f"line {line}", points, values.size)]
+    warnings += [*told_of, *shortage(f"line {at + 1}", points, values.size)]
     seconds = float(data["seconds"] or "nan")
     if abs(points * step - seconds) > max(1.0, 0.02 * seconds):
         warnings.append(
-            f"line {line} gives {seconds:g} s, but {points} points at {step:g} s are {points * step:g} s: "
+            f"line {at + 1} gives {seconds:g} s, but {points} points at {step:g} s are {points * step:g} s: "
             "the step is in doubt"
         )
-    component = next((found["name"] for text in texts if (found := COMPONENT.match(text))), "")
-    component = " ".join(component.split())
-    times = even_times(values.size, step)
-    quantity, unit = data["quantity"].casefold(), spelled(data["unit"])
-    channel = RecordedChannel(quantity, unit, values, times, start=_start(texts))
-    return channel, component, f"{points} points, step {step:g} s, {component} (line {line})"
+    above = lines[first:at]
+    component = next((" ".join(found["name"].split()) for text in above if (found := COMPONENT.match(text))), "")
+    times, unit, start = even_times(values.size, step), spelled(data["unit"]), _start(above)
+    channel = RecordedChannel(data["quantity"].casefold(), unit, values, times, start=start)
+    return channel, component, f"{points} points, step {step:g} s, {component} (line {at + 1})"
 
 
 def _start(texts: list[str]) -> datetime | None:

@@ -2,25 +2,197 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Annotated, Literal, Self
 
 import numpy as np
+from pydantic import AfterValidator, Field, model_validator
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.clock import find_clocks, given_clock
-from colonnade.readers.format import Format, Recognition
+from colonnade.readers.clock import with_clocks
+from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, from_head, head_of
-from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording, Window
+from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording, TimeUnit, Window
 from colonnade.readers.refused import foreign_format
-from colonnade.readers.text.cells import WHITESPACE
-from colonnade.readers.text.columns import past_midnight
 from colonnade.readers.text.damage import mend
-from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
-from colonnade.readers.text.encoding import Text, pieces_of_text, text_of
-from colonnade.readers.text.layout import HeaderClaims, Layout, declared_layout, read_block, series_of
-from colonnade.readers.text.rows import Rows, Stretch, read_rows
+from colonnade.readers.text.dialect import COMMENT_SIGNS, WHITESPACE, Dialect, column_kinds, find_first_sample, sniff
+from colonnade.readers.text.encoding import Text, TextOptions, looks_binary
+from colonnade.readers.text.heading import Heading, Lines, find_heading, read_heading, unread_numbers
+from colonnade.readers.text.rows import RowForm, Rows, Stretch, past_midnight, read_rows
+from colonnade.readers.text.running import (
+    HeaderClaims,
+    Layout,
+    declared_layout,
+    header_claims,
+    read_series,
+    rows_that_touch,
+    series_of,
+)
+
+DELIMITER_WORDS = {"comma": ",", "semicolon": ";", "tab": "\t", "\\t": "\t", "pipe": "|", "space": " ", "spaces": " "}
+
+
+def _delimiter(text: str) -> str:
+    character = DELIMITER_WORDS.get(text.casefold(), text)
+    if len(character) != 1 or character.isalnum() or character in '"+-.\r\n':
+        raise ValueError('one character was expected, such as ";" or ",", or "tab" or "spaces"')
+    return character
+
+
+class TableOptions(Options):
+    """What can be said about a table; all of it is found if it is not given."""
+
+    names_row: int | None = Field(
+        default=None, ge=0, description="Row or line with the columns' names, from 1; 0 if they have no names."
+    )
+    units_row: int | None = Field(
+        default=None, ge=0, description="Row or line with the columns' units, from 1; 0 if there are none."
+    )
+    time: str | int | None = Field(default=None, description="Name or number, from 1, of the column that is the clock.")
+    time_unit: TimeUnit | None = Field(default=None, description="Unit of that column.")
+    layout: Literal["columns", "running"] | None = Field(
+        default=None,
+        description='"columns" if each column is a channel, "running" if numbers run on from row to row.',
+    )
+
+    @model_validator(mode="after")
+    def _unit_has_column(self) -> Self:
+        if self.time_unit is not None and self.time is None:
+            raise ValueError("time_unit needs `time`: the column it belongs to")
+        return self
+
+    @property
+    def lines_to_pass(self) -> int:
+        """Lines at the top of the file that cannot be samples."""
+        return max(self.names_row or 0, self.units_row or 0)
+
+    def heading_lines(self, found: Lines) -> Lines:
+        """Lines of names and units: as given, else as found; a line that is given as one is not found as the other."""
+        names, units = found
+        if self.names_row is not None:
+            names = self.names_row - 1 if self.names_row else None
+            units = None if units == self.names_row - 1 else units
+        if self.units_row is not None:
+            units = self.units_row - 1 if self.units_row else None
+            names = None if self.names_row is None and names == self.units_row - 1 else names
+        return names, units
+
+
+class DelimitedOptions(TextOptions, TableOptions):
+    """What can be said about a delimited text file; all of it is sniffed if it is not given."""
+
+    delimiter: Annotated[str, AfterValidator(_delimiter)] | None = Field(
+        default=None, description='Between the cells of a row: one character, "tab", or "spaces" for any run of spaces.'
+    )
+    decimal: Literal[".", ","] | None = Field(default=None, description="Decimal sign.")
+    thousands: Literal[".", ",", " ", "'"] | None = Field(
+        default=None, description="Separator between groups of three digits."
+    )
+    skip_rows: int = Field(default=0, ge=0, description="Number of lines to skip at the top of the file.")
+    comment: str | None = Field(default=None, min_length=1, description="What starts a line that is not a sample.")
+    missing: tuple[str, ...] = Field(default=(), description='Texts that stand for a missing value, such as "-999".')
+
+    @model_validator(mode="after")
+    def _signs_differ(self) -> Self:
+        if self.decimal is not None and self.decimal == self.thousands:
+            raise ValueError(f'decimal and thousands are both "{self.decimal}"')
+        return self
+
+
+@dataclass(frozen=True)
+class Header:
+    """
+    All that is known of a file before its samples are read.
+
+    Attributes
+    ----------
+    text : Text
+    form : RowForm
+        How its rows are written.
+    first : int
+        Index of the line of the first sample, from 0.
+    heading : Heading
+    touching : list of int
+        Indices of lines near the first in which fields touch, so that blanks do not separate them.
+    claims : HeaderClaims
+        What the lines above the first sample say of the numbers.
+    notes, warnings : tuple of str
+    """
+
+    text: Text
+    form: RowForm
+    first: int
+    heading: Heading
+    touching: list[int]
+    claims: HeaderClaims
+    notes: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+
+def read_header(text: Text, options: DelimitedOptions) -> Header:
+    """
+    Find out how a text is written and what its columns are called, from its head.
+
+    Raises
+    ------
+    ReadError
+        If it is empty, not text, or has no rows of numbers.
+    """
+    lines = _head(text, options)
+    start = max(options.skip_rows, options.lines_to_pass)
+    given = Dialect(
+        options.delimiter or ",",
+        options.decimal or ".",
+        options.thousands,
+        comments=COMMENT_SIGNS if options.comment is None else (options.comment,),
+        missing=frozenset(map(str.casefold, options.missing)),
+    )
+    dialect, columns, notes, warnings = sniff(
+        lines[start:], given, delimiter=options.delimiter, decimal=options.decimal
+    )
+    kinds = column_kinds(lines[start:], dialect, columns)
+    first = find_first_sample(lines, start, dialect, kinds) if columns else None
+    if first is None:
+        told = [f"{key} = {value!r}" for key, value in options.model_dump(exclude_defaults=True).items()]
+        raise ReadError(
+            f"{text.path.name}: no rows of numbers were found in the first {len(lines)} lines"
+            f"{' with ' if told else ''}{', '.join(told)}; the first is {lines[0][:60]!r}."
+        )
+    where = options.heading_lines(find_heading(lines, options.skip_rows, first, dialect, kinds))
+    heading = read_heading(lines, where, dialect, kinds, is_given=options.names_row is not None)
+    texts = ", ".join(f'"{head}"' for head, kind in zip(heading.headings, kinds, strict=False) if kind == "text")
+    encoding = text.encoding
+    claims = header_claims("\n".join(lines[:first]))
+    return Header(
+        text,
+        RowForm(dialect, kinds[: len(heading.names)], len(kinds) - len(heading.names), exact=text.made is not None),
+        first,
+        heading,
+        rows_that_touch(lines, start, first, claims),
+        claims,
+        (
+            *((f"encoding {encoding.name} ({encoding.evidence})",) if encoding.evidence else ()),
+            *((f"text, not numbers, in {texts}",) if texts else ()),
+            *notes,
+        ),
+        (*warnings, *unread_numbers(lines, where, start, first, dialect)),
+    )
+
+
+def _head(text: Text, options: DelimitedOptions) -> list[str]:
+    """Read the first lines of a text."""
+    name = text.path.name
+    try:
+        lines = text.head(max(options.skip_rows, options.lines_to_pass) + 200)
+    except UnicodeError as error:
+        raise ReadError(f"{name}: it is not {text.encoding.name} text ({error}).") from error
+    if not any(line.strip() for line in lines):
+        raise ReadError(f"{name}: the file is empty; rows of numbers were expected.")
+    if reason := looks_binary(lines):
+        raise ReadError(f"{name}: {reason}; text with rows of numbers was expected.")
+    return lines
 
 
 @from_head
@@ -28,13 +200,12 @@ def recognise(head: Head) -> Recognition:
     """Say whether a file is text with rows of numbers, and not in a known format that is not read here."""
     if reason := foreign_format(head):
         return Recognition(False, reason, is_known=True)
-    path = head.path
     try:
-        header = read_header(text_of(path), DelimitedOptions())
+        header = read_header(Text.of(head.path), DelimitedOptions())
     except ReadError as error:
-        return Recognition(False, str(error).removeprefix(f"{path.name}: "))
-    width, first = len(header.form.kinds), header.heading.first + 1
-    return Recognition(True, f"text with rows of {width} numbers from line {first} on")
+        return Recognition(False, str(error).removeprefix(f"{head.path.name}: "))
+    width = len(header.heading.names)
+    return Recognition(True, f"text with rows of {width} numbers from line {header.first + 1} on")
 
 
 def read(path: Path, options: DelimitedOptions, window: Window | None = None) -> Recording:
@@ -57,41 +228,39 @@ def read(path: Path, options: DelimitedOptions, window: Window | None = None) ->
     """
     if not options.skip_rows and (reason := foreign_format(head_of(path))):
         raise ReadError(f"{path.name}: {reason}")
-    return read_text(text_of(path, options.encoding), options, window)
+    return read_text(Text.of(path, options.encoding), options, window)
 
 
 def read_text(text: Text, options: DelimitedOptions, window: Window | None = None) -> Recording:
     """Read delimited text, whatever it was made of; see `read`."""
-    path = text.path
     header = read_header(text, options)
     stretch = None if window is None else _stretch(header, options, window)
     header, rows = _grouped(header, _rows(header, stretch), stretch, options)
-    claims, form = header.claims, header.form
-    is_whole = rows.skipped == 0 and rows.reaches_end and not text.ends_within_line
+    width, dialect, claims = len(header.heading.names), header.form.dialect, header.claims
 
     def series() -> Array:
-        return read_block(text, form.dialect, header.heading.first, claims.width)
+        return read_series(text, dialect, min([header.first, *header.touching]))
 
-    layout = options.given_layout(form.kinds)
-    if layout is None and header.is_touching:
+    if options.layout is not None:
+        layout = Layout(options.layout, "as given")
+    elif options.time is not None or set(header.form.kinds) != {"number"}:
+        layout = Layout("columns")
+    elif header.touching:
         layout = Layout("running", f"the header declares rows of {claims.fields} fields, and these touch")
-    layout = layout or declared_layout(
-        path,
-        rows.columns,
-        claims,
-        series if is_whole else None,
-        is_named=header.is_named,
-        is_free=form.dialect.delimiter == WHITESPACE,
-    )
+    elif header.heading.is_named:
+        layout = Layout("columns")
+    else:
+        is_free = dialect.delimiter == WHITESPACE
+        layout = declared_layout(text.path, rows.columns, claims, series, is_free=is_free)
     if layout.kind == "columns":
         return _recording(header, rows, options)
-    recording = Recording(path, "delimited", (), notes=header.notes)
-    return series_of(recording, series(), len(form.kinds), claims, layout)
+    recording = Recording(text.path, "delimited", (), notes=header.notes)
+    return series_of(recording, series(), width, claims, layout)
 
 
 def _rows(header: Header, stretch: Stretch | None) -> Rows:
-    path, pieces = header.text.path, pieces_of_text(header.text, header.heading.first)
-    rows = read_rows(path, pieces, header.form, stretch)
+    path = header.text.path
+    rows = read_rows(path, header.text.pieces(header.first), header.form, stretch)
     if not rows.size:
         raise ReadError(
             f"{path.name}: none of its {rows.skipped} samples is within the test's window. Check the file's "
@@ -118,45 +287,34 @@ def _grouped(header: Header, rows: Rows, stretch: Stretch | None, options: Delim
 def _recording(header: Header, rows: Rows, options: DelimitedOptions) -> Recording:
     """Say what the rows mean."""
     path, heading, kinds = header.text.path, header.heading, header.form.kinds
-    is_cut = rows.reaches_end and header.text.ends_within_line
-    mended = mend(rows, heading.headings, is_cut=is_cut)
-    columns = [
-        past_midnight(column) if kind == "time" else column for column, kind in zip(mended.columns, kinds, strict=True)
-    ]
-    if not any(np.isfinite(column).any() for column in columns):
-        raise ReadError(f"{path.name}: no cell from line {heading.first + 1} on holds a number.")
-    each = zip(heading.names, heading.units, columns, heading.headings, kinds, strict=True)
-    channels = tuple(
-        RecordedChannel(name, unit, values, values if kind == "time" else None, head, kind == "time")
-        for name, unit, values, head, kind in each
-    )
-    recording = _on_clocks(Recording(path, "delimited", channels, rows.start), options, header.claims)
+    mended = mend(rows, heading.headings)
+    if not any(np.isfinite(column).any() for column in mended.columns):
+        raise ReadError(f"{path.name}: no cell from line {header.first + 1} on holds a number.")
+    channels = []
+    for head, name, unit, kind, values in zip(*heading[:3], kinds, mended.columns, strict=True):
+        values = past_midnight(values) if kind == "time" else values
+        is_clock = kind == "time"
+        channels.append(RecordedChannel(name, unit, values, values if is_clock else None, head, is_clock))
+    recording = Recording(path, "delimited", tuple(channels), rows.start)
+    found = with_clocks(recording, options.time, options.time_unit)
+    if len(channels) == 1 and not found.channels[0].is_clock:  # a lone column has unit and interval of the header
+        claimed = header.claims.channel(channels[0].values)
+        lone = replace(channels[0], unit=channels[0].unit or claimed.unit, time=claimed.time, is_clock=False)
+        found = replace(recording, channels=(lone,), notes=(header.claims.clock_note,))
     return replace(
-        recording,
-        notes=(*header.notes, *heading.notes, *recording.notes, *mended.notes),
-        warnings=(*header.warnings, *heading.warnings, *recording.warnings, *mended.warnings),
+        found,
+        notes=(
+            *(*header.notes, *heading.notes, f"first sample on line {header.first + 1}"),
+            *(*found.notes, *mended.notes),
+        ),
+        warnings=(*header.warnings, *heading.warnings, *found.warnings, *mended.warnings),
     )
-
-
-def _on_clocks(recording: Recording, options: DelimitedOptions, claims: HeaderClaims) -> Recording:
-    """Give channels the clock that was given, else those found; a lone column has unit and interval of the header."""
-    found = find_clocks(recording.channels)
-    if options.time is not None:
-        given = given_clock(recording, options.time, options.time_unit)
-        others = found.columns - given.columns
-        times = tuple((found if number in others else given).times[number] for number in range(len(given.times)))
-        return replace(given, columns=found.columns | given.columns, times=times).applied(recording)
-    if len(recording.channels) > 1 or found.columns:
-        return found.applied(recording)
-    (lone,) = recording.channels
-    lone = replace(lone, unit=lone.unit or claims.unit, time=claims.times(lone.values.size), is_clock=False)
-    return replace(recording, channels=(lone,), notes=(claims.clock_note,))
 
 
 def _stretch(header: Header, options: DelimitedOptions, window: Window) -> Stretch | None:
     """Find the rows of a window; None, which is all of them, if the file has several clocks or timestamps."""
     if window.sampling_rate_hz is not None:
-        return Stretch(window.low * window.sampling_rate_hz, window.high * window.sampling_rate_hz)
+        return Stretch(0.0, window.high * window.sampling_rate_hz)
     head = _recording(header, _rows(header, Stretch(0.0, 0.0)), options)
     clocks = [number for number, channel in enumerate(head.channels) if channel.is_clock]
     if len(clocks) != 1 or header.form.kinds[clocks[0]] != "number":

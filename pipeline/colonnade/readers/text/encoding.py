@@ -3,20 +3,28 @@
 from __future__ import annotations
 
 import codecs
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from io import StringIO
-from itertools import islice
 from pathlib import Path
-from typing import Annotated, TextIO
+from typing import Annotated, NamedTuple, TextIO
 
 from pydantic import AfterValidator, Field
 
+from colonnade.errors import ReadError
 from colonnade.readers.format import Options
-from colonnade.readers.text.cells import Dialect
 
 HEAD_BYTES = 1 << 18
 """As much of a file as is looked at to find out how it is written."""
+LONGEST_HEAD = 1 << 24
+"""Characters within which the lines are that options name."""
+LONGEST_LINE = 1 << 20
+"""Characters of a line; no recorder writes longer ones."""
+PIECE = 1 << 21
+"""Characters that are cut into cells at once."""
+ROWS_AT_ONCE = 20_000
+"""Lines that are cut into cells at once, if they are there already."""
+UNREADABLE = "\ufffd"
 
 # UTF-32 before UTF-16: the little-endian mark of the former starts with that of the latter.
 BYTE_ORDER_MARKS = (
@@ -29,18 +37,11 @@ BYTE_ORDER_MARKS = (
 PRINTED_CONTROLS = frozenset("\t\n\r\f\v\x1a")
 
 
-@dataclass(frozen=True)
-class Encoding:
+class Encoding(NamedTuple):
     """A text encoding and how it was found."""
 
     name: str
     evidence: str
-
-
-def detect_encoding(path: Path) -> Encoding:
-    """Find a text file's encoding; OSError if it cannot be opened."""
-    with path.open("rb") as stream:
-        return encoding_of(stream.read(HEAD_BYTES))
 
 
 def encoding_of(head: bytes) -> Encoding:
@@ -76,14 +77,7 @@ def encoding_of(head: bytes) -> Encoding:
 
 
 def known_encoding(name: str) -> str:
-    """
-    Give an encoding's own name.
-
-    Raises
-    ------
-    ValueError
-        If the encoding is unknown.
-    """
+    """Give an encoding's own name; ValueError if it is unknown."""
     try:
         return codecs.lookup(name).name
     except LookupError:
@@ -98,15 +92,20 @@ class TextOptions(Options):
     )
 
 
-def open_text(path: Path, encoding: str) -> TextIO:
-    """Open text for reading; line ends are left as they are, bytes that are not characters become U+FFFD."""
-    return path.open(encoding=encoding, errors="replace", newline="")
+class Piece(NamedTuple):
+    """Whole lines of a file: the number of the first of them, from 1, and their text."""
+
+    line: int
+    text: str
 
 
 @dataclass(frozen=True)
 class Text:
     """
     A text.
+
+    NUL characters, which recorders leave when their power fails and which C takes for the end of a cell, come out as
+    U+FFFD, as do bytes that are not characters.
 
     Attributes
     ----------
@@ -121,46 +120,65 @@ class Text:
     encoding: Encoding
     made: str | None = None
 
+    @classmethod
+    def of(cls, path: Path, encoding: str | None = None) -> Text:
+        """Take a file, in an encoding that is given or found; OSError if it cannot be opened."""
+        if encoding is not None:
+            return cls(path, Encoding(encoding, ""))
+        with path.open("rb") as stream:
+            return cls(path, encoding_of(stream.read(HEAD_BYTES)))
+
     def open(self) -> TextIO:
-        """Open it as `open_text`."""
-        return open_text(self.path, self.encoding.name) if self.made is None else StringIO(self.made, newline="")
+        """Open it for reading; whatever its line ends are, they come out as line feeds."""
+        if self.made is not None:
+            return StringIO(self.made)
+        name = "utf-8-sig" if self.encoding.name == "utf-8" else self.encoding.name
+        return self.path.open(encoding=name, errors="replace")
 
-    @property
-    def ends_within_line(self) -> bool:
-        """Whether its last line has no line end."""
-        return self.made is None and ends_within_line(self.path)
+    def head(self, wanted: int = 0) -> list[str]:
+        """Give the first lines, with so many among them; one that is cut by the limit is left out."""
+        with self.open() as stream:
+            head = block = stream.read(HEAD_BYTES)
+            while block and len(head) < LONGEST_HEAD and head.count("\n") < wanted:
+                block = stream.read(HEAD_BYTES)
+                head += block
+            is_whole = not stream.read(1)
+        lines = head.removeprefix("\ufeff").split("\n")
+        return lines[:-1] if lines[-1] == "" or (not is_whole and len(lines) > 1) else lines
+
+    def lines(self) -> list[str]:
+        """All lines; the last one is empty if it has a line end. ReadError if one is too long for a recorder's."""
+        with self.open() as stream:
+            lines = stream.read().replace("\0", UNREADABLE).split("\n")
+        if long := next((number for number, line in enumerate(lines, 1) if len(line) > LONGEST_LINE), None):
+            raise ReadError(
+                f"{self.path.name}: line {long} has more than {LONGEST_LINE} characters; rows of numbers were "
+                "expected. The file is damaged or of another kind."
+            )
+        return lines
+
+    def pieces(self, first: int) -> Iterator[Piece]:
+        """Cut it into pieces, from the line with index `first` on."""
+        number, rest = first + 1, ""
+        with self.open() as stream:
+            for _ in range(first):
+                stream.readline()
+            while block := stream.read(PIECE):
+                read = rest + block.replace("\0", UNREADABLE)
+                end = read.rfind("\n") + 1
+                rest = read[end:]
+                if end:
+                    yield Piece(number, read[:end])
+                number += read.count("\n")
+        if rest:
+            yield Piece(number, rest)
 
 
-def text_of(path: Path, encoding: str | None = None) -> Text:
-    """Give the text of a file, in an encoding that is given or found."""
-    return Text(path, Encoding(encoding, "") if encoding else detect_encoding(path))
-
-
-def head_lines(text: Text, wanted: int = 0) -> tuple[list[str], bool]:
-    """
-    Read the first lines of a text.
-
-    Parameters
-    ----------
-    text : Text
-    wanted : int
-        Number of lines that have to be among them, if the file has so many.
-
-    Returns
-    -------
-    lines : list of str
-        Without line ends and byte order mark. A last line that was cut by the limit is left out.
-    whole : bool
-        Whether this is all of the file.
-    """
-    with text.open() as stream:
-        head = block = stream.read(HEAD_BYTES)
-        while len(block) == HEAD_BYTES and head.count("\n") + head.count("\r") < wanted:
-            block = stream.read(HEAD_BYTES)
-            head += block
-        whole = not stream.read(1)
-    lines = [line.rstrip("\r\n") for line in StringIO(head.removeprefix("\ufeff"), newline="")]
-    return (lines if whole or len(lines) == 1 else lines[:-1]), whole
+def pieces_of(lines: Sequence[str], first: int, stop: int) -> Iterator[Piece]:
+    """Join lines, from the index `first` to before `stop`, into pieces; the last line of the text has no line end."""
+    for start in range(first, stop, ROWS_AT_ONCE):
+        end = min(start + ROWS_AT_ONCE, stop)
+        yield Piece(start + 1, "\n".join(lines[start:end]) + ("\n" if end < len(lines) else ""))
 
 
 def looks_binary(lines: list[str]) -> str:
@@ -171,83 +189,3 @@ def looks_binary(lines: list[str]) -> str:
     if text and unreadable > 0.02 * len(text):
         return f"{unreadable} of the first {len(text)} characters are not printable: a binary file, or another encoding"
     return ""
-
-
-def ends_within_line(path: Path) -> bool:
-    """Whether the file's last line has no line end."""
-    with path.open("rb") as stream:
-        size = stream.seek(0, 2)
-        stream.seek(max(size - 8, 0))
-        return not stream.read().rstrip(b"\0\x1a").endswith((b"\n", b"\r"))
-
-
-UNREADABLE = "\ufffd"
-
-PIECE = 1 << 21
-"""Characters that are cut into cells at once."""
-ROWS_AT_ONCE = 20_000
-"""Lines that are cut into cells at once, if they are read one by one."""
-
-
-@dataclass(frozen=True)
-class Piece:
-    """
-    Whole lines of a file.
-
-    Attributes
-    ----------
-    line : int
-        Number of the first of them, from 1.
-    text : str
-    """
-
-    line: int
-    text: str
-
-    def rows(self, dialect: Dialect) -> Iterator[tuple[int, str]]:
-        """Go through the lines that pandas makes rows of, all but blank ones: their numbers and texts."""
-        for number, line in enumerate(StringIO(self.text, newline=""), self.line):
-            if not dialect.is_blank(line):
-                yield number, line.rstrip("\r\n")
-
-
-def pieces_of_text(text: Text, first: int) -> Iterator[Piece]:
-    """
-    Cut a text into pieces, none of them blank, from the line with index `first` on.
-
-    NUL characters, which recorders leave when their power fails and which C takes for the end of a cell, come out as
-    U+FFFD, so that the cell is not a number.
-    """
-    with text.open() as stream:
-        for _ in range(first):
-            stream.readline()
-        number = first + 1
-        rest = stream.read(1).removeprefix("\ufeff").replace("\0", UNREADABLE)
-        while read := stream.read(PIECE):
-            read = rest + read.replace("\0", UNREADABLE)
-            # A line may end in a carriage return alone, but not between that and a line feed.
-            end = read.rfind("\n") + 1 or read.rfind("\r", 0, -1) + 1
-            piece, rest = read[:end], read[end:]
-            if piece and not piece.isspace():
-                yield Piece(number, piece)
-            number += piece.count("\n")
-            if "\r" in piece:
-                number += piece.count("\r") - piece.count("\r\n")
-        if rest and not rest.isspace():
-            yield Piece(number, rest)
-
-
-def pieces_of_lines(lines: Iterable[tuple[int, str]]) -> Iterator[Piece]:
-    """Join lines that were taken one by one, with their numbers, into pieces."""
-    remaining = iter(lines)
-    texts: list[str] = []
-    start = 0
-    while batch := list(islice(remaining, ROWS_AT_ONCE)):
-        for number, text in batch:
-            if texts and number != start + len(texts):
-                yield Piece(start, "\n".join(texts))
-                texts = []
-            start = start if texts else number
-            texts.append(text)
-        yield Piece(start, "\n".join(texts))
-        texts = []

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections import Counter, defaultdict
 from collections.abc import Iterator
-from dataclasses import dataclass
+from itertools import islice
+from typing import NamedTuple
 
-from colonnade.readers.text.cells import WHITESPACE, Dialect, kind_of, looks_like_numbers, quoted_cells
-from colonnade.readers.text.sniffing import DELIMITERS
+from colonnade.readers.text.dialect import DELIMITERS, WHITESPACE, Dialect, kind_of, looks_like_numbers, quoted_cells
 
 _BASE = (
     r"(?:[kKMGmµμun]|c|d)?(?:m|s|g|N|V|A|W|J|Hz|Pa|rad|bar|strain|eps|ε|m/m)|g's|gal|Gal|in|inch(?:es)?|ft|lbf?|kip|psi|ksi"
@@ -27,44 +27,103 @@ LETTERED = re.compile(r"(.+?)\s*\([A-Z]\)\s*")
 RULE = re.compile(r"[\s\-=_*+|;,.]*")
 
 
-@dataclass(frozen=True)
-class Heading:
-    """
-    What is above the samples.
+class Heading(NamedTuple):
+    """What is above the samples: heads of columns as written, and taken apart."""
 
-    Attributes
-    ----------
-    first : int
-        Index of the line of the first sample, from 0.
-    headings, names : tuple of str
-        As written, and without units; one a column.
-    units : tuple of (str or None)
-    notes, warnings : tuple of str
-    """
-
-    first: int
     headings: tuple[str, ...]
     names: tuple[str, ...]
     units: tuple[str | None, ...]
+    is_named: bool
+    """Whether names or units are above most columns, and not words that may be a sentence."""
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
 
-    @property
-    def names_most(self) -> bool:
-        """Whether more than half of the columns have a name or a unit; a title above a table fills a cell only."""
-        own = [
-            head != f"column {number}" or unit is not None
-            for number, (head, unit) in enumerate(zip(self.headings, self.units, strict=True), start=1)
-        ]
-        return 2 * sum(own) > len(own)
+
+Lines = tuple[int | None, int | None]
+"""Indices of the lines of names and of units, if there are any."""
 
 
-@dataclass(frozen=True)
-class HeadingLines:
-    """Lines of names and units, counted from 0, if there are any."""
+def read_heading(
+    lines: list[str], where: Lines, dialect: Dialect, kinds: tuple[str, ...], *, is_given: bool = False
+) -> Heading:
+    """
+    Take names and units from their lines.
 
-    names: int | None
-    units: int | None
+    Parameters
+    ----------
+    lines : list of str
+    where : Lines
+    dialect : Dialect
+    kinds : tuple of str
+        What each column holds; an empty one at the end without a name is left out.
+    is_given : bool
+        Whether the line of names was given, not found.
+
+    Returns
+    -------
+    heading : Heading
+        Columns without a name are called by their number.
+    """
+    names_row, units_row = (_row(lines, index, dialect, len(kinds)) for index in where)
+    width = len(kinds)
+    while width > 1 and kinds[width - 1] == "empty" and not names_row[width - 1]:
+        width -= 1
+    names_row, units_row = names_row[:width], units_row[:width]
+    labels = _labels(names_row)
+    parts = [(cell, None) if cell in labels else take_apart(cell) for cell in names_row]
+    bare = [re.sub(r"^[\[(](.*)[\])]$", r"\1", cell).strip() for cell in units_row]
+    units = tuple(own or unit for own, (_, unit) in zip(bare, parts, strict=True))
+    headings = tuple(cell or f"column {number}" for number, cell in enumerate(names_row, 1))
+    names = tuple(name or f"column {number}" for number, (name, _) in enumerate(parts, 1))
+    notes, warnings = [], []
+    if where[0] is None:
+        notes.append(f'no names above the samples: columns are called "column 1" to "column {width}"')
+    else:
+        line = where[0] + 1
+        notes.append(f'names on line {line} ("{headings[0]}", …)' if width > 1 else f"name on line {line}")
+        if 2 * (numbers := sum(map(dialect.is_number, names_row))) > width:
+            warnings.append(
+                f"line {line} is used for the names although {numbers} of its {width} cells are numbers; set "
+                "names_row = 0 if it is a sample"
+            )
+    if where[1] is not None:
+        notes.append(f"units on line {where[1] + 1}")
+    elif united := next((head for head, unit in zip(headings, units, strict=True) if unit), ""):
+        notes.append(f'units in the names (as in "{united}")')
+    repeated = sorted(name for name, count in Counter(headings).items() if count > 1)
+    if repeated:
+        warnings.append(f'several columns are called "{repeated[0]}": give the number of the right one')
+    # A title above a table fills a cell only; words between single blanks may be a sentence.
+    is_named = 2 * sum(bool(name or unit) for name, unit in zip(names_row, units, strict=True)) > width
+    if is_named and where[0] is not None and where[1] is None and not is_given and dialect.delimiter == WHITESPACE:
+        words = lines[where[0]].split()
+        is_named = len(words) <= 2 or lines[where[0]].strip() != " ".join(words)
+    return Heading(headings, names, units, is_named, tuple(notes), tuple(warnings))
+
+
+def find_heading(lines: list[str], start: int, first: int, dialect: Dialect, kinds: tuple[str, ...]) -> Lines:
+    """Find the lines of names and units between the index `start` and that of the first sample."""
+    above = (
+        n for n in range(first - 1, start - 1, -1) if not dialect.is_blank(lines[n]) and not RULE.fullmatch(lines[n])
+    )
+    fitting: list[tuple[int, list[str]]] = []
+    for index in islice(above, 2):
+        cells = heading_cells(lines[index], dialect, len(kinds))
+        # Some cell has to be one that could not be a value of its column.
+        if cells is None or not any(
+            kind_of(cell, dialect) == "text" for cell, kind in zip(cells, kinds, strict=True) if kind != "text"
+        ):
+            break
+        fitting.append((index, [cell for cell in cells if cell]))
+    if not fitting:
+        return None, None
+    index, filled = fitting[0]
+    units = [cell for cell in filled if looks_like_unit(cell)]
+    if len(fitting) == 2 and len(units) >= 0.6 * len(filled):
+        return fitting[1][0], index
+    # A single line of units: nobody calls two channels "mm", but two channels are in mm.
+    repeated_or_bracketed = len(set(units)) < len(units) or all(cell.startswith(("[", "(")) for cell in units)
+    return (None, index) if len(units) == len(filled) and repeated_or_bracketed else (index, None)
 
 
 def looks_like_unit(text: str) -> bool:
@@ -145,88 +204,6 @@ def _ways_to_cut(line: str, dialect: Dialect) -> Iterator[list[str]]:
     # Else it uses the samples' delimiter, only not as often: a line of the preamble, or a damaged one.
 
 
-def find_heading(lines: list[str], start: int, first: int, dialect: Dialect, kinds: list[str]) -> HeadingLines:
-    """
-    Find the lines of names and units above the first sample.
-
-    Parameters
-    ----------
-    lines : list of str
-        Head of the file.
-    start, first : int
-        Index of the first line that may be looked at, and of the first sample.
-    dialect : Dialect
-    kinds : list of str
-        What each column holds, by `cells.kind_of`.
-    """
-    fitting = _lines_of_cells(lines, start, first, dialect, kinds)
-    if not fitting:
-        return HeadingLines(None, None)
-    index, cells = fitting[0]
-    filled = [cell for cell in cells if cell]
-    units = [cell for cell in filled if looks_like_unit(cell)]
-    if len(fitting) == 2 and len(units) >= 0.6 * len(filled):
-        return HeadingLines(fitting[1][0], index)
-    # A single line of units: nobody calls two channels "mm", but two channels are in mm.
-    repeated_or_bracketed = len(set(units)) < len(units) or all(cell.startswith(("[", "(")) for cell in units)
-    if len(units) == len(filled) and repeated_or_bracketed:
-        return HeadingLines(None, index)
-    return HeadingLines(index, None)
-
-
-def _lines_of_cells(
-    lines: list[str], start: int, first: int, dialect: Dialect, kinds: list[str]
-) -> list[tuple[int, list[str]]]:
-    """Find up to two lines right above the first sample that have a cell a column, with some that is not a value."""
-    fitting: list[tuple[int, list[str]]] = []
-    looked_at = 0
-    for index in range(first - 1, start - 1, -1):
-        if dialect.is_blank(lines[index]) or RULE.fullmatch(lines[index]):
-            continue
-        looked_at += 1
-        cells = heading_cells(lines[index], dialect, len(kinds)) if looked_at <= 2 else None
-        if cells is None or not _says_something(cells, dialect, kinds):
-            break
-        fitting.append((index, cells))
-    return fitting
-
-
-def _says_something(cells: list[str], dialect: Dialect, kinds: list[str]) -> bool:
-    """Whether some cell could not be a value of its column."""
-    return any(
-        kind_of(cell, dialect) == "text"
-        for cell, kind in zip(cells, kinds, strict=True)
-        if kind in ("number", "time", "empty")
-    )
-
-
-def describe_columns(lines: list[str], where: HeadingLines, first: int, dialect: Dialect, columns: int) -> Heading:
-    """Take names and units from their lines; columns without a name are called by their number."""
-    names_row = _row(lines, where.names, dialect, columns)
-    units_row = _row(lines, where.units, dialect, columns)
-    labels = _labels(names_row)
-    parts = [(cell, None) if cell in labels else take_apart(cell) for cell in names_row]
-    units: list[str | None] = []
-    for cell, (_, unit) in zip(units_row, parts, strict=True):
-        bare = re.sub(r"^[\[(](.*)[\])]$", r"\1", cell).strip()
-        units.append(bare or unit)
-    headings = tuple(cell or f"column {number}" for number, cell in enumerate(names_row, 1))
-    names = tuple(name or f"column {number}" for number, (name, _) in enumerate(parts, 1))
-    notes = _names_notes(where, headings, units)
-    warnings = []
-    numbers = sum(dialect.is_number(cell) for cell in names_row)
-    if where.names is not None and 2 * numbers > columns:
-        warnings.append(
-            f"line {where.names + 1} is used for the names although {numbers} of its {columns} cells are numbers; set "
-            "names_row = 0 if it is a sample"
-        )
-    notes.append(f"first sample on line {first + 1}")
-    repeated = sorted(name for name, count in Counter(headings).items() if count > 1)
-    if repeated:
-        warnings.append(f'several columns are called "{repeated[0]}": give the number of the right one')
-    return Heading(first, headings, names, tuple(units), tuple(notes), tuple(warnings))
-
-
 def _labels(cells: list[str]) -> set[str]:
     """Find heads that tell columns of one name apart by a letter: in `Acc (V)` next to `Acc (H)` it is not a unit."""
     alike: defaultdict[str, set[str]] = defaultdict(set)
@@ -236,29 +213,12 @@ def _labels(cells: list[str]) -> set[str]:
     return {cell for heads in alike.values() if len(heads) > 1 for cell in heads}
 
 
-def _names_notes(where: HeadingLines, headings: tuple[str, ...], units: list[str | None]) -> list[str]:
-    """Say which lines hold names and units."""
-    columns = len(headings)
-    if where.names is None:
-        notes = [f'no names above the samples: columns are called "column 1" to "column {columns}"']
-    elif columns > 1:
-        notes = [f'names on line {where.names + 1} ("{headings[0]}", …)']
-    else:
-        notes = [f"name on line {where.names + 1}"]
-    if where.units is not None:
-        notes.append(f"units on line {where.units + 1}")
-    elif any(units):
-        notes.append(f'units in the names (as in "{next(h for h, u in zip(headings, units, strict=True) if u)}")')
-    return notes
-
-
-def unread_numbers(lines: list[str], where: HeadingLines, start: int, first: int, dialect: Dialect) -> list[str]:
+def unread_numbers(lines: list[str], where: Lines, start: int, first: int, dialect: Dialect) -> list[str]:
     """Tell of lines right above the first sample that hold numbers too, but not one for each column."""
-    taken = {where.names, where.units}
     skipped = []
     for index in range(first - 1, start - 1, -1):
         line = lines[index]
-        if index in taken or dialect.is_comment(line) or not looks_like_numbers(line):
+        if index in where or dialect.is_comment(line) or not looks_like_numbers(line):
             break
         skipped.append(index + 1)
     if not skipped:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from contextlib import suppress
 from datetime import datetime
+from itertools import islice
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,11 +18,10 @@ from colonnade.readers.clock import even_times, moment_after
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.text.cells import Dialect
 from colonnade.readers.text.damage import mend
-from colonnade.readers.text.encoding import TextOptions, ends_within_line, pieces_of_lines
+from colonnade.readers.text.dialect import Dialect
+from colonnade.readers.text.encoding import Text, TextOptions, pieces_of
 from colonnade.readers.text.heading import take_apart
-from colonnade.readers.text.numbered import NumberedLines
 from colonnade.readers.text.rows import RowForm, filled_length, read_rows
 
 END_OF_HEADER = "***End_of_Header***"
@@ -29,16 +30,23 @@ HEADER_STARTS = ("Channels", "Notes")
 SEPARATORS = {"tab": "\t", "comma": ",", "semicolon": ";", "space": " "}
 
 
-class _BrokenHeaderError(Exception):
-    """A segment's header is not whole."""
+SIGNATURE = "LabVIEW Measurement"
+CLOCKS = {
+    "no": "clock: Delta_X of the header, as X_Columns is No",
+    "multi": "clocks: each channel's own X_Value, as X_Columns is Multi",
+}
+"""What is said of the clocks, by X_Columns."""
+LABVIEW_EPOCH = datetime(1904, 1, 1)
+SINCE_EPOCH = 1e9
+"""Seconds: larger x-values count from LabVIEW's epoch, not from the start of the recording."""
 
 
-@dataclass(frozen=True)
-class Preamble:
-    """The header of the whole file: what it says by name, and how its numbers are written."""
+class Preamble(NamedTuple):
+    """The header of the whole file: what it says by name, how its numbers are written, and the lines that it has."""
 
     entries: dict[str, str]
     dialect: Dialect
+    lines: int
 
     @property
     def clocks(self) -> str:
@@ -46,38 +54,24 @@ class Preamble:
         return self.entries.get("X_Columns", "One").casefold()
 
 
-@dataclass(frozen=True)
-class Segment:
-    """
-    One header with the rows below it.
-
-    Attributes
-    ----------
-    entries : dict of str to list of str
-        What its header says for each column of the table.
-    names : tuple of str
-        Of the columns, the clocks among them.
-    line : int
-        Of the names.
-    columns : list of ndarray, shape (n,)
-    """
+class Segment(NamedTuple):
+    """One header, what it says for each column of the table below it, the columns' names and their line."""
 
     entries: dict[str, list[str]]
-    names: tuple[str, ...]
+    names: list[str]
     line: int
     columns: list[Array]
 
     def entry(self, key: str, column: int) -> str:
         """What the header says of a column; empty if it says nothing."""
-        cells = self.entries.get(key, [])
-        return cells[column] if column < len(cells) else ""
+        return dict(enumerate(self.entries.get(key, ()))).get(column, "")
 
 
-def read_preamble(path: Path, lines: NumberedLines) -> Preamble:
+def read_preamble(path: Path, lines: list[str]) -> Preamble:
     """Read the file's own header, up to its end mark."""
     entries: dict[str, str] = {}
     separator = "\t"
-    for number, line in lines.rest():
+    for number, line in enumerate(lines, 1):
         if line.startswith(END_OF_HEADER):
             break
         key, _, rest = line.partition(separator)
@@ -91,100 +85,65 @@ def read_preamble(path: Path, lines: NumberedLines) -> Preamble:
     decimal = entries.get("Decimal_Separator", ".").strip() or "."
     if decimal not in (".", ","):
         raise ReadError(f'{path.name}: Decimal_Separator is "{decimal[:20]}"; "." or "," was expected.')
-    return Preamble(entries, Dialect(lines.encoding, separator, decimal))
+    return Preamble(entries, Dialect(separator, decimal), number)
 
 
-def read_segments(path: Path, lines: NumberedLines, preamble: Preamble) -> tuple[list[Segment], list[str]]:
-    """Read all segments; give what is wrong with them too."""
+def read_segments(path: Path, lines: list[str], preamble: Preamble) -> tuple[list[Segment], list[str]]:
+    """Read all segments, each a header and the rows down to the next one; give what is wrong with them too."""
     segments: list[Segment] = []
     warnings: list[str] = []
-    while (line := lines.peek()) is not None:
-        if not line.strip():
-            lines.take()
-            continue
-        try:
-            segments.append(_segment(path, lines, preamble, segments[-1] if segments else None, warnings))
-        except _BrokenHeaderError as error:
-            if not segments:
-                raise ReadError(f"{path.name}: {error}") from error
-            warnings.append(str(error))
+    delimiter = preamble.dialect.delimiter
+    at = next((n for n in range(preamble.lines, len(lines)) if lines[n].strip()), len(lines))
+    while at < len(lines):
+        first = at
+        at = next((n for n in range(at, len(lines)) if lines[n].startswith(END_OF_HEADER)), len(lines)) + 1
+        names = [name.strip() for name in lines[at].split(delimiter)] if at < len(lines) else []
+        while names and names[-1] in ("", "Comment"):
+            names.pop()
+        wrong = ""
+        if not lines[first].startswith(HEADER_STARTS):
+            wrong = f'line {first + 1}: "Channels" was expected, the start of a segment\'s header; the file is damaged.'
+        elif at > len(lines):
+            wrong = f"the segment that starts on line {first + 1} ends within its header: the file was cut off"
+        elif not names:
+            wrong = f"line {at + 1}: the names of the columns were expected; the file is damaged or was cut off"
+        if wrong and not segments:
+            raise ReadError(f"{path.name}: {wrong}")
+        stop = next((n for n in range(at + 1, len(lines)) if lines[n].startswith(HEADER_STARTS)), len(lines))
+        if wrong:
+            warnings.append(wrong)
+        else:
+            names = [name or f"column {number}" for number, name in enumerate(names)]
+            header = ([cell.strip() for cell in line.split(delimiter)] for line in lines[first : at - 1])
+            entries = {cells[0]: cells for cells in header}
+            is_uneven = len({said for said in entries.get("Samples", [])[1:] if said}) > 1
+            _prepare(lines, range(at + 1, stop), delimiter, len(names) if is_uneven else 0)
+            kinds = ("empty" if preamble.clocks == "no" else "number", *["number"] * (len(names) - 1))
+            form = RowForm(preamble.dialect, kinds, remark=True, by_instrument=True, ragged=True)
+            mended = mend(read_rows(path, pieces_of(lines, at + 1, stop), form), names)
+            segments.append(Segment(entries, names, at + 1, mended.columns))
+            lengths = zip(names, entries.get("Samples", ()), map(filled_length, mended.columns), strict=False)
+            lacking = ((name, said, size) for name, said, size in lengths if said.isdecimal() and int(said) > size)
+            warnings += mended.warnings
+            warnings += [
+                f'the samples below line {at + 1} end too early: the header says {said}, "{name}" has {size}'
+                for name, said, size in islice(lacking, 1)
+            ]
+        at = stop
     return segments, warnings
 
 
-def _segment(
-    path: Path, lines: NumberedLines, preamble: Preamble, previous: Segment | None, warnings: list[str]
-) -> Segment:
-    """Read a segment's header and rows; _BrokenHeaderError if its header is not whole."""
-    dialect = preamble.dialect
-    if (lines.peek() or "").startswith(HEADER_STARTS):
-        entries, names = _header(lines, dialect)
-        line = lines.number
-    elif previous is not None:  # rows that go on below a blank line
-        entries, names, line = previous.entries, previous.names, lines.number + 1
-    else:
-        raise _BrokenHeaderError(
-            f'line {lines.number + 1}: "Channels" was expected, the start of a segment\'s header; the file is damaged.'
-        )
-    found = _rows(lines)
-    if len({said for said in entries.get("Samples", [])[1:] if said}) > 1:
-        found = _padded(found, dialect, len(names))
-    form = RowForm(dialect, ("number",) * len(names), remark=True, by_instrument=True, ragged=True)
-    rows = read_rows(path, pieces_of_lines(found), form)
-    mended = mend(rows, names, is_cut=lines.peek() is None and ends_within_line(path))
-    warnings += mended.warnings
-    return Segment(entries, names, line, mended.columns)
-
-
-def _header(lines: NumberedLines, dialect: Dialect) -> tuple[dict[str, list[str]], tuple[str, ...]]:
-    """Read a segment's header: what it says for each column, and the columns' names."""
-    first = lines.number + 1
-    entries: dict[str, list[str]] = {}
-    for _, text in lines.rest():
-        if text.startswith(END_OF_HEADER):
-            break
-        cells = [cell.strip() for cell in text.split(dialect.delimiter)]
-        entries[cells[0]] = cells
-    else:
-        raise _BrokenHeaderError(
-            f"the segment that starts on line {first} ends within its header: the file was cut off"
-        )
-    names = _names(lines.take() or "", dialect)
-    if not names:
-        raise _BrokenHeaderError(
-            f"line {lines.number}: the names of the columns were expected; the file is damaged or was cut off"
-        )
-    return entries, names
-
-
-def _names(line: str, dialect: Dialect) -> tuple[str, ...]:
-    """Names of the columns, without that of the comments at the end."""
-    names = [name.strip() for name in line.split(dialect.delimiter)]
-    while names and names[-1] in ("", "Comment"):
-        names.pop()
-    return tuple(name or f"column {number}" for number, name in enumerate(names))
-
-
-def _rows(lines: NumberedLines) -> Iterator[tuple[int, str]]:
-    """Take the rows up to a blank line or the next header."""
-    while True:
-        yield from lines.until(lambda line: line.startswith((*HEADER_STARTS, "***")) or not line.strip())
-        if not (lines.peek() or "").startswith("***"):
-            return
-        for _, line in lines.rest():  # a special block
-            if line.startswith("***End"):
-                break
-
-
-def _padded(rows: Iterator[tuple[int, str]], dialect: Dialect, width: int) -> Iterator[tuple[int, str]]:
-    """Fill up rows in which channels with fewer samples have no more cells."""
-    for number, row in rows:
-        yield number, row + dialect.delimiter * (width - 1 - row.count(dialect.delimiter))
-
-
-SIGNATURE = "LabVIEW Measurement"
-LABVIEW_EPOCH = datetime(1904, 1, 1)
-SINCE_EPOCH = 1e9
-"""Seconds: larger x-values count from LabVIEW's epoch, not from the start of the recording."""
+def _prepare(lines: list[str], rows: range, delimiter: str, width: int) -> None:
+    """Empty the lines of special blocks, and fill up rows in which channels with fewer samples have no more cells."""
+    is_special = False
+    for number in rows:
+        line = lines[number]
+        is_special |= line.startswith("***")
+        if is_special:
+            lines[number] = ""
+        elif width and line.strip():
+            lines[number] += delimiter * (width - 1 - line.count(delimiter))
+        is_special &= not line.startswith("***End")
 
 
 @from_head
@@ -206,11 +165,10 @@ def read(path: Path, options: TextOptions) -> Recording:
     ReadError
         If a header is not whole.
     """
-    with NumberedLines(path, options.encoding) as lines:
-        preamble = read_preamble(path, lines)
-        segments, warnings = read_segments(path, lines, preamble)
-    for segment in segments:
-        warnings += _too_short(segment)
+    text = Text.of(path, options.encoding)
+    lines = text.lines()
+    preamble = read_preamble(path, lines)
+    segments, warnings = read_segments(path, lines, preamble)
     pieces: dict[tuple[int, str], list[RecordedChannel]] = {}
     for segment in segments:
         for column, piece in _columns(segment, preamble):
@@ -219,21 +177,12 @@ def read(path: Path, options: TextOptions) -> Recording:
     first, origin = next(timed, (np.empty(0), None))
     start = moment_after(origin, float(first[0])) if first.size else None
     channels = tuple(_joined(same, origin, preamble) for same in pieces.values())
-    return Recording(
-        path, "lvm", channels, start, notes=_notes(preamble, segments), warnings=tuple(dict.fromkeys(warnings))
-    )
-
-
-def _too_short(segment: Segment) -> list[str]:
-    """Report a segment with fewer rows than its header says."""
-    for column, (name, values) in enumerate(zip(segment.names, segment.columns, strict=True)):
-        said = segment.entry("Samples", column)
-        if said.isdecimal() and int(said) > filled_length(values):
-            return [
-                f"the samples below line {segment.line} end too early: the header says {said}, "
-                f'"{name}" has {filled_length(values)}'
-            ]
-    return []
+    decimal = "comma" if preamble.dialect.decimal == "," else "point"
+    notes = [f"encoding {text.encoding.name}", f"decimal {decimal}, as the header says"]
+    notes.append(CLOCKS.get(preamble.clocks, "clock: X_Value"))
+    if len(segments) > 1:
+        notes.append(f"{len(segments)} segments, joined by their dates and times")
+    return Recording(path, "lvm", channels, start, tuple(notes), tuple(dict.fromkeys(warnings)))
 
 
 def _columns(segment: Segment, preamble: Preamble) -> Iterator[tuple[int, RecordedChannel]]:
@@ -252,7 +201,9 @@ def _columns(segment: Segment, preamble: Preamble) -> Iterator[tuple[int, Record
         if segment.entry("X_Dimension", owner).casefold() not in ("time", ""):
             is_clock = False
         elif preamble.clocks == "no":
-            times = _even_times(segment, preamble, column, values.size)
+            step = preamble.dialect.number(segment.entry("Delta_X", column))
+            begin = preamble.dialect.number(segment.entry("X0", column) or "0")
+            times = even_times(values.size, step, begin) if step > 0 and np.isfinite(begin) else None
         else:
             times = segment.columns[clock][: values.size]
             if times.size and times[0] > SINCE_EPOCH:
@@ -260,13 +211,6 @@ def _columns(segment: Segment, preamble: Preamble) -> Iterator[tuple[int, Record
                 times = times - times[0]
         unit = "s" if is_clock else segment.entry("Y_Unit_Label", column) or take_apart(name)[1]
         yield column, RecordedChannel(name, unit, values, times, is_clock=is_clock, start=began)
-
-
-def _even_times(segment: Segment, preamble: Preamble, column: int, count: int) -> Array | None:
-    """Times by the header's interval; None if it gives none."""
-    step = preamble.dialect.number(segment.entry("Delta_X", column))
-    begin = preamble.dialect.number(segment.entry("X0", column) or "0")
-    return even_times(count, step, begin) if step > 0 and np.isfinite(begin) else None
 
 
 def _joined(pieces: list[RecordedChannel], origin: datetime | None, preamble: Preamble) -> RecordedChannel:
@@ -290,27 +234,11 @@ def _joined(pieces: list[RecordedChannel], origin: datetime | None, preamble: Pr
 
 def _moment(date: str, time: str) -> datetime | None:
     """Date and time of day as LabVIEW writes them, `2013/02/19` and `09:51:40,7271890640258789063`."""
-    day = re.match(r"(\d{4})/(\d{1,2})/(\d{1,2})", date)
-    hour = re.match(r"(\d{1,2}):(\d{2}):(\d{2})(?:[.,](\d{1,6}))?", time)
-    if day is None or hour is None:
-        return None
-    try:
-        fraction = (hour[4] or "").ljust(6, "0")
-        return datetime(int(day[1]), int(day[2]), int(day[3]), int(hour[1]), int(hour[2]), int(hour[3]), int(fraction))
-    except ValueError:
-        return None
-
-
-def _notes(preamble: Preamble, segments: list[Segment]) -> tuple[str, ...]:
-    decimal = "comma" if preamble.dialect.decimal == "," else "point"
-    clock = {
-        "no": "clock: Delta_X of the header, as X_Columns is No",
-        "multi": "clocks: each channel's own X_Value, as X_Columns is Multi",
-    }.get(preamble.clocks, "clock: X_Value")
-    notes = [f"encoding {preamble.dialect.encoding}", f"decimal {decimal}, as the header says", clock]
-    if len(segments) > 1:
-        notes.append(f"{len(segments)} segments, joined by their dates and times")
-    return tuple(notes)
+    text = f"{date} {time}".replace(",", ".")
+    for form in ("%Y/%m/%d %H:%M:%S.%f", "%Y/%m/%d %H:%M:%S"):
+        with suppress(ValueError):
+            return datetime.strptime(re.sub(r"(\.\d{6})\d+", r"\1", text), form)
+    return None
 
 
 FORMAT = Format(

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
 from datetime import datetime
 from itertools import pairwise
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,11 +18,10 @@ from colonnade.readers.clock import RISING_SHARE, moment_after, rising_share
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
-from colonnade.readers.text.cells import WHITESPACE, Dialect, is_timestamp
 from colonnade.readers.text.damage import mend
-from colonnade.readers.text.encoding import TextOptions, ends_within_line, pieces_of_lines
+from colonnade.readers.text.dialect import WHITESPACE, Dialect, is_timestamp
+from colonnade.readers.text.encoding import Text, TextOptions, pieces_of
 from colonnade.readers.text.heading import looks_like_unit
-from colonnade.readers.text.numbered import NumberedLines
 from colonnade.readers.text.rows import RowForm, read_rows
 
 SIGNATURE = "MTS793|"
@@ -36,20 +35,8 @@ DATES = {
 """Forms of a date with time, by the sign within dates; that with / only in the language ENU is read in one way only."""
 
 
-@dataclass(frozen=True)
-class Block:
-    """
-    Rows of one acquisition process.
-
-    Attributes
-    ----------
-    line : int
-        Of the names, in the file.
-    names, units : tuple of str
-    columns : list of ndarray, shape (n,)
-    origin : datetime or None
-        When the machine's running time was zero.
-    """
+class Block(NamedTuple):
+    """Rows of one acquisition process, with the line of their names and the date of the running time's zero."""
 
     line: int
     names: tuple[str, ...]
@@ -84,15 +71,19 @@ def read(path: Path, options: TextOptions) -> Recording:
         If the first line does not say how numbers are written, or no block of numbers follows.
     """
     warnings: list[str] = []
-    with NumberedLines(path, options.encoding) as lines:
-        dialect, dates = _declared(path, lines.take() or "", lines.encoding)
-        blocks = [block for block in _blocks(path, lines, dialect, dates, warnings) if block.size]
+    text = Text.of(path, options.encoding)
+    lines = text.lines()
+    dialect, dates = _declared(path, lines[0])
+    blocks = [block for block in _blocks(path, lines, dialect, dates, warnings) if block.size]
     if not blocks:
         raise ReadError(
             f"{path.name}: no block of numbers was found: a line of names, one of units, then rows of numbers were "
             "expected. The file was cut off, or holds the operator's notes only."
         )
-    series = _series(blocks)
+    alike: dict[tuple[tuple[str, ...], tuple[str, ...]], list[Block]] = {}
+    for block in blocks:
+        alike.setdefault((block.names, block.units), []).append(block)
+    series = list(alike.values())
     lengths = [sum(block.size for block in same) for same in series]
     longest = lengths.index(max(lengths))
     channels = _channels(series[longest], "")
@@ -106,26 +97,16 @@ def read(path: Path, options: TextOptions) -> Recording:
             f'{max(lengths)} rows, is used; columns of the others are called "block '
             f'{2 if longest == 0 else 1}: …"'
         )
-    notes = _notes(dialect, series, channels)
-    return Recording(path, "mts", tuple(channels), start, notes, tuple(warnings))
-
-
-def _notes(dialect: Dialect, series: list[list[Block]], channels: list[RecordedChannel]) -> tuple[str, ...]:
-    blocks = []
-    for number, same in enumerate(series, 1):
+    notes = [f"encoding {text.encoding.name}", "delimiter and decimal sign as the first line declares them"]
+    for number, (same, size) in enumerate(zip(series, lengths, strict=True), 1):
         pieces = f", in {len(same)} pieces of the same columns" if len(same) > 1 else ""
-        rows = sum(block.size for block in same)
-        blocks.append(f"block {number}: {rows} rows below line {same[0].line + 1}{pieces}")
+        notes.append(f"block {number}: {size} rows below line {same[0].line + 1}{pieces}")
     clocks = ", ".join(f'"{channel.heading}"' for channel in channels if channel.is_clock)
-    return (
-        f"encoding {dialect.encoding}",
-        "delimiter and decimal sign as the first line declares them",
-        *blocks,
-        f"clock: {clocks}" if clocks else "no clock: no rising column in s",
-    )
+    notes.append(f"clock: {clocks}" if clocks else "no clock: no rising column in s")
+    return Recording(path, "mts", tuple(channels), start, tuple(notes), tuple(warnings))
 
 
-def _declared(path: Path, line: str, encoding: str) -> tuple[Dialect, tuple[str, ...]]:
+def _declared(path: Path, line: str) -> tuple[Dialect, tuple[str, ...]]:
     """Take the first line apart: how numbers are written, and the forms that a date may have."""
     fields = line.strip().strip('"').split("|")
     if len(fields) < 8 or fields[4] not in DELIMITERS or fields[5] not in (".", ","):
@@ -135,35 +116,31 @@ def _declared(path: Path, line: str, encoding: str) -> tuple[Dialect, tuple[str,
         )
     delimiter = DELIMITERS[fields[4]]
     dates = DATES.get(fields[6], ()) if fields[6] != "/" or fields[2] == "ENU" else ()
-    return Dialect(encoding, delimiter, fields[5], quoted=delimiter == ","), dates
+    return Dialect(delimiter, fields[5], quoted=delimiter == ","), dates
 
 
 def _blocks(
-    path: Path, lines: NumberedLines, dialect: Dialect, dates: tuple[str, ...], warnings: list[str]
+    path: Path, lines: list[str], dialect: Dialect, dates: tuple[str, ...], warnings: list[str]
 ) -> Iterator[Block]:
     """Find each line above a block, `… Time: 10.0 Sec …`, that has names, units and numbers below it."""
-    for _, line in lines.rest():
-        title = _cells(line, dialect)
+    at = 0
+    while (at := at + 1) < len(lines) - 2:
+        title, names, units = (_cells(line, dialect) for line in lines[at : at + 3])
         seconds = _seconds(title, dialect)
-        if seconds is None:
-            continue
-        names = _cells(lines.take() or "", dialect)
-        units = _cells(lines.peek() or "", dialect)
-        if not names or len(units) > len(names) or any(dialect.is_number(cell) for cell in units):
+        if seconds is None or not names or len(units) > len(names) or any(map(dialect.is_number, units)):
             continue
         units += [""] * (len(names) - len(units))
-        lines.take()
-        if not _is_row(lines.peek() or "", dialect):
-            if all(looks_like_unit(unit) for unit in units):
-                warnings.append(f'the block below line {lines.number} ("{names[0]}", …) has no rows: cut off')
-            continue
-        line_of_names = lines.number - 1
-        form = RowForm(dialect, ("number",) * len(names), by_instrument=True)
-        rows = ((number, row.rstrip("\t ")) for number, row in lines.until(lambda row: not _is_row(row, dialect)))
-        found = read_rows(path, pieces_of_lines(rows), form)
-        mended = mend(found, names, is_cut=lines.peek() is None and ends_within_line(path))
-        warnings += mended.warnings
-        yield Block(line_of_names, tuple(names), tuple(units), mended.columns, _origin(title[-1], seconds, dates))
+        first = stop = at + 3
+        while stop < len(lines) and _is_row(lines[stop], dialect):
+            stop += 1
+        if stop > first:
+            form = RowForm(dialect, ("number",) * len(names), by_instrument=True)
+            mended = mend(read_rows(path, pieces_of(lines, first, stop), form), names)
+            warnings += mended.warnings
+            yield Block(at + 2, tuple(names), tuple(units), mended.columns, _origin(title[-1], seconds, dates))
+            at = stop - 1
+        elif all(map(looks_like_unit, units)):
+            warnings.append(f'the block below line {first} ("{names[0]}", …) has no rows: cut off')
 
 
 def _is_row(line: str, dialect: Dialect) -> bool:
@@ -194,14 +171,6 @@ def _origin(text: str, seconds: float, dates: tuple[str, ...]) -> datetime | Non
         with suppress(ValueError):
             return moment_after(datetime.strptime(text, form), -seconds)
     return None
-
-
-def _series(blocks: list[Block]) -> list[list[Block]]:
-    """Put blocks of the same names and units together, in the order of the file."""
-    series: dict[tuple[tuple[str, ...], tuple[str, ...]], list[Block]] = {}
-    for block in blocks:
-        series.setdefault((block.names, block.units), []).append(block)
-    return list(series.values())
 
 
 def _channels(blocks: list[Block], prefix: str) -> list[RecordedChannel]:

@@ -13,7 +13,8 @@ from colonnade.readers.clock import even_times
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, from_head, head_of
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.text.numbered import NumberedLines, read_running, shortage
+from colonnade.readers.text.encoding import Text
+from colonnade.readers.text.running import read_running, shortage
 
 
 def spelled(unit: str) -> str:
@@ -74,9 +75,7 @@ def read(path: Path, options: Options) -> Recording:
     line, points, step = len(above), int(size["points"]), float(size["step"])
     if not 0 < step < np.inf:
         raise ReadError(f"{path.name}: line {line} gives a time step of {step:g} s.")
-    with NumberedLines(path) as lines:
-        lines.skip(line)
-        values, warnings = read_running(lines.rest())
+    values, warnings = read_running(enumerate(Text.of(path).lines()[line:], line + 1))
     if not np.isfinite(values).any():
         raise ReadError(f"{path.name}: no numbers follow line {line}: the file was cut off.")
     warnings += shortage("the header", points, values.size)

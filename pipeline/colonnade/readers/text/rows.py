@@ -1,32 +1,41 @@
-"""Rows of a text -> columns of numbers, read by pandas; rows unlike the others come with their lines and faults."""
+"""Rows of a text become columns of numbers, in one pass of pandas; rows unlike the others come with their lines."""
 
 from __future__ import annotations
 
 import csv
+import re
 import warnings
 from collections import deque
-from collections.abc import Generator, Iterable, Mapping, Sequence
+from collections.abc import Generator, Iterable, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from datetime import datetime
-from io import StringIO, TextIOBase
+from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
 from colonnade.arrays import Array, Mask
 from colonnade.errors import ReadError
-from colonnade.readers.text.cells import WHITESPACE, Dialect, is_sample, kind_of, looks_like_numbers
-from colonnade.readers.text.columns import Grouping, Timestamps
+from colonnade.readers.text.dialect import MARKED, WHITESPACE, Dialect, is_sample, kind_of, looks_like_numbers
 from colonnade.readers.text.encoding import UNREADABLE, Piece
-from colonnade.signals.parallel import side_by_side, threads
+from colonnade.signals.samples import side_by_side, threads
 
 if TYPE_CHECKING:
     import pandas as pd
 
 Fault = Literal["comment", "text", "cut", "struck out", "long", "short"]
+
+
+class Row(NamedTuple):
+    """A row, by its number among the columns' values from 0, with its line in the file from 1."""
+
+    row: int
+    line: int
+    text: str
+    cells: list[str]
 
 
 @dataclass(frozen=True)
@@ -38,7 +47,7 @@ class RowForm:
     ----------
     dialect : Dialect
     kinds : tuple of str
-        What each column holds, by `cells.kind_of`.
+        What each column holds, by `dialect.kind_of`, or "empty".
     trailing : int
         Nameless empty cells after these columns on every line, made by delimiters at its end.
     remark : bool
@@ -63,50 +72,27 @@ class RowForm:
     exact: bool = False
     grouped: Mapping[int, str] = field(default_factory=dict)
 
-    def dialect_of(self, column: int) -> Dialect:
-        """How the numbers of a column are written."""
-        sign = self.grouped.get(column)
-        return self.dialect if sign is None else replace(self.dialect, decimal=".,".replace(sign, ""), thousands=sign)
-
-    @property
-    def cells(self) -> int:
-        """Cells that a row has at least, the empty ones at its end among them."""
-        return len(self.kinds) + self.trailing
-
     @property
     def most_cells(self) -> int:
         """Cells that a row has at most."""
-        return self.cells + self.remark
+        return len(self.kinds) + self.trailing + self.remark
 
-
-@dataclass(frozen=True)
-class Row:
-    """A row, by its number among the columns' values from 0, with its line in the file from 1."""
-
-    row: int
-    line: int
-    text: str
-    cells: list[str]
-
-
-def fault_of(row: Row, form: RowForm, *, has_number: bool) -> Fault | None:
-    """Name what is wrong with a row; None if it is a sample, though perhaps without some of its numbers."""
-    dialect = form.dialect
-    if not form.by_instrument:
-        if dialect.is_comment(row.text):
-            bare = row.text.lstrip().lstrip("".join(dialect.comments))
-            return "struck out" if is_sample(bare, dialect, [*form.kinds, *["empty"] * form.trailing]) else "comment"
-        if not has_number and not looks_like_numbers(row.text):
-            # Cells that are empty or say "missing", without any other text, are a sample nevertheless.
-            return "text" if any(kind_of(cell, dialect) == "text" for cell in row.cells) else None
-    beyond = row.cells[len(form.kinds) + form.remark :]
-    if any(beyond) or (len(row.cells) > form.most_cells and not form.by_instrument):
-        return "long"
-    return "short" if len(row.cells) < form.cells else None
-
-
-TAIL = 200
-"""Rows at the end that show whether numbers are written with a fixed number of decimals."""
+    def fault_of(self, row: Row, *, has_number: bool) -> Fault | None:
+        """Name what is wrong with a row; None if it is a sample, though perhaps without some of its numbers."""
+        dialect, cells = self.dialect, row.cells
+        if not self.by_instrument:
+            if dialect.is_comment(row.text):
+                bare = row.text.lstrip().lstrip("".join(dialect.comments))
+                return (
+                    "struck out" if is_sample(bare, dialect, (*self.kinds, *["empty"] * self.trailing)) else "comment"
+                )
+            if not has_number and not looks_like_numbers(row.text):
+                # Cells that are empty or say "missing", without any other text, are a sample nevertheless.
+                return "text" if any(kind_of(cell, dialect) == "text" for cell in cells) else None
+        is_long = len(cells) > self.most_cells and not self.by_instrument
+        if is_long or any(cells[len(self.kinds) + self.remark :]):
+            return "long"
+        return "short" if len(cells) < len(self.kinds) + self.trailing else None
 
 
 @dataclass
@@ -125,11 +111,17 @@ class Rows:
     faults : dict of str to list of Row
         Rows that are not as they should be, in their order.
     without_number : dict of int to Row
-        By its number in the columns, the first other row without a number in a column.
+        Other rows, by their number: of each column the first without a number is among them.
+    start : datetime or None
+        The first timestamp, if it has a date; in its own zone if it has one.
+    grouped : dict of int to str
+        The sign between thousands of columns whose numbers seem to have one.
     skipped : int
         Rows of the file before the first of these.
     reaches_end : bool
         Whether the file's last row is among them.
+    tail : list of Row
+        The last rows, up to `TAIL`, of a file that ends within a line.
     """
 
     form: RowForm
@@ -137,121 +129,38 @@ class Rows:
     columns: list[Array] = field(default_factory=list)
     faults: dict[Fault, list[Row]] = field(default_factory=dict)
     without_number: dict[int, Row] = field(default_factory=dict)
+    start: datetime | None = None
+    grouped: dict[int, str] = field(default_factory=dict)
     skipped: int = 0
     reaches_end: bool = True
-    _last: deque[tuple[int, Piece]] = field(default_factory=lambda: deque(maxlen=2))
+    tail: list[Row] = field(default_factory=list)
 
-    def __post_init__(self) -> None:
-        kinds = self.form.kinds
-        # A column's pieces are joined one column at a time, so that little is held twice.
-        self._pieces: list[list[Array]] = [[] for _ in kinds]
-        self._clocks = {column: Timestamps() for column, kind in enumerate(kinds) if kind == "time"}
-        self._grouping = {column: Grouping(self.form.dialect) for column, kind in enumerate(kinds) if kind == "number"}
-        self._complete = set(range(len(kinds)))
 
-    @property
-    def grouped(self) -> dict[int, str]:
-        """The sign between thousands of the columns whose numbers seem to have one."""
-        return {column: found.sign for column, found in self._grouping.items() if found.sign is not None}
-
-    @property
-    def start(self) -> datetime | None:
-        """The first timestamp that has a date."""
-        return next((clock.start for clock in self._clocks.values() if clock.start is not None), None)
-
-    def tail(self) -> list[Row]:
-        """Cut the last rows, up to `TAIL`, into cells again."""
-        dialect = self.form.dialect
-        lines = [
-            (first + number, *found) for first, piece in self._last for number, found in enumerate(piece.rows(dialect))
-        ]
-        return [Row(row, line, text, dialect.split(text)) for row, line, text in lines[-TAIL:]]
-
-    def add(self, piece: Piece, frame: pd.DataFrame, numbers: Mapping[int, Array]) -> None:
-        """Add a piece, cut into cells, to the columns; look at the rows of it that may not be as they should be."""
-        columns = [
-            self._clocks[column].seconds(frame[column]) if kind == "time" else numbers[column]
-            for column, kind in enumerate(self.form.kinds)
-        ]
-        for column, grouping in self._grouping.items():
-            if not grouping.is_refuted:
-                grouping.look(frame[column], columns[column])
-        absent = [np.isnan(values) for values in columns]
-        self._look(piece, _doubtful(frame, absent, self.form), absent)
-        for pieces, values in zip(self._pieces, columns, strict=True):
-            pieces.append(values)
-        self._last.append((self.size, piece))
-        self.size += len(frame)
-
-    def _look(self, piece: Piece, doubtful: Mask, absent: list[Mask]) -> None:
-        """Find the faults of doubtful rows, and the first row without a number in each column that had all so far."""
-        lacking = {column for column in self._complete if absent[column].any()}
-        if not doubtful.any() and not lacking:
-            return
-        sought = set(np.flatnonzero(doubtful).tolist())
-        sought.update(*(np.flatnonzero(absent[column] & ~doubtful)[:1].tolist() for column in lacking))
-        for number, (line, text) in enumerate(piece.rows(self.form.dialect)):
-            if number not in sought:
-                continue
-            sought.remove(number)
-            row = Row(self.size + number, line, text, self.form.dialect.split(text))
-            empty = [column for column, missing in enumerate(absent) if missing[number]]
-            fault = fault_of(row, self.form, has_number=len(empty) < len(absent)) if doubtful[number] else None
-            if fault is not None:
-                self.faults.setdefault(fault, []).append(row)
-            elif not lacking.isdisjoint(empty):
-                self.without_number[row.row] = row
-                lacking.difference_update(empty)
-                self._complete.difference_update(empty)
-            if not sought:
-                return
-
-    def join(self) -> None:
-        """Make a column of its pieces."""
-        self.columns = side_by_side(_joined, self._pieces)
+TAIL = 200
+"""Rows at the end that show whether numbers are written with a fixed number of decimals."""
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """
-    The part of a long file that is wanted.
-
-    Attributes
-    ----------
-    low, high : float
-        Values of the clock, in its own unit, or numbers of rows from 0.
-    column : int or None
-        The clock; without it rows are counted.
-    """
+    """The part of a long file that is wanted: values of its clock in its own unit; without a clock, rows to read."""
 
     low: float
     high: float
-    column: int | None = None
+    clock: int | None = None
 
-    def place(self, rows: int, numbers: Mapping[int, Array], before: int) -> int:
-        """Say whether a piece, with `before` rows in front, is wholly ahead of it (-1) or behind it (1); else 0."""
-        if self.column is None:
-            first, last = float(before), float(before + rows - 1)
-        else:
-            times = numbers[self.column]
-            if np.isnan(times).all():
-                return 0
-            first, last = float(np.nanmin(times)), float(np.nanmax(times))
-        return -1 if last < self.low else 1 if first > self.high else 0
+    def place(self, part: _Part, before: int) -> int:
+        """Say whether a part, with `before` rows in front, is wholly ahead of it (-1) or behind it (1); else 0."""
+        if self.clock is None:
+            return int(before > self.high)
+        times = part.columns[self.clock]
+        if np.isnan(times).all():
+            return 0
+        return -1 if np.nanmax(times) < self.low else int(np.nanmin(times) > self.high)
 
 
 def read_rows(path: Path, pieces: Iterable[Piece], form: RowForm, stretch: Stretch | None = None) -> Rows:
     """
-    Read rows of numbers.
-
-    Parameters
-    ----------
-    path : Path
-        The file, for messages.
-    pieces : iterable of Piece
-    form : RowForm
-    stretch : Stretch, optional
-        What is wanted of them; some rows on either side may come along. Default: all.
+    Read rows of numbers; of those beside the stretch that is wanted some may come along.
 
     Raises
     ------
@@ -260,48 +169,111 @@ def read_rows(path: Path, pieces: Iterable[Piece], form: RowForm, stretch: Stret
     """
     from pandas.errors import ParserError, ParserWarning
 
-    taken = Rows(form)
+    rows = Rows(form)
+    columns: list[list[Array]] = [[] for _ in form.kinds]
+    marks = {column: Grouping(form.dialect) for column, kind in enumerate(form.kinds) if kind == "number"}
+    last: deque[Piece] = deque(maxlen=2)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", ParserWarning)  # pandas only warns when it drops cells
-            with closing(_cut(pieces, form)) as frames:
-                for piece, frame, numbers in frames:
-                    place = 0 if stretch is None else stretch.place(len(frame), numbers, taken.skipped + taken.size)
-                    if place < 0 and not taken.size:
-                        taken.skipped += len(frame)
+            with closing(_parts(pieces, form)) as parts:
+                for piece, part in parts:
+                    place = 0 if stretch is None else stretch.place(part, rows.size)
+                    if place < 0 and not rows.size:
+                        rows.skipped += part.size
                         continue
-                    if place > 0 and taken.size:
-                        taken.reaches_end = False
+                    if place > 0 and rows.size:
+                        rows.reaches_end = False
                         break
-                    taken.add(piece, frame, numbers)
+                    for fault, row in part.found:
+                        row = row._replace(row=row.row + rows.size)
+                        if fault is None:
+                            rows.without_number[row.row] = row
+                        else:
+                            rows.faults.setdefault(fault, []).append(row)
+                    for column, grouping in marks.items():
+                        grouping.look(part.frame[column], part.columns[column])
+                    rows.start = rows.start if rows.size else _start(part.frame, form)
+                    for whole, values in zip(columns, part.columns, strict=True):
+                        whole.append(values)
+                    rows.size += part.size
+                    last.append(piece)
     except (ParserError, ParserWarning) as error:
         raise ReadError(
             f"{path.name}: its lines cannot be split into cells ({str(error).strip()}). Look for lines that differ "
             "from the others."
         ) from error
-    taken.join()
-    return taken
+    # A column's pieces are joined one column at a time, so that little is held twice.
+    rows.columns = side_by_side(_joined, columns)
+    for column, kind in enumerate(form.kinds):
+        if kind == "time":
+            known = rows.columns[column][~np.isnan(rows.columns[column])]
+            rows.columns[column] = (rows.columns[column] - known[:1].sum()) / 1e6
+    rows.grouped = {column: found.sign for column, found in marks.items() if found.sign is not None}
+    ending = last[-1].text.rstrip(UNREADABLE + "\x1a") if last and rows.reaches_end else ""
+    if ending and not ending.endswith("\n"):
+        rows.tail = _tail(last, rows)
+    return rows
 
 
-def _cut(pieces: Iterable[Piece], form: RowForm) -> Generator[tuple[Piece, pd.DataFrame, dict[int, Array]], None, None]:
-    """Cut pieces into cells and numbers, several at the same time; they come in their order."""
-    waiting: deque[tuple[Piece, Future[tuple[pd.DataFrame, dict[int, Array]]]]] = deque()
+def _tail(last: Iterable[Piece], rows: Rows) -> list[Row]:
+    """Cut the last rows into cells again."""
+    dialect = rows.form.dialect
+    lines = [each for line, text in last for each in enumerate(text.split("\n"), line) if not dialect.is_blank(each[1])]
+    first = rows.size - len(lines)
+    return [Row(first + number, line, text, dialect.split(text)) for number, (line, text) in enumerate(lines)][-TAIL:]
+
+
+class _Part(NamedTuple):
+    """What a piece holds: rows, their values, their cells (with blank lines), and which rows deserve a look."""
+
+    size: int
+    columns: list[Array]
+    frame: pd.DataFrame
+    found: list[tuple[Fault | None, Row]]
+
+
+def _parts(pieces: Iterable[Piece], form: RowForm) -> Generator[tuple[Piece, _Part], None, None]:
+    """Read pieces, several at the same time; they come in their order."""
+    waiting: deque[tuple[Piece, Future[_Part]]] = deque()
     with ThreadPoolExecutor(threads()) as pool:
         for piece in pieces:
-            waiting.append((piece, pool.submit(_cells_and_numbers, piece.text, form)))
+            if piece.text.isspace():
+                continue
+            waiting.append((piece, pool.submit(_part, piece, form)))
             if len(waiting) > threads():
-                done, found = waiting.popleft()
-                yield done, *found.result()
+                done, part = waiting.popleft()
+                yield done, part.result()
         while waiting:
-            done, found = waiting.popleft()
-            yield done, *found.result()
+            done, part = waiting.popleft()
+            yield done, part.result()
 
 
-def _cells_and_numbers(text: str, form: RowForm) -> tuple[pd.DataFrame, dict[int, Array]]:
-    """Cut a text into cells, and read all columns but those of timestamps, which go on from piece to piece."""
-    frame = _frame(text, form)
-    columns = (column for column, kind in enumerate(form.kinds) if kind != "time")
-    return frame, {column: numbers_of(frame[column], form.dialect_of(column)) for column in columns}
+def _part(piece: Piece, form: RowForm) -> _Part:
+    """Read a piece: one row a line, whose blank ones are then left out."""
+    frame = _frame(piece.text, form)
+    columns = [_values(frame[column], kind, form, column) for column, kind in enumerate(form.kinds)]
+    absent = [np.isnan(values) for values in columns]
+    doubtful = _doubtful(frame, absent, form)
+    firsts = (np.flatnonzero(missing & ~doubtful)[:1].tolist() for missing in absent)
+    wanted = sorted({*np.flatnonzero(doubtful).tolist()}.union(*firsts))
+    texts = piece.text.split("\n") if wanted else []
+    found: list[tuple[Fault | None, Row]] = []
+    blank: list[int] = []
+    lacking: set[int] = set()
+    for number in wanted:
+        text = texts[number]
+        if form.dialect.is_blank(text):
+            blank.append(number)
+            continue
+        row = Row(number - len(blank), piece.line + number, text, form.dialect.split(text))
+        without = {column for column, missing in enumerate(absent) if missing[number]}
+        fault = form.fault_of(row, has_number=len(without) < len(absent)) if doubtful[number] else None
+        if fault is not None or not without <= lacking:
+            found.append((fault, row))
+            lacking |= without if fault is None else set()
+    columns = [np.delete(values, blank) for values in columns] if blank else columns
+    return _Part(len(frame) - len(blank), columns, frame, found)
 
 
 def _frame(text: str, form: RowForm) -> pd.DataFrame:
@@ -324,59 +296,43 @@ def _frame(text: str, form: RowForm) -> pd.DataFrame:
         "index_col": False,
         "quoting": csv.QUOTE_NONE,
         "skipinitialspace": dialect.padded,  # costs a quarter of the speed
-        "na_values": list(dialect.own_missing),
+        "skip_blank_lines": False,
+        "na_values": list(dialect.missing),
         "dtype": dict.fromkeys(form.grouped, str),
         "low_memory": False,
         "float_precision": "round_trip" if form.exact else None,
     }
     if not dialect.quoted:
         try:
-            return pd.DataFrame(pd.read_csv(_Stream(text), **options))
+            return pd.DataFrame(pd.read_csv(BytesIO(text.encode()), **options))
         except (ParserError, ParserWarning):
             pass  # some line has more cells than pandas was prepared for
     # A quotation mark that is never closed could take all that follows with it: each line is cut by itself.
-    narrowed = (_narrowed(line, form, separator) for line in StringIO(text, newline=""))
-    return pd.DataFrame(pd.read_csv(_Stream("".join(narrowed)), **options))
+    narrowed = "\n".join(_narrowed(line, form, separator) for line in text.split("\n"))
+    return pd.DataFrame(pd.read_csv(BytesIO(narrowed.encode()), **options))
 
 
 def _narrowed(line: str, form: RowForm, separator: str) -> str:
     """Write a line without its quotation marks; one with too many cells as so many unreadable ones."""
-    bare = line.rstrip("\r\n")
-    if form.dialect.is_blank(bare):
+    if form.dialect.is_blank(line):
         return line
-    cells = form.dialect.split(bare)
+    cells = form.dialect.split(line)
     while form.by_instrument and len(cells) > form.most_cells and not cells[-1]:
         cells.pop()
     if len(cells) > form.most_cells + 1:
         cells = [UNREADABLE] * (form.most_cells + 1)
-    return separator.join(cells) + line[len(bare) :]
+    return separator.join(cells)
 
 
-class _Stream(TextIOBase):
-    """A text that is read at once, and not encoded or copied before."""
-
-    def __init__(self, text: str) -> None:
-        self._text = text
-
-    def readable(self) -> bool:
-        """Tell pandas that it may read."""
-        return True
-
-    def read(self, size: int | None = -1, /) -> str:
-        """Give all that is left."""
-        text, self._text = self._text, ""
-        return text
-
-
-def _doubtful(frame: pd.DataFrame, absent: Sequence[Mask], form: RowForm) -> Mask:
+def _doubtful(frame: pd.DataFrame, absent: list[Mask], form: RowForm) -> Mask:
     """Rows that may have the wrong number of cells or be no samples at all."""
-    # A row without any number lacks the first; text there says nothing of the others.
-    doubtful: Mask = np.logical_and.reduce(absent) if form.kinds[0] == "text" else absent[0].copy()
+    # A row without any number lacks the first; text there says nothing of the others. A short row lacks the last.
+    filled = [column for column, kind in enumerate(form.kinds) if kind != "empty"] or [0]
+    doubtful: Mask = np.logical_and.reduce(absent)
+    for column in (filled[0], filled[-1]):
+        doubtful |= frame[column].isna().to_numpy() if form.kinds[column] == "text" else absent[column]
     for beyond in range(len(form.kinds) + form.remark, frame.shape[1]):
         doubtful |= frame[beyond].notna().to_numpy()
-    # A short row has nothing in the last column that ever holds something.
-    for column in {0, max((column for column, kind in enumerate(form.kinds) if kind != "empty"), default=0)}:
-        doubtful |= frame[column].isna().to_numpy() if form.kinds[column] == "text" else absent[column]
     return doubtful
 
 
@@ -387,16 +343,122 @@ def _joined(pieces: list[Array]) -> Array:
     return whole
 
 
-def numbers_of(series: pd.Series, dialect: Dialect) -> Array:
-    """Values of a column: what pandas has read as numbers, else each cell by itself."""
-    if series.dtype.kind in "biuf":
-        values = series.to_numpy(dtype=np.float64, copy=True)  # a view would keep all columns of its piece
-    else:
-        values = np.fromiter(map(dialect.number, series.to_list()), dtype=np.float64, count=len(series))
-    return values if np.isfinite(values).all() else np.where(np.isinf(values), np.nan, values)
-
-
 def filled_length(values: Array) -> int:
     """Count the values up to the last number."""
     known = np.flatnonzero(~np.isnan(values))
     return int(known[-1]) + 1 if known.size else 0
+
+
+def _values(cells: pd.Series, kind: str, form: RowForm, column: int) -> Array:
+    """Values of a column: what pandas has read as numbers, else each cell by itself; µs of timestamps."""
+    if kind == "time":
+        return _ticks(_stamps(cells))
+    if cells.dtype.kind in "biuf":
+        values = cells.to_numpy(dtype=np.float64, copy=True)  # a view would keep all columns of its piece
+    else:
+        dialect = form.dialect
+        if sign := form.grouped.get(column):
+            dialect = replace(dialect, decimal=".,".replace(sign, ""), thousands=sign)
+        values = np.fromiter(map(dialect.number, cells.to_list()), dtype=np.float64, count=len(cells))
+    return values if np.isfinite(values).all() else np.where(np.isinf(values), np.nan, values)
+
+
+DAY = 86400.0
+DATED = r"\d+-\d+-\d+[T ]"
+DOTTED = r"^(\d{1,2})\.(\d{1,2})\.(\d{4})"
+
+
+def _stamps(cells: pd.Series) -> pd.Series:
+    """Write timestamps, `26.04.2013 10:15:00,125` (day first) among them, as ISO 8601 does."""
+    cells = cells.astype("str").str.strip().str.strip('"').str.replace(",", ".", regex=False)
+    return cells.str.replace(DOTTED, r"\3-\2-\1", regex=True).str.replace("/", "-", regex=False)
+
+
+def _ticks(stamps: pd.Series) -> Array:
+    """Microseconds of dates since 1970, or of times of day since midnight; NaN without a timestamp."""
+    import pandas as pd
+
+    filled = stamps.dropna()
+    if len(filled) and filled.str.match(DATED).mean() > 0.5:
+        moments = pd.to_datetime(stamps, format="ISO8601", errors="coerce", utc=True).dt.tz_localize(None)
+        ticks = moments.to_numpy().astype("datetime64[us]")
+    else:
+        ticks = pd.to_timedelta(stamps, errors="coerce").to_numpy().astype("timedelta64[us]")
+    return np.where(np.isnat(ticks), np.nan, ticks.astype(np.int64))
+
+
+def _start(frame: pd.DataFrame, form: RowForm) -> datetime | None:
+    """Find the first date with time of the first column that has one."""
+    import pandas as pd
+
+    for column in [column for column, kind in enumerate(form.kinds) if kind == "time"]:
+        stamps = _stamps(frame[column])
+        dated = stamps[stamps.str.match(DATED) & ~np.isnan(_ticks(stamps))]
+        if len(dated):
+            return pd.Timestamp(dated.iloc[0]).to_pydatetime(warn=False)
+    return None
+
+
+def past_midnight(seconds: Array) -> Array:
+    """Let times of day go on when the clock was set back by most of a day, as at midnight."""
+    known = np.isfinite(seconds)
+    steps = np.diff(seconds[known], prepend=seconds[known][:1])
+    turned = seconds.copy()
+    turned[known] += DAY * np.cumsum(steps < -DAY / 2)
+    return turned
+
+
+_WHOLE = re.compile(r"[+\-\N{MINUS SIGN}]?\d{1,3}", re.ASCII)
+LARGE, THOUSAND = 100.0, 1000.0
+"""A number without a mark between thousands is below the second; some above the first are on the way there."""
+MANY = 50
+"""Different numbers that have a mark, so many that decimals would differ in their number of digits."""
+
+
+class Grouping:
+    """
+    What speaks for and against thousands that are marked in a column.
+
+    All numbers from 1000 on have three digits after each mark, and those below have no mark. Decimals would have other
+    numbers of digits, too, unless all have three.
+    """
+
+    def __init__(self, dialect: Dialect) -> None:
+        self._dialect, self._signs = dialect, set[str]()
+        self._has_small = self._has_large = self._is_refuted = False
+        self._marked = 0
+
+    @property
+    def sign(self) -> str | None:
+        """The mark; None if nothing speaks for one."""
+        is_likely = self._has_small and (self._has_large or self._marked >= MANY) and not self._is_refuted
+        return next(iter(self._signs)) if is_likely and len(self._signs) == 1 else None
+
+    def look(self, cells: pd.Series, values: Array) -> None:
+        """Look at further cells, unless it is refuted: as text, or as the numbers that they were read as."""
+        if self._is_refuted:
+            return
+        if cells.dtype.kind in "biuf":
+            self._look_at_numbers(np.abs(values[np.isfinite(values)]))
+            return
+        for cell in cells.dropna().unique():
+            text = str(cell).strip().strip('"')
+            if marked := MARKED.fullmatch(text):
+                self._signs.add(marked[1])
+                self._marked += 1
+            elif _WHOLE.fullmatch(text):
+                self._has_small = True
+                self._has_large |= abs(self._dialect.number(text)) >= LARGE
+            elif any(map(str.isdecimal, text)):
+                self._is_refuted = True
+                return
+
+    def _look_at_numbers(self, sizes: Array) -> None:
+        whole = sizes == np.rint(sizes)
+        thousandths = np.unique(THOUSAND * sizes[~whole])
+        far = (sizes >= THOUSAND).any() or (thousandths < THOUSAND).any()
+        self._is_refuted = bool(far or (np.abs(thousandths - np.rint(thousandths)) > 1e-6).any())
+        self._has_small |= bool(whole.any())
+        self._has_large |= bool((sizes[whole] >= LARGE).any())
+        self._marked += thousandths.size
+        self._signs |= {self._dialect.decimal} if thousandths.size else set()

@@ -12,7 +12,7 @@ from colonnade.assessment.criteria import CRITERIA, Criterion
 from colonnade.assessment.measures import measure_of
 from colonnade.assessment.study import counted_draws
 from colonnade.campaign import Campaign
-from colonnade.campaign.assessing.assessed import AssessmentSummary, JudgedCriterion, RecordUsed
+from colonnade.campaign.forms.assessed import AssessmentSummary, JudgedCriterion, RecordUsed
 from colonnade.campaign.forms.summary import Summary, Warned
 from colonnade.errors import StoreError
 from colonnade.figures import fragility as figures

@@ -13,7 +13,7 @@ from colonnade.campaign.forms.summary import Summary, TestSummary
 from colonnade.errors import StoreError, count
 from colonnade.figures.files.output import Picture
 from colonnade.figures.forecasts import Calibration, reliability_and_pit
-from colonnade.identification.verification.reliability import reliability
+from colonnade.identification.calibration import reliability
 from colonnade.store import files
 from colonnade.store.forecasts import Known, read_forecasts
 from colonnade.store.layout import Layout

@@ -15,6 +15,7 @@ from colonnade.dynamics.block import Block
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import Spread
 from colonnade.figures.panels.curve import Curve
+from colonnade.figures.stored import bodies
 from colonnade.figures.stored.curves import measured_ratio, misfits, motion, predicted_ratios, spreads
 from colonnade.figures.stored.record import BASE, MOTIONS, SHADED
 from colonnade.figures.style import model_style
@@ -22,8 +23,8 @@ from colonnade.report.interactive import moving
 from colonnade.report.interactive.panels import Samples, script
 from colonnade.report.interactive.tables import tables_of
 from colonnade.store.records.stored import GOOD, Stored
-from colonnade.units import format_percent, from_si
-from colonnade.units.text import CHANNEL_UNITS
+from colonnade.units import from_si
+from colonnade.units.text import CHANNEL_UNITS, format_percent
 
 PROPORTIONAL = 1e-6
 """A channel in SI is a straight line of what was recorded if no sample is further from it, over the largest."""
@@ -81,7 +82,12 @@ def of_test(
 
 
 def _response(stored: Stored, block: Block, samples: Samples) -> list[Panel]:
-    found = [_angles(stored, block, samples), _misfit(stored, block, samples), _motions(stored, samples)]
+    found = [
+        _angles(stored, block, samples),
+        _joints(stored, samples),
+        _misfit(stored, block, samples),
+        _motions(stored, samples),
+    ]
     return [panel for panels in found for panel in panels]
 
 
@@ -126,6 +132,22 @@ def _bands(model: str, spread: Spread, samples: Samples, *, is_open: bool) -> li
         }
         for index in range(spread.levels.size // 2)
     ]
+
+
+def _joints(stored: Stored, samples: Samples) -> list[Panel]:
+    """One panel for the joint below each body of an assembly, the upper ones first."""
+    found = []
+    for place, name in reversed(list(enumerate(stored.array("rocking", "body")))):
+        curves = [
+            samples.curve("measured", curve.time, 1e3 * curve.values, colour="ink", width=1.3)
+            if who == "measured"
+            else samples.curve(f"{who} model", curve.time, 1e3 * curve.values, **_look(who))
+            for who, curve in bodies.histories(stored, place, "body_joint_angle").items()
+        ]
+        if curves:
+            title = f"Rocking angle in the joint below {name}"
+            found.append({"title": title, "short": f"joint below {name}", "unit": "mrad", "curves": curves})
+    return found
 
 
 def _misfit(stored: Stored, block: Block, samples: Samples) -> list[Panel]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from colonnade.campaign.assessing.assessed import AssessmentSummary
+from colonnade.campaign.forms.assessed import AssessmentSummary
 from colonnade.findings import Severity
 from colonnade.identification.response.rank import WITHIN
 from colonnade.report.overview_page.confusion import Cell, Confusion

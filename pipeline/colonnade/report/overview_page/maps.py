@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 from typing import NamedTuple
 
 from colonnade.campaign import Campaign
-from colonnade.dynamics.maps.chart import StabilityMap
-from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.maps import StabilityMap
+from colonnade.dynamics.models import MODELS
 from colonnade.errors import StoreError
 from colonnade.figures.files.output import Picture
 from colonnade.figures.stored import maps
@@ -67,16 +66,6 @@ def _map(campaign: Campaign, layout: Layout, specimen: str, points: Sequence[Map
 def charts_of(campaign: Campaign, layout: Layout, specimen: str) -> list[StabilityMap]:
     """Read the stability maps of a specimen by the campaign's models in the plane."""
     return list(filter(None, (_chart(layout, specimen, model) for model in campaign.processing.predict.models)))
-
-
-def keys_of(campaign: Campaign, layout: Layout, specimen: str) -> dict[str, str]:
-    """Give what identifies each map that `charts_of` reads: its key and the hash of its content."""
-    found = {}
-    for model in campaign.processing.predict.models:
-        with suppress(StoreError):  # it was not made, or is damaged and so not drawn
-            stored = files.read_attributes(layout.stage(specimen, "map", model))
-            found[f"map by {model}"] = f"{stored.get('key')} {stored.get('content')}"
-    return found
 
 
 def _chart(layout: Layout, specimen: str, model: str) -> StabilityMap | None:

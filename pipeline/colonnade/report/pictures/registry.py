@@ -11,10 +11,11 @@ from dataclasses import replace
 from math import isfinite
 from typing import Any, Literal, NamedTuple
 
+from colonnade.campaign.assembly import Whole
 from colonnade.figures.drawing import described
 from colonnade.figures.files.output import Movie, Picture
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow
-from colonnade.figures.stored import angle, base, channels, closer, maps, moving, record
+from colonnade.figures.stored import angle, base, bodies, channels, closer, maps, moving, record
 from colonnade.figures.stored import restitution as decays
 from colonnade.identification.response.boundaries import makes_map
 from colonnade.report.forecasts_page import page as forecasts_page
@@ -22,6 +23,7 @@ from colonnade.report.overview_page import peaks as agreement
 from colonnade.report.overview_page.spans import span_groups
 from colonnade.report.pictures.subjects import OfCampaign, OfSpecimen, OfTest, Subject
 from colonnade.store.records.forecast import FEWEST
+from colonnade.store.results import models_shown
 from colonnade.units.text import listed
 
 
@@ -96,6 +98,17 @@ def _base(one: OfTest) -> Picture | None:
     return base.picture(one.row.test, base.base_of(one.campaign, one.row.test, one.stored), one.block)
 
 
+def _joints(one: OfTest) -> Picture | None:
+    return bodies.joints(one.row.test, one.stored)
+
+
+def _plan(one: OfTest) -> Picture | None:
+    whole = one.campaign.specimens[one.row.test.specimen]
+    if not isinstance(whole, Whole):
+        return None
+    return bodies.plan(one.row.test, one.stored, whole.assembly(one.campaign.gravity))
+
+
 def _region(one: OfTest) -> Picture | None:
     return decays.region(one.row.test, one.stored)
 
@@ -145,7 +158,7 @@ def _spans(one: OfSpecimen) -> Picture | None:
 
 
 def _agreement(one: OfCampaign) -> Picture | None:
-    models = one.campaign.processing.predict.models
+    models = models_shown(one.campaign)
     return agreement.picture(agreement.points(one.rows, models, agreement.worst(one.rows, models)))
 
 
@@ -155,6 +168,7 @@ def _calibration(one: OfCampaign) -> Picture | None:
 
 _SINES = "It needs sine tests at two frequencies or more."
 _MAP = "Without them, `colonnade map` makes one."
+_BODIES = "It needs an assembly whose bodies were measured."
 _RAW = "It needs a raw file that could be read."
 _ANGLE = "It needs a measured or predicted angle."
 _FREE = "It needs a free vibration with an angle."
@@ -186,6 +200,8 @@ FIGURES: tuple[Entry, ...] = (
         _region,
         is_narrow=False,
     ),
+    Entry("joints", "test", "angle in the joint below each body over time", _BODIES, _joints),
+    Entry("plan", "test", "where each body stands at the end, from above", _BODIES, _plan, is_narrow=False),
     Entry("setup", "test", "specimen and transducers to scale", "", _setup, is_narrow=False),
     Entry("animation", "test", "the rocking block, measured and by each model, as a GIF", _ANGLE, _animation),
     Entry("estimators", "specimen", "e from every estimator and record", _FREE, _estimators, is_narrow=False),

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from colonnade.campaign import Campaign
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.maps.chart import StabilityMap
+from colonnade.dynamics.maps import StabilityMap
 from colonnade.figures.forecasts import Calibration
 from colonnade.figures.restitution.estimators import EstimateRow
 from colonnade.figures.restitution.impacts import ImpactSeries

@@ -5,10 +5,15 @@ colonnade.MovingBlock = class {
   constructor(given, page) {
     Object.assign(this, { given, page });
     const read = (curve, name) => (curve && curve[name] !== undefined ? page.series[curve[name]] : null);
-    this.bodies = given.bodies.map((body) => ({ ...body, clockOf: page.clocks[body.clock], of: read(body, "values"), slides: read(body, "slide") }));
-    for (const body of this.bodies) body.end = body.clockOf.at(body.of.findLastIndex(Number.isFinite));
+    const ready = (part) => {
+      const [clockOf, of] = [page.clocks[part.clock], read(part, "values")];
+      return { place: [0, 0], ...part, clockOf, of, slides: read(part, "slide"), rises: read(part, "rise"), end: clockOf.at(of.findLastIndex(Number.isFinite)) };
+    };
+    this.bodies = given.bodies.map((body) => ({ ...body, parts: body.parts.map(ready) }));
     this.base = given.base && { clockOf: page.clocks[given.base.clock], of: read(given.base, "values") };
-    this.height = Math.max(...given.outline.map(([, z]) => z));
+    this.height = given.height;
+    const reaches = this.bodies.flatMap((body) => body.parts.flatMap((part) => part.outline.map(([x]) => Math.abs(part.place[0] + x))));
+    this.wide = Math.max(0.75 * this.height, 1.2 * Math.max(...reaches));
     this.furthest = this.base ? this.base.of.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0) / 1000 : 0;
     this.canvas = colonnade.element("canvas", { role: "img", "aria-label": "The block at the cursor's time: measured filled, models as outlines" });
     this.said = colonnade.element("p", { class: "soft" });
@@ -30,7 +35,7 @@ colonnade.MovingBlock = class {
     this.canvas.height = Math.round(height * ratio);
     const context = this.canvas.getContext("2d");
     const floor = height - 34;
-    const scale = Math.min((floor - 8) / (1.06 * this.height), width / (2 * (this.furthest + 0.75 * this.height)));
+    const scale = Math.min((floor - 8) / (1.06 * this.height), width / (2 * (this.furthest + this.wide)));
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     const time = this.page.cursor;
     const moved = this.base ? valueAt(this.base, time) / 1000 : 0;
@@ -38,26 +43,30 @@ colonnade.MovingBlock = class {
     this.drawTable(context, width, floor, scale, moved);
     const said = [];
     for (const body of [...this.bodies].reverse()) {
-      // Past its end a history keeps its last value: an overturned block stays where it fell.
-      const angle = colonnade.angle(valueAt(body, Math.min(time, body.end), NaN), this.page.critical);
-      if (!Number.isFinite(angle)) continue;
-      const slide = body.slides ? (valueAt({ clockOf: body.clockOf, of: body.slides }, time) || 0) / 1000 : 0;
-      const corners = colonnade.MovingBlock.corners(this.given.outline, this.given.poles, angle, slide).map(at);
-      context.beginPath();
-      corners.forEach(([x, y], index) => (index ? context.lineTo(x, y) : context.moveTo(x, y)));
-      context.closePath();
-      const isMeasured = body === this.bodies[0] && body.name === "measured";
-      context.strokeStyle = colonnade.colour(body.colour);
-      context.lineWidth = isMeasured ? 1.5 : 1.3;
-      context.setLineDash(isMeasured ? [] : [5, 3]);
-      if (isMeasured) {
-        context.globalAlpha = 0.18;
-        context.fillStyle = colonnade.colour("soft");
-        context.fill();
-        context.globalAlpha = 1;
+      const isMeasured = body.name === "measured";
+      for (const part of body.parts) {
+        // Past its end a history keeps its last value: an overturned block stays where it fell.
+        const value = valueAt(part, Math.min(time, part.end), NaN);
+        const angle = part.is_angle ? value : colonnade.angle(value, this.page.critical);
+        if (!Number.isFinite(angle)) continue;
+        const [slide, rise] = [part.slides, part.rises].map((of) => (of ? valueAt({ clockOf: part.clockOf, of }, Math.min(time, part.end)) / 1000 : 0));
+        const turned = colonnade.MovingBlock.corners(part.outline, part.poles, angle, slide);
+        const corners = turned.map(([x, z]) => at([part.place[0] + x, part.place[1] + rise + z]));
+        context.beginPath();
+        corners.forEach(([x, y], index) => (index ? context.lineTo(x, y) : context.moveTo(x, y)));
+        context.closePath();
+        context.strokeStyle = colonnade.colour(body.colour);
+        context.lineWidth = isMeasured ? 1.5 : 1.3;
+        context.setLineDash(isMeasured ? [] : [5, 3]);
+        if (isMeasured) {
+          context.globalAlpha = 0.18;
+          context.fillStyle = colonnade.colour("soft");
+          context.fill();
+          context.globalAlpha = 1;
+        }
+        context.stroke();
+        if (time <= part.end && body.parts.length === 1) said.unshift(`${body.name} θ = ${colonnade.written(1e3 * angle, 3, 100)} mrad`);
       }
-      context.stroke();
-      if (time <= body.end) said.unshift(`${body.name} θ = ${colonnade.written(1e3 * angle, 3, 100)} mrad`);
     }
     context.setLineDash([]);
     const base = this.base ? `base at ${colonnade.written(1000 * moved, 3, 10)} mm` : "";

@@ -12,7 +12,7 @@ from colonnade.assessment.ground import LARGEST_DRIFT_AT_REST
 from colonnade.assessment.measures import table_measures
 from colonnade.campaign import Campaign
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.similitude import at_prototype
+from colonnade.dynamics.size import at_prototype
 from colonnade.figures.files.output import Picture
 from colonnade.figures.stored import base
 from colonnade.figures.stored.base import BaseMotion
@@ -21,8 +21,7 @@ from colonnade.report.test_page.facts import Fact, known
 from colonnade.signals.filters import lowpass
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import largest_motion
-from colonnade.units import PERCENT
-from colonnade.units.text import NOTHING, number, quantity
+from colonnade.units.text import NOTHING, PERCENT, number, percent, quantity
 
 FASTEST = 25.0
 """Hz, below which a measured displacement is differentiated: above it its noise is larger than its motion."""
@@ -133,7 +132,7 @@ def _sine(row: TestRow, stored: Stored) -> list[Fact]:
     return [
         ("frequency", quantity(frequency, "Hz", 4) + (f"; asked for: {quantity(asked, 'Hz', 4)}" if asked else "")),
         ("amplitude", f"{quantity(amplitude, 'm/s²')} ± {quantity(spread, 'm/s²', 2)} from period to period"),
-        ("distortion", f"{number(100 * distortion, 2)}{PERCENT} (RMS of what is not the sine, over that of the sine)"),
+        ("distortion", f"{percent(distortion)} (RMS of what is not the sine, over that of the sine)"),
         ("steady from", f"{quantity(start, 's', 4)} to {quantity(stop, 's', 4)}"),
     ]
 

@@ -9,8 +9,7 @@ from typing import Any
 
 from colonnade.signals.quality import FEW_SPIKES
 from colonnade.store.records.stored import Samples, Stored
-from colonnade.units import PERCENT, with_minus
-from colonnade.units.text import CHANNEL_UNITS, NOTHING, number, quantity, share
+from colonnade.units.text import CHANNEL_UNITS, NOTHING, number, percent, quantity, with_minus
 
 _NOTHING_LEFT = 1e-6
 """Residuals smaller than this, over the noise, mean that there are no more transducers than motions."""
@@ -87,7 +86,7 @@ def _channel(
 
 
 def _flagged(samples: Samples) -> str:
-    parts = (f"{share(flagged, samples.count)} {FLAGS.get(flag, flag)}" for flag, flagged in samples.flagged.items())
+    parts = (f"{percent(flagged / samples.count)} {FLAGS.get(flag, flag)}" for flag, flagged in samples.flagged.items())
     return ", ".join(parts) or NOTHING
 
 
@@ -100,7 +99,7 @@ def _residual(to_noise: float | None, to_reading: float | None) -> str:
     text = f"{number(to_noise, 2)} × noise"
     if to_reading is None or not isfinite(to_reading):
         return text
-    return f"{text}, {number(100 * to_reading, 2)}{PERCENT} of the reading"
+    return f"{text}, {percent(to_reading)} of the reading"
 
 
 def _clock(given: Mapping[str, Any]) -> str:

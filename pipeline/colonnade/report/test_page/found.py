@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import isnan
 
-from colonnade.dynamics.similitude import at_prototype
+from colonnade.dynamics.size import at_prototype
 from colonnade.figures.files.output import Picture
 from colonnade.figures.stored import record
 from colonnade.report.pictures.registry import picture

@@ -12,8 +12,9 @@ from colonnade.report.photos import Photos
 from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.rows import TestRow
-from colonnade.report.test_page import base, channels, decay, done, found, spread
+from colonnade.report.test_page import base, bodies, channels, decay, done, found, spread
 from colonnade.report.test_page.base import Table
+from colonnade.report.test_page.bodies import Bodies
 from colonnade.report.test_page.channels import ChannelRow
 from colonnade.report.test_page.decay import Decay
 from colonnade.report.test_page.done import Done
@@ -35,6 +36,7 @@ class TestPage:
     done: Done
     drawing: Drawing
     found: Found
+    bodies: Bodies
     closer: Picture | None
     base: Table
     spread: ModelSpread
@@ -55,6 +57,7 @@ def of_test(campaign: Campaign, row: TestRow, stored: Stored, shown: Photos) -> 
         done=done.of_test(row, stored, who_and_when.of_test(campaign, test)),
         drawing=drawings.of_setup(campaign, test.specimen, test.setup),
         found=found.of_test(subject),
+        bodies=bodies.of_test(subject),
         closer=picture("closer", subject),
         base=base.of_test(campaign, row, stored, block),
         spread=spread.of_test(subject),

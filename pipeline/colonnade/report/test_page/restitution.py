@@ -7,8 +7,7 @@ from typing import NamedTuple
 from colonnade.campaign.forms.summary import IdentifiedSummary
 from colonnade.figures.stored.restitution import STAGE, estimate_rows
 from colonnade.store.records.stored import Stored
-from colonnade.units import format_uncertain
-from colonnade.units.text import NOTHING, interval, quantity
+from colonnade.units.text import NOTHING, format_uncertain, interval, quantity
 
 
 class EstimateText(NamedTuple):
@@ -52,7 +51,7 @@ def facts_of(stored: Stored, found: IdentifiedSummary | None) -> list[tuple[str,
     facts = (
         ("e", value_of(stored, found)),
         ("refused", stored.text(STAGE, "reason")),
-        ("recommended estimator", chosen.name if chosen else ""),
+        ("from", chosen.name if chosen else ""),
         ("assumptions", chosen.assumptions if chosen else ""),
         ("method", stored.text(STAGE, "method")),
         (

@@ -10,8 +10,7 @@ from colonnade.figures.files.output import Picture
 from colonnade.identification.response.rank import FEWEST, is_within
 from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import OfTest
-from colonnade.units import format_percent
-from colonnade.units.text import quantity
+from colonnade.units.text import format_percent, quantity
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The answer about a real column, from the curves of its outcomes."""
+"""The answer on a real column: its record, what practice would have said, and what is doubtful."""
 
 from __future__ import annotations
 
@@ -7,25 +7,30 @@ from typing import Any, Literal
 
 import numpy as np
 
-from colonnade.assessment.cases import Outcomes
+from colonnade.arrays import Array
+from colonnade.assessment.cases import FALLS_AWAY, NOT_RUN, Outcomes, in_plane
+from colonnade.assessment.criteria import CRITERIA, Demands, agreement, spectral_velocity
 from colonnade.assessment.curves import LognormalFit
-from colonnade.assessment.fragility import Fragility
+from colonnade.assessment.fragility import MISFITS, Fragility
+from colonnade.assessment.ground import Ground
 from colonnade.assessment.intervals import Interval
 from colonnade.assessment.measures import measure_of
 from colonnade.assessment.prototype import Prototype
-from colonnade.campaign.assessing.assessed import (
+from colonnade.assessment.study import Study
+from colonnade.campaign.forms.assessed import (
     UNCORRECTED,
     AssessmentSummary,
     DecidingRecord,
     Estimate,
+    JudgedCriterion,
     JudgedMeasure,
+    RecordLeftOut,
     RecordUsed,
     Variant,
 )
 from colonnade.dynamics.block import pair
-from colonnade.stages.assessing.criteria import judged_criteria
-from colonnade.stages.assessing.doubts import doubts, left_out
 from colonnade.stages.assessing.plan import ASSUMED, Plan
+from colonnade.units.text import format_percent, with_minus
 
 MOST_DECIDING = 5
 """Records that are named as those that decide."""
@@ -76,8 +81,8 @@ def answer(
         uplift=Estimate() if found.uplift.curve is None else _estimate(found.uplift.curve.median),
         median=_estimate(lognormal.median),
         dispersion=_estimate(lognormal.beta),
-        dispersion_records=found.betas.records.value,
-        dispersion_parameters=found.betas.parameters.value,
+        dispersion_records=found.betas.records,
+        dispersion_parameters=found.betas.parameters,
         five_percent=five,
         fifty_percent=fifty,
         curve=found.taken,
@@ -174,9 +179,9 @@ def _measures(found: Fragility) -> tuple[JudgedMeasure, ...]:
             deviance=each.deviance,
             auc=each.auc,
             scatter=each.scatter,
-            best=each.best_deviance,
-            magnitude=None if each.on_magnitude is None else each.on_magnitude.p_value,
-            distance=None if each.on_log_distance is None else each.on_log_distance.p_value,
+            best=each.best,
+            magnitude=each.on_magnitude,
+            distance=each.on_log_distance,
         )
         for each in found.measures.scores
     )
@@ -205,3 +210,117 @@ def _used(plan: Plan) -> tuple[RecordUsed, ...]:
         )
         for row, name in enumerate(study.names)
     )
+
+
+def doubts(plan: Plan, outcomes: Outcomes, found: Fragility, sliding: float | None) -> list[str]:
+    """Say what is doubtful, the gravest first; arguments as of `answer`, with the study as assumed."""
+    said = [*_of_the_column(plan), *_of_the_histories(outcomes, sliding), *_of_the_records(plan, found)]
+    return said + _of_the_rate(plan, found)
+
+
+def left_out(plan: Plan) -> tuple[RecordLeftOut, ...]:
+    """Name the files, records and components that are not used, with the reason."""
+    named = [(each.name, each.reason.removeprefix(f"{each.name}: ")) for each in plan.records.left_out]
+    return tuple(
+        RecordLeftOut(record=name, reason=reason) for name, reason in (*named, *plan.studies[ASSUMED].left_out.items())
+    )
+
+
+def _of_the_column(plan: Plan) -> list[str]:
+    column, said = plan.studies[ASSUMED].cases.prototype, []
+    if plan.inputs.prototype.restitution == "identified" and plan.restitution_source == "rigid-body":
+        said.append("No e is identified on the model. That of a rigid body is assumed.")
+    rows = zip(("e", "α (rad)", "p (rad/s)"), column.central, column.ranges, strict=False)
+    return said + [
+        f"{name} is {value:.4g}, outside the limits {limits[0]:.4g} and {limits[1]:.4g} between which it is drawn."
+        for name, value, limits in rows
+        if limits is not None and not limits[0] <= value <= limits[1]
+    ]
+
+
+def _of_the_histories(outcomes: Outcomes, sliding: float | None) -> list[str]:
+    said = []
+    if sliding:
+        said.append(
+            f"In {format_percent(sliding)} of the histories the column would slide: it needs more friction than there "
+            "is. There the answer does not hold."
+        )
+    if (falling := float((outcomes.outcome == FALLS_AWAY).sum() / (outcomes.outcome != NOT_RUN).sum())) > 0.0:
+        said.append(
+            f"{format_percent(falling)} of the histories are not run, and do not count: their base falls faster than "
+            "the column. Their levels are too high."
+        )
+    return said
+
+
+def _of_the_records(plan: Plan, found: Fragility) -> list[str]:
+    said, missing = [], left_out(plan)
+    if missing:
+        first = missing[0]
+        others = "" if len(missing) == 1 else f" and {len(missing) - 1} more"
+        said.append(f"Left out: {first.record}{others}. {first.record}: {first.reason.splitlines()[0]}")
+    return [*said, found.lognormal.no_interval] if found.lognormal.no_interval else said
+
+
+def _of_the_rate(plan: Plan, found: Fragility) -> list[str]:
+    rate, said = found.rate, []
+    if rate is not None and rate.is_extrapolated:
+        said.append(
+            f"{format_percent(rate.below_hazard + rate.above_hazard)} of the annual rate is from outside the hazard "
+            f"curve, and {format_percent(rate.below_levels + rate.above_levels)} from outside the levels."
+        )
+    if rate is not None and found.misfit.p_value < MISFITS:
+        said.append(
+            "The annual rate is by the lognormal curve, which does not fit. By the curve that only rises it is "
+            f"{with_minus(f'{rate.isotonic:.2g}')} a year."
+        )
+    if plan.hazard is not None and rate is None:
+        said.append("There is a hazard, and no annual rate: that needs a lognormal curve.")
+    return said
+
+
+def judged_criteria(
+    study: Study, outcomes: Outcomes, *, drift: float, overturned: float
+) -> tuple[JudgedCriterion, ...]:
+    """
+    Compare what each criterion says of every scaled motion with what the column does, nothing varied.
+
+    Parameters
+    ----------
+    study : Study
+    outcomes : Outcomes
+        Of its cases; the first draw has nothing varied.
+    drift : float
+        Up to which a record has a velocity.
+    overturned : float
+        As of `judge`.
+    """
+    run = np.asarray(outcomes.is_run[:, :, 0].any(axis=2))
+    happened = {
+        # However little: what is called rocking elsewhere begins at a thousandth of α.
+        "rocking": np.asarray(outcomes.exceeds(np.finfo(np.float64).tiny)[:, :, 0].any(axis=2))[run],
+        "overturning": np.asarray(outcomes.exceeds(overturned)[:, :, 0].any(axis=2))[run],
+    }
+    recorded = _recorded(study, drift)
+    demands = Demands(*((each[:, None, :] * study.cases.factors)[run] for each in recorded))
+    block = study.cases.prototype.block
+    return tuple(
+        JudgedCriterion(
+            criterion=criterion.id, **agreement(criterion.ratio(block, demands), happened[criterion.predicts])
+        )
+        for criterion in CRITERIA
+    )
+
+
+def _recorded(study: Study, drift: float) -> tuple[Array, Array, Array]:
+    """Peak acceleration, peak velocity and level of the velocity spectrum of each record and component."""
+    found = np.full((3, *study.cases.factors.shape[::2]), np.nan)
+    for record, motion in enumerate(study.cases.motions):
+        for place in range(found.shape[2]):
+            along = in_plane(motion, place, 1.0)
+            if along is None:
+                continue
+            ground = Ground(along.acceleration, along.dt)
+            velocity = float(np.abs(ground.velocity).max()) if ground.drift <= drift else np.nan
+            found[:, record, place] = along.peak, velocity, spectral_velocity(along.acceleration, along.dt)
+    return found[0], found[1], found[2]

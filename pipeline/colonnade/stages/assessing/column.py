@@ -8,11 +8,11 @@ import numpy as np
 import scipy
 
 from colonnade.assessment.prototype import Prototype
-from colonnade.campaign.assessing import prototype as written
+from colonnade.campaign import assessment as written
 from colonnade.campaign.settings import PlaneEnsembleSettings
 from colonnade.dynamics.block import Block, Sided
-from colonnade.dynamics.ensembles.uncertainty import member_block
-from colonnade.dynamics.similitude import at_prototype
+from colonnade.dynamics.size import at_prototype
+from colonnade.dynamics.uncertainty import member_block
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.specimen import restitution_spread
 

@@ -14,8 +14,8 @@ from colonnade.assessment.outcomes import FEWEST
 from colonnade.assessment.prototype import Prototype
 from colonnade.assessment.study import Study, plan_study
 from colonnade.campaign import Campaign
-from colonnade.campaign.assessing.assessed import UNCORRECTED
-from colonnade.campaign.assessing.assessment import Assessment
+from colonnade.campaign.assessment import Assessment
+from colonnade.campaign.forms.assessed import UNCORRECTED
 from colonnade.dynamics.block import pair
 from colonnade.errors import StageError, count
 from colonnade.readers.ground_motions.record_set import RecordSet

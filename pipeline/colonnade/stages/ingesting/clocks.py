@@ -81,14 +81,15 @@ def find_links(recorders: Mapping[str, Recorder], channels: Mapping[str, Channel
     return {
         name: _link(channels, clock)
         for name, clock in aligned.items()
-        if clock.channel in channels and clock.own_channel in channels
+        if all(linked in channels for linked in clock.align)
     }
 
 
 def _link(channels: Mapping[str, Channel], clock: Align) -> tuple[str, str, float]:
-    one, other = channels[clock.channel].direction, channels[clock.own_channel].direction
+    main, own = clock.align
+    one, other = channels[main].direction, channels[own].direction
     against = one is not None and other is not None and float(np.dot(one, other)) < 0
-    return clock.channel, clock.own_channel, -1.0 if against else 1.0
+    return main, own, -1.0 if against else 1.0
 
 
 def own_records(

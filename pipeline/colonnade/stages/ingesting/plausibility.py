@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colonnade.arrays import Array, Codes, Mask
+from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.channel import ALONG
 from colonnade.dynamics.block import Block
@@ -17,14 +17,14 @@ from colonnade.dynamics.kinematics import Outline, Pose
 from colonnade.findings import Finding, serious
 from colonnade.identification.fusion.sensors import Transducer, predict
 from colonnade.identification.plausibility import table_motion
-from colonnade.identification.plausibility import transducers as plausibility
-from colonnade.identification.plausibility.factors import as_expected, cause
-from colonnade.identification.plausibility.rotation import Rotation
+from colonnade.identification.plausibility.rotation import Rotation, lever
+from colonnade.identification.plausibility.scale import as_expected, cause
+from colonnade.identification.plausibility.table_motion import TableChannel
+from colonnade.identification.plausibility.transducers import base_scale, suspicions
 from colonnade.signals.named_motion import Series, check_motion
 from colonnade.signals.quality import Flag
-from colonnade.signals.stretches import filled_in
-from colonnade.stages.ingesting.zero_error import Effect, on_angle, on_base
-from colonnade.stages.ingesting.zeroing import COUPLED
+from colonnade.signals.samples import filled_in
+from colonnade.stages.ingesting.zeroing import COUPLED, Effect, on_angle, on_base
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load, reference_files
 from colonnade.stages.parts.transducers import outline, transducers
@@ -116,21 +116,16 @@ def doubts(conditioned: xr.Dataset, inputs: PlausibilityInputs) -> list[Finding]
     doubts : list of Finding
         Empty if all agree.
     """
-    time = conditioned["elapsed"].to_numpy()
+    time, block = conditioned["elapsed"].to_numpy(), inputs.block
     interval = float(time[1] - time[0])
     accelerations = _along_x(conditioned, inputs.accelerations)
     displacements = _along_x(conditioned, inputs.displacements)
     rotation = _rotation(conditioned, inputs, displacements)
-    seen = None
-    if rotation is not None and accelerations:
-        seen = plausibility.base_scale(interval, rotation, accelerations[0].values, inputs.block)
-    found, acceleration, agree = _table(interval, accelerations, displacements, seen)
-    if rotation is not None and accelerations and not found:
-        found, acceleration = _by_rocking(interval, accelerations, rotation, None if agree else seen, inputs.block)
+    found, acceleration = _table(interval, accelerations, displacements, rotation, block)
     if rotation is not None and not any(each.kind in table_motion.MISPLACED for each in found):
-        found += plausibility.suspicions(interval, rotation, acceleration, inputs.block)
+        found += suspicions(interval, rotation, acceleration, block)
     found += [hums for each in accelerations if (hums := table_motion.humming(interval, each))]
-    found += _gravity(conditioned, inputs.block.gravity)
+    found += _gravity(conditioned, block.gravity)
     if inputs.motion and accelerations and acceleration is not None:
         found += _named_motion(acceleration, interval, inputs)
     return [replace(each, text=f"{each.text[0].upper()}{each.text[1:]}.") for each in found]
@@ -138,59 +133,52 @@ def doubts(conditioned: xr.Dataset, inputs: PlausibilityInputs) -> list[Finding]
 
 def zero_effects(inputs: PlausibilityInputs) -> dict[str, Effect]:
     """What an error of a channel's zero does to the rocking angle or the base acceleration, by variable."""
-    angles = {name: Rotation.lever(ANGLES, response) for name, response in _responses(inputs).items()}
-    levers = {name: lever for name, lever in angles.items() if np.isfinite(lever)}
-    longest = max(map(abs, levers.values()), default=0.0)
-    return {
-        name: on_angle(lever, inputs.block) for name, lever in levers.items() if abs(lever) >= HALF_LEVER * longest > 0
-    } | {name: on_base(along, inputs.block) for name, along in inputs.accelerations.items()}
+    angles = {name: lever(ANGLES, response) for name, response in _responses(inputs).items()}
+    longest = np.nanmax(np.abs([*angles.values()]), initial=0.0)
+    on_angles = {
+        name: on_angle(length, inputs.block)
+        for name, length in angles.items()
+        if abs(length) >= HALF_LEVER * longest > 0
+    }
+    return on_angles | {name: on_base(along, inputs.block) for name, along in inputs.accelerations.items()}
 
 
 def _responses(inputs: PlausibilityInputs) -> dict[str, Array]:
     """What each displacement transducer and inclinometer on the specimen reads at `ANGLES`, by variable."""
-    seen = list(inputs.positions.values())
     sides = []
     for side, angles in ((-1.0, ANGLES[ANGLES < 0]), (1.0, ANGLES[ANGLES >= 0])):
-        still = np.zeros_like(angles)
-        pose = Pose(angles, still, still, still, still, still)
-        sides.append(predict(seen, pose, side, inputs.block, inputs.outline)[0] if seen else np.empty((0, angles.size)))
-    return dict(zip(inputs.positions, np.concatenate(sides, axis=1), strict=True))
+        pose = Pose(angles, *[np.zeros_like(angles)] * 5)
+        sides.append(predict([*inputs.positions.values()], pose, side, inputs.block, inputs.outline)[0])
+    return dict(zip(inputs.positions, np.concatenate(sides, axis=-1), strict=True))
 
 
-def _along_x(conditioned: xr.Dataset, channels: Mapping[str, float]) -> list[table_motion.TableChannel]:
-    return [
-        table_motion.TableChannel(
-            conditioned[name].attrs["channel"],
-            np.nan_to_num(conditioned[name].to_numpy() / part),
-            float(conditioned[name].attrs.get("noise", 0.0)),
-            str(conditioned[name].attrs.get("recorder", "main")),
-            _is_good(conditioned[name].to_numpy(), conditioned[f"{name}_quality"].to_numpy()),
-        )
-        for name, part in channels.items()
-        if name in conditioned
-    ]
-
-
-def _is_good(values: Array, flags: Codes) -> bool:
-    """Whether the largest values are beyond doubt, so that the scale of a channel can be judged by them."""
-    magnitude = np.nan_to_num(np.abs(values))
-    return bool((flags[magnitude >= PEAKS * magnitude.max()] == Flag.GOOD).mean() > 0.5)
+def _along_x(conditioned: xr.Dataset, channels: Mapping[str, float]) -> list[TableChannel]:
+    found = []
+    for name, part in channels.items():
+        if name in conditioned:
+            given, values = conditioned[name].attrs, np.nan_to_num(conditioned[name].to_numpy() / part)
+            # The scale of a channel can be judged where its largest values are beyond doubt.
+            peaks = np.abs(values) >= PEAKS * np.abs(values).max()
+            is_good = bool((conditioned[f"{name}_quality"].to_numpy()[peaks] == Flag.GOOD).mean() > 0.5)
+            noise, recorder = float(given.get("noise", 0.0)), str(given.get("recorder", "main"))
+            found.append(TableChannel(given["channel"], values, noise, recorder, is_good))
+    return found
 
 
 def _rotation(
-    conditioned: xr.Dataset, inputs: PlausibilityInputs, displacements: list[table_motion.TableChannel]
+    conditioned: xr.Dataset, inputs: PlausibilityInputs, displacements: list[TableChannel]
 ) -> Rotation | None:
     """Readings of the transducers that see the rotation, relative to the table; None if no transducer does."""
     names = [name for name in inputs.positions if name in conditioned]
     if not names:
         return None
-    responses = _responses(inputs)
+    known, responses = [inputs.positions[name] for name in names], _responses(inputs)
+    is_angle = np.array([each.sensing == "angle" for each in known])
     readings = np.array([conditioned[name].to_numpy() for name in names])
     refixed = None
     if displacements:
-        read = [each.direction[0] * (each.sensing != "angle") for each in map(inputs.positions.__getitem__, names)]
-        refixed = np.outer(read, displacements[0].values)
-        on_ground = np.array([inputs.positions[name].on_ground for name in names])
+        refixed = np.outer([each.direction[0] for each in known] * ~is_angle, displacements[0].values)
+        on_ground = np.array([each.on_ground for each in known])
         readings[on_ground] -= refixed[on_ground]
         refixed[on_ground] *= -1
     seen = Rotation(
@@ -200,32 +188,31 @@ def _rotation(
         ANGLES,
         np.array([float(conditioned[name].attrs.get("noise", 0.0)) for name in names]),
         np.array([inputs.gains[name] for name in names]),
-        tuple("angle" if inputs.positions[name].sensing == "angle" else "displacement" for name in names),
+        tuple("angle" if each else "displacement" for each in is_angle),
         refixed,
         max(0.5 / float(conditioned[name].attrs.get("cutoff_hz", np.inf)) for name in names),
         np.array([conditioned[f"{name}_quality"].to_numpy() == Flag.SUSPECT for name in names]),
     )
-    useful = _seeing(seen, np.array([quantity == "angle" for quantity in seen.quantities]))
-    return seen.only(useful) if useful else None
-
-
-def _seeing(seen: Rotation, is_angle: Mask) -> list[int]:
-    """Transducers that see the rotation; inclinometers have levers of one, displacements those in m."""
+    # Inclinometers have levers of one, displacements those in m.
     finite, lengths = np.isfinite(seen.responses).all(axis=1), np.abs(seen.levers)
     longest = lengths[finite & ~is_angle].max(initial=0.0)
     is_long = np.where(is_angle, lengths > LEAST_LEVER, (lengths >= LEAST_LEVER * longest) & (longest > 0.0))
-    return [int(index) for index in np.flatnonzero(finite & is_long)]
+    useful = np.flatnonzero(finite & is_long)
+    return seen.only(useful.tolist()) if useful.size else None
 
 
 def _table(
     interval: float,
-    accelerations: list[table_motion.TableChannel],
-    displacements: list[table_motion.TableChannel],
-    seen: float | None,
-) -> tuple[list[Finding], Array | None, bool]:
-    """Doubts by the table's channels alone, its acceleration put right, and whether two of them agree."""
+    accelerations: list[TableChannel],
+    displacements: list[TableChannel],
+    rotation: Rotation | None,
+    block: Block,
+) -> tuple[list[Finding], Array | None]:
+    """Doubts about the table's channels, by each other and by what rocks the specimen; its acceleration put right."""
     if not accelerations:
-        return [], table_motion.derived(interval, displacements[0]) if displacements else None, False
+        return [], table_motion.derived(interval, displacements[0]) if displacements else None
+    values, names = accelerations[0].values, " and ".join(each.name for each in accelerations)
+    seen = None if rotation is None else base_scale(interval, rotation, values, block)
     found: list[Finding] = []
     agree = False
     for one, other in product(accelerations, displacements):
@@ -237,32 +224,21 @@ def _table(
             wrong = table_motion.guilty(compared.factor, seen)
             found.append(table_motion.disagreement(one, other, compared, wrong))
             if wrong == "acceleration":
-                return found, accelerations[0].values / compared.factor, agree
+                return found, values / compared.factor
         else:
             agree = True
-    return found, accelerations[0].values, agree
-
-
-def _by_rocking(
-    interval: float,
-    accelerations: list[table_motion.TableChannel],
-    rotation: Rotation,
-    seen: float | None,
-    block: Block,
-) -> tuple[list[Finding], Array]:
-    """Doubts about the table's acceleration by what it does to the specimen, and the acceleration put right."""
-    names, values = " and ".join(each.name for each in accelerations), accelerations[0].values
+    if rotation is None or found:
+        return found, values
     longest = int(np.abs(rotation.levers).argmax())
-    lever = float(rotation.levers[longest])
-    angle, noise = filled_in(rotation.readings[longest]) / lever, float(rotation.noise[longest]) / abs(lever)
+    arm = float(rotation.levers[longest])
+    angle, noise = filled_in(rotation.readings[longest]) / arm, float(rotation.noise[longest]) / abs(arm)
     misplaced = table_motion.by_rocking(interval, names, values, angle, noise, block)
     if misplaced is not None:
         return [misplaced], values
-    if seen is None or as_expected(seen) or not accelerations[0].is_good:
+    if agree or seen is None or as_expected(seen) or not accelerations[0].is_good:
         return [], values
-    text = (
-        f"channel {names} is {abs(seen):.3g} times what the specimen's rocking requires: {cause(seen, 'acceleration')}"
-    )
+    why = cause(seen, "acceleration")
+    text = f"channel {names} is {abs(seen):.3g} times what the specimen's rocking requires: {why}"
     return [serious("gain", text)], values / abs(seen)
 
 
@@ -275,18 +251,12 @@ def _gravity(conditioned: xr.Dataset, gravity: float) -> list[Finding]:
         # One that shows nothing is reported where gravity is added to it.
         if abs(due) < SENSES_GRAVITY * gravity or abs(shown) < COUPLED * abs(due):
             continue
-        ratio = shown / due
-        if as_expected(ratio) and ratio > 0:
-            continue
-        turned = as_expected(ratio)
-        why = "its sign is wrong" if turned else cause(ratio, "acceleration")
-        found.append(
-            serious(
-                "sign" if turned else "gain",
-                f"channel {variable.attrs['channel']} shows {shown:.3g} m/s² at rest, but gravity's part along it is "
-                f"{due:.3g} m/s²: {why}",
-            )
-        )
+        kind, why = "gain", cause(shown / due, "acceleration")
+        if as_expected(shown / due):
+            kind, why = "sign", "its sign is wrong"
+        if kind == "gain" or shown / due < 0:
+            text = f"channel {variable.attrs['channel']} shows {shown:.3g} m/s² at rest, but gravity's part along it is"
+            found.append(serious(kind, f"{text} {due:.3g} m/s²: {why}"))
     return found
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.errors import StageError
 from colonnade.findings import MEASUREMENT, Finding, serious, warning
-from colonnade.units import format_percent
+from colonnade.units.text import format_percent
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -13,7 +13,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.errors import StageError
 from colonnade.findings import Finding
 from colonnade.identification.response.base_motion import LEAST_MOTION, table_moves
-from colonnade.identification.restitution.arcs.arcs import find_arcs
+from colonnade.identification.restitution.arcs import find_arcs
 from colonnade.stages.parts.base_motion import (
     base_acceleration,
     left_out,
@@ -77,8 +77,8 @@ class Beginning:
         From `first` on, with the table's tilt in it, and along z where that is known throughout.
     driven_by : str
         `RECORDED`, `NOT_RECORDED` or `AT_REST`.
-    zero_offset : float
-        rad, what the measured angle shows at the true zero.
+    zero_offset, angle_gain : float
+        rad, what the measured angle shows at the true zero; measured over true angle.
     warnings : list of Finding
     """
 
@@ -89,10 +89,13 @@ class Beginning:
     motion: Motion
     driven_by: str = RECORDED
     zero_offset: float = 0.0
+    angle_gain: float = 1.0
     warnings: list[Finding] = field(default_factory=list)
 
 
-def begin(rocking: xr.Dataset, inputs: BeginningInputs, identified: xr.Dataset | None = None) -> Beginning:
+def begin(
+    rocking: xr.Dataset, inputs: BeginningInputs, identified: xr.Dataset | None = None, block: Block | None = None
+) -> Beginning:
     """
     Find where a prediction begins and what it is driven by.
 
@@ -102,7 +105,9 @@ def begin(rocking: xr.Dataset, inputs: BeginningInputs, identified: xr.Dataset |
         Result of `rocking`.
     inputs : BeginningInputs
     identified : xr.Dataset, optional
-        Result of `restitution`, of a free vibration: its zero offset.
+        Result of `restitution`, of a free vibration: zero and scale of its angle.
+    block : Block, optional
+        That predictions move, with the α of all free vibrations; default: that of the inputs.
 
     Raises
     ------
@@ -114,10 +119,15 @@ def begin(rocking: xr.Dataset, inputs: BeginningInputs, identified: xr.Dataset |
     A free vibration is driven by what was recorded on the table if its restitution is; where that was not decided, if
     that moves it (`table_moves`). Otherwise by nothing, since the noise of an accelerometer moves no table.
     """
-    time, block = rocking["elapsed"].to_numpy(), inputs.block
-    first, peak, since, offset, driven_by = 0, 0.0, 0.0, 0.0, RECORDED
+    time = rocking["elapsed"].to_numpy()
+    first, peak, since, driven_by = 0, 0.0, 0.0, RECORDED
+    zero = {"zero_offset": 0.0, "angle_gain": 1.0}
+    block = block or inputs.block
     if inputs.free_vibration:
-        first, peak, since, offset = _start(rocking, block, identified)
+        if identified is not None and np.isfinite(identified["restitution"]):
+            gain = float(identified["angle_scale"]) * inputs.block.critical_angle / block.critical_angle
+            zero = {"zero_offset": float(identified["zero_offset"]), "angle_gain": gain}
+        first, peak, since = _start(rocking, block, **zero)
         driven_by = _drives_free_vibration(rocking, block, identified)
     if driven_by == RECORDED:
         base = base_acceleration(rocking)
@@ -135,7 +145,7 @@ def begin(rocking: xr.Dataset, inputs: BeginningInputs, identified: xr.Dataset |
     vertical, transverse = (None if each is None else each[first:] for each in (vertical, transverse))
     motion = Motion(felt, float(time[1] - time[0]), vertical, transverse)
     theta0, omega0 = _fallen(peak, since, float(felt[0]), block)
-    return Beginning(first, theta0, omega0, base, motion, driven_by, offset, warnings)
+    return Beginning(first, theta0, omega0, base, motion, driven_by, **zero, warnings=warnings)
 
 
 def _drives_free_vibration(rocking: xr.Dataset, block: Block, identified: xr.Dataset | None) -> str:
@@ -158,14 +168,11 @@ def _fallen(peak: float, since: float, base: float, block: Block) -> tuple[float
     return float(peak + acceleration * since**2 / 2), float(acceleration * since)
 
 
-def _start(rocking: xr.Dataset, block: Block, identified: xr.Dataset | None) -> tuple[int, float, float, float]:
-    """Find the first peak between two impacts: next sample, angle (rad), time to the sample (s), zero offset (rad)."""
+def _start(rocking: xr.Dataset, block: Block, zero_offset: float, angle_gain: float) -> tuple[int, float, float]:
+    """Find the first peak between two impacts: next sample, angle (rad), time to the sample (s)."""
     if "rocking_angle" not in rocking:
         raise StageError("A free vibration without a measured angle has no release to start a prediction from.")
-    offset = 0.0
-    if identified is not None and np.isfinite(identified["restitution"]):
-        offset = float(identified["zero_offset"])
-    time, angle = rocking["elapsed"].to_numpy(), rocking["rocking_angle"].to_numpy() - offset
+    time, angle = rocking["elapsed"].to_numpy(), (rocking["rocking_angle"].to_numpy() - zero_offset) / angle_gain
     arcs = find_arcs(time, angle, block.p, lowest=float(rocking["noise_threshold"]))
     whole = np.flatnonzero(np.isfinite(arcs.peak_angle))
     if whole.size == 0:
@@ -180,4 +187,4 @@ def _start(rocking: xr.Dataset, block: Block, identified: xr.Dataset | None) -> 
             "unit, gain and range of the transducers on the specimen; a code such as -9999 has to be an empty cell."
         )
     first = min(int(np.searchsorted(time, when)), time.size - 2)
-    return first, peak, float(time[first] - when), offset
+    return first, peak, float(time[first] - when)

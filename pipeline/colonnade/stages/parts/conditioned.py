@@ -10,11 +10,10 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.campaign.channel import ALONG
 from colonnade.findings import MEASUREMENT, Finding, note, warning
-from colonnade.identification.fusion.inertial import Accelerometer
-from colonnade.identification.fusion.readings import Readings
+from colonnade.identification.fusion.sensors import Accelerometer, Readings
 from colonnade.signals.filters import second_derivative
 from colonnade.stages.parts.transducers import Transducers
-from colonnade.units import format_percent
+from colonnade.units.text import format_percent
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -97,7 +96,7 @@ def axes(base: Mapping[str, Array], quantity: str, time: Array) -> Array:
     return np.array([along[axis] for axis in range(3)])
 
 
-def group(conditioned: xr.Dataset, known: Mapping[str, Kind], gravity: float) -> tuple[list[Kind], Readings]:
+def group(conditioned: xr.Dataset, known: Mapping[str, Kind], gravity: float) -> Readings[Kind]:
     """Transducers of one kind, as far as they are usable, and what they read: changes from rest."""
     names = [name for name in known if name in conditioned]
     values, noise, cutoff = [], [], []
@@ -110,5 +109,4 @@ def group(conditioned: xr.Dataset, known: Mapping[str, Kind], gravity: float) ->
         noise.append(max(float(given.get("noise", 0.0)), LEAST_NOISE))
         cutoff.append(float(given.get("cutoff_hz", np.inf)))
     shape = (len(values), conditioned.sizes["elapsed"])
-    readings = Readings(np.array(values).reshape(shape), np.array(noise), np.array(cutoff))
-    return [known[name] for name in names], readings
+    return Readings([known[name] for name in names], np.array(values).reshape(shape), np.array(noise), np.array(cutoff))

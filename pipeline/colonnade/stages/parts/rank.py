@@ -11,11 +11,9 @@ from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.settings import MeasurementSettings
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.ensembles.ensemble import stride_of
-from colonnade.dynamics.ensembles.outcome import Ensemble
+from colonnade.dynamics.ensemble import Ensemble
 from colonnade.dynamics.history import amplitude, capped
-from colonnade.identification.response.as_measured import Measurement, as_measured
-from colonnade.identification.response.rank import distances, rank
+from colonnade.identification.response.rank import Measurement, as_measured, distances, rank
 from colonnade.stages.parts.beginning import Beginning
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.transducers import transducers
@@ -50,7 +48,7 @@ class MeasurementInputs(Inputs):
         """Gather it for one test."""
         return cls(
             block=campaign.specimens[test.specimen].block(campaign.gravity),
-            settings=campaign.processing.predict.ensemble,
+            settings=campaign.ensemble_settings(test.specimen),
             filter_order=campaign.processing.filter_order,
             channels=transducers(campaign.channels(test)).on_specimen,
         )
@@ -107,7 +105,7 @@ def describe_bands(
     """
     import xarray as xr
 
-    time = rocking["elapsed"].to_numpy()[beginning.first :: stride_of(beginning.motion)]
+    time = rocking["elapsed"].to_numpy()[beginning.first :: _stride(beginning, found)]
     low, high = found.overturning_interval()
     sensitivity = found.sensitivity()
     return xr.Dataset(
@@ -161,13 +159,14 @@ def rank_measured(
         of each run, missing where it overturns, and if there are runs enough, `measured_distance` and `member_distance`
         of the runs.
     """
-    first, stride = beginning.first, stride_of(beginning.motion)
+    first, stride = beginning.first, _stride(beginning, found)
     time = rocking["elapsed"].to_numpy()[first::stride]
     horizon = found.horizon(inputs.settings.horizon * inputs.block.critical_angle) + float(time[0])
     variables: dict[str, Any] = {"horizon": ((), horizon)}
     if "rocking_angle" not in rocking:
         return variables
     angle = rocking["rocking_angle"].to_numpy()[first::stride] - beginning.zero_offset
+    angle = angle / beginning.angle_gain
     measured = capped(time, angle, float(rocking["overturning_time"]), inputs.block)
     thinned = errors.thinned(first, stride)
     recorded = as_measured(found.histories, starts[: len(found.histories)], thinned, np.random.default_rng(SEED))
@@ -179,9 +178,14 @@ def rank_measured(
     if compared is None:
         return variables
     return variables | {
-        "measured_distance": ((), compared.measured),
-        "member_distance": ("judged_member", compared.members),
+        "measured_distance": ((), compared[0]),
+        "member_distance": ("judged_member", compared[1]),
     }
+
+
+def _stride(beginning: Beginning, found: Ensemble) -> int:
+    """Samples of the record to each of the bands."""
+    return round(float(found.time[1] - found.time[0]) / beginning.motion.dt)
 
 
 def horizons_and_ranks(

@@ -11,8 +11,7 @@ from colonnade.campaign import Channel
 from colonnade.campaign.specimen import Cone, Cylinder, Prism, Specimen
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, pole_position
-from colonnade.identification.fusion.inertial import Accelerometer, Gyroscope
-from colonnade.identification.fusion.sensors import Transducer
+from colonnade.identification.fusion.sensors import Accelerometer, Gyroscope, Transducer
 from colonnade.store.description import variable_name
 
 
@@ -78,7 +77,7 @@ def _positions(named: Mapping[str, Channel]) -> Iterator[tuple[str, Transducer]]
             yield (
                 name,
                 Transducer(
-                    channel.sensing,  # type: ignore[arg-type]
+                    channel.sensing,
                     direction,
                     channel.at,
                     normal=channel.normal,

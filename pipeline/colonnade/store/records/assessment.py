@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from colonnade.assessment.measures import measure_of
-from colonnade.campaign.assessing.assessed import UNCORRECTED, AssessmentSummary, Estimate, Variant
-from colonnade.units import PERCENT, with_minus
-from colonnade.units.text import NOTHING, number, quantity
+from colonnade.campaign.forms.assessed import UNCORRECTED, AssessmentSummary, Estimate, Variant
+from colonnade.units.text import NOTHING, PERCENT, number, percent, quantity, with_minus
 
 NOT_COVERED = (
     "Not covered: columns of several drums, a plinth or a capital that moves by itself, anchorage, rocking in two "
@@ -66,18 +65,6 @@ def estimated(measure: str, estimate: Estimate) -> str:
         return f"{level(measure, estimate.value)} ({said[0] if said else 'no interval'})"
     low, high = (level(measure, end).partition(" ")[0] for end in ends)
     return f"{level(measure, estimate.value)} ({low} to {high})"
-
-
-def percent(value: float | None) -> str:
-    r"""
-    Write a small probability with two digits.
-
-    Examples
-    --------
-    >>> percent(0.00413), percent(0.25), percent(2.2e-7)
-    ('0.41\xa0%', '25\xa0%', '2.2·10⁻⁵\xa0%')
-    """
-    return NOTHING if value is None else f"{with_minus(f'{100 * value:.2g}')}{PERCENT}"
 
 
 def sentences(record: AssessmentSummary) -> list[str]:

@@ -11,12 +11,9 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.campaign.forms.forecast import ForecastBand, ForecastFile, ForecastTable, ModelForecast
 from colonnade.campaign.forms.foreseen import ForecastCoverage, ForecastScores, JudgedForecasts
-from colonnade.identification.verification.calibration import coverage
-from colonnade.identification.verification.references import base_rates, skill
-from colonnade.identification.verification.responses import Forecast, Response, forecast_of_peaks
-from colonnade.identification.verification.scores import score
-from colonnade.units import format_percent
-from colonnade.units.text import number, quantity
+from colonnade.identification.calibration import coverage
+from colonnade.identification.forecasts import Forecast, Response, base_rates, forecast_of_peaks, score, skill
+from colonnade.units.text import format_percent, number, quantity
 
 FORESEEN = (
     *("no rocking", "rocking", "overturned"),

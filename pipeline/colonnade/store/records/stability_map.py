@@ -8,25 +8,22 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import xarray as xr
 
-    from colonnade.dynamics.maps.chart import StabilityMap
+    from colonnade.dynamics.maps import StabilityMap
+
+
+CELLS = {"outcome": "outcome", "overturning_fraction": "overturning_fraction"}
+LIMITS = {"no_rocking_limit": "no_rocking", "lower_limit": "lower", "upper_limit": "upper"}
+INTERVALS = {name: name for name in ("interval_frequency_ratio", "interval_start", "interval_end")}
+"""Stored variables over Ω and A, over Ω, and of intervals, with the field of the map that each holds."""
 
 
 def as_dataset(chart: StabilityMap) -> xr.Dataset:
     """Return a map in its stored form: outcomes over Ω and A, limits over Ω, the options as attributes."""
     import xarray as xr
 
-    cells = ("frequency_ratio", "amplitude_ratio")
+    shapes = {("frequency_ratio", "amplitude_ratio"): CELLS, "frequency_ratio": LIMITS, "interval": INTERVALS}
     return xr.Dataset(
-        {
-            "outcome": (cells, chart.outcome),
-            "overturning_fraction": (cells, chart.overturning_fraction),
-            "no_rocking_limit": ("frequency_ratio", chart.no_rocking),
-            "lower_limit": ("frequency_ratio", chart.lower),
-            "upper_limit": ("frequency_ratio", chart.upper),
-            "interval_frequency_ratio": ("interval", chart.interval_frequency_ratio),
-            "interval_start": ("interval", chart.interval_start),
-            "interval_end": ("interval", chart.interval_end),
-        },
+        {name: (over, getattr(chart, own)) for over, names in shapes.items() for name, own in names.items()},
         coords={"frequency_ratio": chart.frequency_ratio, "amplitude_ratio": chart.amplitude_ratio},
         attrs=chart.options,
     )
@@ -34,18 +31,8 @@ def as_dataset(chart: StabilityMap) -> xr.Dataset:
 
 def as_map(stored: xr.Dataset) -> StabilityMap:
     """Return a stored map as the library gives it."""
-    from colonnade.dynamics.maps.chart import StabilityMap
+    from colonnade.dynamics.maps import StabilityMap
 
-    return StabilityMap(
-        stored["frequency_ratio"].to_numpy(),
-        stored["amplitude_ratio"].to_numpy(),
-        stored["outcome"].to_numpy(),
-        stored["overturning_fraction"].to_numpy(),
-        stored["no_rocking_limit"].to_numpy(),
-        stored["lower_limit"].to_numpy(),
-        stored["upper_limit"].to_numpy(),
-        stored["interval_frequency_ratio"].to_numpy(),
-        stored["interval_start"].to_numpy(),
-        stored["interval_end"].to_numpy(),
-        json.loads(stored.attrs["settings"]),
-    )
+    names = CELLS | LIMITS | INTERVALS | {name: name for name in ("frequency_ratio", "amplitude_ratio")}
+    values = {own: stored[name].to_numpy() for name, own in names.items()}
+    return StabilityMap(**values, options=json.loads(stored.attrs["settings"]))

@@ -13,7 +13,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
-from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.models import MODELS
 from colonnade.errors import StoreError
 from colonnade.findings import Finding, at_stage
 from colonnade.store import files

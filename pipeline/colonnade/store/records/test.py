@@ -9,6 +9,8 @@ import numpy as np
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.forms.summary import (
+    BodyPrediction,
+    BodySummary,
     HistorySummary,
     IdentifiedSummary,
     Order,
@@ -21,21 +23,10 @@ from colonnade.campaign.forms.summary import (
     TestSummary,
     Warned,
 )
-from colonnade.dynamics.similitude import at_prototype
+from colonnade.dynamics.size import at_prototype
 from colonnade.findings import in_order
 from colonnade.identification.response.rank import BAND
 from colonnade.store.records.stored import Stored
-
-COMPARED = ("nrmse", "horizon", "within_spread", "peak_rank", "overturning_probability")
-"""What the comparison of a model with the measured angle gives, by the names of its record."""
-
-SINE = {
-    "frequency": "forcing_frequency",
-    "frequency_ratio": "frequency_ratio",
-    "amplitude_ratio": "amplitude_ratio",
-    "impacts_per_cycle": "impacts_per_cycle",
-}
-"""What the comparison gives of a sine test: name in the record and in the result."""
 
 AT_PROTOTYPE = {"duration": "time", "frequency": "frequency", "peak_time": "time", "peak_slide": "length"}
 """What is given at prototype scale too, and the kind of quantity by which it scales."""
@@ -71,8 +62,51 @@ def record_of_test(campaign: Campaign, test: Test, stored: Stored) -> TestSummar
         restitution=_identified(stored) if stored.has("restitution") else None,
         prototype=_at_prototype(measured, scale) if scale is not None and stored.has("rocking") else None,
         predicted={model: _predicted(stored, model) for model in stored.models("predict")},
-        **measured,
+        bodies=bodies_of(stored),
+        **_of_comparison(stored) | measured,
     )
+
+
+def bodies_of(stored: Stored) -> dict[str, BodySummary]:
+    """Return the record of each body of an assembly by its id; empty for a single body."""
+    names = [str(name) for name in stored.array("rocking", "body")]
+    return {
+        name: BodySummary(
+            **_numbers(BodySummary, stored, place, "rocking"),
+            separation=str(stored.array("rocking", "body_separation")[place]),
+            predicted={
+                model: BodyPrediction(
+                    **_numbers(BodyPrediction, stored, place, "predict", model), **_spread(stored, place, model)
+                )
+                for model in stored.models("predict")
+                if stored.has("predict", "body_outcome", model)
+            },
+        )
+        for place, name in enumerate(names)
+    }
+
+
+def _spread(stored: Stored, place: int, model: str) -> dict[str, Any]:
+    """What the runs of a model say of a body at a place."""
+    if not stored.has("ensemble", "body_moved_band", model):
+        return {}
+    band = stored.array("ensemble", "body_moved_band", model)[:, place]
+    falls = stored.array("ensemble", "body_overturning_probability", model)[place]
+    return {"moved_low": band[0], "moved_high": band[-1], "overturning_probability": falls}
+
+
+def _numbers(
+    form: type[BodyPrediction], stored: Stored, place: int, stage: str, model: str | None = None
+) -> dict[str, Any]:
+    """What a result says of a body at a place, by the names of its record."""
+    found = {key: stored.array(stage, f"body_{key}", model) for key in form.model_fields if key != "separation"}
+    return {key: None if values[place] == "" else values[place] for key, values in found.items() if values.size}
+
+
+def _of_comparison(stored: Stored) -> dict[str, float]:
+    """Give the numbers of a test that the comparison stores by the name that they have in the record."""
+    names = [name for name in TestSummary.model_fields if stored.has("rocking") and stored.has("compare", name)]
+    return {name: value for name in names if not isnan(value := stored.value("compare", name))}
 
 
 def as_given(test: Test) -> dict[str, Any]:
@@ -134,11 +168,9 @@ def _peak(test: Test, stored: Stored) -> dict[str, Any]:
 
 
 def _sine(test: Test, stored: Stored) -> dict[str, Any]:
-    found: dict[str, Any] = {name: stored.value("compare", variable) for name, variable in SINE.items()}
-    if isnan(found["frequency"]) and test.frequency is not None:
-        found["frequency"] = test.frequency
+    recorded = stored.value("compare", "forcing_frequency")
     return {
-        **found,
+        "frequency": test.frequency if isnan(recorded) and test.frequency is not None else recorded,
         "order": _order(stored.text("compare", "response_order")),
         "order_reason": stored.text("compare", "response_order_reason") or None,
     }
@@ -146,13 +178,14 @@ def _sine(test: Test, stored: Stored) -> dict[str, Any]:
 
 def _predicted(stored: Stored, model: str) -> PredictionSummary:
     low, high = _peak_band(stored, model)
+    compared = [name for name in PredictionSummary.model_fields if stored.has("compare", name)]
     return PredictionSummary(
         outcome=cast(Outcome, stored.text("predict", "outcome", model)),
         peak_ratio=stored.value("predict", "peak_ratio", model),
         peak_low=low,
         peak_high=high,
         order=_order(stored.by("model", "compare", "predicted_response_order").get(model, "")),
-        **{name: stored.compared(name, model) for name in COMPARED},
+        **{name: stored.compared(name, model) for name in compared},
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import nan
+from math import hypot, nan
 
 from colonnade.campaign.forms.summary import (
     IdentifiedSummary,
@@ -11,10 +11,10 @@ from colonnade.campaign.forms.summary import (
     RestitutionSummary,
     TestSummary,
 )
-from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.models import MODELS
 from colonnade.errors import count
 from colonnade.identification.response.rank import is_within
-from colonnade.units.text import LEAST_RATIO, interval, ratio
+from colonnade.units.text import LEAST_RATIO, interval, listed, quantity, ratio
 
 WITHIN, DIFFERS = "✓", "≠"
 """Verdicts on a prediction, see `verdict`."""
@@ -105,7 +105,45 @@ def measured(test: TestSummary, level: float | None = None) -> str:
         return f"e {interval(e.value, e.low, e.high, level)}"
     if not test.outcome:
         return f"{_words(test.observed_outcome)} (seen)" if test.observed_outcome else test.status
-    return _with_peak(test.outcome, test.peak_ratio, " α") + (", no e" if test.restitution else "")
+    far = farthest(test)
+    moved = f", {far[0]} moved {quantity(far[1], 'mm')}" if far else ""
+    return _with_peak(test.outcome, test.peak_ratio, " α") + moved + (", no e" if test.restitution else "")
+
+
+def farthest(test: TestSummary) -> tuple[str, float] | None:
+    """Return the body that moved farthest for good, and how far, m; None if one fell or none is known."""
+    moved = {
+        name: hypot(body.residual_x, body.residual_y)
+        for name, body in test.bodies.items()
+        if body.residual_x is not None and body.residual_y is not None
+    }
+    if not moved or any(body.outcome == "overturned" for body in test.bodies.values()):
+        return None
+    return max(moved.items(), key=lambda each: each[1])
+
+
+def by_bodies(test: TestSummary) -> str:
+    """
+    Say what became of the bodies of an assembly: which fell, else which moved farthest; which joint opened first.
+
+    Examples
+    --------
+    >>> from colonnade.campaign.forms.summary import BodySummary
+    >>> low = BodySummary(outcome="rocking", residual_x=3e-3, residual_y=4e-3, opening=0.02, opening_time=1.25)
+    >>> by_bodies(TestSummary(status="done", kind="earthquake", specimen="a", bodies={"1": low}))
+    'Body 1 moved farthest for good: 5 mm. The joint below 1 opened first, at 1.25 s, and by up to 20 mm.'
+    """
+    fallen = [name for name, body in test.bodies.items() if body.outcome == "overturned"]
+    opened = {name: body.opening_time for name, body in test.bodies.items() if body.opening_time is not None}
+    said = [f"Overturned: {listed(fallen)}."] if fallen else []
+    if far := farthest(test):
+        said.append(f"Body {far[0]} moved farthest for good: {quantity(far[1], 'mm')}.")
+    if opened:
+        first = min(opened, key=lambda name: opened[name])
+        far_open = quantity(test.bodies[first].opening, "mm")
+        when = quantity(opened[first], "s", 4)
+        said.append(f"The joint below {first} opened first, at {when}, and by up to {far_open}.")
+    return " ".join(said)
 
 
 def predicted(test: TestSummary) -> dict[str, str]:

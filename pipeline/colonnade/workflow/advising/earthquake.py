@@ -9,16 +9,15 @@ import numpy as np
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.forms.summary import TestSummary
-from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.models import MODELS
 from colonnade.dynamics.motion import Motion
-from colonnade.identification.advice.span import SpanAdvice, advise_span
-from colonnade.stages.parts.foreseen import felt, plan_of, run_forecast
+from colonnade.identification.advice import SpanAdvice, advise_span
+from colonnade.stages.forecast import felt, plan_of
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice, beyond
-from colonnade.units import format_percent
-from colonnade.units.text import number, probability
-from colonnade.workflow.forecasting.foresee import inputs_of
-from colonnade.workflow.forecasting.motions import recorded
+from colonnade.units.text import format_percent, number, probability
+from colonnade.workflow.foresee import inputs_of
+from colonnade.workflow.motions import recorded
 
 STEP = 1.2
 """The largest Span that is advised, over the largest that was tested: models err, and a specimen may break."""
@@ -80,7 +79,7 @@ def _advise(
         nearest = min(done, key=lambda tested: abs(np.log(tested / span)))
         moved, inputs = done[nearest]
         scaled = Motion(moved.acceleration * (span / nearest), moved.dt)
-        peaks = run_forecast(plan_of(inputs, models[-1], felt(inputs, scaled))).peak_ratio
+        peaks = plan_of(inputs, models[-1], felt(inputs, scaled)).run().peak_ratio
         return float((peaks > 0.0).mean()), float(np.isnan(peaks).mean()), scaled.peak
 
     planned = {test.span for test in listed if test.span is not None}

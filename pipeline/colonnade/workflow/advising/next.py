@@ -1,25 +1,42 @@
-"""Next: the test that tells most of each specimen and kind, and the tests that are still to come."""
+"""Next: the test that tells most of each specimen and kind, free vibrations here; the tests that are to come."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from pydantic import TypeAdapter
 
 from colonnade.campaign import Campaign, load
-from colonnade.campaign.forms.summary import TestSummary
-from colonnade.errors import CampaignError, StoreError, nearest
+from colonnade.campaign.forms.summary import Summary, TestSummary
+from colonnade.errors import StoreError
+from colonnade.identification.advice import LAST_PEAK, advise_free_vibration
 from colonnade.identification.response.boundaries import SAME_FREQUENCY
 from colonnade.stages.predict import sides
 from colonnade.stages.specimen import restitution_spread
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice, ranked
 from colonnade.store.records.summary import map_points, read_summary, records_of_tests
+from colonnade.units.text import format_uncertain, interval, number
 from colonnade.workflow.advising.earthquake import advise_earthquakes
-from colonnade.workflow.advising.free import advise_free
 from colonnade.workflow.advising.sine import Known, advise_sines
-from colonnade.workflow.pooling import restitution_taken
+from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.pooling import expect_specimens, restitution_taken
+from colonnade.workflow.product import Contents, Product, brought_up_to_date
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+MADE_BY = ("colonnade.workflow.advising",)
+"""Package whose code makes advice; what it imports counts too."""
+
+_ADVICE = TypeAdapter(list[Advice])
 
 KINDS = ("free-vibration", "sine", "earthquake")
 """Kinds of test that are advised, in their order."""
@@ -71,9 +88,7 @@ def advise(
         If the campaign has never been run.
     """
     loaded = load(Path(campaign)).awaiting()
-    for name in specimens:
-        if name not in loaded.specimens:
-            raise CampaignError(f'{loaded.path.name} has no specimen "{name}".{nearest(name, loaded.specimens)}')
+    expect_specimens(loaded, specimens)
     layout = Layout.of(loaded.path, results)
     summary = read_summary(layout)
     if summary is None:
@@ -119,3 +134,130 @@ def advise_kind(
         points = tuple(map_points(tests, specimen))
         return advise_sines(campaign, specimen, Known(sides(pooled), deviation, points, max(tilts, key=abs, default=0)))
     return advise_earthquakes(campaign, layout, specimen, tests) if kind == "earthquake" else []
+
+
+def advice_shown(
+    campaign: Campaign, layout: Layout, catalogue: Catalogue, summary: Summary, workers: int | None
+) -> list[Advice]:
+    """
+    Give the advice that the report of a campaign shows.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    layout : Layout
+    catalogue : Catalogue
+        Keeps advice about which nothing changed.
+    summary : Summary
+        Of this run.
+    workers : int or None
+        Processes; None for one a core.
+
+    Returns
+    -------
+    advice : list of Advice
+    """
+    tests, code = records_of_tests(campaign, summary), catalogue.code(MADE_BY)
+    asked = [(name, kind) for name in campaign.specimens for kind in KINDS]
+    products = (_advice(campaign, layout, catalogue, name, kind, tests, code) for name, kind in asked)
+    made = {str(each.product.id): each.text for each in brought_up_to_date(products, catalogue, workers=workers)}
+    return [each for name, kind in asked for each in _ADVICE.validate_json(made[f"advice {name} {kind}"])]
+
+
+def _advice(
+    campaign: Campaign,
+    layout: Layout,
+    catalogue: Catalogue,
+    specimen: str,
+    kind: str,
+    tests: dict[str, TestSummary],
+    code: str,
+) -> Product:
+    """Give the advice on one kind of test of a specimen."""
+    light, own = campaign.with_relative_paths(), {}
+    for name, test in light.tests.items():
+        if (test.specimen, test.kind) == (specimen, kind):
+            record = tests[name].model_dump_json() if name in tests else None
+            tilt = light.setups[test.setup].table_tilt
+            own[name] = [repr(test), record, tilt, catalogue.content(layout.stage(name, "rocking"))]
+    read = [light.specimens[specimen], light.gravity, light.processing, light.next, light.table]
+    upstream = {"specimen": catalogue.content(layout.stage(specimen, "specimen"))}
+    make = partial(_advised, campaign, layout, specimen, kind, tests)
+    entry = json.dumps([*map(repr, read), own])
+    return Product(f"advice {specimen} {kind}", entry, upstream, code, make, keeps=True)
+
+
+def _advised(campaign: Campaign, layout: Layout, specimen: str, kind: str, tests: dict[str, TestSummary]) -> Contents:
+    return [], _ADVICE.dump_json(advise_kind(campaign, layout, specimen, kind, tests)).decode()
+
+
+LARGEST_RELEASE = 0.6
+"""|θ|/α from which a specimen is released at most: large first amplitudes disagree with every model."""
+
+
+def advise_free(
+    campaign: Campaign, specimen: str, pooled: xr.Dataset, tests: Mapping[str, TestSummary]
+) -> Advice | None:
+    """
+    Advise on the next free vibration.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    specimen : str
+        Its id.
+    pooled : xr.Dataset
+        Its e, as the stage `specimen` gives it.
+    tests : mapping of str to TestSummary
+        Records of the campaign's tests.
+
+    Returns
+    -------
+    advice : Advice or None
+        None if e is given in the campaign file.
+    """
+    if pooled.attrs["restitution_source"] == "given":
+        return None
+    wanted = campaign.next.restitution_width
+    released = _released(pooled, tests)
+    if not released:
+        reason = "e is not identified, so predictions use the rigid-body value"
+        return Advice(specimen, "free-vibration", f"release from {LARGEST_RELEASE:g} α", False, reason)
+    names, angles = list(released), np.array(list(released.values()))
+    places = [list(pooled["test_id"].to_numpy()).index(name) for name in names]
+    advised = advise_free_vibration(
+        pooled["test_restitution"].to_numpy()[places],
+        pooled["test_restitution_standard_error"].to_numpy()[places],
+        angles,
+        wanted_half_width=wanted / 2,
+        largest_release=LARGEST_RELEASE,
+        level=float(pooled["level"]),
+    )
+    # One test shows nothing of the scatter between tests.
+    of = "1, for that record alone" if len(names) == 1 else str(len(names))
+    e, half = advised.pooled.value, advised.half_width
+    known = f"e {interval(e, e - half, e + half)} from {of}"
+    after = format_uncertain(advised.pooled.value, float(advised.predicted_half_width[0]))
+    limit = "the scatter between tests" if advised.limited_by == "scatter" else "the error of a single test"
+    return Advice(
+        specimen=specimen,
+        kind="free-vibration",
+        test=f"release from {number(abs(advised.release_ratio), 2)} α",  # the records keep no side
+        is_enough=advised.is_enough,
+        reason=known
+        + (", as narrow as wanted" if advised.is_enough else f"; one more test: about {after}; limited by {limit}"),
+        left=advised.needed,
+        values={
+            "restitution": advised.pooled.value,
+            "half_width": advised.half_width,
+            "half_width_after": float(advised.predicted_half_width[0]),
+            "release_ratio": abs(advised.release_ratio),
+        },
+    )
+
+
+def _released(pooled: xr.Dataset, tests: Mapping[str, TestSummary]) -> dict[str, float]:
+    """Give |θ|/α of the release of each free vibration whose e is pooled."""
+    names = [str(name) for name in pooled["test_id"].to_numpy()] if "test_id" in pooled else []
+    ratios = {name: tests[name].release_ratio or tests[name].peak_ratio for name in names if name in tests}
+    return {name: ratio for name, ratio in ratios.items() if ratio is not None and LAST_PEAK < ratio < 1.0}

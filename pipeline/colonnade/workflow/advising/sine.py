@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import atan, isfinite, pi, sin, tan
 
 import numpy as np
@@ -10,15 +10,12 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign
 from colonnade.dynamics.block import Block, pair
-from colonnade.dynamics.maps.chart import stability_map
-from colonnade.dynamics.models.registry import MODELS
-from colonnade.identification.advice.posterior import SineTests
-from colonnade.identification.advice.prior import BoundaryPrior
-from colonnade.identification.advice.sine import SineAdvice, advise_sine_tests
+from colonnade.dynamics.maps import stability_map
+from colonnade.dynamics.models import MODELS
+from colonnade.identification.boundary import SineAdvice, SineTests, advise_sine_tests
 from colonnade.identification.response.boundaries import SAME_FREQUENCY, MapPoint
 from colonnade.store.records.advice import Advice, beyond, demand_of_sine
-from colonnade.units import format_percent
-from colonnade.units.text import number, quantity
+from colonnade.units.text import format_percent, number, quantity
 
 AMPLITUDES = np.linspace(0.5, 8.0, 151)
 """A that are scanned for a predicted limit."""
@@ -64,7 +61,7 @@ def advise_sines(campaign: Campaign, specimen: str, known: Known) -> list[Advice
         tests,
         wanted_width=settings.boundary_width,
         largest_risk=settings.largest_risk,
-        prior=replace(BoundaryPrior(), common=settings.discrepancy),
+        discrepancy=settings.discrepancy,
     )
     with_limit = {
         place: _advice(campaign, specimen, float(ratios[place]), block, each, models[-1])
@@ -127,7 +124,7 @@ def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advis
     low, high = advised.boundary.interval
     known = (
         f"overturning begins between A {number(low)} and {number(high)} ({format_percent(0.9)}; {model} model: "
-        f"{number(advised.boundary.predicted)})"
+        f"{number(advised.boundary.tests.predicted)})"
     )
     again = f", and outcomes scatter: test {advised.repeats + 1} at this amplitude" if advised.repeats else ""
     return Advice(
@@ -137,17 +134,17 @@ def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advis
         is_enough=advised.is_enough,
         reason=known + (", as narrow as wanted" if advised.is_enough else again),
         risk=advised.risk,
-        left=0 if advised.is_enough else advised.left.median,
+        left=0 if advised.is_enough else advised.left,
         demand=demand,
         beyond=beyond(campaign.table, demand),
         values={
             "frequency": frequency,
             "frequency_ratio": ratio,
             "amplitude_ratio": advised.amplitude_ratio,
-            "boundary": advised.boundary.median,
+            "boundary": float(advised.boundary.quantiles(0.5)),
             "boundary_low": low,
             "boundary_high": high,
-            "predicted_boundary": advised.boundary.predicted,
+            "predicted_boundary": advised.boundary.tests.predicted,
             "bits": advised.information,
         },
     )

@@ -1,12 +1,36 @@
-"""Which files have been finished by whoever writes them, or taken away: they stay the same, or away, for a while."""
+"""
+Files that arrive: what happens in the watched folder, which files are finished or taken away, copies from a share.
+
+A file is finished, or gone, when it has stayed the same, or away, for a while. Finished files of a share are copied
+into the watched folder; nothing is overwritten.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import contextlib
+import os
+import shutil
+import threading
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from colonnade.campaign.found import files_in
+from colonnade.readers.files import sha256_of
 from colonnade.workflow.catalogue import Mark, mark_of
+
+POLL = 1.0
+"""Seconds between two looks at a folder without events."""
+
+REST = 5.0
+"""Seconds between two looks at a folder with events, in case one was lost."""
+
+REMOTE = ("nfs", "cifs", "smb", "9p", "sshfs", "fuse", "afs", "vboxsf", "drvfs", "virtiofs", "ceph", "gluster")
+"""Beginnings of kinds of file systems on which changes made elsewhere give no event."""
+
+UNFINISHED = ".partial"
+"""Ending of a copy until it is whole."""
 
 
 def marks_of(paths: Iterable[Path]) -> dict[Path, Mark]:
@@ -69,3 +93,129 @@ class Arrivals:
     def is_waiting(self) -> bool:
         """Whether a file has arrived or gone that has not settled."""
         return bool(self._since)
+
+
+@dataclass
+class Share:
+    """
+    A folder from which finished files are copied.
+
+    Attributes
+    ----------
+    source, target : Path
+        The share, and the watched folder.
+    arrivals : Arrivals
+        What is known of the files of the share.
+    """
+
+    source: Path
+    target: Path
+    arrivals: Arrivals
+    _said: set[str] = field(default_factory=set)
+
+    def copy_finished(self, now: float) -> Iterator[str]:
+        """Copy what has been finished since the last call; give a sentence on each file that could not be copied."""
+        names = {self.source / name: name for name in files_in(self.source)}
+        if not names and not self.source.is_dir():
+            yield from self._once(f"{self.source}: this folder cannot be seen. Is the share connected?")
+            return
+        for path in sorted(self.arrivals.look(marks_of(names), now) & names.keys()):
+            problem = _copy(path, self.target / names[path])
+            if problem:
+                yield from self._once(problem)
+
+    def _once(self, sentence: str) -> Iterator[str]:
+        if sentence not in self._said:
+            self._said.add(sentence)
+            yield sentence
+
+
+def _copy(source: Path, target: Path) -> str:
+    """Copy a file unless one of that name is there; return what is wrong."""
+    digest = sha256_of(source)
+    if digest is None:
+        return f"{source}: it cannot be read; it was not copied."
+    if target.exists():
+        same = sha256_of(target) == digest
+        return "" if same else f"{source}: {target.name} is there already and differs. It was kept; rename one of them."
+    partial = target.with_name(target.name + UNFINISHED)
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(source, partial)
+        if sha256_of(partial) != digest:
+            return f"{source}: the copy differs from it; it was not kept. Is the file still being written?"
+        os.link(partial, target)  # unlike a rename it never replaces a file
+    except FileExistsError:
+        return f"{source}: {target.name} appeared meanwhile; it was kept."
+    except OSError as error:
+        return f"{source}: it could not be copied ({error.strerror or error})."
+    finally:
+        partial.unlink(missing_ok=True)
+    return ""
+
+
+class Bell:
+    """Rings when something happens in a folder; with events it is waited for, without it is a pause."""
+
+    def __init__(self, *, has_events: bool) -> None:
+        self.has_events = has_events
+        self._rung = threading.Event()
+
+    def ring(self) -> None:
+        """Say that something happened."""
+        self._rung.set()
+
+    def wait(self, longest: float | None = None) -> None:
+        """Wait until something happened, or a look is due."""
+        due = REST if self.has_events else POLL
+        if self._rung.wait(due if longest is None else min(longest, due)):
+            self._rung.clear()
+
+
+@contextmanager
+def listening(folder: Path) -> Iterator[Bell]:
+    """Listen to a folder; where the system gives no events it is polled."""
+    if not folder.is_dir() or _is_remote(folder):
+        yield Bell(has_events=False)
+        return
+    from watchdog.events import FileSystemEvent, FileSystemEventHandler
+    from watchdog.observers import Observer
+
+    bell = Bell(has_events=True)
+
+    class Ringing(FileSystemEventHandler):
+        """Rings for what changes a file; reading one is no event."""
+
+        def on_any_event(self, event: FileSystemEvent) -> None:
+            if event.event_type not in ("opened", "closed_no_write"):
+                bell.ring()
+
+    observer = Observer()
+    try:
+        observer.schedule(Ringing(), str(folder), recursive=True)
+        observer.start()
+    except OSError:  # no watches left
+        yield Bell(has_events=False)
+        return
+    try:
+        yield bell
+    finally:
+        observer.stop()
+        with contextlib.suppress(RuntimeError):
+            observer.join(2.0)
+
+
+def _is_remote(folder: Path) -> bool:
+    """Whether a folder is on a file system of another machine, as far as the system says."""
+    try:
+        mounts = Path("/proc/mounts").read_text(encoding="utf-8", errors="replace").splitlines()
+        resolved = os.path.realpath(folder)
+    except OSError:
+        return False
+    best, kind = "", ""
+    for mount in mounts:
+        _, point, system, *_ = [*mount.split(" "), "", "", ""]
+        point = point.replace("\\040", " ")
+        if (resolved == point or resolved.startswith(point.rstrip("/") + "/")) and len(point) >= len(best):
+            best, kind = point, system
+    return kind.startswith(REMOTE)

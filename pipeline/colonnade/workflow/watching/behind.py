@@ -14,7 +14,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO
 
-from colonnade.workflow.execution.lock import is_refusal
+from colonnade.workflow import orphans
+from colonnade.workflow.lock import is_refusal
 
 NICENESS = 10
 """How far its priority is below that of the watch."""
@@ -77,12 +78,13 @@ class Behind:
     def start(self) -> None:
         """Begin a run."""
         self._output, self._complaints = (tempfile.TemporaryFile() for _ in range(2))  # noqa: SIM115 — `_end` closes
-        command = [sys.executable, "-m", f"{__package__}.led", "run", str(self.campaign_file), "--await", "--json"]
+        command = [sys.executable, "-m", orphans.__name__, str(os.getpid())]
+        command += ["run", str(self.campaign_file), "--await", "--json"]
         command += [] if self.results is None else ["--results", str(self.results)]
         command += [] if self.workers is None else ["--workers", str(self.workers)]
         options = {"process_group": 0} if os.name == "posix" else {"creationflags": _windows_flags()}
         self._process = subprocess.Popen(  # type: ignore[call-overload]
-            command, stdin=subprocess.PIPE, stdout=self._output, stderr=self._complaints, **options
+            command, stdin=subprocess.DEVNULL, stdout=self._output, stderr=self._complaints, **options
         )
         if os.name == "posix":
             with contextlib.suppress(OSError):
@@ -115,9 +117,7 @@ class Behind:
         assert self._process is not None
         assert self._output is not None
         assert self._complaints is not None
-        assert self._process.stdin is not None
         code = self._process.wait()
-        self._process.stdin.close()
         for stream in (self._output, self._complaints):
             stream.seek(0)
         said = self._complaints.read().decode(errors="replace").strip()

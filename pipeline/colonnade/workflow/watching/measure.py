@@ -1,37 +1,121 @@
-"""One test, as fast as it goes: measured, identified, predicted in the plane; the rest is left to a run."""
+"""One test, as fast as it goes: measured, identified, predicted in the plane; and the line that says what is known."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.forms.summary import TestSummary
+from colonnade.campaign.forms.summary import RestitutionSummary, TestSummary, Warned
 from colonnade.errors import StoreError
-from colonnade.findings import Finding
-from colonnade.identification.plausibility.since_last import ChannelState, changes
+from colonnade.findings import Finding, Severity, as_record
+from colonnade.identification.plausibility.transducers import ChannelState, changes
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.stability_map import as_map
 from colonnade.store.records.stored import Failure, Stored
 from colonnade.store.records.test import record_of_specimen, record_of_test
 from colonnade.store.results import ResultId
+from colonnade.units.text import interval, listed, number
 from colonnade.workflow.catalogue import Catalogue
-from colonnade.workflow.execution.lock import only_run
+from colonnade.workflow.graph import Graph
+from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import restitution_taken
 from colonnade.workflow.raw_files import raw_files
-from colonnade.workflow.steps import Graph
 from colonnade.workflow.walk import Walk
 from colonnade.workflow.watching.arrivals import last_change
-from colonnade.workflow.watching.line import Line
 
 if TYPE_CHECKING:
     import xarray as xr
 
 LIMITS = ("no_rocking", "lower", "upper")
+
+
+@dataclass(frozen=True)
+class Line:
+    """
+    What is known of a test that was just recorded.
+
+    Attributes
+    ----------
+    test : str
+        Its id.
+    record : TestSummary
+        As it will be in the summary, without what takes longer.
+    restitution : RestitutionSummary
+        The e of its specimen that is known so far.
+    limits : mapping of str to float
+        A of the limits of the specimen's map at the test's Ω: `no_rocking`, `lower`, `upper`; empty without a map.
+    changed : tuple of Finding
+        What is other than in the last test with the same set-up.
+    seconds : float
+        From the last change of its files to this line.
+    """
+
+    test: str
+    record: TestSummary
+    restitution: RestitutionSummary
+    limits: Mapping[str, float]
+    changed: tuple[Finding, ...]
+    seconds: float
+
+    def text(self) -> str:
+        """Write it for people."""
+        parts = [self._measured(), *self._predicted(), self._place(), self._restitution(), *self._warnings()]
+        return f"{self.test}: {'; '.join(filter(None, parts))} ({number(self.seconds, 2)} s)"
+
+    def as_json(self) -> dict[str, Any]:
+        """Give it for programs."""
+        return {
+            "test": self.test,
+            "seconds": round(self.seconds, 2),
+            **self.record.model_dump(mode="json"),
+            "specimen_restitution": self.restitution.model_dump(mode="json"),
+            "map_limits": dict(self.limits),
+            "changed": [as_record(each) for each in self.changed],
+        }
+
+    def _measured(self) -> str:
+        record = self.record
+        if record.status == "failed":
+            return f"failed: {record.reason}"
+        peak = "" if record.peak_ratio is None else f", peak {number(record.peak_ratio)} α"
+        return f"{record.outcome or 'no rocking angle'}{peak}"
+
+    def _predicted(self) -> list[str]:
+        known = {model: each for model, each in self.record.predicted.items() if each.outcome}
+        return [
+            f"{model}: {each.outcome}" + ("" if each.peak_ratio is None else f", peak {number(each.peak_ratio)} α")
+            for model, each in known.items()
+        ]
+
+    def _place(self) -> str:
+        ratio = self.record.amplitude_ratio
+        if ratio is None or self.record.frequency_ratio is None:
+            return ""
+        place = f"Ω {number(self.record.frequency_ratio)}, A {number(ratio)}"
+        lower = self.limits.get("lower")
+        return f"{place} (overturns from A {number(lower)} by the map)" if lower is not None else place
+
+    def _restitution(self) -> str:
+        found, own = self.restitution, self.record.restitution
+        if own is None:
+            return ""
+        this = f"e {interval(own.value, own.low, own.high, found.level)}" if own.value is not None else "no e"
+        why = f" ({own.reason})" if own.value is None and own.reason else ""
+        value = found.value if not isinstance(found.value, tuple) else sum(found.value) / len(found.value)
+        so_far = interval(value, found.low, found.high, found.level)
+        return f"{this}{why}; {self.record.specimen} so far e {so_far} of {len(found.tests)}"
+
+    def _warnings(self) -> list[str]:
+        worst: list[Finding | Warned] = [*self.changed]
+        worst += [each for each in self.record.warnings if each.severity is not Severity.NOTE and not each.explained]
+        shown = [f"{each.severity}: {each.text.rstrip('.')}" for each in worst[:2]]
+        return [*shown, f"and {listed([each.kind for each in worst[2:]])}"] if len(worst) > 2 else shown
 
 
 def measure(campaign: Campaign, layout: Layout, name: str, finished: float) -> Line:
@@ -56,20 +140,20 @@ def measure(campaign: Campaign, layout: Layout, name: str, finished: float) -> L
     with only_run(layout) as run_id:
         catalogue = Catalogue(layout)
         raw = {name: raw_files(campaign, test, catalogue)}
-        walk = Walk(Graph(campaign, layout, catalogue), run_id, raw, until="predict", workers=1)
+        walk = Walk(Graph(campaign, layout, catalogue, raw), run_id, until="predict", workers=1)
         made = walk.at_once(name)
         catalogue.save(is_whole=False)
     stored = Stored()
     for result in made:
         stored.add(result, layout.path(result))
-    if reason := walk.failed_tests.get(name, ""):
+    if reason := walk.failed["test"].get(name, ""):
         stored.failures = stored.failures or [Failure("", reason)]
     else:
         _compare(campaign, test, stored)
     record = record_of_test(campaign, test, stored)
     pooled = restitution_taken(campaign, layout, test.specimen)
     known = record_of_specimen(campaign, test.specimen, pooled).restitution
-    changed = () if walk.failed_tests else tuple(_changes(campaign, layout, test))
+    changed = () if walk.failed["test"] else tuple(_changes(campaign, layout, test))
     return Line(name, record, known, _limits(layout, test.specimen, record), changed, time.time() - finished)
 
 
@@ -77,7 +161,7 @@ def measured(campaign: Campaign, layout: Layout) -> set[str]:
     """Give the tests that nothing has to be measured of: their results are up to date, or they are left out."""
     catalogue = Catalogue(layout)
     raw = {test.id: raw_files(campaign, test, catalogue) for test in campaign.tests.values()}
-    walk = Walk(Graph(campaign, layout, catalogue), "", raw)
+    walk = Walk(Graph(campaign, layout, catalogue, raw), "")
     return set(campaign.tests) - walk.stale("measuring").keys()
 
 

@@ -20,15 +20,11 @@ from colonnade.report.interactive.state import EVERY
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.workflow.advising.next import advise_after
-from colonnade.workflow.execution.lock import is_refusal, only_watch
-from colonnade.workflow.watching.arrivals import Arrivals, last_change, marks_of
+from colonnade.workflow.lock import is_refusal, only_watch
+from colonnade.workflow.watching.arrivals import Arrivals, Bell, Share, last_change, listening, marks_of
 from colonnade.workflow.watching.behind import Behind
-from colonnade.workflow.watching.folders import Bell, listening
-from colonnade.workflow.watching.line import Line
-from colonnade.workflow.watching.measure import measure, measured
-from colonnade.workflow.watching.notify import notify
-from colonnade.workflow.watching.share import Share
-from colonnade.workflow.watching.state import shown_now, write_state
+from colonnade.workflow.watching.measure import Line, measure, measured
+from colonnade.workflow.watching.told import notify, shown_now, write_state
 
 TEXTS = ("review.toml", "tests.csv", "tests.xlsx")
 """Files next to the campaign file that people change while it is watched."""

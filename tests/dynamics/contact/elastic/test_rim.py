@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
+from colonnade.dynamics.contact.body import rigid_body
 from colonnade.dynamics.contact.elastic.model import meshed_body
 from colonnade.dynamics.contact.elastic.reduction import reduce_body
 from colonnade.dynamics.contact.elastic.rim import refine_rim
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.modes import keep_modes
-from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 
 GRAVITY = 9.81

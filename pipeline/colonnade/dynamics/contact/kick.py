@@ -1,0 +1,212 @@
+"""
+Kick: the contact's impulse in the middle of a step, by the law of contact at each point.
+
+The force is that at the mean of the velocities before and after the impulse, found in a few passes over all bodies. A
+point's normal force is the mean over the step of what its depth, linear in time, gives: contact that begins or ends
+within a step counts for the part of the step that it lasts.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from colonnade.arrays import Array
+from colonnade.dynamics.contact.state import Near, State, System
+from colonnade.dynamics.contact.touch import fill_twists
+from colonnade.dynamics.kernel import kernel_in_place
+
+PASSES = 3
+"""Evaluations of the contact forces in one step, each with the mean velocity that the one before leads to."""
+
+
+@kernel_in_place
+def kick(system: System, state: State, near: Near, step: float) -> None:
+    """Take the contact's impulse on all bodies, and book it."""
+    mass, rigid, matrix, listed, load = system.mass, state.rigid, state.matrix, near.listed, near.load
+    change, total, gain, rates, sides = near.change, near.total, near.gain, near.rates, system.carrier.size
+    strain, force, begins, touched = state.strain, state.force, system.sides, state.touched
+    slots, pull = near.slot, near.pull
+    change[:, :], gain[:], total[:, :], force[:, :] = 0.0, 0.0, 0.0, 0.0
+    if listed[sides] == 0:
+        return
+    for turn in range(PASSES + 1):
+        # Means of the velocities before and after the impulse found so far: of bodies, modes and points.
+        if turn > 0:
+            fill_twists(system, state, near, 0.5)
+        for mode in range(gain.size):
+            rates[mode] = strain[1, mode] + 0.5 * gain[mode]
+        for side in range(sides):
+            _fill_velocities(system, near, side)
+        if turn == 0:
+            # The slip's increase since the last kick; a point that just arrives has none. Free of contact, the mean
+            # velocity since then was less than the present one by what the table's acceleration gives in half a step.
+            for side in range(sides):
+                half = 0.5 * step if system.target[side] < 0 else 0.0
+                for index in range(listed[side], listed[side + 1]):
+                    first = 0.0 if touched[slots[index]] == 0 else step
+                    load[index, 12] = first * (load[index, 9] - half * pull[0])
+                    load[index, 13] = first * (load[index, 10] - half * pull[1])
+        if turn == PASSES:
+            # The last turn only gives the mean velocities that the ledger needs.
+            break
+        # The forces at these velocities, and what their impulse changes.
+        total[:, :], gain[:], force[:, :] = 0.0, 0.0, 0.0
+        for joint in range(force.shape[0]):
+            for side in range(begins[joint], begins[joint + 1]):
+                _fill_forces(system, state, near, side, step)
+                _add_forces(system, state, near, joint, side, step)
+        for body in range(mass.size):
+            for axis in range(3):
+                change[body, axis] = step * total[body, axis] / mass[body]
+                change[body, 3 + axis] = 0.0
+                for other in range(3):
+                    change[body, 3 + axis] += step * matrix[body, other, axis] * total[body, 3 + other]
+    for body in range(mass.size):
+        for axis in range(3):
+            rigid[body, 3 + axis] += change[body, axis]
+            rigid[body, 10 + axis] += change[body, 3 + axis]
+    for mode in range(gain.size):
+        strain[1, mode] += gain[mode]
+    for side in range(sides):
+        _settle(system, state, near, side, step)
+
+
+@kernel_in_place
+def _fill_velocities(system: System, near: Near, side: int) -> None:
+    """Fill the velocities of an interface's points relative to the target, v + ω × r + R Φ η̇."""
+    rates, modes, turned, lever, load, twist = near.rates, system.modes, near.turned, near.lever, near.load, near.twist
+    listed, nodes = near.listed, near.node
+    u, v, w, p, q, r = twist[side, 0], twist[side, 1], twist[side, 2], twist[side, 3], twist[side, 4], twist[side, 5]
+    for index in range(listed[side], listed[side + 1]):
+        x, y, z = lever[index, 0], lever[index, 1], lever[index, 2]
+        load[index, 9], load[index, 10], load[index, 11] = u + q * z - r * y, v + r * x - p * z, w + p * y - q * x
+        for own in range(3 if rates.size > 0 else 0):
+            # The modes' own velocity, turned from the body's axes to the table's.
+            speed = 0.0
+            for mode in range(rates.size):
+                speed += modes[nodes[index], own, mode] * rates[mode]
+            for axis in range(3):
+                load[index, 9 + axis] += turned[side, axis, own] * speed
+
+
+@kernel_in_place
+def _fill_forces(system: System, state: State, near: Near, side: int, step: float) -> None:
+    """Fill the forces of an interface's points by the law of contact, and what becomes of their slip."""
+    load, depths, contact, slip, listed = near.load, near.depth, system.contact, state.slip, near.listed
+    nodes, slots, shares, friction = near.node, near.slot, near.share, system.friction[side]
+    for index in range(listed[side], listed[side + 1]):
+        node, slot, share, depth = nodes[index], slots[index], shares[index], depths[index]
+        # Normal: the part of the step that the point is in contact, and the mean depth times that part.
+        sinking = -load[index, 11] * step
+        high, part, mean = depth + 0.5 * abs(sinking), 1.0, depth
+        if high <= 0.0:
+            part, mean = 0.0, 0.0
+        elif high < abs(sinking):
+            part = high / abs(sinking)
+            mean = 0.5 * part * high
+        elastic = share * contact[node, 0] * mean
+        normal = max(0.0, elastic - part * share * contact[node, 1] * load[index, 11])
+        limit = friction * normal if normal > 0.0 else 0.0
+        # The slip of before, as far as this normal force still holds it.
+        stiffness, x, y = share * contact[node, 2], slip[slot, 0], slip[slot, 1]
+        held = stiffness**2 * (x**2 + y**2)
+        if held > limit**2:
+            keep = limit / sqrt(held)
+            x, y = keep * x, keep * y
+        load[index, 7], load[index, 8] = x, y
+        # The slip after the step; beyond the limit of friction the point slides.
+        x, y = x + load[index, 12], y + load[index, 13]
+        stretched, sticks = stiffness**2 * (x**2 + y**2), 1.0
+        if stretched > limit**2:
+            keep, sticks = limit / sqrt(stretched), 0.0
+            x, y = keep * x, keep * y
+        along, across = -stiffness * x, -stiffness * y
+        # A point that sticks is damped, up to the limit.
+        if sticks == 1.0:
+            along -= share * contact[node, 3] * load[index, 9]
+            across -= share * contact[node, 3] * load[index, 10]
+            pulled = along**2 + across**2
+            if pulled > limit**2:
+                keep = limit / sqrt(pulled)
+                along, across = keep * along, keep * across
+        load[index, 0], load[index, 1], load[index, 2], load[index, 3] = along, across, normal, elastic
+        load[index, 4], load[index, 5], load[index, 6] = x, y, sticks
+
+
+@kernel_in_place
+def _add_forces(system: System, state: State, near: Near, joint: int, side: int, step: float) -> None:
+    """Add the forces of an interface's points and their moments to its bodies, equal and opposite, and to the modes."""
+    load, lever, frame, total, listed, rigid = near.load, near.lever, near.frame, near.total, near.listed, state.rigid
+    gain, turned, modes, nodes, force = near.gain, near.turned, system.modes, near.node, state.force
+    upper, lower, flip = system.carrier[side], system.target[side], system.flip[side]
+    u, v, w, p, q, r = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for index in range(listed[side], listed[side + 1]):
+        x, y, z = load[index, 0], load[index, 1], load[index, 2]
+        u, v, w = u + x, v + y, w + z
+        p += lever[index, 1] * z - lever[index, 2] * y
+        q += lever[index, 2] * x - lever[index, 0] * z
+        r += lever[index, 0] * y - lever[index, 1] * x
+        for own in range(3 if gain.size > 0 else 0):
+            impulse = step * (turned[side, 0, own] * x + turned[side, 1, own] * y + turned[side, 2, own] * z)
+            for mode in range(gain.size):
+                gain[mode] += modes[nodes[index], own, mode] * impulse
+    if lower >= 0:
+        u, v, w = _turned(frame, side, u, v, w)
+        p, q, r = _turned(frame, side, p, q, r)
+        x, y, z = (
+            rigid[upper, 0] - rigid[lower, 0],
+            rigid[upper, 1] - rigid[lower, 1],
+            rigid[upper, 2] - rigid[lower, 2],
+        )
+        _add(total, lower, -u, -v, -w, y * w - z * v + p, z * u - x * w + q, x * v - y * u + r, -1.0)
+    _add(total, upper, u, v, w, p, q, r, 1.0)
+    force[joint, 0] += flip * u
+    force[joint, 1] += flip * v
+    force[joint, 2] += flip * w
+
+
+@kernel_in_place
+def _turned(frame: Array, side: int, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Turn a vector from the axes of an interface's target to the table's."""
+    return (
+        frame[side, 0, 0] * x + frame[side, 0, 1] * y + frame[side, 0, 2] * z,
+        frame[side, 1, 0] * x + frame[side, 1, 1] * y + frame[side, 1, 2] * z,
+        frame[side, 2, 0] * x + frame[side, 2, 1] * y + frame[side, 2, 2] * z,
+    )
+
+
+@kernel_in_place
+def _add(total: Array, body: int, u: float, v: float, w: float, p: float, q: float, r: float, sign: float) -> None:
+    """Add a force, and a moment with its sign, to those of a body."""
+    total[body, 0] += u
+    total[body, 1] += v
+    total[body, 2] += w
+    total[body, 3] += sign * p
+    total[body, 4] += sign * q
+    total[body, 5] += sign * r
+
+
+@kernel_in_place
+def _settle(system: System, state: State, near: Near, side: int, step: float) -> None:
+    """Book what the contact of an interface took, and keep the slip."""
+    slip, lost, load, slots, nodes = state.slip, state.lost, near.load, near.slot, near.node
+    contact, share, listed, touched = system.contact, near.share, near.listed, state.touched
+    for index in range(listed[side], listed[side + 1]):
+        slot = slots[index]
+        stiffness = share[index] * contact[nodes[index], 2]
+        half = 0.5 * stiffness
+        # Normal damping; and the energy of the slip that the normal force held no longer, which friction took.
+        lost[side, 0] += step * (load[index, 3] - load[index, 2]) * load[index, 11]
+        held = half * (load[index, 7] ** 2 + load[index, 8] ** 2)
+        lost[side, 1] += half * (slip[slot, 0] ** 2 + slip[slot, 1] ** 2) - held
+        if load[index, 6] == 1.0:
+            # It sticks: what its damper took.
+            for axis in range(2):
+                damping = load[index, axis] + stiffness * load[index, 4 + axis]
+                lost[side, 0] -= step * damping * load[index, 9 + axis]
+        else:
+            # It slides: the work of the force, less what the spring gained.
+            lost[side, 1] -= step * (load[index, 0] * load[index, 9] + load[index, 1] * load[index, 10])
+            lost[side, 1] += held - half * (load[index, 4] ** 2 + load[index, 5] ** 2)
+        slip[slot, 0], slip[slot, 1] = load[index, 4], load[index, 5]
+        touched[slot] = 1 if load[index, 3] > 0.0 else 0

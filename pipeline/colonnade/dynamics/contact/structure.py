@@ -1,0 +1,283 @@
+"""Bodies and the interfaces between them, as the engine takes them: one body on the table, or an assembly."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.arrays import Array, Mask
+from colonnade.dynamics.assembly import Assembly, Placed, carried, supports
+from colonnade.dynamics.contact.body import (
+    GRID,
+    RINGS,
+    ContactBody,
+    Nodes,
+    grid_nodes,
+    propagators,
+    rigid_body,
+    round_nodes,
+)
+from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.state import POINTS, TABLE, System
+from colonnade.dynamics.contact.touch import inside
+
+BAND = 2e-3
+"""Of the smaller half length of two faces: the width in which a node fades at the edge of the other face."""
+
+SLIDES = 1.5
+"""Of the half widths of the other face: an edge that is further off its middle at rest does not slide onto it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Interface(Nodes):
+    """
+    Nodes of one body against a face of another, or against the table.
+
+    Attributes
+    ----------
+    carrier, target : int
+        Of the bodies; the target may be `TABLE`.
+    law : ContactLaw
+        With its stiffness.
+    flip : float
+        −1 for nodes of the body below against the base of the one above, which look at it from the other side.
+    face : float
+        Height of the target's face over its centre of mass, out of that face, m.
+    outline : tuple of float
+        Half lengths of the face along x and y, m, the width of the band in which a node fades at its edge, and 1 if it
+        is a circle.
+    apart : tuple of float
+        From the target's centre of mass to the carrier's at rest, m.
+    """
+
+    carrier: int = 0
+    target: int = TABLE
+    law: ContactLaw
+    flip: float = 1.0
+    face: float = 0.0
+    outline: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    apart: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Structure:
+    """
+    What a run is made of.
+
+    Attributes
+    ----------
+    gravity : float
+        m/s².
+    bodies : list of ContactBody
+        Their mass and inertia, and on the table their nodes.
+    joints : list of list of Interface
+        Where one body stands on another or on the table: its nodes on what is below, and the nodes of that on its base.
+    poles : list of tuple
+        Of each joint, in the upper body's axes, m: the middle of the contact along x, its half width, and how far the
+        base is below the centre of mass.
+    loads : list of float
+        What each joint bears at rest, N.
+    points : int, optional
+        At which the arc of a ring is integrated.
+    """
+
+    gravity: float
+    bodies: list[ContactBody]
+    joints: list[list[Interface]]
+    poles: list[tuple[float, float, float]]
+    loads: list[float]
+    points: int = POINTS
+    interfaces: list[Interface] = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "interfaces", [side for joint in self.joints for side in joint])
+
+    @classmethod
+    def of_body(cls, body: ContactBody, law: ContactLaw, gravity: float) -> Structure:
+        """Let one body stand on the table."""
+        law = law.under(body.mass * gravity / float(body.node_area.sum()), body.height)
+        side = _on_table(body, 0, law)
+        poles = (0.0, body.half_width, body.height)
+        return cls(gravity=gravity, bodies=[body], joints=[[side]], poles=[poles], loads=[body.mass * gravity])
+
+    @classmethod
+    def of_assembly(
+        cls,
+        assembly: Assembly,
+        law: ContactLaw,
+        *,
+        grid: tuple[int, int] = GRID,
+        rings: tuple[int, int | None] = RINGS,
+        points: int = POINTS,
+    ) -> Structure:
+        """Let the bodies of an assembly stand on each other, with nodes as `rigid_body` places them."""
+        numbers = {name: number for number, name in enumerate(assembly.bodies)}
+        bodies = [rigid_body(placed.block, grid=grid, rings=rings) for placed in assembly.bodies.values()]
+        joints, poles, loads = [], [], []
+        for (name, placed), body in zip(assembly.bodies.items(), bodies, strict=True):
+            mass, height = carried(assembly, name)
+            for below, share in (supports(assembly, name) or {"": 1.0}).items():
+                loads.append(mass * share * assembly.gravity)
+                if below:
+                    patch = _Patch(placed, assembly.bodies[below], grid, rings)
+                    sides, area = patch.sides(numbers[name], numbers[below], share * body.mass, law)
+                    middle, half = patch.across
+                else:
+                    sides, area = [_on_table(body, numbers[name], law)], float(body.node_area.sum())
+                    middle, half = 0.0, body.half_width
+                poles.append((middle, half, body.height))
+                joints.append([replace(side, law=law.under(loads[-1] / area, height)) for side in sides])
+        return cls(gravity=assembly.gravity, bodies=bodies, joints=joints, poles=poles, loads=loads, points=points)
+
+    def system(self, step: float, lowest: Array) -> System:
+        """Give the engine's arrays for a step, s, and the heights below which bodies have fallen, m."""
+        sides = self.interfaces
+        radii = np.concatenate([side.ring_radii for side in sides])
+        nodes = np.concatenate([side.nodes for side in sides])
+        first = self.bodies[0]
+        modes = first.modes if first.frequencies.size else np.zeros((len(nodes), 3, 0))
+        return System(
+            float(self.gravity),
+            np.array([body.mass for body in self.bodies]),
+            np.array([body.inertia for body in self.bodies]),
+            lowest,
+            np.array([side.carrier for side in sides]),
+            np.array([side.target for side in sides]),
+            np.array([side.flip for side in sides]),
+            np.array([side.face for side in sides]),
+            np.array([side.outline for side in sides]),
+            np.array([side.law.friction for side in sides], dtype=np.float64),
+            _begins([len(side.nodes) for side in sides]),
+            np.array([np.sqrt((side.nodes**2).sum(axis=1)).max(initial=0.0) for side in sides]),
+            np.ascontiguousarray(nodes),
+            radii,
+            _begins(np.where(radii > 0.0, self.points, 1)),
+            np.concatenate([_contact(side) for side in sides]),
+            np.array(np.polynomial.legendre.leggauss(self.points)),
+            _begins([len(joint) for joint in self.joints]),
+            np.array(self.poles),
+            np.ascontiguousarray(modes),
+            first.frequencies,
+            propagators(first, 0.5 * step),
+            float(np.sqrt((modes**2).sum(axis=(1, 2)).max(initial=0.0))),
+        )
+
+
+class _Patch:
+    """Where a block stands on another: nodes of each on the face of the other, in the upper one's axes."""
+
+    def __init__(self, upper: Placed, lower: Placed, grid: tuple[int, int], rings: tuple[int, int | None]) -> None:
+        above, below = upper.block.solid, lower.block.solid
+        if above is None or below is None:
+            raise ValueError("A block of unknown depth stands on another; one from its dimensions was expected")
+        self._rings, self._grid = rings, grid
+        self._offset = np.subtract(lower.position, upper.position)
+        self._sizes = np.array([[upper.block.governing.half_width, above.half_depth], below.top])
+        self._round = above.base == "circle", below.base == "circle"
+        self._depths = -upper.centre_height, below.height - lower.centre_height
+        self._low = np.maximum(-self._sizes[0], self._offset - self._sizes[1])
+        self._high = np.minimum(self._sizes[0], self._offset + self._sizes[1])
+
+    @property
+    def across(self) -> tuple[float, float]:
+        """Middle of the patch along x in the upper body's axes, and its half width, m."""
+        return 0.5 * float(self._low[0] + self._high[0]), 0.5 * float(self._high[0] - self._low[0])
+
+    def sides(self, upper: int, lower: int, mass: float, law: ContactLaw) -> tuple[list[Interface], float]:
+        """Give the nodes of the upper body on the lower one's top, those of that on the upper one's base; the area."""
+        reach, band = self._high - self._low, BAND * float(self._sizes.min())
+        lower_fits = bool(np.allclose(reach, 2.0 * self._sizes[1], rtol=1e-6))
+        upper_fits = bool(np.allclose(reach, 2.0 * self._sizes[0], rtol=1e-6))
+        middle = 0.5 * (self._low + self._high)
+        places, area = grid_nodes(-0.5 * reach[0], 0.5 * reach[0], 0.5 * reach[1], *self._grid)
+        places = places + middle
+        on_upper, on_lower = self._at_edge(places, 0), self._at_edge(places, 1)
+        # A node within the patch is the one's whose face is the patch; one at an edge is whose edge it is, or of both.
+        own = on_upper | ~(on_lower | lower_fits), on_lower | (lower_fits & ~on_upper)
+        found: list[Interface] = []
+        for which, fits in enumerate((upper_fits, lower_fits)):
+            origin = which * self._offset
+            nodes, areas, radii = places[own[which]] - origin, area[own[which]], np.zeros(int(own[which].sum()))
+            if self._round[which]:
+                nodes, areas = round_nodes(float(self._sizes[which, 0]), *self._rings)
+                radii = nodes[:, 0] if self._rings[1] is None else np.zeros(len(nodes))
+                if not fits or (which == 1 and upper_fits):
+                    rim = np.hypot(*nodes.T) > (1.0 - 1e-9) * self._sizes[which, 0]
+                    nodes, areas, radii = nodes[rim], areas[rim], radii[rim]
+            elif which == 1 and self._round[0] and upper_fits:
+                nodes, areas = grid_nodes(-self._sizes[1, 0], self._sizes[1, 0], self._sizes[1, 1], *self._grid)
+                edge = self._at_edge(nodes + self._offset, 1)
+                nodes, areas, radii = nodes[edge], areas[edge], np.zeros(int(edge.sum()))
+            elif not any(self._round):
+                more, more_area = self._edges_off(which)
+                nodes, areas = np.concatenate((nodes, more - origin)), np.concatenate((areas, more_area))
+                radii = np.zeros(len(nodes))
+            outline = (*self._sizes[1 - which], band, float(self._round[1 - which]))
+            heights = np.full(len(nodes), self._depths[which])
+            found.append(
+                Interface(
+                    nodes=np.column_stack((nodes, heights)),
+                    node_mass=areas,
+                    node_area=areas,
+                    ring_radii=radii,
+                    carrier=(upper, lower)[which],
+                    target=(lower, upper)[which],
+                    law=law,
+                    flip=1.0 - 2.0 * which,
+                    face=(self._depths[1], -self._depths[0])[which],
+                    outline=outline,
+                    apart=tuple((2.0 * which - 1.0) * np.append(self._offset, self._depths[0] - self._depths[1])),
+                )
+            )
+        total = sum(float(side.node_area @ on_face(side)) for side in found)
+        return [replace(side, node_mass=mass * side.node_area / total) for side in found], total
+
+    def _edges_off(self, which: int) -> tuple[Array, Array]:
+        """Give the nodes of a rectangular face's edges that bear only once it has slid onto the other, and areas."""
+        half_x, half_y = self._sizes[which]
+        nodes, areas = grid_nodes(-half_x, half_x, half_y, *self._grid)
+        places = nodes + which * self._offset
+        beyond = (np.abs(places - (1 - which) * self._offset) / self._sizes[1 - which]).max(axis=1)
+        kept = self._at_edge(places, which) & (beyond > 1.0 + 1e-6) & (beyond < SLIDES)
+        return places[kept], areas[kept]
+
+    def _at_edge(self, places: Array, which: int) -> Mask:
+        """Say which places are at the edge of a rectangular face, the upper's (0) or the lower's (1)."""
+        if self._round[which]:
+            return np.zeros(len(places), dtype=bool)
+        inside = self._sizes[which] - np.abs(places - which * self._offset)
+        return np.asarray(inside.min(axis=1) < 1e-6 * self._sizes.min())
+
+
+def on_face(side: Interface) -> Array:
+    """Give how much of each node is on the target's face at rest, shape (n,), of a ring in the mean over its circle."""
+    if side.target == TABLE:
+        return np.ones(len(side.nodes))
+    turns = 2.0 * np.pi * (np.arange(64) + 0.5) / 64
+    circle = np.column_stack((np.cos(turns), np.sin(turns)))
+    middles = side.nodes[:, :2] - np.column_stack((side.ring_radii, np.zeros(len(side.nodes)))) + side.apart[:2]
+    places = middles[:, None] + side.ring_radii[:, None, None] * circle
+    return np.array([np.mean([inside(*side.outline, x, y) for x, y in around]) for around in places])
+
+
+def _on_table(body: ContactBody, carrier: int, law: ContactLaw) -> Interface:
+    return Interface(
+        nodes=body.nodes,
+        node_mass=body.node_mass,
+        node_area=body.node_area,
+        ring_radii=body.ring_radii,
+        carrier=carrier,
+        law=law,
+    )
+
+
+def _begins(counts: Sequence[int] | NDArray[np.int64]) -> NDArray[np.int64]:
+    return np.concatenate(([0], np.cumsum(counts))).astype(np.int64)
+
+
+def _contact(side: Interface) -> Array:
+    normal, damping = side.law.node_stiffness(side), side.law.node_damping(side)
+    return np.column_stack((normal, damping, side.law.tangential_ratio * normal, side.law.tangential_damping * damping))

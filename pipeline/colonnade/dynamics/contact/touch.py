@@ -1,0 +1,278 @@
+"""
+Which points may touch within a step, and how deep they are: nodes, and rings with the arcs along which they touch.
+
+Everything about an interface is in the axes of its target, with z out of the target's face: a point of the carrier is
+in contact where its z is negative, within the face's outline. At the outline a node fades over a narrow band, in which
+a node of the other body at the same place, which looks at it from the other side, comes in its place. A point that
+comes over the outline from below bears from there on only: bodies that were beside each other do not burst apart.
+
+A ring of radius r, tilted by an angle of sine σ, has the depth d − r σ (1 − cos φ) at φ from its lowest point, which is
+d deep: it touches along an arc of 1 − cos φ < d / (r σ), or all around. That arc is integrated by Gauss and Legendre at
+points that move with it, so that nothing depends on how the body is turned about its axis; the points' elastic slip
+stays with the material of the body.
+"""
+
+from __future__ import annotations
+
+from math import asin, atan2, cos, floor, pi, sin, sqrt
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.dynamics.contact.state import Near, State, System
+from colonnade.dynamics.kernel import kernel_in_place
+
+DEEPEST = 1e-4
+"""Of a face's half width: a point that comes over its outline may be as deep, as one is that bears the other body."""
+
+
+@kernel_in_place
+def fill_poses(system: System, state: State, near: Near) -> None:
+    """Fill where each carrier is in the axes of its target."""
+    rigid, matrix, target, carrier, flip = state.rigid, state.matrix, system.target, system.carrier, system.flip
+    frame, turned, apart, face = near.frame, near.turned, near.apart, system.face
+    for side in range(carrier.size):
+        upper, lower = carrier[side], target[side]
+        if lower < 0:
+            for row in range(3):
+                apart[side, row] = rigid[upper, row]
+                for column in range(3):
+                    turned[side, row, column] = matrix[upper, row, column]
+        else:
+            for row in range(3):
+                for column in range(3):
+                    frame[side, row, column] = matrix[lower, row, column] * (flip[side] if column > 0 else 1.0)
+            for row in range(3):
+                apart[side, row] = -face[side] if row == 2 else 0.0
+                for axis in range(3):
+                    apart[side, row] += frame[side, axis, row] * (rigid[upper, axis] - rigid[lower, axis])
+                for column in range(3):
+                    turned[side, row, column] = 0.0
+                    for axis in range(3):
+                        turned[side, row, column] += frame[side, axis, row] * matrix[upper, axis, column]
+
+
+@kernel_in_place
+def fill_twists(system: System, state: State, near: Near, share: float) -> None:
+    """Fill the velocities of bodies, a share of the change by the kick later, and of carriers relative to targets."""
+    rigid, matrix, inertia = state.rigid, state.matrix, system.inertia
+    speeds, change, twist, frame = near.speeds, near.change, near.twist, near.frame
+    carrier, target = system.carrier, system.target
+    for body in range(rigid.shape[0]):
+        for axis in range(3):
+            speeds[body, axis] = rigid[body, 3 + axis] + share * change[body, axis]
+            speeds[body, 3 + axis] = 0.0
+            for own in range(3):
+                turning = (rigid[body, 10 + own] + share * change[body, 3 + own]) / inertia[body, own]
+                speeds[body, 3 + axis] += matrix[body, axis, own] * turning
+    for side in range(carrier.size):
+        upper, lower = carrier[side], target[side]
+        if lower < 0:
+            for axis in range(6):
+                twist[side, axis] = speeds[upper, axis]
+        else:
+            x, y = rigid[upper, 0] - rigid[lower, 0], rigid[upper, 1] - rigid[lower, 1]
+            z = rigid[upper, 2] - rigid[lower, 2]
+            p, q, r = speeds[lower, 3], speeds[lower, 4], speeds[lower, 5]
+            u = speeds[upper, 0] - speeds[lower, 0] - (q * z - r * y)
+            v = speeds[upper, 1] - speeds[lower, 1] - (r * x - p * z)
+            w = speeds[upper, 2] - speeds[lower, 2] - (p * y - q * x)
+            p, q, r = speeds[upper, 3] - p, speeds[upper, 4] - q, speeds[upper, 5] - r
+            for axis in range(3):
+                a, b, c = frame[side, 0, axis], frame[side, 1, axis], frame[side, 2, axis]
+                twist[side, axis] = a * u + b * v + c * w
+                twist[side, 3 + axis] = a * p + b * q + c * r
+
+
+@kernel_in_place
+def place(system: System, state: State, near: Near, flutter: float, step: float) -> None:
+    """List the points that may touch within `step`, interface by interface."""
+    listed, twist, carrier, target, stands = near.listed, near.twist, system.carrier, system.target, state.stands
+    first, radii, reach = system.first, system.radii, system.reach
+    count = 0
+    for side in range(target.size):
+        listed[side] = count
+        if stands[carrier[side]] == 1 and (target[side] < 0 or stands[target[side]] == 1):
+            # A node that is higher than the fastest one moves in a step neither touched before nor does now.
+            fastest = reach[side] * (abs(twist[side, 3]) + abs(twist[side, 4]) + abs(twist[side, 5]))
+            margin = step * (abs(twist[side, 2]) + system.bend * flutter + fastest)
+            count = _place_points(system, state, near, side, count, margin)
+            for node in range(first[side], first[side + 1]):
+                if radii[node] > 0.0:
+                    count = _place_ring(system, state, near, side, node, count, step)
+    listed[target.size] = count
+
+
+@kernel_in_place
+def _place_points(system: System, state: State, near: Near, side: int, count: int, margin: float) -> int:
+    """Add the point nodes of an interface that are lower than `margin` to the `count` points that are listed."""
+    turned, apart, nodes, radii, first = near.turned, near.apart, system.nodes, system.radii, system.first
+    modes, strain, slots = system.modes, state.strain, system.slots
+    for node in range(first[side], first[side + 1]):
+        # Where the node is in the body's axes, as the modes displace it.
+        x, y, z = nodes[node, 0], nodes[node, 1], nodes[node, 2]
+        for mode in range(strain.shape[1]):
+            x += modes[node, 0, mode] * strain[0, mode]
+            y += modes[node, 1, mode] * strain[0, mode]
+            z += modes[node, 2, mode] * strain[0, mode]
+        above = turned[side, 2, 0] * x + turned[side, 2, 1] * y + turned[side, 2, 2] * z
+        if apart[side, 2] + above < margin and radii[node] == 0.0:
+            share = _put(system, near, side, count, x, y, z)
+            count = _list(state, near, count, node, slots[node], share, DEEPEST * system.outline[side, 0])
+    return count
+
+
+@kernel_in_place
+def _put(system: System, near: Near, side: int, row: int, x: float, y: float, z: float) -> float:
+    """Fill the lever and depth of a point at (x, y, z) in the carrier's axes; return how much of it is on the face."""
+    lever, turned, apart, depth, outline = near.lever, near.turned, near.apart, near.depth, system.outline
+    for axis in range(3):
+        lever[row, axis] = turned[side, axis, 0] * x + turned[side, axis, 1] * y + turned[side, axis, 2] * z
+    lever[row, 3], lever[row, 4], lever[row, 5] = x, y, z
+    depth[row] = -(apart[side, 2] + lever[row, 2])
+    x, y = apart[side, 0] + lever[row, 0], apart[side, 1] + lever[row, 1]
+    half_x, half_y, band, is_round = outline[side, 0], outline[side, 1], outline[side, 2], outline[side, 3]
+    return inside(half_x, half_y, band, is_round, x, y) if system.target[side] >= 0 else 1.0
+
+
+@kernel_in_place
+def _list(state: State, near: Near, row: int, node: int, slot: int, share: float, deepest: float) -> int:
+    """List a point that is on the face, or forget what it held where it is not; return the next row."""
+    touched, slip, nodes, slots, shares = state.touched, state.slip, near.node, near.slot, near.share
+    entry, depth = state.entry, near.depth
+    nodes[row], slots[row], shares[row] = node, slot, share
+    # From where on it bears; off the face it is kept as −1 less that.
+    bears = entry[slot] if entry[slot] >= 0.0 else -1.0 - entry[slot]
+    if depth[row] <= 0.0:
+        bears = 0.0
+    if share == 0.0:
+        touched[slot], slip[slot, 0], slip[slot, 1], entry[slot] = 0, 0.0, 0.0, -1.0 - bears
+        return row
+    # One that comes over the outline from below bears from there on: the spring that it meets was never compressed.
+    if entry[slot] < 0.0 and depth[row] > bears + deepest:
+        bears = depth[row]
+    entry[slot] = bears
+    depth[row] -= bears
+    return row + 1
+
+
+@kernel_in_place
+def inside(half_x: float, half_y: float, band: float, is_round: float, x: float, y: float) -> float:
+    """Say how much a point at (x, y) of a face counts: 1 inside its outline, 0 outside, ½ at the edge."""
+    within = half_x - sqrt(x * x + y * y) if is_round == 1.0 else min(half_x - abs(x), half_y - abs(y))
+    return min(max(0.5 + within / band, 0.0), 1.0)
+
+
+@kernel_in_place
+def _place_ring(system: System, state: State, near: Near, side: int, node: int, count: int, step: float) -> int:
+    """Add the points of a ring's arc that may touch within the step to the `count` points that are listed."""
+    turned, twist, arc, arcs, slots = near.turned, near.twist, system.arc, state.arcs, system.slots
+    radius, z = system.radii[node], system.nodes[node, 2]
+    depth, rise = _lowest(system, near, side, node)
+    # How fast the ring can sink anywhere: at its middle, and by its turning at the radius.
+    p, q = twist[side, 3], twist[side, 4]
+    sinking = abs(twist[side, 2] + z * (p * turned[side, 1, 2] - q * turned[side, 0, 2]))
+    along = p * turned[side, 1, 0] - q * turned[side, 0, 0]
+    across = p * turned[side, 1, 1] - q * turned[side, 0, 1]
+    sinking += radius * sqrt(along**2 + across**2)
+    # The arc about the lowest point that touches at the end of half a step of it.
+    half = half_arc(depth + 0.5 * step * sinking, rise)
+    angle = atan2(-turned[side, 2, 1], -turned[side, 2, 0]) if rise > 0.0 else arcs[node, 0]
+    if angle != arcs[node, 0] or half != arcs[node, 1]:
+        _move_arc(system, state, near, side, node, angle, half)
+    for point in range(arc.shape[1] if half > 0.0 else 0):
+        about = angle + half * arc[0, point]
+        share = _put(system, near, side, count, radius * cos(about), radius * sin(about), z)
+        share *= half * arc[1, point] / (2.0 * pi)
+        count = _list(state, near, count, node, slots[node] + point, share, DEEPEST * radius)
+    return count
+
+
+@kernel_in_place
+def _lowest(system: System, near: Near, side: int, node: int) -> tuple[float, float]:
+    """Give the depth of a ring's lowest point, and what its highest is above it, over 2."""
+    turned, apart, radii, nodes = near.turned, near.apart, system.radii, system.nodes
+    rise = radii[node] * sqrt(turned[side, 2, 0] ** 2 + turned[side, 2, 1] ** 2)
+    return rise - apart[side, 2] - turned[side, 2, 2] * nodes[node, 2], rise
+
+
+@kernel_in_place
+def half_arc(depth: float, rise: float) -> float:
+    """Give the angle from a ring's lowest point to where its depth is 0."""
+    if depth <= 0.0:
+        return 0.0
+    return pi if depth >= 2.0 * rise else 2.0 * asin(sqrt(0.5 * depth / rise))
+
+
+@kernel_in_place
+def _move_arc(system: System, state: State, near: Near, side: int, node: int, angle: float, half: float) -> None:
+    """Move a ring's arc; its slip stays with the body's material, which enters with none and loses it as it leaves."""
+    slip, touched, carried, first = state.slip, state.touched, near.carried, system.slots[node]
+    places, weights, points = system.arc[0], system.arc[1], system.arc.shape[1]
+    former, span = state.arcs[node, 0], state.arcs[node, 1]
+    state.arcs[node, 0], state.arcs[node, 1] = angle, half
+    held, any_touched = 0.0, 0
+    for point in range(points):
+        # What the arc held before, and the slip at the points' new places, which are `about` from the former middle.
+        held += span * weights[point] * (slip[first + point, 0] ** 2 + slip[first + point, 1] ** 2)
+        any_touched = max(any_touched, touched[first + point])
+        about = angle + half * places[point] - former
+        about -= 2.0 * pi * floor((about + pi) / (2.0 * pi))
+        carried[point, 0], carried[point, 1] = 0.0, 0.0
+        if half > 0.0 and span > 0.0 and (abs(about) < span or span >= pi):
+            _read_slip(slip, first, places, about / span, span >= pi, carried, point)
+    # Take the new slip; the energy that is lost with the material that left is booked as friction's.
+    for point in range(points):
+        held -= half * weights[point] * (carried[point, 0] ** 2 + carried[point, 1] ** 2)
+        slip[first + point, 0], slip[first + point, 1] = carried[point, 0], carried[point, 1]
+        touched[first + point] = any_touched if half > 0.0 else 0
+    state.lost[side, 1] += 0.5 * system.contact[node, 2] * held / (2.0 * pi)
+
+
+@kernel_in_place
+def _read_slip(slip: Array, first: int, places: Array, sought: float, around: bool, carried: Array, point: int) -> None:
+    """Fill the slip at a place along the arc: linear between the points; past the last, 0 or (`around`) the first."""
+    points, right = places.size, 0
+    while right < points and places[right] <= sought:
+        right += 1
+    low = places[right - 1] if right > 0 else (places[points - 1] - 2.0 if around else -1.0)
+    high = places[right] if right < points else (places[0] + 2.0 if around else 1.0)
+    share = (sought - low) / (high - low)
+    for axis in range(2):
+        before = slip[first + (right - 1) % points, axis] if right > 0 or around else 0.0
+        after = slip[first + right % points, axis] if right < points or around else 0.0
+        carried[point, axis] = before + share * (after - before)
+
+
+@kernel_in_place
+def lowest_and_energy(system: System, state: State, near: Near, side: int) -> tuple[float, float]:
+    """Give the height of an interface's lowest node, and the energy in the springs of all, both at this instant."""
+    contact, slip, touched, weights = system.contact, state.slip, state.touched, system.arc[1]
+    lowest, energy = np.inf, 0.0
+    for node in range(system.first[side], system.first[side + 1]):
+        x, y, z, radius = system.nodes[node, 0], system.nodes[node, 1], system.nodes[node, 2], system.radii[node]
+        angle, half, points = 0.0, pi, 1
+        if radius > 0.0:
+            depth, rise = _lowest(system, near, side, node)
+            angle = atan2(-near.turned[side, 2, 1], -near.turned[side, 2, 0]) if rise > 0.0 else 0.0
+            half, points = half_arc(depth, rise), weights.size
+            if _put(system, near, side, 0, radius * cos(angle), radius * sin(angle), z) > 0.0:
+                lowest = min(lowest, -depth)
+        for mode in range(state.strain.shape[1]):
+            x += system.modes[node, 0, mode] * state.strain[0, mode]
+            y += system.modes[node, 1, mode] * state.strain[0, mode]
+            z += system.modes[node, 2, mode] * state.strain[0, mode]
+        for point in range(points):
+            now, before = 1.0, 1.0
+            if radius > 0.0:
+                about, share = angle + half * system.arc[0, point], weights[point] / (2.0 * pi)
+                x, y, now, before = radius * cos(about), radius * sin(about), half * share, state.arcs[node, 1] * share
+            on_face, slot = _put(system, near, side, 0, x, y, z), system.slots[node] + point
+            if radius == 0.0 and on_face > 0.0:
+                lowest = min(lowest, -near.depth[0])
+            deep = near.depth[0] - max(state.entry[slot], 0.0)
+            energy += 0.5 * now * on_face * contact[node, 0] * max(deep, 0.0) ** 2
+            if touched[slot] == 1:
+                slipped = slip[slot, 0] ** 2 + slip[slot, 1] ** 2
+                energy += 0.5 * before * on_face * contact[node, 2] * slipped
+    return lowest, energy

@@ -1,0 +1,408 @@
+"""Many runs of one motion over what is not exactly known: bands, overturning, what the peak depends on."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import ceil, inf, nan, sqrt
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.arrays import Array
+from colonnade.dynamics.block import Block, Sided
+from colonnade.dynamics.history import History, capped
+from colonnade.dynamics.models import DEFAULT
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import DEFAULT_REST_ANGLE, rock
+from colonnade.dynamics.uncertainty import (
+    INPUTS,
+    MotionDraws,
+    Uncertainty,
+    draw_inputs,
+    member_block,
+    member_restitution,
+)
+from colonnade.units.text import Digested, written
+from colonnade.validation import instance, number, samples, sided, whole
+
+if TYPE_CHECKING:
+    from colonnade.dynamics.contact.bodies import AssemblyHistory
+
+Histories = NDArray[np.float32]
+
+LEVELS = (0.025, 0.25, 0.5, 0.75, 0.975)
+"""Quantiles of the bands: the middle, half of all members, 95 % of them."""
+
+KEPT = 200
+"""Members whose whole histories are kept."""
+
+LARGEST_Z = 1e6
+"""Standard deviations of an interval; beyond it is 0 to 1."""
+
+LONGEST_CLOCK = 25_000
+"""Samples of a band; a longer record's band takes every second, third … of its samples."""
+
+MOST_ANGLES = 100_000_000
+"""Of all members at all samples of the band, 400 MB; with more members the band has fewer samples."""
+
+MOST_MEMBERS = 10_000_000
+LARGEST_SEED = 2**63 - 1
+
+
+@dataclass(frozen=True, repr=False)
+class Ensemble(Digested):
+    """
+    What all members together say.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s, on the record's clock.
+    central : ndarray, shape (n,)
+        rad, θ with nothing varied.
+    levels : ndarray, shape (q,)
+        Shares of the members, 0 to 1, that the bands are for.
+    bands : ndarray, shape (q, n)
+        rad, quantiles of θ at each time.
+    inputs : ndarray, shape (members, inputs)
+        Of each member: what is added to e (dimensionless) and θ₀ (rad), and factors on the others.
+    peak_ratio : ndarray, shape (members,)
+        max |θ|/α of each member up to overturning.
+    overturning_time : ndarray, shape (members,)
+        s, on the record's clock; NaN for a member that stands.
+    histories : ndarray of float32, shape (k, n)
+        rad, θ of the first members, at most `KEPT`, up to ±α: one that overturned stays there.
+    names : tuple of str
+        Of the inputs.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import colonnade
+    >>> block = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> motion = colonnade.Motion(3.0 * np.sin(np.arange(600) * 0.2), 0.005)
+    >>> inputs = colonnade.Uncertainty(restitution=0.005, gain=0.02)
+    >>> found = colonnade.ensemble(block, motion, restitution=0.95, uncertainty=inputs, count=50)
+    >>> found.overturning_probability, tuple(round(end, 3) for end in found.overturning_interval())
+    (0.0, (0.0, 0.071))
+    >>> found.peak_quantiles([0.5]).round(2).tolist(), found.horizon(0.5 * block.critical_angle)
+    ([0.13], 2.995)
+    >>> sorted(found.sensitivity()), found.sensitivity() == found.correlations(found.peak_ratio)
+    (['gain', 'restitution'], True)
+    >>> list(found.digest())
+    ['members', 'overturned', 'median of max |θ|/α', 'duration']
+    """
+
+    time: Array
+    central: Array
+    levels: Array
+    bands: Array
+    inputs: Array
+    peak_ratio: Array
+    overturning_time: Array
+    histories: Histories
+    names: tuple[str, ...] = INPUTS
+
+    def digest(self) -> dict[str, str]:
+        """
+        Return the number of members, the share that overturns, the median peak and the duration.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
+        median = float(self.peak_quantiles([0.5])[0])
+        return {
+            "members": str(self.overturning_time.size),
+            "overturned": written(100 * self.overturning_probability, "%", 3),
+            "median of max |θ|/α": "overturned" if median == inf else written(median),
+            "duration": written(float(self.time[-1] - self.time[0]), "s"),
+        }
+
+    def horizon(self, width: float) -> float:
+        """
+        Return the first time at which the widest band is wider than this, else the last one.
+
+        Parameters
+        ----------
+        width : float
+            rad.
+
+        Returns
+        -------
+        horizon : float
+            s, on the record's clock.
+        """
+        wide = self.bands[-1] - self.bands[0] > number("width", width, "a positive angle in rad", above=0.0)
+        return float(self.time[int(np.argmax(wide)) if wide.any() else -1])
+
+    @property
+    def overturning_probability(self) -> float:
+        """Share of the members that overturn."""
+        return float(np.isfinite(self.overturning_time).mean())
+
+    def overturning_interval(self, z: float = 1.959964) -> tuple[float, float]:
+        """
+        Return the interval (Wilson 1927) of the probability of overturning that the finite number of members leaves.
+
+        Parameters
+        ----------
+        z : float, optional
+            Half of its width in standard deviations, dimensionless; by default it has 95 %.
+
+        Returns
+        -------
+        low, high : float
+            Probabilities, 0 to 1.
+        """
+        z = number("z", z, "a positive number of standard deviations", above=0.0, high=LARGEST_Z)
+        members, share = self.overturning_time.size, self.overturning_probability
+        middle = (share + z**2 / (2 * members)) / (1 + z**2 / members)
+        half = z * sqrt(share * (1 - share) / members + z**2 / (4 * members**2)) / (1 + z**2 / members)
+        return max(middle - half, 0.0), min(middle + half, 1.0)
+
+    def peak_quantiles(self, levels: Sequence[float] = LEVELS) -> Array:
+        """
+        Quantiles of max |θ|/α over the members.
+
+        Parameters
+        ----------
+        levels : sequence of float, optional
+            Shares of the members, 0 to 1.
+
+        Returns
+        -------
+        quantiles : ndarray, shape of `levels`
+            Dimensionless; members that overturn are above all others, inf.
+        """
+        wanted = samples("levels", levels)
+        if not ((wanted >= 0.0) & (wanted <= 1.0)).all():
+            raise ValueError(f"levels go from {wanted.min():g} to {wanted.max():g}; numbers from 0 to 1 were expected")
+        ranked = np.sort(np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio))
+        return np.asarray(ranked[np.rint(wanted * (ranked.size - 1)).astype(np.intp)])
+
+    def sensitivity(self) -> dict[str, float]:
+        """
+        Rank correlation (Spearman 1904) of the peak with each input that varies.
+
+        Members that overturn share the highest rank. Inputs that do not vary are left out.
+
+        Returns
+        -------
+        sensitivity : dict of str to float
+            −1 to 1, by input; NaN if all peaks are equal.
+        """
+        return self.correlations(np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio))
+
+    def correlations(self, values: Array) -> dict[str, float]:
+        """
+        Rank correlation (Spearman 1904) of values of the members with each input that varies.
+
+        Parameters
+        ----------
+        values : ndarray, shape (members,)
+            In any unit; NaN is the highest.
+
+        Returns
+        -------
+        correlations : dict of str to float
+            −1 to 1, by input.
+        """
+        given = samples("values", values, finite=False)
+        if given.size != len(self.inputs):
+            raise ValueError(f"values has {given.size} numbers; {len(self.inputs)}, one a member, were expected")
+        from scipy.stats import spearmanr
+
+        filled = np.where(np.isnan(given), inf, given)
+        varied = {name: column for name, column in zip(self.names, self.inputs.T, strict=True) if np.ptp(column) > 0.0}
+        if (filled == filled[0]).all():
+            return dict.fromkeys(varied, nan)
+        return {name: float(spearmanr(filled, column).statistic) for name, column in varied.items()}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan(ABC):
+    """
+    All that an ensemble follows from; each member can be run alone, and is the same whatever their number.
+
+    Attributes
+    ----------
+    block : Block
+    motion : Motion
+        As recorded.
+    theta0, omega0 : float
+        rad, rad/s.
+    count : int
+        Members.
+    seed : int
+        Member k draws from a stream of its own, of (seed, k).
+    """
+
+    block: Block
+    motion: Motion
+    theta0: float = 0.0
+    omega0: float = 0.0
+    count: int = 1000
+    seed: int = 0
+    names: ClassVar[tuple[str, ...]]
+
+    def __post_init__(self) -> None:
+        instance("block", self.block, Block)
+        instance("motion", self.motion, Motion)
+        whole("count", self.count, 1, MOST_MEMBERS, f"at least one member, and at most {MOST_MEMBERS},")
+        whole("seed", self.seed, 0, LARGEST_SEED)
+
+    @abstractmethod
+    def central(self) -> History | AssemblyHistory:
+        """Run the model with nothing varied."""
+
+    @abstractmethod
+    def follow(self, random: np.random.Generator) -> tuple[Array, History | AssemblyHistory]:
+        """Draw what one member takes, in the order of `names`, and run the model with it."""
+
+    def member(self, member: int) -> tuple[Array, History | AssemblyHistory]:
+        """Run one member alone: what it drew, and its history on its own clock."""
+        return self.follow(np.random.default_rng(np.random.SeedSequence(self.seed, spawn_key=(member,))))
+
+    def run(self) -> Ensemble:
+        """Run all members."""
+        size = self.motion.acceleration.size
+        stride = max(ceil(size / LONGEST_CLOCK), ceil(size * self.count / MOST_ANGLES))
+        time, central = self.motion.time[::stride], self.central().angle[::stride]
+        inputs, peaks, overturned = np.empty((self.count, len(self.names))), np.empty(self.count), np.empty(self.count)
+        deviations = np.empty((self.count, time.size), dtype=np.float32)
+        histories = np.empty((min(self.count, KEPT), time.size), dtype=np.float32)
+        for member in range(self.count):
+            inputs[member], history = self.member(member)
+            peaks[member] = nan if history.peak_ratio is None else history.peak_ratio
+            overturned[member] = history.overturning_time * (self.motion.time[-1] / history.time[-1])
+            deviations[member] = history.angle[::stride] - central
+            if member < KEPT:
+                standing = capped(history.time, history.angle, history.overturning_time, self.block)
+                histories[member] = standing[::stride]
+        bands = central + np.quantile(deviations, LEVELS, axis=0, overwrite_input=True)
+        return Ensemble(time, central, np.asarray(LEVELS), bands, inputs, peaks, overturned, histories, self.names)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanePlan(Plan):
+    """
+    Of a model in the plane, over the block, e and the motion.
+
+    Attributes
+    ----------
+    restitution : float or pair of float
+    uncertainty : Uncertainty
+    model : str
+    rest_angle : float
+        As of `rock`.
+    """
+
+    restitution: Sided
+    uncertainty: Uncertainty
+    model: str = DEFAULT
+    rest_angle: float = DEFAULT_REST_ANGLE
+    names: ClassVar[tuple[str, ...]] = INPUTS
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        instance("uncertainty", self.uncertainty, Uncertainty)
+        sided("restitution", self.restitution, "a number between 0 and 1", low=0.0, high=1.0)
+
+    def central(self) -> History:
+        """Run the model on what was recorded, nothing varied."""
+        return self._rock(self.block, self.motion, self.restitution, self.theta0)
+
+    def follow(self, random: np.random.Generator) -> tuple[Array, History]:
+        """Draw what one member takes, in the order of `INPUTS`, and a motion, and run the model with it."""
+        inputs = draw_inputs(self.uncertainty, random)
+        e, critical_angle, p, gain, clock, cutoff, theta0 = inputs.tolist()
+        return inputs, self._rock(
+            member_block(self.block, critical_angle, p),
+            self._motions.draw(random, gain=gain, clock=clock, cutoff=cutoff),
+            member_restitution(self.restitution, e),
+            self.theta0 + theta0,
+        )
+
+    @cached_property
+    def _motions(self) -> MotionDraws:
+        return MotionDraws(self.motion, self.uncertainty)
+
+    def _rock(self, block: Block, motion: Motion, restitution: Sided, theta0: float) -> History:
+        return rock(
+            block,
+            motion,
+            restitution=restitution,
+            model=self.model,
+            theta0=theta0,
+            omega0=self.omega0,
+            rest_angle=self.rest_angle,
+        )
+
+
+def ensemble(
+    block: Block,
+    motion: Motion,
+    *,
+    uncertainty: Uncertainty,
+    restitution: Sided | None = None,
+    count: int = 1000,
+    seed: int = 0,
+    model: str = DEFAULT,
+    theta0: float = 0.0,
+    rest_angle: float = DEFAULT_REST_ANGLE,
+) -> Ensemble:
+    """
+    Re-run a recorded motion over the uncertainty of the block, of e and of the motion itself.
+
+    Parameters
+    ----------
+    block : Block
+    motion : Motion
+        As recorded.
+    uncertainty : Uncertainty
+        What is not exactly known, and how well it is.
+    restitution : float or pair of float, optional
+        Mean of e. Default: the rigid-body value.
+    count : int, optional
+        Members.
+    seed : int, optional
+        The same seed gives the same members, however many there are.
+    model, theta0, rest_angle : optional
+        As of `rock`.
+
+    Returns
+    -------
+    ensemble : Ensemble
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range.
+
+    Examples
+    --------
+    >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> motion = Motion(3.0 * np.sin(np.arange(600) * 0.2), 0.005)
+    >>> result = ensemble(block, motion, restitution=0.976, uncertainty=Uncertainty(restitution=0.002), count=50)
+    >>> result.bands.shape, result.overturning_probability
+    ((5, 600), 0.0)
+    """
+    e = instance("block", block, Block).restitution if restitution is None else restitution
+    plan = PlanePlan(
+        block=block,
+        motion=motion,
+        restitution=e,
+        uncertainty=uncertainty,
+        count=count,
+        seed=seed,
+        model=model,
+        theta0=theta0,
+        rest_angle=rest_angle,
+    )
+    return plan.run()

@@ -1,1 +1,0 @@
-"""Ensembles: many runs of one motion with varied inputs."""

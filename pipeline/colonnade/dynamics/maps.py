@@ -1,0 +1,436 @@
+"""The stability map of a block over frequency and amplitude of its base motion: its plan, its columns, the whole."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from math import pi, tan
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from colonnade.arrays import Array, Codes
+from colonnade.dynamics.block import Block, Sided
+from colonnade.dynamics.history import NO_ROCKING_RATIO, Outcome
+from colonnade.dynamics.models import DEFAULT, PLANE_MODELS, model_of
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.plane.harmonic import SAMPLES_A_CYCLE, Harmonic, Restitution, restitution_up_to
+from colonnade.dynamics.restitution_law import RestitutionLaw
+from colonnade.dynamics.rock import DEFAULT_REST_ANGLE, rock
+from colonnade.dynamics.search import (
+    LARGEST_RATIO,
+    MOST_STEPS,
+    WIDTH,
+    Limits,
+    OverFrequency,
+    Runs,
+    checked_widths,
+    in_threads,
+    limits_of,
+    onset_of,
+    over_frequency,
+    restitution_options,
+    runs_of,
+    scan_over,
+)
+from colonnade.validation import instance, number, samples
+
+if TYPE_CHECKING:
+    from colonnade.dynamics.contact.body import ContactBody
+    from colonnade.dynamics.contact.law import ContactLaw
+
+EDGE = 1e-4
+"""In A: how closely the edges of intervals are found."""
+
+MOST_CYCLES = 100_000
+"""Of a sine, and of each of its ramps."""
+
+
+@dataclass(frozen=True)
+class InSpace:
+    """
+    What the contact model needs in addition to the plan of a map.
+
+    Attributes
+    ----------
+    body : ContactBody
+    law : ContactLaw
+    step : float
+        s.
+    """
+
+    body: ContactBody
+    law: ContactLaw
+    step: float
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """What the result depends on, by name."""
+        return {
+            "body": self.body.description,
+            "contact_stiffness": self.law.node_stiffness(self.body).sum() / self.body.node_area.sum(),
+            "damping_fraction": self.law.damping_fraction,
+            "effective_damping": self.law.effective_damping(self.body),
+            "friction": self.law.friction,
+            "contact_step": self.step,
+            "samples_a_cycle": SAMPLES_A_CYCLE,
+        }
+
+    def outcome(self, motion: Motion, gravity: float) -> Outcome:
+        """Run a base motion."""
+        # Its engine is compiled on import.
+        from colonnade.dynamics.contact.simulate import simulate
+
+        return simulate(self.body, motion, law=self.law, gravity=gravity, step=self.step).outcome
+
+
+class MapPlan:
+    """
+    All that the columns of a map have in common; arguments as for `stability_map`, whose values it checks.
+
+    Parameters
+    ----------
+    space : InSpace, optional
+        Body and law of contact of a model in space, whose restitution they are.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, an axis does not increase or the model is not known.
+    """
+
+    def __init__(
+        self,
+        block: Block,
+        *,
+        frequency_ratio: ArrayLike,
+        amplitude_ratio: ArrayLike,
+        restitution: Sided | RestitutionLaw | Callable[[float], float] | None = None,
+        cycles: float = 20,
+        phase: float = 0.0,
+        ramp: float = 0,
+        model: str = DEFAULT,
+        width: float = WIDTH,
+        edge: float = EDGE,
+        motion: Motion | None = None,
+        motion_frequency: float | None = None,
+        space: InSpace | None = None,
+    ) -> None:
+        instance("block", block, Block)
+        if space is None and model_of(model).in_space:
+            raise ValueError(f"The {model} model needs `space`; a model in the plane was expected without it")
+        self.block, self.model, self.space, self.motion = block, model, space, motion
+        self.frequency_ratio = _axis("frequency_ratio", frequency_ratio, 1)
+        self.amplitude_ratio = amplitudes = _axis("amplitude_ratio", amplitude_ratio, 2)
+        cells = self.frequency_ratio.size * amplitudes.size
+        if cells > MOST_STEPS:
+            raise ValueError(
+                f"amplitude_ratio and frequency_ratio make {cells} cells; at most {MOST_STEPS} were expected"
+            )
+        self.restitution: Restitution = restitution_up_to(block, restitution, float(amplitudes[-1]))
+        expected = f"at least one cycle and at most {MOST_CYCLES}"
+        self.cycles = number("cycles", cycles, expected, low=1.0, high=MOST_CYCLES)
+        expected = f"a number of cycles from 0 for none to {MOST_CYCLES}"
+        self.ramp = number("ramp", ramp, expected, low=0.0, high=MOST_CYCLES)
+        self.phase = number("phase", phase, "a finite angle in rad") % (2 * pi)
+        self.width, self.edge = checked_widths(width, edge, float(amplitudes[-1] - amplitudes[0]))
+        self.motion_frequency = _frequency(motion, motion_frequency)
+
+    @property
+    def scan(self) -> Array:
+        """The A that every column runs: those of the map, and between them as many as make steps of width / 4."""
+        return scan_over(self.amplitude_ratio, self.width)
+
+    @property
+    def onset(self) -> float:
+        """A up to which an undisturbed block does not uplift: 1, but α / tan α for the linear model."""
+        positive, negative = 1.0, 1.0
+        if self.motion is not None:
+            positive = max(float(self.motion.acceleration.max()), 0.0) / self.motion.peak
+            negative = max(-float(self.motion.acceleration.min()), 0.0) / self.motion.peak
+        limits = []
+        for side, share in ((self.block.negative, positive), (self.block.positive, negative)):
+            threshold = model_of(self.model).uplift_threshold(side.critical_angle)
+            limits.append(threshold / share if share > 0 else np.inf)
+        return float(min(limits) / tan(self.block.critical_angle))
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """Everything else that the result depends on, apart from block and axes, by name."""
+        forcing: dict[str, Any]
+        if self.motion is None:
+            forcing = {"cycles": self.cycles, "phase": self.phase, "ramp": self.ramp}
+        else:
+            forcing = {"motion_frequency": self.motion_frequency, "motion_samples": self.motion.acceleration.size}
+        return {
+            "model": self.model,
+            "base_motion": "sine" if self.motion is None else "recorded",
+            **forcing,
+            **restitution_options(self.restitution),
+            "width": self.width,
+            "edge": self.edge,
+            "scan_step": float(np.diff(self.scan).max()),
+            "rest_angle": DEFAULT_REST_ANGLE,
+            "no_rocking_ratio": NO_ROCKING_RATIO,
+            "critical_angle": self.block.critical_angle,
+            "p": self.block.p,
+            **({} if self.space is None else self.space.options),
+        }
+
+
+def _frequency(motion: Motion | None, frequency: float | None) -> float | None:
+    """Check a recorded base motion and its frequency, Hz; None without a motion."""
+    if motion is not None:
+        instance("motion", motion, Motion)
+    if (motion is None) != (frequency is None):
+        raise ValueError("A motion needs its motion_frequency (Hz), and the reverse; only one of the two was given")
+    if motion is None:
+        return None
+    if not motion.peak > 0:
+        raise ValueError("The motion has no acceleration at all, so it cannot be scaled to an A")
+    return number("motion_frequency", frequency, "a positive number of Hz", above=0.0)
+
+
+def _axis(name: str, values: ArrayLike, fewest: int) -> Array:
+    axis = samples(name, values, fewest=fewest, finite=False)
+    if not (np.isfinite(axis).all() and axis[0] > 0 and (np.diff(axis) > 0).all()):
+        raise ValueError(f"{name} has to be positive, finite and increasing")
+    if not (axis[0] >= 1 / LARGEST_RATIO and axis[-1] <= LARGEST_RATIO):
+        raise ValueError(
+            f"{name} goes from {axis[0]:g} to {axis[-1]:g}; {1 / LARGEST_RATIO:g} to {LARGEST_RATIO:g} was expected"
+        )
+    return axis.copy()
+
+
+@dataclass(frozen=True)
+class MapColumn:
+    """
+    A column.
+
+    Attributes
+    ----------
+    outcome : ndarray of int8, shape (m,)
+        Index into `OUTCOMES` at the A of the map.
+    overturning_fraction : ndarray, shape (m,)
+        Share of the cell around each A, halfway to its neighbours, that overturns.
+    no_rocking, lower, upper : float
+        Limits in A; NaN if the column has none. In space the onset of rocking is searched, to the plan's `edge`.
+    intervals : ndarray, shape (k, 2)
+        Every interval of A that overturns, from and to, with edges to the plan's `edge`.
+    """
+
+    outcome: Codes
+    overturning_fraction: Array
+    no_rocking: float
+    lower: float
+    upper: float
+    intervals: Array
+
+
+def map_column(plan: MapPlan, index: int) -> MapColumn:
+    """
+    Compute one column of a map.
+
+    Parameters
+    ----------
+    plan : MapPlan
+    index : int
+        Of its Ω in the plan.
+
+    Returns
+    -------
+    column : MapColumn
+        The same to the last bit, whatever the order and the process in which columns are computed.
+    """
+    runs = _runs(plan, float(plan.frequency_ratio[index]))
+    scan = plan.scan
+    codes = runs(scan)
+    limits = limits_of(scan, codes, runs, width=plan.width, edge=plan.edge)
+    fraction = _fraction(plan.amplitude_ratio, limits.intervals)
+    chosen = np.searchsorted(scan, plan.amplitude_ratio)
+    onset = plan.onset if plan.space is None else onset_of(scan, codes, runs, edge=plan.edge)
+    return MapColumn(codes[chosen], fraction, onset, limits.lower, limits.upper, limits.intervals)
+
+
+def _runs(plan: MapPlan, frequency_ratio: float) -> Runs:
+    block, omega = plan.block, frequency_ratio * plan.block.p
+    motion: Harmonic | tuple[Array, float] = Harmonic.cycles(omega, plan.cycles, phase=plan.phase, ramp=plan.ramp)
+    if plan.motion is not None and plan.motion_frequency is not None:
+        unit = plan.motion.acceleration * (block.uplift_acceleration / plan.motion.peak)
+        motion = unit, plan.motion.dt * plan.motion_frequency * 2 * pi / omega
+
+    def outcome(shaken: Motion) -> Outcome:
+        if plan.space is not None:
+            return plan.space.outcome(shaken, block.gravity)
+        return rock(block, shaken, restitution=plan.restitution, model=plan.model).outcome
+
+    by_run = None if plan.model in PLANE_MODELS else outcome
+    return runs_of(block, motion, plan.restitution, plan.model, by_run)
+
+
+def _fraction(amplitudes: Array, intervals: Array) -> Array:
+    """Share of the cells around the amplitudes that the intervals cover, shape (m,)."""
+    middles = 0.5 * (amplitudes[1:] + amplitudes[:-1])
+    edges = np.concatenate([amplitudes[:1], middles, amplitudes[-1:]])
+    if intervals.size == 0:
+        return np.zeros(amplitudes.size)
+    lengths = np.cumsum(intervals[:, 1] - intervals[:, 0])
+    knots = intervals.ravel()
+    covered = np.column_stack([np.concatenate([[0.0], lengths[:-1]]), lengths]).ravel()
+    share: Array = np.diff(np.interp(edges, knots, covered)) / np.diff(edges)
+    return np.clip(share, 0.0, 1.0, out=share)
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class StabilityMap(OverFrequency):
+    """
+    Outcomes over Ω and A, and the limits between them.
+
+    Attributes
+    ----------
+    frequency_ratio, amplitude_ratio : ndarray, shape (n,) and (m,)
+        Ω = ω / p and A = a / (g tan α).
+    outcome : ndarray of int8, shape (n, m)
+        0 no-rocking, 1 rocking, 2 overturned.
+    overturning_fraction : ndarray, shape (n, m)
+        Share of the cell around each A that overturns.
+    no_rocking, lower, upper : ndarray, shape (n,)
+        A up to which the block does not uplift; from which it first overturns over at least `width`; up to which it
+        last survives over at least `width`. NaN if there is no such limit up to the largest A.
+    interval_frequency_ratio, interval_start, interval_end : ndarray, shape (k,)
+        Every interval of A that overturns, islands included, by its Ω.
+    options : dict
+        All that the limits depend on: model, cycles, phase, ramp, scan step, width, edge,
+        restitution, rest rule.
+
+    Examples
+    --------
+    >>> import colonnade
+    >>> block = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> chart = colonnade.stability_map(block, frequency_ratio=[2.0, 4.0], amplitude_ratio=[0.5, 2.0, 4.0])
+    >>> chart.no_rocking.round(2).tolist(), chart.islands.shape[1]
+    ([0.99, 0.99], 3)
+    >>> chart.digest()["Ω"]
+    '2 to 4 in 2'
+    """
+
+    amplitude_ratio: Array
+    outcome: Codes
+    overturning_fraction: Array
+    no_rocking: Array
+
+    def digest(self) -> dict[str, str]:
+        """
+        Return model, axes, and the range of the lower limit.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
+        amplitudes = self.amplitude_ratio
+        levels = f"{amplitudes[0]:.3g} to {amplitudes[-1]:.3g} in {amplitudes.size}"
+        return {"model": str(self.options["model"]), "A": levels} | self._limits_digest()
+
+
+def stability_map(
+    block: Block,
+    *,
+    frequency_ratio: ArrayLike,
+    amplitude_ratio: ArrayLike,
+    restitution: Sided | RestitutionLaw | Callable[[float], float] | None = None,
+    cycles: float = 20,
+    phase: float = 0.0,
+    ramp: float = 0,
+    model: str = DEFAULT,
+    width: float = WIDTH,
+    edge: float = EDGE,
+    motion: Motion | None = None,
+    motion_frequency: float | None = None,
+    threads: int = 1,
+) -> StabilityMap:
+    """
+    Compute the stability map of a block, from rest, under a harmonic or a stretched recorded base motion.
+
+    Parameters
+    ----------
+    block : Block
+    frequency_ratio, amplitude_ratio : array_like, shape (n,) and (m,)
+        Ω = ω / p and A = a / (g tan α), positive and increasing.
+    restitution : float, pair of float, RestitutionLaw or function, optional
+        e, see `rock`; default the rigid-body value.
+    cycles : float, optional
+        Number of cycles at full amplitude, at least 1.
+    phase : float, optional
+        rad: the base acceleration is a sin(ω t + phase).
+    ramp : float, optional
+        Number of cycles over which the amplitude rises before, and falls after.
+    model : str, optional
+        A plane one.
+    width : float, optional
+        In A: intervals narrower than this make no limit.
+    edge : float, optional
+        In A: how closely the edges of intervals are found.
+    motion : Motion, optional
+        A recorded base motion in place of the sine: scaled to A, stretched to Ω. `cycles`, `phase` and ramps are then
+        those of the recording.
+    motion_frequency : float, optional
+        Hz, the frequency of the recorded motion that Ω stretches.
+    threads : int, optional
+        Columns computed at a time. The result is the same to the last bit.
+
+    Returns
+    -------
+    chart : StabilityMap
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, an axis does not increase or the model is not known.
+
+    Examples
+    --------
+    >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> chart = stability_map(block, restitution=0.976, frequency_ratio=[2.0, 6.0], amplitude_ratio=[0.5, 1.5, 3.0])
+    >>> chart.outcome.tolist()
+    [[0, 2, 2], [0, 1, 1]]
+    """
+    plan = MapPlan(
+        block,
+        frequency_ratio=frequency_ratio,
+        amplitude_ratio=amplitude_ratio,
+        restitution=restitution,
+        cycles=cycles,
+        phase=phase,
+        ramp=ramp,
+        model=model,
+        width=width,
+        edge=edge,
+        motion=motion,
+        motion_frequency=motion_frequency,
+    )
+    return assemble(plan, in_threads(partial(map_column, plan), range(plan.frequency_ratio.size), threads))
+
+
+def assemble(plan: MapPlan, columns: Sequence[MapColumn]) -> StabilityMap:
+    """
+    Put the columns of a plan together, in the order of its Ω.
+
+    Raises
+    ------
+    ValueError
+        If there are not as many columns as the plan has Ω.
+    """
+    if len(columns) != plan.frequency_ratio.size:
+        raise ValueError(f"{len(columns)} columns were given; the plan has {plan.frequency_ratio.size}")
+    limits = [Limits(column.lower, column.upper, column.intervals) for column in columns]
+    return StabilityMap(
+        **over_frequency(plan.frequency_ratio, limits),
+        options=plan.options,
+        amplitude_ratio=plan.amplitude_ratio,
+        outcome=np.stack([column.outcome for column in columns]),
+        overturning_fraction=np.stack([column.overturning_fraction for column in columns]),
+        no_rocking=np.array([column.no_rocking for column in columns]),
+    )

@@ -1,1 +1,0 @@
-"""Stability maps of a block over frequency and amplitude, and its steady responses."""

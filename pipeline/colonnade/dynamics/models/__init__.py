@@ -1,1 +1,0 @@
-"""The models of rocking, one module each, and their registry."""

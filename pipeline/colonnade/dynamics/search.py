@@ -1,0 +1,260 @@
+"""
+One search over the amplitude of a base motion, for stability maps, overturning spectra and limits of pulses.
+
+A scan is run, and each change between its outcomes is halved: from where on it overturns, and up to where it may not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil, log2
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+
+from colonnade.arrays import Array, Codes, Mask
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.history import Outcome
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.plane.harmonic import Harmonic, Restitution, harmonic_outcomes
+from colonnade.dynamics.plane.run import OUTCOMES, OVERTURNS, ends_of, expect_usable
+from colonnade.dynamics.restitution_law import RestitutionLaw
+from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
+from colonnade.units.text import Digested
+from colonnade.validation import number, whole
+
+WIDTH = 0.01
+"""In A: narrower intervals of overturning, or of survival, are islands and make no limit."""
+
+LEAST_EDGE = 1e-9
+"""In A: the least edge; a finer one is lost in rounding, so that the search for it would not end."""
+
+STEPS_A_WIDTH = 4
+"""Scan steps a width, at least: nothing wider than a fourth of a width is passed over."""
+
+MOST_STEPS = 1_000_000
+"""Of the scan over A, and cells of a map; a thousand times what a map has."""
+
+LARGEST_RATIO = 1e6
+"""Of Ω and A, and one over their least."""
+
+MOST_THREADS = 1024
+
+Runs = Callable[[Array], Codes]
+"""Returns the outcomes at some A, indices into `OUTCOMES`."""
+
+Of = TypeVar("Of")
+To = TypeVar("To")
+
+
+class Limits(NamedTuple):
+    """
+    Limits in A.
+
+    Attributes
+    ----------
+    lower : float
+        Start of the first overturning interval at least `width` wide; NaN without one.
+    upper : float
+        End of the last surviving interval by the same rule; NaN if that reaches the largest A, or without one.
+    intervals : ndarray, shape (k, 2)
+        Every interval of A that overturns, from and to.
+    """
+
+    lower: float
+    upper: float
+    intervals: Array
+
+
+def checked_widths(width: float, edge: float, height: float) -> tuple[float, float]:
+    """
+    Check the least width of a limit and the closeness of its edges where A goes over `height`.
+
+    Raises
+    ------
+    ValueError
+        If one is so small that the search would not end, or the edge is wider than the width.
+    """
+    finest = STEPS_A_WIDTH * height / MOST_STEPS
+    width = number("width", width, f"a width in A, at least {finest:.3g} for the scan to end,", above=0.0, low=finest)
+    edge = number("edge", edge, f"a number in A, at least {LEAST_EDGE:g},", low=LEAST_EDGE)
+    if not edge <= width:
+        raise ValueError(f"edge is {edge} and width {width}; 0 < edge ≤ width was expected, in units of A")
+    return width, edge
+
+
+def scan_over(amplitudes: Array, width: float) -> Array:
+    """Give the A to run: the rising ones given, and between them as many as make steps of width / 4."""
+    parts = []
+    for low, high in pairwise(amplitudes.tolist()):
+        steps = max(1, int(np.ceil((high - low) / (width / STEPS_A_WIDTH) * (1 - 1e-9))))
+        parts.append(low + (high - low) / steps * np.arange(steps))
+    return np.concatenate([*parts, amplitudes[-1:]])
+
+
+def runs_of(
+    block: Block,
+    motion: Harmonic | tuple[Array, float],
+    restitution: Restitution,
+    model: str,
+    outcome: Callable[[Motion], Outcome] | None = None,
+) -> Runs:
+    """
+    Give what runs a motion at some A.
+
+    Parameters
+    ----------
+    block : Block
+    motion : Harmonic, or ndarray and float
+        Of a record its acceleration at A = 1, m/s², and its sampling interval, s.
+    restitution : pair of float or RestitutionLaw
+    model : str
+    outcome : callable, optional
+        Runs a motion by a model that has no kernels in the plane.
+    """
+    if isinstance(motion, Harmonic) and outcome is None:
+        return lambda amplitudes: harmonic_outcomes(block, motion, amplitudes, restitution, model)
+    unit, dt = motion if isinstance(motion, tuple) else motion.sampled(block.uplift_acceleration)
+    if outcome is not None:
+        return lambda amplitudes: np.array(
+            [OUTCOMES.index(outcome(Motion(unit * amplitude, dt))) for amplitude in amplitudes], dtype=np.int8
+        )
+    # The kernels are decorated on import.
+    from colonnade.dynamics.plane.sides import sides_of
+
+    expect_usable(block, Motion(unit, dt))
+    sides = [sides_of(block, restitution, DEFAULT_REST_ANGLE)]
+
+    def recorded(amplitudes: Array) -> Codes:
+        motions = (Motion(unit * amplitude, dt) for amplitude in amplitudes)
+        ends = [ends_of(each, sides, gravity=block.gravity, model=model).outcome for each in motions]
+        return np.concatenate([*ends, np.empty(0, dtype=np.int8)])
+
+    return recorded
+
+
+def limits_of(scan: Array, codes: Codes, runs: Runs, *, width: float, edge: float) -> Limits:
+    """
+    Find the limits between outcomes.
+
+    Parameters
+    ----------
+    scan : ndarray, shape (n,)
+        A that were run, rising.
+    codes : ndarray of int8, shape (n,)
+        Their outcomes.
+    runs : callable
+    width : float
+        In A: narrower intervals make no limit.
+    edge : float
+        In A: how closely the edges of intervals are found.
+    """
+    intervals = _intervals(scan, codes == OVERTURNS, lambda amplitudes: runs(amplitudes) == OVERTURNS, edge)
+    stands = np.concatenate([scan[:1], intervals.ravel(), scan[-1:]]).reshape(-1, 2)
+    falls, stands = (
+        each[each[:, 1] - each[:, 0] >= width] for each in (intervals, stands[stands[:, 1] > stands[:, 0]])
+    )
+    lower = float(falls[0, 0]) if falls.size else float("nan")
+    upper = float(stands[-1, 1]) if stands.size and stands[-1, 1] < scan[-1] else float("nan")
+    return Limits(lower, upper, intervals)
+
+
+def onset_of(scan: Array, codes: Codes, runs: Runs, *, edge: float) -> float:
+    """Find the A from which a block first does not stay at rest, to `edge`; NaN if it always does. As `limits_of`."""
+    moves = codes > 0
+    if not moves.any():
+        return float("nan")
+    first = slice(int(np.argmax(moves)) + 1)
+    return float(_intervals(scan[first], moves[first], lambda amplitudes: runs(amplitudes) > 0, edge)[0, 0])
+
+
+def _intervals(scan: Array, found: Mask, holds: Callable[[Array], Mask], edge: float) -> Array:
+    """Intervals in which something holds, shape (k, 2): each change in the scan halved down to `edge`."""
+    changes = np.flatnonzero(found[1:] != found[:-1])
+    low, high, before = scan[changes], scan[changes + 1], found[changes]
+    if changes.size:
+        for _ in range(max(0, ceil(log2(float((high - low).max()) / edge)))):
+            middle = 0.5 * (low + high)
+            as_before = holds(middle) == before
+            low, high = np.where(as_before, middle, low), np.where(as_before, high, middle)
+    first = scan[:1] if found[0] else scan[:0]
+    last = scan[-1:] if found[-1] else scan[:0]
+    return np.concatenate([first, 0.5 * (low + high), last]).reshape(-1, 2)
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class OverFrequency(Digested):
+    """
+    Limits of overturning over frequency.
+
+    Attributes
+    ----------
+    frequency_ratio : ndarray, shape (n,)
+        Ω = ω / p.
+    lower, upper : ndarray, shape (n,)
+        A = a / (g tan α), a the largest acceleration: from which the block first overturns over at least `width`, and
+        up to which it last survives over at least `width`; NaN if there is no such limit up to the largest A.
+    interval_frequency_ratio, interval_start, interval_end : ndarray, shape (k,)
+        Every interval of A that overturns, islands included, by its Ω.
+    options : dict
+        All that the limits depend on.
+    """
+
+    frequency_ratio: Array
+    lower: Array
+    upper: Array
+    interval_frequency_ratio: Array
+    interval_start: Array
+    interval_end: Array
+    options: dict[str, Any]
+
+    @property
+    def islands(self) -> Array:
+        """Overturning intervals narrower than `width`: rows of Ω, start and end in A, shape (k, 3)."""
+        rows = np.column_stack([self.interval_frequency_ratio, self.interval_start, self.interval_end])
+        return np.asarray(rows[self.interval_end - self.interval_start < self.options["width"]])
+
+    def _limits_digest(self) -> dict[str, str]:
+        """Return the range of Ω and of the lower limit."""
+        known, omegas = self.lower[np.isfinite(self.lower)], self.frequency_ratio
+        return {
+            "Ω": f"{omegas[0]:.3g} to {omegas[-1]:.3g} in {omegas.size}",
+            "lower limit": f"A = {known.min():.3g} to {known.max():.3g}" if known.size else "above the largest A",
+        }
+
+
+def over_frequency(frequency_ratio: Array, limits: Sequence[Limits]) -> dict[str, Array]:
+    """Put the limits at each Ω together, by the names of `OverFrequency`."""
+    intervals = np.concatenate([each.intervals for each in limits])
+    return {
+        "frequency_ratio": frequency_ratio,
+        "lower": np.array([each.lower for each in limits]),
+        "upper": np.array([each.upper for each in limits]),
+        "interval_frequency_ratio": np.repeat(frequency_ratio, [len(each.intervals) for each in limits]),
+        "interval_start": intervals[:, 0],
+        "interval_end": intervals[:, 1],
+    }
+
+
+def in_threads(function: Callable[[Of], To], values: Iterable[Of], threads: int) -> list[To]:
+    """
+    Compute something of many values, some at a time, in their order.
+
+    Raises
+    ------
+    ValueError
+        If the number of threads is out of its range.
+    """
+    with ThreadPoolExecutor(whole("threads", threads, 1, MOST_THREADS)) as pool:
+        return list(pool.map(function, values))
+
+
+def restitution_options(restitution: Restitution) -> dict[str, Any]:
+    """Give e by the names that options have for it."""
+    if isinstance(restitution, RestitutionLaw):
+        speeds, values = restitution.speeds.tolist(), restitution.values.tolist()
+        return {"restitution_speeds": speeds, "restitution_values": values}
+    return dict(zip(("restitution_negative", "restitution_positive"), restitution, strict=True))

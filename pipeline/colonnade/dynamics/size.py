@@ -1,0 +1,143 @@
+"""Sizes of bodies: whether lengths, mass and inertia fit one body, and from model to prototype."""
+
+from __future__ import annotations
+
+import warnings
+from math import pi
+
+LIGHTEST, HEAVIEST = 100.0, 23_000.0
+"""kg/m³: blocks are between cork or a hollow box, and osmium."""
+
+FOAM = 20.0
+"""kg/m³, below which not even a foam stands: something is wrong."""
+
+SLENDEREST = 0.005
+"""rad; a critical angle below this is of no block that stands."""
+
+HOLLOW = 0.9
+"""Of m R²; no body has a smaller moment of inertia about its pole, whatever its shape and the errors of measurement."""
+
+_SMALLER = {"mm": 1e3, "cm": 1e2}
+"""Units often mistaken for metres, and the number of them in a metre."""
+
+
+class UnlikelyBlockWarning(UserWarning):
+    """A block's lengths and mass look as if they were in other units."""
+
+
+def prism_volume(width: float, depth: float, height: float) -> float:
+    """Volume of a prism, m³; lengths in m."""
+    return width * depth * height
+
+
+def cone_volume(base_diameter: float, top_diameter: float, height: float) -> float:
+    """Volume of a truncated cone, m³; lengths in m. Of a cylinder both diameters are the same."""
+    return pi * height * (base_diameter**2 + base_diameter * top_diameter + top_diameter**2) / 12
+
+
+def is_likely(density: float) -> bool:
+    """Whether a density, kg/m³, is that of a material."""
+    return LIGHTEST <= density <= HEAVIEST
+
+
+def mistaken_lengths(density: float) -> tuple[str, int]:
+    """
+    Find in which unit lengths were, and how many of the three, so that a density that is not likely becomes so.
+
+    Returns
+    -------
+    unit : str
+        "mm" or "cm" mistaken for m; empty where neither explains it.
+    count : int
+        How many of the three lengths: all of them if that explains it, else fewer.
+
+    Examples
+    --------
+    >>> mistaken_lengths(7.7e-6), mistaken_lengths(7.7), mistaken_lengths(7700.0)
+    (('mm', 3), ('mm', 1), ('', 0))
+    """
+    if not is_likely(density):
+        for count in (3, 1, 2):
+            for unit, factor in _SMALLER.items():
+                if is_likely(density * factor**count):
+                    return unit, count
+    return "", 0
+
+
+def expect_metres(density: float, slenderness: float, **lengths: float) -> None:
+    """Warn the caller of `Block` where lengths (m) and density (kg/m³) look as if a length was in another unit."""
+    unit, count = mistaken_lengths(density)
+    if count == 3 or (count and slenderness < SLENDEREST):
+        given = ", ".join(f"{name}={value:g}" for name, value in lengths.items())
+        warnings.warn(
+            f"Block: {given} with this mass make {density:.2g} kg/m³. Lengths are in m and the mass in kg: were "
+            f"they in {unit}?",
+            UnlikelyBlockWarning,
+            stacklevel=3,
+        )
+
+
+def expect_inertia(inertia: float, mass: float, pole_distance: float) -> None:
+    """
+    Refuse a moment of inertia about the pole (kg m²) that is too small for a mass (kg) at its distance (m).
+
+    Raises
+    ------
+    ValueError
+        If no body has it.
+    """
+    if inertia < HOLLOW * mass * pole_distance**2:
+        raise ValueError(
+            f"inertia is {inertia:g} kg m² with a pole_distance of {pole_distance:g} m and a mass of {mass:g} "
+            f"kg; at least m R² = {mass * pole_distance**2:.4g} kg m² was expected. Is the pole distance in m, "
+            "and the inertia that about the pole?"
+        )
+
+
+EXPONENTS = {
+    "length": 1.0,
+    "time": 0.5,
+    "frequency": -0.5,
+    "velocity": 0.5,
+    "acceleration": 0.0,
+    "angle": 0.0,
+    "angular_velocity": -0.5,
+    "mass": 3.0,
+    "inertia": 5.0,
+}
+"""Power of the scale by which each quantity grows."""
+
+
+def at_prototype(quantity: str, value: float, scale: float) -> float:
+    """
+    Value at prototype scale of a quantity measured on a model.
+
+    Parameters
+    ----------
+    quantity : str
+        One of `EXPONENTS`.
+    value : float
+        At model scale.
+    scale : float
+        s of a 1:s model.
+
+    Raises
+    ------
+    ValueError
+        If the quantity is not known or the scale is not positive.
+
+    Notes
+    -----
+    Gravity is the same for both, so accelerations are, and time goes with the square root of length. Mass and inertia
+    are those of the same density. Angles, e, A and Ω do not change.
+
+    Examples
+    --------
+    >>> at_prototype("length", 0.5, 20), round(at_prototype("frequency", 5.631, 20), 4)
+    (10.0, 1.2591)
+    """
+    if quantity not in EXPONENTS:
+        raise ValueError(f"{quantity!r} is not a quantity that scales; one of {', '.join(EXPONENTS)} was expected")
+    if not scale > 0:
+        raise ValueError(f"scale is {scale}; a positive number was expected")
+    return float(value * scale ** EXPONENTS[quantity])

@@ -1,1 +1,0 @@
-"""Rocking spectra of recorded motions and overturning spectra of pulses."""

@@ -1,0 +1,151 @@
+"""The bodies of an assembly: the angle in each joint over time, and where each stands at the end, seen from above."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+from scipy.spatial.transform import Rotation
+
+from colonnade.arrays import Array
+from colonnade.campaign import Test
+from colonnade.campaign.forms.summary import BodyPrediction
+from colonnade.dynamics.assembly import Assembly
+from colonnade.figures.files.output import Picture
+from colonnade.figures.histories import largest_of, scale_symmetric
+from colonnade.figures.panels.curve import Curve
+from colonnade.figures.panels.layout import legend_above, stacked_panels
+from colonnade.figures.panels.long import draw_curve
+from colonnade.figures.style import MEASURED, SOFT, model_style, styled, width
+from colonnade.store.records.stored import Stored
+from colonnade.store.records.test import bodies_of
+from colonnade.units.text import joined, number, quantity
+
+PANEL, SQUARE = 0.9, 1.9
+"""Height of a joint's panel, and of a plan, inches."""
+
+MOST_PLANS = 4
+"""Plans side by side."""
+
+CIRCLE = 48
+"""Corners of a round base as it is drawn."""
+
+
+def histories(stored: Stored, place: int, name: str) -> dict[str, Curve]:
+    """Return what was measured, and what each model predicts, of the body at a place: `body_…` over time, SI."""
+    found = {"measured": ("rocking", None)} | {model: ("predict", model) for model in stored.models("predict")}
+    curves = {
+        who: Curve(stored.array(stage, "elapsed", model), stored.array(stage, name, model)[place])
+        for who, (stage, model) in found.items()
+        if stored.has(stage, name, model)
+    }
+    return {who: curve for who, curve in curves.items() if np.isfinite(curve.values).any()}
+
+
+def joints(test: Test, stored: Stored) -> Picture | None:
+    """Draw the rocking angle in the joint below each body, the upper ones above; None without several bodies."""
+    records = bodies_of(stored)
+    if not records:
+        return None
+    said = [f"{name}: {_said(record.outcome, record.opening)}" for name, record in records.items()]
+    title = f"{test.id}: rocking angle in the joint below each body, measured and predicted"
+    return Picture(_joints(stored, list(records)), f"joints-{test.id}", title, f"{'; '.join(said)}.")
+
+
+def _said(outcome: str | None, opening: float | None) -> str:
+    far = "" if opening is None else f", joint open by up to {quantity(opening, 'mm')}"
+    return f"{outcome or 'not measured'}{far}"
+
+
+@styled()
+def _joints(stored: Stored, names: list[str]) -> Figure:
+    figure, axes = stacked_panels([PANEL] * len(names))
+    for panel, (place, name) in zip(axes, reversed(list(enumerate(names))), strict=True):
+        curves = histories(stored, place, "body_joint_angle")
+        scaled = {who: curve._replace(values=1e3 * curve.values) for who, curve in curves.items()}
+        for who, curve in scaled.items():
+            look = MEASURED if who == "measured" else model_style(who)
+            draw_curve(panel, curve, label=who if who == "measured" else f"{who} model", **look)
+        scale_symmetric(panel, largest_of(list(scaled.values())) or 1.0)
+        panel.set_ylabel(f"{name}\n(mrad)")
+    axes[-1].set_xlabel("time (s)")
+    legend_above(figure, axes)
+    return figure
+
+
+def plan(test: Test, stored: Stored, assembly: Assembly) -> Picture | None:
+    """Draw the base of each body from above, to scale: at rest, at the end, and as predicted; None without bodies."""
+    records = {
+        name: {"measured": record} | dict(record.predicted)
+        for name, record in bodies_of(stored).items()
+        if record.outcome != "overturned"
+    }
+    moved = {
+        name: {who: each for who, each in every.items() if each.residual_x is not None and each.outcome != "overturned"}
+        for name, every in records.items()
+    }
+    shown = {name: every for name, every in moved.items() if every}
+    if not shown:
+        return None
+    said = [f"{name} {_moved(next(iter(every.values())))}" for name, every in shown.items()]
+    title = f"{test.id}: where each body stands at the end, from above, to scale"
+    return Picture(_plan(shown, assembly), f"plan-{test.id}", title, f"{joined(said)} from where it stood.")
+
+
+def _moved(record: BodyPrediction) -> str:
+    far = np.hypot(record.residual_x or 0.0, record.residual_y or 0.0)
+    return f"{quantity(float(far), 'mm')}"
+
+
+@styled()
+def _plan(shown: dict[str, dict[str, BodyPrediction]], assembly: Assembly) -> Figure:
+    columns = min(len(shown), MOST_PLANS)
+    rows = -(-len(shown) // columns)
+    figure = Figure(figsize=(width(), SQUARE * rows + 0.3), layout="constrained")
+    axes = figure.subplots(rows, columns, squeeze=False).ravel()
+    for panel in axes[len(shown) :]:
+        panel.set_axis_off()
+    for panel, (name, every) in zip(axes, shown.items(), strict=False):
+        outline = 1e3 * _base(assembly, name)
+        panel.add_patch(Polygon(outline, fill=False, edgecolor=SOFT, linestyle=(0, (1, 2)), label="at rest"))
+        for who, record in every.items():
+            look = MEASURED if who == "measured" else model_style(who)
+            turned = Rotation.from_euler("z", record.residual_yaw or 0.0).as_matrix()[:2, :2]
+            place = 1e3 * np.array([record.residual_x or 0.0, record.residual_y or 0.0])
+            label = "at the end" if who == "measured" else f"at the end, {who} model"
+            panel.add_patch(
+                Polygon(
+                    outline @ turned.T + place,
+                    fill=False,
+                    edgecolor=look["color"],
+                    linestyle=look["linestyle"],
+                    linewidth=look["linewidth"],
+                    label=label,
+                )
+            )
+        panel.set_aspect("equal", adjustable="datalim")
+        panel.autoscale_view()
+        panel.margins(0.12)
+        panel.set_title(f"{name}: {number(1e3 * float(np.hypot(*_place(every))))} mm", fontsize=8)
+        panel.tick_params(labelsize=7)
+    axes[0].set_ylabel("y (mm)")
+    axes[0].set_xlabel("x (mm)")
+    handles = {each.get_label(): each for panel in axes for each in panel.patches}
+    figure.legend(handles.values(), handles.keys(), loc="outside upper left", ncols=3, fontsize=8)
+    return figure
+
+
+def _place(every: dict[str, BodyPrediction]) -> tuple[float, float]:
+    first = next(iter(every.values()))
+    return first.residual_x or 0.0, first.residual_y or 0.0
+
+
+def _base(assembly: Assembly, name: str) -> Array:
+    """Corners of a body's base from above, about its centre, m."""
+    block = assembly.bodies[name].block
+    half, solid = block.governing.half_width, block.solid
+    if solid is not None and solid.base == "circle":
+        around = np.linspace(0, 2 * np.pi, CIRCLE, endpoint=False)
+        return half * np.column_stack((np.cos(around), np.sin(around)))
+    deep = half if solid is None else solid.half_depth
+    return np.array([(-half, -deep), (half, -deep), (half, deep), (-half, deep)])

@@ -1,0 +1,323 @@
+"""
+What a forecast says of a test, what was observed in it, and its proper scores: the smaller the better.
+
+`crps` is the main one: it uses the amplitude of every test, whatever its outcome, and was chosen before any result.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import log
+from typing import get_args
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from colonnade.arrays import Array, Codes
+from colonnade.dynamics.history import NO_ROCKING_RATIO, Outcome
+from colonnade.validation import described, number, samples
+
+OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
+"""In order: each is more than the one before it."""
+
+ROCKING, OVERTURNED = OUTCOMES.index("rocking"), OUTCOMES.index("overturned")
+
+
+@dataclass(frozen=True)
+class Response:
+    """
+    What was observed in one test.
+
+    Attributes
+    ----------
+    outcome : int
+        Place in `OUTCOMES`.
+    amplitude : float
+        min(max |θ|, α)/α: 0 if the specimen did not rock, 1 if it overturned.
+    """
+
+    outcome: int
+    amplitude: float
+
+    @classmethod
+    def observed(cls, outcome: str, peak_ratio: float | None = None) -> Response:
+        """
+        Take an outcome and, if the specimen rocked and stands, its max |θ|/α.
+
+        Raises
+        ------
+        ValueError
+            If the outcome is not one of `OUTCOMES`, or the max |θ|/α is needed and missing.
+        """
+        if outcome not in OUTCOMES:
+            raise ValueError(f"outcome is {described(outcome)}; one of {', '.join(OUTCOMES)} was expected")
+        place = OUTCOMES.index(outcome)
+        if place != ROCKING:
+            return cls(place, float(place == OVERTURNED))
+        ratio = number("peak_ratio", peak_ratio, "max |θ|/α, zero or more, of a specimen that rocked", low=0.0)
+        return cls(place, min(ratio, 1.0))
+
+
+@dataclass(frozen=True, eq=False)
+class Forecast:
+    """
+    An ensemble of responses, all equally likely.
+
+    Attributes
+    ----------
+    outcomes : ndarray of int, shape (m,)
+        Of each member, its place in `OUTCOMES`.
+    amplitudes : ndarray, shape (m,)
+        Of each member, as of `Response`.
+    """
+
+    outcomes: Codes
+    amplitudes: Array
+
+    @property
+    def overturning_probability(self) -> float:
+        """Share of the members that overturn."""
+        return float(np.mean(self.outcomes == OVERTURNED))
+
+
+def forecast_of(peak_ratio: ArrayLike, overturning_time: ArrayLike) -> Forecast:
+    """
+    Take the members of an ensemble of a model as a forecast.
+
+    Parameters
+    ----------
+    peak_ratio, overturning_time : array_like, shape (m,)
+        As of `dynamics.ensemble`: max |θ|/α; s, NaN for a member that stands. The peak of one that overturned does
+        not count.
+
+    Returns
+    -------
+    forecast : Forecast
+
+    Raises
+    ------
+    ValueError
+        If the lengths differ, or a member stands and has no peak.
+
+    Examples
+    --------
+    >>> forecast = forecast_of([0.0002, 0.4, float("nan")], [float("nan"), float("nan"), 3.1])
+    >>> forecast.outcomes.tolist(), forecast.amplitudes.tolist()
+    ([0, 1, 2], [0.0, 0.4, 1.0])
+    """
+    peaks = samples("peak_ratio", peak_ratio, gaps=True, each="member")
+    times = samples("overturning_time", overturning_time, gaps=True, each="member")
+    if peaks.size != times.size:
+        raise ValueError(
+            f"peak_ratio has {peaks.size} members and overturning_time {times.size}; one number was expected"
+        )
+    overturned = np.isfinite(times)
+    if np.isnan(peaks[~overturned]).any():
+        raise ValueError("a member stands and its peak_ratio is NaN; its max |θ|/α was expected")
+    rocked = overturned | (peaks > NO_ROCKING_RATIO)
+    outcomes = rocked.astype(np.int8) + overturned
+    return Forecast(outcomes, np.where(overturned, 1.0, np.where(rocked, np.minimum(peaks, 1.0), 0.0)))
+
+
+def forecast_of_peaks(peak_ratio: Sequence[float | None]) -> Forecast:
+    """
+    Take members that are known by max |θ|/α alone, None for one that overturned, as a forecast.
+
+    Examples
+    --------
+    >>> forecast_of_peaks([0.0002, 0.4, None]).amplitudes.tolist()
+    [0.0, 0.4, 1.0]
+    """
+    peaks = np.array([np.nan if peak is None else peak for peak in peak_ratio])
+    return forecast_of(peaks, np.where(np.isnan(peaks), 1.0, np.nan))
+
+
+def base_rates(observed: Sequence[Response]) -> list[Forecast]:
+    """
+    Forecast each test of a campaign by what was observed in all others.
+
+    Parameters
+    ----------
+    observed : sequence of Response, length n
+        Of all tests of one campaign.
+
+    Returns
+    -------
+    forecasts : list of Forecast, length n
+        Of n − 1 members each. The score of their fair form is that of the base rate itself, not of its finite sample.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than two tests.
+    """
+    if len(observed) < 2:
+        raise ValueError(
+            f"observed has {len(observed)} tests; at least two were expected, to forecast one by the others"
+        )
+    outcomes = np.array([each.outcome for each in observed], dtype=np.int8)
+    amplitudes = np.array([each.amplitude for each in observed])
+    return [Forecast(np.delete(outcomes, test), np.delete(amplitudes, test)) for test in range(len(observed))]
+
+
+@dataclass(frozen=True)
+class Scores:
+    """
+    Scores of one forecast, see the functions of the same names.
+
+    Attributes
+    ----------
+    crps : float
+        Of the amplitude, in units of α.
+    ranked_probability : float
+        Of the outcome, 0 to 2.
+    brier : float
+        Of overturning, 0 to 1.
+    logarithmic : float
+        Of overturning, in nats.
+    """
+
+    crps: float
+    ranked_probability: float
+    brier: float
+    logarithmic: float
+
+
+def score(forecast: Forecast, observed: Response) -> Scores:
+    """Score a forecast by what was observed."""
+    overturning = int(np.sum(forecast.outcomes == OVERTURNED)), forecast.outcomes.size
+    return Scores(
+        crps=crps(forecast.amplitudes, observed.amplitude),
+        ranked_probability=ranked_probability_score(forecast, observed),
+        brier=brier_score(*overturning, happened=observed.outcome == OVERTURNED),
+        logarithmic=logarithmic_score(*overturning, happened=observed.outcome == OVERTURNED),
+    )
+
+
+def crps(members: ArrayLike, observed: float) -> float:
+    """
+    Continuous ranked probability score of an ensemble, in its fair form.
+
+    Parameters
+    ----------
+    members : array_like, shape (m,)
+    observed : float
+
+    Returns
+    -------
+    score : float
+        In the unit of the members. A single member, or many equal ones, give |member − observed|. With few members it
+        can be slightly negative; its mean over many tests is that of an ensemble without end.
+
+    Raises
+    ------
+    ValueError
+        If a number is not finite.
+
+    Notes
+    -----
+    mean |x − y| − Σᵢ<ⱼ |xᵢ − xⱼ| / (m (m − 1)): the kernel form of Gneiting and Raftery (2007) with m (m − 1)
+    for m² (Ferro 2014), so that ensembles of different sizes compare.
+
+    Examples
+    --------
+    >>> crps([0.25, 0.75], 0.5)
+    0.0
+    """
+    ranked = np.sort(samples("members", members, each="member"))
+    truth = number("observed", observed, "a finite number")
+    error, size = float(np.abs(ranked - truth).mean()), ranked.size
+    if size == 1:
+        return error
+    # The gap above the k-th of m members is in the differences of all k (m − k) pairs across it.
+    below = np.arange(1, size)
+    differences = float((below * (size - below)) @ np.diff(ranked))
+    return error - differences / (size * (size - 1))
+
+
+def brier_score(count: int, members: int, *, happened: bool) -> float:
+    """
+    Score the probability of an event (Brier 1950) by whether it happened, in the fair form.
+
+    Parameters
+    ----------
+    count, members : int
+        Members with the event, of how many.
+    happened : bool
+
+    Returns
+    -------
+    score : float
+        (k/m − y)² − k (m − k) / (m² (m − 1)), Ferro (2014): its mean is that of an ensemble without end, and it
+        can be slightly negative. No second term for a single member.
+    """
+    share = count / members
+    spread = share * (1.0 - share) / (members - 1) if members > 1 else 0.0
+    return (share - happened) ** 2 - spread
+
+
+def ranked_probability_score(forecast: Forecast, observed: Response) -> float:
+    """
+    Score the probabilities of the three ordered outcomes (Epstein 1969), in the fair form.
+
+    Returns
+    -------
+    score : float
+        Sum of the Brier scores of "at least rocking" and "overturned" (Murphy 1971), not divided by their number: 0 to
+        2, and slightly negative where they are.
+    """
+    size = forecast.outcomes.size
+    return sum(
+        brier_score(int(np.sum(forecast.outcomes >= place)), size, happened=observed.outcome >= place)
+        for place in range(1, len(OUTCOMES))
+    )
+
+
+def logarithmic_score(count: int, members: int, *, happened: bool) -> float:
+    """
+    Score the probability of an event by the logarithm of the probability of what happened (Good 1952).
+
+    Parameters
+    ----------
+    count, members : int
+        Members with the event, of how many.
+    happened : bool
+
+    Returns
+    -------
+    score : float
+        −ln of the probability, in nats.
+
+    Notes
+    -----
+    The probability is (k + ½)/(m + 1), the mean under Jeffreys's prior: an event that no member, or each, has keeps a
+    probability of 1/(2 m + 2), so that the score is never infinite. Of 100 members it is at most 5.3.
+    """
+    probability = (count + 0.5) / (members + 1)
+    return -log(probability if happened else 1.0 - probability)
+
+
+def skill(scores: ArrayLike, reference: ArrayLike) -> float:
+    """
+    Give the skill of forecasts over that of others for the same tests.
+
+    Parameters
+    ----------
+    scores, reference : array_like, shape (n,)
+
+    Returns
+    -------
+    skill : float
+        1 − mean score / mean score of the reference: 1 is perfect, 0 as good as the reference. NaN if the reference
+        leaves nothing to improve (its mean is zero or less).
+
+    Raises
+    ------
+    ValueError
+        If a score is not finite or the lengths differ.
+    """
+    own, other = samples("scores", scores, each="score"), samples("reference", reference, each="score")
+    if own.size != other.size:
+        raise ValueError(f"scores has {own.size} tests and reference {other.size}; the same tests were expected")
+    return 1.0 - float(own.mean() / other.mean()) if other.mean() > 0.0 else np.nan

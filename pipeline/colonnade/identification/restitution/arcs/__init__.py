@@ -1,1 +1,0 @@
-"""Arcs of a rocking history, each between two impacts."""

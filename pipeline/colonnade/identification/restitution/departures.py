@@ -1,0 +1,333 @@
+"""Departures of a free vibration from plane rocking of this block with one e: named, with their size."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.arrays import Array, Mask
+from colonnade.dynamics.block import Block
+from colonnade.identification.restitution.arcs import Arcs, noise_level
+from colonnade.identification.restitution.estimator import Estimated
+from colonnade.identification.restitution.peaks import lift
+from colonnade.identification.restitution.result import Departure
+from colonnade.identification.restitution.scatter import SCATTERS
+from colonnade.units.text import format_percent
+
+NOISE_MARGIN = 5.0
+"""Standard errors from which on a rotation, a slide, an uplift or a pause is one."""
+
+LARGEST_SHARE = 0.1
+"""Of |θ|, up to which a rotation out of the plane is let pass."""
+
+FEWEST_LATER = 6
+"""Arcs that are left where the first ones are left out."""
+
+SURE = 4.5
+"""Standard errors from which on first impacts differ from later ones (several numbers are tried), or sides do, ..."""
+
+LEAST_LOSS = 0.15
+"""... if the first impacts lose more by this share of 1 − e, ..."""
+
+BETTER = 6.0
+"""... and a step explains it better by this, in χ², than a change with the speed of impact."""
+
+LOW = 0.15
+"""Share of an arc's peak below which a block is near upright."""
+
+LONGEST_PAUSE = 0.15
+"""Share of the arc that follows, up to which a block may stay near upright longer than it needs to pass."""
+
+LEAST_LIFT = 0.02
+"""Share of the half-width by which the base is lifted off both edges in a bounce."""
+
+FRICTION = 0.3
+"""Coefficient assumed for the energy of a slide; ..."""
+
+LEAST_WORK, LARGEST_WORK = 0.01, 0.1
+"""... below the first share of the energy lost it is let pass, above the second there is no e of rocking."""
+
+LEAST_TILT = 0.005
+"""Share of α by which the critical angles of the sides differ, halved, at least."""
+
+LEAST_CHANGE, FEWEST_IMPACTS = 0.005, 5
+"""Change of e over the speeds of impact that is named if it is sure, and of how many impacts at least."""
+
+LARGEST_SCATTER, SURELY = 0.01, 0.99
+"""Standard deviation of e from impact to impact above which, as sure as this, not impacts alone change the energy."""
+
+LEAST_FALL = 2.0
+"""Times by which the residual of a history falls with the base turned round, from which it is recorded so."""
+
+THREE_DIMENSIONAL, UNEQUAL_SIDES, MOVING = "three-dimensional rocking", "unequal sides", "moving table"
+
+
+@dataclass(frozen=True)
+class Seen:
+    """
+    Arcs that count, in order, as they are about their zero.
+
+    Attributes
+    ----------
+    number : ndarray of int, shape (n,)
+        Of each among all arcs.
+    start, end, peak, critical, speed : ndarray, shape (n,)
+        Times of the impacts on either side (s), |θ| of the peak and α (rad), angular velocity at the impacts (rad/s).
+    side : ndarray, shape (n,)
+        −1 or 1, the sign of the peak.
+    """
+
+    number: NDArray[np.int64]
+    start: Array
+    end: Array
+    peak: Array
+    critical: Array
+    speed: Array
+    side: Array
+
+    @classmethod
+    def of(cls, arcs: Arcs, usable: Mask, zero: float, block: Block) -> Seen:
+        """Take the usable arcs, about a zero (rad)."""
+        angle = arcs.peak_angle - zero
+        kept = usable & (np.abs(angle) < block.critical_angle_at(angle))
+        angle = angle[kept]
+        peak, critical = np.abs(angle), block.critical_angle_at(angle)
+        speed = block.p_at(angle) * np.sqrt(2 * lift(peak, critical))
+        return cls(np.flatnonzero(kept), arcs.start[kept], arcs.end[kept], peak, critical, speed, np.sign(angle))
+
+
+def find_rotation(time: Array, out_of_plane: Array, seen: Seen) -> Departure | None:
+    """Hold a measured rotation out of the plane (rad) against the rocking angle; first arcs with much are left out."""
+    finite = np.isfinite(out_of_plane)
+    if not finite.any():
+        return None
+    time, values = time[finite], out_of_plane[finite] - np.median(out_of_plane[finite])
+    noise = noise_level(values)
+    pieces = [values[slice(*np.searchsorted(time, ends))] for ends in zip(seen.start, seen.end, strict=True)]
+    amplitude = np.array([np.abs(piece).max(initial=0.0) for piece in pieces])
+    share = amplitude / seen.peak
+    large = (share > LARGEST_SHARE) & (amplitude > NOISE_MARGIN * noise)
+    if not large.any():
+        return None
+    size = float(share[large].max())
+    return _spatial(
+        seen, int(np.flatnonzero(large)[-1]) + 1, size, float(noise / seen.peak[np.argmax(np.where(large, share, 0))]),
+        f"The block turns out of its plane by up to {format_percent(size)} of the rocking angle (measured); more than "
+        f"{format_percent(LARGEST_SHARE)}",
+    )  # fmt: skip
+
+
+def find_first_loss(found: Estimated, seen: Seen) -> Departure | None:
+    """Look for first cycles that lose more than later ones, as large ones do that turn out of the plane."""
+    impacts = found.path.count - 1
+    most = min(impacts - FEWEST_LATER, impacts // 2)
+    if most < 2:
+        return None
+    deviations = found.path.deviations
+    after = np.cumsum(deviations)
+    counts = np.arange(2, most + 1)
+    # The step by which the squares become least, before it is fitted with all else.
+    first, later = after[counts - 1] / counts, (after[-1] - after[counts - 1]) / (impacts - counts)
+    count = int(counts[np.argmax((later - first) ** 2 * counts * (impacts - counts))])
+    change, error = found.along((np.arange(impacts) < count).astype(np.float64))
+    slope, slope_error = found.trend
+    e = float(np.exp(found.logarithm - change * count / impacts))
+    loss = -e * float(np.expm1(min(change, 1.0)))
+    if loss < LEAST_LOSS * (1 - e) or abs(change) < SURE * error:
+        return None
+    if (change / error) ** 2 < (slope / slope_error) ** 2 + BETTER:
+        return None
+    # The part from the release on ends with an impact that no arc seen begins.
+    count = max(count - (1 if found.path.from_release else 0), 1)
+    return _spatial(
+        seen, count, loss, error * e,
+        f"The first {count} impacts lose more than the later ones, e is lower by {loss:.4f} ± {e * error:.4f}, in a "
+        "step and not gradually with the speed of impact, as large cycles that turn out of the plane do",
+    )  # fmt: skip
+
+
+def _spatial(seen: Seen, count: int, size: float, error: float, finding: str) -> Departure:
+    """Leave the first `count` arcs out, and say so."""
+    total = seen.number.size
+    first = f"the first {f'{count} ' if count > 1 else ''}of {total} arcs"
+    refuses = total - count < FEWEST_LATER
+    end = f"; too few are left without {first}." if refuses else f"; left out: {first}."
+    left_out = int(seen.number[count - 1]) + 1
+    return Departure(THREE_DIMENSIONAL, size, error, "1", finding + end, left_out, refuses)
+
+
+def find_sliding(time: Array, angle: Array, slide: Array, block: Block, seen: Seen) -> Departure | None:
+    """
+    Look for jumps of the pole (m) at impacts, by the work of friction over the energy lost in all impacts.
+
+    Notes
+    -----
+    The slide of an arc is its mean, after what goes with θ on either side was taken off: a transducer that is not quite
+    where it is said to be shows rocking as slide.
+    """
+    pieces = [
+        np.flatnonzero((time >= start + 0.1 * (end - start)) & (time <= end - 0.1 * (end - start)) & np.isfinite(slide))
+        for start, end in zip(seen.start, seen.end, strict=True)
+    ]
+    level, error = np.full(seen.number.size, np.nan), np.full(seen.number.size, np.nan)
+    for side in (-1.0, 1.0):
+        own = [index for index, piece in enumerate(pieces) if seen.side[index] == side and piece.size > 3]
+        if not own:
+            continue
+        theta = np.concatenate([angle[pieces[index]] - angle[pieces[index]].mean() for index in own])
+        moved = np.concatenate([slide[pieces[index]] - slide[pieces[index]].mean() for index in own])
+        slope = float(theta @ moved) / max(float(theta @ theta), 1e-300)
+        for index in own:
+            left = slide[pieces[index]] - slope * angle[pieces[index]]
+            level[index] = left.mean()
+            residual = left - left.mean()
+            power = max(float(residual @ residual), 1e-300)
+            correlation = min(max(float(residual[1:] @ residual[:-1]) / power, 0.0), 0.98)
+            error[index] = np.sqrt(power / left.size**2 * (1 + correlation) / (1 - correlation))
+    jumps, errors = np.diff(level), np.hypot(error[1:], error[:-1])
+    large = np.abs(jumps) > NOISE_MARGIN * errors
+    total, total_error = float(np.abs(jumps[large]).sum()), float(np.sqrt((errors[large] ** 2).sum()))
+    lost = float(seen.speed[0] ** 2 - seen.speed[-1] ** 2) * block.inertia / 2
+    work = FRICTION * block.mass * block.gravity * total / max(lost, 1e-300)
+    if not work > LEAST_WORK:
+        return None
+    refuses = work > LARGEST_WORK
+    share = f"{format_percent(work)} of" if work < 10 else "more than 10 times"
+    end = "; too much for an e of rocking alone." if refuses else "; e includes this loss."
+    return Departure(
+        "sliding", total, total_error, "m",
+        f"The block slides at {int(large.sum())} of {jumps.size} impacts, by {1e3 * total:.3g} ± "
+        f"{1e3 * total_error:.1g} mm in all: with a friction of {FRICTION:g} this is {share} the energy lost" + end,
+        refuses=refuses,
+    )  # fmt: skip
+
+
+def find_bouncing(time: Array, angle: Array, uplift: Array | None, block: Block, seen: Seen) -> Departure | None:
+    """Look for impacts with more than one contact: by the height of the base (m) if measured, else by pauses of θ."""
+    if uplift is not None and np.isfinite(uplift).any():
+        return _lifted(time, uplift, block, seen)
+    finite = np.isfinite(angle)
+    return _paused(time[finite], angle[finite], seen)
+
+
+def _lifted(time: Array, uplift: Array, block: Block, seen: Seen) -> Departure | None:
+    noise = noise_level(uplift[np.isfinite(uplift)])
+    threshold = max(LEAST_LIFT * block.governing.half_width, NOISE_MARGIN * noise)
+    lifts = np.zeros(seen.number.size)
+    for index, (start, end) in enumerate(zip(seen.start, seen.end, strict=True)):
+        inside = uplift[slice(*np.searchsorted(time, (start, start + 0.4 * (end - start))))]
+        lifts[index] = np.nanmax(inside) if np.isfinite(inside).any() else 0.0
+    count, size = int((lifts > threshold).sum()), float(lifts.max(initial=0.0))
+    if not count:
+        return None
+    return Departure(
+        "bouncing", size, noise, "m",
+        f"The base leaves the table after {count} of {seen.number.size} impacts, by up to {1e3 * size:.3g} ± "
+        f"{1e3 * noise:.1g} mm: the block bounces, and e includes that loss.",
+    )  # fmt: skip
+
+
+def _paused(time: Array, angle: Array, seen: Seen) -> Departure | None:
+    noise = noise_level(angle)
+    pauses, errors, limits = [], [], []
+    middle, duration = (seen.start + seen.end) / 2, seen.end - seen.start
+    for index in (np.flatnonzero(np.diff(seen.number) == 1) + 1).tolist():
+        low = LOW * float(seen.peak[index])
+        inside = slice(*np.searchsorted(time, (middle[index - 1], middle[index])))
+        if low < NOISE_MARGIN * noise or inside.stop - inside.start < 8:
+            continue
+        step = float(np.median(np.diff(time[inside])))
+        near = float((np.abs(angle[inside]) < low).sum()) * step
+        pauses.append(near - sum(_passing(seen, one, low) for one in (index - 1, index)))
+        errors.append(float(np.hypot(step, 2 * noise / seen.speed[index])))
+        limits.append(LONGEST_PAUSE * float(duration[index]))
+    found = np.array(pauses)
+    large = (found > np.array(limits)) & (found > NOISE_MARGIN * np.array(errors))
+    if not large.any():
+        return None
+    longest = int(np.argmax(np.where(large, found, -np.inf)))
+    return Departure(
+        "bouncing", pauses[longest], errors[longest], "s",
+        f"After {int(large.sum())} of {found.size} impacts the angle stays near zero, by up to "
+        f"{1e3 * pauses[longest]:.3g} ± {1e3 * errors[longest]:.1g} ms longer than a single impact takes: there is "
+        "more than one contact; e includes that loss.",
+    )  # fmt: skip
+
+
+def _passing(seen: Seen, index: int, low: float) -> float:
+    """Time from upright to an angle `low` (rad) along an arc, s: ω falls as the block rises."""
+    left = 1 - float(lift(low, seen.critical[index]) / lift(seen.peak[index], seen.critical[index]))
+    return float(2 * low / (seen.speed[index] * (1 + np.sqrt(max(left, 0.0)))))
+
+
+def unequal_sides(tilt: float, error: float, critical: float) -> Departure | None:
+    """Name critical angles of the two sides that differ: half the difference of their logarithms, and its error."""
+    if abs(tilt) < max(SURE * error, LEAST_TILT):
+        return None
+    return Departure(
+        UNEQUAL_SIDES, tilt * critical, error * critical, "rad",
+        f"The critical angles of the two sides differ by 2 × ({1e3 * tilt * critical:+.2f} ± "
+        f"{1e3 * error * critical:.2f}) mrad from those of the block: arcs on one side last longer than on the other "
+        "at the same peak. The table is tilted by as much, or the block is not as symmetric as given (table_tilt, "
+        "critical_angle). e allows for it.",
+    )  # fmt: skip
+
+
+def scatters(found: Estimated) -> bool:
+    """Whether e of single impacts scatters more than impacts alone explain."""
+    if found.path.count <= FEWEST_IMPACTS:
+        return False
+    large = np.exp(found.logarithm) * SCATTERS > LARGEST_SCATTER
+    return bool(found.solved.weights[large].sum() > SURELY)
+
+
+def find_turned(turned: Estimated | None, *others: Estimated | None) -> list[Departure]:
+    """Name a base whose acceleration explains the angle with its sign turned only: as recorded it would bend e."""
+    if turned is None:
+        return []
+    residual, *rest = (float(each.path.power**0.5) for each in (turned, *others) if each is not None)
+    if rest and min(rest) < LEAST_FALL * residual:
+        return []
+    otherwise = f"it is {1e3 * min(rest):.2g} mrad off" if rest else "no history follows it"
+    return [
+        Departure(
+            MOVING, min(rest, default=0.0), residual, "rad",
+            "With the sign of the table's acceleration turned, a history follows the angle to "
+            f"{1e3 * residual:.2g} mrad; as recorded, or with a table at rest, {otherwise}. Correct the `direction` of "
+            "the accelerometer or of the transducers, or the sign of a gain.",
+            refuses=True,
+        )
+    ]  # fmt: skip
+
+
+def found_by_impact(found: Estimated, *, driven: bool) -> Departure | None:
+    """Name an e of single impacts that scatters more than impacts do, or that changes with their speed."""
+    e = found.path.restitution
+    if e.size < FEWEST_IMPACTS:
+        return None
+    mean = float(np.exp(found.logarithm))
+    change, error = (mean * each for each in found.trend)
+    is_trend = found.has_trend and abs(change) > LEAST_CHANGE
+    scatter = mean * found.solved.scatter
+    if scatters(found) and not (is_trend and scatter < abs(change)):
+        cause = (
+            "the recorded motion of the table does not explain it. Check the gain, sign and clock of its accelerometer."
+            if driven
+            else "the table moves, or somebody touched the block. No value is given; record the table's acceleration "
+            '(on = "table", quantity = "acceleration"), or repeat the test on a table at rest.'
+        )
+        return Departure(
+            MOVING, scatter, scatter / (2 * e.size) ** 0.5, "1",
+            f"e of single impacts scatters by {scatter:.3f}, from {e.min():.3f} to {e.max():.3f}; up to "
+            f"{LARGEST_SCATTER:g} was expected of impacts alone: {cause}",
+            refuses=True,
+        )  # fmt: skip
+    if not is_trend:
+        return None
+    return Departure(
+        "speed-dependent restitution", change, error, "1",
+        f"e is not constant: it changes by {change:+.4f} ± {error:.4f} from the slowest to the fastest impact; the "
+        "value given is the mean over the impacts seen.",
+    )  # fmt: skip

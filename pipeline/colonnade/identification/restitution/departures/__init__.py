@@ -1,1 +1,0 @@
-"""Departures of a free vibration from plane rocking with one e."""

@@ -1,0 +1,304 @@
+"""The coefficient of restitution from the samples of a free vibration, with what is known of the block beforehand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import scipy
+
+from colonnade.arrays import Array
+from colonnade.dynamics.block import Block
+from colonnade.identification.restitution.follower import CRITICAL, PEAK, TILT, TIME, P
+from colonnade.identification.restitution.noise import (
+    FINEST_CUTOFF,
+    Spectrum,
+    Transformed,
+    filter_of,
+    find_cutoff,
+    find_knee,
+    may_be_coloured,
+)
+from colonnade.identification.restitution.path import (
+    DRIFT,
+    FIRST_ARCS,
+    FIXED,
+    GAIN,
+    MEAN,
+    ZERO,
+    Path,
+    Priors,
+    UnfollowedError,
+    from_release,
+    laid,
+    laid_forward,
+    without_first,
+)
+from colonnade.identification.restitution.peaks import lift
+from colonnade.identification.restitution.record import AngleSamples
+from colonnade.identification.restitution.result import Joint
+from colonnade.identification.restitution.scatter import LinearModel, Solved
+
+FEWEST_ARCS = 4
+"""Arcs that have to be followed in the end, that after release included."""
+
+LEAST_NOISE = 1e-6
+"""Of α, standard deviation: less is the rounding of computed records."""
+
+FIRST_SCATTER = 1e-3
+
+ODD_RELEASE = 2.0
+"""Times as much residual power after the release as later, from which the block was not released from rest."""
+
+ORDER = (MEAN, CRITICAL, P, GAIN, TILT, PEAK, TIME, ZERO, DRIFT)
+"""Unknowns in the order in which the linear model has them, as far as they are moved."""
+
+
+SURE_TREND = 0.003
+"""Probability of a change of e with the speed of impact by chance, below which the mean is that at the mean speed."""
+
+FEWEST_OF_TREND = 5
+"""Impacts."""
+
+FEWEST_SEEN = 2
+"""Arcs that have to be seen in a row."""
+
+ASSUMPTIONS = (
+    "plane rocking without slide or bounce; e of each impact about one mean, independent of the others; α, p and the "
+    "angle's gain as uncertain as given; both sides about one zero, that may drift; noise white or of power 1/f, and "
+    "low-passed as given"
+)
+METHOD = (
+    "whole history: penalised least squares on the samples, with an e of its own at each impact about one mean, and "
+    "α, p and the gain of the angle as uncertain as given; interval over all scatters of e by restricted likelihood"
+)
+
+
+@dataclass(frozen=True)
+class Estimated:
+    """
+    A path through the record, and what the record says of its unknowns.
+
+    Attributes
+    ----------
+    path : Path
+    model : LinearModel
+        About the path; unknowns in the order of `names`, as steps from it.
+    names : tuple of int
+    solved : Solved
+    spectrum : Spectrum or None
+        Of the noise; None where the steps are uneven.
+    """
+
+    path: Path
+    model: LinearModel
+    names: tuple[int, ...]
+    solved: Solved
+    spectrum: Spectrum | None
+
+    @property
+    def logarithm_of_path(self) -> float:
+        """ln e of the path, from which `answer` has steps."""
+        return float(self.path.values[MEAN])
+
+    @cached_property
+    def trend(self) -> tuple[float, float]:
+        """Change of ln e over the speeds of impact seen, and its error."""
+        return self.along(self.speeds)
+
+    @property
+    def has_trend(self) -> bool:
+        """Whether e surely changes with the speed of impact."""
+        impacts = self.path.count - 1
+        if impacts < FEWEST_OF_TREND:
+            return False
+        change, error = self.trend
+        return 2 * float(scipy.special.stdtr(impacts - 2, -abs(change) / error)) < SURE_TREND
+
+    @cached_property
+    def answer(self) -> Solved:
+        """What the record says of the mean e; of that at the mean speed, if e surely changes with the speed."""
+        return self.model.with_direction(self.speeds).solved() if self.has_trend else self.solved
+
+    @property
+    def logarithm(self) -> float:
+        """Posterior mean of ln e."""
+        return self.logarithm_of_path + float(self.answer.mean[0])
+
+    @property
+    def zero(self) -> float:
+        """Zero of the angle in the middle of the record, rad."""
+        return float(self.path.values[ZERO])
+
+    @property
+    def landing(self) -> Array:
+        """Angular velocity before each impact between two arcs, rad/s."""
+        return self.path.followed.speeds[:-1]
+
+    @property
+    def speeds(self) -> Array:
+        """Speed of each impact from their mean, over their range."""
+        speed = self.landing
+        return np.asarray((speed - speed.mean()) / max(float(np.ptp(speed)), 1e-300))
+
+    @property
+    def joint(self) -> Joint:
+        """ln e, and ln of α and p over those of the block."""
+        mean, covariance = np.zeros(4), np.zeros((4, 4))
+        solved, wanted = self.answer, (MEAN, CRITICAL, P, GAIN)
+        moved = [name for name in wanted if name in self.names]
+        here, there = [wanted.index(name) for name in moved], [self.names.index(name) for name in moved]
+        mean[here] = self.path.values[moved] + solved.mean[there]
+        covariance[np.ix_(here, here)] = solved.covariance[np.ix_(there, there)]
+        return Joint(mean[:3], covariance[:3, :3], float(mean[3]))
+
+    def along(self, direction: Array) -> tuple[float, float]:
+        """Change of ln e along a direction of the impacts, shape (m,), that all else leaves, and its error."""
+        solved = self.model.with_direction(direction).solved()
+        return float(solved.mean[-1]), float(np.sqrt(solved.covariance[-1, -1]))
+
+    @property
+    def tilt(self) -> tuple[float, float]:
+        """Half the difference of ln α of the two sides beyond that of the block, and its error."""
+        index = self.names.index(TILT)
+        value = self.path.values[TILT] + self.answer.mean[index]
+        return float(value), float(np.sqrt(self.answer.covariance[index, index]))
+
+
+def first_path(samples: AngleSamples, block: Block, peaks: Array, times: Array) -> Path:
+    """
+    Return the path of a run of arcs on alternating sides, by their peaks.
+
+    Parameters
+    ----------
+    samples : AngleSamples
+    block : Block
+    peaks, times : ndarray, shape (n,)
+        Peaks, rad, signed; s.
+
+    Raises
+    ------
+    UnfollowedError
+        If the arcs are too few.
+    """
+    if peaks.size < FEWEST_SEEN:
+        raise UnfollowedError(f"at least {FEWEST_SEEN} arcs in a row are needed")
+    energies = block.p_at(peaks) ** 2 * lift(peaks, block.critical_angle_at(peaks))
+    # An error of the angle is one of the logarithm in proportion to 1 / |θ|.
+    slope, _ = np.polyfit(np.arange(peaks.size), np.log(energies), 1, w=np.abs(peaks))
+    values = np.zeros(FIXED)
+    values[[PEAK, TIME, MEAN]] = abs(peaks[0]), times[0], np.clip(slope / 2, np.log(0.3), np.log(0.9999))
+    return Path(block, samples, int(peaks[0] > 0), values).with_arcs(min(peaks.size, FIRST_ARCS))
+
+
+def estimate(path: Path, priors: Priors, lowpass: float | None, lowest: float, *, whole: bool) -> Estimated:
+    """
+    Follow a record from a first path on, and say what is known of the unknowns then.
+
+    Parameters
+    ----------
+    path : Path
+        Of its first arcs.
+    priors : Priors
+    lowpass : float or None
+        Hz, of the record; found from the residual if None.
+    lowest : float
+        rad; lower peaks are not followed.
+    whole : bool
+        Whether the part from the release on may be followed too.
+
+    Raises
+    ------
+    UnfollowedError
+        If no path follows the record, or the record does not separate the unknowns.
+    """
+    try:
+        path = laid_forward(path, priors, lowest)
+        before = from_release(path) if whole else None
+        if before is not None:
+            try:
+                found = _estimated(before, priors, lowpass)
+                if not _is_odd(found.path):
+                    return found
+                path = without_first(found.path)
+            except UnfollowedError:
+                pass
+        return _estimated(path, priors, lowpass)
+    except np.linalg.LinAlgError as error:
+        raise UnfollowedError(str(error)) from error
+
+
+def _is_odd(path: Path) -> bool:
+    """Whether the part after the release is not as near to the path as the rest."""
+    residual, arc = path.residual, path.followed.arc
+    first, rest = residual[(arc == 0) & path.counted], residual[(arc > 0) & path.counted]
+    if first.size < 2:
+        return False
+    return bool((first**2).mean() > ODD_RELEASE * max((rest**2).mean(), _least(path)))
+
+
+def _least(path: Path) -> float:
+    return float((LEAST_NOISE * path.sides[0].min()) ** 2)
+
+
+def _estimated(path: Path, priors: Priors, lowpass: float | None) -> Estimated:
+    if path.count < FEWEST_ARCS:
+        raise UnfollowedError(f"{FEWEST_ARCS} arcs are needed, and {path.count} could be followed")
+    samples, scatter = path.samples, FIRST_SCATTER
+    spectrum = None
+    if samples.interval is None or samples.step is None:
+        path = replace(path, passed=filter_of(None, 1.0, 1))
+    else:
+        if lowpass is None:
+            path = laid(path, priors, scatter)
+            lowpass = find_cutoff(path.residual, samples.interval, samples.step)
+        if lowpass is not None and lowpass * samples.interval > FINEST_CUTOFF:
+            lowpass = None
+        path = replace(path, passed=filter_of(lowpass, samples.step, samples.group))
+        spectrum = Spectrum(0.0, lowpass, samples.interval, samples.step)
+    for _ in range(3):
+        path = laid(path, priors, scatter)
+        found = _linear(path, priors, spectrum)
+        now = max(found.solved.scatter, 1e-6)
+        if abs(now - scatter) < 0.1 * scatter:
+            break
+        scatter = now
+    if spectrum is None or not may_be_coloured(path.residual, spectrum.interval, spectrum.cutoff_hz, spectrum.step):
+        return found
+    transformed, names = _transformed(path, priors, spectrum)
+    precision = np.append(priors.precision(path.count, 1.0)[list(names)], np.full(path.count - 1, now**-2.0))
+    knee = find_knee(transformed, precision, found.model.level)
+    if knee == 0:
+        return found
+    return _linear(path, priors, replace(spectrum, knee=knee))
+
+
+def _names(priors: Priors) -> tuple[int, ...]:
+    return tuple(name for name in ORDER if priors.widths[name] > 0)
+
+
+def _transformed(path: Path, priors: Priors, spectrum: Spectrum) -> tuple[Transformed, tuple[int, ...]]:
+    names = _names(priors)
+    order = np.append(np.array(names), np.arange(FIXED, path.values.size))
+    return spectrum.transformed(np.where(path.counted, path.residual, 0.0), path.columns[order]), names
+
+
+def _linear(path: Path, priors: Priors, spectrum: Spectrum | None) -> Estimated:
+    names = _names(priors)
+    counted = path.counted
+    if spectrum is None or (spectrum.knee == 0 and spectrum.cutoff_hz is None):
+        order = np.append(np.array(names), np.arange(FIXED, path.values.size))
+        products, gradient = path.products
+        products, gradient = products[np.ix_(order, order)], gradient[order]
+        square, count = float(path.residual[counted] @ path.residual[counted]), float(counted.sum())
+        both = np.vstack((np.append(square, gradient), np.column_stack((gradient, products))))
+    else:
+        transformed, _ = _transformed(path, priors, spectrum)
+        both, count = transformed.rows @ transformed.rows.T, float(counted.sum()) * transformed.share
+    # As seen from the mean: what the impacts' own departures explain is left in the values.
+    turn = np.eye(both.shape[0])
+    turn[1 + len(names) :, 0] = path.deviations
+    precision = priors.precision(path.count, 1.0)[list(names)]
+    model = LinearModel.of(turn.T @ both @ turn, precision, -path.values[list(names)], count, _least(path))
+    return Estimated(path, model, names, model.solved(), spectrum)

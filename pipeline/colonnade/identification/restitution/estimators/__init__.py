@@ -1,1 +1,0 @@
-"""The estimators of the coefficient of restitution, one module each."""

@@ -1,0 +1,251 @@
+"""
+Rocking after a release, arc by arc, with its derivatives by all that is unknown.
+
+    θ̈ = −p² [ sin(α − |θ|) + s (a/g) cos(α − |θ|) ] s,  s = sgn θ
+
+by Runge and Kutta's fourth-order method from sample to sample; the derivatives are those of the same steps. An impact
+multiplies the angular velocity by e. The base acceleration a is linear between samples; a table at rest has none.
+"""
+
+from __future__ import annotations
+
+from math import cos, sin
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.arrays import Array
+from colonnade.dynamics.kernel import kernel
+
+STEP = 0.04
+"""Longest step, in p t: errors of 1e-8 α an arc."""
+
+LOCAL = 4
+"""Derivatives of the angle by height and speed at the start of its arc, by ln α, and by ln p."""
+
+PEAK, TIME, CRITICAL, TILT, P, BY_IMPACT = range(6)
+"""Unknowns: first peak (rad), its time (s), ln α, half the difference of ln α, ln p; ln e of each impact from there."""
+
+
+class Followed(NamedTuple):
+    """
+    A rocking history of m arcs at n samples.
+
+    Attributes
+    ----------
+    angle : ndarray, shape (n,)
+        rad; NaN where it was not followed.
+    arc : ndarray of int, shape (n,)
+        Number of the arc of each sample, −1 where it was not followed.
+    local : ndarray, shape (n, 4)
+        See `LOCAL`.
+    starts : ndarray, shape (m, 2, 5 + m − 1)
+        Derivatives of height and speed at each arc's start, at a fixed time, by all unknowns.
+    peaks, times, ends : ndarray, shape (m,)
+        |θ| of each peak, its time, and that of the impact that ends the arc; NaN from where the block overturns.
+    speeds : ndarray, shape (m,)
+        Angular velocity before that impact, rad/s.
+    """
+
+    angle: Array
+    arc: NDArray[np.int64]
+    local: Array
+    starts: Array
+    peaks: Array
+    times: Array
+    ends: Array
+    speeds: Array
+
+
+@kernel
+def _stages(
+    height: float, speed: float, length: float, critical: float, square: float, first: float, last: float
+) -> tuple[float, float, float, float, float, float, float, float]:
+    """Accelerations of a step's four stages and their derivatives by the height; the push at its start and end."""
+    middle = 0.5 * (first + last)
+    lean = critical - height
+    s, c = sin(lean), cos(lean)
+    one, by_one = -square * (s + first * c), square * (c - first * s)
+    lean = critical - (height + 0.5 * length * speed)
+    s, c = sin(lean), cos(lean)
+    two, by_two = -square * (s + middle * c), square * (c - middle * s)
+    lean = critical - (height + 0.5 * length * speed + 0.25 * length * length * one)
+    s, c = sin(lean), cos(lean)
+    three, by_three = -square * (s + middle * c), square * (c - middle * s)
+    lean = critical - (height + length * speed + 0.5 * length * length * two)
+    s, c = sin(lean), cos(lean)
+    return one, two, three, -square * (s + last * c), by_one, by_two, by_three, square * (c - last * s)
+
+
+@kernel
+def _vary(
+    x: float, u: float, length: float,
+    by_one: float, by_two: float, by_three: float, by_four: float,
+    one: float, two: float, three: float, four: float,
+) -> tuple[float, float]:  # fmt: skip
+    """One step of a derivative x and its rate u: x'' = k x + source, with both at the four stages."""
+    first = by_one * x + one
+    second = by_two * (x + 0.5 * length * u) + two
+    third = by_three * (x + 0.5 * length * u + 0.25 * length * length * first) + three
+    fourth = by_four * (x + length * u + 0.5 * length * length * second) + four
+    x += length * u + length * length / 6.0 * (first + second + third)
+    return x, u + length / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
+
+
+@kernel
+def follow(
+    time: Array, base: Array, peak: float, peak_time: float, first_side: int, restitution: Array,
+    critical: Array, p: Array, derived: bool,
+) -> Followed:  # fmt: skip
+    """
+    Follow rocking from a peak, forward to the end of the last arc and backward to the first sample.
+
+    Parameters
+    ----------
+    time : ndarray, shape (n,)
+        s, increasing.
+    base : ndarray, shape (n,)
+        Base acceleration over gravity at these times, or empty for a table at rest.
+    peak, peak_time : float
+        |θ| (rad) and time (s) of the first peak.
+    first_side : int
+        0 where it has θ < 0, 1 where θ > 0.
+    restitution : ndarray, shape (m − 1,)
+        e of each impact.
+    critical, p : ndarray, shape (2,)
+        α (rad) and p (rad/s) of the sides θ < 0 and θ > 0.
+    derived : bool
+        Whether derivatives are wanted.
+    """
+    n, m = time.size, restitution.size + 1
+    angle, arc, local = np.full(n, np.nan), np.full(n, -1), np.zeros((n if derived else 0, LOCAL))
+    starts = np.zeros((m, 2, BY_IMPACT + m - 1))
+    peaks, times = np.full(m, np.nan), np.full(m, np.nan)
+    ends, speeds = np.full(m, np.nan), np.full(m, np.nan)
+    at_rest = base.size == 0
+    begin = int(np.searchsorted(time, peak_time))
+    for way in (-1, 1):
+        side, now, height, speed, number = first_side, peak_time, peak, 0.0, 0
+        sign, alpha, square, longest = 2.0 * side - 1.0, critical[side], p[side] * p[side], STEP / p[side]
+        # Derivatives by height and speed at the start, by ln α and by ln p.
+        h, hu, v, vu, a, au, q, qu = 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0
+        i = begin if way > 0 else begin - 1
+        push = 0.0
+        if not at_rest:
+            push = sign * np.interp(now, time, base)
+        if way > 0:
+            starts[0, 0, PEAK] = 1.0
+            starts[0, 1, TIME] = square * (sin(alpha - peak) + push * cos(alpha - peak))
+            peaks[0], times[0] = peak, peak_time
+        while number < m and (0 <= i < n):
+            length, ends_at_sample = time[i] - now, True
+            if abs(length) > longest:
+                parts = np.ceil(abs(length) / longest)
+                length, ends_at_sample = length / parts, parts < 1.5
+            next_push = 0.0
+            if not at_rest:
+                next_push = push + (sign * base[i] - push) * (length / (time[i] - now) if time[i] != now else 1.0)
+            stages = _stages(height, speed, length, alpha, square, push, next_push)
+            one, two, three, four, by_one, by_two, by_three, by_four = stages
+            higher = height + length * speed + length * length / 6.0 * (one + two + three)
+            faster = speed + length / 6.0 * (one + 2.0 * two + 2.0 * three + four)
+            landed = way > 0 and higher <= 0.0 and faster < 0.0
+            if landed:
+                whole, whole_push = length, next_push
+                for _ in range(5):
+                    length -= higher / faster
+                    next_push = push + (whole_push - push) * (length / whole)
+                    stages = _stages(height, speed, length, alpha, square, push, next_push)
+                    one, two, three, four, by_one, by_two, by_three, by_four = stages
+                    higher = height + length * speed + length * length / 6.0 * (one + two + three)
+                    faster = speed + length / 6.0 * (one + 2.0 * two + 2.0 * three + four)
+                ends_at_sample = False
+            if derived:
+                h, hu = _vary(h, hu, length, by_one, by_two, by_three, by_four, 0.0, 0.0, 0.0, 0.0)
+                v, vu = _vary(v, vu, length, by_one, by_two, by_three, by_four, 0.0, 0.0, 0.0, 0.0)
+                a, au = _vary(
+                    a, au, length, by_one, by_two, by_three, by_four,
+                    -alpha * by_one, -alpha * by_two, -alpha * by_three, -alpha * by_four,
+                )  # fmt: skip
+                q, qu = _vary(
+                    q, qu, length, by_one, by_two, by_three, by_four, 2.0 * one, 2.0 * two, 2.0 * three, 2.0 * four
+                )
+            if way > 0 and number > 0 and speed > 0.0 and faster <= 0.0 and not higher <= peaks[number]:
+                turned = length * speed / (speed - faster)
+                peaks[number], times[number] = height + 0.5 * speed * turned, now + turned
+            now, height, speed, push = now + length, higher, faster, next_push
+            if ends_at_sample:
+                now = time[i]
+                if way < 0 and height <= 0.0:
+                    break
+                angle[i], arc[i] = sign * height, number
+                if derived:
+                    local[i, 0], local[i, 1], local[i, 2], local[i, 3] = sign * h, sign * v, sign * a, sign * q
+                i += way
+            if not abs(height) < 1.5:
+                break
+            if landed:
+                ends[number], speeds[number] = now, -speed
+                number += 1
+                if number == m:
+                    break
+                e, pull = restitution[number - 1], -square * (sin(alpha) + push * cos(alpha))
+                side = 1 - side
+                sign, alpha, square = -sign, critical[side], p[side] * p[side]
+                push, longest = -push, STEP / p[side]
+                after = -square * (sin(alpha) + push * cos(alpha))
+                if derived:
+                    tilted = -sign  # of the arc that ended
+                    for k in range(BY_IMPACT + number):
+                        by_height, by_speed = starts[number - 1, 0, k], starts[number - 1, 1, k]
+                        x, u = h * by_height + v * by_speed, hu * by_height + vu * by_speed
+                        if k == CRITICAL:
+                            x, u = x + a, u + au
+                        elif k == TILT:
+                            x, u = x + tilted * a, u + tilted * au
+                        elif k == P:
+                            x, u = x + q, u + qu
+                        later = -x / speed
+                        rebound = -e * (u + pull * later)
+                        if k == BY_IMPACT + number - 1:
+                            rebound -= e * speed
+                        starts[number, 0, k] = e * speed * later
+                        starts[number, 1, k] = rebound - after * later
+                    h, hu, v, vu, a, au, q, qu = 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0
+                height, speed = 0.0, -e * speed
+    return Followed(angle, arc, local, starts, peaks, times, ends, speeds)
+
+
+@kernel
+def arc_products(local: Array, residual: Array, arc: NDArray[np.int64], count: int) -> tuple[Array, Array]:
+    """Sums over each arc of products of columns (count, l, l), and with residuals (count, l); NaN is passed over."""
+    size = local.shape[1]
+    products, gradients = np.zeros((count, size, size)), np.zeros((count, size))
+    for i in range(residual.size):
+        n = arc[i]
+        if n < 0 or np.isnan(residual[i]):
+            continue
+        for j in range(size):
+            gradients[n, j] += local[i, j] * residual[i]
+            for k in range(j + 1):
+                products[n, j, k] += local[i, j] * local[i, k]
+    for n in range(count):
+        for j in range(size):
+            for k in range(j):
+                products[n, k, j] = products[n, j, k]
+    return products, gradients
+
+
+@kernel
+def spread_columns(local: Array, arc: NDArray[np.int64], by_unknown: Array) -> Array:
+    """Derivatives by all unknowns at all samples, shape (k, n), of those by arc, shape (m, l, k); 0 if not followed."""
+    unknowns, size = by_unknown.shape[2], local.shape[1]
+    columns = np.zeros((unknowns, arc.size))
+    for k in range(unknowns):
+        for i in range(arc.size):
+            n = arc[i]
+            if n >= 0:
+                for j in range(size):
+                    columns[k, i] += local[i, j] * by_unknown[n, j, k]
+    return columns

@@ -1,0 +1,263 @@
+"""Noise of a record, white or of power 1/f below a knee, and what a low-pass does to the corners at impacts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+import scipy
+
+from colonnade.arrays import Array
+from colonnade.dynamics.kernel import kernel
+from colonnade.identification.restitution.follower import Followed
+
+ORDER = 4
+"""Of the Butterworth filter, run forwards and backwards."""
+
+PASSED = 0.05
+"""Share of power that a low-pass leaves at least of the frequencies that count."""
+
+ABOUT_FILTER = 4.0
+"""Of 1 / cut-off: time about an impact in which the filter rounds its corner."""
+
+FINEST_CUTOFF = 0.45
+"""Of the sampling rate of the samples fitted: a filter above it rounds nothing that they see."""
+
+KNEES, CUTOFFS = 12, 40
+"""Frequencies tried below which noise of power 1/f exceeds white noise; cut-offs tried if the low-pass is not known."""
+
+FLOOR = 1e-4
+"""Share of the power that a recorder adds after its low-pass."""
+
+SURE = 10.0
+"""Gain of the logarithm of the likelihood by which a low-pass that was not given is believed."""
+
+FEWEST = 64
+"""Samples from which a spectrum is looked at."""
+
+BAND = 0.1
+"""Width of a band of frequencies, as a share of its lowest, over which a spectrum is averaged."""
+
+
+def passed(frequency: Array, cutoff_hz: float | None, step: float) -> Array:
+    """Share of the amplitude that the low-pass leaves at frequencies (Hz) of a record with samples every `step` s."""
+    if cutoff_hz is None:
+        return np.ones(frequency.shape)
+    ratio = np.tan(np.pi * np.minimum(frequency * step, 0.4999)) / np.tan(np.pi * cutoff_hz * step)
+    return np.asarray(1.0 / (1.0 + np.minimum(ratio, 1e6) ** (2 * ORDER)))
+
+
+@dataclass(frozen=True, eq=False)
+class Filter:
+    """
+    A low-pass, and the mean over a group of samples, as they round a corner at time 0.
+
+    Attributes
+    ----------
+    cutoff_hz : float or None
+    step : float
+        Of the recording, s.
+    time : ndarray, shape (n,)
+        s, evenly from −reach to reach.
+    of_speed, of_acceleration : ndarray, shape (n,)
+        Filtered less unfiltered, for a unit jump of the velocity, s, and of the acceleration, s².
+    """
+
+    cutoff_hz: float | None
+    step: float
+    time: Array
+    of_speed: Array
+    of_acceleration: Array
+
+
+@lru_cache(maxsize=32)
+def filter_of(cutoff_hz: float | None, step: float, group: int) -> Filter:
+    """Compute how a low-pass rounds corners in a record of which groups of samples are averaged."""
+    length = group * step
+    reach = max(ABOUT_FILTER / cutoff_hz if cutoff_hz else 0.0, length)
+    half = int(np.ceil(8 * reach / min(length, 0.2 / cutoff_hz if cutoff_hz else length)))
+    time, fine = np.linspace(-reach, reach, 2 * half + 1, retstep=True)
+    frequency = scipy.fft.rfftfreq(8 * half, fine)
+    response = passed(frequency, cutoff_hz, step) * (np.sinc(frequency * length) if group > 1 else 1.0)
+    pulse = np.fft.fftshift(np.fft.irfft(response))[4 * half - half : 4 * half + half + 1] / fine
+    pulse /= scipy.integrate.trapezoid(pulse, dx=fine)
+    once = scipy.integrate.cumulative_trapezoid(pulse, dx=fine, initial=0.0)
+    twice = scipy.integrate.cumulative_trapezoid(once, dx=fine, initial=0.0)
+    thrice = scipy.integrate.cumulative_trapezoid(twice, dx=fine, initial=0.0)
+    after = np.maximum(time, 0.0)
+    of_speed, of_acceleration = twice - after, thrice - after**2 / 2
+    # Beyond the corner the mean of a parabola is above its middle: that is taken off where samples are averaged.
+    return Filter(cutoff_hz, step, time, of_speed, of_acceleration - np.where(time > 0, of_acceleration[-1], 0.0))
+
+
+def corner_response(
+    rounding: Filter, time: Array, followed: Followed, critical: Array, p: Array, side: int, e: Array
+) -> Array:
+    """Filtered less unfiltered angle at times (s), rad; impacts as followed, the last with the e of the one before."""
+    if rounding.cutoff_hz is None and not rounding.time.size:
+        return np.zeros(time.size)
+    at_rest = np.append(e, e[-1:] if e.size else 1.0)
+    signs = np.where((side + np.arange(at_rest.size)) % 2, 1.0, -1.0)
+    # Where the first arc was seen from its start on, it began with an impact too.
+    ends = np.append(2 * followed.times[0] - followed.ends[0], followed.ends)
+    jumps = signs * followed.speeds * (1 - at_rest)
+    jumps = np.append(-jumps[0] / at_rest[0], jumps)
+    bends = np.append(-signs[0], signs) * float((p**2 * np.sin(critical)).sum())
+    return _corners(time, ends, jumps, bends, rounding.time, rounding.of_speed, rounding.of_acceleration)
+
+
+@kernel
+def _corners(
+    time: Array, ends: Array, jumps: Array, bends: Array, offsets: Array, of_speed: Array, of_acceleration: Array
+) -> Array:
+    total = np.zeros(time.size)
+    reach, fine = offsets[-1], offsets[1] - offsets[0]
+    for k in range(ends.size):
+        if np.isnan(ends[k]) or np.isnan(jumps[k]):
+            continue
+        for i in range(np.searchsorted(time, ends[k] - reach), np.searchsorted(time, ends[k] + reach)):
+            place = (time[i] - ends[k] + reach) / fine
+            low = min(int(place), offsets.size - 2)
+            share = place - low
+            total[i] += jumps[k] * (of_speed[low] + share * (of_speed[low + 1] - of_speed[low]))
+            total[i] += bends[k] * (of_acceleration[low] + share * (of_acceleration[low + 1] - of_acceleration[low]))
+    return total
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """
+    Shape of the noise's power, (1 + knee / f) of what a low-pass leaves.
+
+    Attributes
+    ----------
+    knee : float
+        Hz; 0 for white noise.
+    cutoff_hz : float or None
+    interval, step : float
+        Of these samples and of the recording, s.
+    """
+
+    knee: float
+    cutoff_hz: float | None
+    interval: float
+    step: float
+
+    def transformed(self, values: Array, columns: Array) -> Transformed:
+        """Turn values that were filtered, shape (n,), and columns that were not, (k, n), into rows with white noise."""
+        size = int(scipy.fft.next_fast_len(2 * values.size, real=True))
+        padded = np.zeros((1 + columns.shape[0], size))
+        padded[0, : values.size], padded[1:, : values.size] = values, columns
+        frequency = scipy.fft.rfftfreq(size, self.interval)
+        left = passed(frequency, self.cutoff_hz, self.step)
+        kept = left**2 > PASSED
+        weight = np.full(frequency.size, 2.0 / size)
+        weight[0] /= 2
+        if size % 2 == 0:
+            weight[-1] /= 2
+        share = float(weight[kept].sum())
+        frequency = np.maximum(frequency, 0.5 / (values.size * self.interval))[kept]
+        rows = scipy.fft.rfft(padded, overwrite_x=True)[:, kept] * np.sqrt(weight[kept] / (1 + self.knee / frequency))
+        # Only the record was filtered: what is taken off it again is white noise, and the sharp columns.
+        rows[0] /= left[kept]
+        return Transformed(np.ascontiguousarray(rows).view(np.float64), frequency, share)
+
+
+class Transformed(NamedTuple):
+    """Rows with white noise, (1 + k, 2 f); frequencies (Hz, (f,)); share of the samples that count as independent."""
+
+    rows: Array
+    frequency: Array
+    share: float
+
+
+def find_cutoff(residual: Array, interval: float, step: float) -> float | None:
+    """Cut-off (Hz) of the low-pass that a residual, NaN where not counted, went through; None if it shows none."""
+    counted = np.isfinite(residual)
+    if counted.sum() < FEWEST:
+        return None
+    power = np.abs(np.fft.rfft(np.where(counted, residual, 0.0)))[1:] ** 2
+    frequency = scipy.fft.rfftfreq(residual.size, interval)[1:]
+    bands = _Bands.of(frequency, power, np.full(power.size, 2.0))
+    flat = max(bands.likelihood(1 + knee / bands.frequency) for knee in bands.knees)
+    cutoffs = np.geomspace(4 * bands.frequency[0], FINEST_CUTOFF / interval, CUTOFFS).tolist()
+    found = [
+        max(
+            bands.likelihood((1 + knee / bands.frequency) * (passed(bands.frequency, cutoff, step) ** 2 + FLOOR))
+            for knee in bands.knees
+        )
+        for cutoff in cutoffs
+    ]
+    best = int(np.argmax(found))
+    return float(cutoffs[best]) if found[best] > flat + SURE else None
+
+
+def may_be_coloured(residual: Array, interval: float, cutoff_hz: float | None, step: float) -> bool:
+    """Whether a residual, NaN where not counted, is likelier with any knee than white, before what a fit took up."""
+    counted = np.isfinite(residual)
+    if counted.sum() < FEWEST:
+        return False
+    frequency = scipy.fft.rfftfreq(residual.size, interval)[1:]
+    left = passed(frequency, cutoff_hz, step) ** 2
+    kept = left > PASSED
+    power = np.abs(np.fft.rfft(np.where(counted, residual, 0.0)))[1:][kept] ** 2 / left[kept]
+    bands = _Bands.of(frequency[kept], power, np.full(power.size, 2.0))
+    return max(bands.likelihood(1 + knee / bands.frequency) for knee in bands.knees[1:]) > bands.likelihood(
+        np.ones(bands.frequency.size)
+    )
+
+
+def find_knee(transformed: Transformed, precision: Array, level: float) -> float:
+    """
+    Find the knee (Hz) of the residual in the first of the rows, or 0 for white noise.
+
+    Parameters
+    ----------
+    transformed : Transformed
+        As of white noise: residual, and columns that were fitted to it.
+    precision : ndarray, shape (k,)
+        1 / variance of what multiplies the columns.
+    level : float
+        Variance of the noise.
+    """
+    rows, columns = transformed.rows, transformed.rows[1:]
+    normal = columns @ columns.T / level + np.diag(precision)
+    size = np.sqrt(np.diag(normal))
+    # A fit takes up noise as well as signal, mostly of low frequencies.
+    solved = np.linalg.pinv(normal / np.outer(size, size), hermitian=True) @ (columns / size[:, None])
+    taken = (solved / size[:, None] * columns).sum(axis=0) / level
+    power = (rows[0] ** 2).reshape(-1, 2).sum(axis=1)
+    freedom = np.maximum(1 - taken.reshape(-1, 2).sum(axis=1), 1e-3)
+    bands = _Bands.of(transformed.frequency, power, freedom)
+    found = [bands.likelihood(1 + knee / bands.frequency) for knee in bands.knees]
+    best = int(np.argmax(found))
+    # White noise is as likely beforehand as all others together.
+    return bands.knees[best] if found[best] > found[0] + np.log(KNEES) else 0.0
+
+
+@dataclass(frozen=True)
+class _Bands:
+    """A spectrum averaged over bands: mean frequency (Hz), mean power, and degrees of freedom of each."""
+
+    frequency: Array
+    power: Array
+    freedom: Array
+    knees: list[float]
+
+    @classmethod
+    def of(cls, frequency: Array, power: Array, freedom: Array) -> _Bands:
+        edges = [0]
+        while edges[-1] < power.size:
+            edges.append(edges[-1] + max(1, int(BAND * edges[-1])))
+        starts = np.array(edges[:-1])
+        total, weight = (np.add.reduceat(each, starts) for each in (power, freedom))
+        middle = np.add.reduceat(frequency, starts) / np.diff([*edges[:-1], power.size])
+        knees = [0.0, *np.geomspace(frequency[0], 3 * frequency[-1], KNEES).tolist()]
+        return cls(middle, total / weight, weight, knees)
+
+    def likelihood(self, shape: Array) -> float:
+        """Logarithm of the likelihood (Whittle's) of a shape of the spectrum, its level being the likeliest."""
+        level = float((self.freedom * self.power / shape).sum() / self.freedom.sum())
+        return -0.5 * float((self.freedom * np.log(level * shape)).sum())

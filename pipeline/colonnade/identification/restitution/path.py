@@ -1,0 +1,353 @@
+"""A path of rocking through a record, and the penalised least squares that lay it there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import exp, sqrt
+
+import numpy as np
+
+from colonnade.arrays import Array, Mask
+from colonnade.dynamics.block import Block
+from colonnade.identification.restitution.follower import (
+    BY_IMPACT,
+    CRITICAL,
+    LOCAL,
+    PEAK,
+    TILT,
+    TIME,
+    Followed,
+    P,
+    arc_products,
+    follow,
+    spread_columns,
+)
+from colonnade.identification.restitution.noise import Filter, corner_response
+from colonnade.identification.restitution.record import AngleSamples
+
+ZERO, DRIFT, GAIN, MEAN = range(BY_IMPACT, BY_IMPACT + 4)
+"""Further unknowns: zero (rad) and its drift over the record (rad), ln of the angle's gain, mean of ln e."""
+
+FIXED = MEAN + 1
+"""Number of unknowns before the departure of ln e at each impact from its mean."""
+
+BLURRED = 0.08
+"""Over p: margin about impacts while the record's low-pass is not known; 1 / (2 × default cut-off)."""
+
+RELEASED = 0.15
+"""Share of the way from release to the first impact that is not followed: how the block was let go is not known."""
+
+LIKELY_SCATTER = 4e-3
+"""Of ln e, with which the first arcs are followed; ..."""
+
+SCATTERS = 3e-4, 3e-2
+"""... then what they show, between these."""
+
+FIRST_ARCS = 10
+FARTHER = 1.6
+"""Arcs that are followed first, and times as many that are looked at next; ..."""
+
+FORESEEN = 0.1
+"""... as long as the standard error of the next peak's time is below this share of its arc."""
+
+MOST_STEPS, MOST_HALVINGS = 20, 8
+CONVERGED = 1e-3
+"""Least lessening of the penalised sum of squares for which another step is made."""
+
+LARGEST_TILT = 0.05
+"""Standard deviation, beforehand, of half the difference of ln α of the two sides beyond that of the block."""
+
+
+class UnfollowedError(Exception):
+    """No path of rocking follows the record."""
+
+
+@dataclass(frozen=True)
+class Path:
+    """
+    Unknowns of a rocking history.
+
+    Attributes
+    ----------
+    block : Block
+    samples : AngleSamples
+    side : int
+        Of the first peak: 0 for θ < 0, 1 for θ > 0.
+    values : ndarray, shape (9 + m − 1,)
+        By `PEAK`, …, `MEAN`, then the departure of ln e of each impact between m arcs.
+    from_release : bool
+        Whether the first peak is a release at rest.
+    passed : Filter or None
+        Low-pass of the record; None while it is not known, when samples near impacts are left out.
+    """
+
+    block: Block
+    samples: AngleSamples
+    side: int
+    values: Array
+    from_release: bool = False
+    passed: Filter | None = None
+
+    @property
+    def count(self) -> int:
+        """Number of arcs."""
+        return self.values.size - FIXED + 1
+
+    @property
+    def deviations(self) -> Array:
+        """Departure of ln e of each impact from the mean."""
+        return self.values[FIXED:]
+
+    @property
+    def restitution(self) -> Array:
+        """e of each impact."""
+        return np.asarray(np.exp(self.values[MEAN] + self.deviations))
+
+    @cached_property
+    def sides(self) -> tuple[Array, Array]:
+        """α (rad) and p (rad/s) of θ < 0 and θ > 0, as the unknowns have them."""
+        tilt, sides = self.values[TILT] * np.array([-1.0, 1.0]), self.block.sides
+        critical = np.array([side.critical_angle for side in sides]) * np.exp(self.values[CRITICAL] + tilt)
+        return critical, np.array([self.block.side_p(side) for side in sides]) * exp(self.values[P])
+
+    def with_arcs(self, count: int) -> Path:
+        """Return the path with as many arcs; new impacts have the mean e."""
+        kept = self.values[: FIXED + count - 1]
+        return replace(self, values=np.append(kept, np.zeros(FIXED + count - 1 - kept.size)))
+
+    @cached_property
+    def followed(self) -> Followed:
+        """The history, with its derivatives."""
+        samples, values = self.samples, self.values
+        return follow(
+            samples.time, samples.base, values[PEAK], values[TIME], self.side, self.restitution, *self.sides, True
+        )
+
+    @cached_property
+    def seen(self) -> Array:
+        """Angle as the record shows it, rad; NaN where it is not followed."""
+        angle = self.followed.angle
+        if self.passed is not None:
+            shown = corner_response(
+                self.passed, self.samples.time, self.followed, *self.sides, self.side, self.restitution
+            )
+            angle = angle + shown
+        return np.asarray(exp(self.values[GAIN]) * angle + self.values[ZERO] + self.values[DRIFT] * self.samples.along)
+
+    @cached_property
+    def residual(self) -> Array:
+        """Measured less seen, rad; NaN where not counted."""
+        residual = self.samples.angle - self.seen
+        times, ends, time = self.followed.times, self.followed.ends, self.samples.time
+        margin = BLURRED / float(self.sides[1].max())
+        start = 2 * times[0] - ends[0] + margin
+        if self.from_release:
+            start = times[0] + RELEASED * (ends[0] - times[0])
+        residual[time < start] = np.nan
+        if self.passed is None:
+            residual[_nearest(time, ends[np.isfinite(ends)]) < margin] = np.nan
+        return residual
+
+    @property
+    def counted(self) -> Mask:
+        """Samples that are counted."""
+        return np.isfinite(self.residual)
+
+    @cached_property
+    def power(self) -> float:
+        """Mean square of the residual, rad²."""
+        counted = self.residual[self.counted]
+        if not counted.size > self.values.size:
+            raise UnfollowedError("too few samples")
+        return max(float(counted @ counted) / counted.size, 1e-30)
+
+    @cached_property
+    def _by_arc(self) -> tuple[Array, Array]:
+        """Local columns, shape (n, 7), and their derivatives by all unknowns for each arc, shape (m, 7, k)."""
+        followed, gain = self.followed, exp(self.values[GAIN])
+        local = np.column_stack((followed.local, np.ones(followed.angle.size), self.samples.along, followed.angle))
+        local[:, :LOCAL] *= gain
+        local[:, -1] *= gain
+        arcs, count = np.zeros((self.count, LOCAL + 3, self.values.size)), self.count
+        signs = np.where((self.side + np.arange(count)) % 2, 1.0, -1.0)
+        arcs[:, :2, :BY_IMPACT] = followed.starts[:, :, :BY_IMPACT]
+        arcs[:, :2, FIXED:] = followed.starts[:, :, BY_IMPACT:]
+        arcs[:, :2, MEAN] = followed.starts[:, :, BY_IMPACT:].sum(axis=2)
+        arcs[:, 2, CRITICAL], arcs[:, 2, TILT], arcs[:, 3, P] = 1.0, signs, 1.0
+        arcs[:, LOCAL, ZERO] = arcs[:, LOCAL + 1, DRIFT] = arcs[:, LOCAL + 2, GAIN] = 1.0
+        return local, arcs
+
+    @cached_property
+    def products(self) -> tuple[Array, Array]:
+        """Products of the angle's derivatives with each other, (k, k), and with the residual, (k,)."""
+        local, arcs = self._by_arc
+        products, gradients = arc_products(local, self.residual, self.followed.arc, self.count)
+        flat = arcs.reshape(-1, self.values.size)
+        return flat.T @ (products @ arcs).reshape(flat.shape), flat.T @ gradients.ravel()
+
+    @cached_property
+    def columns(self) -> Array:
+        """Derivatives of the angle by all unknowns, shape (k, n); 0 where not counted."""
+        local, arcs = self._by_arc
+        return spread_columns(local, np.where(self.counted, self.followed.arc, -1), arcs)
+
+
+@dataclass(frozen=True)
+class Priors:
+    """
+    What is known of the unknowns beforehand.
+
+    Attributes
+    ----------
+    widths : ndarray, shape (9,)
+        Standard deviation of each unknown about 0; infinite if nothing is known, 0 if it is not moved.
+    """
+
+    widths: Array
+
+    @classmethod
+    def of(cls, critical_angle: float, p: float, angle_gain: float) -> Priors:
+        """Know α, p and the gain of the angle as well as this (relative); of the others nothing, of a tilt little."""
+        widths = np.full(FIXED, np.inf)
+        widths[[CRITICAL, P, GAIN, TILT]] = critical_angle, p, angle_gain, LARGEST_TILT
+        return cls(widths)
+
+    def moved(self, count: int) -> Mask:
+        """Which of the unknowns of so many arcs are moved."""
+        return np.append(self.widths > 0, np.ones(count - 1, dtype=bool))
+
+    def precision(self, count: int, scatter: float) -> Array:
+        """1 / variance of each unknown of so many arcs."""
+        with np.errstate(divide="ignore"):
+            return np.append(np.where(self.widths > 0, self.widths, 1.0) ** -2.0, np.full(count - 1, scatter**-2.0))
+
+
+def laid(path: Path, priors: Priors, scatter: float) -> Path:
+    """
+    Move a path to where it is closest to the record, with departures of ln e that a scatter allows.
+
+    Raises
+    ------
+    UnfollowedError
+        If an unknown has no effect, or the path leads to where the block overturns.
+
+    Notes
+    -----
+    Least squares by Gauss and Newton, with (value / width)² of each unknown added; noise as the residuals show.
+    """
+    moved, precision = priors.moved(path.count), priors.precision(path.count, scatter)
+    power = path.power
+    here = _objective(path, precision, power)
+    if not np.isfinite(here):
+        raise UnfollowedError("the block would overturn")
+    for _ in range(MOST_STEPS):
+        step, gain = _step(path, moved, precision, power)
+        if gain < CONVERGED:
+            break
+        for halving in range(MOST_HALVINGS):
+            tried = replace(path, values=path.values + 0.5**halving * step)
+            there = _objective(tried, precision, power)
+            if there < here * (1 + 1e-9):
+                break
+        else:
+            break
+        path, power = tried, tried.power
+        here = _objective(path, precision, power)
+    return path
+
+
+def _objective(path: Path, precision: Array, power: float) -> float:
+    if not np.isfinite(path.followed.peaks).all():
+        return np.inf
+    counted = path.residual[path.counted]
+    if not counted.size > path.values.size:
+        return np.inf
+    return float(counted @ counted / power + (path.values**2 * precision).sum())
+
+
+def _step(path: Path, moved: Mask, precision: Array, power: float) -> tuple[Array, float]:
+    products, gradient = path.products
+    matrix = products[np.ix_(moved, moved)] / power + np.diag(precision[moved])
+    right = (gradient / power - precision * path.values)[moved]
+    scale = np.sqrt(np.diag(matrix))
+    if not (np.isfinite(scale).all() and (scale > 0).all()):
+        raise UnfollowedError("an unknown has no effect")
+    step = np.zeros(path.values.size)
+    step[moved] = np.linalg.solve(matrix / np.outer(scale, scale), right / scale) / scale
+    return step, float(right @ step[moved])
+
+
+def laid_forward(path: Path, priors: Priors, lowest: float) -> Path:
+    """Follow a path forward: the first arcs, then as many more as are foreseen, to the record's end or lowest peak."""
+    scatter = LIKELY_SCATTER
+    while True:
+        path = laid(path, priors, scatter)
+        if path.count > 5:
+            scatter = float(np.clip(1.5 * np.std(path.deviations), *SCATTERS))
+        count = _foreseen(path, priors, scatter, lowest)
+        if count <= path.count:
+            return path
+        path = path.with_arcs(count)
+
+
+def _foreseen(path: Path, priors: Priors, scatter: float, lowest: float) -> int:
+    """How many arcs the record has, and the fit foresees."""
+    moved = priors.moved(path.count)
+    # Residuals of filtered noise are correlated over a few samples: twice the error that white noise would give.
+    matrix = path.products[0] / (4 * path.power) + np.diag(priors.precision(path.count, scatter))
+    kept = np.flatnonzero(moved)
+    scale = np.sqrt(np.diag(matrix)[kept])
+    further = path.with_arcs(max(int(FARTHER * path.count), path.count + 4))
+    covariance = np.zeros((further.values.size, further.values.size))
+    inverse = np.linalg.inv(matrix[np.ix_(kept, kept)] / np.outer(scale, scale)) / np.outer(scale, scale)
+    covariance[np.ix_(kept, kept)] = inverse
+    new = np.arange(path.values.size, further.values.size)
+    covariance[new, new] = scatter**2
+    followed = further.followed
+    starts = np.zeros((further.count, further.values.size))
+    starts[:, :BY_IMPACT], starts[:, FIXED:] = followed.starts[:, 0, :BY_IMPACT], followed.starts[:, 0, BY_IMPACT:]
+    starts[:, MEAN] = starts[:, FIXED:].sum(axis=1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        speeds = np.append(np.inf, followed.speeds[:-1] * further.restitution)
+        error = np.sqrt(np.maximum(((starts @ covariance) * starts).sum(axis=1), 0.0)) / speeds
+        duration = followed.ends - np.append(np.nan, followed.ends[:-1])
+        last = np.where(np.isfinite(duration), duration, np.inf)
+        good = (followed.peaks > max(lowest, 2 * sqrt(path.power))) & np.isfinite(followed.times)
+        good &= (followed.times < path.samples.time[-1]) & (error < FORESEEN * last)
+    return path.count + int(np.argmin(np.append(good[path.count :], False)))
+
+
+def from_release(path: Path) -> Path | None:
+    """Return the path with the release before its first arc; None if no such release leads to it."""
+    followed, (critical, p) = path.followed, path.sides
+    side, peak = 1 - path.side, path.values[PEAK]
+    energy = 2 * p[path.side] ** 2 * np.sin(critical[path.side] - peak / 2) * np.sin(peak / 2)
+    energy /= (p[side] * exp(path.values[MEAN])) ** 2
+    below = 1 - np.cos(critical[side]) - energy
+    height = critical[side] - np.arccos(np.clip(1 - below, -1.0, 1.0)) if below > 0 else np.inf
+    if not height < 0.99 * critical[side]:
+        return None
+    impact = 2 * followed.times[0] - followed.ends[0]
+    values = np.concatenate((path.values[:FIXED], [0.0], path.deviations))
+    values[PEAK], values[TIME] = height, 0.0
+    probe = np.linspace(0.0, 8.0 / float(p[side]), 400)
+    fall = follow(probe, np.empty(0), height, 0.0, side, np.empty(0), critical, p, False).ends[0]
+    if not np.isfinite(fall) or path.samples.time[0] > impact - 0.1 * fall:
+        return None
+    values[TIME] = impact - fall
+    return replace(path, side=side, values=values, from_release=True)
+
+
+def without_first(path: Path) -> Path:
+    """Return the path from its second arc on."""
+    values = np.concatenate((path.values[:FIXED], path.deviations[1:]))
+    values[PEAK], values[TIME] = path.followed.peaks[1], path.followed.times[1]
+    return replace(path, side=1 - path.side, values=values, from_release=False)
+
+
+def _nearest(time: Array, impacts: Array) -> Array:
+    """Return the time from each of `time` to the nearest impact, s."""
+    edges = np.concatenate(([-np.inf], impacts, [np.inf]))
+    after = np.searchsorted(impacts, time)
+    return np.minimum(time - edges[after], edges[after + 1] - time)

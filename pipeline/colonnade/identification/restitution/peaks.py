@@ -1,0 +1,207 @@
+"""Peaks of a rocking history and the relation between their energies: each impact multiplies the energy by e²."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from colonnade.arrays import Array, Mask
+from colonnade.dynamics.block import Block
+from colonnade.identification.restitution.arcs import Arcs
+from colonnade.identification.restitution.result import Impacts, Peaks
+from colonnade.identification.restitution.scatter import LinearModel, Solved
+
+FEWEST_PEAKS = 5
+
+LEAST_ERROR = 1e-3
+"""Of the noise of the angle, below which the error of a peak is not believed."""
+
+MOST_ROUNDS = 6
+
+ASSUMPTIONS = (
+    "plane rocking without slide or bounce; e of each impact about one mean; both sides about one zero; "
+    "p does not enter"
+)
+METHOD = "peaks: ln of their energy against the impact number, with a common zero and a scatter of e"
+
+
+def lift(angle: ArrayLike, critical_angle: ArrayLike) -> Array:
+    """
+    Rise of the centre of mass at a peak over the pole distance: cos(α − |θ|) − cos α, angles in rad.
+
+    It is (ω/p)²/2 at the impacts on either side of the peak.
+    """
+    theta, critical = np.abs(np.asarray(angle, dtype=np.float64)), np.asarray(critical_angle, dtype=np.float64)
+    # Without the cancellation at small angles.
+    return np.asarray(2 * np.sin(critical - theta / 2) * np.sin(theta / 2))
+
+
+def energy_slope(angle: ArrayLike, critical_angle: ArrayLike) -> Array:
+    """Return the derivative of ln of the energy by |θ|, 1/rad; infinite or NaN where θ is 0 or NaN."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray(np.sin(critical_angle - np.abs(angle)) / lift(angle, critical_angle))
+
+
+def released_energy(angle: ArrayLike, critical_angle: ArrayLike) -> Array:
+    """
+    Fraction of the overturning energy barrier that a peak holds.
+
+    Parameters
+    ----------
+    angle, critical_angle : array_like, shape (n,)
+        |θ| and α, rad.
+
+    Returns
+    -------
+    energy : ndarray, shape (n,)
+        [cos(α − |θ|) − cos α] / (1 − cos α), dimensionless.
+
+    Notes
+    -----
+    Each impact multiplies it by e². For small α it is Housner's 1 − (1 − |θ|/α)² (Housner 1963, eq. 11).
+
+    Examples
+    --------
+    >>> released_energy(0.2, 0.2).tolist()
+    1.0
+    """
+    return np.asarray(lift(angle, critical_angle) / (2 * np.sin(np.asarray(critical_angle) / 2) ** 2))
+
+
+def angle_of_energy(energy: ArrayLike, critical_angle: ArrayLike) -> Array:
+    """Return |θ| of a peak (rad) that holds a fraction of the barrier: the inverse of `released_energy`."""
+    critical = np.asarray(critical_angle, dtype=np.float64)
+    cosine = np.asarray(energy, dtype=np.float64) * (1 - np.cos(critical)) + np.cos(critical)
+    return np.asarray(critical - np.arccos(np.clip(cosine, -1.0, 1.0)))
+
+
+@dataclass(frozen=True)
+class PeakFit:
+    """
+    The line through the energies of the peaks.
+
+    Attributes
+    ----------
+    logarithm : float
+        ln e of the line; `solved` has steps from it, in the order ln e, height, zero.
+    solved : Solved
+    peaks : Peaks
+        About the zero that they have in common.
+    offset : float
+        That zero, rad.
+    """
+
+    logarithm: float
+    solved: Solved
+    peaks: Peaks
+    offset: float
+
+
+def fit_peaks(seen: Peaks, block: Block, noise: float, known: tuple[float, float]) -> PeakFit | None:
+    """
+    Fit a line to ln of the energies of peaks.
+
+    Parameters
+    ----------
+    seen : Peaks
+    block : Block
+    noise : float
+        Standard deviation of the angle at rest, rad.
+    known : (float, float)
+        Standard deviations of ln α and of ln of the angle's gain.
+
+    Returns
+    -------
+    fit : PeakFit or None
+        None if fewer than `FEWEST_PEAKS` are usable.
+
+    Notes
+    -----
+    The logarithm falls by 2 ln e an impact. Unknown are its height, the mean of ln e and its departure at each impact,
+    a zero that moves peaks of opposite sign in opposite ways, and ln of α and of the gain as far as they are not known.
+    """
+    usable = seen.used
+    if usable.sum() < FEWEST_PEAKS:
+        return None
+    number = np.flatnonzero(usable)
+    number = number - number[0]
+    angle, alpha = seen.angle[usable], block.critical_angle_at(seen.angle[usable])
+    error = np.maximum(seen.standard_error[usable], LEAST_ERROR * max(noise, 1e-9))
+    p = block.p_at(angle)
+    walk = 2.0 * (np.arange(int(number[-1])) < number[:, None])
+    mean, height, offset = 0.0, 0.0, 0.0
+    for _ in range(MOST_ROUNDS):
+        size = np.maximum(np.sign(angle) * (angle - offset), 1e-3 * error)
+        slope = energy_slope(size, alpha)
+        by_alpha = alpha * (np.sin(alpha) - np.sin(alpha - size)) / lift(size, alpha)
+        columns = [walk.sum(axis=1), np.ones(size.size), np.sign(angle) * slope]
+        precision = [0.0, 0.0, 0.0]
+        for column, width in ((-by_alpha, known[0]), (size * slope, known[1])):
+            if width > 0:
+                columns.append(column)
+                precision.append(width**-2.0)
+        left = np.log(p**2 * lift(size, alpha)) - height - 2 * mean * number
+        rows = np.column_stack((left, *columns, walk)) / (slope * error)[:, None]
+        model = LinearModel.of(rows.T @ rows, np.array(precision), np.zeros(len(precision)), float(size.size), 1.0)
+        solved = model.solved()
+        step = solved.mean
+        mean, height, offset = mean + step[0], height + step[1], offset + step[2]
+        if abs(step[2]) < 1e-3 * error.min():
+            break
+    fitted = np.full(seen.angle.shape, np.nan)
+    rise = np.exp(height + 2 * mean * number) / p**2 / (1 - np.cos(alpha))
+    fitted[usable] = np.sign(angle) * angle_of_energy(rise, alpha)
+    return PeakFit(mean - step[0], solved, replace(seen, angle=seen.angle - offset, fitted_angle=fitted), offset)
+
+
+def single_impacts(arcs: Arcs, offset: float, usable: Mask, block: Block) -> Impacts:
+    """Find e of each impact between two arcs, with their peaks about a zero (rad)."""
+    if arcs.start.size < 2:
+        return Impacts()
+    times, errors = arcs.impacts
+    peak = arcs.peak_angle - offset
+    critical = block.critical_angle_at(peak)
+    sound = usable & (np.abs(peak) < critical)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        energy = np.where(sound, block.p_at(peak) ** 2 * lift(peak, critical), np.nan)
+        relative = np.where(sound, energy_slope(peak, critical) * arcs.peak_standard_error, np.nan)
+        restitution = np.sqrt(energy[1:] / energy[:-1])
+    error = 0.5 * restitution * np.hypot(relative[1:], relative[:-1])
+    used = np.isfinite(restitution) & np.isfinite(error)
+    return Impacts(times[1:-1], errors[1:-1], np.sqrt(2 * energy[:-1]), restitution, error, used)
+
+
+def confidence_band(
+    angle: ArrayLike, standard_error: ArrayLike, used: ArrayLike, block: Block, *, level: float = 0.95
+) -> Array:
+    """
+    Half-width of the band about the line of ln energy against the impact number, of peaks alone.
+
+    Parameters
+    ----------
+    angle, standard_error : array_like, shape (n,)
+        θ of the peaks, signed, about their common zero, and its standard error, rad.
+    used : array_like of bool, shape (n,)
+        Peaks through which the line goes.
+    block : Block
+    level : float, optional
+        Confidence that the line at one number lies inside.
+
+    Returns
+    -------
+    half_width : ndarray, shape (n,)
+        Of ln energy; NaN if fewer than `FEWEST_PEAKS` are used.
+    """
+    theta, error = np.asarray(angle, dtype=np.float64), np.asarray(standard_error, dtype=np.float64)
+    kept = np.asarray(used, dtype=bool) & np.isfinite(error) & (np.abs(theta) > 0)
+    kept &= np.abs(theta) < block.critical_angle_at(theta)
+    nothing = np.full(theta.shape, np.nan)
+    fit = fit_peaks(Peaks(nothing, theta, error, nothing, kept), block, 0.0, (0.0, 0.0))
+    if fit is None:
+        return nothing
+    number = np.arange(theta.size) - np.flatnonzero(kept)[0]
+    at = np.column_stack((2.0 * number, np.ones(theta.size)))
+    variance = ((at @ fit.solved.covariance[:2, :2]) * at).sum(axis=1)
+    return np.asarray(fit.solved.reach(level) * np.sqrt(variance))

@@ -1,0 +1,300 @@
+"""A free vibration as the estimators of e use it: its samples, and its arcs about their zero."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy
+from numpy.typing import ArrayLike
+
+from colonnade.arrays import Array, Mask
+from colonnade.dynamics.block import Block
+from colonnade.identification.response.base_motion import table_moves
+from colonnade.identification.restitution.arcs import Arcs, arcs_between, find_impacts, noise_level
+from colonnade.identification.restitution.result import Peaks
+from colonnade.units.text import format_percent
+
+STEP = 0.02
+"""Longest step of the samples fitted, in p t: the lowest arc of interest, of 0.02 α, has twenty."""
+
+RESTING = 20.0
+"""Times what an arc bends in a group: a smaller angle is of a block at rest, which nothing bends."""
+
+UNEVEN = 1e-3
+"""Steps that differ by more than this share are not of one clock: neither averaged nor held against a spectrum."""
+
+NOISE_MARGIN = 8.0
+"""Excursions below this many standard deviations of the smoothed noise are not counted."""
+
+SMOOTHED = 0.1
+"""Over p: length over which the record is averaged to find its excursions."""
+
+PERIOD_TOLERANCE = 0.15
+"""Largest median departure of the arcs' durations from those of this block."""
+
+LEAST_FOLLOWING = 0.6
+"""Power of the expected duration with which the measured one changes at least; 1 is a block, 0 an oscillator."""
+
+SHAPE_TOLERANCE = 0.03
+"""Largest median difference of the duration that an arc has by its middle part; a sine seems 4 % too short."""
+
+SURE = 3.0
+"""Standard errors by which a bound has to be passed."""
+
+BEYOND_ERRORS = 20.0
+"""Times by which the expected durations' variance exceeds that of their errors where measured ones must follow."""
+
+LARGEST_ERROR = 0.02
+"""Of the durations by the middle part that are looked at, as a share of them."""
+
+
+@dataclass(frozen=True, eq=False)
+class AngleSamples:
+    """
+    The samples that are fitted: as few as hold the record's information without bias.
+
+    Attributes
+    ----------
+    time, angle : ndarray, shape (n,)
+        s, increasing; rad, NaN where missing.
+    along : ndarray, shape (n,)
+        Share of the record, from −1/2 to 1/2.
+    base : ndarray, shape (n,) or (0,)
+        Base acceleration over gravity; empty if the table is at rest.
+    interval : float or None
+        s; None if the steps are uneven.
+    group : int
+        Recorded samples averaged in each.
+    """
+
+    time: Array
+    angle: Array
+    along: Array
+    base: Array
+    interval: float | None
+    group: int = 1
+
+    @property
+    def step(self) -> float | None:
+        """Of the recording, s."""
+        return None if self.interval is None else self.interval / self.group
+
+
+def thinned(time: Array, angle: Array, block: Block, base: Array | None = None) -> AngleSamples:
+    """
+    Average samples in groups, as long as free rocking hardly bends in one.
+
+    Parameters
+    ----------
+    time, angle : ndarray, shape (n,)
+        s, increasing; rad, about the rest position. Missing samples are NaN.
+    block : Block
+    base : ndarray, shape (n,), optional
+        Acceleration of a table that moves, over gravity.
+
+    Notes
+    -----
+    The mean of a curve over a group of m samples differs from its middle by (m² − 1) dt² θ̈ / 24; θ̈ is known from the
+    angle itself, so this is taken off. White noise stays white.
+    """
+    steps = np.diff(time)
+    interval = float(time[-1] - time[0]) / max(steps.size, 1)
+    base = np.empty(0) if base is None else base
+    uneven = bool(np.abs(steps - interval).max(initial=0.0) > UNEVEN * interval)
+    fine = STEP / max(map(block.side_p, block.sides))
+    group = 1 if uneven else max(min(int(fine / interval), time.size // 8), 1)
+    if group > 1:
+        time, angle, base = (_means(values, group) for values in (time, angle, base))
+        critical = block.critical_angle_at(angle)
+        acceleration = -(block.p_at(angle) ** 2) * np.sin(np.where(angle < 0, -critical, critical) - angle)
+        bend = (group**2 - 1) * interval**2 / 24 * acceleration
+        moves = (np.abs(angle) < 1.5 * critical) & (np.abs(angle) > RESTING * np.abs(bend))
+        angle = angle - np.where(moves, bend, 0.0)
+    along = (time - time[0]) / max(float(time[-1] - time[0]), 1e-300) - 0.5
+    return AngleSamples(time, angle, along, base, None if uneven else group * interval, group)
+
+
+def _means(values: Array, group: int) -> Array:
+    return np.asarray(values[: group * (values.size // group)].reshape(-1, group).mean(axis=1))
+
+
+def moving_base(time: Array, acceleration: ArrayLike | None, block: Block) -> Array | None:
+    """
+    Return the acceleration, over gravity, of a table that moves; None if it is at rest or was not recorded.
+
+    Parameters
+    ----------
+    time : ndarray, shape (n,)
+        s.
+    acceleration : array_like, shape (n,), or None
+        m/s².
+    block : Block
+
+    Raises
+    ------
+    ValueError
+        If the table moves and samples are missing or not evenly spaced.
+    """
+    if acceleration is None:
+        return None
+    values = np.asarray(acceleration, dtype=np.float64)
+    interval = float(time[-1] - time[0]) / (time.size - 1)
+    if not table_moves(values, interval, block):
+        return None
+    if missing := int((~np.isfinite(values)).sum()):
+        raise ValueError(
+            f"The table moves, and its acceleration is missing {missing} of {values.size} samples: e cannot be "
+            "identified. Give the test a `window` without them."
+        )
+    if np.abs(np.diff(time) - interval).max() > UNEVEN * interval:
+        raise ValueError("The table moves, and the record's steps are uneven; a uniform clock was expected.")
+    return np.asarray(values / block.gravity)
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """
+    A record with the arcs seen in it.
+
+    Attributes
+    ----------
+    block : Block
+    samples : AngleSamples
+        About the zero of the record.
+    arcs : Arcs
+        n of them, about the block's zero as far as it is known.
+    usable : ndarray of bool, shape (n,)
+        Arcs whose peak is known, below α and above `lowest`.
+    lowest, least : float
+        rad; lower peaks are not counted, and not followed by the whole history.
+    noise : float
+        Standard deviation of the averaged angle at rest, rad.
+    zero : float
+        rad, what was taken off the angle for `arcs`.
+    """
+
+    block: Block
+    samples: AngleSamples
+    arcs: Arcs
+    usable: Mask
+    lowest: float
+    least: float
+    noise: float
+    zero: float = 0.0
+
+    @classmethod
+    def seen(cls, samples: AngleSamples, block: Block, lowest_amplitude: float, noise: float | None) -> Record:
+        """Find the arcs in the averaged samples, and fit them in the samples themselves."""
+        step = samples.interval or float(np.median(np.diff(samples.time)))
+        length = max(int(SMOOTHED / (block.p * step)), 1)
+        smooth = _averaged(samples.angle, length)
+        sampled = smooth[::length]
+        scatter = noise_level(sampled[np.isfinite(sampled)]) if noise is None else noise
+        least = lowest_amplitude * block.critical_angle
+        lowest = max(least, NOISE_MARGIN * scatter)
+        impacts = find_impacts(samples.time, smooth, lowest=lowest)
+        arcs = arcs_between(impacts, samples.time, samples.angle, block.p, critical=block.critical_angle)
+        return cls(block, samples, arcs, _usable(arcs, lowest, block), lowest, least, scatter)
+
+    def about(self, zero: float) -> Record:
+        """Return the record with its arcs about another zero (rad)."""
+        impacts = np.append(self.arcs.start, self.arcs.end[-1:])
+        angle = self.samples.angle - zero
+        arcs = arcs_between(impacts, self.samples.time, angle, self.block.p, critical=self.block.critical_angle)
+        return replace(self, arcs=arcs, usable=_usable(arcs, self.lowest, self.block), zero=zero)
+
+    def run(self, first: int) -> tuple[Array, Array]:
+        """Peaks (rad, signed) and their times (s) of the longest run of arcs on alternating sides, from one arc on."""
+        peaks, times = self.arcs.peak_angle[first:], self.arcs.peak_time[first:]
+        seen = np.isfinite(peaks) & (np.abs(peaks) < self.block.critical_angle_at(peaks))
+        follows = seen[1:] & seen[:-1] & (np.sign(peaks[1:]) == -np.sign(peaks[:-1]))
+        breaks = np.flatnonzero(np.concatenate(([True], ~follows, [True])))
+        longest = int(np.argmax(np.diff(breaks)))
+        run = slice(int(breaks[longest]), int(breaks[longest + 1]))
+        return peaks[run][seen[run]], times[run][seen[run]]
+
+    @property
+    def peaks(self) -> Peaks:
+        """The peaks of all arcs, without a fit."""
+        arcs = self.arcs
+        unfitted = np.full(arcs.peak_angle.shape, np.nan)
+        return Peaks(arcs.peak_time, arcs.peak_angle, arcs.peak_standard_error, unfitted, self.usable)
+
+
+def _usable(arcs: Arcs, lowest: float, block: Block) -> Mask:
+    size = np.abs(arcs.peak_angle)
+    high = size < block.critical_angle_at(arcs.peak_angle)
+    return np.asarray(np.isfinite(arcs.peak_standard_error) & (size > lowest) & high)
+
+
+def _averaged(angle: Array, length: int) -> Array:
+    """Mean over `length` samples (made odd) about each; NaN where one is missing, and as recorded at the ends."""
+    half = length // 2
+    if half == 0 or angle.size <= 2 * half:
+        return angle
+    windows = np.lib.stride_tricks.sliding_window_view(angle, 2 * half + 1)
+    return np.concatenate((angle[:half], windows.mean(axis=1), angle[-half:]))
+
+
+def half_duration(peak: Array, critical: Array) -> Array:
+    """Phase p t from peaks of free rocking (|θ|, rad) to the impact; α in rad (an elliptic integral)."""
+    top, turning = np.sin(critical / 2) ** 2, np.sin((critical - peak) / 2) ** 2
+    # sin² of half of α less that at the peak, without the cancellation at small angles.
+    fallen = np.sin(critical - peak / 2) * np.sin(peak / 2)
+    phase = np.arctan2(np.sqrt(fallen), np.sqrt(turning * (1 - top)))
+    return np.asarray(scipy.special.ellipkinc(phase, 1 - turning))
+
+
+def objection(record: Record) -> str:
+    """
+    Say why the arcs are not those of free rocking of this block; empty if they are.
+
+    Notes
+    -----
+    A rocking block's period falls with its amplitude in its own way, and its arcs are near to parabolas; the duration,
+    its change with the peak and what the middle of an arc says of its ends are held against the equation of motion.
+    """
+    arcs, usable, block = record.arcs, record.usable, record.block
+    angle = arcs.peak_angle[usable]
+    peak, critical, p = np.abs(angle), block.critical_angle_at(angle), block.p_at(angle)
+    expected, duration = 2 * half_duration(peak, critical) / p, (arcs.end - arcs.start)[usable]
+    excess = float(np.median(duration / expected)) - 1
+    if abs(excess) > PERIOD_TOLERANCE:
+        return (
+            f"Times between impacts differ by {format_percent(excess, signed=True)} from those of this block in "
+            "free rocking at these amplitudes: this is not free rocking of this specimen, or its dimensions are wrong."
+        )
+    higher = np.minimum(1.001 * peak, 0.5 * (peak + critical))
+    slope = np.log(2 * half_duration(higher, critical) / p / expected) / (higher - peak)
+    blur = float(np.mean((slope * arcs.peak_standard_error[usable]) ** 2))
+    power, error = _power(np.log(expected), np.log(duration), blur)
+    if power + SURE * error < LEAST_FOLLOWING:
+        return (
+            f"Times between impacts change with the {power:.2g} ± {error:.2g} power of those of a rocking block; 1 was "
+            "expected. A period that does not follow the amplitude is that of an oscillator on springs, not of rocking."
+        )
+    unsure = np.hypot(arcs.rise_standard_error, arcs.fall_standard_error)[usable] / duration
+    seen = unsure < LARGEST_ERROR
+    if not seen.any():
+        return ""
+    within = (arcs.fall - arcs.rise)[usable][seen] / duration[seen]
+    median, scatter = float(np.median(within)) - 1, 1.25 * float(np.median(unsure[seen])) / np.sqrt(seen.sum())
+    if abs(median) > SHAPE_TOLERANCE + SURE * scatter:
+        return (
+            "Between impacts the angle is not the arc of a rocking block: judged by its middle part, an arc would "
+            f"last {format_percent(median, signed=True)} longer than it does; "
+            f"less than {format_percent(SHAPE_TOLERANCE)} was expected. This is not free rocking."
+        )
+    return ""
+
+
+def _power(expected: Array, duration: Array, blur: float) -> tuple[float, float]:
+    """Slope of one logarithm against the other, and its standard error; infinite if all is error."""
+    centred = expected - expected.mean()
+    power = float(centred @ centred)
+    if expected.size < 3 or power < max(BEYOND_ERRORS * blur * expected.size, 1e-6):
+        return 1.0, np.inf
+    slope = float(centred @ duration) / power
+    residual = duration - duration.mean() - slope * centred
+    return slope, float(np.sqrt(residual @ residual / (expected.size - 2) / power))

@@ -1,1 +1,0 @@
-"""How good forecasts of tests were: scores, calibration, references, and what their differences are worth."""

@@ -1,0 +1,256 @@
+"""Numbers that run on from row to row: what the lines above say of them, whether rows are such, and their reading."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from math import isfinite
+from pathlib import Path
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.errors import ReadError
+from colonnade.readers.clock import RISING_SHARE, equal_step, even_times, rising_share
+from colonnade.readers.recording import RecordedChannel, Recording
+from colonnade.readers.text.dialect import Dialect, looks_like_numbers
+from colonnade.readers.text.encoding import Text
+from colonnade.readers.text.rows import filled_length
+
+_NUMBER = r"(\d*\.\d+|\d+\.?)"
+_STEPS = r"(?:spacing|interval|steps?|increments?)"
+STEP = re.compile(
+    rf"(?:\bdt\b|\bdelta\s*t\b|\b(?:time|sampl[a-z]*)[\W_]+{_STEPS})[^\d.\n]{{0,20}}{_NUMBER}\s*(?:s\b|sec|,|$)"
+    rf"|{_STEPS}[^\d.\n]{{0,20}}{_NUMBER}\s*s(?:\b|ec)"  # a load step has a number, too, but no unit
+    rf"|{_NUMBER}\s*s(?:ec(?:onds?)?)?\s*{_STEPS}",
+    re.IGNORECASE | re.MULTILINE,
+)
+UNIT = re.compile(
+    r"\bunits?\b[^\n\w]{0,5}(?:are|is|of|:|=)?\s*[(\[]?\s*(cm/s(?:ec)?/s(?:ec)?|cm/s(?:ec)?(?:\^|\*\*)?2|mm/s(?:ec)?(?:\^|\*\*)?2"
+    r"|m/s(?:ec)?/s(?:ec)?|m/s(?:ec)?(?:\^|\*\*)?2|gals?|g's|g)(?![\w/])",
+    re.IGNORECASE,
+)
+FIELDS = re.compile(r"\b(?:\d+P,?)?(\d{1,3})[FEG]\d{1,3}\.\d+\b", re.IGNORECASE)
+_COUNTED = r"(?:points?|samples?|pts\.?|values|ordinates|readings)"
+COUNTS = re.compile(
+    rf"\b(\d{{2,9}})\s+(?:\w+\s+)?{_COUNTED}\b"
+    rf"|\b(?:npts|(?:no\.?|number)\s+of\s+(?:\w+\s+)?{_COUNTED}|{_COUNTED})\s*[:=]?\s*(\d{{2,9}})\b",
+    re.IGNORECASE,
+)
+PER_ROW = re.compile(
+    rf"\b(\d{{1,3}})\s+(?:\w+\s+)?{_COUNTED}?\s*(?:across|(?:per|a|each|in a|in each|to a|on each)\s+(?:row|line))\b",
+    re.IGNORECASE,
+)
+FEWEST_TIMES = 5
+"""Rows from which on a first column that rises is one of times."""
+FREE = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?")
+SHOWN = 50
+
+
+class HeaderClaims(NamedTuple):
+    """What a text says of the numbers below it."""
+
+    counts: tuple[int, ...] = ()
+    """How many points there are; several where several are given."""
+    per_row: int | None = None
+    """How many are in a row, if it says so in words."""
+    fields: int | None = None
+    """Fields of a row, as in `8F10.5`."""
+    step: float | None = None
+    """s."""
+    unit: str | None = None
+
+    def channel(self, values: Array) -> RecordedChannel:
+        """Give a single series at the interval and in the unit that the text gives."""
+        times = None if self.step is None else even_times(values.size, self.step)
+        return RecordedChannel("column 1", self.unit, values, times)
+
+    @property
+    def clock_note(self) -> str:
+        """What its times come from."""
+        return "no clock" if self.step is None else f"clock: {self.step:g} s, as the header says"
+
+
+def header_claims(text: str) -> HeaderClaims:
+    """
+    Take from the lines above a block of numbers what they say of it.
+
+    Examples
+    --------
+    >>> header_claims("1559 points at equal spacing of 0.02 sec, in the format of 8F10.5. The units are (g)")
+    HeaderClaims(counts=(1559,), per_row=None, fields=8, step=0.02, unit='g')
+    """
+    first = [next(filter(None, match.groups()), None) if (match := each.search(text)) else None for each in CLAIMS]
+    per_row, fields, step, unit = first
+    return HeaderClaims(
+        tuple(int(match[1] or match[2]) for match in COUNTS.finditer(text)),
+        int(per_row) if per_row else None,
+        int(fields) if fields else None,
+        float(step or 0) or None,
+        unit,
+    )
+
+
+CLAIMS = (PER_ROW, FIELDS, STEP, UNIT)
+
+
+class Layout(NamedTuple):
+    """What rows of numbers are: samples of channels, one series, or times and values in turn; and how that is known."""
+
+    kind: Literal["columns", "running", "pairs"]
+    reason: str = ""
+
+
+def declared_layout(
+    path: Path, columns: Sequence[Array], claims: HeaderClaims, series: Callable[[], Array], *, is_free: bool
+) -> Layout:
+    """
+    Decide by what a file says of its nameless rows of numbers how they are to be read.
+
+    Parameters
+    ----------
+    path : Path
+    columns : sequence of ndarray, shape (n,)
+        As if it were a table; NaN if a row is too short.
+    claims : HeaderClaims
+        What the lines above say.
+    series : callable
+        Gives the numbers as one series.
+    is_free : bool
+        Whether only blanks are between numbers, as in what a Fortran program wrote.
+
+    Raises
+    ------
+    ReadError
+        If only blanks are between the numbers, and the file declares neither names, nor times, nor a count of points.
+    """
+    width, rows = len(columns), max(filled_length(column) for column in columns)
+    if width < 2 or rows < 2:
+        return Layout("columns")
+    if rows >= FEWEST_TIMES and rising_share(columns[0]) >= RISING_SHARE:
+        times = np.column_stack(columns[::2]).ravel()
+        if width >= 4 and width % 2 == 0 and equal_step(times, 0.1) is not None:
+            return Layout("pairs", "every second number is a time, in equal steps from row to row")
+        return Layout("columns")
+    if claims.per_row == width:
+        return Layout("running", f"the header says that {width} points are in a row")
+    if any(abs(count - rows) <= 1 for count in claims.counts):
+        return Layout("columns")
+    if claims.counts:
+        found = series().size
+        if count := next((count for count in claims.counts if abs(count - found) < width), 0):
+            return Layout("running", f"the header gives {count} points, and there are {found} numbers")
+    if not is_free:
+        return Layout("columns")
+    raise ReadError(
+        f"{path.name}: the file does not show whether the {width} numbers of each row are samples of {width} channels, "
+        "or one series that runs on from row to row: no names are above them, the first column does not rise as times "
+        'do, and no count of points fits. Say which in `file`: layout = "columns" or layout = "running".'
+    )
+
+
+def series_of(recording: Recording, values: Array, width: int, claims: HeaderClaims, layout: Layout) -> Recording:
+    """Give numbers, `width` in a row, as one series that runs on, or as times and values in turn, with the reason."""
+    hint = (
+        f"Its numbers, {width} in a row, run on from row to row and are read as one series of {values.size} "
+        f'({layout.reason}). If each column is a channel, say so: layout = "columns" in `file`.'
+    )
+    channels, note = [claims.channel(values)], claims.clock_note
+    if layout.kind == "pairs":
+        times = values[::2].copy()
+        channels = [RecordedChannel("column 1", "s", times, times, is_clock=True)]
+        channels.append(RecordedChannel("column 2", claims.unit, values[1::2], times))
+        note = "clock: every second number, taken as seconds"
+    notes = (*recording.notes, f"numbers run on from row to row: {layout.reason}", note)
+    return replace(recording, channels=tuple(channels), notes=notes, hint=hint)
+
+
+def rows_that_touch(lines: Sequence[str], start: int, first: int, claims: HeaderClaims) -> list[int]:
+    """Find rows near the first, from `start` on, in which as many fields as are declared touch."""
+    near = range(max(first - 2, start), min(first + 3, len(lines)))
+    found = {index: numbers_in(lines[index]) for index in near}
+    touching = (index for index, row in found.items() if len(lines[index].split()) < len(row) == claims.fields)
+    return [index for index in touching if np.isfinite(found[index]).all()]
+
+
+def read_series(text: Text, dialect: Dialect, first: int) -> Array:
+    """
+    Read numbers row by row, from the line with index `first` on; text may follow.
+
+    Raises
+    ------
+    ReadError
+        If something else is between the numbers.
+    """
+    lines = [line.replace(dialect.delimiter, " ").replace(dialect.decimal, ".") for line in text.lines()[first:]]
+    while lines and not looks_like_numbers(lines[-1]):
+        lines.pop()
+    values, faults = read_running(enumerate(lines, first + 1))
+    if faults:
+        raise ReadError(
+            f"{text.path.name}: the numbers run on from row to row, but {faults[0].removesuffix('; missing')}. One "
+            "block of numbers was expected; cut the file to it."
+        )
+    return values
+
+
+def numbers_in(line: str, width: int | None = None) -> list[float]:
+    """Numbers of a line: fields of a width, or between blanks or before signs; NaN for what is not a number."""
+    fields = line.split() if width is None else [line[at : at + width].strip() for at in range(0, len(line), width)]
+    try:
+        return list(map(float, fields))
+    except ValueError:
+        pass
+    values: list[float] = []
+    for field in fields:
+        parts = FREE.findall(field)
+        # Without a blank between, a new number starts with its sign.
+        is_whole = parts and "".join(parts) == field and all(part[0] in "+-" for part in parts[1:])
+        if is_whole and (width is None or len(parts) == 1):
+            values += [float(part.upper().replace("D", "E")) for part in parts]
+        else:
+            values.append(float("nan"))
+    return values
+
+
+def read_running(lines: Iterable[tuple[int, str]], *, width: int | None = None) -> tuple[Array, list[str]]:
+    """
+    Read numbers row by row.
+
+    Parameters
+    ----------
+    lines : iterable of (int, str)
+        Number and text of each line.
+    width : int, optional
+        Characters of a field, as in `8F10.5`; without it, spaces or signs separate the fields.
+
+    Returns
+    -------
+    values : ndarray, shape (n,)
+        NaN for a field that is not a number.
+    warnings : list of str
+        Lines with such fields.
+    """
+    numbers: list[float] = []
+    faults: list[str] = []
+    for number, line in lines:
+        found = numbers_in(line.rstrip(), width)
+        numbers += found
+        if not all(map(isfinite, found)):
+            faults.append(f'{number}: "{line.strip()[:SHOWN]}"')
+    warnings = []
+    if faults:
+        what = "1 line holds" if len(faults) == 1 else f"{len(faults)} lines hold"
+        first = "first " if len(faults) > 1 else ""
+        warnings.append(f"{what} something that is not a number ({first}on line {faults[0]}); missing")
+    values = np.array(numbers, dtype=np.float64)
+    return np.where(np.isinf(values), np.nan, values), warnings
+
+
+def shortage(source: str, announced: int, found: int) -> list[str]:
+    """Warn if there are fewer numbers than what is above them says."""
+    if found >= announced:
+        return []
+    return [f"{source} gives {announced} points, but the file has {found}: it ends too early"]

@@ -1,0 +1,370 @@
+"""The bodies of an assembly: what was measured of each, and what the contact model predicts of each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.campaign import Campaign, Test
+from colonnade.campaign.assembly import Whole
+from colonnade.dynamics.assembly import Assembly, as_one, is_frame, standing_on
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.contact.start import rotation_matrices
+from colonnade.dynamics.history import NO_ROCKING_RATIO
+from colonnade.dynamics.kinematics import Outline, pole_displacement, pole_position, rotation_matrix
+from colonnade.errors import count
+from colonnade.findings import Finding, warning
+from colonnade.identification.fusion.motion import Circumstances, specimen_motion
+from colonnade.identification.fusion.pose import SpecimenMotion
+from colonnade.identification.fusion.sensors import Readings, Transducer, UnseenRotationError
+from colonnade.identification.response.outcome import angle_features
+from colonnade.stages.parts.conditioned import group
+from colonnade.stages.parts.inputs import Inputs
+from colonnade.stages.parts.markers import MarkerInputs, markers_of
+from colonnade.stages.parts.transducers import Transducers, outline, transducers
+from colonnade.store.description import variable_name
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from colonnade.dynamics.contact.bodies import AssemblyHistory
+
+MOTIONS = {
+    "angle": "rocking_angle",
+    "slide": "slide",
+    "transverse_slide": "transverse_slide",
+    "uplift": "uplift",
+    "out_of_plane_angle": "out_of_plane_angle",
+    "yaw": "yaw",
+}
+"""What is known of a body over time, as `body_…`, and its name in a fitted motion."""
+
+RESIDUALS = ("residual_x", "residual_y", "residual_yaw")
+"""Where the centre of its base is at the end, and how it is turned, from where it stood."""
+
+OUTCOMES = ("overturned", "rocking", "no-rocking")
+"""The worst first."""
+
+
+class BodyInputs(Inputs):
+    """
+    What is read of one body.
+
+    Attributes
+    ----------
+    block : Block
+    part : Block
+        The body with all that stands on it alone, as one: its α is that of the joint below.
+    outline : Outline
+    transducers : Transducers
+        On it, about its own base.
+    against : dict of str to str
+        Body that a transducer measures against, by its variable.
+    """
+
+    block: Block
+    part: Block
+    outline: Outline
+    transducers: Transducers
+    against: dict[str, str]
+
+
+class AssemblyInputs(Inputs):
+    """
+    What is read of an assembly: its bodies where they stand, and what is on each.
+
+    `rest_duration`, s, is that of the end over which what is left is taken.
+    """
+
+    assembly: Assembly
+    bodies: dict[str, BodyInputs]
+    markers: dict[str, MarkerInputs]
+    rest_duration: float
+
+    @classmethod
+    def of(cls, campaign: Campaign, test: Test) -> AssemblyInputs | None:
+        """Gather it for a test; None if its specimen is a single body."""
+        whole = campaign.specimens[test.specimen]
+        if not isinstance(whole, Whole):
+            return None
+        assembly, setup = whole.assembly(campaign.gravity), campaign.setups[test.setup]
+        bodies = {}
+        for name, placed in assembly.bodies.items():
+            channels = {
+                key: each.model_copy(update={"on": "specimen"})
+                for key, each in setup.channels.items()
+                if each.on == name and each.recorder in test.files
+            }
+            bodies[name] = BodyInputs(
+                block=placed.block,
+                part=as_one(assembly, name),
+                outline=outline(whole.made[name], placed.block),
+                transducers=transducers(channels),
+                against={
+                    variable_name(key): each.relative_to
+                    for key, each in channels.items()
+                    if each.relative_to is not None and each.relative_to in assembly.bodies
+                },
+            )
+        markers = markers_of(setup.markers, setup.tracking, test.files)
+        rest = campaign.processing.rest_duration
+        return cls(assembly=assembly, bodies=bodies, markers=markers, rest_duration=rest)
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Motions of the bodies that were measured, and why others were not."""
+
+    motions: dict[str, SpecimenMotion]
+    reasons: dict[str, str]
+
+
+def measure(conditioned: xr.Dataset, inputs: AssemblyInputs, test: Circumstances) -> Measured:
+    """
+    Fuse what is on each body into its motion relative to the table.
+
+    Parameters
+    ----------
+    conditioned : xr.Dataset
+        Result of `condition`.
+    inputs : AssemblyInputs
+    test : Circumstances
+    """
+    motions: dict[str, SpecimenMotion] = {}
+    reasons: dict[str, str] = {}
+    for name, body in inputs.bodies.items():
+        known, gravity = body.transducers, body.block.gravity
+        positions = group(conditioned, known.positions, gravity)
+        missing = sorted({other for other in body.against.values() if other not in motions})
+        if missing:
+            reasons[name] = f"it is measured against {', '.join(missing)}, whose motion is not known"
+        elif not any(each in conditioned for each in known.on_specimen):
+            reasons[name] = "no transducer on it could be used"
+        else:
+            try:
+                motions[name] = specimen_motion(
+                    _from_the_table(positions, name, conditioned, inputs, motions),
+                    group(conditioned, known.gyroscopes, gravity),
+                    group(conditioned, known.accelerometers, gravity),
+                    body.block,
+                    body.outline,
+                    test,
+                )
+            except UnseenRotationError as error:
+                reasons[name] = f"{error}"
+    return Measured(motions, reasons)
+
+
+def together(motion: SpecimenMotion | None, found: Measured, inputs: AssemblyInputs) -> SpecimenMotion | None:
+    """
+    Return the motion of the lowest body, with the lean of it and all that stands on it alone as rocking angle.
+
+    Parameters
+    ----------
+    motion : SpecimenMotion or None
+        All transducers taken to be on one block: what is returned of a frame, or if one of those bodies is not known.
+    found : Measured
+    inputs : AssemblyInputs
+
+    Notes
+    -----
+    The lean is the angle with the vertical of the line from the base to the common centre of mass, as of
+    `BodyHistory.lean`: bodies that slide or rock on each other have no common rotation.
+    """
+    assembly = inputs.assembly
+    lowest = next(iter(assembly.bodies))
+    names = standing_on(assembly, lowest)
+    if motion is None or is_frame(assembly) or not found.motions.keys() >= set(names):
+        return motion
+    masses = np.array([inputs.bodies[name].block.mass for name in names])
+    arms = []
+    for name in names:
+        turned, centre = _placed(found.motions[name], inputs.bodies[name].block)
+        place = centre + assembly.bodies[name].centre_height * turned[:, 2]
+        arms.append(place + _apart(assembly, name, lowest)[:, None])
+    x, y, z = (
+        np.tensordot(masses / masses.sum(), arms, 1) - _placed(found.motions[lowest], inputs.bodies[lowest].block)[1]
+    )
+    first = found.motions[lowest]
+    values = first.values | {"rocking_angle": np.copysign(np.arctan2(np.hypot(x, y), z), x)}
+    return replace(first, values=values, residual=motion.residual, entered=motion.entered)
+
+
+def _from_the_table(
+    positions: Readings[Transducer],
+    name: str,
+    conditioned: xr.Dataset,
+    inputs: AssemblyInputs,
+    motions: Mapping[str, SpecimenMotion],
+) -> Readings[Transducer]:
+    """Add to what is measured against another body how its own point there moved."""
+    body, values = inputs.bodies[name], positions.values.copy()
+    used = [each for each in body.transducers.positions if each in conditioned]
+    for row, (variable, sensor) in enumerate(zip(used, positions.sensors, strict=True)):
+        if variable in body.against:
+            other = body.against[variable]
+            turned, centre = _placed(motions[other], inputs.bodies[other].block)
+            arm = np.array(sensor.at) + _apart(inputs.assembly, name, other)
+            values[row] += np.array(sensor.direction) @ (centre + np.einsum("ijn,j->in", turned, arm) - arm[:, None])
+    return replace(positions, values=values)
+
+
+def _apart(assembly: Assembly, name: str, other: str) -> Array:
+    """From the centre of the base of one body to that of another at rest, m, shape (3,)."""
+    upper, lower = (np.append(assembly.bodies[each].position, assembly.levels[each]) for each in (name, other))
+    return np.asarray(upper - lower)
+
+
+def _placed(motion: SpecimenMotion, block: Block) -> tuple[Array, Array]:
+    """Rotation of a body, shape (3, 3, n), and displacement of the centre of its base, m, shape (3, n)."""
+    side = np.where(motion.pose.angle < 0, -1.0, 1.0)
+    turned = rotation_matrix(motion.pose)
+    swung = side * pole_position(block) * (turned[:, 0] - np.array([[1.0], [0.0], [0.0]]))
+    return turned, pole_displacement(motion.pose, side, block) - swung
+
+
+def measured_variables(
+    time: Array, found: Measured, inputs: AssemblyInputs, warnings: list[Finding]
+) -> tuple[dict[str, Any], str]:
+    """
+    Describe the bodies in a result of `rocking`; return its variables, and the outcome of all.
+
+    Parameters
+    ----------
+    time : ndarray, shape (n,)
+        s.
+    found : Measured
+    inputs : AssemblyInputs
+    warnings : list of Finding
+        Bodies without a motion are added.
+    """
+    fallen: set[str] = set()
+    rows = []
+    for name, placed in inputs.assembly.bodies.items():
+        row = _measured_row(name, time, found, inputs)
+        if row["outcome"] == "overturned" or (placed.on and fallen.issuperset(placed.on)):
+            fallen.add(name)  # what stands on what fell has fallen
+            row |= {"outcome": "overturned", "peak_ratio": np.nan}
+        rows.append(row)
+    if found.reasons:
+        text = "; ".join(f"{name}: {reason}" for name, reason in found.reasons.items())
+        lost = f"The motion of {count(len(found.reasons), 'body', 'bodies')} is not measured: {text}."
+        warnings.append(warning("fewer transducers", lost, follows=("channel left out", "dead channel")))
+    outcomes = [row["outcome"] for row in rows]
+    return _table(list(inputs.bodies), rows), next((each for each in OUTCOMES if each in outcomes), "")
+
+
+def _measured_row(name: str, time: Array, found: Measured, inputs: AssemblyInputs) -> dict[str, Any]:
+    """What was measured of one body; NaN where nothing was."""
+    unknown = np.full(time.size, np.nan)
+    motion, body = found.motions.get(name), inputs.bodies[name]
+    values, errors = ({}, {}) if motion is None else (motion.values, motion.standard_error)
+    row: dict[str, Any] = {key: values.get(each, unknown) for key, each in MOTIONS.items()}
+    row |= {f"{key}_standard_error": _median(errors.get(each)) for key, each in MOTIONS.items()}
+    row |= dict.fromkeys(("joint_angle", "joint_slide", "joint_yaw"), unknown)
+    row |= dict.fromkeys(("peak_ratio", "opening", "opening_time", *RESIDUALS), np.nan)
+    row |= {"outcome": "", "separation": f"not measured: {found.reasons.get(name, '')}"}
+    if motion is None:
+        return row
+    row["separation"] = motion.separation
+    turned, centre = _placed(motion, body.block)
+    joint_turned, joint_moved, error = turned, centre, row["angle_standard_error"]
+    for below in inputs.assembly.bodies[name].on[:1]:
+        if below not in found.motions:
+            row["separation"] += f"; not relative to {below}: {found.reasons[below]}"
+            return row
+        support, moved = _placed(found.motions[below], inputs.bodies[below].block)
+        arm = _apart(inputs.assembly, name, below)[:, None]
+        joint_turned = np.einsum("jin,jkn->ikn", support, turned)
+        joint_moved = np.einsum("jin,jn->in", support, arm + centre - moved) - arm
+        error = float(np.hypot(error, _median(found.motions[below].standard_error["rocking_angle"])))
+    angle = np.arctan2(-joint_turned[2, 0], joint_turned[2, 2])
+    half_width = body.block.governing.half_width
+    swung = np.copysign(half_width, angle) * (joint_turned[0, 0] - 1.0)
+    seen = angle_features(time, angle, error, body.part, rest_duration=inputs.rest_duration, catch=None)
+    opened = np.flatnonzero(np.abs(angle) > seen.threshold)
+    at_end = time >= time[-1] - inputs.rest_duration
+    left = {"residual_x": centre[0], "residual_y": centre[1], "residual_yaw": motion.pose.yaw}
+    is_known = {"residual_x": "slide", "residual_y": "transverse_slide", "residual_yaw": "yaw"}
+    known = {key: each for key, each in left.items() if is_known[key] in values and np.isfinite(each[at_end]).any()}
+    return row | {
+        "joint_angle": angle,
+        "joint_slide": joint_moved[0] + swung if "slide" in values else unknown,
+        "joint_yaw": np.arctan2(-joint_turned[0, 1], joint_turned[1, 1]) if "yaw" in values else unknown,
+        "outcome": seen.verdict.outcome,
+        "peak_ratio": seen.peak_ratio,
+        "opening": 2 * _narrower(name, inputs.assembly) * float(np.nanmax(np.abs(angle))),
+        "opening_time": float(time[opened[0]]) if opened.size else np.nan,
+        **{key: float(np.nanmean(each[at_end])) for key, each in known.items()},
+    }
+
+
+def _narrower(name: str, assembly: Assembly) -> float:
+    """Half the width of a joint along x, m: of the base, or of the top below where that is narrower."""
+    width = assembly.bodies[name].block.governing.half_width
+    tops = [assembly.bodies[below].block.solid for below in assembly.bodies[name].on]
+    return min([width, *(solid.top[0] for solid in tops if solid is not None)])
+
+
+def _median(errors: Array | None) -> float:
+    return float(np.nanmedian(errors)) if errors is not None and np.isfinite(errors).any() else np.nan
+
+
+def predicted_variables(history: AssemblyHistory, first: int, inputs: AssemblyInputs) -> dict[str, Any]:
+    """
+    Describe the bodies in a result of `predict`.
+
+    Parameters
+    ----------
+    history : AssemblyHistory
+    first : int
+        Sample of the record at which it begins.
+    inputs : AssemblyInputs
+    """
+    rows = []
+    at_end = history.time >= history.time[-1] - inputs.rest_duration
+    for name, body in history.bodies.items():
+        assembly, joint = inputs.assembly, body.relative
+        turned = np.moveaxis(rotation_matrices(body.orientation), 0, -1)
+        rest = np.append(assembly.bodies[name].position, assembly.levels[name])
+        centre = body.position.T - assembly.bodies[name].centre_height * turned[:, 2] - rest[:, None]
+        fell = np.isfinite(body.overturning_time)
+        ratio = float(np.abs(joint.angle).max() / inputs.bodies[name].part.critical_angle)
+        over_time = {
+            "angle": body.angle,
+            "slide": body.slide[:, 0],
+            "transverse_slide": centre[1],
+            "uplift": body.uplift,
+            "out_of_plane_angle": body.out_of_plane_angle,
+            "yaw": body.yaw,
+            "joint_angle": joint.angle,
+            "joint_slide": joint.slide[:, 0],
+            "joint_yaw": joint.yaw,
+        }
+        rows.append(
+            {key: np.concatenate((np.full(first, np.nan), each)) for key, each in over_time.items()}
+            | {
+                "outcome": "overturned" if fell else "rocking" if ratio > NO_ROCKING_RATIO else "no-rocking",
+                "peak_ratio": np.nan if fell else ratio,
+                "residual_x": float(centre[0, at_end].mean()),
+                "residual_y": float(centre[1, at_end].mean()),
+                "residual_yaw": float(body.yaw[at_end].mean()),
+            }
+        )
+    return _table(list(history.bodies), rows)
+
+
+def _table(names: list[str], rows: list[dict[str, Any]]) -> dict[str, Any]:
+    """Variables on the dimension of bodies, from what is known of each."""
+    variables: dict[str, Any] = {"body": ("body", np.array(names, dtype=object))}
+    for key, first in rows[0].items():
+        values = [row[key] for row in rows]
+        if isinstance(first, str):
+            variables[f"body_{key}"] = ("body", np.array(values, dtype=object))
+        else:
+            variables[f"body_{key}"] = (("body", "elapsed") if np.ndim(first) else "body", np.array(values))
+    return variables

@@ -1,0 +1,249 @@
+"""Assessments of real columns: products of a campaign, or questions of one's own; their histories in blocks."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from colonnade.assessment.cases import Cases, Outcomes, joined, run_cases
+from colonnade.campaign import Campaign
+from colonnade.campaign.assessment import Assessment
+from colonnade.campaign.forms.assessed import AssessmentSummary
+from colonnade.dynamics.motion import Motion
+from colonnade.errors import CampaignError, ColonnadeError, ReadError, nearest
+from colonnade.readers.files import sha256_of
+from colonnade.readers.ground_motions.record_set import files_of
+from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.store.provenance import hash_of
+from colonnade.store.results import ResultId
+from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.executors import MOST_BLOCKS, Arrays, Where, in_blocks
+from colonnade.workflow.graph import FORMATS, Graph
+from colonnade.workflow.lock import only_run
+from colonnade.workflow.product import Product
+from colonnade.workflow.real_column import AskedColumn, checked, find_column
+from colonnade.workflow.walk import Walk
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+MADE_BY = ("colonnade.stages.assessment", "colonnade.workflow.assessing")
+"""Modules whose code makes assessments; what they import counts too."""
+
+OPTIONS = {"levels": "level"}
+"""Options that are not called like their keys, as they are repeated."""
+
+OWN = "column"
+"""Name of a question of one's own."""
+
+
+@dataclass(frozen=True)
+class Assessed:
+    """An assessment: its name, its record, its result if it was made, and where that is stored, if it is."""
+
+    name: str
+    record: AssessmentSummary
+    result: xr.Dataset | None
+    path: Path | None = None
+
+
+def assess_campaign(campaign: Campaign, layout: Layout, names: Sequence[str], where: Where) -> list[Assessed]:
+    """
+    Bring assessments of a campaign up to date, with the e that is identified so far.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    layout : Layout
+    names : sequence of str
+        Default all.
+    where : Where
+
+    Raises
+    ------
+    CampaignError
+        If the campaign has no such assessment, or none at all.
+    StoreError
+        If a run is in progress, or a result cannot be written.
+    """
+    chosen = {name: _known(campaign, name) for name in names or campaign.assessments}
+    if not chosen:
+        raise CampaignError(
+            f"{campaign.path.name} has no [assessments.<name>]. Add one, or ask with --specimen ID --records DIR."
+        )
+    with only_run(layout) as run_id:
+        catalogue = Catalogue(layout)
+        walk = Walk(Graph(campaign, layout, catalogue), run_id, workers=where.workers, scheduler=where.scheduler)
+        walk.pool(sorted({asked.specimen for asked in chosen.values()}))
+        walk.assess(chosen, where.progress)
+        catalogue.save(is_whole=False)
+    found = []
+    for name, asked in chosen.items():
+        path = layout.stage(name, "assessment")
+        if name in walk.failed["assessment"]:
+            found.append(Assessed(name, _failed(asked.specimen, asked.measure, walk.failed["assessment"][name]), None))
+        else:
+            result = files.read(path)
+            record = AssessmentSummary.model_validate_json(result.attrs["answer"])
+            found.append(Assessed(name, record, result, path))
+    return found
+
+
+def _known(campaign: Campaign, name: str) -> Assessment:
+    if name not in campaign.assessments:
+        known = nearest(name, campaign.assessments)
+        raise CampaignError(f'{campaign.path.name} has no assessment "{name}".{known}')
+    return campaign.assessments[name]
+
+
+def assess_own(
+    campaign: Campaign | None,
+    layout: Layout | None,
+    base: str | None,
+    column: AskedColumn,
+    options: Mapping[str, Any],
+    where: Where,
+) -> Assessed:
+    """
+    Answer a question of one's own about a real column; nothing is stored.
+
+    Parameters
+    ----------
+    campaign, layout : optional
+        None without a campaign.
+    base : str or None
+        Name of the assessment of the campaign whose keys count if nothing replaces them.
+    column : AskedColumn
+        Default the column of `base`.
+    options : mapping
+        Keys of [assessments.<name>], as in a campaign file; paths may be anywhere.
+    where : Where
+
+    Raises
+    ------
+    CampaignError
+        If an option or a name is not usable, or something is missing.
+    """
+    from colonnade.stages.assessing.plan import AssessmentInputs
+
+    written = {} if campaign is None or base is None else _known(campaign, base).model_dump(exclude_none=True)
+    meant = replace(
+        column, specimen=column.specimen or written.get("specimen"), scale=column.scale or written.get("scale")
+    )
+    found = find_column(meant, campaign, layout, is_real=True)
+    name = found.specimen or OWN
+    asked = _asked(written | {"specimen": name, "scale": found.inputs.scale}, options)
+    inputs = AssessmentInputs(**dict(found.inputs), specimen=name, asked=asked)
+    with tempfile.TemporaryDirectory(prefix="colonnade-") as blocks:
+        try:
+            result = _made(asked, where, Path(blocks), "", {"specimen": found.pooled}, inputs)
+        except ColonnadeError as error:
+            return Assessed(OWN, _failed(asked.specimen, asked.measure, str(error)), None)
+    return Assessed(OWN, AssessmentSummary.model_validate_json(result.attrs["answer"]), result)
+
+
+def _asked(written: dict[str, Any], options: Mapping[str, Any]) -> Assessment:
+    """Put options over the keys of an assessment; their files may be anywhere."""
+    if options.get("measure") not in (None, written.get("measure")):
+        # Levels and hazard are of another measure.
+        written = {key: value for key, value in written.items() if key not in ("levels", "hazard")}
+    paths = {key: Path(options[key]) for key in ("records", "hazard") if options.get(key) is not None}
+    paths = {key: written.pop(key) for key in ("records", "hazard") if key in written} | paths
+    if "records" not in paths:
+        raise CampaignError("Say which ground motions are run, with --records DIR or a CSV list of them.")
+    keys = Assessment.model_fields.keys() - {"records", "hazard", "specimen", "scale"}
+    given = {key: value for key, value in options.items() if key in keys and value is not None}
+    # The model keeps paths inside a campaign's folder; here they may be anywhere, so they are put in afterwards.
+    asked = checked(Assessment, {**written, **given, "records": "records"}, OPTIONS)
+    return asked.model_copy(update=paths)
+
+
+def _failed(specimen: str, measure: str, reason: str) -> AssessmentSummary:
+    return AssessmentSummary(status="failed", reason=reason, specimen=specimen, measure=measure)
+
+
+def assessing(graph: Graph, name: str, asked: Assessment, where: Where) -> Product:
+    """Return an assessment of a campaign; `asked` has the whole paths of its files."""
+    from colonnade.stages.assessing.plan import AssessmentInputs
+
+    result, code = ResultId(name, "assessment"), graph.catalogue.code((*MADE_BY, FORMATS))
+    upstream = {"specimen": ResultId(asked.specimen, "specimen"), **_given(asked, graph.catalogue)}
+    work = partial(_made, asked, where, graph.layout.blocks(result), code)
+    return graph.product(result, AssessmentInputs.of(graph.campaign, asked), upstream, work, *MADE_BY, FORMATS)
+
+
+def _given(asked: Assessment, catalogue: Catalogue) -> dict[str, str | None]:
+    """Hash the files that an assessment reads; a set that cannot be listed is reported when it is read."""
+    try:
+        records = files_of(asked.records)
+    except ReadError:
+        records = []
+    # Files of a list may have one name, in different folders.
+    digests = [[path.name, _digest(catalogue, path)] for path in records]
+    return {"records": hash_of(digests), "hazard": None if asked.hazard is None else _digest(catalogue, asked.hazard)}
+
+
+def _digest(catalogue: Catalogue, path: Path) -> str | None:
+    found = catalogue.lookup("raw", path, sha256_of, "ground motion")
+    return None if found is None else found[1]
+
+
+def _made(
+    asked: Assessment, where: Where, blocks: Path, code: str, upstream: Mapping[str, Any], inputs: Any
+) -> xr.Dataset:
+    """Make an assessment; finished blocks of its histories are known again by the code, and kept in `blocks`."""
+    from colonnade.readers.ground_motions.hazard import read_hazard_of
+    from colonnade.readers.ground_motions.record_set import read_record_set
+    from colonnade.stages.assessing.plan import plan_assessment
+    from colonnade.stages.assessment import assessment
+
+    hazard = None if asked.hazard is None else read_hazard_of(asked.hazard, asked.measure)
+    plan = plan_assessment(upstream["specimen"], read_record_set(asked.records), hazard, inputs)
+    outcomes = {}
+    for number, (name, study) in enumerate(plan.studies.items()):
+        key = hash_of([code, given(study.cases)])
+        outcomes[name] = outcomes_of(study.cases, where, blocks / str(number), key)
+    return assessment(plan, outcomes)
+
+
+def outcomes_of(cases: Cases, where: Where, folder: Path, key: str) -> Outcomes:
+    """
+    Run all cases of an assessment.
+
+    Parameters
+    ----------
+    cases : Cases
+    where : Where
+    folder : Path
+        Where finished blocks are kept, see `in_blocks`; the caller removes it (`forget`) once the result is stored.
+    key : str
+        Hash of all that the result depends on, `given` among it.
+
+    Returns
+    -------
+    outcomes : Outcomes
+        The same to the last bit, whatever the processes and interruptions.
+    """
+    blocks = in_blocks(_arrays, cases.blocks(MOST_BLOCKS), folder, key, **where._asdict())
+    return joined([Outcomes(**each) for each in blocks])
+
+
+def _arrays(block: Cases) -> Arrays:
+    return vars(run_cases(block))
+
+
+def given(cases: Cases) -> dict[str, str | None]:
+    """Hash what the outcomes are made from: column, draws, motions, factors and model."""
+    column = [repr(cases.prototype), cases.draws.tolist(), cases.model]
+    motions = [_hash(motion) for motion in cases.motions]
+    return {"column": hash_of(column), "motions": hash_of(motions), "factors": hash_of(cases.factors.tolist())}
+
+
+def _hash(motion: Motion) -> str:
+    parts = (motion.acceleration, motion.vertical, motion.transverse)
+    return hash_of([motion.dt, *(None if part is None else part.tolist() for part in parts)])

@@ -1,1 +1,0 @@
-"""Assessments of real columns: what they need of a campaign, their histories in blocks, their results."""

@@ -1,0 +1,165 @@
+"""The workers of a running Dask cluster, as an executor."""
+
+from __future__ import annotations
+
+import os
+import platform
+import re
+import time
+from collections.abc import Iterator, Sequence
+from concurrent.futures import CancelledError, Future
+from contextlib import contextmanager, suppress
+from importlib import import_module
+from typing import Any
+
+from colonnade.errors import ColonnadeError
+from colonnade.sources import package_hash
+from colonnade.workflow.executors import LOOK, Tell, Workers, WorkersEndedError
+
+_PATIENCE = 10
+"""Seconds until a scheduler answers, and until it has a worker."""
+
+_ADDRESS = re.compile(r"([a-z]+://)?[^\s/]+:\d{1,5}")
+
+
+@contextmanager
+def on_cluster(scheduler: str, tell: Tell) -> Iterator[Workers]:
+    """
+    Give the workers of a cluster, see `executors.spread`.
+
+    Raises
+    ------
+    ColonnadeError
+        If the cluster is not there, or its workers have other code or several threads.
+    """
+    try:
+        distributed: Any = import_module("distributed")
+    except ImportError as error:
+        raise ColonnadeError(
+            "`--scheduler` needs the package `distributed`, which is not installed here: pip install colonnade[cluster]"
+        ) from error
+    if not _ADDRESS.fullmatch(scheduler):
+        raise ColonnadeError(_no_scheduler(scheduler, "that is not an address"))
+    try:
+        client = distributed.Client(scheduler, timeout=_PATIENCE, set_as_default=False)
+    except OSError as error:
+        raise ColonnadeError(_no_scheduler(scheduler, str(error))) from error
+    with client:
+        watch = _Watch(client, scheduler, _expect_workers(client, scheduler, distributed), tell, distributed)
+        pool = client.get_executor(pure=False)
+        yield Workers(pool, lambda: watch.count, watch.look, watch.failed, watch.stop)
+
+
+class _Watch:
+    """Watches which workers a cluster has; `workers` describes the process of each, by address."""
+
+    def __init__(self, client: Any, scheduler: str, workers: dict[str, str], tell: Tell, distributed: Any) -> None:
+        self._client, self._scheduler, self._distributed = client, scheduler, distributed
+        self._known, self._tell = dict(workers), tell
+        self._looked = self._seen = time.monotonic()
+        self.count = len(workers)
+
+    def look(self) -> None:
+        """
+        Report workers that have gone since the last look.
+
+        Raises
+        ------
+        ColonnadeError
+            If there have been none for some time, a new one has several threads, or the scheduler has gone.
+        """
+        now = time.monotonic()
+        if now - self._looked < LOOK:
+            return
+        self._looked = now
+        try:
+            there = self._client.ncores()
+        except Exception as error:  # closed, cut off or late: whatever it is, nobody answers
+            raise self._gone() from error
+        for address in self._known.keys() - there.keys():
+            self._tell(
+                f"{address}: this worker ({self._known.pop(address)}) left the cluster before the work was done: it "
+                "was stopped, most often because memory ran out. Its work is given to another worker."
+            )
+        _expect_one_thread(there)
+        self._known |= dict.fromkeys(there.keys() - self._known.keys(), "one that came later")
+        self.count = len(there) or self.count
+        self._seen = now if there else self._seen
+        if now - self._seen > _PATIENCE:
+            raise WorkersEndedError(
+                f"{self._scheduler}: all its workers ended before the work was done. Finished results are kept. "
+                "Start workers and run again."
+            )
+
+    def failed(self, error: BaseException) -> BaseException:
+        """Say of an error of the cluster what to do; give one of the work as it is."""
+        if isinstance(error, self._distributed.KilledWorker):
+            last = getattr(error.last_worker, "address", error.last_worker)
+            return WorkersEndedError(
+                f"{self._scheduler}: its workers were stopped several times over the same work, most often because "
+                f"memory ran out; the last one was {last}. What was finished is kept. Give each worker more memory "
+                "and run again."
+            )
+        if isinstance(error, (CancelledError, self._distributed.CancelledError)):
+            return self._gone()
+        return error
+
+    def stop(self, pending: Sequence[Future[Any]]) -> None:
+        """Cancel what is not done; the scheduler may be gone."""
+        with suppress(Exception):
+            for future in pending:
+                future.cancel()
+
+    def _gone(self) -> ColonnadeError:
+        return WorkersEndedError(
+            f"{self._scheduler}: the scheduler of the Dask cluster ended before the work was done. Finished results "
+            "are kept, and its workers write nothing more. Start the cluster again and run again, or run without "
+            "--scheduler."
+        )
+
+
+def _no_scheduler(scheduler: str, found: str) -> str:
+    return (
+        f"{scheduler}: no Dask scheduler answers there ({found}). The address that `dask scheduler` shows when it "
+        'starts was expected, such as "tcp://10.0.0.1:8786".'
+    )
+
+
+def _expect_workers(client: Any, scheduler: str, distributed: Any) -> dict[str, str]:
+    """Describe the process of each worker; refuse those with other sources than this process: results would differ."""
+    try:
+        client.wait_for_workers(1, timeout=_PATIENCE)
+    except (TimeoutError, distributed.TimeoutError) as error:
+        raise ColonnadeError(
+            f"{scheduler}: this scheduler has no workers. Start some: dask worker {scheduler} --nthreads 1"
+        ) from error
+    _expect_one_thread(client.ncores())
+    try:
+        theirs = client.run(_who)
+    except Exception as error:
+        raise ColonnadeError(
+            f"{scheduler}: its workers cannot import colonnade ({type(error).__name__}: {error}). Install this version "
+            "of colonnade, with the same packages, where they run."
+        ) from error
+    others = sorted(worker for worker, (code, _) in theirs.items() if code != package_hash())
+    if others:
+        raise ColonnadeError(
+            f"{scheduler}: {len(others)} of {len(theirs)} workers run another version of colonnade, the first of them "
+            f"{others[0]}. Install the same one everywhere and restart the workers."
+        )
+    return {worker: who for worker, (_, who) in theirs.items()}
+
+
+def _expect_one_thread(threads: dict[str, int]) -> None:
+    """Refuse a worker with several threads: netCDF's library does not support them."""
+    for worker, count in sorted(threads.items()):
+        if count != 1:
+            raise ColonnadeError(
+                f"{worker}: this worker has {count} threads. Workers with one thread were expected; start it again "
+                "with `dask worker --nthreads 1`, and several of them (`--nworkers`) for several cores."
+            )
+
+
+def _who() -> tuple[str, str]:
+    """Return the hash of the sources that a worker runs, and which process it is."""
+    return package_hash(), f"process {os.getpid()} on {platform.node()}"

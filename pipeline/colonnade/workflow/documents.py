@@ -1,0 +1,199 @@
+"""The report for others: a PDF, made when what it shows changed, a bundle of all pages, a figure for a journal."""
+
+from __future__ import annotations
+
+import json
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from colonnade.campaign import Campaign, load
+from colonnade.errors import CampaignError, StoreError, nearest
+from colonnade.report import addresses, who_and_when
+from colonnade.report.interactive.state import UNWATCHED
+from colonnade.store import bundle
+from colonnade.store.freshness import key_of
+from colonnade.store.layout import STATE, Layout
+from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.lock import only_run
+from colonnade.workflow.product import Contents, Product, brought_up_to_date, known
+
+if TYPE_CHECKING:
+    from colonnade.figures.files.output import Movie, Picture
+    from colonnade.report.pictures.registry import Entry
+
+MADE_BY = ("colonnade.report.paper",)
+"""What the PDF is made by."""
+
+SHOWN = ("photos/*.jpg", "setups/*.svg")
+"""Files of the report that pages show."""
+
+
+def write_pdf(campaign: Path | str, *, results: Path | str | None = None) -> Path:
+    """
+    Typeset the report of a campaign as a PDF, unless it is there and shows the pages as they are.
+
+    Parameters
+    ----------
+    campaign : Path or str
+        A campaign.toml or its folder; its report is up to date.
+    results : Path or str, optional
+        Folder that holds `processed` and `report`; default that of the campaign file.
+
+    Returns
+    -------
+    pdf : Path
+
+    Raises
+    ------
+    CampaignError
+        If the campaign file is not usable.
+    StoreError
+        If there is no report, another run is under way, or the PDF cannot be written.
+    """
+    loaded = load(Path(campaign))
+    layout = Layout.of(loaded.path, results)
+    with only_run(layout):
+        catalogue = Catalogue(layout)
+        for _ in brought_up_to_date([_pdf(loaded, layout, _there(layout), catalogue)], catalogue):
+            pass
+    return layout.pdf
+
+
+def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | str | None = None) -> Path:
+    """
+    Put the whole report of a campaign into one zip file; `campaign`, `results` and errors as for `write_pdf`.
+
+    A PDF of older pages is left out. The pages in it are those of a report that nobody watches.
+
+    Parameters
+    ----------
+    target : Path or str
+        The file, with the ending .zip; outside the report.
+
+    Returns
+    -------
+    target : Path
+    """
+    loaded = load(Path(campaign))
+    layout = Layout.of(loaded.path, results)
+    with only_run(layout):
+        folder, catalogue = _there(layout), Catalogue(layout)
+        own = [*_pages(loaded, folder), *_shown(folder)]
+        if known(_pdf(loaded, layout, folder, catalogue), catalogue):
+            own.append(layout.pdf.name)
+        bundle.write_bundle(folder, Path(target), own=own, instead={STATE: UNWATCHED})
+    return Path(target)
+
+
+def _pdf(campaign: Campaign, layout: Layout, folder: Path, catalogue: Catalogue) -> Product:
+    """Give the PDF, made from the pages and their pictures as they are."""
+    upstream = {name: key_of(folder / name) for name in [*_pages(campaign, folder), *_shown(folder)]}
+    shown = json.dumps([campaign.title, campaign.campaign, who_and_when.of_campaign(campaign)])
+    return Product("pdf", shown, upstream, catalogue.code(MADE_BY), partial(_typeset, campaign, folder), (layout.pdf,))
+
+
+def _typeset(campaign: Campaign, folder: Path) -> Contents:
+    from colonnade.report.paper.typesetting import pdf_of
+
+    return [pdf_of(campaign, folder)], ""
+
+
+def _pages(campaign: Campaign, folder: Path) -> list[str]:
+    """Addresses of all pages, with their scripts and drawings."""
+    optional = [page for page in addresses.OPTIONAL if (folder / page).is_file()]
+    return addresses.addresses(campaign, optional)
+
+
+def _shown(folder: Path) -> list[str]:
+    return [path.relative_to(folder).as_posix() for pattern in SHOWN for path in sorted(folder.glob(pattern))]
+
+
+def _there(layout: Layout) -> Path:
+    """Folder of the report; refused where it is not there."""
+    if not layout.report.is_file():
+        raise StoreError(f"{layout.report}: report not found. Run `colonnade report` to make it.")
+    return layout.report.parent
+
+
+def chosen(campaign: Campaign, name: str, subject: str | None) -> tuple[Entry, str]:
+    """
+    Find a figure by its name, and what it is of.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    name : str
+    subject : str or None
+        Id of a test or specimen; None for the whole campaign, or if there is only one.
+
+    Returns
+    -------
+    entry : Entry
+    subject : str
+        Id of the test or specimen, empty for the campaign.
+
+    Raises
+    ------
+    CampaignError
+        If there is no such figure, test or specimen.
+    """
+    from colonnade.report.pictures.registry import FIGURES
+
+    entries = {entry.of: entry for entry in FIGURES if entry.name == name}
+    if not entries:
+        known = dict.fromkeys(entry.name for entry in FIGURES)
+        raise CampaignError(
+            f'Unknown figure "{name}".{nearest(name, known)} All are listed by `colonnade figure --list`.'
+        )
+    ids = {"test": list(campaign.tests), "specimen": list(campaign.specimens)}
+    possible = {of: ids[of] for of in entries if of in ids}
+    if subject is None:
+        if "campaign" in entries:
+            return entries["campaign"], ""
+        alone = {of: names[0] for of, names in possible.items() if len(names) == 1}
+        for of, only in alone.items():
+            return entries[of], only
+        raise CampaignError(
+            f'"{name}" is a figure of a {" or a ".join(possible)}. Name one.'
+            f"{nearest('', [each for names in possible.values() for each in names])}"
+        )
+    for of, names in possible.items():
+        if subject in names:
+            return entries[of], subject
+    if not possible:
+        raise CampaignError(f'"{name}" is a figure of the whole campaign. Leave out "{subject}".')
+    hint = nearest(subject, [each for names in possible.values() for each in names])
+    raise CampaignError(f'The campaign has no {" or ".join(possible)} "{subject}" that "{name}" could show.{hint}')
+
+
+def draw(campaign: Campaign, entry: Entry, subject: str, results: Path | None) -> Picture | Movie:
+    """
+    Draw a figure from the results of the last run.
+
+    Raises
+    ------
+    CampaignError
+        If what is stored has nothing that it shows; the message says why.
+    StoreError
+        If a result is damaged.
+    """
+    from colonnade.report.pictures import subjects
+
+    layout = Layout.of(campaign.path, results)
+    found: subjects.Subject
+    if entry.of == "test":
+        found = subjects.read_of_test(campaign, layout, subject)
+    elif entry.of == "specimen":
+        found = subjects.read_of_specimen(campaign, layout, subject)
+    else:
+        found = subjects.read_of_campaign(campaign, layout)
+    picture = entry.draw(found)
+    if picture is None:
+        why = "; ".join(f"{failure.stage}: {failure.text}".removeprefix(": ") for failure in found.failures)
+        if not layout.summary_json.is_file():
+            why = "nothing has been run yet; run `colonnade run` first"
+        about = subject or campaign.campaign
+        reason = f" The results say: {why}." if why else ""
+        raise CampaignError(f'{about}: there is nothing to draw for "{entry.name}". {entry.needs}{reason}')
+    return picture

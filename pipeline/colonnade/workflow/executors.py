@@ -1,0 +1,347 @@
+"""Independent calls on several workers, processes or a Dask cluster, as executors; long work in blocks that stay."""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+import shutil
+import signal
+import threading
+import zipfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from functools import partial
+from math import ceil
+from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.errors import ColonnadeError
+from colonnade.interruption import FROM_TERMINAL, expect_none
+from colonnade.store import files
+from colonnade.workflow.orphans import end_with
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+Tell = Callable[[str], None]
+"""Takes a sentence about the run itself, such as that the system stopped a worker."""
+
+AHEAD = 2
+"""Items handed out to each worker, of which it works on the first; so few are lost if it is stopped."""
+
+LOOK = 1.0
+"""Seconds between two looks at the workers."""
+
+_EXIT_CODES = re.compile(r"The exit codes of the workers are \{(.+)\}")
+"""How loky reports processes that ended by themselves, such as "SIGKILL(-9)"."""
+
+_ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
+"""Environment of a worker: there are as many as cores."""
+
+
+class WorkersEndedError(ColonnadeError):
+    """Workers were stopped, or their scheduler ended, before the work was done: it may succeed later."""
+
+
+class Workers(NamedTuple):
+    """
+    Workers to hand items to.
+
+    Attributes
+    ----------
+    pool : Executor
+    number : callable
+        How many there are now.
+    look : callable
+        Called about once a second; raises ColonnadeError if nobody works any more.
+    failed : callable
+        The error to raise in place of one that a call ended with.
+    stop : callable
+        Ends calls that have not ended.
+    """
+
+    pool: Executor
+    number: Callable[[], int]
+    look: Callable[[], None]
+    failed: Callable[[BaseException], BaseException]
+    stop: Callable[[Sequence[Future[Any]]], None]
+
+
+def spread(
+    work: Callable[[Item], Result],
+    items: Sequence[Item],
+    *,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    tell: Tell = lambda sentence: None,
+    lost: Callable[[Item], Result] | None = None,
+    names: Callable[[Item], str] | None = None,
+) -> Iterator[Result]:
+    """
+    Call a function once for each item.
+
+    Parameters
+    ----------
+    work : callable
+        A function of a module, not a lambda: other processes import it.
+    items : sequence
+        Arguments of the calls, small enough to send.
+    workers : int, optional
+        Processes of this machine; one a core by default. With one, all is done in this process.
+    scheduler : str, optional
+        Address of a running Dask scheduler, as "tcp://10.0.0.1:8786": its workers are used instead.
+    tell : callable, optional
+        Called with a sentence if a worker was stopped.
+    lost : callable, optional
+        Gives the result of an item that lost its worker twice, the second time alone; without it that is an error.
+    names : callable, optional
+        Names an item that is tried again, for `tell`.
+
+    Yields
+    ------
+    result
+        Of each item, in the order in which they end.
+
+    Raises
+    ------
+    WorkersEndedError
+        If workers were stopped twice, or the cluster ends before the work does.
+    ColonnadeError
+        If the cluster is not there or runs other code.
+    """
+    if scheduler is not None:
+        from colonnade.workflow.cluster import on_cluster
+
+        if items:
+            with on_cluster(scheduler, tell) as there:
+                yield from (result for _, result in _handed_out(there, work, dict(enumerate(items))))
+        return
+    import joblib
+
+    count = min(workers or joblib.cpu_count(), len(items))
+    if count <= 1:
+        for item in items:
+            expect_none()
+            yield work(item)
+        return
+    waiting = dict(enumerate(items))
+    while waiting:
+        try:
+            for number, result in _handed_out(_processes(count), work, waiting):
+                del waiting[number]
+                yield result
+        except BrokenProcessPool as error:
+            suspects = list(waiting)[: AHEAD * count]
+            named = "" if names is None else f": {', '.join(names(waiting[number]) for number in suspects)}"
+            tell(
+                f"{stopped(error)} by the system, most often because memory ran out. What it may have worked on was "
+                f"tried again alone{named}."
+            )
+            for number in suspects:
+                item = waiting.pop(number)
+                try:
+                    yield from (result for _, result in _handed_out(_processes(count), work, {number: item}))
+                except BrokenProcessPool as again:
+                    if lost is None:
+                        raise WorkersEndedError(
+                            f"{stopped(again)} twice, most often because memory ran out. Finished results are kept. "
+                            "Run again with fewer workers (`--workers 1` uses the least memory)."
+                        ) from again
+                    yield lost(item)
+
+
+def stopped(error: BaseException) -> str:
+    """Say that a worker process ended by itself and, if loky's exception gives it, how."""
+    found = _EXIT_CODES.search(str(error))
+    return f"A worker process was stopped{f' ({found[1]})' if found else ''}"
+
+
+def _handed_out(
+    workers: Workers, work: Callable[[Item], Result], items: Mapping[int, Item]
+) -> Iterator[tuple[int, Result]]:
+    """Hand out a few items at a time, and give results as they end."""
+    waiting = iter(list(items.items()))
+    pending: dict[Future[Result], int] = {}
+    try:
+        while True:
+            expect_none()
+            with _interrupts_held_back():
+                while len(pending) < AHEAD * workers.number() and (given := next(waiting, None)) is not None:
+                    pending[workers.pool.submit(work, given[1])] = given[0]
+            if not pending:
+                return
+            ended = wait(pending, timeout=LOOK, return_when=FIRST_COMPLETED).done
+            workers.look()
+            for future in sorted(ended, key=_is_lost):  # what was finished when a worker was stopped is not lost
+                number = pending.pop(future)
+                try:
+                    result = future.result()
+                except BaseException as error:
+                    raise workers.failed(error) from error.__cause__
+                yield number, result
+    finally:
+        if pending:
+            workers.stop(list(pending))
+
+
+def _is_lost(future: Future[Any]) -> bool:
+    return future.cancelled() or future.exception() is not None
+
+
+def _processes(count: int) -> Workers:
+    """Start processes of this machine, or take those of the last call; none outlives this process."""
+    from joblib.externals.loky import get_reusable_executor
+
+    # Each settles in as it starts, not with its first item: one that never gets any has to notice its parent's end too.
+    with _interrupts_held_back():
+        pool = get_reusable_executor(count, initializer=_settle_in, initargs=(os.getpid(),), env=_ONE_THREAD)
+    return Workers(pool, lambda: count, lambda: None, lambda error: error, partial(_stop_quietly, pool))
+
+
+def _stop_quietly(pool: Any, pending: Sequence[Future[Any]]) -> None:
+    """Stop the processes, on Ctrl-C before the lock is given back."""
+    original = threading.excepthook
+
+    def tell(failure: threading.ExceptHookArgs) -> None:
+        # Stopped before its first items were sent, loky looks for them in vain once its workers are gone.
+        if failure.exc_type is not KeyError:
+            original(failure)
+
+    threading.excepthook = tell
+    try:
+        for future in pending:
+            future.cancel()
+        pool.shutdown(wait=True, kill_workers=True)
+    finally:
+        threading.excepthook = original
+
+
+@contextmanager
+def _interrupts_held_back() -> Iterator[None]:
+    """Keep Ctrl-C from processes that are started here, which inherit that: it would tear them from their imports."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    from multiprocessing import resource_tracker
+
+    from joblib.externals.loky.backend import resource_tracker as of_loky
+
+    for tracker in (resource_tracker, of_loky):  # whose own start would let Ctrl-C through again
+        tracker.ensure_running()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, FROM_TERMINAL)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _settle_in(parent: int) -> None:
+    """Leave Ctrl-C to the parent, and end when it is gone: a worker without a run's lock may not write."""
+    for signum in FROM_TERMINAL:
+        signal.signal(signum, signal.SIG_IGN)
+    end_with(parent, partial(os._exit, 1))
+
+
+Arrays = dict[str, NDArray[Any]]
+
+Counted = Callable[[int, int], None]
+"""Told how many blocks are done, and of how many."""
+
+MOST_BLOCKS = 128
+"""Of a map: enough for any cluster, and few enough to keep."""
+
+
+class Where(NamedTuple):
+    """Where blocks are worked on, as of `spread`, and who is told of them."""
+
+    workers: int | None = None
+    scheduler: str | None = None
+    progress: Counted | None = None
+
+
+def blocks_of(number: int) -> list[range]:
+    """Divide a number of columns into at most `MOST_BLOCKS` blocks of equal size, the last one smaller."""
+    size = ceil(number / MOST_BLOCKS)
+    return [range(start, min(start + size, number)) for start in range(0, number, size)]
+
+
+def in_blocks(
+    work: Callable[[Item], Mapping[str, NDArray[Any]]],
+    blocks: Sequence[Item],
+    folder: Path,
+    key: str,
+    *,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    progress: Counted | None = None,
+) -> list[Arrays]:
+    """
+    Work on each block, or take the blocks that an interrupted earlier call finished.
+
+    Parameters
+    ----------
+    work : callable
+        Of a module; takes a block and returns its arrays by name. What it returns may depend on the block alone.
+    blocks : sequence
+    folder : Path
+        Where finished blocks are kept; for this work only. The caller removes it (`forget`) when their sum is stored.
+    key : str
+        Hash of all that the result depends on; blocks under another key are removed.
+    workers, scheduler, progress : optional
+        As of `Where`.
+
+    Returns
+    -------
+    results : list of dict
+        Of each block, in the order of `blocks`, whatever the order in which they ended.
+
+    Raises
+    ------
+    StoreError
+        If a block cannot be written.
+    ColonnadeError
+        If workers fail; the blocks that are finished stay.
+    """
+    here = folder / key[:16]
+    for other in folder.glob("*"):
+        if other != here:
+            shutil.rmtree(other, ignore_errors=True)
+    found = {number: kept for number in range(len(blocks)) if (kept := _kept(here, number)) is not None}
+    missing = [(number, block) for number, block in enumerate(blocks) if number not in found]
+    tell = progress or (lambda done, total: None)
+    tell(len(found), len(blocks))
+    for number, arrays in spread(partial(_numbered, work), missing, workers=workers, scheduler=scheduler):
+        stream = io.BytesIO()
+        np.savez(stream, allow_pickle=False, **arrays)
+        files.write_bytes(_path(here, number), stream.getbuffer())
+        found[number] = arrays
+        tell(len(found), len(blocks))
+    return [found[number] for number in range(len(blocks))]
+
+
+def forget(folder: Path) -> None:
+    """Remove what `in_blocks` kept."""
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+def _numbered(work: Callable[[Item], Mapping[str, NDArray[Any]]], numbered: tuple[int, Item]) -> tuple[int, Arrays]:
+    number, block = numbered
+    return number, dict(work(block))
+
+
+def _path(folder: Path, number: int) -> Path:
+    return folder / f"{number:06d}.npz"
+
+
+def _kept(folder: Path, number: int) -> Arrays | None:
+    """Arrays of a finished block; None if it is missing or unreadable."""
+    try:
+        with np.load(_path(folder, number), allow_pickle=False) as stored:
+            return {name: stored[name] for name in stored.files}
+    except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile):
+        return None

@@ -1,1 +1,0 @@
-"""Forecasts of tests: made before a test, kept as they were made, scored after it."""

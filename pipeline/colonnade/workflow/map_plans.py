@@ -1,0 +1,215 @@
+"""What a stability map of a specimen has to show, and the plan that follows from it and from earlier results."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from math import isfinite, nan
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from colonnade.campaign import Campaign
+from colonnade.campaign.syntax.fields import MAP_RATIO, MOST_CYCLES, MOST_POINTS, outside
+from colonnade.dynamics.block import Sided
+from colonnade.dynamics.models import MODELS
+from colonnade.errors import CampaignError, StoreError, nearest
+from colonnade.identification.response.boundaries import MapPoint
+from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.store.records.summary import map_points, read_summary
+from colonnade.workflow.pooling import restitution_taken
+
+if TYPE_CHECKING:
+    from colonnade.dynamics.maps import InSpace, MapPlan
+    from colonnade.dynamics.motion import Motion
+
+USUAL_FREQUENCIES = (1.0, 8.0)
+"""Ω of a map of a specimen without sine tests."""
+LOWEST_AMPLITUDE, USUAL_AMPLITUDE = 0.5, 8.0
+"""Smallest A of a map, and the least value of its largest A: the upper limit is far above the tests."""
+LARGEST_AMPLITUDE_IN_SPACE = 3.5
+"""The same largest A if the contact model is among the models."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """
+    What a map is asked to show.
+
+    Attributes
+    ----------
+    models : tuple of str
+        Each gets a map of its own; several share a picture, with limits found by the same rule.
+    frequency_ratio, amplitude_ratio : pair of float or None
+        First and last Ω and A; by default they include the specimen's sine tests.
+    points : pair of int or None
+        How many of each; by default the `map_points` of the model.
+    cycles, phase, ramp : float
+        Of the sine, see `dynamics.maps.chart.stability_map`.
+    motion : str or None
+        Id of a sine test whose recorded table motion is used instead, stretched to Ω and scaled to A.
+    responses : bool
+        Also the steady responses to the sine, over the same Ω and A.
+    """
+
+    models: tuple[str, ...] = ("nonlinear",)
+    frequency_ratio: tuple[float, float] | None = None
+    amplitude_ratio: tuple[float, float] | None = None
+    points: tuple[int, int] | None = None
+    cycles: float = 20.0
+    phase: float = 0.0
+    ramp: float = 0.0
+    motion: str | None = None
+    responses: bool = False
+
+    def text(self) -> str:
+        """Write what a map of one model is asked for with, as it is stored with the map; of others, those in space."""
+        asked = {name: value for name, value in asdict(self).items() if name != "responses"}
+        return json.dumps(asked | {"models": [name for name in self.models if MODELS[name].in_space]})
+
+    @classmethod
+    def of(cls, text: str, model: str) -> Wanted:
+        """Read what a stored map of a model was asked for with; raises ValueError or TypeError if that is altered."""
+        asked = json.loads(text)
+        pairs = {name: tuple(asked[name]) for name in ("frequency_ratio", "amplitude_ratio", "points") if asked[name]}
+        models = tuple(dict.fromkeys((model, *asked["models"])))
+        return cls(**asked | pairs | {"models": models})
+
+
+def measured_points(layout: Layout, specimen: str) -> list[MapPoint]:
+    """Sine tests of a specimen whose Ω, A and outcome the last run knows; none without a run."""
+    try:
+        summary = read_summary(layout)
+    except StoreError:
+        return []
+    return [] if summary is None else map_points(summary.tests, specimen)
+
+
+def plan_of(
+    campaign: Campaign,
+    layout: Layout,
+    specimen: str,
+    wanted: Wanted,
+    model: str,
+    restitution: Sided,
+    points: Sequence[MapPoint],
+) -> MapPlan:
+    """
+    Plan a specimen's map.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    layout : Layout
+    specimen : str
+    wanted : Wanted
+    model : str
+    restitution : float or pair of float
+    points : sequence of MapPoint
+        Sine tests that the map has to include, unless `wanted` gives its axes.
+
+    Raises
+    ------
+    CampaignError
+        If a value of `wanted` is out of its range.
+    """
+    from colonnade.dynamics.maps import EDGE, MapPlan
+    from colonnade.dynamics.search import STEPS_A_WIDTH, WIDTH
+
+    _expect_bounded(wanted)
+    if wanted.responses and wanted.motion is not None:
+        raise CampaignError("Steady responses are responses to a sine. Leave out the recorded motion.")
+    motion, frequency = (None, None) if wanted.motion is None else _recorded(campaign, layout, wanted.motion)
+    omegas = wanted.frequency_ratio or _around([point.frequency_ratio for point in points], USUAL_FREQUENCIES)
+    largest = max((1.2 * point.amplitude_ratio for point in points), default=0.0)
+    space = _space(campaign, layout, specimen) if MODELS[model].in_space else None
+    in_space = [MODELS[name] for name in wanted.models if MODELS[name].in_space]
+    usual = LARGEST_AMPLITUDE_IN_SPACE if in_space else USUAL_AMPLITUDE
+    amplitudes = wanted.amplitude_ratio or (LOWEST_AMPLITUDE, max(usual, float(np.ceil(largest * 2) / 2)))
+    grid = wanted.points or MODELS[model].map_points
+    width, edge = WIDTH, EDGE
+    if in_space:
+        # A contact map runs its own points only: an interval narrower than four of them makes no limit, nor does it
+        # on the maps of other models in the same picture.
+        points_in_space = wanted.points or in_space[0].map_points
+        spacing = (amplitudes[1] - amplitudes[0]) / (points_in_space[1] - 1)
+        width, edge = STEPS_A_WIDTH * spacing, EDGE if space is None else spacing / 8
+    try:
+        return MapPlan(
+            campaign.block(specimen),
+            frequency_ratio=np.linspace(*omegas, grid[0]),
+            amplitude_ratio=np.linspace(*amplitudes, grid[1]),
+            restitution=restitution,
+            cycles=wanted.cycles,
+            phase=wanted.phase,
+            ramp=wanted.ramp,
+            model=model,
+            motion=motion,
+            motion_frequency=frequency,
+            width=width,
+            edge=edge,
+            space=space,
+        )
+    except ValueError as error:
+        raise CampaignError(f"This map cannot be made: {str(error).rstrip('.')}.") from error
+
+
+def _expect_bounded(wanted: Wanted) -> None:
+    """Refuse numbers with which a map would never end, or fill the memory."""
+    for name, ratios in (("omega", wanted.frequency_ratio), ("amplitude", wanted.amplitude_ratio)):
+        for ratio in ratios or ():
+            if expected := outside(ratio, MAP_RATIO):
+                raise CampaignError(f"--{name}: {ratio:g} was found. {expected}")
+    for name, cycles in (("cycles", wanted.cycles), ("ramp", wanted.ramp), ("phase", wanted.phase)):
+        if not abs(cycles) <= MOST_CYCLES:
+            raise CampaignError(f"--{name}: {cycles:g} was found. At most {MOST_CYCLES:g} was expected.")
+    if max(wanted.points or (0,)) > MOST_POINTS:
+        raise CampaignError(f"--points: {max(wanted.points or (0,))} was found. At most {MOST_POINTS} were expected.")
+
+
+def _space(campaign: Campaign, layout: Layout, specimen: str) -> InSpace:
+    """Body and law of contact of a specimen, as `predict` or `calibrate` has left it."""
+    from colonnade.dynamics.maps import InSpace
+    from colonnade.stages import contact
+
+    path = layout.stage(specimen, "contact")
+    law = files.read(path) if path.is_file() else None
+    if law is None or law.attrs["status"] != "done":
+        raise CampaignError(f"{specimen}: its law of contact is not known yet. Run `colonnade calibrate` first.")
+    read = contact.ContactInputs.of(campaign, specimen)
+    own = contact.law_of(law)
+    return InSpace(contact.body_of(read, own), own, read.settings.step)
+
+
+def _around(values: Sequence[float], usual: tuple[float, float]) -> tuple[float, float]:
+    """Return a range, in steps of a tenth, that includes the values with some margin; without values, the usual one."""
+    if not values:
+        return usual
+    return float(np.floor(9 * min(values)) / 10), float(np.ceil(11 * max(values)) / 10)
+
+
+def restitution_of(campaign: Campaign, layout: Layout, specimen: str) -> tuple[Sided, str]:
+    """Return e as predictions use it, and where it comes from."""
+    pooled = restitution_taken(campaign, layout, specimen)
+    negative, positive = (float(e) for e in pooled["side_restitution"])
+    return (negative, positive), str(pooled.attrs["restitution_source"])
+
+
+def _recorded(campaign: Campaign, layout: Layout, test: str) -> tuple[Motion, float]:
+    """Return the recorded table motion of a sine test, and its frequency (Hz)."""
+    from colonnade.dynamics.motion import Motion
+
+    if test not in campaign.tests:
+        raise CampaignError(f'{campaign.path.name} has no test "{test}".{nearest(test, campaign.tests)}')
+    rocking, compared = (layout.stage(test, stage) for stage in ("rocking", "compare"))
+    base, sine = files.read(rocking), files.read(compared)
+    frequency = float(sine["forcing_frequency"]) if "forcing_frequency" in sine else nan
+    if "base_acceleration" not in base or not isfinite(frequency):
+        raise CampaignError(
+            f"{test}: its table motion cannot be stretched over a map. A sine test whose table acceleration is "
+            "recorded and steady was expected, as `colonnade show tests` lists them with their Ω."
+        )
+    time = base["elapsed"].to_numpy()
+    return Motion(base["base_acceleration"].to_numpy(), float(time[1] - time[0])), frequency

@@ -1,0 +1,189 @@
+"""The report as products: drawings, the page of each test and specimen, the pages of the whole campaign."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from colonnade.campaign import Campaign
+from colonnade.campaign.forms.foreseen import ForecastsSummary
+from colonnade.report import addresses
+from colonnade.report.asked import Asked, asked_of
+from colonnade.report.interactive.state import UNWATCHED
+from colonnade.report.photos import Photos
+from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.store.records.advice import Advice
+from colonnade.store.results import ResultId, models_shown, results_of
+from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.product import Contents, Made, Product, brought_up_to_date
+
+if TYPE_CHECKING:
+    from colonnade.report.parts import Part
+
+MADE_BY = ("colonnade.report", "colonnade.store")
+"""Packages whose code makes the pages; what they import counts too."""
+
+OWN = ("tests/*.html", "specimens/*.html", "data/**/*.js", "scripts/*.js", "setups/*.svg", *addresses.OPTIONAL)
+"""Files of the report's folders; one that nothing of the campaign leads to any more is removed."""
+
+
+def update_report(
+    campaign: Campaign,
+    layout: Layout,
+    catalogue: Catalogue,
+    outdated: Collection[str] = (),
+    forecasts: ForecastsSummary | None = None,
+    advice: Sequence[Advice] = (),
+    photos: Mapping[str, Photos] | None = None,
+    workers: int | None = 1,
+) -> Path:
+    """
+    Make what of the report is out of date.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    layout : Layout
+    catalogue : Catalogue
+    outdated : collection of str, optional
+        Tests whose stored results are out of date: they are pending, and not shown.
+    forecasts : ForecastsSummary or None, optional
+        As in the summary: the hash of each forecast is in it.
+    advice : sequence of Advice, optional
+        On the next tests.
+    photos : mapping of str to Photos, optional
+        Of each test, as they are in the report.
+    workers : int or None, optional
+        Processes in which pages are drawn; None for one a core.
+
+    Returns
+    -------
+    overview : Path
+        The same results give the same bytes, and an unchanged page is not written again. Pages of what has left the
+        campaign are removed. The state script is written only if it is missing: it may be that of a watch in progress.
+
+    Raises
+    ------
+    StoreError
+        If a page cannot be written.
+    """
+    report = _Report(campaign, layout, catalogue, outdated, advice, photos or {})
+    if not layout.state.is_file():
+        files.write_text(layout.state, UNWATCHED)
+    there: set[Path] = set()
+    for products in (report.drawings, report.tests, report.specimens, partial(report.whole, forecasts)):
+        for made in brought_up_to_date(products(), catalogue, workers=workers if products == report.tests else 1):
+            report.made[str(made.product.id)] = made
+            there |= set(made.product.paths)
+    for stale in {path for pattern in OWN for path in layout.report.parent.glob(pattern)} - there:
+        files.remove(stale)
+    return layout.report
+
+
+@dataclass
+class _Report:
+    """The products of a report; those that are up to date are in `made`, by their ids."""
+
+    campaign: Campaign
+    layout: Layout
+    catalogue: Catalogue
+    outdated: Collection[str]
+    advice: Sequence[Advice]
+    photos: Mapping[str, Photos]
+    made: dict[str, Made] = field(default_factory=dict)
+
+    def drawings(self) -> Iterator[Product]:
+        """Each specimen in each of its set-ups."""
+        campaign = self.campaign
+        for specimen, setup in campaign.combinations:
+            shows = repr((specimen, campaign.specimens[specimen], campaign.gravity, setup, campaign.setups[setup]))
+            make, place = partial(_drawing, campaign, specimen, setup), addresses.of_setup(specimen, setup)
+            yield self._product(f"drawing {specimen}+{setup}", shows, {}, make, [place])
+
+    def tests(self) -> Iterator[Product]:
+        """The page of each test, with its part of the pages of all tests."""
+        for name, asked in self._asked.items():
+            page, results = addresses.of_test(name), results_of(self.campaign, self.campaign.tests[name])
+            make, places = partial(_page, self.layout, asked), [page, addresses.of_data(page)]
+            product = self._product(f"page {name}", asked.shows, self._contents(results), make, places)
+            yield replace(product, keeps=True)
+
+    def specimens(self) -> Iterator[Product]:
+        """The page of each specimen."""
+        campaign, models = self.campaign, models_shown(self.campaign)
+        around = (campaign.title, campaign.gravity, tuple(campaign.specimens), models)
+        for name, specimen in campaign.specimens.items():
+            results = [ResultId(name, "specimen"), ResultId(name, "contact")]
+            results += [ResultId(name, "map", model) for model in models]
+            tests = {test: key for test, key in self._keys.items() if campaign.tests[test].specimen == name}
+            setups = {pair: tests for pair, tests in campaign.combinations.items() if pair[0] == name}
+            shows = repr((around, specimen, setups, [campaign.setups[setup] for _, setup in setups]))
+            page, make = addresses.of_specimen(name), partial(self._specimen, name)
+            places = [addresses.of_data(page), page]
+            yield self._product(f"specimen-page {name}", shows, self._contents(results) | tests, make, places)
+
+    def whole(self, forecasts: ForecastsSummary | None) -> Iterator[Product]:
+        """The pages of the whole campaign, the overview last, so that what it links to is there."""
+        optional = {addresses.ASSESSMENTS: bool(self.campaign.assessments), addresses.FORECASTS: forecasts is not None}
+        places = addresses.of_campaign([page for page, is_there in optional.items() if is_there])
+        foreseen = [] if forecasts is None else [forecasts.model_dump_json()]
+        shows = [repr(self.campaign.with_relative_paths()), sorted(self.outdated), *foreseen, *map(repr, self.advice)]
+        there = {str(path.relative_to(self.layout.processed)): path for path in self.layout.results_there()}
+        contents = {name: self.catalogue.content(path) for name, path in there.items()}
+        yield self._product("pages", json.dumps(shows), contents | self._keys, partial(self._whole, places), places)
+
+    def _product(
+        self,
+        name: str,
+        shows: str,
+        upstream: Mapping[str, str | None],
+        make: Callable[[], Contents],
+        places: Iterable[str],
+    ) -> Product:
+        paths = tuple(self.layout.report.parent / place for place in places)
+        return Product(name, shows, upstream, self.catalogue.code(MADE_BY), make, paths)
+
+    def _contents(self, results: Iterable[ResultId]) -> dict[str, str | None]:
+        return {str(result): self.catalogue.content(self.layout.path(result)) for result in results}
+
+    @cached_property
+    def _asked(self) -> dict[str, Asked]:
+        return {each.test: each for each in asked_of(self.campaign, self.layout, self.outdated, self.photos)}
+
+    @property
+    def _keys(self) -> dict[str, str]:
+        return {name: self.made[f"page {name}"].key for name in self.campaign.tests}
+
+    @cached_property
+    def _parts(self) -> list[Part]:
+        from colonnade.report.parts import Part
+
+        return [Part.of(asked, self.made[f"page {name}"].text) for name, asked in self._asked.items()]
+
+    def _specimen(self, name: str) -> Contents:
+        from colonnade.report.build import specimen_page
+
+        return [text for _, text in specimen_page(self.campaign, self.layout, name, self._parts)], ""
+
+    def _whole(self, places: Sequence[str]) -> Contents:
+        from colonnade.report.build import whole_pages
+
+        texts = dict(whole_pages(self.campaign, self.layout, self._parts, self.advice))
+        return [texts[place] for place in places], ""
+
+
+def _drawing(campaign: Campaign, specimen: str, setup: str) -> Contents:
+    from colonnade.report.drawings import svg
+
+    return [svg(campaign, specimen, setup)], ""
+
+
+def _page(layout: Layout, asked: Asked) -> Contents:
+    from colonnade.report.parts import drawn
+
+    return drawn(layout, asked)

@@ -1,0 +1,126 @@
+"""Photos of the tests for the report: decoded with care, written anew without hidden data; a bad one is a finding."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+from io import BytesIO
+from pathlib import Path
+
+from colonnade.campaign import Campaign
+from colonnade.campaign.syntax.names import inside
+from colonnade.errors import ReadError
+from colonnade.findings import Finding, warning
+from colonnade.interruption import expect_none
+from colonnade.readers.files import sha256_of
+from colonnade.readers.photo import Pixels, read_photo
+from colonnade.report.photos import KIND, Photo, Photos, address_of
+from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.product import Contents, Product, brought_up_to_date
+
+QUALITY = 85
+"""Of the JPEG files that are written."""
+
+MADE_BY = ("colonnade.readers.photo", "colonnade.workflow.photos")
+"""What the photos of the report are made by."""
+
+
+def with_photos(campaign: Campaign, layout: Layout, catalogue: Catalogue) -> tuple[Campaign, dict[str, Photos]]:
+    """
+    Write the photos of all tests into the report, where they are not there already, and remove others.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    layout : Layout
+    catalogue : Catalogue
+        Spares decoding photos that are as they were.
+
+    Returns
+    -------
+    campaign : Campaign
+        With a warning of each photo that cannot be shown.
+    photos : dict of str to Photos
+        Those of each test that has any.
+
+    Raises
+    ------
+    StoreError
+        If a photo cannot be written.
+    """
+    folder, code = layout.report.parent, catalogue.code(MADE_BY)
+    asked = {f"photo {address}": (test, written, address) for test, written, address in _photos(campaign)}
+    products = [
+        Product(name, "", _upstream(campaign, written, catalogue), code, make, (folder / address,))
+        for name, (_, written, address) in asked.items()
+        for make in [partial(_copied, campaign.folder, written)]
+    ]
+    reasons = {str(made.product.id): made.reason for made in brought_up_to_date(products, catalogue)}
+    for stale in set(folder.glob("photos/*.jpg")) - {path for each in products for path in each.paths}:
+        files.remove(stale)
+    found, photos = [], dict[str, Photos]()
+    for name, (test, written, address) in asked.items():
+        before, number = photos.get(test, Photos()), address.rpartition("-")[2].removesuffix(".jpg")
+        if reason := reasons[name]:
+            files.remove(folder / address)
+            found.append(finding_of(test, reason))
+            photos[test] = replace(before, problems=(*before.problems, found[-1].text))
+        else:
+            shown = Photo(address, f"Photo {number} of test {test}", written)
+            photos[test] = replace(before, shown=(*before.shown, shown))
+    return campaign.but(warnings=(*campaign.warnings, *found)), photos
+
+
+def unshown_photos(campaign: Campaign) -> list[Finding]:
+    """Look at the photos of all tests, and give a warning of each that cannot be shown; nothing is written."""
+    found = []
+    for test, written, _ in _photos(campaign):
+        expect_none()
+        try:
+            read_photo(_source(campaign.folder, written), within=campaign.folder)
+        except ReadError as error:
+            found.append(finding_of(test, str(error)))
+    return found
+
+
+def finding_of(test: str, reason: str) -> Finding:
+    """Make a finding of a photo's refusal."""
+    return replace(warning(KIND, f"tests[{test}].photos: {reason}"), about=f"tests.{test}")
+
+
+def _photos(campaign: Campaign) -> Iterator[tuple[str, str, str]]:
+    for name, test in campaign.tests.items():
+        for number, written in enumerate(test.photos, start=1):
+            yield name, written, address_of(name, number)
+
+
+def _source(folder: Path, written: str) -> Path:
+    try:
+        inside(folder, written)
+    except ValueError as error:
+        raise ReadError(str(error)) from None
+    return folder / written
+
+
+def _upstream(campaign: Campaign, written: str, catalogue: Catalogue) -> dict[str, str | None]:
+    """Hash a photo; one that is not there or lies outside is not opened, and refused when it is read."""
+    path = campaign.folder / written
+    is_inside = path.resolve().is_relative_to(campaign.folder)
+    found = catalogue.lookup("raw", path, sha256_of) if is_inside else None
+    return {written: found[1] if found else None}
+
+
+def _copied(folder: Path, written: str) -> Contents:
+    return [as_jpeg(read_photo(_source(folder, written), within=folder))], ""
+
+
+def as_jpeg(pixels: Pixels) -> bytes:
+    """Write pixels as JPEG, with nothing else in it; the same pixels give the same bytes."""
+    from PIL import Image
+
+    written = BytesIO()
+    Image.fromarray(pixels).save(written, "JPEG", quality=QUALITY, optimize=True)
+    return written.getvalue()

@@ -1,1 +1,0 @@
-"""Study of forecasts whose truth is known: campaigns, their tests, scores and page."""

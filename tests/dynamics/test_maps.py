@@ -1,0 +1,172 @@
+"""The stability map: the paper's statements, the rules of its limits, and independence of how it is computed."""
+
+import json
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+
+import colonnade
+from colonnade.dynamics import models
+from colonnade.dynamics.maps import MapPlan, assemble, map_column, stability_map
+from colonnade.dynamics.models import LINEAR, Model
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_outcomes
+from colonnade.dynamics.restitution_law import RestitutionLaw
+from every import every
+from prism import PRISM
+
+ALPHA, P = PRISM.critical_angle, PRISM.p
+MODELS = ("linear", "nonlinear")
+OMEGAS = np.array([1.1, 2.0, 4.5, 6.0, 7.8])
+AMPLITUDES = np.concatenate([np.linspace(0.9, 1.6, 29), np.linspace(1.7, 9.0, 30)])
+
+
+@cache
+def prism_map(model):
+    """The paper's prism, e = 0.976, 20 cycles from rest."""
+    return stability_map(
+        PRISM, restitution=0.976, frequency_ratio=OMEGAS, amplitude_ratio=AMPLITUDES, model=model, width=0.02
+    )
+
+
+@pytest.mark.parametrize("model", MODELS)
+class TestThePapersStatements:
+    def test_rocking_starts_at_one_amplitude_for_every_frequency(self, model):
+        chart = prism_map(model)
+        onset = ALPHA / math.tan(ALPHA) if model == "linear" else 1.0
+        np.testing.assert_allclose(chart.no_rocking, onset, rtol=1e-15)
+        assert (chart.outcome[:, onset - 1e-9 > AMPLITUDES] == 0).all()
+        # Just above it the block only trembles, below a thousandth of α.
+        assert (chart.outcome[:, onset + 0.06 < AMPLITUDES] > 0).all()
+
+    def test_the_band_of_stable_rocking_is_narrow_at_small_frequencies(self, model):
+        chart = prism_map(model)
+        assert (chart.lower[:2] - chart.no_rocking[:2] < 0.05).all()
+        assert (chart.upper[:2] - chart.no_rocking[:2] < 0.05).all()
+
+    def test_the_limits_rise_steeply_with_frequency(self, model):
+        chart = prism_map(model)
+        assert chart.lower[2] > 1.5
+        assert chart.lower[3] > 2.4
+        assert chart.lower[4] > 3.0
+
+    def test_there_are_two_limits(self, model):
+        chart = prism_map(model)
+        assert (chart.upper[2:] > chart.lower[2:] + 1.0).all()
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_every_interval_that_overturns_ends_where_single_runs_change(model):
+    chart = prism_map(model)
+    rows = np.flatnonzero(chart.interval_start > AMPLITUDES[0])[::40]
+    assert rows.size > 3
+    for row in rows:
+        motion = Harmonic.cycles(chart.interval_frequency_ratio[row] * P, 20)
+        around = chart.interval_start[row] + np.linspace(-5e-5, 5e-5, 201)
+        codes = harmonic_outcomes(PRISM, motion, around, (0.976, 0.976), model)
+        assert codes.min() < 2 == codes.max()
+
+
+def test_columns_are_the_same_to_the_last_bit_in_any_order_and_number_of_threads():
+    plan = MapPlan(PRISM, restitution=0.976, frequency_ratio=OMEGAS, amplitude_ratio=AMPLITUDES, width=0.02)
+    backwards = assemble(plan, [map_column(plan, index) for index in reversed(range(5))][::-1])
+    threaded = stability_map(
+        PRISM, restitution=0.976, frequency_ratio=OMEGAS, amplitude_ratio=AMPLITUDES, width=0.02, threads=3
+    )
+    for name, values in vars(prism_map("linear")).items():
+        if name == "options":
+            assert values == backwards.options == threaded.options
+            continue
+        assert values.tobytes() == getattr(backwards, name).tobytes() == getattr(threaded, name).tobytes()
+
+
+def test_all_that_limits_depend_on_is_in_the_result():
+    chart = stability_map(
+        PRISM, restitution=(0.9, 0.95), frequency_ratio=[5.0], amplitude_ratio=[1.0, 1.5], cycles=7, phase=7.0, ramp=3
+    )
+    expected = {"model": "linear", "base_motion": "sine", "cycles": 7.0, "ramp": 3.0}
+    expected |= {"restitution_negative": 0.9, "restitution_positive": 0.95, "width": 0.01, "edge": 1e-4}
+    assert expected.items() <= chart.options.items()
+    assert chart.options["phase"] == pytest.approx(7.0 - 2 * math.pi)
+    assert chart.options["scan_step"] == pytest.approx(0.0025)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_law_of_e_over_speed_gives_its_own_map_and_stands_in_the_result(model):
+    options = {"frequency_ratio": [5.0, 6.0], "amplitude_ratio": np.linspace(1.0, 6.0, 26), "model": model}
+    lossy, law = stability_map(PRISM, restitution=0.8, **options), RestitutionLaw.table([0.0, 5.0], [0.8, 0.8])
+    same = stability_map(PRISM, restitution=law, **options)
+    np.testing.assert_array_equal(same.outcome, lossy.outcome)
+    np.testing.assert_array_equal(same.lower, lossy.lower)
+    assert (same.options["restitution_speeds"], same.options["restitution_values"]) == ([0.0, 5.0], [0.8, 0.8])
+    assert "restitution_negative" not in same.options
+    falling = stability_map(PRISM, restitution=lambda speed: 1.0 / (1.0 + 0.2 * speed), **options)
+    assert not np.array_equal(falling.outcome, lossy.outcome)
+    json.dumps(falling.options)
+
+
+def test_a_ramp_raises_the_upper_limit():
+    options = {"restitution": 0.976, "frequency_ratio": [7.81], "amplitude_ratio": np.linspace(1.0, 60.0, 60)}
+    abrupt, ramped = (stability_map(PRISM, width=0.2, ramp=ramp, **options) for ramp in (0, 3))
+    assert abrupt.upper[0] < 10
+    assert 40 < ramped.upper[0] < 60
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_recorded_sine_stretched_and_scaled_gives_the_map_of_the_sine(model):
+    cycles, frequency = 3, 3.0
+    time = np.linspace(0, cycles / frequency, 1201)
+    motion = Motion(0.7 * np.sin(2 * np.pi * frequency * time), time[1])
+    options = {"frequency_ratio": [2.0, 5.0], "amplitude_ratio": np.linspace(0.8, 4.0, 17), "width": 0.2}
+    options |= {"restitution": 0.9, "model": model}
+    sine = stability_map(PRISM, cycles=cycles, **options)
+    recorded = stability_map(PRISM, motion=motion, motion_frequency=frequency, **options)
+    assert recorded.options["base_motion"] == "recorded"
+    np.testing.assert_array_equal(recorded.outcome, sine.outcome)
+    np.testing.assert_allclose(recorded.lower, sine.lower, atol=3e-4)
+    np.testing.assert_allclose(recorded.no_rocking, sine.no_rocking, rtol=1e-5)
+
+
+def test_the_library_offers_the_map():
+    assert colonnade.stability_map is stability_map
+
+
+def test_a_model_without_kernels_is_run_under_a_sampled_sine(monkeypatch):
+    class OfAnotherMaker(Model):
+        def run(self, case):
+            return LINEAR.run(case)
+
+    other = OfAnotherMaker(**{**vars(LINEAR), "name": "other"})
+    monkeypatch.setitem(models.MODELS, "other", other)
+    axes = {"frequency_ratio": [2.0, 5.0], "amplitude_ratio": np.linspace(1.0, 8.0, 8)}
+    by_run, by_kernel = (
+        stability_map(PRISM, model=name, restitution=0.976, cycles=3, **axes) for name in ("other", "linear")
+    )
+    np.testing.assert_array_equal(by_run.outcome, by_kernel.outcome)
+    assert len(np.unique(by_run.outcome)) > 1
+
+
+@every(
+    ("arguments", "message"),
+    [
+        ({"frequency_ratio": []}, "frequency_ratio has shape"),
+        ({"amplitude_ratio": [1.0, 1.0]}, "amplitude_ratio has to be positive, finite and increasing"),
+        ({"amplitude_ratio": [-1.0, 1.0]}, "amplitude_ratio has to be positive"),
+        ({"frequency_ratio": [math.nan]}, "frequency_ratio has to be positive"),
+        ({"restitution": 1.1}, "restitution is 1.1"),
+        ({"cycles": 0.5}, "at least one cycle"),
+        ({"ramp": -1}, "ramp is -1"),
+        ({"phase": math.inf}, "phase is inf"),
+        ({"width": 1e-5}, "edge is 0.0001 and width 1e-05"),
+        ({"model": "contact"}, "The contact model needs `space`"),
+        ({"motion_frequency": 3.0}, "needs its motion_frequency"),
+        ({"motion": Motion([0.0, 0.0], 0.1), "motion_frequency": 3.0}, "no acceleration at all"),
+        ({"threads": 0}, "threads is 0"),
+    ],
+)
+def test_impossible_maps_are_clear_errors(arguments, message):
+    given = {"frequency_ratio": [2.0], "amplitude_ratio": [1.0, 2.0]} | arguments
+    with pytest.raises(ValueError, match=message):
+        stability_map(PRISM, **given)

@@ -1,0 +1,139 @@
+"""Models by their names: what each says of itself, runs, and draws."""
+
+import subprocess
+import sys
+from dataclasses import replace
+from math import tan
+
+import numpy as np
+import pytest
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.contact.body import rigid_body
+from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.models import (
+    CONTACT,
+    LINEAR,
+    MODELS,
+    NONLINEAR,
+    PLANE_MODELS,
+    Case,
+    Line,
+    Model,
+    model_of,
+    plane_model_of,
+)
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import rock
+from prism import PRISM
+
+
+def test_every_model_is_known_by_its_name():
+    assert all(name == model.name for name, model in MODELS.items())
+
+
+def test_models_look_different():
+    lines = [model.line for model in MODELS.values()]
+    assert len({line.color for line in lines}) == len({line.dash for line in lines}) == len(lines)
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_every_model_runs(name):
+    history = rock(PRISM, theta0=0.3 * PRISM.critical_angle, duration=0.05, model=name)
+    assert history.model == name
+    assert history.outcome == "rocking"
+
+
+@pytest.mark.parametrize("name", PLANE_MODELS)
+def test_a_plane_model_is_not_in_space(name):
+    assert not plane_model_of(name).in_space
+
+
+@pytest.mark.parametrize(("asked", "hint"), [("nonlinaer", 'Did you mean "nonlinear"'), ("x", '"contact"')])
+def test_an_unknown_model_is_refused_with_what_there_is(asked, hint):
+    with pytest.raises(ValueError, match=f'Unknown model "{asked}".*{hint}'):
+        model_of(asked)
+
+
+def test_a_model_in_space_is_not_a_plane_one():
+    with pytest.raises(ValueError, match='Unknown plane model "contact"'):
+        plane_model_of("contact")
+
+
+def test_the_registry_loads_no_library_of_numbers():
+    code = "import sys, colonnade.dynamics.models; print({'numba', 'scipy', 'matplotlib'} & sys.modules.keys())"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "set()\n"
+
+
+class Still(Model):
+    """A model in which nothing moves."""
+
+    def run(self, case):
+        raise ValueError("nothing moves")
+
+
+def still(**given):
+    line = Line("#000000", (), 1.0)
+    named = {"name": "still", "line": line, "definition": "θ = 0", "engine": "", "in_space": False, "is_default": False}
+    return Still(**(named | {"map_points": (2, 2)} | given))
+
+
+@pytest.mark.parametrize(("is_linearised", "threshold"), [(True, 0.2), (False, tan(0.2))])
+def test_a_block_uplifts_where_its_equation_says(is_linearised, threshold):
+    assert still(is_linearised=is_linearised).uplift_threshold(0.2) == threshold
+
+
+def test_a_model_without_a_run_is_none():
+    with pytest.raises(TypeError, match="abstract"):
+        Model(name="x", line=None, definition="", engine="", in_space=False, is_default=False, map_points=(1, 1))
+
+
+STOCKY = Block.prism(width=0.2, depth=0.2, height=0.5, mass=50.0)
+ALPHA, P = STOCKY.critical_angle, STOCKY.p
+STEP = 1e-3
+TIME = np.arange(0.0, 0.3, STEP)
+PULL = 0.1 * np.sin(9.0 * TIME)
+EQUATIONS = {
+    LINEAR: lambda angle: P**2 * (angle - ALPHA - PULL),
+    NONLINEAR: lambda angle: -(P**2) * (np.sin(ALPHA - angle) + PULL * np.cos(ALPHA - angle)),
+}
+
+
+@pytest.mark.parametrize("model", EQUATIONS, ids=lambda model: model.name)
+def test_its_run_solves_its_equation(model):
+    case = Case(STOCKY, Motion(PULL * STOCKY.gravity, STEP), 0.9, 0.8 * ALPHA, 0.0, None, 1e-6, None, 0.0)
+    angle = model.run(case).angle
+    assert (angle > 0.0).all()
+    bend = (angle[2:] - 2 * angle[1:-1] + angle[:-2]) / STEP**2
+    expected = EQUATIONS[model](angle)[1:-1]
+    np.testing.assert_allclose(bend, expected, atol=1e-5 * np.abs(expected).max())
+
+
+CASE = Case(PRISM, None, None, 0.5 * PRISM.critical_angle, 0.0, 0.02, 1e-6, None, 0.0)
+
+
+def test_without_a_law_the_table_is_stiff():
+    law = ContactLaw.stiff(rigid_body(PRISM), PRISM.gravity)
+    plain, named = CONTACT.run(CASE), CONTACT.run(replace(CASE, contact=law))
+    assert plain.model == "contact"
+    np.testing.assert_array_equal(plain.angle, named.angle)
+    soft = CONTACT.run(replace(CASE, contact=replace(law, stiffness=law.stiffness / 100)))
+    assert not np.array_equal(soft.angle, plain.angle)
+
+
+def test_it_starts_as_asked():
+    history = CONTACT.run(replace(CASE, omega0=-0.1, out_of_plane=0.01))
+    assert history.angle[0] == pytest.approx(CASE.theta0)
+    assert history.angular_velocity[0] == pytest.approx(-0.1)
+    assert history.out_of_plane[0] == pytest.approx(0.01)
+
+
+def test_an_e_is_refused_because_it_follows():
+    with pytest.raises(ValueError, match="Do not give `restitution` to the contact model"):
+        CONTACT.run(replace(CASE, restitution=0.9))
+
+
+def test_a_frame_is_refused_as_it_is_several_bodies():
+    frame = Block.frame(PRISM, beam_mass=50.0)
+    with pytest.raises(ValueError, match=r"block is a frame, .* build an `Assembly\.frame`"):
+        CONTACT.run(replace(CASE, block=frame))

@@ -1,0 +1,195 @@
+"""Overturning spectra of pulses against closed forms, published numbers and an independent integrator."""
+
+import math
+
+import numpy as np
+import pytest
+import scipy
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.pulses import PULSES, RICKER_REACH, mavroeidis_papageorgiou, overturning_spectrum, ricker
+from colonnade.dynamics.rock import rock
+from every import every
+from independent_rocking import overturns
+from prism import PRISM
+
+ALPHA = PRISM.critical_angle
+
+
+def block_of(radius, angle):
+    width, height = 2 * radius * math.sin(angle), 2 * radius * math.cos(angle)
+    return Block.prism(width=width, depth=width, height=height, mass=1.0, gravity=9.80665)
+
+
+def half_sine_limit(ratio):
+    """Give a/(gα) of a half-sine: (ω/p) sin ψ − cos ψ = exp(−(p/ω)(π − ψ)), a/(gα) = 1/sin ψ."""
+    phase = scipy.optimize.brentq(
+        lambda psi: ratio * math.sin(psi) - math.cos(psi) - math.exp(-(math.pi - psi) / ratio), 1e-9, math.pi / 2
+    )
+    return 1 / math.sin(phase)
+
+
+def test_half_sine_has_its_closed_form():
+    ratios = [1, 2, 3, 4]
+    found = overturning_spectrum(PRISM, "half-sine", frequency_ratio=ratios).lower * math.tan(ALPHA) / ALPHA
+    np.testing.assert_allclose(found, [half_sine_limit(ratio) for ratio in ratios], atol=1e-9)
+    np.testing.assert_allclose(found, [1.322397, 1.800724, 2.293872, 2.790798], atol=6e-7)
+
+
+@pytest.mark.parametrize("length", [0.5, 1.0, 2.0])
+def test_rectangular_pulse_has_its_closed_form(length):
+    spectrum = overturning_spectrum(PRISM, "rectangular", frequency_ratio=[math.pi / length])
+    expected = 1 / (1 - math.exp(-length))
+    assert spectrum.lower[0] * math.tan(ALPHA) / ALPHA == pytest.approx(expected, abs=1e-9)
+    assert spectrum.upper[0] == spectrum.lower[0]
+
+
+@pytest.mark.parametrize(("length", "limit"), [(0.5, 2.54188), (1.0, 1.58219), (2.0, 1.15666)])
+def test_nonlinear_rectangular_pulse_has_its_published_level(length, limit):  # Numerics-in-Motion
+    block = block_of(1.0, 0.02)
+    spectrum = overturning_spectrum(block, "rectangular", frequency_ratio=[math.pi / length], model="nonlinear")
+    assert spectrum.lower[0] * math.tan(0.02) / 0.02 == pytest.approx(limit, abs=6e-6)
+
+
+@pytest.mark.parametrize(
+    ("radius", "limit"), [(0.25, 1.2618896), (0.5, 1.4584424), (1.0, 2.1637842), (2.0, 5.1549268), (4.0, math.nan)]
+)
+def test_nonlinear_sine_pulse_has_its_published_level(radius, limit):  # Numerics-in-Motion/blocks, ± 4.9e-6
+    block = block_of(radius, 0.2)
+    spectrum = overturning_spectrum(
+        block, "sine", frequency_ratio=[4 * math.pi / block.p], model="nonlinear", largest=6.0
+    )
+    assert spectrum.lower[0] == pytest.approx(limit, abs=5e-6, nan_ok=True)
+
+
+@every("model", ["linear", "nonlinear"])
+@every("pulse", PULSES)
+def test_the_block_stands_just_below_the_spectrum_and_overturns_just_above(pulse, model):
+    omega = 2.5 * PRISM.p
+    level = overturning_spectrum(PRISM, pulse, frequency_ratio=[2.5], model=model, edge=1e-6).lower[0]
+    phase = np.linspace(0, 2 * np.pi, 8001)
+    moved = mavroeidis_papageorgiou(2.0, 0.0, 2 * phase - 2 * np.pi)
+    shapes = {
+        "half-sine": np.sin(phase / 2),
+        "sine": np.sin(phase),
+        "cosine": np.cos(phase),
+        "rectangular": np.ones(8001),
+        "ricker": (1 - (6 * phase / np.pi - 6) ** 2) * np.exp(-((6 * phase / np.pi - 6) ** 2) / 2),
+        "mavroeidis-papageorgiou": moved / np.abs(moved).max(),
+    }
+    # ω t over the pulse: half a period, a whole one, or ±6 √2 for Ricker's wavelet, two for γ = 2.
+    reach = {
+        "half-sine": np.pi,
+        "rectangular": np.pi,
+        "ricker": 12 * math.sqrt(2),
+        "mavroeidis-papageorgiou": 4 * np.pi,
+    }.get(pulse, 2 * np.pi)
+    outcomes = []
+    for factor in (0.999, 1.001):
+        motion = Motion(factor * level * PRISM.uplift_acceleration * shapes[pulse], reach / omega / 8000)
+        outcomes.append(rock(PRISM, motion, model=model).outcome)
+    assert outcomes == ["rocking", "overturned"]
+
+
+def random_case(number):
+    """A pulse, a block and its e: half of the cases of each pulse and of each model."""
+    drawn = np.random.default_rng(number)
+    block = block_of(drawn.uniform(0.2, 5.0), drawn.uniform(0.08, 0.35))
+    pulse, model = ("cosine", "ricker")[number % 2], ("linear", "nonlinear")[number // 2 % 2]
+    return block, pulse, model, float(drawn.uniform(0.8, 0.98)), float(drawn.uniform(1.0, 5.0))
+
+
+FINE = np.linspace(-2 * math.pi, 2 * math.pi, 400_001)
+SIZE = np.abs(mavroeidis_papageorgiou(2.0, 0.5, FINE)).max()
+INDEPENDENT = {
+    "cosine": (math.pi, lambda angle: np.cos(angle + math.pi)),
+    "ricker": (RICKER_REACH, ricker),
+    "mavroeidis-papageorgiou": (
+        2 * math.pi,
+        lambda angle: mavroeidis_papageorgiou(2.0, 0.5, angle) / SIZE,
+    ),
+}
+"""Reach of each pulse in ω t, and its shape."""
+
+
+def independent(block, pulse, model, restitution, ratio, level):
+    (reach, shape), strength = INDEPENDENT[pulse], level * math.tan(block.critical_angle)
+    reach /= ratio
+    return overturns(
+        lambda x: strength * float(shape(np.float64(ratio * x))),
+        -reach,
+        reach,
+        critical=block.critical_angle,
+        restitution=restitution,
+        nonlinear=model == "nonlinear",
+    )
+
+
+def expect_both_limits(number):
+    block, pulse, model, restitution, ratio = random_case(number)
+    spectrum = overturning_spectrum(block, pulse, frequency_ratio=[ratio], model=model, restitution=restitution)
+    limits = {float(limit) for limit in (spectrum.lower[0], spectrum.upper[0]) if math.isfinite(limit)}
+    for limit in limits:
+        found = [independent(block, pulse, model, restitution, ratio, limit + off) for off in (-1e-6, 1e-6)]
+        assert found == [False, True], (number, limit)
+    return len(limits)
+
+
+@pytest.mark.parametrize("number", [0, 1, 2, 3])
+def test_both_limits_of_a_pulse_are_those_of_an_independent_integrator(number):
+    assert expect_both_limits(number) > 0
+
+
+@pytest.mark.parametrize("model", ["linear", "nonlinear"])
+def test_mavroeidis_and_papageorgious_limits_are_those_of_an_independent_integrator(model):
+    pulse, e = "mavroeidis-papageorgiou", 0.9
+    spectrum = overturning_spectrum(
+        PRISM, pulse, frequency_ratio=[3.0], cycles=2.0, phase=0.5, model=model, restitution=e, largest=6.0
+    )
+    for limit in {spectrum.lower[0], spectrum.upper[0]}:
+        assert [independent(PRISM, pulse, model, e, 3.0, limit + off) for off in (-1e-6, 1e-6)] == [False, True]
+
+
+@pytest.mark.slow
+def test_both_limits_of_a_pulse_are_those_of_an_independent_integrator_in_200_cases():
+    assert sum(expect_both_limits(number) for number in range(200)) > 200
+
+
+def test_an_island_is_kept_apart_from_the_limits():
+    ratios = np.linspace(3.0, 3.6, 13)
+    spectrum = overturning_spectrum(PRISM, "sine", frequency_ratio=ratios, width=0.05, restitution=0.9)
+    assert (spectrum.interval_end > spectrum.interval_start).all()
+    both = np.isfinite(spectrum.lower) & np.isfinite(spectrum.upper)
+    assert (spectrum.lower[both] <= spectrum.upper[both]).all()
+    assert both.any()
+    assert (spectrum.islands[:, 2] - spectrum.islands[:, 1] < 0.05).all()
+
+
+def test_threads_do_not_change_the_result():
+    one, two = (
+        overturning_spectrum(PRISM, "sine", frequency_ratio=[1.0, 2.0, 3.0], threads=threads) for threads in (1, 2)
+    )
+    np.testing.assert_array_equal(one.lower, two.lower)
+    np.testing.assert_array_equal(one.upper, two.upper)
+
+
+def test_the_result_is_shown_in_a_line():
+    assert repr(overturning_spectrum(PRISM, "half-sine", frequency_ratio=[1.0], largest=1.1)) == (
+        "<OverturningSpectrum: pulse half-sine, model linear, Ω 1 to 1 in 1, lower limit above the largest A>"
+    )
+
+
+@pytest.mark.parametrize(
+    ("pulse", "arguments", "message"),
+    [
+        ("sinus", {}, 'Unknown pulse "sinus"'),
+        ("sine", {"model": "x"}, "Unknown plane model"),
+        ("sine", {"edge": 0.0}, "edge"),
+        ("sine", {"frequency_ratio": [-1.0]}, "frequency_ratio goes from -1"),
+        ("mavroeidis-papageorgiou", {"cycles": 0.5}, "cycles is 0.5"),
+    ],
+)
+def test_impossible_arguments_are_clear_errors(pulse, arguments, message):
+    with pytest.raises(ValueError, match=message):
+        overturning_spectrum(PRISM, pulse, **{"frequency_ratio": [1.0]} | arguments)

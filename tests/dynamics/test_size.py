@@ -1,0 +1,63 @@
+"""Lengths in other units than metres show in the density of a block."""
+
+import warnings
+from math import pi
+
+import pytest
+
+from colonnade.dynamics.size import (
+    UnlikelyBlockWarning,
+    cone_volume,
+    expect_inertia,
+    expect_metres,
+    is_likely,
+    mistaken_lengths,
+    prism_volume,
+)
+
+STEEL, MARBLE = 7850.0, 2700.0
+
+
+def test_volumes_are_those_of_the_formulas():
+    assert prism_volume(2.0, 3.0, 4.0) == 24.0
+    assert cone_volume(2.0, 2.0, 3.0) == pytest.approx(3.0 * pi)  # a cylinder
+    assert cone_volume(2.0, 0.0, 3.0) == pytest.approx(pi)  # a third of it
+
+
+@pytest.mark.parametrize(("density", "likely"), [(99.0, False), (100.0, True), (MARBLE, True), (23_001.0, False)])
+def test_what_blocks_are_made_of(density, likely):
+    assert is_likely(density) == likely
+
+
+@pytest.mark.parametrize("density", [STEEL, MARBLE])
+@pytest.mark.parametrize(("unit", "factor"), [("mm", 1e3), ("cm", 1e2)])
+def test_three_lengths_in_another_unit_are_found(density, unit, factor):
+    assert mistaken_lengths(density / factor**3) == (unit, 3)
+
+
+def test_one_length_in_millimetres_is_found():
+    assert mistaken_lengths(STEEL / 1e3) == ("mm", 1)
+
+
+def test_what_no_unit_explains_is_left_open():
+    assert mistaken_lengths(1e12) == ("", 0)
+    assert mistaken_lengths(STEEL) == ("", 0)
+
+
+def test_lengths_that_look_like_millimetres_are_told_to_the_caller():
+    with pytest.warns(UnlikelyBlockWarning, match=r"width=86, height=456 .* 7.8e-06 kg/m³.* were they in mm\?"):
+        expect_metres(7.8e-6, 0.19, width=86.0, height=456.0)
+
+
+@pytest.mark.parametrize(("density", "slenderness", "is_warned"), [(7.8, 1e-4, True), (7.8, 0.2, False)])
+def test_one_length_counts_only_if_the_block_could_not_stand_either(density, slenderness, is_warned):
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        expect_metres(density, slenderness, width=0.086)
+    assert bool(told) == is_warned
+
+
+def test_no_body_has_less_inertia_about_its_pole_than_its_mass_at_that_distance():
+    expect_inertia(0.9 * 2.0 * 0.5**2, 2.0, 0.5)
+    with pytest.raises(ValueError, match=r"at least m R² = 0.5 kg m² was expected"):
+        expect_inertia(0.89 * 2.0 * 0.5**2, 2.0, 0.5)

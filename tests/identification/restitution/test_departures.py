@@ -1,0 +1,217 @@
+import numpy as np
+import pytest
+from scipy.signal import butter, sosfiltfilt
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.restitution_law import RestitutionLaw
+from colonnade.dynamics.rock import rock
+from colonnade.identification.restitution.identify import identify_restitution
+from prism import PRISM
+
+ALPHA = PRISM.critical_angle
+NOISE = 2e-4
+STEP = 0.002
+
+
+class Record:
+    """Free rocking by the model, with what an evaluation sees of it: noisy samples, times of impacts and peaks."""
+
+    def __init__(self, *, restitution=0.95, block=PRISM, release=0.7, seed=0, offset=0.0, arcs=24, noise=NOISE):
+        random = np.random.default_rng(seed)
+        history = rock(
+            block,
+            Motion(np.zeros(12_000), STEP),
+            restitution=restitution,
+            model="nonlinear",
+            theta0=release * block.critical_angle,
+        )
+        impacts = history.impact_times[: arcs + 1]
+        self.time = history.time[history.time < impacts[-1]]
+        self.truth = history.angle[: self.time.size]
+        self.angle = self.truth + offset + noise * random.normal(size=self.time.size)
+        self.impacts, self.block, self.random = impacts, block, random
+
+    def departures(self, block=None, **measured):
+        found = identify_restitution(self.time, self.angle, block or self.block, **measured)
+        return {departure.name: departure for departure in found.departures}
+
+
+def beyond(departure, truth):
+    """Errors by which a departure's size is off the truth."""
+    return abs(departure.size - truth) / departure.standard_error
+
+
+@pytest.mark.parametrize("restitution", [0.85, 0.95, 0.985])
+@pytest.mark.parametrize("offset", [0.0, 0.003], ids=["zero right", "zero off"])
+def test_a_sound_record_departs_in_nothing(restitution, offset):
+    for seed in range(12):
+        record = Record(restitution=restitution, seed=seed, offset=offset)
+        transverse = 1e-4 * record.random.normal(size=record.time.size)
+        slide = 2e-5 * record.random.normal(size=record.time.size)
+        assert record.departures() == {}
+        assert record.departures(out_of_plane=transverse, slide=slide, uplift=slide) == {}
+
+
+def test_scatter_of_e_from_impact_to_impact_is_no_departure():
+    speeds = np.linspace(0, 3, 400)
+    for seed in range(12):
+        law = RestitutionLaw.table(speeds, 0.95 + 0.004 * np.random.default_rng(seed).normal(size=speeds.size))
+        assert Record(restitution=law, seed=seed).departures() == {}
+
+
+@pytest.mark.parametrize("law", [(0.97, 0.0), (0.97, 0.02)], ids=["constant", "falling with speed"])
+def test_an_e_that_depends_on_the_speed_of_impact_is_no_three_dimensional_rocking(law):
+    at_rest, slope = law
+    for seed in range(6):
+        record = Record(
+            restitution=RestitutionLaw.of(lambda speed: at_rest - slope * speed, largest_speed=5), seed=seed
+        )
+        assert "three-dimensional rocking" not in record.departures()
+
+
+@pytest.mark.parametrize("pair", [(0.94, 0.96), (0.975, 0.96), (0.85, 0.88)])
+def test_an_interval_holds_the_mean_of_two_sides_that_differ_in_e(pair):
+    for seed in range(6):
+        record = Record(restitution=pair, seed=seed)
+        found = identify_restitution(record.time, record.angle, PRISM)
+        assert found.low <= np.sqrt(pair[0] * pair[1]) <= found.high
+
+
+@pytest.mark.parametrize("tilt", [-0.05, 0.03])
+def test_a_tilted_table_is_named_with_its_angle(tilt):
+    sides = (ALPHA * (1 - tilt), ALPHA * (1 + tilt))
+    tilted = Block.measured(
+        mass=PRISM.mass, pole_distance=PRISM.pole_distance, critical_angle=sides, inertia=PRISM.inertia
+    )
+    errors = []
+    for seed in range(8):
+        found = Record(block=tilted, seed=seed).departures(PRISM)
+        assert list(found) == ["unequal sides"]
+        errors.append(beyond(found["unequal sides"], tilt * ALPHA))
+    assert max(errors) < 4
+    assert np.median(errors) < 1.6
+    assert Record(block=tilted).departures() == {}  # known of the block, it is no departure
+
+
+def stepping(first, later, speed):
+    """e of the impacts above a speed, and of those below it."""
+    return RestitutionLaw.table([0.0, speed, speed + 1e-6], [later, later, first])
+
+
+@pytest.mark.parametrize("count", [3, 5])
+def test_first_cycles_that_lose_more_are_three_dimensional(count):
+    speeds = np.abs(rock(PRISM, restitution=0.93, theta0=0.8 * ALPHA, duration=8, model="nonlinear").impact_velocities)
+    law = stepping(0.93, 0.96, (speeds[count] + speeds[count + 1]) / 2)
+    for seed in range(6):
+        departure = Record(restitution=law, release=0.8, seed=seed).departures()["three-dimensional rocking"]
+        assert beyond(departure, 0.03) < 4
+        assert departure.left_out == count
+        assert not departure.refuses
+        assert f"the first {count} of" in departure.sentence
+
+
+def test_a_measured_rotation_out_of_the_plane_leaves_out_the_cycles_it_spoils():
+    record = Record()
+    decay = np.where(record.time < record.impacts[5], 0.2, 0.03)
+    transverse = decay * record.truth + 1e-4 * record.random.normal(size=record.time.size)
+    departure = record.departures(out_of_plane=transverse)["three-dimensional rocking"]
+    assert departure.left_out == 5
+    assert departure.size == pytest.approx(0.2, rel=0.05)
+    assert not departure.refuses
+
+
+def test_rocking_out_of_the_plane_to_the_end_refuses():
+    record = Record()
+    departure = record.departures(out_of_plane=0.5 * record.truth)["three-dimensional rocking"]
+    assert departure.refuses
+    assert "too few" in departure.sentence
+
+
+@pytest.mark.parametrize(("jump", "refuses"), [(8e-5, False), (4e-4, True)], ids=["a little", "much"])
+def test_sliding_at_impacts_is_summed(jump, refuses):
+    record = Record()
+    moved = jump * np.searchsorted(record.impacts[[2, 4, 7]], record.time)
+    slide = moved + 0.002 * record.truth + 2e-6 * record.random.normal(size=record.time.size)
+    departure = record.departures(slide=slide)["sliding"]
+    assert departure.size == pytest.approx(3 * jump, rel=0.05)
+    assert beyond(departure, 3 * jump) < 5
+    assert departure.refuses is refuses
+    assert "3 of" in departure.sentence
+
+
+def test_a_transducer_that_shows_rocking_as_slide_is_no_sliding():
+    record = Record()
+    slide = np.where(record.truth > 0, 0.01, -0.004) * record.truth + 2e-6 * record.random.normal(size=record.time.size)
+    assert record.departures(slide=slide) == {}
+
+
+def test_a_pause_after_an_impact_is_a_bounce():
+    record = Record()
+    pause = 0.08
+    late = record.time > record.impacts[3]
+    for name in ("time", "impacts"):
+        values = getattr(record, name)
+        setattr(record, name, np.where(values > record.impacts[3], values + pause, values))
+    filling = np.arange(1, int(pause / STEP)) * STEP + record.time[~late][-1]
+    record.angle = np.insert(record.angle, (~late).sum(), NOISE * record.random.normal(size=filling.size))
+    record.time = np.insert(record.time, (~late).sum(), filling)
+    departure = record.departures()["bouncing"]
+    assert departure.unit == "s"
+    assert beyond(departure, pause) < 4
+    assert "1 of" in departure.sentence
+
+
+def test_a_base_in_the_air_after_an_impact_is_a_bounce():
+    record = Record()
+    height = 0.002 * np.exp(-(((record.time - record.impacts[2] - 0.02) / 0.01) ** 2))
+    departure = record.departures(uplift=height + 1e-5 * record.random.normal(size=record.time.size))["bouncing"]
+    assert departure.size == pytest.approx(0.002, rel=0.05)
+    assert departure.unit == "m"
+
+
+def identified(block, seed, *, offset=0.0, cutoff=None, **given):
+    """Departures that an identification from the samples alone finds."""
+    random = np.random.default_rng(seed)
+    history = rock(block, Motion(np.zeros(5000), STEP), model="nonlinear", theta0=0.6 * ALPHA, **given)
+    angle = history.angle + offset + NOISE * random.normal(size=history.time.size)
+    if cutoff is not None:
+        angle = sosfiltfilt(butter(4, cutoff, fs=1 / STEP, output="sos"), angle)
+    return {each.name: each for each in identify_restitution(history.time, angle, PRISM).departures}
+
+
+@pytest.mark.parametrize("cutoff", [None, 35.0], ids=["as recorded", "low-passed"])
+@pytest.mark.parametrize("offset", [0.0, 0.002], ids=["zero right", "zero off"])
+def test_from_the_samples_alone_a_sound_record_departs_in_nothing(cutoff, offset):
+    for seed in range(4):
+        assert identified(PRISM, seed, restitution=0.9 + 0.02 * seed, offset=offset, cutoff=cutoff) == {}
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.002], ids=["zero right", "zero off"])
+def test_from_the_samples_alone_sides_that_differ_are_named_with_their_size(offset):
+    tilt = 0.05 * ALPHA
+    tilted = PRISM.override(critical_angle=(ALPHA - tilt, ALPHA + tilt))
+    found = identified(tilted, 1, restitution=0.95, offset=offset)
+    assert found["unequal sides"].size == pytest.approx(tilt, rel=0.15)
+
+
+def test_too_few_arcs_are_left_alone():
+    assert Record(arcs=2).departures() == {}
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_base_whose_sign_is_turned_is_told_and_no_value_is_given(sign):
+    time = np.arange(3000) * STEP
+    shaken = 0.06 * PRISM.gravity * np.sin(2 * np.pi * 2.3 * time) * np.exp(-(((time - 3) / 1.5) ** 2))
+    history = rock(PRISM, Motion(shaken, STEP), restitution=0.93, model="nonlinear", theta0=0.45 * ALPHA)
+    angle = history.angle + NOISE * np.random.default_rng(3).normal(size=time.size)
+    found = identify_restitution(time, angle, PRISM, base_acceleration=sign * shaken)
+    assert found.table_moves
+    if sign > 0:
+        assert found.value == pytest.approx(0.93, abs=1e-3)
+        assert found.departures == ()
+    else:
+        (departure,) = found.departures
+        assert (found.value, departure.name, departure.refuses) == (None, "moving table", True)
+        assert found.reason.startswith("With the sign of the table's acceleration turned, a history follows")
+        assert departure.size > 2 * departure.standard_error > 0

@@ -1,0 +1,143 @@
+"""Outcome and amplitude of members and of observations, and members taken as observed."""
+
+import numpy as np
+import pytest
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.ensemble import ensemble
+from colonnade.dynamics.history import NO_ROCKING_RATIO
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.uncertainty import Uncertainty
+from colonnade.identification.calibration import surrogate_members
+from colonnade.identification.forecasts import (
+    OUTCOMES,
+    OVERTURNED,
+    Forecast,
+    Response,
+    base_rates,
+    forecast_of,
+    score,
+)
+
+NAN = float("nan")
+
+
+def test_outcomes_are_ordered_from_standing_to_overturned():
+    assert OUTCOMES == ("no-rocking", "rocking", "overturned")
+
+
+@pytest.mark.parametrize(
+    ("outcome", "peak_ratio", "amplitude"),
+    [
+        pytest.param("no-rocking", 4e-4, 0.0, id="noise of a specimen at rest does not count"),
+        pytest.param("rocking", 0.37, 0.37, id="rocking"),
+        pytest.param("rocking", 1.2, 1.0, id="beyond the critical angle and back"),
+        pytest.param("overturned", None, 1.0, id="overturned, without a peak"),
+    ],
+)
+def test_an_observation_has_outcome_and_amplitude(outcome, peak_ratio, amplitude):
+    assert Response.observed(outcome, peak_ratio) == Response(OUTCOMES.index(outcome), amplitude)
+
+
+@pytest.mark.parametrize(
+    ("outcome", "peak_ratio", "said"),
+    [
+        pytest.param(
+            "not-overturned", 0.3, "one of no-rocking, rocking, overturned", id="an outcome that is not known"
+        ),
+        pytest.param("rocking", None, "peak_ratio", id="rocking without a peak"),
+        pytest.param("rocking", NAN, "peak_ratio", id="rocking with a peak that is missing"),
+        pytest.param("rocking", -0.1, "zero or more", id="a negative peak"),
+    ],
+)
+def test_an_observation_that_cannot_be_scored_is_refused(outcome, peak_ratio, said):
+    with pytest.raises(ValueError, match=said):
+        Response.observed(outcome, peak_ratio)
+
+
+def test_members_at_the_limit_of_rocking_stand():
+    forecast = forecast_of([NO_ROCKING_RATIO, np.nextafter(NO_ROCKING_RATIO, 1), 1.3], [NAN, NAN, NAN])
+    assert forecast.outcomes.tolist() == [0, 1, 1]
+    assert forecast.amplitudes[0] == 0.0
+    assert forecast.amplitudes[2] == 1.0
+
+
+@pytest.mark.parametrize(
+    ("peaks", "times", "said"),
+    [
+        pytest.param([0.1, 0.2], [NAN], "2 members and overturning_time 1", id="lengths differ"),
+        pytest.param([0.1, NAN], [2.0, NAN], "stands and its peak_ratio is NaN", id="a standing member without a peak"),
+        pytest.param([], [], "at least one member", id="no member"),
+    ],
+)
+def test_members_that_say_nothing_are_refused(peaks, times, said):
+    with pytest.raises(ValueError, match=said):
+        forecast_of(peaks, times)
+
+
+def test_a_forecast_has_the_overturning_probability_of_its_ensemble():
+    block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    motion = Motion(3.4 * np.sin(np.arange(600) * 0.06), 0.005)
+    found = ensemble(block, motion, restitution=0.97, uncertainty=Uncertainty(gain=0.3), count=40)
+    forecast = forecast_of(found.peak_ratio, found.overturning_time)
+    assert 0 < found.overturning_probability < 1
+    assert forecast.overturning_probability == found.overturning_probability
+    assert ((forecast.outcomes == OVERTURNED) == np.isfinite(found.overturning_time)).all()
+
+
+def forecast(members):
+    return Forecast(np.zeros(members, dtype=np.int8), np.zeros(members))
+
+
+def test_tests_of_one_campaign_have_the_same_member_and_others_their_own():
+    drawn = surrogate_members([forecast(50)] * 5, [7, 7, 3, 3, 3], resamples=2000)
+    assert (drawn[:, 0] == drawn[:, 1]).all()
+    assert (drawn[:, 2:4] == drawn[:, 4:]).all()
+    assert abs(np.corrcoef(drawn[:, 0], drawn[:, 2])[0, 1]) < 0.1
+
+
+def test_a_member_of_an_ensemble_has_the_same_errors_in_all_tests():
+    """That is why one member can be the observation of a whole campaign."""
+    block = Block.prism(width=0.1, depth=0.1, height=0.6, mass=100.0)
+    known = Uncertainty(restitution=0.002, critical_angle=0.005, p=0.005, gain=0.005, clock=1e-5, noise=0.01)
+    motions = [Motion(2.0 * np.sin(np.arange(size) * 0.1), 0.005) for size in (100, 150)]
+    one, other = (ensemble(block, motion, uncertainty=known, count=4) for motion in motions)
+    np.testing.assert_array_equal(one.inputs, other.inputs)
+    assert np.unique(one.inputs[:, 0]).size == 4
+
+
+def test_each_member_is_drawn_as_often():
+    counted = np.bincount(surrogate_members([forecast(4)], [0], resamples=4000)[:, 0])
+    assert counted.tolist() == pytest.approx([1000] * 4, abs=120)
+
+
+@pytest.mark.parametrize(
+    ("forecasts", "campaigns", "said"),
+    [
+        pytest.param([], [], "at least one forecast", id="none"),
+        pytest.param([forecast(3)], [1, 2], "one campaign for each", id="more campaigns than tests"),
+        pytest.param([forecast(1)], [1], "single member", id="one member"),
+    ],
+)
+def test_surrogates_that_cannot_be_drawn_are_refused(forecasts, campaigns, said):
+    with pytest.raises(ValueError, match=said):
+        surrogate_members(forecasts, campaigns)
+
+
+def test_a_test_is_forecast_by_all_others_of_its_campaign():
+    observed = [Response(0, 0.0), Response(1, 0.4), Response(2, 1.0)]
+    forecasts = base_rates(observed)
+    assert [each.outcomes.tolist() for each in forecasts] == [[1, 2], [0, 2], [0, 1]]
+    assert [each.amplitudes.tolist() for each in forecasts] == [[0.4, 1.0], [0.0, 1.0], [0.0, 0.4]]
+
+
+def test_the_brier_score_of_the_base_rate_is_its_variance():
+    """Fair and leave-one-out: the mean over the tests is the unbiased variance k (n − k) / (n (n − 1))."""
+    observed = [Response(2, 1.0)] * 3 + [Response(1, 0.5)] * 7
+    found = np.mean([score(*each).brier for each in zip(base_rates(observed), observed, strict=True)])
+    assert found == pytest.approx(3 * 7 / (10 * 9), abs=1e-12)
+
+
+def test_a_single_test_has_no_base_rate():
+    with pytest.raises(ValueError, match="at least two"):
+        base_rates([Response(1, 0.4)])

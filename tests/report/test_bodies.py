@@ -1,0 +1,74 @@
+"""The page of a test of an assembly: its bodies in a sentence, a table, two figures and the moving picture."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+import drums
+from colonnade.campaign import load
+from colonnade.campaign.forms.summary import Summary
+from colonnade.figures.stored import bodies
+from colonnade.store.layout import Layout
+from colonnade.store.records.stored import read_test
+from colonnade.workflow import run
+from read_pages import words_of
+
+
+@pytest.fixture(scope="module")
+def shaken(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("drums")
+    drums.write_campaign(folder, 6.0)
+    run(folder, workers=1)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def page(shaken):
+    return (shaken / "report/tests/quake.html").read_text()
+
+
+def test_the_answer_says_what_moved_and_the_table_has_a_row_a_body_from_the_top(shaken, page):
+    record = Summary.model_validate_json(Layout(shaken).summary_json.read_bytes()).tests["quake"]
+    moved = {name: 1e3 * np.hypot(body.residual_x, body.residual_y) for name, body in record.bodies.items()}
+    name = max(moved, key=moved.get)
+    said = f"{name} moved {moved[name]:.3g} mm"
+    words = words_of(page)
+    assert said in words
+    assert f"Body {name} moved farthest for good: {moved[name]:.3g} mm." in words
+    assert re.search(r"The joint below 1 opened first, at 0\.5\d+ s", words)
+    section = page[page.index('<section id="bodies">') :]
+    table = words_of(section[section.index("<table>") : section.index("</table>") + 8])
+    found = re.findall(r"(\d) measured rocking (\S+) (\S+) mm (\S+) s (\S+) mm (\S+), (\S+) ", table)
+    assert [row[0] for row in found] == ["3", "2", "1"]
+    assert [float(row[4]) for row in found] == pytest.approx([moved[each] for each in "321"], abs=0.06)
+    assert table.count("contact model rocking") == 3
+
+
+def test_figures_are_drawn_from_what_is_stored(shaken):
+    campaign, layout = load(shaken), Layout(shaken)
+    test = campaign.tests["quake"]
+    stored = read_test(campaign, layout, test)
+    joints = bodies.joints(test, stored)
+    assert [axes.get_ylabel().split("\n")[0] for axes in joints.figure.axes] == ["3", "2", "1"]
+    drawn = joints.figure.axes[2].lines[0].get_ydata()
+    largest = 1e3 * np.nanmax(np.abs(stored.array("rocking", "body_joint_angle")[0]))
+    assert np.nanmax(np.abs(drawn)) == pytest.approx(largest)
+    plan = bodies.plan(test, stored, campaign.specimens["column"].assembly(9.81))
+    rest, end, _ = plan.figure.axes[2].patches
+    moved = (end.get_xy()[:-1] - rest.get_xy()[:-1]).mean(axis=0)
+    residual = [stored.array("rocking", f"body_residual_{axis}")[2] for axis in "xy"]
+    assert moved == pytest.approx(1e3 * np.array(residual), abs=1e-6)
+    assert plan.description.endswith("mm from where it stood.")
+
+
+def test_the_moving_picture_has_each_body_at_its_place(shaken):
+    data = next(iter((shaken / "report").rglob("quake*.js")), None)
+    assert data is not None
+    text = data.read_text()
+    given = json.loads(text[text.index("{") : text.rindex("}") + 1])
+    measured, predicted = given["moving"]["bodies"]
+    assert (measured["name"], predicted["name"]) == ("measured", "contact model")
+    assert [part["place"] for part in measured["parts"]] == [[0.0, 0.0], [0.0, 0.2], [0.0, 0.4]]
+    assert {"slide", "rise", "outline", "poles"} <= measured["parts"][0].keys()

@@ -1,0 +1,86 @@
+"""Faults of an optical system that a run has to name: each is planted in the campaign file of a sound recording."""
+
+import re
+
+import pytest
+
+import drums
+from colonnade.workflow import run
+
+
+@pytest.fixture(scope="module")
+def history():
+    return drums.shaken(6.0)
+
+
+@pytest.fixture
+def told(tmp_path, history):
+    """What a run says of places, after some of the campaign file was replaced."""
+    drums.write_campaign(tmp_path, 6.0, history)
+
+    def run_with(*pairs):
+        path = tmp_path / "campaign.toml"
+        text = path.read_text()
+        for old, new in pairs:
+            assert re.search(old, text), old
+            text = re.sub(old, new, text)
+        path.write_text(text)
+        done = run(tmp_path, until="rocking", workers=1)
+        return [each.text for every in done.findings.values() for each, _ in every if each.kind == "geometry"]
+
+    return run_with
+
+
+def test_a_sound_recording_has_nothing_to_tell(told):
+    assert told() == []
+
+
+def test_a_marker_on_the_wrong_body_is_named(told):
+    (text,) = told((r"(m3a = .*?)on = \"3\"", r'\1on = "2"'))
+    assert text.startswith("At rest m3a on body 2 is off the place that `on` and `at` give, by 0, 0 and 200 mm")
+
+
+def test_two_markers_that_are_exchanged_are_named_with_each_other(told):
+    (text,) = told(
+        (r'm2a = \{columns = \["2a X", "2a Y", "2a Z"\]', 'm2a = {columns = ["2b X", "2b Y", "2b Z"]'),
+        (r'm2b = \{columns = \["2b X", "2b Y", "2b Z"\]', 'm2b = {columns = ["2a X", "2a Y", "2a Z"]'),
+    )
+    assert "m2a, m2b on body 2 are off" in text
+    assert "m2a is where m2b should be" in text
+    assert "m2b is where m2a should be" in text
+
+
+def test_a_body_that_is_named_wrongly_is_told(told):
+    texts = told((r"(m3. = .*?)on = \"3\"", r'\1on = "2"'))
+    assert len(texts) == 1
+    assert "m3a, m3b, m3c on body 2 are off" in texts[0]
+
+
+def test_a_drum_that_is_declared_too_high_lifts_what_stands_on_it(told):
+    drum = r'drum = \{(.*?)height = "200 mm"(.*)\}'
+    texts = told(
+        (drum, r'drum = {\1height = "200 mm"\2}\nhigh = {\1height = "220 mm"\2}'),
+        (r'\["drum", "drum", "drum"\]', '["drum", "high", "drum"]'),
+    )
+    (text,) = texts
+    assert text.startswith("At rest all markers of body 3 are off their places by 0, 0 and −20 mm along x, y and z")
+
+
+def test_axes_that_are_turned_are_told_once(told):
+    (text,) = told((r"axes = .*", "axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]"))
+    assert re.match(r"At rest \d of 9 markers .* Check the axes of the tracking", text)
+
+
+def test_a_gap_in_the_tracking_stays_a_gap(tmp_path, history):
+    drums.write_campaign(tmp_path, 6.0, history)
+    path = tmp_path / "raw/quake.csv"
+    rows = path.read_text().splitlines()
+    column = rows[0].split(",").index("3a X")
+    for place in range(300, 400):
+        cells = rows[place].split(",")
+        cells[column : column + 3] = [""] * 3
+        rows[place] = ",".join(cells)
+    path.write_text("\n".join(rows) + "\n")
+    done = run(tmp_path, until="rocking", workers=1)
+    said = [each.text for every in done.findings.values() for each, _ in every]
+    assert any("m3a_x" in text for text in said)

@@ -1,0 +1,193 @@
+"""Order, freshness, failure, removal and kills of results, on a toy graph: three numbers, each made from the last."""
+
+import os
+import random
+import signal
+import time
+from dataclasses import replace
+from functools import partial
+
+import pytest
+import xarray as xr
+
+from colonnade.errors import RunEndedError, StageError, StoreError
+from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.store.provenance import Origin
+from colonnade.store.results import ResultId
+from colonnade.workflow.catalogue import stored_attributes
+from colonnade.workflow.chain import Chain, bring_up_to_date, if_up_to_date, why_pending, worker_lost
+from colonnade.workflow.executors import WorkersEndedError
+from colonnade.workflow.lock import only_run
+from colonnade.workflow.product import Product
+
+STAGES = ("ingest", "condition", "rocking")
+
+
+def tenth(value, upstream):
+    """A tenth of the last number, without its decimals; of the first, the number that is given."""
+    before = [int(each.attrs["toy"]) for each in upstream.values()]
+    return xr.Dataset(attrs={"toy": value if not before else before[0] // 10})
+
+
+def fails(error, upstream):
+    raise error
+
+
+@pytest.fixture
+def layout(tmp_path):
+    (tmp_path / "campaign.toml").write_text("")
+    return Layout(tmp_path)
+
+
+def toys(layout, *, value=120, code="one", make=None):
+    """Three results of a test, of which the first has an input; `make` replaces what makes some, by their stages."""
+    results = [ResultId("toy", stage) for stage in STAGES]
+    paths = [layout.path(result) for result in results]
+    return [
+        Product(
+            result,
+            f'{{"value": {value}}}' if number == 0 else "{}",
+            {"before": paths[number - 1]} if number else {},
+            code,
+            (make or {}).get(result.stage, partial(tenth, value)),
+            (paths[number],),
+        )
+        for number, result in enumerate(results)
+    ]
+
+
+def chain(layout, run_id, products, **more):
+    results = [product.result for product in products]
+    return Chain(products, results, layout, layout.folder / "campaign.toml", Origin("toy", "Toy", None), run_id, **more)
+
+
+def ran(layout, *, start_from=None, **given):
+    """Bring the toys up to date; give what became of each, and why."""
+    with only_run(layout) as run_id:
+        runs = bring_up_to_date(chain(layout, run_id, toys(layout, **given), start_from=start_from))
+    return [(run.action, run.because or run.reason) for run in runs]
+
+
+def there(layout):
+    return {path.name: files.read(path).attrs.get("toy") for path in layout.test("toy").glob("*.nc")}
+
+
+def test_all_is_made_in_its_order_once(layout):
+    assert ran(layout) == [("done", "never run")] * 3
+    assert there(layout) == {"recorded.nc": 120, "conditioned.nc": 12, "rocking.nc": 1}
+    before = {path: path.stat().st_mtime_ns for path in layout.test("toy").iterdir()}
+    assert ran(layout) == [("up-to-date", "")] * 3
+    assert {path: path.stat().st_mtime_ns for path in layout.test("toy").iterdir()} == before
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"value": 121}, [("done", "settings changed"), ("done", "upstream changed"), ("up-to-date", "")]),
+        ({"value": 130}, [("done", "settings changed"), ("done", "upstream changed"), ("done", "upstream changed")]),
+        ({"code": "two"}, [("done", "code changed")] * 3),
+        ({"start_from": "condition"}, [("up-to-date", ""), ("done", "asked for"), ("done", "asked for")]),
+    ],
+    ids=["equal values stop the cascade", "other values go on", "code", "asked for"],
+)
+def test_what_changed_is_made_again_and_why_is_told(layout, change, told):
+    ran(layout)
+    assert ran(layout, **change) == told
+    change.pop("start_from", None)
+    assert ran(layout, **change) == [("up-to-date", "")] * 3
+
+
+def test_a_damaged_result_is_made_again_and_nothing_else(layout):
+    ran(layout)
+    path = layout.stage("toy", "condition")
+    path.write_bytes(path.read_bytes()[:1000])
+    assert ran(layout) == [("up-to-date", ""), ("done", "never run"), ("up-to-date", "")]
+
+
+def test_a_failure_is_a_result_and_nothing_follows_from_it(layout):
+    ran(layout)
+    bad = {"condition": partial(fails, StageError("no."))}
+    assert ran(layout, value=130, make=bad) == [("done", "settings changed"), ("failed", "upstream changed")]
+    assert there(layout) == {"recorded.nc": 130, "conditioned.nc": None}
+    assert ran(layout, value=130) == [("up-to-date", ""), ("failed", "no.")]  # the same would fail again
+    assert [action for action, _ in ran(layout, value=131)] == ["done", "done", "done"]
+
+
+@pytest.mark.parametrize(
+    "error",
+    [MemoryError(), StoreError("full."), WorkersEndedError("gone."), ImportError("cut off.")],
+    ids=lambda error: type(error).__name__,
+)
+def test_a_failure_of_the_machine_is_not_stored(layout, error):
+    assert [action for action, _ in ran(layout, make={"condition": partial(fails, error)})] == ["done", "failed"]
+    assert there(layout) == {"recorded.nc": 120}
+    assert ran(layout) == [("up-to-date", ""), ("done", "never run"), ("done", "never run")]
+
+
+def test_a_fault_of_colonnade_has_a_log_until_it_is_gone(layout):
+    log = layout.error_log(ResultId("toy", "ingest"))
+    told = ran(layout, make={"rocking": partial(fails, ZeroDivisionError("by zero"))})
+    assert [action for action, _ in told] == ["done", "done", "failed"]
+    assert "by zero" in log.read_text()
+    assert "Internal error in rocking, ZeroDivisionError" in stored_attributes(layout.stage("toy", "rocking"))["reason"]
+    ran(layout, start_from="rocking")
+    assert not log.exists()
+
+
+def test_what_is_pending_says_how_far_it_was_run(layout):
+    with only_run(layout) as run_id:
+        whole = chain(layout, run_id, toys(layout))
+        assert why_pending(whole, stored_attributes) == ""
+        bring_up_to_date(replace(whole, products=whole.products[:1]))
+        assert why_pending(whole, stored_attributes) == "run only as far as ingest; `colonnade run` does the rest"
+        bring_up_to_date(whole)
+        assert why_pending(whole, stored_attributes) is None
+        changed = chain(layout, run_id, toys(layout, value=7))
+        assert "out of date (settings changed)" in why_pending(changed, stored_attributes)
+        assert if_up_to_date(changed, stored_attributes) is None
+
+
+def test_what_lost_its_worker_is_not_stored_as_failed(layout):
+    with only_run(layout) as run_id:
+        lost = chain(layout, run_id, toys(layout))
+        bring_up_to_date(replace(lost, products=lost.products[:1]))
+        (run,) = worker_lost(lost)
+    assert (run.stage, run.action) == ("condition", "failed")
+    assert ran(layout)[1:] == [("done", "never run")] * 2
+
+
+def test_nothing_is_written_once_the_run_has_ended(layout):
+    with only_run(layout) as run_id:
+        pass
+    with pytest.raises(RunEndedError):
+        bring_up_to_date(chain(layout, run_id, toys(layout)))
+    assert not layout.test("toy").exists()
+
+
+def test_a_second_run_is_refused_by_name(layout):
+    with only_run(layout), pytest.raises(StoreError, match=f"process {os.getpid()} on"), only_run(layout):
+        pass
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are forked")
+def test_a_run_that_is_killed_loses_nothing(layout):
+    """Every file is whole or absent, the lock is free, and the next run gives the undisturbed values."""
+    ran(layout)
+    expected, chance = there(layout), random.Random(1)
+    for _ in range(25):
+        for path in layout.test("toy").iterdir():
+            path.unlink()
+        child = os.fork()
+        if child == 0:
+            try:
+                ran(layout)
+            finally:
+                os._exit(0)
+        time.sleep(chance.uniform(0.0, 0.03))
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        assert there(layout).items() <= expected.items()
+        ran(layout)
+        assert there(layout) == expected
+        assert not list(layout.processed.rglob(f"*{files.PARTIAL}"))

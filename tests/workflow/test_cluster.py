@@ -1,0 +1,244 @@
+"""A real Dask scheduler with two workers on loopback does what this process does; one that is not there is told."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from dataclasses import replace
+
+import pytest
+
+from colonnade.campaign import load
+from colonnade.errors import ColonnadeError, RunEndedError
+from colonnade.store import files
+from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.chain import bring_up_to_date, on_a_cluster
+from colonnade.workflow.executors import spread
+from colonnade.workflow.graph import Graph
+from colonnade.workflow.lock import expect_run, only_run
+from colonnade.workflow.map_plans import Wanted
+from colonnade.workflow.maps import make_maps
+from colonnade.workflow.raw_files import raw_files
+from colonnade.workflow.walk import Walk
+
+distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
+pytestmark = pytest.mark.whole
+of_posix = pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+def start(*arguments):
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    return subprocess.Popen([sys.executable, "-m", *arguments, "--host", "127.0.0.1", "--no-dashboard"], **quiet)
+
+
+def end(processes):
+    for process in processes:
+        process.terminate()
+    for process in processes:
+        try:
+            process.wait(10)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+@contextmanager
+def scheduling():
+    """A scheduler: its address and its process."""
+    port = free_port()
+    process = start("distributed.cli.dask_scheduler", "--port", str(port))
+    try:
+        with distributed.Client(f"tcp://127.0.0.1:{port}", timeout=60, set_as_default=False):
+            pass
+        yield f"tcp://127.0.0.1:{port}", process
+    finally:
+        end([process])
+
+
+@contextmanager
+def working(scheduler, *threads):
+    """Workers of a scheduler, one process for each number of threads."""
+    processes = [start("distributed.cli.dask_worker", scheduler, "--no-nanny", "--nthreads", n) for n in threads]
+    try:
+        with distributed.Client(scheduler, timeout=60, set_as_default=False) as client:
+            client.wait_for_workers(len(threads), timeout=60)
+        yield processes
+    finally:
+        end(processes)
+
+
+def _address():
+    with scheduling() as (address, _):
+        yield address
+
+
+scheduler = pytest.fixture(_address, scope="module", name="scheduler")
+another_scheduler = pytest.fixture(_address, scope="module", name="another_scheduler")
+"""Addresses of schedulers, without workers yet; workers of the second are stopped."""
+
+
+@pytest.fixture(scope="module")
+def cluster(scheduler):
+    """The same with two workers."""
+    with working(scheduler, "1", "1"):
+        yield scheduler
+
+
+@pytest.fixture
+def soon(monkeypatch):
+    """Look at the workers more often."""
+    monkeypatch.setattr("colonnade.workflow.cluster.LOOK", 0.1)
+    monkeypatch.setattr("colonnade.workflow.executors.LOOK", 0.1)
+    monkeypatch.setattr("colonnade.workflow.cluster._PATIENCE", 1.0)
+
+
+def whose(number):
+    time.sleep(0.05)
+    return number**2, os.getpid()
+
+
+def refuse(number):
+    raise ColonnadeError(f"number {number} cannot be")
+
+
+def test_a_scheduler_without_workers_is_told_with_what_to_do(scheduler, monkeypatch):
+    monkeypatch.setattr("colonnade.workflow.cluster._PATIENCE", 1)
+    with pytest.raises(ColonnadeError, match=r"has no workers\. Start some: dask worker tcp://"):
+        list(spread(whose, [1], scheduler=scheduler))
+
+
+def test_a_single_worker_does_the_work_and_not_this_process(scheduler):
+    with working(scheduler, "1") as (worker,):
+        assert {process for _, process in spread(whose, range(3), scheduler=scheduler)} == {worker.pid}
+
+
+def test_a_scheduler_that_is_not_there_is_told(monkeypatch):
+    monkeypatch.setattr("colonnade.workflow.cluster._PATIENCE", 1)
+    with pytest.raises(ColonnadeError, match="no Dask scheduler answers there"):
+        list(spread(whose, [1], scheduler=f"tcp://127.0.0.1:{free_port()}"))
+
+
+@pytest.mark.parametrize("address", ["no address", "127.0.0.1:notaport"], ids=str)
+def test_what_is_no_address_is_told(address):
+    with pytest.raises(ColonnadeError, match="that is not an address"):
+        list(spread(whose, [1], scheduler=address))
+
+
+def test_all_workers_of_the_cluster_work_and_none_of_this_machine(cluster):
+    results = list(spread(whose, range(12), scheduler=cluster))
+    assert sorted(square for square, _ in results) == [number**2 for number in range(12)]
+    processes = {process for _, process in results}
+    assert len(processes) == 2
+    assert os.getpid() not in processes
+
+
+def test_an_error_on_a_worker_is_told_as_here(cluster):
+    with pytest.raises(ColonnadeError, match="number 3 cannot be"):
+        list(spread(refuse, [3], scheduler=cluster))
+
+
+def test_a_worker_with_several_threads_is_refused_by_name(another_scheduler):
+    with working(another_scheduler, "2"), pytest.raises(ColonnadeError, match="this worker has 2 threads"):
+        list(spread(whose, [1], scheduler=another_scheduler))
+
+
+def test_workers_with_other_code_are_refused(cluster, monkeypatch):
+    monkeypatch.setattr("colonnade.workflow.cluster.package_hash", lambda: "another")
+    with pytest.raises(ColonnadeError, match="another version of colonnade"):
+        list(spread(whose, [1], scheduler=cluster))
+
+
+def test_a_campaign_run_on_the_cluster_is_that_of_one_process(cluster, untouched, undisturbed):
+    assert not untouched.run(scheduler=cluster).failed
+    assert untouched.contents() == undisturbed.contents()
+    assert untouched.summary() == undisturbed.summary()
+
+
+def ingesting(small, run):
+    """Return the chain that only ingests a test."""
+    campaign, catalogue = load(small.folder), Catalogue(small.layout)
+    test = campaign.tests["pulse-01"]
+    graph = Graph(campaign, small.layout, catalogue, {test.id: raw_files(campaign, test, catalogue)})
+    walk = Walk(graph, run)
+    return walk.chain(graph.measuring(test)[:1])
+
+
+def test_workers_that_do_not_see_the_campaign_are_told(cluster, untouched):
+    elsewhere = replace(ingesting(untouched, "this one"), campaign_file=untouched.folder / "elsewhere.toml")
+    with pytest.raises(ColonnadeError, match="does not see this file"):
+        list(spread(on_a_cluster, [elsewhere], scheduler=cluster))
+
+
+def test_a_map_made_on_the_cluster_is_that_of_one_process_bit_for_bit(cluster, untouched):
+    wanted = Wanted(frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(5, 6), cycles=4.0)
+    contents = []
+    for options in ({"scheduler": cluster}, {"workers": 1}):
+        (made,) = make_maps(untouched.folder, wanted, **options)
+        contents.append(files.read(made.path).attrs["content"])
+        made.path.unlink()
+    assert contents[0] == contents[1]
+
+
+@of_posix
+@pytest.mark.parametrize("sent", [signal.SIGKILL, signal.SIGTERM], ids=lambda sent: sent.name)
+def test_a_run_whose_scheduler_ends_says_so_and_nobody_writes_after_it(untouched, undisturbed, resumes, soon, sent):
+    with scheduling() as (address, process), working(address, "1"):
+
+        def kill(stage, done, total):
+            process.send_signal(sent)
+
+        with pytest.raises(ColonnadeError, match=r"the scheduler of the Dask cluster ended before the work was done"):
+            untouched.run(scheduler=address, progress=kill)
+        left = untouched.files()
+        assert untouched.contents().items() <= undisturbed.contents().items()
+        time.sleep(2.0)
+        # What the cluster's worker was writing then is given up; nothing else changes.
+        assert untouched.files() == {name: seen for name, seen in left.items() if not name.endswith(files.PARTIAL)}
+    resumes()
+
+
+@of_posix
+def test_a_worker_of_the_cluster_that_is_stopped_is_named_and_its_work_is_done_by_another(soon, another_scheduler):
+    told = []
+    with working(another_scheduler, "1", "1") as (worker, _):
+        results = spread(whose, range(30), scheduler=another_scheduler, tell=told.append)
+        squares = [next(results)[0]]
+        worker.kill()
+        squares += [square for square, _ in results]
+    assert sorted(squares) == [number**2 for number in range(30)]
+    (sentence,) = told
+    assert f"this worker (process {worker.pid} on " in sentence
+
+
+@of_posix
+def test_a_cluster_whose_workers_all_end_is_told_and_not_waited_for(soon, another_scheduler):
+    with working(another_scheduler, "1") as (worker,):
+        results = spread(whose, range(30), scheduler=another_scheduler)
+        next(results)
+        worker.kill()
+        with pytest.raises(ColonnadeError, match="all its workers ended"):
+            list(results)
+
+
+def test_a_worker_that_outlives_its_run_writes_nothing(untouched, undisturbed):
+    with pytest.raises(RunEndedError):
+        bring_up_to_date(ingesting(untouched, "before this one"))
+    with only_run(untouched.layout) as run:
+        late = ingesting(untouched, run)
+        assert [stage.action for stage in bring_up_to_date(late)] == ["done"]
+    path = untouched.layout.stage("pulse-01", "ingest")
+    with files.only_while(lambda: expect_run(untouched.layout, run)):
+        for change in (lambda: files.remove(path), lambda: files.write_text(path, "late")):
+            with pytest.raises(RunEndedError):
+                change()
+    assert files.read(path).attrs["content"] == undisturbed.contents()["processed/tests/pulse-01/recorded.nc"]
+    assert list(path.parent.iterdir()) == [path]

@@ -1,0 +1,85 @@
+"""The report as one file: typeset once, again only when what it shows changed, and refused without a report."""
+
+import shutil
+import zipfile
+
+import pytest
+
+from colonnade.errors import StoreError
+from colonnade.report.interactive.state import state_script
+from colonnade.store.freshness import key_of, stamped
+from colonnade.workflow.documents import write_bundle, write_pdf
+
+
+@pytest.fixture(scope="module")
+def folder(undisturbed, tmp_path_factory):
+    """The small campaign with its report, without raw files."""
+    folder = tmp_path_factory.mktemp("documents") / "small"
+    return shutil.copytree(undisturbed.folder, folder, ignore=shutil.ignore_patterns("raw"))
+
+
+@pytest.fixture(scope="module")
+def pdf(folder):
+    return write_pdf(folder)
+
+
+def test_the_pages_of_a_real_report_are_typeset(folder, pdf):
+    assert pdf == folder.resolve() / "report" / "report.pdf"
+    assert pdf.read_bytes().startswith(b"%PDF-")
+    assert key_of(pdf)
+
+
+def test_it_is_typeset_again_only_if_a_page_changed(folder, pdf):
+    before = pdf.stat()
+    write_pdf(folder)
+    assert pdf.stat() == before
+    page = folder / "report" / "methods.html"
+    text = page.read_text(encoding="utf-8")
+    page.write_bytes(stamped(text.encode(), "abc", ".html"))
+    write_pdf(folder)
+    assert pdf.stat().st_mtime_ns > before.st_mtime_ns
+    page.write_text(text, encoding="utf-8")
+
+
+def test_an_altered_pdf_is_made_again(folder, pdf):
+    whole = write_pdf(folder).read_bytes()
+    pdf.write_bytes(whole[:1000] + whole[2000:])
+    assert write_pdf(folder).read_bytes() == whole
+
+
+def test_a_pdf_of_older_pages_is_left_out_of_the_bundle(folder, pdf, tmp_path):
+    page = folder / "report" / "methods.html"
+    text = page.read_text(encoding="utf-8")
+    page.write_bytes(stamped(text.encode(), "abc", ".html"))
+    with zipfile.ZipFile(write_bundle(folder, tmp_path / "all.zip")) as archive:
+        assert "report/report.pdf" not in archive.namelist()
+    page.write_text(text, encoding="utf-8")
+
+
+def test_the_bundle_holds_the_whole_report(folder, pdf, tmp_path):
+    write_pdf(folder)
+    pages = {path for path in (folder / "report").rglob("*") if path.is_file()}
+    foreign = folder / "report" / "tests" / "notes.html"
+    foreign.write_text("put here by somebody", encoding="utf-8")
+    with zipfile.ZipFile(write_bundle(folder, tmp_path / "all.zip")) as archive:
+        names = set(archive.namelist())
+    foreign.unlink()
+    assert names == {path.relative_to(folder).as_posix() for path in pages}
+    assert {"report/index.html", "report/report.pdf"} <= names
+
+
+def test_nobody_watches_a_bundle(folder, tmp_path):
+    state = folder / "report" / "state.js"
+    before = state.read_bytes()
+    state.write_text(state_script(is_watched=True, written=1.7e9, shown="1", line="free-01: rocking"), encoding="utf-8")
+    with zipfile.ZipFile(write_bundle(folder, tmp_path / "all.zip")) as archive:
+        assert archive.read("report/state.js") == before
+    state.write_bytes(before)
+
+
+@pytest.mark.parametrize("write", [write_pdf, lambda folder: write_bundle(folder, folder / "all.zip")])
+def test_without_a_report_there_is_nothing_to_take_along(folder, tmp_path, write):
+    shutil.copy(folder / "campaign.toml", tmp_path)
+    with pytest.raises(StoreError, match="report not found"):
+        write(tmp_path)
+    assert not (tmp_path / "all.zip").exists()

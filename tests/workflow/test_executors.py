@@ -1,0 +1,82 @@
+"""Calls in this process or in others: each once, an error as it was raised, a stopped worker with what to do."""
+
+import os
+import signal
+from pathlib import Path
+
+import pytest
+
+from colonnade.errors import ColonnadeError
+from colonnade.workflow.executors import spread, stopped
+
+
+def whose(number):
+    return number**2, os.getpid()
+
+
+def refuse(number):
+    if number == 2:
+        raise ColonnadeError("number 2 cannot be")
+    return number
+
+
+def die(number):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def die_once(place):
+    """Let the process be killed at the first call only."""
+    mark = Path(place)
+    if not mark.exists():
+        mark.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return mark.name
+
+
+@pytest.mark.parametrize(("items", "workers"), [([3, 1, 2], 1), ([3], 4)], ids=["one worker", "one item"])
+def test_one_worker_or_one_item_is_done_here_and_in_order(items, workers):
+    assert list(spread(whose, items, workers=workers)) == [(item**2, os.getpid()) for item in items]
+
+
+def test_nothing_to_do_gives_nothing():
+    assert list(spread(whose, [])) == []
+
+
+def test_two_workers_do_each_item_once_and_not_here():
+    found = list(spread(whose, range(9), workers=2))
+    assert sorted(square for square, _ in found) == [number**2 for number in range(9)]
+    assert os.getpid() not in {process for _, process in found}
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_an_error_is_the_one_that_was_raised(workers):
+    with pytest.raises(ColonnadeError, match="number 2 cannot be"):
+        list(spread(refuse, range(4), workers=workers))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+def test_what_a_stopped_worker_did_is_done_again(tmp_path):
+    (tmp_path / "second").touch()
+    told = []
+    found = spread(die_once, [str(tmp_path / name) for name in ("first", "second")], workers=2, tell=told.append)
+    assert sorted(found) == ["first", "second"]
+    assert len(told) == 1
+    assert "tried again alone" in told[0]
+
+
+@pytest.mark.whole
+@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+def test_a_worker_that_is_stopped_is_an_error_with_what_to_do():
+    with pytest.raises(ColonnadeError, match=r"A worker process was stopped.*Run again with fewer workers"):
+        list(spread(die, range(2), workers=2))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("The exit codes of the workers are {SIGKILL(-9)}", "A worker process was stopped (SIGKILL(-9))"),
+        ("of unknown cause", "A worker process was stopped"),
+    ],
+)
+def test_how_a_worker_ended_is_said_where_it_is_known(text, said):
+    assert stopped(RuntimeError(text)) == said

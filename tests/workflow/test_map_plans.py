@@ -1,0 +1,105 @@
+"""What a map is asked to show, and the axes, base motion and rules that follow from it and from what was measured."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from colonnade.campaign import load
+from colonnade.campaign.syntax.fields import MOST_CYCLES, MOST_POINTS
+from colonnade.dynamics.models import MODELS
+from colonnade.errors import CampaignError
+from colonnade.identification.response.boundaries import MapPoint
+from colonnade.workflow import map_plans as plans
+from colonnade.workflow.map_plans import Wanted, measured_points
+from every import every
+
+FEW = Wanted(("linear",), points=(3, 4), cycles=2.0)
+
+
+def planned(small, wanted=FEW, *points, model="linear"):
+    return plans.plan_of(load(small.folder), small.layout, "prism", wanted, model, 0.93, points)
+
+
+def sine(frequency_ratio, amplitude_ratio):
+    return MapPoint("sine-01", frequency_ratio, amplitude_ratio, "rocking")
+
+
+def test_what_is_stored_of_a_wish_is_read_back():
+    all_given = Wanted(("nonlinear",), (2.0, 5.0), (0.8, 2.0), (6, 10), 5.0, 1.5, 2.0, "sine-01")
+    for wanted in (Wanted(), all_given):
+        assert Wanted.of(wanted.text(), wanted.models[0]) == wanted
+
+
+def test_other_plane_models_and_responses_are_not_part_of_what_a_map_was_asked_for():
+    assert replace(FEW, models=("linear", "nonlinear"), responses=True).text() == FEW.text()
+    assert replace(FEW, phase=1.0).text() != FEW.text()
+
+
+def test_a_map_beside_one_in_space_is_planned_alike_when_it_is_looked_at_again(small):
+    wanted = Wanted(("linear", "contact"))
+    again = Wanted.of(wanted.text(), "linear")
+    assert planned(small, again).options == planned(small, wanted).options
+    assert planned(small, again).options != planned(small, Wanted()).options
+
+
+@pytest.mark.parametrize("text", ["{", "[]", '{"frequency_ratio": null}', '{"cycle": 1}'])
+def test_a_wish_that_was_altered_is_refused(text):
+    with pytest.raises((ValueError, TypeError, KeyError)):
+        Wanted.of(text, "linear")
+
+
+def test_without_sine_tests_the_axes_are_the_usual_ones(untouched):
+    plan = planned(untouched)
+    assert (plan.frequency_ratio[0], plan.frequency_ratio[-1]) == plans.USUAL_FREQUENCIES
+    assert (plan.amplitude_ratio[0], plan.amplitude_ratio[-1]) == (plans.LOWEST_AMPLITUDE, plans.USUAL_AMPLITUDE)
+    assert (plan.frequency_ratio.size, plan.amplitude_ratio.size) == (3, 4)
+    assert plan.restitution == (0.93, 0.93)
+
+
+def test_the_models_own_number_of_points_is_used(untouched):
+    plan = planned(untouched, replace(FEW, points=None))
+    assert (plan.frequency_ratio.size, plan.amplitude_ratio.size) == MODELS["linear"].map_points
+
+
+def test_sine_tests_are_within_the_axes_with_a_margin_of_a_tenth_and_more(untouched):
+    plan = planned(untouched, FEW, sine(2.0, 1.0), sine(4.0, 9.0))
+    assert (plan.frequency_ratio[0], plan.frequency_ratio[-1]) == (1.8, 4.4)
+    assert plan.amplitude_ratio[-1] == 11.0  # 1.2 times 9 is 10.8
+
+
+def test_given_axes_come_before_those_of_the_tests(untouched):
+    plan = planned(untouched, replace(FEW, frequency_ratio=(3.0, 5.0), amplitude_ratio=(1.0, 2.0)), sine(2.0, 9.0))
+    np.testing.assert_allclose(plan.frequency_ratio, [3.0, 4.0, 5.0])
+    np.testing.assert_allclose(plan.amplitude_ratio, np.linspace(1.0, 2.0, 4))
+
+
+@every(
+    ("changes", "said"),
+    [
+        ({"frequency_ratio": (1.0, 1e9)}, "--omega: 1e+09 was found"),
+        ({"amplitude_ratio": (0.0, 1.0)}, "--amplitude: 0 was found"),
+        ({"cycles": 2 * MOST_CYCLES}, "--cycles"),
+        ({"ramp": float("nan")}, "--ramp: nan was found"),
+        ({"points": (3, MOST_POINTS + 1)}, f"--points: {MOST_POINTS + 1} was found"),
+    ],
+)
+def test_a_map_that_would_never_end_is_refused_by_its_option(untouched, changes, said):
+    with pytest.raises(CampaignError) as caught:
+        planned(untouched, replace(FEW, **changes))
+    assert said in str(caught.value)
+
+
+def test_a_summary_that_was_damaged_gives_no_points(small):
+    summary = small.summary()
+    summary["tests"]["pulse-01"] |= {"frequency_ratio": 6.0, "amplitude_ratio": 4.0, "outcome": "overturned"}
+    small.layout.summary_json.write_text(json.dumps(summary), encoding="utf-8")
+    assert [point.test for point in measured_points(small.layout, "prism")] == ["pulse-01"]
+    small.layout.summary_json.write_text("{", encoding="utf-8")
+    assert measured_points(small.layout, "prism") == []
+
+
+def test_e_of_a_map_has_a_value_for_each_side_and_its_source(untouched):
+    untouched.edit('mass = "26.10 kg"}', 'mass = "26.10 kg", restitution = [0.9, 0.8]}')
+    assert plans.restitution_of(load(untouched.folder), untouched.layout, "prism") == ((0.9, 0.8), "given")

@@ -1,0 +1,216 @@
+"""A campaign's maps: from what is known of a specimen, in blocks that outlast a kill, the same whatever the workers."""
+
+import json
+from copy import copy
+from functools import partial
+
+import numpy as np
+import pytest
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.maps import MapPlan, stability_map
+from colonnade.dynamics.motion import Motion
+from colonnade.errors import CampaignError, StoreError
+from colonnade.identification.response.boundaries import MapPoint
+from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.store.results import ResultId
+from colonnade.workflow import run
+from colonnade.workflow.lock import only_run
+from colonnade.workflow.map_plans import Wanted, measured_points
+from colonnade.workflow.maps import as_map, given, make_maps
+from every import every
+from prism import PRISM, SPECIMEN, entry
+
+PLAN = MapPlan(PRISM, frequency_ratio=[2.0, 3.0], amplitude_ratio=[1.0, 2.0])
+FEW = Wanted(("linear",), frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(6, 10), cycles=5.0)
+
+
+def asking(**changes):
+    return Wanted(**(vars(FEW) | changes))
+
+
+SINE = f"""\
+schema = 1
+campaign = "sine"
+title = "One sine test, of which the table alone was recorded"
+
+[specimens]
+{SPECIMEN.replace("}", ", restitution = 0.93}")}
+
+[setups.frame.channels]
+table = {{column = "table", quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]}}
+
+{entry("sine-01", "sine", 'frequency = "3 Hz"', 'observed_outcome = "rocking"')}
+"""
+
+
+@pytest.fixture
+def sine_test(tmp_path):
+    """A campaign with one sine test of 12 cycles at 3 Hz, run up to the comparison."""
+    time = np.arange(0.0, 7.0, 0.005)
+    base = np.where((time > 1.5) & (time < 5.5), 1.5 * np.sin(2 * np.pi * 3.0 * (time - 1.5)), 0.0)
+    noisy = base + 0.002 * np.random.default_rng(3).standard_normal(time.size)
+    (tmp_path / "raw").mkdir()
+    write = partial(np.savetxt, delimiter=",", header="time,table", comments="", fmt="%.6f")
+    write(tmp_path / "raw" / "sine-01.csv", np.column_stack((time, noisy)))
+    (tmp_path / "campaign.toml").write_text(SINE, encoding="utf-8")
+    run(tmp_path, workers=1, until="compare")
+    return tmp_path
+
+
+def made(small, wanted=FEW, **options):
+    (only,) = make_maps(small.folder, wanted, **({"workers": 1} | options))
+    return only
+
+
+def content(small, **options):
+    return files.read(made(small, **options).path).attrs["content"]
+
+
+def test_a_map_takes_the_identified_restitution_and_is_that_of_the_library(small):
+    result = made(small)
+    assert (result.restitution_source, result.action, result.because) == ("identified", "done", "never run")
+    stored = as_map(files.read(result.path))
+    pooled = files.read(small.layout.stage("prism", "specimen"))
+    e = tuple(float(value) for value in pooled["side_restitution"])
+    axes = {"frequency_ratio": np.linspace(2.0, 5.0, 6), "amplitude_ratio": np.linspace(0.8, 2.0, 10)}
+    expected = stability_map(PRISM, restitution=e, cycles=5.0, **axes)
+    for name in ("outcome", "overturning_fraction", "no_rocking", "lower", "upper", "interval_start", "interval_end"):
+        np.testing.assert_array_equal(getattr(stored, name), getattr(expected, name), err_msg=name)
+    assert stored.options == expected.options
+
+
+def test_several_processes_give_the_same_bit_for_bit(small):
+    alone = content(small)
+    small.layout.stage("prism", "map", "linear").unlink()
+    assert content(small, workers=2) == alone
+
+
+def test_several_models_have_a_map_each_and_a_picture_together(small):
+    both = make_maps(small.folder, asking(models=("linear", "nonlinear")), workers=1)
+    assert [each.model for each in both] == ["linear", "nonlinear"]
+    together = small.layout.together("prism", ("linear", "nonlinear"))
+    assert {each.together for each in both} == {together}
+    drawn = together.read_text(encoding="utf-8")
+    for model in ("linear", "nonlinear"):
+        assert f"{model}: lower limit" in drawn
+        assert small.layout.stage("prism", "map", model).exists()
+    assert made(small).together is None
+
+
+def test_the_table_motion_of_a_sine_test_is_stretched_over_a_map(sine_test):
+    (result,) = make_maps(sine_test, asking(motion="sine-01", frequency_ratio=(2.0, 6.0), points=(5, 13)), workers=1)
+    stored = as_map(files.read(result.path))
+    assert stored.options["base_motion"] == "recorded"
+    assert stored.options["motion_frequency"] == pytest.approx(3.0, rel=1e-4)
+    base = files.read(Layout(sine_test).stage("sine-01", "rocking"))
+    axes = {"frequency_ratio": np.linspace(2.0, 6.0, 5), "amplitude_ratio": np.linspace(0.8, 2.0, 13)}
+    motion = Motion(base["base_acceleration"].to_numpy(), 0.005)
+    hertz = stored.options["motion_frequency"]
+    expected = stability_map(PRISM, restitution=0.93, motion=motion, motion_frequency=hertz, **axes)
+    np.testing.assert_array_equal(stored.outcome, expected.outcome)
+    # What the table did is nearly the sine of twelve cycles that it was told to do.
+    plain = stability_map(PRISM, restitution=0.93, cycles=12, **axes)
+    assert np.mean(stored.outcome == plain.outcome) > 0.8
+    assert set(np.unique(stored.outcome)) == {0, 1, 2}
+    assert "recorded table motion" in result.figure.read_text(encoding="utf-8")
+
+
+def test_a_map_that_is_there_is_not_made_again_until_something_changes(small):
+    assert made(small).action == "done"
+    assert made(small).action == "up-to-date"
+    assert made(small, asking(ramp=1.0)).because == "settings changed"
+    small.edit('height = "456 mm"', 'height = "460 mm"')
+    assert made(small, asking(ramp=1.0)).because == "upstream changed"
+
+
+def changed(**change):
+    plan = copy(PLAN)
+    vars(plan).update(change)
+    return plan
+
+
+@pytest.mark.parametrize(
+    ("change", "name"),
+    [
+        ({"block": Block.prism(width=0.086, depth=0.086, height=0.457, mass=26.10)}, "block"),
+        ({"frequency_ratio": np.array([2.0, 3.1])}, "axes"),
+        ({"amplitude_ratio": np.array([1.0, 2.1])}, "axes"),
+        ({"motion": Motion(np.array([0.0, 1.0, 0.0]), 0.01)}, "motion"),
+    ],
+    ids=["a block", "other Ω", "other A", "a recorded motion"],
+)
+def test_each_thing_that_a_map_is_made_from_has_its_hash(change, name):
+    before, after = given(PLAN), given(changed(**change))
+    assert {key for key in before if before[key] != after[key]} == {name}
+
+
+def test_a_motion_is_known_by_its_step_too():
+    fast, slow = (given(changed(motion=Motion(np.array([0.0, 1.0, 0.0]), dt))) for dt in (0.01, 0.02))
+    assert fast["motion"] != slow["motion"]
+
+
+def test_a_campaign_that_was_never_run_takes_the_rigid_body_and_has_no_points(untouched):
+    result = made(untouched)
+    assert (result.restitution_source, result.measured) == ("rigid-body", 0)
+
+
+def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
+    summary = small.summary()
+    summary["tests"]["pulse-01"] |= {"frequency_ratio": 6.0, "amplitude_ratio": 4.0, "outcome": "overturned"}
+    summary["tests"]["pulse-02"] |= {"frequency_ratio": 3.0, "amplitude_ratio": None, "outcome": "rocking"}
+    small.layout.summary_json.write_text(json.dumps(summary), encoding="utf-8")
+    assert measured_points(small.layout, "prism") == [MapPoint("pulse-01", 6.0, 4.0, "overturned")]
+    assert measured_points(small.layout, "another") == []
+    result = made(small, Wanted(("linear",), points=(3, 4), cycles=2.0))
+    chart = as_map(files.read(result.path))
+    assert chart.frequency_ratio[0] < 6.0 < chart.frequency_ratio[-1]
+    assert chart.amplitude_ratio[0] < 4.0 < chart.amplitude_ratio[-1]
+    assert result.measured == 1
+
+
+@every(
+    ("wanted", "specimens", "found"),
+    [
+        (FEW, ("prysm",), 'no specimen "prysm".*Did you mean "prism"'),
+        (Wanted(frequency_ratio=(3.0, 2.0)), (), "frequency_ratio has to be positive, finite and increasing"),
+        (Wanted(cycles=0.0), (), "at least one cycle"),
+        (Wanted(motion="pulse-99"), (), 'no test "pulse-99"'),
+        (Wanted(motion="pulse-01"), (), "pulse-01: its table motion cannot be stretched"),
+        (Wanted(motion="pulse-01", responses=True), (), "Leave out the recorded motion"),
+    ],
+)
+def test_what_cannot_be_mapped_is_told(small, wanted, specimens, found):
+    with pytest.raises(CampaignError, match=found):
+        make_maps(small.folder, wanted, specimens=specimens, workers=1)
+
+
+def test_a_map_waits_for_no_run_but_says_that_one_is_under_way(small):
+    with only_run(small.layout), pytest.raises(StoreError, match="already being run"):
+        made(small)
+
+
+MAP = """
+import sys
+from colonnade.workflow.map_plans import Wanted
+from colonnade.workflow.maps import make_maps
+wanted = Wanted(("linear",), frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(60, 10), cycles=5.0)
+make_maps(sys.argv[1], wanted, workers=1, progress=lambda done, total: print(done, flush=True))
+"""
+
+
+@pytest.mark.whole
+def test_a_map_that_is_killed_goes_on_where_it_was_and_leaves_nothing_behind(start, small):
+    process = start(MAP, small.folder, said=3)
+    process.kill()
+    process.wait()
+    assert not small.layout.stage("prism", "map", "linear").exists()
+    wanted = asking(points=(60, 10))
+    told = []
+    result = made(small, wanted, progress=lambda *state: told.append(state))
+    assert 3 <= told[0][0] < 60
+    again = files.read(result.path).attrs["content"]
+    assert not small.layout.blocks(ResultId("prism", "map", "linear")).exists()
+    result.path.unlink()
+    assert files.read(made(small, wanted).path).attrs["content"] == again

@@ -1,0 +1,125 @@
+"""Photos in the report: bare copies, made once, and a warning instead of a failure where one cannot be shown."""
+
+import pytest
+from PIL import Image
+
+from colonnade.campaign import load
+from colonnade.store.layout import Layout
+from colonnade.workflow import photos
+from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.photos import unshown_photos, with_photos
+
+PLACE = b"48.8584 N 2.2945 E"
+
+
+@pytest.fixture
+def folder(untouched):
+    folder = untouched.folder.resolve()
+    (folder / "photos").mkdir()
+    exif = Image.Exif()
+    exif[0x010E] = PLACE.decode()
+    Image.new("RGB", (40, 30), "navy").save(folder / "photos" / "a.jpg", exif=exif)
+    Image.new("RGB", (30, 40), "green").save(folder / "photos" / "b.png")
+    return folder
+
+
+def campaign_with(folder, *written):
+    campaign = load(folder)
+    test = campaign.tests["free-01"].model_copy(update={"photos": written})
+    return campaign.but(tests=campaign.tests | {"free-01": test})
+
+
+def brought(folder, *written):
+    """Bring the photos of a campaign up to date as one run does; give the names of the copies, and the warnings."""
+    layout = Layout(folder)
+    catalogue = Catalogue(layout)
+    campaign, _ = with_photos(campaign_with(folder, *written), layout, catalogue)
+    catalogue.save()
+    copies = sorted((folder / "report" / "photos").glob("*"))
+    return {path.name: path for path in copies}, campaign.concerning("free-01")
+
+
+def test_copies_are_numbered_as_written_and_hold_nothing_but_pixels(folder):
+    copies, found = brought(folder, "photos/a.jpg", "photos/b.png")
+    assert (list(copies), found) == (["free-01-1.jpg", "free-01-2.jpg"], ())
+    assert PLACE in (folder / "photos" / "a.jpg").read_bytes()
+    for path, size in zip(copies.values(), [(40, 30), (30, 40)], strict=True):
+        with Image.open(path) as copy:
+            assert (copy.format, copy.size, dict(copy.getexif())) == ("JPEG", size, {})
+        assert PLACE not in path.read_bytes()
+
+
+def test_a_copy_is_made_again_only_if_the_photo_changed_or_it_was_lost(folder, monkeypatch):
+    copy = brought(folder, "photos/a.jpg")[0]["free-01-1.jpg"]
+    before, read, decoded = copy.read_bytes(), photos.read_photo, []
+
+    def spy(path, within):
+        decoded.append(path.name)
+        return read(path, within=within)
+
+    monkeypatch.setattr(photos, "read_photo", spy)
+    brought(folder, "photos/a.jpg")
+    assert decoded == []
+    copy.write_bytes(before[:-10])
+    brought(folder, "photos/a.jpg")
+    assert (decoded, copy.read_bytes()) == (["a.jpg"], before)
+    Image.new("RGB", (40, 30), "red").save(folder / "photos" / "a.jpg")
+    brought(folder, "photos/a.jpg")
+    assert decoded == ["a.jpg"] * 2
+    assert copy.read_bytes() != before
+
+
+def test_a_photo_that_is_no_longer_named_is_taken_away(folder):
+    brought(folder, "photos/a.jpg", "photos/b.png")
+    copies, _ = brought(folder, "photos/b.png")
+    assert list(copies) == ["free-01-1.jpg"]
+    with Image.open(copies["free-01-1.jpg"]) as copy:
+        assert copy.size == (30, 40)
+
+
+@pytest.mark.parametrize(
+    ("written", "told"),
+    [
+        ("photos/none.jpg", "not found"),
+        ("../a.jpg", "outside the campaign"),
+        ("/etc/passwd", "absolute path"),
+        ("photos", "a folder"),
+        ("campaign.toml", "neither JPEG nor PNG"),
+        ("link.jpg", "is a link"),
+        ("leaves.jpg", "outside the campaign"),
+    ],
+)
+def test_a_photo_that_cannot_be_shown_is_a_warning_about_its_test(folder, tmp_path_factory, written, told):
+    (folder / "link.jpg").symlink_to(folder / "photos" / "a.jpg")
+    elsewhere = tmp_path_factory.mktemp("elsewhere") / "a.jpg"
+    Image.new("RGB", (40, 30), "navy").save(elsewhere)
+    (folder / "leaves.jpg").symlink_to(elsewhere)
+    for _ in range(2):  # the second time from the catalogue
+        copies, (found,) = brought(folder, written, "photos/b.png")
+        assert list(copies) == ["free-01-2.jpg"]
+        assert (found.kind, found.severity, found.about) == ("photo", "warning", "tests.free-01")
+        assert told in found.text
+    assert unshown_photos(campaign_with(folder, written, "photos/b.png")) == [found]
+
+
+def test_the_fault_of_the_machine_is_not_remembered(folder, monkeypatch):
+    read = photos.read_photo
+
+    def stopped(path, within):
+        error = photos.ReadError(f"{path.name}: reading it was stopped")
+        error.__cause__ = OSError(12, "out of memory")
+        raise error
+
+    monkeypatch.setattr(photos, "read_photo", stopped)
+    copies, found = brought(folder, "photos/a.jpg")
+    assert (list(copies), len(found)) == ([], 1)
+    monkeypatch.setattr(photos, "read_photo", read)
+    copies, found = brought(folder, "photos/a.jpg")
+    assert (list(copies), found) == (["free-01-1.jpg"], ())
+
+
+def test_a_campaign_without_photos_is_as_it_was(folder):
+    campaign = campaign_with(folder)
+    layout = Layout(folder)
+    assert with_photos(campaign, layout, Catalogue(layout)) == (campaign.but(), {})
+    assert not layout.report.parent.exists()
