@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import struct
 import sys
 from collections.abc import Iterable
 from pathlib import Path
@@ -14,21 +15,9 @@ ASK_VERSION = 1
 PATH_BENEATH = 1
 NO_NEW_PRIVILEGES = 38
 READ_FILE, READ_DIRECTORY, WRITE_FILE = 1 << 2, 1 << 3, 1 << 1
-FILE_RIGHTS = {1: (1 << 13) - 1, 2: (1 << 14) - 1, 3: (1 << 15) - 1, 5: (1 << 16) - 1}
-"""All rights on files that a version of Landlock knows, from that version on."""
-NETWORK_RIGHTS = {4: 0b11}
-"""TCP: bind and connect."""
-SCOPES = {6: 0b11}
-"""Abstract sockets and signals, of processes outside."""
-
-
-class _Ruleset(ctypes.Structure):
-    _fields_ = (("files", ctypes.c_uint64), ("network", ctypes.c_uint64), ("scopes", ctypes.c_uint64))
-
-
-class _Rule(ctypes.Structure):
-    _pack_ = 1
-    _fields_ = (("allowed", ctypes.c_uint64), ("directory", ctypes.c_int32))
+RIGHTS = ({1: (1 << 13) - 1, 2: (1 << 14) - 1, 3: (1 << 15) - 1, 5: (1 << 16) - 1}, {4: 0b11}, {6: 0b11})
+"""All rights that a version of Landlock knows, from that version on: on files; TCP, to bind and connect; abstract
+sockets and signals, of processes outside."""
 
 
 def version() -> int:
@@ -61,9 +50,10 @@ def restrict(readable: Iterable[Path]) -> bool:
     if not known:
         return False
     system = _system()
-    rules = _Ruleset(*(_latest(rights, known) for rights in (FILE_RIGHTS, NETWORK_RIGHTS, SCOPES)))
-    size = 8 * (1 + (known >= 4) + (known >= 6))
-    ruleset = _checked(system.syscall(CREATE_RULESET, ctypes.byref(rules), ctypes.c_size_t(size), ctypes.c_uint32(0)))
+    # Older kernels know a shorter list of rights.
+    latest = [[bits for since, bits in rights.items() if since <= known] for rights in RIGHTS]
+    rules = b"".join(struct.pack("=Q", bits[-1]) for bits in latest if bits)
+    ruleset = _checked(system.syscall(CREATE_RULESET, rules, ctypes.c_size_t(len(rules)), ctypes.c_uint32(0)))
     try:
         for path in readable:
             _allow(system, ruleset, path, READ_FILE | (READ_DIRECTORY if path.is_dir() else 0))
@@ -82,15 +72,10 @@ def _allow(system: ctypes.CDLL, ruleset: int, path: Path, rights: int) -> None:
     except OSError:
         return
     try:
-        rule = _Rule(rights, opened)
-        flags = ctypes.c_uint32(0)
-        _checked(system.syscall(ADD_RULE, ctypes.c_int(ruleset), ctypes.c_int(PATH_BENEATH), ctypes.byref(rule), flags))
+        rule, flags = struct.pack("=Qi", rights, opened), ctypes.c_uint32(0)
+        _checked(system.syscall(ADD_RULE, ctypes.c_int(ruleset), ctypes.c_int(PATH_BENEATH), rule, flags))
     finally:
         os.close(opened)
-
-
-def _latest(rights: dict[int, int], known: int) -> int:
-    return max((bits for since, bits in rights.items() if since <= known), default=0)
 
 
 def _system() -> ctypes.CDLL:
