@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.head import BYTES, Head, by_mark, from_head, head_of
+from colonnade.readers.head import BYTES, Head, by_mark, head_of
 from every import every
 
 
@@ -36,8 +36,8 @@ def test_a_file_is_recognised_by_any_of_its_marks(path):
     path.write_bytes(b"MARK2" + bytes(2 * BYTES))
     head = head_of(path)
     assert len(head.content) == BYTES
-    assert by_mark(head, (b"MARK1", b"MARK2"), "a mark").yes
-    recognise = from_head(lambda head: by_mark(head, (b"MARK1",), "a mark"))
+    assert by_mark((b"MARK1", b"MARK2"), "a mark").looks(head).yes
+    recognise = by_mark((b"MARK1",), "a mark")
     assert recognise(path).reason == "it does not start with a mark"
     path.write_bytes(b"%PDF-1.4")
     with pytest.raises(ReadError, match=r"record.raw: it does not start with a mark; it is a PDF"):

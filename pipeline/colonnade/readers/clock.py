@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from datetime import datetime, timedelta
 
@@ -243,6 +244,14 @@ def even_times(count: int, step: float, begin: float = 0.0) -> Array:
         return np.full(count, np.nan)
     times: Array = begin + step * np.arange(count, dtype=np.float64)
     return times
+
+
+def moment_of(text: str, forms: tuple[str, ...]) -> datetime | None:
+    """Read a date and time in the first of some forms that it has; None if it has none of them."""
+    for form in forms:
+        with suppress(ValueError):
+            return datetime.strptime(text, form)
+    return None
 
 
 def moment_after(origin: datetime | None, seconds: float) -> datetime | None:

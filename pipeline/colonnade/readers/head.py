@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -110,18 +111,26 @@ class from_head:  # noqa: N801 - a decorator
         return head
 
 
-def by_mark(head: Head, marks: tuple[bytes, ...], expected: str) -> Recognition:
+def by_mark(marks: tuple[bytes, ...], expected: str) -> from_head:
     """
-    Recognise a file by how it starts.
+    Give what recognises files by how they start.
 
     Parameters
     ----------
-    head : Head
     marks : tuple of bytes
         Marks of the format; a file starts with one of them.
     expected : str
         What that is called: `TDSm, as LabVIEW writes it`.
     """
-    if head.content.startswith(marks):
-        return Recognition(True, f"starts with {expected}")
-    return Recognition(False, f"it does not start with {expected}")
+    return _by(
+        lambda head: head.content.startswith(marks), f"starts with {expected}", f"it does not start with {expected}"
+    )
+
+
+def by_first_line(written: re.Pattern[str], yes: str, no: str) -> from_head:
+    """Give what recognises files by what their first line has, with the reasons for and against."""
+    return _by(lambda head: written.search(head.first_line) is not None, yes, no)
+
+
+def _by(has: Callable[[Head], bool], yes: str, no: str) -> from_head:
+    return from_head(lambda head: Recognition(True, yes) if has(head) else Recognition(False, no))

@@ -172,20 +172,12 @@ def _columns(recording: Recording, column: str | int | None, most: int, hint: st
     if column is not None:
         return [recording.channel(column)]
     others = [channel for channel in recording.channels if rising_share(channel.values) < 1.0]
-    found = [channel for channel in others if channel.unit and _is_acceleration(channel.unit)] or others
+    found = [channel for channel in others if units.is_of(channel.unit or "", "acceleration")] or others
     if 1 <= len(found) <= most:
         return found
     names = ", ".join(f'"{channel.heading}"' for channel in found[:8])
     told = f"{len(found)} columns may be the acceleration{': ' if names else ''}{names}"
     raise ReadError(f"{recording.path.name}: {told if most == 1 else f'{told}; 1 to {most} were expected'}. {hint}")
-
-
-def _is_acceleration(unit: str) -> bool:
-    try:
-        units.factor_to_si(unit, "acceleration")
-    except UnitError:
-        return False
-    return True
 
 
 def _step(recording: Recording, channel: RecordedChannel) -> float | None:

@@ -11,8 +11,8 @@ import numpy as np
 
 from colonnade.readers.binary.numbers import Bytes, numbers_at
 from colonnade.readers.clock import even_times, moment_after, on_one_zero
-from colonnade.readers.format import Format, Options, Recognition
-from colonnade.readers.head import Head, by_mark, from_head
+from colonnade.readers.format import Format, Options
+from colonnade.readers.head import by_mark
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
 
 NUMBERS = {1: "u1", 2: "i1", 3: "u2", 4: "i2", 5: "u4", 6: "i4", 7: "f4", 8: "f8", 11: "u2", 12: "u8", 14: "i8"}
@@ -37,10 +37,7 @@ _Said = dict[str, Any]
 """The parameters of the blocks that describe one channel, by their keys; of CN those of each."""
 
 
-@from_head
-def recognise(head: Head) -> Recognition:
-    """Say whether the first bytes are those of a FAMOS file."""
-    return by_mark(head, (b"|CF,",), '"|CF,", the mark of imc FAMOS')
+recognise = by_mark((b"|CF,",), '"|CF,", the mark of imc FAMOS')
 
 
 def read(path: Path, options: Options) -> Recording:

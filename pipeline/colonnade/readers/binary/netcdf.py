@@ -16,8 +16,8 @@ from pydantic import Field
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.binary.numbers import DAMAGE, ClockOptions, Told, UnreadableError, member, recorded
-from colonnade.readers.format import Format, Recognition
-from colonnade.readers.head import HDF5, NETCDF, Head, by_mark, from_head
+from colonnade.readers.format import Format
+from colonnade.readers.head import HDF5, NETCDF, by_mark
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
 
 if TYPE_CHECKING:
@@ -58,10 +58,7 @@ class NetcdfOptions(ClockOptions):
     group: str | None = Field(default=None, description="Read only this group and those in it.")
 
 
-@from_head
-def recognise(head: Head) -> Recognition:
-    """Say whether a file is NetCDF or HDF5, by its first bytes."""
-    return by_mark(head, (*NETCDF, HDF5), "the mark of NetCDF or HDF5")
+recognise = by_mark((*NETCDF, HDF5), "the mark of NetCDF or HDF5")
 
 
 def read(path: Path, options: NetcdfOptions) -> Recording:

@@ -17,8 +17,8 @@ from pydantic import Field
 from colonnade.arrays import Array
 from colonnade.errors import ReadError, nearest
 from colonnade.readers.binary.numbers import ClockOptions, recorded
-from colonnade.readers.format import Format, Recognition
-from colonnade.readers.head import Head, by_mark, from_head
+from colonnade.readers.format import Format
+from colonnade.readers.head import by_mark
 from colonnade.readers.recording import RecordedChannel, Recording, Window
 from colonnade.readers.text.heading import take_apart
 
@@ -45,10 +45,7 @@ class TdmsOptions(ClockOptions):
     group: str | None = Field(default=None, description="Read only this group; by default all of them.")
 
 
-@from_head
-def recognise(head: Head) -> Recognition:
-    """Say whether a file is TDMS."""
-    return by_mark(head, (b"TDSm",), "TDSm, the mark of LabVIEW's TDMS")
+recognise = by_mark((b"TDSm",), "TDSm, the mark of LabVIEW's TDMS")
 
 
 def read(path: Path, options: TdmsOptions, window: Window | None = None) -> Recording:

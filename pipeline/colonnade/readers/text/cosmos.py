@@ -12,8 +12,8 @@ import numpy as np
 
 from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times, moment_after, on_one_zero
-from colonnade.readers.format import Format, Options, Recognition
-from colonnade.readers.head import Head, from_head
+from colonnade.readers.format import Format, Options
+from colonnade.readers.head import by_first_line
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.encoding import Text
 from colonnade.readers.text.peer import spelled
@@ -40,12 +40,11 @@ START = re.compile(
 COMPONENT = re.compile(r"^Sta\s+Cha\w*[\s:]*(?P<name>.*?)\s*(?:\(Rcrdr|Location|$)", re.IGNORECASE)
 
 
-@from_head
-def recognise(head: Head) -> Recognition:
-    """Say whether the first line gives a version of the COSMOS format."""
-    if FIRST_LINE.search(head.first_line):
-        return Recognition(True, "the first line gives a version of the COSMOS format")
-    return Recognition(False, 'the first line does not give "(Format v… with … text lines)"')
+recognise = by_first_line(
+    FIRST_LINE,
+    "the first line gives a version of the COSMOS format",
+    'the first line does not give "(Format v… with … text lines)"',
+)
 
 
 def read(path: Path, options: Options) -> Recording:

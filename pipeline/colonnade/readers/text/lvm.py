@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from contextlib import suppress
 from datetime import datetime
 from itertools import islice
 from pathlib import Path
@@ -14,9 +13,9 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.clock import even_times, moment_after
-from colonnade.readers.format import Format, Recognition
-from colonnade.readers.head import Head, from_head
+from colonnade.readers.clock import even_times, moment_after, moment_of
+from colonnade.readers.format import Format
+from colonnade.readers.head import by_first_line
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.damage import mend
 from colonnade.readers.text.dialect import Dialect
@@ -146,12 +145,9 @@ def _prepare(lines: list[str], rows: range, delimiter: str, width: int) -> None:
         is_special &= not line.startswith("***End")
 
 
-@from_head
-def recognise(head: Head) -> Recognition:
-    """Say whether the first line is that of a LabVIEW measurement file."""
-    if head.first_line.startswith(SIGNATURE):
-        return Recognition(True, f'the first line is "{SIGNATURE}"')
-    return Recognition(False, f'the first line is not "{SIGNATURE}"')
+recognise = by_first_line(
+    re.compile(f"^{SIGNATURE}"), f'the first line is "{SIGNATURE}"', f'the first line is not "{SIGNATURE}"'
+)
 
 
 def read(path: Path, options: TextOptions) -> Recording:
@@ -234,11 +230,8 @@ def _joined(pieces: list[RecordedChannel], origin: datetime | None, preamble: Pr
 
 def _moment(date: str, time: str) -> datetime | None:
     """Date and time of day as LabVIEW writes them, `2013/02/19` and `09:51:40,7271890640258789063`."""
-    text = f"{date} {time}".replace(",", ".")
-    for form in ("%Y/%m/%d %H:%M:%S.%f", "%Y/%m/%d %H:%M:%S"):
-        with suppress(ValueError):
-            return datetime.strptime(re.sub(r"(\.\d{6})\d+", r"\1", text), form)
-    return None
+    text = re.sub(r"(\.\d{6})\d+", r"\1", f"{date} {time}".replace(",", "."))
+    return moment_of(text, ("%Y/%m/%d %H:%M:%S.%f", "%Y/%m/%d %H:%M:%S"))
 
 
 FORMAT = Format(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from contextlib import suppress
 from datetime import datetime
 from itertools import pairwise
 from pathlib import Path
@@ -14,9 +13,9 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.clock import RISING_SHARE, moment_after, rising_share
-from colonnade.readers.format import Format, Recognition
-from colonnade.readers.head import Head, from_head
+from colonnade.readers.clock import RISING_SHARE, moment_after, moment_of, rising_share
+from colonnade.readers.format import Format
+from colonnade.readers.head import by_first_line
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
 from colonnade.readers.text.damage import mend
 from colonnade.readers.text.dialect import WHITESPACE, Dialect, is_timestamp
@@ -50,12 +49,11 @@ class Block(NamedTuple):
         return self.columns[0].size
 
 
-@from_head
-def recognise(head: Head) -> Recognition:
-    """Say whether the first line is that of an MTS 793 text."""
-    if head.first_line.lstrip('"').startswith(SIGNATURE):
-        return Recognition(True, f'the first line starts with "{SIGNATURE}"')
-    return Recognition(False, f'the first line does not start with "{SIGNATURE}"')
+recognise = by_first_line(
+    re.compile(r'^"*MTS793\|'),
+    f'the first line starts with "{SIGNATURE}"',
+    f'the first line does not start with "{SIGNATURE}"',
+)
 
 
 def read(path: Path, options: TextOptions) -> Recording:
@@ -137,7 +135,8 @@ def _blocks(
             form = RowForm(dialect, ("number",) * len(names), by_instrument=True)
             mended = mend(read_rows(path, pieces_of(lines, first, stop), form), names)
             warnings += mended.warnings
-            yield Block(at + 2, tuple(names), tuple(units), mended.columns, _origin(title[-1], seconds, dates))
+            origin = moment_after(moment_of(title[-1], dates), -seconds)
+            yield Block(at + 2, tuple(names), tuple(units), mended.columns, origin)
             at = stop - 1
         elif all(map(looks_like_unit, units)):
             warnings.append(f'the block below line {first} ("{names[0]}", …) has no rows: cut off')
@@ -162,14 +161,6 @@ def _seconds(title: list[str], dialect: Dialect) -> float | None:
     for cell, following in pairwise(title):
         if cell.endswith(":") and dialect.is_number(following):
             return dialect.number(following)
-    return None
-
-
-def _origin(text: str, seconds: float, dates: tuple[str, ...]) -> datetime | None:
-    """Date and time of the running time's zero, so many seconds before the date that is written."""
-    for form in dates:
-        with suppress(ValueError):
-            return moment_after(datetime.strptime(text, form), -seconds)
     return None
 
 
