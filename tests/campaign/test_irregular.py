@@ -8,7 +8,7 @@ import pytest
 import colonnade
 from colonnade import units
 from colonnade.campaign import load
-from colonnade.campaign.draft import draft
+from colonnade.campaign.draft.write import draft
 from colonnade.campaign.syntax.document import key_lines
 from colonnade.errors import CampaignError, ReadError, UnitError
 from colonnade.readers.text.heading import take_apart

@@ -7,7 +7,7 @@ import shutil
 import pytest
 
 from colonnade.campaign import load
-from colonnade.campaign.draft import draft
+from colonnade.campaign.draft.write import draft
 from colonnade.laboratory import write_campaign
 from colonnade.workflow import run
 

@@ -5,7 +5,7 @@ import shutil
 import pytest
 
 from colonnade.campaign import load
-from colonnade.campaign.draft import draft
+from colonnade.campaign.draft.write import draft
 from page_blocks import PROJECT, Block, Reader, blocks_of
 
 TUTORIAL = PROJECT / "docs" / "tutorial"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from colonnade.campaign.draft import draft
+from colonnade.campaign.draft.write import draft
 from colonnade.errors import CampaignError, ReadError
 from colonnade.readers.motion import read_motion
 from colonnade.readers.registry import read

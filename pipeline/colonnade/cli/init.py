@@ -14,7 +14,7 @@ from colonnade.cli.common.progress import work_progress
 from colonnade.errors import count
 
 if TYPE_CHECKING:
-    from colonnade.campaign.draft import CampaignDraft
+    from colonnade.campaign.draft.write import CampaignDraft
 
 DRAWING = "drawing.svg"
 """Name of the drawing next to the draft."""
@@ -35,7 +35,7 @@ def init(folder: Path, as_json: bool) -> int:
     as "?" for you to fill in. An existing campaign.toml is never overwritten. A drawing next to it shows the
     transducers with the directions that were guessed.
     """
-    from colonnade.campaign.draft import draft
+    from colonnade.campaign.draft.write import draft
     from colonnade.figures.drawing.described import of_draft
     from colonnade.figures.files.saving import expect_place, save
     from colonnade.store.files import write_text

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from colonnade import units
-from colonnade.errors import StoreError, UnitError, nearest
+from colonnade.errors import StoreError, nearest
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -63,15 +63,11 @@ def udunits(unit: str | None) -> str | None:
     >>> udunits("Volts"), udunits("g's"), udunits("furlong"), udunits(None)
     ('V', '9.80665 m s-2', None, None)
     """
-    if unit is None:
+    if unit is None or (found := units.find_unit(unit)) is None:
         return None
-    try:
-        usual = units.normalise_unit(unit)
-        factor, si_unit = units.si_factor(unit)
-    except UnitError:
-        return None
-    if usual in _UDUNITS:
-        return usual
+    if found.symbol in _UDUNITS:
+        return found.symbol
+    factor, si_unit = units.si_factor(unit)
     return si_unit if factor == 1.0 else f"{factor!r} {si_unit}"
 
 
@@ -225,23 +221,13 @@ class Variable:
         return {name: value for name, value in given.items() if value is not None}
 
 
-_CONTENTS = {
-    "measured": MEASURED,
-    "modelled": MODELLED,
-    "auxiliary": AUXILIARY,
-    "quality": QUALITY,
-    "coordinate": COORDINATE,
-}
-"""ACDD's words for the column `content`."""
-
-
 def _table() -> dict[str, Variable]:
     with Path(__file__).with_name("variables.csv").open(encoding="utf-8", newline="") as stream:
         return {
             row["name"]: Variable(
                 row["long_name"],
                 row["units"] or None,
-                _CONTENTS[row["content"]],
+                row["content"],
                 row["standard_name"] or None,
                 row["dtype"],
                 row["comment"] or None,

@@ -265,6 +265,21 @@ def normalise_unit(text: str) -> str:
     return resolve(text).symbol
 
 
+def find_unit(unit: str) -> Unit | None:
+    """
+    Look a unit up; None if it is not known.
+
+    Examples
+    --------
+    >>> find_unit("Volts").symbol, find_unit("furlong")
+    ('V', None)
+    """
+    try:
+        return resolve(unit)
+    except UnitError:
+        return None
+
+
 def same_unit(first: str, second: str) -> bool:
     """
     Whether two spellings mean the same unit; false if one is unknown and they differ.
@@ -274,7 +289,7 @@ def same_unit(first: str, second: str) -> bool:
     >>> same_unit("g's", "g"), same_unit("mV", "V"), same_unit("furlong", "mm")
     (True, False, False)
     """
-    one, other = _known_or_none(first), _known_or_none(second)
+    one, other = find_unit(first), find_unit(second)
     if one is None or other is None:
         return first.strip() == second.strip()
     return one.dimension == other.dimension and isclose(one.factor, other.factor)
@@ -289,7 +304,7 @@ def is_of(unit: str, dimension: str) -> bool:
     >>> is_of("g", "acceleration"), is_of("mm", "acceleration"), is_of("", "length")
     (True, False, False)
     """
-    found = _known_or_none(unit)
+    found = find_unit(unit)
     return found is not None and _has(found, dimension)
 
 
@@ -302,15 +317,8 @@ def is_physical(unit: str) -> bool:
     >>> is_physical("mm/V"), is_physical("counts"), is_physical("furlong")
     (True, False, False)
     """
-    found = _known_or_none(unit)
+    found = find_unit(unit)
     return found is not None and bool(found.dimension.keys() - {"count"})
-
-
-def _known_or_none(unit: str) -> Unit | None:
-    try:
-        return resolve(unit)
-    except UnitError:
-        return None
 
 
 def _si_unit(dimension: str) -> Unit:

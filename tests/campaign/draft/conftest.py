@@ -5,7 +5,7 @@ import tomllib
 import numpy as np
 import pytest
 
-from colonnade.campaign.draft import draft
+from colonnade.campaign.draft.write import draft
 
 
 @pytest.fixture

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from colonnade.campaign import load
-from colonnade.campaign.draft import draft
-from colonnade.campaign.draft.write import MOST_SETUPS
+from colonnade.campaign.draft.write import MOST_SETUPS, draft
 from colonnade.errors import CampaignError
 
 TIME = np.arange(0.0, 1.0, 0.01)

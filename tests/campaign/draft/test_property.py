@@ -10,7 +10,7 @@ from hypothesis import Phase, example, given, settings
 from hypothesis import strategies as st
 
 from colonnade.campaign import load
-from colonnade.campaign.draft import draft
+from colonnade.campaign.draft.write import draft
 from colonnade.errors import CampaignError
 
 TIME = np.arange(0.0, 0.4, 0.01)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from colonnade.campaign import load
-from colonnade.campaign.draft import draft
+from colonnade.campaign.draft.write import draft
 from colonnade.errors import CampaignError
 
 TIME = np.arange(0.0, 10.0, 0.01)

@@ -14,7 +14,6 @@ from colonnade.campaign.draft.survey import Column, Files
 from colonnade.campaign.draft.words import AXES, Line, axis, comment, find, plain, unique, words
 from colonnade.campaign.syntax.document import toml_value
 from colonnade.campaign.test import KINDS
-from colonnade.errors import UnitError
 
 MOST_UNKNOWN = 12
 """Unknown columns are asked about one by one up to this many."""
@@ -115,14 +114,6 @@ def meaning(column: Column) -> Meaning | str:
     )
 
 
-def _is_known(unit: str) -> bool:
-    try:
-        units.normalise_unit(unit)
-    except UnitError:
-        return False
-    return True
-
-
 def draft_channels(recorders: Mapping[str, Sequence[Column]]) -> tuple[list[Meaning], dict[str, list[str]]]:
     """
     Draft the channels of a setup.
@@ -197,13 +188,12 @@ def _unit(each: Meaning) -> Iterator[Line]:
     if not unit:
         asked = f'write one such as "{usual}", or "V" with a line gain = "10 {usual}/V" below it'
         yield Line("unit", '"?"', question=f"the file gives no unit: {asked}")
-    elif not _is_known(unit):
+    elif (found := units.find_unit(unit)) is None:
         yield Line("unit", '"?"', question=f'the file says "{unit}", which is not a known unit')
     else:
         yield Line("unit", toml_value(unit), "as in the file")
         if dimension is not None and not each.is_physical:
-            recorded = units.normalise_unit(unit)
-            below = f"({recorded})" if {"/", " "} & set(recorded) else recorded
+            below = f"({found.symbol})" if {"/", " "} & set(found.symbol) else found.symbol
             yield Line("gain", toml_value(f"? {usual}/{below}"), question="from its calibration sheet")
 
 

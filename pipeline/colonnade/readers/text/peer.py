@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from colonnade import units
-from colonnade.errors import ReadError, UnitError
+from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, from_head, head_of
@@ -26,10 +26,8 @@ def spelled(unit: str) -> str:
     >>> [spelled(unit) for unit in ("CM/SEC/SEC", "cm/sec2", "G", "counts/volt")]
     ['cm/s^2', 'cm/s^2', 'g', 'count/V']
     """
-    try:
-        return units.normalise_unit(unit.casefold())
-    except UnitError:
-        return unit.casefold()
+    found = units.find_unit(unit.casefold())
+    return found.symbol if found else unit.casefold()
 
 
 HEADER_LINES = 8
