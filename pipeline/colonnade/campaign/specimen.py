@@ -223,6 +223,5 @@ class Measured(Specimen):
 
 
 AnySpecimen = Annotated[Prism | Cylinder | Cone | Measured, Field(discriminator="shape")]
-SHAPES = ("prism", "cylinder", "cone", "measured")
 SIZED: dict[str, type[Specimen]] = {"prism": Prism, "cylinder": Cylinder, "cone": Cone}
 """Shapes that have outer dimensions."""

@@ -92,6 +92,11 @@ class Verdict:
         """Verdict that flags nothing."""
         return cls(Flag.GOOD, np.zeros(size, dtype=bool), "")
 
+    @classmethod
+    def of(cls, flag: Flag, where: Mask, reason: str, kind: str, severity: Severity = Severity.WARNING) -> Verdict:
+        """Verdict that flags samples; that all is good if there are none."""
+        return cls(flag, where, reason, kind, severity) if where.any() else cls.good(where.size)
+
 
 def combine(verdicts: Iterable[Verdict], size: int) -> tuple[Codes, list[Finding]]:
     """
@@ -202,11 +207,9 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
     where = np.zeros(values.size, dtype=bool)
     where[np.concatenate((single, double, double + 1))] = True
     where &= known
-    if not where.any():
-        return Verdict.good(values.size)
     # They are bridged: a few do not touch the result.
     severity = Severity.NOTE if where.mean() <= FEW_SPIKES else Severity.WARNING
-    return Verdict(Flag.FAIL, where, f"spikes on {counted(where)}{first_at(time, where)}", "spikes", severity)
+    return Verdict.of(Flag.FAIL, where, f"spikes on {counted(where)}{first_at(time, where)}", "spikes", severity)
 
 
 def _bend(before: Array, sample: Array, behind: Array) -> Array:
@@ -312,14 +315,12 @@ def check_rails(time: Array, values: Array) -> Verdict:
                 continue
             if top - max(signed[start - half], signed[stop + half - 1]) > STEEP * BAND * noise:
                 where[start:stop] = True
-    if not where.any():
-        return Verdict.good(values.size)
-    level = float(np.abs(values[where]).max())
+    level = float(np.abs(values[where]).max(initial=0.0))
     reason = (
         f"{counted(where)} stay at {level:.4g} (as recorded){first_at(time, where)}, between steep flanks: the channel "
         "saturates, and the value was larger. Its peaks are lower bounds. Choose a larger range"
     )
-    return Verdict(Flag.SUSPECT, where, reason, "end of the range")
+    return Verdict.of(Flag.SUSPECT, where, reason, "end of the range")
 
 
 def counted(where: Mask) -> str:

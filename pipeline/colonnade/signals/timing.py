@@ -120,13 +120,11 @@ def check_gaps(clock: Clock, *, factor: float) -> Verdict:
     kept, steps, counts = _steps(clock)
     longer = steps - (counts - 1)
     after = np.flatnonzero(longer > factor)
-    if after.size == 0:
-        return Verdict.good(clock.time.size)
     where = np.zeros(clock.time.size, dtype=bool)
     where[kept[after]] = where[kept[after + 1]] = True
     lost = count(int(np.rint(longer[after] - 1).sum()), "sample")
     reason = f"{count(after.size, 'gap')} in time, about {lost} lost{first_at(clock.time, where)}"
-    return Verdict(Flag.SUSPECT, where, reason, "lost samples")
+    return Verdict.of(Flag.SUSPECT, where, reason, "lost samples")
 
 
 def check_jitter(clock: Clock, *, share: float, factor: float) -> Verdict:
@@ -135,13 +133,11 @@ def check_jitter(clock: Clock, *, share: float, factor: float) -> Verdict:
     # Where a stamp is lost, its sample may be lost with it or not.
     off = np.minimum(np.abs(steps - 1), np.abs(steps - counts))
     uneven = (off > share) & (steps - (counts - 1) <= factor)
-    if not uneven.any():
-        return Verdict.good(clock.time.size)
     where = np.zeros(clock.time.size, dtype=bool)
     where[kept[1:][uneven]] = True
-    largest = 1e3 * clock.interval * float(off[uneven].max())
+    largest = 1e3 * clock.interval * float(off[uneven].max(initial=0.0))
     reason = f"{counted(where)} up to {largest:.3g} ms off an even clock of {1e3 * clock.interval:.6g} ms"
-    return Verdict(Flag.SUSPECT, where, reason, "time column")
+    return Verdict.of(Flag.SUSPECT, where, reason, "time column")
 
 
 def _is_exact(stamps: Array) -> bool:

@@ -18,6 +18,7 @@ from pydantic import (
 )
 from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
+from colonnade.campaign.syntax.document import Place
 from colonnade.campaign.syntax.fields import UNITS, shown
 from colonnade.errors import nearest
 
@@ -97,8 +98,6 @@ _WANTED = {
     "float_type": "A plain number was expected, without quotes and without a unit.",
     "finite_number": "A finite number was expected.",
 } | dict.fromkeys(("model_type", "dict_type", "model_attributes_type"), "A table was expected.")
-
-Place = tuple[str | int, ...]
 
 
 def _explained(table: type[Table], data: Any, errors: list[ErrorDetails]) -> Iterator[InitErrorDetails]:

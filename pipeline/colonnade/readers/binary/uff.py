@@ -16,6 +16,7 @@ from colonnade.readers.clock import even_times
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
+from colonnade.readers.text.encoding import encoding_of
 from colonnade.readers.text.running import read_running
 
 MARK = b"-1"
@@ -104,7 +105,9 @@ def _data_sets(stream: BinaryIO) -> Iterator[tuple[int, list[str]]]:
 
 def _function(stream: BinaryIO, fields: list[str], warnings: list[str], notes: list[str]) -> Iterator[RecordedChannel]:
     """Read a data set 58, its eleven lines by their columns; ValueError or IndexError if it is incomplete."""
-    title, *_, kinds, form, abscissa, ordinate, _, _ = (_decoded(stream.readline()) for _ in range(HEADER_LINES))
+    lines = [stream.readline() for _ in range(HEADER_LINES)]
+    texts = (line.decode(encoding_of(line).name, errors="replace").rstrip("\r\n") for line in lines)
+    title, *_, kinds, form, abscissa, ordinate, _, _ = texts
     direction = DIRECTIONS.get(int(kinds[51:55] or 0), "")
     node = f"node {kinds[31:41].strip()} {kinds[41:51].strip()} {direction}"
     name = _label(title) or node.replace("NONE", "").strip()
@@ -131,14 +134,6 @@ def _function(stream: BinaryIO, fields: list[str], warnings: list[str], notes: l
         time = even_times(values.size, step, begin)
     second = TIME_UNITS.get(_label(abscissa[46:66]).casefold(), 1.0)
     yield RecordedChannel(name, _label(ordinate[46:66]) or None, values, None if time is None else time * second)
-
-
-def _decoded(line: bytes) -> str:
-    """Text of a header's line: UTF-8 if it is valid, else Windows-1252."""
-    try:
-        return line.decode("utf-8").rstrip("\r\n")
-    except UnicodeDecodeError:
-        return line.decode("cp1252", errors="replace").rstrip("\r\n")
 
 
 def _label(text: str) -> str:
