@@ -33,11 +33,6 @@ def shown_table(table: ForecastTable) -> tuple[str, str, str]:
     )
 
 
-def shown_shares(model: ModelForecast) -> tuple[str, str, str]:
-    """Write the probabilities of no rocking, rocking and overturning."""
-    return format_percent(model.no_rocking), format_percent(model.rocking), format_percent(model.overturned)
-
-
 def shown_band(band: ForecastBand) -> str:
     """
     Write a band of the peak; 1 is overturned.
@@ -54,7 +49,8 @@ def shown_band(band: ForecastBand) -> str:
 def shown_model(model: ModelForecast) -> tuple[str, ...]:
     """Write what a model foresees, as of `FORESEEN`: probabilities, bands of the peak, friction needed."""
     friction = "lifts off" if model.required_friction is None else number(model.required_friction, 2)
-    return (*shown_shares(model), *map(shown_band, model.bands), friction)
+    shares = map(format_percent, (model.no_rocking, model.rocking, model.overturned))
+    return (*shares, *map(shown_band, model.bands), friction)
 
 
 if TYPE_CHECKING:
@@ -121,11 +117,8 @@ def _judged(found: Scored) -> JudgedForecasts:
 def _mean(scores: Array) -> ForecastScores:
     """Mean of each score over the tests that have it."""
     known = scores[~np.isnan(scores).any(axis=1)]
-    return (
-        ForecastScores(**dict(zip(SCORES, known.mean(axis=0).tolist(), strict=True)))
-        if known.size
-        else ForecastScores()
-    )
+    means = known.mean(axis=0).tolist() if known.size else [None] * len(SCORES)
+    return ForecastScores(**dict(zip(SCORES, means, strict=True)))
 
 
 def _base_rate(observed: list[Response]) -> Array:

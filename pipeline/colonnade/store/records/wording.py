@@ -82,7 +82,7 @@ def verdict(test: TestSummary, model: str) -> str:
     """
     found = test.predicted.get(model, PredictionSummary())
     within = is_within(nan if found.within_spread is None else found.within_spread)
-    if within is False or _agrees(test, found) is False:
+    if within is False or agree(test.outcome or test.observed_outcome or "", found.outcome or "") is False:
         return DIFFERS
     return WITHIN if within else ""
 
@@ -158,10 +158,6 @@ def predicted(test: TestSummary) -> dict[str, str]:
         for model in exact_first
         if test.predicted[model].outcome
     }
-
-
-def _agrees(test: TestSummary, found: PredictionSummary) -> bool | None:
-    return agree(test.outcome or test.observed_outcome or "", found.outcome or "")
 
 
 def _prediction(test: TestSummary, found: PredictionSummary) -> str:
