@@ -158,16 +158,16 @@ def _free(numbers: Numbers) -> list[str]:
             f"{each['true']:g}",
             f"{each['value']:.5f}",
             f"± {(each['high'] - each['low']) / 2:.0e}",
-            ", ".join(fixed(value, 4) for value in each["by_the_linear_model"]),
+            ", ".join(fixed(value, 4) for value in each["by_whole_histories"]),
         ]
         for specimen, each in found.items()
     ]
     return [
         *_figures(numbers, "3", "10"),
         "## Coefficient of restitution",
-        "By the peaks, as colonnade identifies it, and by the paper's way: the e with which the linear model follows "
-        "the whole history best.",
-        table(("specimen", "true e", "identified", "95 % interval", "by the linear model, each record"), values),
+        "Pooled over the free vibrations, and of each record: the e with which the nonlinear model follows its whole "
+        "history best.",
+        table(("specimen", "true e", "identified", "95 % interval", "by the whole history, each record"), values),
         "## Misfit, large and small amplitudes",
         "RMS of predicted less measured θ over α, in the first four predicted arcs (early) and in the twelve after "
         "them (late). The virtual prism cannot leave its plane: what the linear model misses here is the equation's "

@@ -140,8 +140,7 @@ STAGE = 10
 
 
 def restitution(summary: Summary, truth: Mapping[str, Any]) -> Numbers:
-    """Give e of each specimen: true, pooled, and by the paper's way, which fits the linear model to whole "
-    "histories."""
+    """Give e of each specimen: true, pooled, and of the whole history of each free vibration."""
     found: Numbers = {}
     for name, true in truth["specimens"].items():
         pooled = summary.specimens[name].restitution
@@ -153,7 +152,7 @@ def restitution(summary: Summary, truth: Mapping[str, Any]) -> Numbers:
         found[name] = {
             "true": true["restitution"],
             **pooled.model_dump(include={"value", "low", "high", "source"}),
-            "by_the_linear_model": fitted,
+            "by_whole_histories": fitted,
         }
     return found
 

@@ -32,12 +32,12 @@ def _e_of_the_prism(numbers: Numbers) -> str:
 )
 def _e_by_best_fit(numbers: Numbers) -> Answer:
     found = numbers["restitution"]["prism"]
-    fitted = found["by_the_linear_model"]
+    fitted = found["by_whole_histories"]
     known = [each for each in fitted if each is not None]
     words = ", ".join(f"{each:.4f}" for each in known)
     return judged(
         bool(known) and all(abs(each - found["true"]) <= E_DIGIT for each in known),
-        f"linear model fitted to the whole histories: {words}; true is {found['true']:g}",
+        f"nonlinear model fitted to the whole histories: {words}; true is {found['true']:g}",
     )
 
 

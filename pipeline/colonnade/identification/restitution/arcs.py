@@ -295,7 +295,7 @@ def _read_off(
     summit = -np.arctanh(odd / even)
     radius = np.sign(even) * sqrt(even**2 - odd**2)
     peak, time = constant - even + radius, middle + summit / p
-    error = sqrt(variance * _spread(inverse, summit, summit))
+    error = sqrt(variance * _spread(inverse, summit))
     height = (even - constant) / radius
     if not height > 1:
         return time, peak, error, nan, nan, nan, nan
@@ -303,17 +303,17 @@ def _read_off(
     rise, fall = summit - reach, summit + reach
     of_rise = p * (even * sinh(rise) + odd * cosh(rise))
     of_fall = p * (even * sinh(fall) + odd * cosh(fall))
-    rise_error = sqrt(variance * _spread(inverse, rise, rise)) / abs(of_rise)
-    fall_error = sqrt(variance * _spread(inverse, fall, fall)) / abs(of_fall)
+    rise_error = sqrt(variance * _spread(inverse, rise)) / abs(of_rise)
+    fall_error = sqrt(variance * _spread(inverse, fall)) / abs(of_fall)
     return time, peak, error, middle + rise / p, middle + fall / p, rise_error, fall_error
 
 
 @kernel
-def _spread(inverse: Array, one: float, other: float) -> float:
-    """Covariance of the fitted curve at two x, in the variance of a sample."""
-    row, column = (1.0, cosh(one) - 1.0, sinh(one)), (1.0, cosh(other) - 1.0, sinh(other))
+def _spread(inverse: Array, x: float) -> float:
+    """Variance of the fitted curve at x, in the variance of a sample."""
+    row = (1.0, cosh(x) - 1.0, sinh(x))
     total = 0.0
     for i in range(3):
         for k in range(3):
-            total += row[i] * inverse[i, k] * column[k]
+            total += row[i] * inverse[i, k] * row[k]
     return total

@@ -266,36 +266,28 @@ def _estimated(path: Path, priors: Priors, lowpass: float | None) -> Estimated:
         scatter = now
     if spectrum is None or not may_be_coloured(path.residual, spectrum.interval, spectrum.cutoff_hz, spectrum.step):
         return found
-    transformed, names = _transformed(path, priors, spectrum)
-    precision = np.append(priors.precision(path.count, 1.0)[list(names)], np.full(path.count - 1, now**-2.0))
+    order = [*found.names, *range(FIXED, path.values.size)]
+    transformed, precision = _transformed(path, order, spectrum), priors.precision(path.count, now)[order]
     knee = find_knee(transformed, precision, found.model.level)
-    if knee == 0:
-        return found
-    return _linear(path, priors, replace(spectrum, knee=knee))
+    return found if knee == 0 else _linear(path, priors, replace(spectrum, knee=knee))
 
 
-def _names(priors: Priors) -> tuple[int, ...]:
-    return tuple(name for name in ORDER if priors.widths[name] > 0)
-
-
-def _transformed(path: Path, priors: Priors, spectrum: Spectrum) -> tuple[Transformed, tuple[int, ...]]:
-    names = _names(priors)
-    order = np.append(np.array(names), np.arange(FIXED, path.values.size))
-    return spectrum.transformed(np.where(path.counted, path.residual, 0.0), path.columns[order]), names
+def _transformed(path: Path, order: list[int], spectrum: Spectrum) -> Transformed:
+    return spectrum.transformed(np.where(path.counted, path.residual, 0.0), path.columns[order])
 
 
 def _linear(path: Path, priors: Priors, spectrum: Spectrum | None) -> Estimated:
-    names = _names(priors)
-    counted = path.counted
+    names = tuple(name for name in ORDER if priors.widths[name] > 0)
+    order = [*names, *range(FIXED, path.values.size)]
+    count = float(path.counted.sum())
     if spectrum is None or (spectrum.knee == 0 and spectrum.cutoff_hz is None):
-        order = np.append(np.array(names), np.arange(FIXED, path.values.size))
         products, gradient = path.products
         products, gradient = products[np.ix_(order, order)], gradient[order]
-        square, count = float(path.residual[counted] @ path.residual[counted]), float(counted.sum())
+        square = path.power * count
         both = np.vstack((np.append(square, gradient), np.column_stack((gradient, products))))
     else:
-        transformed, _ = _transformed(path, priors, spectrum)
-        both, count = transformed.rows @ transformed.rows.T, float(counted.sum()) * transformed.share
+        transformed = _transformed(path, order, spectrum)
+        both, count = transformed.rows @ transformed.rows.T, count * transformed.share
     # As seen from the mean: what the impacts' own departures explain is left in the values.
     turn = np.eye(both.shape[0])
     turn[1 + len(names) :, 0] = path.deviations

@@ -96,8 +96,6 @@ def corner_response(
     rounding: Filter, time: Array, followed: Followed, critical: Array, p: Array, side: int, e: Array
 ) -> Array:
     """Filtered less unfiltered angle at times (s), rad; impacts as followed, the last with the e of the one before."""
-    if rounding.cutoff_hz is None and not rounding.time.size:
-        return np.zeros(time.size)
     at_rest = np.append(e, e[-1:] if e.size else 1.0)
     signs = np.where((side + np.arange(at_rest.size)) % 2, 1.0, -1.0)
     # Where the first arc was seen from its start on, it began with an impact too.
@@ -175,38 +173,20 @@ class Transformed(NamedTuple):
 
 def find_cutoff(residual: Array, interval: float, step: float) -> float | None:
     """Cut-off (Hz) of the low-pass that a residual, NaN where not counted, went through; None if it shows none."""
-    counted = np.isfinite(residual)
-    if counted.sum() < FEWEST:
+    bands = _Bands.of_residual(residual, interval, None, step)
+    if bands is None:
         return None
-    power = np.abs(np.fft.rfft(np.where(counted, residual, 0.0)))[1:] ** 2
-    frequency = scipy.fft.rfftfreq(residual.size, interval)[1:]
-    bands = _Bands.of(frequency, power, np.full(power.size, 2.0))
-    flat = max(bands.likelihood(1 + knee / bands.frequency) for knee in bands.knees)
     cutoffs = np.geomspace(4 * bands.frequency[0], FINEST_CUTOFF / interval, CUTOFFS).tolist()
-    found = [
-        max(
-            bands.likelihood((1 + knee / bands.frequency) * (passed(bands.frequency, cutoff, step) ** 2 + FLOOR))
-            for knee in bands.knees
-        )
-        for cutoff in cutoffs
-    ]
+    left = np.array([passed(bands.frequency, cutoff, step) for cutoff in cutoffs]) ** 2 + FLOOR
+    found = bands.likelihoods(left).max(axis=-1)
     best = int(np.argmax(found))
-    return float(cutoffs[best]) if found[best] > flat + SURE else None
+    return float(cutoffs[best]) if found[best] > bands.likelihoods().max() + SURE else None
 
 
 def may_be_coloured(residual: Array, interval: float, cutoff_hz: float | None, step: float) -> bool:
     """Whether a residual, NaN where not counted, is likelier with any knee than white, before what a fit took up."""
-    counted = np.isfinite(residual)
-    if counted.sum() < FEWEST:
-        return False
-    frequency = scipy.fft.rfftfreq(residual.size, interval)[1:]
-    left = passed(frequency, cutoff_hz, step) ** 2
-    kept = left > PASSED
-    power = np.abs(np.fft.rfft(np.where(counted, residual, 0.0)))[1:][kept] ** 2 / left[kept]
-    bands = _Bands.of(frequency[kept], power, np.full(power.size, 2.0))
-    return max(bands.likelihood(1 + knee / bands.frequency) for knee in bands.knees[1:]) > bands.likelihood(
-        np.ones(bands.frequency.size)
-    )
+    bands = _Bands.of_residual(residual, interval, cutoff_hz, step)
+    return bands is not None and int(np.argmax(bands.likelihoods())) > 0
 
 
 def find_knee(transformed: Transformed, precision: Array, level: float) -> float:
@@ -231,20 +211,20 @@ def find_knee(transformed: Transformed, precision: Array, level: float) -> float
     power = (rows[0] ** 2).reshape(-1, 2).sum(axis=1)
     freedom = np.maximum(1 - taken.reshape(-1, 2).sum(axis=1), 1e-3)
     bands = _Bands.of(transformed.frequency, power, freedom)
-    found = [bands.likelihood(1 + knee / bands.frequency) for knee in bands.knees]
+    found = bands.likelihoods()
     best = int(np.argmax(found))
     # White noise is as likely beforehand as all others together.
-    return bands.knees[best] if found[best] > found[0] + np.log(KNEES) else 0.0
+    return float(bands.knees[best]) if found[best] > found[0] + np.log(KNEES) else 0.0
 
 
 @dataclass(frozen=True)
 class _Bands:
-    """A spectrum averaged over bands: mean frequency (Hz), mean power, and degrees of freedom of each."""
+    """A spectrum averaged over bands: mean frequency (Hz), mean power, and degrees of freedom of each; knees (Hz)."""
 
     frequency: Array
     power: Array
     freedom: Array
-    knees: list[float]
+    knees: Array
 
     @classmethod
     def of(cls, frequency: Array, power: Array, freedom: Array) -> _Bands:
@@ -254,10 +234,23 @@ class _Bands:
         starts = np.array(edges[:-1])
         total, weight = (np.add.reduceat(each, starts) for each in (power, freedom))
         middle = np.add.reduceat(frequency, starts) / np.diff([*edges[:-1], power.size])
-        knees = [0.0, *np.geomspace(frequency[0], 3 * frequency[-1], KNEES).tolist()]
+        knees = np.append(0.0, np.geomspace(frequency[0], 3 * frequency[-1], KNEES))
         return cls(middle, total / weight, weight, knees)
 
-    def likelihood(self, shape: Array) -> float:
-        """Logarithm of the likelihood (Whittle's) of a shape of the spectrum, its level being the likeliest."""
-        level = float((self.freedom * self.power / shape).sum() / self.freedom.sum())
-        return -0.5 * float((self.freedom * np.log(level * shape)).sum())
+    @classmethod
+    def of_residual(cls, residual: Array, interval: float, cutoff_hz: float | None, step: float) -> _Bands | None:
+        """Take the spectrum of a residual, NaN where not counted, before its low-pass; None of too few samples."""
+        counted = np.isfinite(residual)
+        if counted.sum() < FEWEST:
+            return None
+        frequency = scipy.fft.rfftfreq(residual.size, interval)[1:]
+        left = passed(frequency, cutoff_hz, step) ** 2
+        kept = left > PASSED
+        power = np.abs(np.fft.rfft(np.where(counted, residual, 0.0)))[1:][kept] ** 2 / left[kept]
+        return cls.of(frequency[kept], power, np.full(power.size, 2.0))
+
+    def likelihoods(self, left: Array | float = 1.0) -> Array:
+        """Logarithm of Whittle's likelihood of each of `knees`, at the likeliest level; a low-pass leaves (…, b)."""
+        shape = np.atleast_1d(left)[..., None, :] * (1 + self.knees[:, None] / self.frequency)
+        level = (self.freedom * self.power / shape).sum(axis=-1, keepdims=True) / self.freedom.sum()
+        return np.asarray(-0.5 * (self.freedom * np.log(level * shape)).sum(axis=-1))

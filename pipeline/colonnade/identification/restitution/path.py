@@ -166,9 +166,9 @@ class Path:
     def _by_arc(self) -> tuple[Array, Array]:
         """Local columns, shape (n, 7), and their derivatives by all unknowns for each arc, shape (m, 7, k)."""
         followed, gain = self.followed, exp(self.values[GAIN])
-        local = np.column_stack((followed.local, np.ones(followed.angle.size), self.samples.along, followed.angle))
-        local[:, :LOCAL] *= gain
-        local[:, -1] *= gain
+        local = np.empty((followed.angle.size, LOCAL + 3))
+        local[:, :LOCAL], local[:, LOCAL] = gain * followed.local, 1.0
+        local[:, LOCAL + 1], local[:, LOCAL + 2] = self.samples.along, gain * followed.angle
         arcs, count = np.zeros((self.count, LOCAL + 3, self.values.size)), self.count
         signs = np.where((self.side + np.arange(count)) % 2, 1.0, -1.0)
         arcs[:, :2, :BY_IMPACT] = followed.starts[:, :, :BY_IMPACT]

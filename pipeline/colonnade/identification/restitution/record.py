@@ -119,15 +119,15 @@ def _means(values: Array, group: int) -> Array:
     return np.asarray(values[: group * (values.size // group)].reshape(-1, group).mean(axis=1))
 
 
-def moving_base(time: Array, acceleration: ArrayLike | None, block: Block) -> Array | None:
+def moving_base(time: Array, acceleration: ArrayLike, block: Block) -> Array | None:
     """
-    Return the acceleration, over gravity, of a table that moves; None if it is at rest or was not recorded.
+    Return the acceleration, over gravity, of a table that moves; None if it is at rest.
 
     Parameters
     ----------
     time : ndarray, shape (n,)
         s.
-    acceleration : array_like, shape (n,), or None
+    acceleration : array_like, shape (n,)
         m/s².
     block : Block
 
@@ -136,8 +136,6 @@ def moving_base(time: Array, acceleration: ArrayLike | None, block: Block) -> Ar
     ValueError
         If the table moves and samples are missing or not evenly spaced.
     """
-    if acceleration is None:
-        return None
     values = np.asarray(acceleration, dtype=np.float64)
     interval = float(time[-1] - time[0]) / (time.size - 1)
     if not table_moves(values, interval, block):
