@@ -250,7 +250,7 @@ def components_of(entry: Entry, notes: list[str]) -> Iterator[Component]:
         column = int(entry.column) if entry.column.isdecimal() else entry.column or None
         motions = read_motions(path, unit=entry.unit, dt=entry.interval, column=column)
     notes += dict.fromkeys(str(each.message) for each in told)
-    files = tuple((each.name, sha256_of(each) or "") for each in (path, *companions(path)))
+    files = tuple((each.name, _hashed(each)) for each in (path, *companions(path)))
     record, direction = named(path.name)
     if len(motions) > 1 and (entry.component or not all(direction_of(head)[0] for head in motions)):
         heads = ", ".join(f'"{head}"' for head in motions)
@@ -279,3 +279,10 @@ def _usable(motion: Motion, scale: float) -> Motion:
             f"its peak is {scaled.peak:.3g} m/s²; at most {LARGEST_ACCELERATION:g} m/s² was expected. Check its unit."
         )
     return scaled
+
+
+def _hashed(path: Path) -> str:
+    digest = sha256_of(path)
+    if digest is None:
+        raise ReadError(f"{path.name}: this file cannot be read.")
+    return digest
