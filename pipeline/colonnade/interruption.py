@@ -11,6 +11,8 @@ from __future__ import annotations
 import signal
 import sys
 import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import FrameType
 
 _AGAIN = 0.1
@@ -67,6 +69,46 @@ def expect_none() -> None:
     """
     if _noted:
         raise KeyboardInterrupt
+
+
+@contextmanager
+def held_back() -> Iterator[None]:
+    """
+    Keep signals from what must not be torn in two; they are sent again at its end.
+
+    Processes that are started here do not get those of `FROM_TERMINAL` at all: they would be torn from their imports.
+    The mask alone is not enough: it holds for this thread only, and Python runs handlers in its main thread whichever
+    thread was sent the signal.
+    """
+    came: list[int] = []
+    handlers = {
+        signum: signal.signal(signum, lambda signum, frame: came.append(signum))
+        for signum in {signal.SIGTERM, *FROM_TERMINAL}
+        if threading.current_thread() is threading.main_thread() and callable(signal.getsignal(signum))
+    }
+    before = _masked()
+    try:
+        yield
+    finally:
+        if before is not None:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        for signum, handler in handlers.items():
+            signal.signal(signum, handler)
+        for signum in came[:1]:
+            _send(signum)
+
+
+def _masked() -> set[signal.Signals | int] | None:
+    """Mask the signals of a terminal in this thread; its mask before that, None where there are no masks."""
+    if not hasattr(signal, "pthread_sigmask"):
+        return None
+    from multiprocessing import resource_tracker
+
+    from joblib.externals.loky.backend import resource_tracker as of_loky
+
+    for tracker in (resource_tracker, of_loky):  # whose own start would let Ctrl-C through again
+        tracker.ensure_running()
+    return signal.pthread_sigmask(signal.SIG_BLOCK, FROM_TERMINAL)
 
 
 def _dropped(failure: sys.UnraisableHookArgs) -> None:

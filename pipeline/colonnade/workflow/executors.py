@@ -10,19 +10,19 @@ import signal
 import threading
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from concurrent.futures import Executor, Future
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from functools import partial
 from math import ceil
 from pathlib import Path
+from queue import Empty, SimpleQueue
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.errors import ColonnadeError
-from colonnade.interruption import FROM_TERMINAL, expect_none
+from colonnade.interruption import FROM_TERMINAL, expect_none, held_back
 from colonnade.store import files
 from colonnade.workflow.orphans import end_with
 
@@ -167,30 +167,35 @@ def _handed_out(
     """Hand out a few items at a time, and give results as they end."""
     waiting = iter(list(items.items()))
     pending: dict[Future[Result], int] = {}
+    ended: SimpleQueue[Future[Result]] = SimpleQueue()
     try:
         while True:
             expect_none()
-            with _interrupts_held_back():
+            with held_back():
                 while len(pending) < AHEAD * workers.number() and (given := next(waiting, None)) is not None:
-                    pending[workers.pool.submit(work, given[1])] = given[0]
+                    handed = workers.pool.submit(work, given[1])
+                    pending[handed] = given[0]
+                    handed.add_done_callback(ended.put)
             if not pending:
                 return
-            ended = wait(pending, timeout=LOOK, return_when=FIRST_COMPLETED).done
+            # `concurrent.futures.wait` would keep locks that the pool needs if Ctrl-C came as it takes them.
+            try:
+                future: Future[Result] | None = ended.get(timeout=LOOK)
+            except Empty:
+                future = None
             workers.look()
-            for future in sorted(ended, key=_is_lost):  # what was finished when a worker was stopped is not lost
-                number = pending.pop(future)
-                try:
-                    result = future.result()
-                except BaseException as error:
-                    raise workers.failed(error) from error.__cause__
-                yield number, result
+            if future is None:
+                continue
+            number = pending.pop(future)
+            try:
+                result = future.result()
+            except BaseException as error:
+                raise workers.failed(error) from error.__cause__
+            yield number, result
     finally:
         if pending:
-            workers.stop(list(pending))
-
-
-def _is_lost(future: Future[Any]) -> bool:
-    return future.cancelled() or future.exception() is not None
+            with held_back():
+                workers.stop(list(pending))
 
 
 def _processes(count: int) -> Workers:
@@ -198,13 +203,13 @@ def _processes(count: int) -> Workers:
     from joblib.externals.loky import get_reusable_executor
 
     # Each settles in as it starts, not with its first item: one that never gets any has to notice its parent's end too.
-    with _interrupts_held_back():
+    with held_back():
         pool = get_reusable_executor(count, initializer=_settle_in, initargs=(os.getpid(),), env=_ONE_THREAD)
     return Workers(pool, lambda: count, lambda: None, lambda error: error, partial(_stop_quietly, pool))
 
 
 def _stop_quietly(pool: Any, pending: Sequence[Future[Any]]) -> None:
-    """Stop the processes, on Ctrl-C before the lock is given back."""
+    """Stop the processes, on Ctrl-C before the lock is given back. Loky's thread breaks at a call that is cancelled."""
     original = threading.excepthook
 
     def tell(failure: threading.ExceptHookArgs) -> None:
@@ -214,30 +219,9 @@ def _stop_quietly(pool: Any, pending: Sequence[Future[Any]]) -> None:
 
     threading.excepthook = tell
     try:
-        for future in pending:
-            future.cancel()
         pool.shutdown(wait=True, kill_workers=True)
     finally:
         threading.excepthook = original
-
-
-@contextmanager
-def _interrupts_held_back() -> Iterator[None]:
-    """Keep Ctrl-C from processes that are started here, which inherit that: it would tear them from their imports."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    from multiprocessing import resource_tracker
-
-    from joblib.externals.loky.backend import resource_tracker as of_loky
-
-    for tracker in (resource_tracker, of_loky):  # whose own start would let Ctrl-C through again
-        tracker.ensure_running()
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, FROM_TERMINAL)
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _settle_in(parent: int) -> None:
