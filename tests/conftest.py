@@ -133,6 +133,35 @@ def _made_by(fill, files):
     return digest.hexdigest()[:16]
 
 
+BEGINNINGS = ("colonnade demo demo --short", "python recordings.py")
+"""Commands that many pages begin with."""
+
+
+@pytest.fixture(scope="session")
+def instead(made_once):
+    """What many pages begin with is made by the first of them; the others get a copy. See `page_blocks.Reader`."""
+    from page_blocks import Block, Reader
+
+    def copied(words, folder):
+        line = " ".join(words)
+        if line not in BEGINNINGS:
+            return None
+
+        def make(shared):
+            (shared / "made").mkdir(parents=True)
+            for script in folder.glob("*.py"):
+                shutil.copy(script, shared / "made")
+            reader = Reader(shared / "made")
+            reader.do(Block("", "sh", f"{line}\n"))
+            (shared / "output.txt").write_text(reader.output, encoding="utf-8")
+
+        shared = made_once(line.replace(" ", "-"), make, *sorted(folder.glob("*.py")))
+        shutil.copytree(shared / "made", folder, dirs_exist_ok=True)
+        return (shared / "output.txt").read_text(encoding="utf-8")
+
+    return copied
+
+
 @pytest.fixture
 def undrawn(monkeypatch):
     """Pictures of pages are empty: for tests of what is made again and when, not of what it shows."""

@@ -3,16 +3,14 @@
 import contextlib
 import io
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from PIL import Image
 
 import rebuild
-from colonnade.cli import invoke
 from colonnade.laboratory.programme import KEPT_AWAY
+from page_blocks import Block, Reader
 
 PROJECT = Path(__file__).parents[1]
 README = (PROJECT / "README.md").read_text(encoding="utf-8")
@@ -37,39 +35,18 @@ def folder(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def outputs(folder):
-    """
-    What each command that starts `colonnade` printed; the first that fails ends the run.
-
-    The first is a process of its own, as the reader starts it; the others save its seconds of imports.
-    """
-    printed = {}
+def outputs(folder, instead):
+    """What each command that starts `colonnade` printed; the first that fails ends the run."""
+    printed, reader = {}, Reader(folder, instead)
     (campaign,) = blocks("toml")
     for command in commands():
         command = command.removeprefix(".venv/bin/")
-        if command.startswith("colonnade "):
-            printed[command] = (called if printed else started)(command.split()[1:], folder)
-        elif command.startswith(("mkdir ", "cp ")):
-            subprocess.run(command.split(), cwd=folder, check=True)
+        if command.startswith(("colonnade ", "mkdir ", "cp ")):
+            reader.do(Block(f"README.md, `{command}`", "sh", f"{command}\n"))
+            printed[command] = reader.output
+        if command.startswith(("mkdir ", "cp ")):
             (folder / "first" / "campaign.toml").write_text(campaign, encoding="utf-8")
     return printed
-
-
-def started(arguments, folder):
-    """Run a command in a process of its own."""
-    call = [sys.executable, "-m", "colonnade", *arguments]
-    done = subprocess.run(call, cwd=folder, capture_output=True, encoding="utf-8")
-    assert done.returncode == 0, f"{arguments}\n{done.stdout}\n{done.stderr}"
-    return done.stdout
-
-
-def called(arguments, folder):
-    """Run a command in this process."""
-    out, err = io.StringIO(), io.StringIO()
-    with contextlib.chdir(folder), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-        code = invoke(arguments)
-    assert code == 0, f"{arguments}\n{out.getvalue()}\n{err.getvalue()}"
-    return out.getvalue()
 
 
 @pytest.mark.whole

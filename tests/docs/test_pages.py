@@ -1,41 +1,11 @@
 """What the pages of the documentation tell readers to type runs as it is printed; `page_blocks` says how."""
 
-import shutil
-
 import pytest
 
 from page_blocks import PROJECT, Block, Reader, assert_shown, assert_valid, blocks_of
 
 SECTIONS = ("tutorial", "how-to", "explanation", "faults")
 PAGES = sorted(page for section in SECTIONS for page in (PROJECT / "docs" / section).rglob("*.md"))
-
-
-BEGINNINGS = ("colonnade demo demo --short", "python recordings.py")
-"""Commands that many pages begin with."""
-
-
-@pytest.fixture
-def instead(made_once):
-    """What many pages begin with is made by the first of them; the others get a copy."""
-
-    def copied(words, folder):
-        line = " ".join(words)
-        if line not in BEGINNINGS:
-            return None
-
-        def make(shared):
-            (shared / "made").mkdir(parents=True)
-            for script in folder.glob("*.py"):
-                shutil.copy(script, shared / "made")
-            reader = Reader(shared / "made")
-            reader.do(Block("", "sh", f"{line}\n"))
-            (shared / "output.txt").write_text(reader.output, encoding="utf-8")
-
-        shared = made_once(line.replace(" ", "-"), make, *sorted(folder.glob("*.py")))
-        shutil.copytree(shared / "made", folder, dirs_exist_ok=True)
-        return (shared / "output.txt").read_text(encoding="utf-8")
-
-    return copied
 
 
 @pytest.mark.whole

@@ -215,7 +215,8 @@ def calibrate(
     if not reached and vary_stiffness:
         lowest = min((value for value, _, _ in found.values() if not isnan(value)), default=nan)
         order = HARDER_FIRST if lowest > restitution else SOFTER_FIRST
-        any(_reach(partial(run, stiffness), restitution, tried) for stiffness in order)
+        others = [partial(run, stiffness) for stiffness in order]
+        any(_may_reach(each, restitution, tried) and _reach(each, restitution, tried) for each in others)
     values = np.array([value for value, _, _ in found.values()])
     if step is not None and values.size == 0:
         raise ValueError(
@@ -242,6 +243,12 @@ def calibrate(
         residual=history.energies.relative_residual,
         body=history.body,
     )
+
+
+def _may_reach(run: Callable[[float], float], target: float, fractions: Sequence[float]) -> bool:
+    """Say by three runs whether a stiffness can give a restitution: e is least at one of the last two fractions."""
+    ends = [value for value in map(run, (*fractions[:1], *fractions[-2:])) if not isnan(value)]
+    return min(ends, default=nan) <= target <= max(ends, default=nan)
 
 
 def _reach(run: Callable[[float], float], target: float, fractions: Sequence[float]) -> bool:

@@ -125,7 +125,7 @@ def _start(texts: list[str]) -> datetime | None:
     first, second, third, hour, minute = (int(group) for group in found.groups()[:5])
     year, month, day = (first, second, third) if first > 31 else (third, first, second)
     try:
-        whole = datetime(year, month, day, hour, minute, tzinfo=UTC if found[7] in ("UTC", "GMT") else None)
+        whole = datetime(year, month, day, hour, minute, tzinfo=UTC if found[7].upper() in ("UTC", "GMT") else None)
         return moment_after(whole, float(found[6]))
     except ValueError:
         return None
