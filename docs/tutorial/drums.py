@@ -25,7 +25,7 @@ noise = np.random.default_rng(7)
 
 def shaking(strength):
     """Three periods of 1.6 Hz, with rests before and after."""
-    time = np.arange(0.0, 5.0, STEP)
+    time = np.arange(0.0, 4.0, STEP)
     inside = (time > 0.6) & (time < 0.6 + 3 / 1.6)
     return Motion(np.where(inside, strength * np.sin(2 * np.pi * 1.6 * (time - 0.6)), 0.0), STEP)
 

@@ -7,7 +7,7 @@ import scipy
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.kernel import kernel
+from colonnade.dynamics.kernel import kernel_in_place
 from colonnade.dynamics.kinematics import pole_position
 from colonnade.identification.fusion.sensors import Accelerometer, Gyroscope, Readings
 from colonnade.signals.samples import stretches
@@ -67,37 +67,92 @@ def smooth(
     push = transition[:, -1] - np.eye(start.size)[-1]
     middle = _middle(derivative)
     variances = np.where(np.isfinite(tracked), tracked_error**2, np.inf)
-    states, covariances = _smooth(transition, push, middle, deviation**2, np.nan_to_num(tracked), variances, start**2)
+    states, ahead = np.zeros((2, middle.size, start.size))
+    covariances, ahead_covariances = np.zeros((2, middle.size, start.size, start.size))
+    ahead_covariances[0] = np.diag(start**2)
+    given = (transition, push, middle, deviation**2, np.nan_to_num(tracked), variances)
+    room = np.zeros((3, start.size, start.size))
+    _smooth(*given, states, covariances, ahead, ahead_covariances, room)
     return states, np.sqrt(np.maximum(np.diagonal(covariances, axis1=1, axis2=2), 0.0))
 
 
-@kernel
+@kernel_in_place
 def _smooth(
-    transition: Array, push: Array, inputs: Array, process: Array, readings: Array, variances: Array, start: Array
-) -> tuple[Array, Array]:
-    count, size = readings.size, push.size
-    states, ahead = np.zeros((count, size)), np.zeros((count, size))
-    covariances, ahead_covariances = np.zeros((count, size, size)), np.zeros((count, size, size))
-    ahead_covariances[0] = np.diag(start)
+    transition: Array,
+    push: Array,
+    inputs: Array,
+    process: Array,
+    readings: Array,
+    variances: Array,
+    states: Array,
+    covariances: Array,
+    ahead: Array,
+    ahead_covariances: Array,
+    room: Array,
+) -> None:
+    """Fill states and covariances, before (`ahead`) and after the reading, from the covariances ahead of the first."""
+    count, size = states.shape
+    gains, product = room[0], room[1]
     # Forwards: each state from the one before, then from the reading of its angle.
     for index in range(count):
+        state, covariance, expected = states[index], covariances[index], ahead_covariances[index]
         if index > 0:
-            ahead[index] = transition @ states[index - 1] + inputs[index - 1] * push
-            ahead_covariances[index] = transition @ covariances[index - 1] @ transition.T
-            ahead_covariances[index] += process[index - 1] * np.outer(push, push)
-        states[index], covariances[index] = ahead[index], ahead_covariances[index]
-        if np.isfinite(variances[index]):
-            seen = ahead_covariances[index, 0]
-            gain = seen / (seen[0] + variances[index])
-            states[index] += gain * (readings[index] - ahead[index, 0])
-            covariances[index] -= np.outer(gain, seen)
+            _multiply(transition, covariances[index - 1], product)
+            _multiply(product, transition.T, expected)
+            for i in range(size):
+                ahead[index, i] = inputs[index - 1] * push[i]
+                for j in range(size):
+                    ahead[index, i] += transition[i, j] * states[index - 1, j]
+                    expected[i, j] += process[index - 1] * push[i] * push[j]
+        share = 1.0 / (expected[0, 0] + variances[index])
+        for i in range(size):
+            state[i] = ahead[index, i] + share * expected[0, i] * (readings[index] - ahead[index, 0])
+            for j in range(size):
+                covariance[i, j] = expected[i, j] - share * expected[0, i] * expected[0, j]
     # Backwards: each state from what is known of the one after.
     for index in range(count - 2, -1, -1):
         # The gain C Fᵀ P⁻¹ is the transpose of the solution of P x = F C, as C and P are symmetric.
-        gains = np.linalg.solve(ahead_covariances[index + 1], transition @ covariances[index])
-        states[index] += (states[index + 1] - ahead[index + 1]) @ gains
-        covariances[index] += gains.T @ (covariances[index + 1] - ahead_covariances[index + 1]) @ gains
-    return states, covariances
+        _multiply(transition, covariances[index], gains)
+        _solve(ahead_covariances[index + 1], gains, product)
+        for i in range(size):
+            for j in range(size):
+                states[index, i] += gains[j, i] * (states[index + 1, j] - ahead[index + 1, j])
+                product[i, j] = covariances[index + 1, i, j] - ahead_covariances[index + 1, i, j]
+        _multiply(gains.T, product, room[2])
+        _multiply(room[2], gains, product)
+        for i in range(size):
+            for j in range(size):
+                covariances[index, i, j] += product[i, j]
+
+
+@kernel_in_place
+def _multiply(left: Array, right: Array, product: Array) -> None:
+    """Fill a product of small matrices: numba takes twenty seconds to compile numpy's."""
+    for i in range(left.shape[0]):
+        for j in range(right.shape[1]):
+            product[i, j] = 0.0
+            for k in range(right.shape[0]):
+                product[i, j] += left[i, k] * right[k, j]
+
+
+@kernel_in_place
+def _solve(matrix: Array, right: Array, factor: Array) -> None:
+    """Replace `right` by the solution for it of a small, symmetric, positive definite matrix, factored as L D Lᵀ."""
+    size = right.shape[0]
+    for i in range(size):
+        for j in range(i + 1):
+            value = matrix[i, j]
+            for k in range(j):
+                value -= factor[i, k] * factor[j, k] * factor[k, k]
+            factor[i, j] = value / factor[j, j] if j < i else value
+    for column in range(size):
+        for i in range(size):
+            for k in range(i):
+                right[i, column] -= factor[i, k] * right[k, column]
+        for i in range(size - 1, -1, -1):
+            right[i, column] /= factor[i, i]
+            for k in range(i + 1, size):
+                right[i, column] -= factor[k, i] * right[k, column]
 
 
 def _middle(values: Array) -> Array:
