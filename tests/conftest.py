@@ -23,7 +23,15 @@ settings.load_profile("colonnade")
 COMPILING = ("dynamics", "identification")
 """Folders whose tests compile, in one process each, the kernels that all later processes then find compiled."""
 
-LONGEST = ("test_readme.py", "test_wheel.py", "test_processes.py", "test_cluster.py")
+LONGEST = (
+    "test_pages.py",
+    "test_site.py",
+    "test_processes.py",
+    "test_cluster.py",
+    "test_wheel.py",
+    "test_histories.py",
+    "test_every_format.py",
+)
 """Files that take half a minute and more."""
 
 
