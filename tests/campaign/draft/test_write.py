@@ -170,3 +170,24 @@ def test_a_question_is_asked_in_full_once_in_a_setup(folder):
     asked = [line for line in folder.draft()[1].text.splitlines() if line.startswith("relative_to = ")]
     in_full = '? where it is fixed: "table" if it moves with the table, else "ground"'
     assert [line.partition("# ")[2] for line in asked] == [in_full, "? as above"]
+
+
+def test_columns_in_threes_are_markers_of_an_optical_system(folder):
+    moved = {f"d{drum}{axis} [mm]": DECAY + noise(drum) for drum in (1, 2) for axis in "XYZ"}
+    folder.write("free-01.csv", moved | {"Table_X [mm]": noise(7), "Table_Y [mm]": noise(8), "Table_Z [mm]": noise(9)})
+    document, drafted = folder.draft()
+    setup = document["setups"]["setup"]
+    unknown = {"unit": "mm", "on": "?", "at": ["? mm", "? mm", "? mm"]}
+    assert setup["markers"] == {
+        name: {"columns": [f"{name}{axis}" for axis in "XYZ"]} | unknown for name in ("d1", "d2")
+    }
+    assert setup["tracking"] == {"axes": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "relative_to": "?"}
+    assert list(setup["channels"]) == ["table_x", "table_y", "table_z"]
+    answers = {"relative_to": '"table"', "on": '"specimen"', "at": '["50 mm", "0 mm", "100 mm"]', "mass": '"10 kg"'}
+    lines = drafted.text.splitlines()
+    for question in drafted.open:
+        key = question.key.rpartition(".")[2]
+        answer = answers.get(key, '"0.1 m"')
+        lines[question.line - 1] = f"{key} = {answer}"
+    drafted.path.write_text("\n".join(lines), encoding="utf-8")
+    assert {"d1_x", "d2_z", "table_y"} <= load(drafted.path).setups["setup"].channels.keys()

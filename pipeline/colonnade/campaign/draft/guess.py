@@ -29,6 +29,7 @@ SAME_FREQUENCY = 0.05
 _NUMBERED = re.compile(r"^(?:column \d+$|block \d+: )")
 # A separate word: "usp000hzq8" is not a frequency.
 _FREQUENCY = re.compile(r"(?<![\d.,])(\d{1,6}(?:[.,p]\d{1,6})?)[ _-]?hz(?![a-z0-9])")
+_MARKER = re.compile(r"(.+?)[ _.:-]*([xyz])", re.IGNORECASE)
 _SPAN = re.compile(r"(?<![a-z])span[ _=-]?(\d{1,6}(?:[.,p]\d{1,6})?)(?![\d.,])")
 
 _USUAL_PLACE = {"displacement": "specimen", "acceleration": "table", "velocity": "table"}
@@ -37,6 +38,8 @@ _POINT = (
     'x along the shaking, y across, z up, such as ["43 mm", "0 mm", "440 mm"]'
 )
 _FIXED = 'where it is fixed: "table" if it moves with the table, else "ground"'
+_OF_BODY = 'the body that it is fixed to: "specimen", a body of an assembly, or "table"'
+_ON_BODY = "where it is on that body, [x, y, z] from the centre of its base"
 _WIRES = ("wire", "seilzug", "stringpot", "string")
 
 
@@ -146,11 +149,38 @@ def draft_channels(recorders: Mapping[str, Sequence[Column]]) -> tuple[list[Mean
     return [replace(each, id=name) for name, each in zip(ids, taken, strict=True)], left_out
 
 
+def markers_of(channels: Sequence[Meaning]) -> dict[str, list[Meaning]]:
+    """Find markers of an optical system, by id: three displacements whose names differ in a last x, y and z alone."""
+    alike: defaultdict[tuple[str, str, str | None], dict[str, Meaning]] = defaultdict(dict)
+    for each in channels:
+        found = _MARKER.fullmatch(each.column.name.strip())
+        if found and each.quantity == "displacement" and each.is_physical and each.place != "table":
+            alike[each.recorder, found[1], each.column.unit][found[2].casefold()] = each
+    whole = {name: [axes[axis] for axis in AXES] for (_, name, _), axes in alike.items() if len(axes) == len(AXES)}
+    ids = unique(("_".join(re.findall(r"[a-z0-9]+", plain(name))) for name in whole), "marker", as_variables=True)
+    return dict(zip(ids, whole.values(), strict=True))
+
+
+def marker_lines(marker: Sequence[Meaning], others: Sequence[Column]) -> Iterator[Line]:
+    """Give the lines of a marker's keys; `others` are the columns of its recorder."""
+    yield Line("columns", toml_value([_named(each.column, others) for each in marker]))
+    if marker[0].recorder != MAIN:
+        yield Line("recorder", toml_value(marker[0].recorder))
+    yield from _unit(marker[0])
+    yield Line("on", '"?"', question=_OF_BODY)
+    yield Line("at", '["? mm", "? mm", "? mm"]', question=_ON_BODY)
+
+
+def _named(column: Column, others: Sequence[Column]) -> str | int:
+    """Give what a column is called in the draft: its name where that is its own, else its number."""
+    alone = column.name.strip() and [other.name for other in others].count(column.name) == 1
+    return column.name if alone else column.number
+
+
 def channel_lines(each: Meaning, others: Sequence[Column]) -> Iterator[Line | str]:
     """Give the lines of a channel's keys; `others` are the columns of its recorder."""
     column, quantity = each.column, each.quantity
-    alone = column.name.strip() and [other.name for other in others].count(column.name) == 1
-    yield Line("column", toml_value(column.name if alone else column.number))
+    yield Line("column", toml_value(_named(column, others)))
     if each.recorder != MAIN:
         yield Line("recorder", toml_value(each.recorder))
     if quantity is None:

@@ -9,7 +9,7 @@ from pathlib import Path, PurePosixPath
 
 from colonnade.campaign.campaign import SCHEMA
 from colonnade.campaign.channel import MAIN
-from colonnade.campaign.draft.guess import channel_lines, draft_channels, kind_lines
+from colonnade.campaign.draft.guess import channel_lines, draft_channels, kind_lines, marker_lines, markers_of
 from colonnade.campaign.draft.survey import Column, Files, arrange, survey
 from colonnade.campaign.draft.words import Line, as_id, comment, find, unique
 from colonnade.campaign.loading import FILE_NAME
@@ -42,6 +42,14 @@ _FIRST_LINES = (
 _GROUPED = (
     comment("Which are recordings of tests? Remove the # from each line of their groups, delete the other groups."),
     comment('Ground motions as published belong under [motions]: "its name" = "its file".'),
+)
+
+_STACK = comment(
+    'bodies on each other are an assembly: [assemblies.column] stack = ["specimen", "specimen"], with bodies "1", "2"'
+)
+_TRACKING = (
+    Line("axes", "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]", "", "X, Y and Z of the optical system in the axes of the table"),
+    Line("relative_to", '"?"', question='what its cameras stand on: "ground" or "table"'),
 )
 
 Lines = list[Line | str]
@@ -207,6 +215,7 @@ def written(name: str, setups: Sequence[DraftSetup], refused: Sequence[tuple[str
         comment('facility = "…"         the laboratory and its table'),
     ]
     lines += specimens
+    lines += [_STACK] if any(each.markers for each in setups) else []
     if len(setups) > MOST_SETUPS:
         files = sum(len(test) for test in tests)
         lines += ["", comment(f"{files} files of {len(setups)} kinds were found."), *_GROUPED]
@@ -238,6 +247,7 @@ class DraftSetup:
         self.name, self.tests = "setup", tests
         self.columns = {name: self._moving(name) for name in tests[0]}
         self.channels, self.left_out = draft_channels(self.columns)
+        self.markers = markers_of(self.channels)
 
     def _moving(self, recorder: str) -> tuple[Column, ...]:
         """Columns of a recorder, each as it is in the file where it moves most."""
@@ -274,9 +284,16 @@ class DraftSetup:
             else:
                 either = 'or {align = ["a channel of main", "a channel of this one that measures the same"]}'
                 lines.append(Line("clock", '"trigger"', "", either))
+        tracked = {each.id for marker in self.markers.values() for each in marker}
         for channel in self.channels:
-            lines += ["", f"[{place}.channels.{toml_key(channel.id)}]"]
-            lines += channel_lines(channel, self.columns[channel.recorder])
+            if channel.id not in tracked:
+                lines += ["", f"[{place}.channels.{toml_key(channel.id)}]"]
+                lines += channel_lines(channel, self.columns[channel.recorder])
+        if self.markers:
+            lines += ["", f"[{place}.tracking]", *_TRACKING]
+        for name, marker in self.markers.items():
+            lines += ["", f"[{place}.markers.{toml_key(name)}]"]
+            lines += marker_lines(marker, self.columns[marker[0].recorder])
         if self.left_out:
             lines += ["", comment("Columns that are left out; to use one, add a table like those above:")]
         for reason, headings in self.left_out.items():
