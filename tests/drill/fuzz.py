@@ -15,7 +15,7 @@ from pathlib import Path
 
 import whole_files
 
-GUARDED = ("excel", "matlab", "netcdf", "tdms")
+GUARDED = ("c3d", "excel", "matlab", "netcdf", "tdms")
 """Formats parsed with other people's packages: their exceptions are refusals, by the registry. Others raise none."""
 TIMEOUT = 20
 """Seconds for one input."""

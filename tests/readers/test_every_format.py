@@ -17,7 +17,7 @@ from whole_files import WHOLE, format_of, write
 OWN = [*WRITERS.keys() - {"waveform"}, "delimited"]
 OWN_PARSERS = {*OWN} - {"diadem"}
 """Of DIAdem a library parses the XML."""
-PACKED = ["tdms", "matlab 5 plain", "matlab 5 compressed", "matlab 7.3", "netcdf 4", "netcdf 3", "excel xls"]
+PACKED = ["c3d", "tdms", "matlab 5 plain", "matlab 5 compressed", "matlab 7.3", "netcdf 4", "netcdf 3", "excel xls"]
 TIMES = 40 * np.arange(40) / 200
 
 

@@ -22,7 +22,7 @@ from colonnade.readers.recording import Recording, Window
 from colonnade.readers.refused import retired
 
 OWN = (
-    *("binary.catman", "text.cosmos", "text.delimited", "binary.diadem", "binary.excel"),
+    *("binary.c3d", "binary.catman", "text.cosmos", "text.delimited", "binary.diadem", "binary.excel"),
     *("binary.famos", "text.lvm", "binary.matlab", "text.mts", "binary.netcdf", "text.peer"),
     *("binary.tdms", "binary.uff", "binary.waveform"),
 )
