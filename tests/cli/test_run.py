@@ -125,6 +125,12 @@ def test_json_carries_every_finding_with_its_severity(colonnade, with_gain):
     assert again["warnings"] == found
 
 
+def test_an_appendix_is_left_out_of_a_pdf_only(colonnade):
+    refused = colonnade("report", "--no-appendix")
+    assert refused.returncode == 2
+    assert "add --pdf" in refused.stderr
+
+
 def test_the_report_is_typeset_and_bundled_if_asked(colonnade, campaign, tmp_path):
     asked = ("report", "--workers", "1", "--pdf", "--bundle", "all.zip")
     told = colonnade(*asked)

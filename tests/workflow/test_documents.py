@@ -47,6 +47,14 @@ def test_an_altered_pdf_is_made_again(folder, pdf):
     assert write_pdf(folder).read_bytes() == whole
 
 
+def test_one_without_its_appendix_takes_its_place_and_is_bundled(folder, pdf, tmp_path):
+    whole = write_pdf(folder).read_bytes()
+    assert len(write_pdf(folder, appendix=False).read_bytes()) < len(whole)
+    with zipfile.ZipFile(write_bundle(folder, tmp_path / "all.zip")) as archive:
+        assert "report/report.pdf" in archive.namelist()
+    assert write_pdf(folder).read_bytes() == whole
+
+
 def test_a_pdf_of_older_pages_is_left_out_of_the_bundle(folder, pdf, tmp_path):
     page = folder / "report" / "methods.html"
     text = page.read_text(encoding="utf-8")

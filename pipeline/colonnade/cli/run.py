@@ -116,6 +116,7 @@ predict = _up_to(
 )
 @campaign_argument
 @click.option("--pdf", "with_pdf", is_flag=True, help="Also typeset the report as report/report.pdf.")
+@click.option("--no-appendix", "appendix", flag_value=False, default=True, help="Leave the tests' own pages out of it.")
 @click.option(
     "--bundle",
     type=click.Path(dir_okay=False, path_type=Path),
@@ -123,13 +124,17 @@ predict = _up_to(
     help="Also put the whole report into one zip file, to be sent or kept.",
 )
 @work_options
-def report(campaign: Path, *, with_pdf: bool, bundle: Path | None, results: Path | None, **choices: Any) -> int:
+def report(
+    campaign: Path, *, with_pdf: bool, appendix: bool, bundle: Path | None, results: Path | None, **choices: Any
+) -> int:
     """Run a campaign as far as the report, and write its PDF and its bundle if they are asked for."""
     from colonnade.workflow.documents import write_bundle, write_pdf
 
     documents: dict[str, Callable[[], Path]] = {}
     if with_pdf:
-        documents["pdf"] = partial(write_pdf, campaign, results=results)
+        documents["pdf"] = partial(write_pdf, campaign, appendix=appendix, results=results)
+    elif not appendix:
+        raise click.UsageError("--no-appendix is about the PDF: add --pdf")
     if bundle is not None:
         documents["bundle"] = partial(write_bundle, campaign, bundle, results=results)
     return _run_and_show(campaign, documents, until="report", results=results, **choices)

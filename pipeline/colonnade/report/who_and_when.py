@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from hashlib import sha256
 
 from colonnade.campaign import Campaign, Test
 from colonnade.report.test_page.facts import Fact, known
@@ -23,6 +24,12 @@ def of_campaign(campaign: Campaign) -> list[Fact]:
             ("operator" if len(operators) == 1 else "operators", listed(operators, MOST_NAMED)),
         ]
     )
+
+
+def on_cover(campaign: Campaign) -> list[Fact]:
+    """Give the same, and from which state of the campaign file a report was made."""
+    digest = sha256(campaign.path.read_bytes()).hexdigest()
+    return [*of_campaign(campaign), ("campaign file", f"{campaign.path.name}, SHA-256 {digest[:16]}…")]
 
 
 def of_test(campaign: Campaign, test: Test) -> list[Fact]:

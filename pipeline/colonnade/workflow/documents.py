@@ -29,7 +29,7 @@ SHOWN = ("photos/*.jpg", "setups/*.svg")
 """Files of the report that pages show."""
 
 
-def write_pdf(campaign: Path | str, *, results: Path | str | None = None) -> Path:
+def write_pdf(campaign: Path | str, *, appendix: bool = True, results: Path | str | None = None) -> Path:
     """
     Typeset the report of a campaign as a PDF, unless it is there and shows the pages as they are.
 
@@ -37,6 +37,8 @@ def write_pdf(campaign: Path | str, *, results: Path | str | None = None) -> Pat
     ----------
     campaign : Path or str
         A campaign.toml or its folder; its report is up to date.
+    appendix : bool, optional
+        Whether each test has its pages, too.
     results : Path or str, optional
         Folder that holds `processed` and `report`; default that of the campaign file.
 
@@ -55,7 +57,7 @@ def write_pdf(campaign: Path | str, *, results: Path | str | None = None) -> Pat
     layout = Layout.of(loaded.path, results)
     with only_run(layout):
         catalogue = Catalogue(layout)
-        for _ in brought_up_to_date([_pdf(loaded, layout, _there(layout), catalogue)], catalogue):
+        for _ in brought_up_to_date([_pdf(loaded, layout, _there(layout), catalogue, appendix)], catalogue):
             pass
     return layout.pdf
 
@@ -80,23 +82,24 @@ def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | st
     with only_run(layout):
         folder, catalogue = _there(layout), Catalogue(layout)
         own = [*_pages(loaded, folder), *_shown(folder)]
-        if known(_pdf(loaded, layout, folder, catalogue), catalogue):
+        if any(known(_pdf(loaded, layout, folder, catalogue, appendix), catalogue) for appendix in (True, False)):
             own.append(layout.pdf.name)
         bundle.write_bundle(folder, Path(target), own=own, instead={STATE: UNWATCHED})
     return Path(target)
 
 
-def _pdf(campaign: Campaign, layout: Layout, folder: Path, catalogue: Catalogue) -> Product:
+def _pdf(campaign: Campaign, layout: Layout, folder: Path, catalogue: Catalogue, appendix: bool) -> Product:
     """Give the PDF, made from the pages and their pictures as they are."""
     upstream = {name: key_of(folder / name) for name in [*_pages(campaign, folder), *_shown(folder)]}
-    shown = json.dumps([campaign.title, campaign.campaign, who_and_when.of_campaign(campaign)])
-    return Product("pdf", shown, upstream, catalogue.code(MADE_BY), partial(_typeset, campaign, folder), (layout.pdf,))
+    shown = json.dumps([campaign.title, campaign.campaign, who_and_when.on_cover(campaign), appendix])
+    make = partial(_typeset, campaign, folder, appendix)
+    return Product("pdf", shown, upstream, catalogue.code(MADE_BY), make, (layout.pdf,))
 
 
-def _typeset(campaign: Campaign, folder: Path) -> Contents:
+def _typeset(campaign: Campaign, folder: Path, appendix: bool) -> Contents:
     from colonnade.report.paper.typesetting import pdf_of
 
-    return [pdf_of(campaign, folder)], ""
+    return [pdf_of(campaign, folder, appendix=appendix)], ""
 
 
 def _pages(campaign: Campaign, folder: Path) -> list[str]:

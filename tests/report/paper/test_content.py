@@ -76,6 +76,12 @@ def test_figures_are_numbered_and_described():
     assert photo["pictures"] == [{"is": "picture", "file": "../photos/a-1.jpg", "alt": "a photo"}]
 
 
+def test_a_column_for_the_screen_is_left_out_of_a_table():
+    row = '<tr><td>a</td><td data-paper="no">x</td><td>b</td></tr>'
+    (table,) = blocks_of(f"<table>{row}</table>")
+    assert [cell["in"][0]["in"] for cell in table["body"][0]] == [["a"], ["b"]]
+
+
 @every(
     "screen",
     [

@@ -1,5 +1,7 @@
 """The document: chapters in their order, pictures by name, links only to its own places."""
 
+from hashlib import sha256
+
 from colonnade.report.paper.document import document_of
 
 from .conftest import HOSTILE
@@ -13,9 +15,18 @@ def test_chapters_are_the_summary_specimens_spans_and_methods(campaign, folder):
     assert [sheet["title"] for sheet in data["appendix"]] == ["free-01", "free-02"]
 
 
-def test_the_cover_says_who_where_and_when(campaign, folder):
+def test_without_its_appendix_nothing_leads_to_a_test(campaign, folder):
+    data = document_of(campaign, folder, appendix=False).data
+    assert [chapter["title"] for chapter in data["chapters"]][0::4] == ["Summary", "Methods"]
+    assert data["appendix"] == []
+    assert "tests/free-01.html" not in str(data)
+
+
+def test_the_cover_says_who_where_when_and_by_which_campaign_file(campaign, folder):
     data = document_of(campaign, folder).data
     assert data["title"] == HOSTILE
+    digest = sha256(campaign.path.read_bytes()).hexdigest()
+    assert data["facts"].pop() == ("campaign file", f"campaign.toml, SHA-256 {digest[:16]}…")
     assert data["facts"] == [
         ("facility", "Ευστάθεια & Söhne"),
         ("tested", "2013-04-26 to 2013-04-29"),

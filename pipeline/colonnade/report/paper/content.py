@@ -117,8 +117,8 @@ class Page:
         rows: dict[bool, list[list[Block]]] = {True: [], False: []}
         for part in [node for node in table["children"] if _tag(node) in ("thead", "tbody", "tfoot", "tr")]:
             for row in [part] if part["tag"] == "tr" else _all(part["children"], "tr"):
-                cells = [self._cell(node) for node in row["children"] if _tag(node) in ("th", "td")]
-                rows[part["tag"] == "thead"].append(cells)
+                shown = [node for node in row["children"] if not isinstance(node, str) and not _is_left_out(node)]
+                rows[part["tag"] == "thead"].append([self._cell(node) for node in shown if node["tag"] in ("th", "td")])
         columns = max((sum(cell["columns"] for cell in row) for row in (*rows[True], *rows[False])), default=1)
         captions = [_trimmed(self._inline(each["children"])) for each in _all(table["children"], "caption")]
         caption = captions[0] if captions else []

@@ -40,7 +40,7 @@ class Document:
     files: dict[str, Path] = field(default_factory=dict)
 
 
-def document_of(campaign: Campaign, folder: Path) -> Document:
+def document_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> Document:
     """
     Gather the document of a campaign.
 
@@ -49,11 +49,11 @@ def document_of(campaign: Campaign, folder: Path) -> Document:
     campaign : Campaign
     folder : Path
         Its report, whose pages are up to date.
+    appendix : bool, optional
+        Whether each test has its pages, too.
     """
-    tests, specimens = [
-        list(map(of, names))
-        for of, names in ((addresses.of_test, campaign.tests), (addresses.of_specimen, campaign.specimens))
-    ]
+    tests = list(map(addresses.of_test, campaign.tests)) if appendix else []
+    specimens = list(map(addresses.of_specimen, campaign.specimens))
     overview, methods = addresses.WHOLE["overview"], addresses.WHOLE["methods"]
     document = Document({})
     optional = {page: title for page, title in addresses.OPTIONAL.items() if (folder / page).is_file()}
@@ -66,19 +66,19 @@ def document_of(campaign: Campaign, folder: Path) -> Document:
     chapters += [_chapter(title, page, gather.page(page).parts()) for page, title in optional.items()]
     chapters.append(_chapter("Methods", methods, gather.page(methods).parts()))
     chapters[-1]["equations"] = True
-    appendix = []
-    for name, address in zip(campaign.tests, tests, strict=True):
+    of_tests = []
+    for name, address in zip(campaign.tests, tests, strict=False):  # none without the appendix
         page = gather.page(address)
-        appendix.append(_chapter(name, address, [*page.below_title, *page.parts()]))
-    shown = [each for part in (*chapters, *appendix) for each in _pictures(part["in"])]
+        of_tests.append(_chapter(name, address, [*page.below_title, *page.parts()]))
+    shown = [each for part in (*chapters, *of_tests) for each in _pictures(part["in"])]
     shown = [each for each in shown if each["file"] in document.files]
     document.data |= {
         "title": campaign.title,
         "campaign": campaign.campaign,
-        "facts": who_and_when.of_campaign(campaign),
+        "facts": who_and_when.on_cover(campaign),
         "cover": next((each for each in shown if each["photo"]), next(iter(shown), None)),
         "chapters": chapters,
-        "appendix": appendix,
+        "appendix": of_tests,
         "version": __version__,
     }
     return document

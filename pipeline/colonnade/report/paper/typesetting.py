@@ -27,9 +27,9 @@ PIXELS_PER_INCH = 80
 """Of a page as PNG."""
 
 
-def pdf_of(campaign: Campaign, folder: Path) -> bytes:
+def pdf_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> bytes:
     """Return the PDF of a campaign's report, whose pages are in `folder` and up to date."""
-    return typeset(document_of(campaign, folder))[0]
+    return typeset(document_of(campaign, folder, appendix=appendix))[0]
 
 
 def _template() -> bytes:
