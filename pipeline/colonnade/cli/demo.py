@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
 from colonnade.cli.common.console import complain, say, show_json, show_table, shown
 from colonnade.cli.common.options import json_option, workers_option
 from colonnade.cli.run import failed_rows, run_with_progress
+
+if TYPE_CHECKING:
+    from colonnade.laboratory.runs import WrittenCampaign
 
 
 @click.command(epilog="Example: colonnade demo demo --seed 3")
@@ -27,10 +32,20 @@ from colonnade.cli.run import failed_rows, run_with_progress
 @click.option(
     "--full", is_flag=True, help="Also assess the real columns of the specimens, on synthetic ground motions."
 )
+@click.option(
+    "--assemblies", is_flag=True, help="Drums, a portal and two blocks at once, moved by MuJoCo, in place of all that."
+)
 @workers_option
 @json_option
 def demo(
-    folder: Path, seed: int, motion: Path | None, short: bool, full: bool, workers: int | None, as_json: bool
+    folder: Path,
+    seed: int,
+    motion: Path | None,
+    short: bool,
+    full: bool,
+    assemblies: bool,
+    workers: int | None,
+    as_json: bool,
 ) -> int:
     """
     Write a virtual campaign with known truth, run all of it, and compare with the known truth.
@@ -47,22 +62,63 @@ def demo(
 
     if folder.is_dir() and any(folder.iterdir()) and not (folder / FILE_NAME).is_file():
         raise click.UsageError(f"{folder} contains other files. Name an empty folder, a new one, or an earlier demo.")
+    if assemblies and (short or full or motion is not None):
+        raise click.UsageError("--assemblies is a campaign of its own, without --short, --full and --motion")
+    if assemblies and find_spec("mujoco") is None:
+        raise click.UsageError("--assemblies needs the package `mujoco`: pip install colonnade[demo]")
     complain(f"Shaking the virtual table into {folder}")
+    if assemblies:
+        return _several(folder, seed, workers, as_json)
     try:
         programme = prism_programme if short else paper_programme
         written = write_campaign(folder, seed=seed, motion=motion, programme=programme, workers=workers, site=full)
     except ReadError as error:
         raise click.UsageError(str(error)) from error
-    result = run_with_progress(folder, workers=workers)
-    comparison = with_truth(written.truth, result.summary) | {"report": result.report}
+    return _run(written, with_truth, _show, workers, as_json)
+
+
+def _several(folder: Path, seed: int, workers: int | None, as_json: bool) -> int:
+    """Write, run and compare the campaign of several bodies."""
+    from colonnade.laboratory.assemblies import with_truth, write_assemblies
+
+    return _run(write_assemblies(folder, seed=seed, workers=workers), with_truth, _show_bodies, workers, as_json)
+
+
+def _run(
+    written: WrittenCampaign,
+    compare: Callable[[dict[str, Any], Path], dict[str, Any]],
+    show: Callable[[dict[str, Any]], None],
+    workers: int | None,
+    as_json: bool,
+) -> int:
+    """Run what the laboratory wrote, and show what came out beside the truth."""
+    result = run_with_progress(written.path.parent, workers=workers)
+    comparison = compare(written.truth, result.summary) | {"report": result.report}
     if as_json:
         show_json(comparison)
     else:
-        _show(comparison)
+        show(comparison)
         show_table(("failed", "stage", "reason"), failed_rows(result))
         say(f"campaign: {written.path}")
         say(f"report: {result.report}")
     return int(result.failed)
+
+
+def _show_bodies(comparison: dict[str, Any]) -> None:
+    from colonnade.report.overview_page.agreement import agreement
+
+    rows = []
+    for name, test in comparison["tests"].items():
+        right = "right" if test["outcome"] == test["true_outcome"] else "wrong"
+        model = next((found["outcome"] for found in test["predicted"].values() if found["outcome"]), None)
+        moved = [f"{1e3 * test[key]:.2f} mm" if "body" in test else "" for key in ("moved", "true_moved")]
+        rows.append(
+            (name, shown(test["outcome"]), test["true_outcome"], right, shown(model), test.get("body", ""), *moved)
+        )
+    show_table(("test", "outcome", "true", "", "contact", "moved farthest", "by", "true"), rows)
+    say(f"{sum(row[3] == 'right' for row in rows)} of {len(rows)} measured outcomes are right")
+    for sentence in agreement(comparison["tests"]):
+        say(sentence)
 
 
 def _show(comparison: dict[str, Any]) -> None:

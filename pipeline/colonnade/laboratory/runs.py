@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import asdict, dataclass
 from functools import partial
 from math import pi
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -21,6 +21,8 @@ from colonnade.laboratory.programme import load_record, prism_programme
 from colonnade.laboratory.site import add_site
 from colonnade.laboratory.truth import Truth, simulate
 from colonnade.store.files import own_files
+
+Result = TypeVar("Result")
 
 START_SCATTER = 1e-3
 """A recorder that starts late does so within ± this, s: no two starts are alike."""
@@ -106,15 +108,19 @@ def write(plan: Plan, folder: Path | str, *, seed: int = 0, workers: int | None 
 
 def run_tests(plan: Plan, folder: Path, seed: int, workers: int | None) -> dict[str, dict[str, Any]]:
     """Run all tests of a plan, each with a seed of its own, in so many processes; return records by test."""
+    seeds = np.random.SeedSequence(seed).spawn(len(plan.trials))
+    done = spread_over(workers, partial(run_test, plan), plan.trials, [folder] * len(seeds), seeds)
+    return {trial.name: record for trial, record in zip(plan.trials, done, strict=True)}
+
+
+def spread_over(workers: int | None, function: Callable[..., Result], *arguments: Collection[Any]) -> Iterable[Result]:
+    """Call a function with each of several arguments, as `map` does, in so many processes; None takes one a core."""
     import joblib
     from joblib.externals.loky import get_reusable_executor
 
-    seeds = np.random.SeedSequence(seed).spawn(len(plan.trials))
-    count = min(workers or joblib.cpu_count(), len(plan.trials))
+    count = min(workers or joblib.cpu_count(), len(arguments[0]))
     # Processes that a run has left waiting are taken over; those of joblib.Parallel are of another kind.
-    over = map if count == 1 else get_reusable_executor(count).map
-    done = over(partial(run_test, plan), plan.trials, [folder] * len(seeds), seeds)
-    return {trial.name: record for trial, record in zip(plan.trials, done, strict=True)}
+    return map(function, *arguments) if count == 1 else get_reusable_executor(count).map(function, *arguments)
 
 
 def run_test(plan: Plan, trial: Trial, folder: Path, seed: np.random.SeedSequence) -> dict[str, Any]:

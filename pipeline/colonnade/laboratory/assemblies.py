@@ -1,0 +1,238 @@
+"""
+A virtual campaign of several bodies: a column of four drums, a portal, two blocks at once.
+
+MuJoCo moves them: a program of its own, whose boxes stand on each other by constraints that are almost rigid. An
+optical system sees their markers, with noise. What became of each body is kept as the truth.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from functools import partial
+from importlib.resources import files as resources
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.campaign import Campaign, load
+from colonnade.campaign.assembly import Whole
+from colonnade.dynamics.assembly import Assembly, Placed
+from colonnade.laboratory.campaign_file import FILE_NAME, refuse_foreign
+from colonnade.laboratory.files import put
+from colonnade.laboratory.runs import WrittenCampaign, spread_over
+from colonnade.laboratory.table import ramped_sine
+from colonnade.laboratory.truth import NO_ROCKING_RATIO
+from colonnade.store.files import own_files
+
+RATE = 200.0
+"""Frames a second of the cameras, and samples of the accelerometer."""
+
+STEP = 5e-5
+"""s, of MuJoCo; tests/laboratory/test_assemblies.py shows that half of it changes nothing that is compared."""
+
+NOISE = {"marker": 2e-5, "acceleration": 0.01}
+"""Standard deviations, m and m/s²."""
+
+QUIET, AFTER = 0.6, 2.0
+"""s, before the table moves and after."""
+
+AT_END = 0.5
+"""s, over which a body's place at the end is averaged."""
+
+APART = 0.8
+"""m, across the table, between blocks that are tested at once."""
+
+SHAKEN = {
+    "column-1": (3.0, 1.8),
+    "column-2": (3.0, 3.2),
+    "column-3": (3.0, 4.5),
+    "column-4": (1.4, 5.0),
+    "portal-1": (3.0, 1.5),
+    "portal-2": (3.0, 2.6),
+    "portal-3": (3.0, 3.6),
+    "portal-4": (1.2, 3.6),
+    "pair": (2.5, 2.8),
+}
+"""Frequency, Hz, and amplitude, m/s², of each recording's sine."""
+
+CYCLES, RAMP = 3, 1
+
+WORST_FIRST = ("overturned", "rocking", "no-rocking")
+
+_MODEL = """
+<mujoco>
+  <option timestep="{step}" integrator="implicitfast" cone="elliptic" impratio="100"
+    iterations="100" tolerance="1e-12"/>
+  <default><geom solref="{softness} 1" solimp="0.99 0.999 1e-5" friction="0.6 0 0"/></default>
+  <worldbody><geom type="plane" size="5 5 1"/>{bodies}</worldbody>
+</mujoco>
+"""
+_BODY = '<body pos="{x} {y} {z}"><freejoint/><geom type="box" size="{a} {b} {c}" mass="{mass}"/></body>'
+
+
+class Moved(NamedTuple):
+    """How bodies moved on the table, m: places of their centres (n, b, 3) and rotation matrices (n, b, 3, 3)."""
+
+    place: Array
+    turned: Array
+
+
+def write_assemblies(folder: Path, *, seed: int = 0, workers: int | None = 1) -> WrittenCampaign:
+    """
+    Write the campaign: its raw files, its truth and its campaign file.
+
+    Parameters
+    ----------
+    folder : Path
+    seed : int, optional
+        Of the noise.
+    workers : int or None, optional
+        Processes; None takes one a core.
+
+    Returns
+    -------
+    written : WrittenCampaign
+        Its truth has, by test, `outcome` and `bodies`: of each body its outcome, and where its base is at the end, m.
+
+    Raises
+    ------
+    ImportError
+        If MuJoCo is not installed: it belongs to the extra `demo`.
+    CampaignError
+        If the folder holds a campaign that the laboratory did not write.
+    """
+    refuse_foreign(folder)
+    for name in ("raw", "truth"):
+        own_files(folder / name)
+    put(folder / FILE_NAME, (resources("colonnade.laboratory") / "assemblies.toml").read_bytes())
+    campaign = load(folder)
+    seeds = np.random.SeedSequence(seed).spawn(len(SHAKEN))
+    done = spread_over(workers, partial(_record, campaign), SHAKEN, seeds)
+    truth = {"seed": seed, "tests": {name: true for each in done for name, true in each.items()}}
+    put(folder / "truth" / "truth.json", (json.dumps(truth, indent=1) + "\n").encode())
+    return WrittenCampaign(folder / FILE_NAME, truth)
+
+
+def _record(campaign: Campaign, recording: str, seed: np.random.SeedSequence) -> dict[str, dict[str, Any]]:
+    """Shake what is on the table in one recording, and write its file; give what is true of its tests."""
+    random, tests = np.random.default_rng(seed), [test for test in campaign.tests.values() if _of(test.id) == recording]
+    (setup,) = {test.setup for test in tests}
+    stood = _standing(campaign, [test.specimen for test in tests])
+    frequency, amplitude = SHAKEN[recording]
+    table = ramped_sine(frequency, amplitude, start=QUIET, cycles=CYCLES, ramp=RAMP)
+    time = np.arange(round((table.stop + AFTER) * RATE) + 1) / RATE
+    moved = move(stood, table.acceleration, time)
+    base = table.acceleration(time)
+    columns = {"time [s]": time, "table [m/s^2]": base + NOISE["acceleration"] * random.normal(size=time.size)}
+    axes = np.array(campaign.setups[setup].tracking.axes, dtype=np.float64)
+    for marker in campaign.setups[setup].markers.values():
+        number, placed = list(stood.bodies).index(marker.on), stood.bodies[marker.on]
+        arm = np.array(marker.at) - (0.0, 0.0, placed.centre_height)
+        place = moved.place[:, number] + moved.turned[:, number] @ arm
+        seen = (place + NOISE["marker"] * random.normal(size=place.shape)) @ axes.T
+        columns |= {f"{name} [{marker.unit}]": 1e3 * seen[:, axis] for axis, name in enumerate(marker.columns)}
+    rows = "\n".join(",".join(f"{value:.4f}" for value in row) for row in np.column_stack(list(columns.values())))
+    put(campaign.path.parent / "raw" / f"{recording}.csv", f"{','.join(columns)}\n{rows}\n".encode())
+    bodies = became(stood, moved)
+    return {test.id: _true_of({test.specimen} & bodies.keys() or bodies.keys(), bodies) for test in tests}
+
+
+def _of(test: str) -> str:
+    """Name the recording of a test."""
+    return test if test in SHAKEN else test.partition("-")[0]
+
+
+def _true_of(names: Any, bodies: Mapping[str, dict[str, Any]]) -> dict[str, Any]:
+    own = {name: body for name, body in bodies.items() if name in names}
+    return {"outcome": min((body["outcome"] for body in own.values()), key=WORST_FIRST.index), "bodies": own}
+
+
+def _standing(campaign: Campaign, specimens: list[str]) -> Assembly:
+    """Give all that stands on the table: an assembly, or blocks side by side across it."""
+    one = campaign.specimens[specimens[0]]
+    if isinstance(one, Whole):
+        return one.assembly(campaign.gravity)
+    return Assembly(
+        {name: Placed(campaign.block(name), position=(0.0, APART * number)) for number, name in enumerate(specimens)}
+    )
+
+
+def move(assembly: Assembly, acceleration: Any, time: Array, step: float = STEP) -> Moved:
+    """
+    Move an assembly of prisms by MuJoCo.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    acceleration : callable
+        Of the table, m/s², at times in s.
+    time : ndarray, shape (n,)
+        Even, of the samples, s.
+    step : float, optional
+        s.
+
+    Returns
+    -------
+    moved : Moved
+        Relative to the table.
+    """
+    import mujoco
+
+    bodies = []
+    for name, placed in assembly.bodies.items():
+        solid, side = placed.block.solid, placed.block.governing
+        if solid is None:
+            raise ValueError(f"{name} has no shape; a prism was expected")
+        half, (x, y) = (side.half_width, solid.half_depth, 0.5 * solid.height), placed.position
+        z = assembly.levels[name] + half[2]
+        bodies.append(_BODY.format(x=x, y=y, z=z, a=half[0], b=half[1], c=half[2], mass=placed.block.mass))
+    text = _MODEL.format(step=step, softness=2 * step, bodies="".join(bodies))
+    model = mujoco.MjModel.from_xml_string(text)
+    data, count, interval = mujoco.MjData(model), len(bodies), float(time[1] - time[0])
+    parts = round(interval / step)
+    place, turned = np.zeros((time.size, count, 3)), np.zeros((time.size, count, 3, 3))
+    for sample, begin in enumerate(time):
+        mujoco.mj_kinematics(model, data)
+        place[sample], turned[sample] = data.xpos[1:], data.xmat[1:].reshape(count, 3, 3)
+        for base in acceleration(begin + (np.arange(parts) + 0.5) * step):
+            model.opt.gravity[:] = [-base, 0.0, -assembly.gravity]
+            mujoco.mj_step(model, data)
+    return Moved(place, turned)
+
+
+def became(assembly: Assembly, moved: Moved) -> dict[str, dict[str, Any]]:
+    """Say what became of each body: its outcome, and where its base is at the end, m from where it stood."""
+    numbers, found = {name: number for number, name in enumerate(assembly.bodies)}, {}
+    for name, placed in assembly.bodies.items():
+        own, turned = numbers[name], moved.turned[:, numbers[name]]
+        below = [moved.turned[:, numbers[other], :, 2] for other in placed.on] or [np.array([[0.0, 0.0, 1.0]])]
+        leans = [np.arccos(np.clip((turned[:, :, 2] * axis).sum(axis=1), -1.0, 1.0)).max() for axis in below]
+        base = moved.place[:, own] - placed.centre_height * turned[:, :, 2]
+        off = base[-round(AT_END * RATE) :].mean(axis=0) - base[0]
+        fell = turned[-1, 2, 2] < 0.5 or base[-1, 2] < assembly.levels[name] - placed.centre_height
+        rocked = max(leans) > NO_ROCKING_RATIO * assembly.critical_angles[name]
+        outcome = "overturned" if fell else "rocking" if rocked else "no-rocking"
+        found[name] = {"outcome": outcome, "residual_x": float(off[0]), "residual_y": float(off[1])}
+    return found
+
+
+def with_truth(truth: Mapping[str, Any], summary: Path) -> dict[str, Any]:
+    """Put what a run measured of each test next to what is true: its outcome, and the body that moved farthest."""
+    read = json.loads(summary.read_text(encoding="utf-8"))["tests"]
+    tests: dict[str, dict[str, Any]] = {}
+    for name, true in truth["tests"].items():
+        tests[name] = {"outcome": read[name]["outcome"], "true_outcome": true["outcome"]}
+        tests[name]["predicted"] = read[name]["predicted"]
+        stood = {body: _moved(each) for body, each in true["bodies"].items() if each["outcome"] != "overturned"}
+        measured = {body: each for body, each in read[name]["bodies"].items() if each["residual_x"] is not None}
+        if farthest := max(stood.keys() & measured.keys(), key=lambda body: stood[body], default=None):
+            own = {"body": farthest, "moved": _moved(measured[farthest]), "true_moved": stood[farthest]}
+            tests[name] |= own
+    return {"tests": tests}
+
+
+def _moved(body: Mapping[str, Any]) -> float:
+    return float(np.hypot(body["residual_x"], body["residual_y"]))

@@ -1,0 +1,74 @@
+"""A campaign of several bodies that MuJoCo moves: its truth converges, and what a run measures is near it."""
+
+import numpy as np
+import pytest
+
+from colonnade.campaign import load
+from colonnade.errors import CampaignError
+from colonnade.laboratory import assemblies
+from colonnade.laboratory.table import ramped_sine
+from colonnade.workflow import run
+
+pytest.importorskip("mujoco")
+
+TIME = np.arange(401) / assemblies.RATE
+TABLE = ramped_sine(3.0, 3.2, start=0.2, cycles=2, ramp=1)
+
+
+@pytest.fixture
+def recorded(tmp_path, monkeypatch):
+    """Write some of the recordings; give the folder and the truth."""
+
+    def write(*recordings):
+        monkeypatch.setattr(assemblies, "SHAKEN", {name: assemblies.SHAKEN[name] for name in recordings})
+        return assemblies.write_assemblies(tmp_path)
+
+    return write
+
+
+def test_two_blocks_on_one_table_are_two_tests_on_one_file(recorded, tmp_path):
+    written = recorded("pair")
+    result = run(tmp_path, only=list(written.truth["tests"]), until="compare", workers=1)
+    assert not result.failed
+    compared = assemblies.with_truth(written.truth, result.summary)["tests"]
+    assert {name: test["outcome"] for name, test in compared.items()} == {
+        "pair-slender": "rocking",
+        "pair-stout": "no-rocking",
+    }
+    assert all(test["outcome"] == test["true_outcome"] for test in compared.values())
+
+
+def test_a_campaign_of_somebody_else_is_not_written_over(tmp_path):
+    (tmp_path / "campaign.toml").write_text("schema = 1\n")
+    with pytest.raises(CampaignError, match="was not written by the virtual laboratory"):
+        assemblies.write_assemblies(tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("specimen", ["column", "portal"])
+def test_half_the_step_changes_nothing_that_is_compared(recorded, tmp_path, specimen):
+    recorded("pair")
+    campaign = load(tmp_path)
+    whole = campaign.specimens[specimen].assembly(campaign.gravity)
+    coarse, fine = (
+        assemblies.move(whole, TABLE.acceleration, TIME, step) for step in (assemblies.STEP, assemblies.STEP / 2)
+    )
+    for name, body in assemblies.became(whole, coarse).items():
+        finer = assemblies.became(whole, fine)[name]
+        assert body["outcome"] == finer["outcome"]
+        for axis in "xy":
+            assert body[f"residual_{axis}"] == pytest.approx(finer[f"residual_{axis}"], abs=1e-3)
+
+
+@pytest.mark.slow
+def test_nine_of_ten_outcomes_are_right_and_bodies_are_where_they_stand(tmp_path):
+    written = assemblies.write_assemblies(tmp_path, workers=2)
+    result = run(tmp_path, workers=2)
+    assert not result.failed
+    compared = assemblies.with_truth(written.truth, result.summary)["tests"]
+    assert len(compared) == 10
+    assert sum(test["outcome"] == test["true_outcome"] for test in compared.values()) >= 9
+    moved = {name: (test["moved"], test["true_moved"]) for name, test in compared.items() if "body" in test}
+    assert {"column-2", "column-3", "portal-2", "portal-3"} <= moved.keys()
+    for name, (measured, true) in moved.items():
+        assert measured == pytest.approx(true, abs=2e-4), name
