@@ -3,6 +3,8 @@
 import signal
 import subprocess
 import sys
+import threading
+import time
 from types import SimpleNamespace
 
 import pytest
@@ -27,6 +29,30 @@ def test_a_signal_stops_at_once_and_at_every_point_after():
     for _ in range(2):
         with pytest.raises(KeyboardInterrupt):
             interruption.expect_none()
+
+
+@pytest.mark.skipif(not hasattr(signal, "pthread_kill"), reason="signals of this kind are POSIX's")
+@pytest.mark.usefixtures("interruptible")
+def test_a_signal_is_held_back_whichever_thread_it_is_sent_to():
+    waiting, begun, done = threading.Event(), threading.Event(), []
+    other = threading.Thread(target=lambda: (begun.set(), waiting.wait()))
+
+    def work(thread):
+        with interruption.held_back():
+            signal.pthread_kill(thread.ident, signal.SIGINT)
+            time.sleep(0.05)
+            done.append(thread)
+
+    other.start()  # it has no mask: Python runs the handler in the main thread all the same
+    begun.wait()
+    try:
+        for thread in (threading.main_thread(), other):
+            with pytest.raises(KeyboardInterrupt):
+                work(thread)
+    finally:
+        waiting.set()
+        other.join()
+    assert done == [threading.main_thread(), other]
 
 
 def dropped(kind):

@@ -110,12 +110,12 @@ def _show_bodies(comparison: dict[str, Any]) -> None:
     rows = []
     for name, test in comparison["tests"].items():
         right = "right" if test["outcome"] == test["true_outcome"] else "wrong"
-        model = next((found["outcome"] for found in test["predicted"].values() if found["outcome"]), None)
+        model = test["predicted"].get("contact", {}).get("outcome")
         moved = [f"{1e3 * test[key]:.2f} mm" if "body" in test else "" for key in ("moved", "true_moved")]
         rows.append(
             (name, shown(test["outcome"]), test["true_outcome"], right, shown(model), test.get("body", ""), *moved)
         )
-    show_table(("test", "outcome", "true", "", "contact", "moved farthest", "by", "true"), rows)
+    show_table(("test", "outcome", "true", "", "contact model", "moved farthest", "by", "true"), rows)
     say(f"{sum(row[3] == 'right' for row in rows)} of {len(rows)} measured outcomes are right")
     for sentence in agreement(comparison["tests"]):
         say(sentence)
