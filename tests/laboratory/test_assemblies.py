@@ -1,4 +1,4 @@
-"""A campaign of several bodies that MuJoCo moves: how far its truth converges, and that what a run measures is near it."""
+"""A campaign of several bodies that MuJoCo moves: how far its truth converges, and what a run measures of it."""
 
 import numpy as np
 import pytest
