@@ -13,8 +13,9 @@ from colonnade import run
 from colonnade.campaign import Campaign, load
 from colonnade.campaign.forms.summary import Summary
 from colonnade.figures.files.output import to_gif
-from colonnade.figures.stored import maps, record, restitution
-from colonnade.figures.stored.moving import animation
+from colonnade.figures.maps import response_orders
+from colonnade.figures.moving import animation
+from colonnade.figures.stored import record, restitution
 from colonnade.laboratory import paper_programme, prism_programme, write_campaign
 from colonnade.laboratory.programme import KEPT_AWAY
 from colonnade.report.overview_page.agreement import agreement
@@ -136,7 +137,7 @@ def draw(campaign: Campaign, summary: dict[str, Any], folder: Path, name: str, p
     drawn = {
         title: ("spans", record.spans(f"{name}-spans", title, described, panels)),
         "Peaks with fit": ("peaks", restitution.peaks(f"{name}-peaks", list(filter(None, series)), block)),
-        "Measured map of the prism": ("map", maps.tested(f"{name}-map", points)),
+        "Measured map of the prism": ("map", response_orders.tested(f"{name}-map", points)),
     }
     for part, drawing in drawn.values():
         if drawing is not None:

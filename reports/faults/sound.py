@@ -16,9 +16,8 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import COMMAS
-from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.runs import write
-from colonnade.laboratory.table import ramped_sine, recorded
+from colonnade.laboratory.table import Transducer, ramped_sine, recorded
 from colonnade.signals.filters import lowpass
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)

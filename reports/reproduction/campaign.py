@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.cli.common.console import complain
-from colonnade.cli.common.progress import work_progress
+from colonnade.cli.common.console import complain, work_progress
 from colonnade.cli.run import run_with_progress
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory import paper_programme, write_campaign

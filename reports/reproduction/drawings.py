@@ -10,11 +10,10 @@ from matplotlib.figure import Figure
 from colonnade.dynamics.maps import StabilityMap
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import ANGLE_LABEL, draw_angle, limit_of, scale_symmetric, time_limits
-from colonnade.figures.panels.curve import Curve
+from colonnade.figures.maps import response_orders
+from colonnade.figures.panels.curve import Curve, draw_curve
 from colonnade.figures.panels.layout import legend_above, side_by_side
-from colonnade.figures.panels.long import draw_curve
-from colonnade.figures.stored import maps
-from colonnade.figures.stored.curves import measured_ratio, motion, predicted_ratios
+from colonnade.figures.stored.record import measured_ratio, motion, predicted_ratios
 from colonnade.figures.style import BASE, styled
 from reproduction.campaign import ANALYTICAL, NUMERICAL, SPECIMEN
 from reproduction.printed import SHOWN, SHOWN_FREQUENCY, SPANS
@@ -114,7 +113,7 @@ def _spans(found: Found, shown: Sequence[str]) -> Figure:
 
 def _map(found: Found, charts: Sequence[StabilityMap]) -> Figure:
     """Draw a computed map with room for the tests at its lowest and highest frequency."""
-    figure = maps.computed(SPECIMEN, charts, found.points).figure
+    figure = response_orders.computed(SPECIMEN, charts, found.points).figure
     axes = figure.axes[0]
     axes.set_xlim(AROUND)
     axes.set_ylim(top=1.06 * axes.get_ylim()[1])
@@ -147,7 +146,7 @@ FIGURES: tuple[Entry, ...] = (
         "5",
         "Sine tests by outcome, with both boundaries",
         "No rocking below A = 1; the boundary of overturning rises with Ω.",
-        lambda found: maps.tested("figure-5", found.points).figure,
+        lambda found: response_orders.tested("figure-5", found.points).figure,
     ),
     Entry(
         "7",

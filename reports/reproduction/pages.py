@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from colonnade.report.references import REFERENCES
+from colonnade.report.methods import REFERENCES
 from reproduction.drawings import FIGURES
 from reproduction.markdown import VIRTUAL, figure, figure_of, fixed, of_figure, shown, statement_table
 from reproduction.printed import FREQUENCIES, LAST_DIGIT, SHOWN, SLIPS, SPANS, TABLE_1

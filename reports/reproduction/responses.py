@@ -15,7 +15,7 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.forms.summary import Summary, TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import amplitude, capped
-from colonnade.figures.stored.curves import measured_ratio, predicted_ratios
+from colonnade.figures.stored.record import measured_ratio, predicted_ratios
 from colonnade.identification.response.boundaries import MapPoint, bracket_boundaries
 from colonnade.identification.response.order import response_order
 from colonnade.signals.metrics import nrmse

@@ -14,8 +14,7 @@ from colonnade.dynamics.maps import StabilityMap
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.store.records.stability_map import as_map
-from colonnade.store.records.stored import Stored, read_test
+from colonnade.store.records.stored import Stored, as_map, read_test
 from colonnade.store.records.summary import map_points, read_summary
 from reproduction import computed, responses
 from reproduction.campaign import CYCLES, MAP_RAMP, NUMERICAL, SEED, SPECIMEN

@@ -10,9 +10,8 @@ import pytest
 from colonnade.dynamics.block import Block
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import Flavour
-from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.runs import write
-from colonnade.laboratory.table import ramped_sine
+from colonnade.laboratory.table import Transducer, ramped_sine
 from colonnade.workflow import run
 
 STONE = Block.prism(width=0.25, depth=0.30, height=1.10, mass=180.0)

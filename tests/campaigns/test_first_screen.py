@@ -11,9 +11,8 @@ from colonnade.cli import invoke
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import COMMAS
-from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.runs import write
-from colonnade.laboratory.table import recorded
+from colonnade.laboratory.table import Transducer, recorded
 from colonnade.signals.filters import lowpass
 from faults.fault import TIME, TOP, both, in_campaign, in_file, swapped
 from prism import PRISM

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import pytest
 
 from colonnade.cli import invoke
-from colonnade.cli.common import progress
+from colonnade.cli.common import console
 
 CAMPAIGN = """\
 schema = 1
@@ -48,7 +48,7 @@ def colonnade(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "100")
     for pause in ("FIRST", "EVERY"):
-        monkeypatch.setattr(progress, pause, float("inf"))  # a slow machine prints lines of progress
+        monkeypatch.setattr(console, pause, float("inf"))  # a slow machine prints lines of progress
 
     def run(*arguments):
         capsys.readouterr()

@@ -109,7 +109,7 @@ def test_a_specimen_of_a_campaign_is_taken_at_its_scale(campaign, record, capsys
         ([*PULSE, "--largest", "-1"], "largest is -1.0"),
         ([*PULSE, "--out", "x.txt"], "unknown ending"),
         (["--motion", "nowhere.csv", *COLUMN], "there is no such file and no campaign"),
-        ([*SHAKEN, "--unit", "g", "--baseline", "cubic"], "--baseline Unknown baseline"),
+        ([*SHAKEN, "--unit", "g", "--baseline", "cubic"], "--baseline: Unknown baseline"),
         ([*SHAKEN, "--unit", "g", "--peak", "strong"], "--peak: "),
         ([*SHAKEN, "--unit", "g", "--drift", "-1"], "drift is -1.0"),
         ([*SHAKEN, "--unit", "g", "--slenderness", "1 m"], "--slenderness: "),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from colonnade.figures import Curve
-from colonnade.figures.angle import HEIGHT, LOWER, rocking_angle
+from colonnade.figures.stored.record import HEIGHT, LOWER, rocking_angle
 from colonnade.figures.style import COLUMNS, MEASURED, journal
 
 TIME = np.linspace(0.0, 10.0, 2001)

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from colonnade.figures.bands import bands_over_time
-from colonnade.figures.histories import Spread
+from colonnade.figures.histories import Spread, bands_over_time
 from colonnade.figures.panels.curve import Curve
 
 LEVELS = np.array([0.05, 0.25, 0.5, 0.75, 0.95])

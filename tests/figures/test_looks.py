@@ -7,16 +7,14 @@ How figures look, against pictures that were looked at: one of each family, draw
 import numpy as np
 import pytest
 
-from colonnade.figures.bands import bands_over_time
 from colonnade.figures.base_motion import BaseSpectra, base_motion
 from colonnade.figures.channels import Channel, Scale, Spike, channels_as_recorded
-from colonnade.figures.closer import Enlarged, Phase, closer_look
-from colonnade.figures.histories import Spread
+from colonnade.figures.closer import Enlarged, Phase, closer_look, separatrix
+from colonnade.figures.histories import Spread, bands_over_time
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.record import Peak, Quantity, whole_record
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
 from colonnade.figures.restitution.peaks import PeakSeries, peak_decay
-from colonnade.figures.stored.closer import separatrix
 from colonnade.figures.style import STYLE_FILE
 from colonnade.identification.restitution.peaks import angle_of_energy
 from colonnade.signals.metrics import Density

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from colonnade.dynamics.block import Block
-from colonnade.figures.drawing.parts import Body, Rocking
+from colonnade.figures.drawing.view import Body, Rocking
 from colonnade.figures.moving import MOST_FRAMES, RATE, rocking_block, turn
 from colonnade.figures.panels.curve import Curve
 

@@ -7,9 +7,8 @@ from colonnade.campaign import load
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
-from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.runs import write
-from colonnade.laboratory.table import ramped_sine, recorded, still
+from colonnade.laboratory.table import Transducer, ramped_sine, recorded, still
 from colonnade.workflow import run
 from prism import PRISM
 

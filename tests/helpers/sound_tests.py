@@ -8,9 +8,8 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import COMMAS
-from colonnade.laboratory.instruments import Imperfections, Transducer
 from colonnade.laboratory.runs import write
-from colonnade.laboratory.table import ramped_sine, recorded, still
+from colonnade.laboratory.table import Imperfections, Transducer, ramped_sine, recorded, still
 from colonnade.signals.filters import lowpass
 
 KINDS = ("free-vibration", "sine", "earthquake", "pulse")

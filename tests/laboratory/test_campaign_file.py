@@ -11,7 +11,7 @@ from colonnade.errors import CampaignError
 from colonnade.laboratory.campaign_file import FILE_NAME, MARK, campaign_text, refuse_foreign
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial, raw_path
 from colonnade.laboratory.files import Flavour, Tdms
-from colonnade.laboratory.instruments import Transducer
+from colonnade.laboratory.table import Transducer
 from prism import PRISM
 
 SHAPE = {"shape": "prism", "width": "86 mm", "depth": "86 mm", "height": "456 mm", "mass": "26.10 kg"}

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from colonnade.laboratory.experiment import MAIN
-from colonnade.laboratory.instruments import STEP, Imperfections, Transducer, measure
 from colonnade.laboratory.programme import RIGS, setups
-from colonnade.laboratory.table import ramped_sine, still
+from colonnade.laboratory.table import STEP, Imperfections, Transducer, measure, ramped_sine, still
 from every import every
 from prism import PRISM
 

@@ -13,9 +13,8 @@ from colonnade.laboratory import write_campaign
 from colonnade.laboratory.campaign_file import OPERATOR
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import GERMAN, FileFormat, Sheet
-from colonnade.laboratory.instruments import Imperfections, Transducer
 from colonnade.laboratory.runs import START_SCATTER, run_test, run_tests, write, write_truth
-from colonnade.laboratory.table import ramped_sine
+from colonnade.laboratory.table import Imperfections, Transducer, ramped_sine
 from colonnade.laboratory.truth import simulate
 from colonnade.workflow import executors
 from prism import PRISM

@@ -5,9 +5,9 @@ from html import unescape
 
 from colonnade.campaign import load
 from colonnade.campaign.forms.summary import Summary
-from colonnade.report.assessments_page.page import assessments_page
-from colonnade.report.forecasts_page.page import forecasts_page
-from colonnade.report.paper.document import document_of
+from colonnade.report.assessments_page import assessments_page
+from colonnade.report.forecasts_page import forecasts_page
+from colonnade.report.paper.typesetting import document_of
 from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.records.assessment import NOT_COVERED

@@ -1,7 +1,7 @@
 """Photos on the page of a test: those that are in the report, and why others are not."""
 
+from colonnade.report.asked import Photo, Photos
 from colonnade.report.pages import renderer_of
-from colonnade.report.photos import Photo, Photos
 
 HOSTILE = '"><script>alert(1)</script>.jpg'
 

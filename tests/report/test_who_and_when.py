@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.report import who_and_when
+from colonnade.report.test_page import facts
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def dated(campaign, *said):
 
 def test_a_campaign_says_from_when_to_when_and_names_each_operator_once(campaign):
     first, last = date(2013, 4, 26), date(2013, 5, 2)
-    said = who_and_when.of_campaign(dated(campaign, (last, "K. Papas"), (first, "M. Rossi"), (last, "K. Papas")))
+    said = facts.who_and_when(dated(campaign, (last, "K. Papas"), (first, "M. Rossi"), (last, "K. Papas")))
     assert said == [
         ("facility", "Simulator <1>"),
         ("tested", "2013-04-26 to 2013-05-02"),
@@ -33,20 +33,20 @@ def test_a_campaign_says_from_when_to_when_and_names_each_operator_once(campaign
 
 
 def test_one_day_and_one_operator_are_one(campaign):
-    said = who_and_when.of_campaign(dated(campaign, *[(date(2013, 4, 26), "M. Rossi")] * 3))
+    said = facts.who_and_when(dated(campaign, *[(date(2013, 4, 26), "M. Rossi")] * 3))
     assert said[1:] == [("tested", "2013-04-26"), ("operator", "M. Rossi")]
 
 
 def test_what_is_not_known_is_not_shown(campaign):
-    assert who_and_when.of_campaign(dated(campaign).but(facility=None)) == []
+    assert facts.who_and_when(dated(campaign).but(facility=None)) == []
     unknown = dated(campaign)
-    assert who_and_when.of_test(unknown, next(iter(unknown.tests.values()))) == [("facility", "Simulator <1>")]
+    assert facts.who_and_when_of_test(unknown, next(iter(unknown.tests.values()))) == [("facility", "Simulator <1>")]
 
 
 def test_a_test_says_its_own_day_and_operator(campaign):
     told = dated(campaign, (date(2013, 4, 26), "M. Rossi"))
     test = next(iter(told.tests.values()))
-    assert who_and_when.of_test(told, test)[1:] == [("date", "2013-04-26"), ("operator", "M. Rossi")]
+    assert facts.who_and_when_of_test(told, test)[1:] == [("date", "2013-04-26"), ("operator", "M. Rossi")]
 
 
 @given(st.lists(st.none() | st.dates(date(1900, 1, 1), date(2100, 12, 31)), min_size=1))
@@ -56,5 +56,5 @@ def test_the_days_of_tests_are_from_the_first_to_the_last(days):
             self.date = day
 
     known = sorted(day for day in days if day)
-    said = who_and_when.days(map(Dated, days))
+    said = facts.days(map(Dated, days))
     assert said.split(" to ") == ([day.isoformat() for day in dict.fromkeys([known[0], known[-1]])] if known else [""])

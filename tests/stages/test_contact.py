@@ -17,7 +17,7 @@ from colonnade.errors import StageError
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.report.specimens_page import _contact
 from colonnade.stages import contact as calibrating
-from colonnade.stages import contact_ensemble as running
+from colonnade.stages import ensemble as running
 from colonnade.stages import predict as predicting
 from colonnade.stages.contact import IDENTIFIED, law_variables
 from colonnade.store.description import VARIABLES

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from colonnade.store.freshness import Recipe, key_of, stamped
+from colonnade.store.provenance import Recipe, key_of, stamped
 
 RECIPE = Recipe("rocking", "c0de", '{"lowest_peak": 0.01}', {"conditioned": "aa", "daq2": None})
 OTHERS = {

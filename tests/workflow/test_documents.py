@@ -6,8 +6,8 @@ import zipfile
 import pytest
 
 from colonnade.errors import StoreError
-from colonnade.report.interactive.state import state_script
-from colonnade.store.freshness import key_of, stamped
+from colonnade.report.interactive.scripts import state_script
+from colonnade.store.provenance import key_of, stamped
 from colonnade.workflow.documents import write_bundle, write_pdf
 
 

@@ -1,4 +1,4 @@
-"""The command `colonnade`, one module for each command: it parses, calls the workflow and prints."""
+"""The command `colonnade`, one module for each command or two: it parses, calls the workflow and prints."""
 
 from __future__ import annotations
 

@@ -5,19 +5,14 @@ from __future__ import annotations
 import rich_click as click
 
 import colonnade
-from colonnade.cli.calibrate import calibrate
 from colonnade.cli.check import check
-from colonnade.cli.demo import demo
+from colonnade.cli.demo import demo, init
 from colonnade.cli.figure import figure
-from colonnade.cli.foresee import foresee
-from colonnade.cli.fragility import fragility
-from colonnade.cli.init import init
-from colonnade.cli.map import map_command
-from colonnade.cli.next import next_command
+from colonnade.cli.foresee import foresee, next_command
+from colonnade.cli.map import calibrate, map_command
 from colonnade.cli.run import identify, ingest, predict, report, run
-from colonnade.cli.schema import schema
-from colonnade.cli.show import show
-from colonnade.cli.spectrum import spectrum
+from colonnade.cli.show import schema, show
+from colonnade.cli.spectrum import fragility, spectrum
 from colonnade.cli.watch import watch
 
 COMMANDS = (

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING
 
 import rich_click as click
 
-from colonnade.cli.common.console import say_marked, show_json
+from colonnade.cli.common.console import say_marked, show_json, work_progress
 from colonnade.cli.common.findings import STYLES, alike, probable_cause, records_of, show_by_kind
 from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_option, strict_option
-from colonnade.cli.common.progress import work_progress
 from colonnade.errors import count
 from colonnade.findings import Severity
 

@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import say, show_json, show_table
+from colonnade.cli.common.console import run_progress, say, show_json, show_table
 from colonnade.cli.common.findings import alike, all_records, probable_cause, show_by_kind
 from colonnade.cli.common.options import CAMPAIGN, campaign_argument, work_options
-from colonnade.cli.common.progress import run_progress
 from colonnade.store.results import RUN_STAGES
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""`colonnade show`: what is known of a campaign, as a table or JSON."""
+"""`colonnade show` and `schema`: what is known of a campaign, and the JSON Schemas of the contracts."""
 
 from __future__ import annotations
 
@@ -207,3 +207,18 @@ def _with_unit(key: str, value: object) -> str:
     if isinstance(value, float) and unit in ("mm", "mrad"):
         value = 1000 * value
     return f"{shown(value)} {unit}".rstrip()
+
+
+@click.command(epilog="Example: colonnade schema campaign > campaign.schema.json")
+@click.argument("contract", type=click.Choice(("campaign", "summary", "review", "forecast")))
+def schema(contract: str) -> int:
+    """
+    Write the JSON Schema of campaign.toml, of processed/summary.json, of review.toml or of a file in forecasts/.
+
+    Editors that know TOML schemas complete and check a campaign.toml with it; loggers and scripts in any language can
+    check what they write and read with it.
+    """
+    from colonnade.campaign.forms.schema import json_schema
+
+    show_json(json_schema(contract))
+    return 0

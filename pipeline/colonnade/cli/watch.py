@@ -57,7 +57,7 @@ def watch(
     as_json: bool,
 ) -> int:
     """Watch a campaign; return the exit code."""
-    from colonnade.workflow.watching.told import command_of
+    from colonnade.workflow.watching.measure import command_of
     from colonnade.workflow.watching.watch import watch as watch_campaign
 
     try:

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from colonnade.figures.bands import bands_over_time
 from colonnade.figures.files.output import to_csv, to_png, to_svg
 from colonnade.figures.files.table import table_of
-from colonnade.figures.histories import Spread
+from colonnade.figures.histories import Spread, bands_over_time
 from colonnade.figures.maps.measured_map import measured_map
 from colonnade.figures.maps.response_orders import response_orders
 from colonnade.figures.maps.stability_map import stability_map
 from colonnade.figures.panels.curve import Curve, envelope
-from colonnade.figures.record import Peak, Quantity, whole_record
+from colonnade.figures.record import Peak, Quantity, SpanPanel, spans_side_by_side, whole_record
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
-from colonnade.figures.restitution.history import fitted_history
+from colonnade.figures.restitution.history import Region, fitted_history, joint_region
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
 from colonnade.figures.restitution.peaks import PeakSeries, peak_decay
-from colonnade.figures.restitution.region import Region, joint_region
-from colonnade.figures.spans import SpanPanel, spans_side_by_side
 
 __all__ = [
     "Curve",

@@ -1,4 +1,4 @@
-"""The rocking angle over time, measured and predicted, in a panel of any figure; the ranges of its axes."""
+"""The rocking angle over time, measured and predicted, in a panel of any figure; the bands that a model leaves."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array
-from colonnade.figures.panels.curve import Curve
-from colonnade.figures.panels.long import draw_band, draw_curve
-from colonnade.figures.style import INK, LIMIT, MEASURED, LineStyle, model_style
+from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
+from colonnade.figures.panels.layout import stacked_panels
+from colonnade.figures.style import INK, LIMIT, MEASURED, LineStyle, model_style, styled
 from colonnade.units.text import format_percent
 
 SMALLEST_RATIO = 0.02
@@ -177,3 +178,54 @@ def largest_of(curves: Sequence[Curve]) -> float:
     return max(
         (float(np.abs(curve.values[np.isfinite(curve.values)]).max(initial=0.0)) for curve in curves), default=0.0
     )
+
+
+HEIGHT = 1.9
+"""Of a model's panel, inches."""
+
+
+@styled()
+def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Figure:
+    """
+    Draw the measured angle over the bands of each model, one panel a model; the panel says whose bands they are.
+
+    Parameters
+    ----------
+    measured : Curve or None
+        θ/α over time (s); None if it was not measured.
+    spreads : mapping of str to Spread
+        By model.
+
+    Returns
+    -------
+    figure : Figure
+
+    Raises
+    ------
+    ValueError
+        If there is no model, or levels are not paired about the median.
+    """
+    if not spreads:
+        raise ValueError("no ensemble was given; that of at least one model was expected")
+    for model, spread in spreads.items():
+        if not np.allclose(spread.levels + spread.levels[::-1], 1.0):
+            raise ValueError(f"{model}: the levels {spread.levels.tolist()} are not paired about 0.5")
+    figure, axes = stacked_panels([HEIGHT] * len(spreads))
+    curves = [Curve(spread.time, band) for spread in spreads.values() for band in spread.bands]
+    curves += [measured] if measured is not None else []
+    limit = limit_of(curves)
+    for panel, (model, spread) in zip(axes, spreads.items(), strict=True):
+        colour = model_style(model)["color"]
+        for index in range(int((spread.levels < 0.5).sum())):
+            shade(panel, spread, index, colour, label=f"{model} {format_percent(spread.share(index))} band")
+        mark_horizon(panel, spread, colour)
+        draw_angle(panel, measured, {}, limit)
+        panel.set_ylabel(ANGLE_LABEL)
+        shares = " and ".join(format_percent(spread.share(index)) for index in range(int((spread.levels < 0.5).sum())))
+        said = f"line: measured; bands: {shares} of the {model} model's runs"
+        if spread.overturning_probability > 0:
+            said += f"; {format_percent(spread.overturning_probability)} overturn"
+        panel.annotate(said, (0.995, 0.04), xycoords="axes fraction", ha="right", fontsize=8, color=INK)
+    axes[-1].set_xlim(*time_limits(curves))
+    axes[-1].set_xlabel("time (s)")
+    return figure

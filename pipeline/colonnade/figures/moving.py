@@ -10,10 +10,16 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
 from colonnade.arrays import Array
-from colonnade.figures.drawing.parts import Body
+from colonnade.campaign import Test
+from colonnade.campaign.specimen import Specimen
+from colonnade.dynamics.block import Block
+from colonnade.figures.drawing.described import body_of
+from colonnade.figures.drawing.view import Body
 from colonnade.figures.files.output import Movie
 from colonnade.figures.panels.curve import Curve
+from colonnade.figures.stored.record import base_displacement, true_angle
 from colonnade.figures.style import INK, MEASURED, SOFT, model_style, styled
+from colonnade.store.records.stored import Stored
 
 RATE, MOST_FRAMES = 25.0, 250
 """Frames a second, and of a movie: a longer test is played faster."""
@@ -190,3 +196,19 @@ def _time_limits(curves: Sequence[Curve]) -> tuple[float, float]:
 
 def _label(name: str) -> str:
     return name if name == "measured" else f"{name} model"
+
+
+def animation(test: Test, specimen: Specimen, stored: Stored, block: Block) -> Movie | None:
+    """Draw the block of a test as it rocks, measured and by each model; None without an angle."""
+    angles: dict[str, Curve] = {}
+    histories = [("measured", "rocking", None), *((model, "predict", model) for model in stored.models("predict"))]
+    for name, stage, model in histories:
+        if stored.has(stage, "rocking_angle", model):
+            times, values = (stored.array(stage, each, model) for each in ("elapsed", "rocking_angle"))
+            angles[name] = Curve(times, true_angle(stored, values) if stage == "rocking" else values)
+    if not angles:
+        return None
+    base, how = base_displacement(stored)
+    title = f"{test.id}: the rocking block"
+    said = "measured and predicted" if len(angles) > 1 else next(iter(angles))
+    return rocking_block(angles, body_of(specimen, block), base, title=title, description=f"{said}; base: {how}.")

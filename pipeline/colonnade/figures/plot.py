@@ -20,16 +20,14 @@ from colonnade.dynamics.maps import StabilityMap
 from colonnade.dynamics.pulses import OverturningSpectrum
 from colonnade.dynamics.spectra import RockingSpectrum
 from colonnade.figures import fragility
-from colonnade.figures.drawing.parts import Body, Rocking
+from colonnade.figures.drawing.view import Body, Rocking
 from colonnade.figures.files.output import Movie
 from colonnade.figures.histories import SHADES, draw_angle, limit_of
 from colonnade.figures.maps.stability_map import stability_map
 from colonnade.figures.moving import SIZE, moving_bodies, rocking_block
-from colonnade.figures.panels.curve import Curve
-from colonnade.figures.panels.long import draw_band, draw_curve
+from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
-from colonnade.figures.spectra.overturning import overturning_spectrum
-from colonnade.figures.spectra.rocking import rocking_spectrum
+from colonnade.figures.spectra import overturning_spectrum, rocking_spectrum
 from colonnade.figures.style import MEASURED, model_style
 from colonnade.identification.restitution.result import Restitution
 from colonnade.units.text import format_percent

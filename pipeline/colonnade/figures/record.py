@@ -1,4 +1,4 @@
-"""All that is known of one test over time: angle, misfit, other motions of the specimen, base motion, on one axis."""
+"""The whole record of a test over time, measured and predicted; and earthquake tests of rising Span side by side."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from colonnade.arrays import Array
 from colonnade.figures.histories import (
+    ANGLE_LABEL,
     Spread,
     draw_angle,
     draw_limit,
@@ -19,9 +20,8 @@ from colonnade.figures.histories import (
     scale_symmetric,
     time_limits,
 )
-from colonnade.figures.panels.curve import Curve
-from colonnade.figures.panels.layout import legend_above, stacked_panels
-from colonnade.figures.panels.long import draw_curve
+from colonnade.figures.panels.curve import Curve, draw_curve, envelope
+from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side, stacked_panels
 from colonnade.figures.style import BASE, MEASURED, model_style, styled
 
 ANGLE_HEIGHT, OTHER_HEIGHT = 2.0, 0.8
@@ -143,3 +143,72 @@ def _draw_quantity(axes: Axes, quantity: Quantity) -> None:
     if quantity.level is not None and quantity.level < 1.12 * largest:
         draw_limit(axes, quantity.level, quantity.level_name)
     axes.set_ylabel(quantity.label)
+
+
+MODEL_HEIGHT, BASE_HEIGHT = 1.35, 0.8
+"""Heights of the panels, inches."""
+
+THINNESS = 0.6
+"""Of the models' lines beside their usual width."""
+
+
+class SpanPanel(NamedTuple):
+    """One test: its title, θ/α over time (s) as measured (None if it was not) and by each model; base in m/s²."""
+
+    title: str
+    measured: Curve | None
+    predicted: Mapping[str, Curve]
+    base: Curve | None = None
+
+    def thinned(self) -> SpanPanel:
+        """Return the same panel with curves of a few hundred points, so that many fit into memory."""
+        measured, base = (None if curve is None else envelope(curve) for curve in (self.measured, self.base))
+        return SpanPanel(self.title, measured, {name: envelope(curve) for name, curve in self.predicted.items()}, base)
+
+
+@styled()
+def spans_side_by_side(panels: Sequence[SpanPanel]) -> Figure:
+    """
+    Draw earthquake tests side by side, a row of panels for each model, all with the same scales.
+
+    Parameters
+    ----------
+    panels : sequence of SpanPanel
+        In the order in which they are drawn, from the left.
+
+    Returns
+    -------
+    figure : Figure
+
+    Raises
+    ------
+    ValueError
+        If there is no panel.
+    """
+    if not panels:
+        raise ValueError("no test was given; at least one panel was expected")
+    models = list(dict.fromkeys(model for panel in panels for model in panel.predicted))
+    curves = [curve for panel in panels for curve in (panel.measured, *panel.predicted.values()) if curve is not None]
+    bases = [panel.base for panel in panels if panel.base is not None]
+    limit, largest = limit_of(curves), largest_of(bases) or 1.0
+    rows = max(len(models), 1)
+    figure, grid = side_by_side(len(panels), [MODEL_HEIGHT] * rows + [BASE_HEIGHT] * bool(bases))
+    for column, panel in zip(grid, panels, strict=True):
+        for one, model in zip(column, models or [""], strict=False):
+            predicted = {model: panel.predicted[model]} if model in panel.predicted else {}
+            draw_angle(one, panel.measured, predicted, limit, thinness=THINNESS, limit_name="")
+            one.set_ylabel("")
+        column[0].set_title(panel.title)
+        if bases:
+            if panel.base is not None:
+                draw_curve(column[-1], panel.base, **BASE)
+            scale_symmetric(column[-1], largest)
+        column[-1].set_xlabel("time (s)")
+        column[0].set_xlim(*time_limits([*curves, *bases]))
+    for column in grid[::COLUMNS]:
+        for one in column[:rows]:
+            one.set_ylabel(ANGLE_LABEL)
+        if bases:
+            column[-1].set_ylabel("base\n(m/s²)")
+    legend_above(figure, [one for column in grid for one in column[:rows]])
+    return figure

@@ -11,7 +11,7 @@ from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.errors import CampaignError
 from colonnade.laboratory.experiment import MAIN, Plan, Setup, Trial, begun, raw_path
 from colonnade.laboratory.files import FileFormat
-from colonnade.laboratory.instruments import VOLTS, Transducer
+from colonnade.laboratory.table import VOLTS, Transducer
 from colonnade.readers.files import irregular
 
 FILE_NAME = "campaign.toml"

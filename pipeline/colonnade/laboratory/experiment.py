@@ -10,8 +10,7 @@ import numpy as np
 
 from colonnade.dynamics.block import Block
 from colonnade.laboratory.files import FileFormat, Flavour
-from colonnade.laboratory.instruments import Imperfections, Transducer
-from colonnade.laboratory.table import TableMotion, still
+from colonnade.laboratory.table import Imperfections, TableMotion, Transducer, still
 
 MAIN = "main"
 

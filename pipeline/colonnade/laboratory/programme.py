@@ -24,8 +24,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.errors import ReadError
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import COMMAS, GERMAN, TABS, FileFormat, Matlab, Tdms
-from colonnade.laboratory.instruments import Transducer
-from colonnade.laboratory.table import ramped_sine, recorded
+from colonnade.laboratory.table import Transducer, ramped_sine, recorded
 from colonnade.readers.motion import EL_CENTRO, el_centro
 from colonnade.units.text import format_percent
 

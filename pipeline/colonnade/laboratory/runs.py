@@ -16,9 +16,9 @@ from colonnade.arrays import Array
 from colonnade.laboratory.campaign_file import FILE_NAME, campaign_text, refuse_foreign
 from colonnade.laboratory.experiment import MAIN, Plan, Setup, Trial, begun, raw_path
 from colonnade.laboratory.files import Sheet, put
-from colonnade.laboratory.instruments import measure
 from colonnade.laboratory.programme import load_record, prism_programme
 from colonnade.laboratory.site import add_site
+from colonnade.laboratory.table import measure
 from colonnade.laboratory.truth import Truth, simulate
 from colonnade.store.files import own_files
 

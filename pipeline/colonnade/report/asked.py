@@ -7,10 +7,37 @@ from dataclasses import dataclass
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.forms.summary import TestSummary
-from colonnade.report.photos import NO_PHOTOS, Photos
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import read_summary, records_of_tests
 from colonnade.store.results import models_shown
+
+KIND = "photo"
+"""Kind of the findings about photos that cannot be shown."""
+
+
+@dataclass(frozen=True)
+class Photo:
+    """A photo: its address within the report, what it is, for those who do not see it, and its path as written."""
+
+    address: str
+    description: str
+    written: str
+
+
+@dataclass(frozen=True)
+class Photos:
+    """Those of a test that are shown, and why others are not."""
+
+    shown: tuple[Photo, ...] = ()
+    problems: tuple[str, ...] = ()
+
+
+NO_PHOTOS = Photos()
+
+
+def address_of(test: str, number: int) -> str:
+    """Address of a test's photo within the report; photos are numbered from 1."""
+    return f"photos/{test}-{number}.jpg"
 
 
 @dataclass(frozen=True)

@@ -10,18 +10,16 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.settings import settings
 from colonnade.identification.response.base_motion import LEAST_MOTION
 from colonnade.identification.response.rank import WITHIN
-from colonnade.report import addresses, methods, pages, problems, specimens_page
-from colonnade.report.assessments_page.page import AssessmentShown, assessments_page, symbol
-from colonnade.report.forecasts_page.page import forecasts_page
-from colonnade.report.interactive import tables
+from colonnade.report import addresses, methods, pages, specimens_page
+from colonnade.report.assessments_page import AssessmentShown, assessments_page, symbol
+from colonnade.report.forecasts_page import forecasts_page
+from colonnade.report.interactive import panels
 from colonnade.report.interactive.scripts import scripts
-from colonnade.report.methods import Used
-from colonnade.report.overview_page import groups, maps, peaks, spans
-from colonnade.report.overview_page.agreement import agreement
-from colonnade.report.overview_page.attention import attention
-from colonnade.report.overview_page.confusion import confusions
+from colonnade.report.methods import REFERENCES, Used
+from colonnade.report.overview_page import groups
+from colonnade.report.overview_page.agreement import agreement, confusions, peak_points, peaks_picture, worst
+from colonnade.report.overview_page.attention import WarningGroup, attention, warning_groups
 from colonnade.report.parts import Part
-from colonnade.report.references import REFERENCES
 from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import SpecimenPage
 from colonnade.store.layout import Layout
@@ -44,7 +42,7 @@ def specimen_page(campaign: Campaign, layout: Layout, name: str, parts: Sequence
     shown = {
         "specimen": _specimen(campaign, layout, name, own),
         "groups": [group for group in groups.by_specimen(campaign, rows) if group.specimen == name],
-        "maps": [drawn for drawn in maps.measured_maps(campaign, layout, rows) if drawn.specimen == name],
+        "maps": [drawn for drawn in groups.measured_maps(campaign, layout, rows) if drawn.specimen == name],
     }
     yield from _page(pages.renderer_of(campaign), "specimen", addresses.of_specimen(name), shown)
 
@@ -74,7 +72,7 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
     foreseen, assessed = forecasts_page(layout, summary), assessments_page(campaign, layout, summary)
     shown = _shown(campaign, parts, specimens, assessed, used) | {
         "groups": groups.by_specimen(campaign, rows),
-        "maps": maps.measured_maps(campaign, layout, rows),
+        "maps": groups.measured_maps(campaign, layout, rows),
         "forecasts": foreseen,
         "advice": {"heads": advising.HEADS, "rows": [each.row() for each in advice]},
         "assessments": assessed,
@@ -98,7 +96,7 @@ def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[Par
 def _page(renderer: pages.Renderer, template: str, address: str, shown: dict[str, Any]) -> Pages:
     """Render a page that shows several tests, and its data."""
     text = renderer.page(template, address, **shown)
-    yield addresses.of_data(address), tables.of_page(address, renderer.pictures)
+    yield addresses.of_data(address), panels.of_page(address, renderer.pictures)
     yield address, text
 
 
@@ -111,10 +109,10 @@ def _shown(
 ) -> dict[str, Any]:
     """Give what the pages about the whole campaign show."""
     rows, models = [part.row for part in tests], models_shown(campaign)
-    findings, mistaken, worst = (
+    findings, mistaken, furthest = (
         _warnings(rows, specimens, assessed),
         confusions(rows, models),
-        peaks.worst(rows, models),
+        worst(rows, models),
     )
     return {
         "tests": rows,
@@ -122,10 +120,10 @@ def _shown(
         "warnings": findings,
         "attention": attention(rows, models, findings, mistaken, {one.name: one.record for one in assessed}),
         "confusions": mistaken,
-        "worst": worst,
-        "peaks": peaks.picture(peaks.points(rows, models, worst)),
+        "worst": furthest,
+        "peaks": peaks_picture(peak_points(rows, models, furthest)),
         "thumbnails": {part.row.id: part.thumbnail for part in tests},
-        "spans": spans.span_groups([part.span for part in tests if part.span is not None]),
+        "spans": groups.span_groups([part.span for part in tests if part.span is not None]),
         "agreement": agreement({row.id: row.record.model_dump() for row in rows}),
         "channels": {part.row.id: part.channels for part in tests},
         "used": used,
@@ -139,8 +137,8 @@ def _shown(
 
 def _warnings(
     tests: list[TestRow], specimens: list[SpecimenPage], assessed: list[AssessmentShown]
-) -> list[problems.WarningGroup]:
+) -> list[WarningGroup]:
     given = [(row.id, found) for row in tests for found in row.record.warnings]
     given += [(f"specimen {specimen.id}", found) for specimen in specimens for found in specimen.warnings]
     given += [(f"assessment {one.name}", found) for one in assessed for found in one.warned()]
-    return problems.warning_groups(given)
+    return warning_groups(given)

@@ -15,8 +15,8 @@ from colonnade.campaign.settings import Setting
 from colonnade.dynamics.models import MODELS
 from colonnade.errors import count
 from colonnade.figures.files.output import Picture, link_to
-from colonnade.report import who_and_when
 from colonnade.report.addresses import of_specimen, of_test, scripts_of
+from colonnade.report.test_page import facts
 from colonnade.store.records import wording
 from colonnade.store.results import models_shown
 from colonnade.units import text
@@ -137,7 +137,7 @@ def renderer_of(campaign: Campaign) -> Renderer:
     """Return the renderer of a campaign's pages."""
     return Renderer(
         campaign=campaign,
-        who_and_when=who_and_when.of_campaign(campaign),
+        who_and_when=facts.who_and_when(campaign),
         models=models_shown(campaign),
         registry=MODELS,
         gravity=text.quantity(campaign.gravity, "m/s²", 5),

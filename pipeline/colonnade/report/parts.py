@@ -12,15 +12,14 @@ from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from colonnade.figures.spans import SpanPanel
-from colonnade.figures.stored.curves import measured_ratio
+from colonnade.figures.record import SpanPanel
+from colonnade.figures.stored.record import measured_ratio
 from colonnade.figures.style import styled
-from colonnade.report import addresses, pages, specimens_page
+from colonnade.report import addresses, pages, rows, specimens_page
 from colonnade.report.asked import Asked
 from colonnade.report.interactive import test_data
 from colonnade.report.methods import Used
-from colonnade.report.overview_page import thumbnails
-from colonnade.report.overview_page.spans import SpanTest
+from colonnade.report.overview_page.groups import SpanTest
 from colonnade.report.pictures.subjects import OfTest, has_span, span_of
 from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import FreeVibration
@@ -103,7 +102,7 @@ def _drawn(renderer: pages.Renderer, layout: Layout, asked: Asked) -> tuple[list
     kept = Kept(
         tuple(row.failures),
         channels.of_test(stored),
-        thumbnails.polyline(measured_ratio(stored, campaign.block(test.specimen))),
+        rows.polyline(measured_ratio(stored, campaign.block(test.specimen))),
         panel,
         described,
         specimens_page.free_vibration(subject) if stored.has("restitution") else None,

@@ -1,4 +1,4 @@
-"""The page of one specimen: its properties as given and as derived, at both scales, and its restitution."""
+"""The page of one specimen: drawings, properties as given and derived, at both scales, and its restitution."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from colonnade.campaign.forms.summary import Warned
 from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block, pair
 from colonnade.dynamics.size import at_prototype
+from colonnade.figures.drawing import described
 from colonnade.figures.files.output import Picture
 from colonnade.figures.stored.restitution import STAGE
 from colonnade.findings import in_order
-from colonnade.report import drawings
-from colonnade.report.drawings import Drawing
+from colonnade.report import addresses
 from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import Decaying, OfSpecimen, OfTest
 from colonnade.report.test_page import restitution
 from colonnade.report.test_page.restitution import EstimateText
 from colonnade.store.records.stored import Failure, Stored
-from colonnade.units.text import NOTHING, interval, number, percent, quantity
+from colonnade.units.text import NOTHING, interval, listed, number, percent, quantity
 
 BOUNDS = ("restitution_low", "restitution_high", "level")
 
@@ -129,7 +129,7 @@ def of_specimen(
         shape=specimen.shape,
         scale="" if specimen.scale is None else f"1:{specimen.scale:g}",
         properties=_properties(specimen, block, campaign.gravity),
-        drawings=drawings.of_specimen(campaign, name),
+        drawings=drawings_of(campaign, name),
         deviations=list(specimen.deviations(campaign.gravity)),
         e=interval(value, low, high, level),
         source=SOURCES.get(pooled.text("specimen", "restitution_source"), unknown),
@@ -237,3 +237,30 @@ def _written(value: float | None, unit: str) -> str:
     if unit in ("", "kg", "kg m²"):
         return f"{number(value, 4)} {unit}".rstrip()
     return quantity(value, "m" if unit == "mm" and value >= 2.0 else unit, 4)
+
+
+class Drawing(NamedTuple):
+    """A drawing as a page shows it: specimen and setup, its address, and what is seen in it."""
+
+    specimen: str
+    setup: str
+    tests: str
+    address: str
+    description: str
+
+
+def drawing_of(campaign: Campaign, specimen: str, setup: str) -> Drawing:
+    """Name the drawing of a specimen in a setup; it is not drawn for that."""
+    tests = listed(campaign.combinations[specimen, setup])
+    said = described.said_of(campaign, specimen, setup)
+    return Drawing(specimen, setup, tests, addresses.of_setup(specimen, setup), said)
+
+
+def drawings_of(campaign: Campaign, specimen: str) -> list[Drawing]:
+    """Name the drawings of a specimen."""
+    return [drawing_of(campaign, *pair) for pair in campaign.combinations if pair[0] == specimen]
+
+
+def drawing_svg(campaign: Campaign, specimen: str, setup: str) -> str:
+    """Draw a specimen with the transducers of a setup."""
+    return described.picture(campaign, specimen, setup).svg + "\n"

@@ -15,7 +15,7 @@ from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.calibration import VELOCITY_RATIO, Calibration, calibrate, free_restitution
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.modes import keep_modes_for_step
+from colonnade.dynamics.contact.stability import keep_modes_for_step
 from colonnade.errors import StageError
 from colonnade.findings import warning
 from colonnade.identification.restitution.identify import identify_restitution
@@ -212,7 +212,7 @@ def _whole_body(inputs: ContactInputs) -> ContactBody:
             f'processing.predict.contact.mesh is "{settings.mesh}", but this specimen is of shape '
             f'"{inputs.shape}" and has no dimensions to mesh. mesh = "rigid" was expected.'
         )
-    from colonnade.dynamics.contact.elastic.model import elastic_body
+    from colonnade.dynamics.contact.elastic.reduction import elastic_body
 
     return elastic_body(
         sizes,

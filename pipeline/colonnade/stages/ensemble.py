@@ -1,18 +1,24 @@
-"""Ensemble: recorded base motion, specimen and uncertain inputs -> bands of a model, probability of overturning."""
+"""Ensemble: recorded base motion, specimen and uncertain inputs -> bands of a model, in the plane or on contact."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.channel import ALONG
-from colonnade.campaign.settings import PlaneEnsembleSettings
+from colonnade.campaign.settings import ContactEnsembleSettings, PlaneEnsembleSettings
+from colonnade.dynamics.contact.ensemble import AssemblyPlan, ContactPlan, Range
+from colonnade.dynamics.contact.simulate import plane_block
 from colonnade.dynamics.ensemble import PlanePlan
+from colonnade.dynamics.models import CONTACT
 from colonnade.dynamics.uncertainty import INPUTS, Uncertainty
+from colonnade.errors import StageError
 from colonnade.identification.response.rank import Measurement
+from colonnade.stages.contact import ContactInputs, assembly_law, body_of, law_of
 from colonnade.stages.parts.beginning import RECORDED, begin
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.rank import MeasurementInputs, describe_bands, measurement_errors, rank_measured
@@ -146,3 +152,116 @@ def _base_noise(conditioned: xr.Dataset, table: tuple[str, ...]) -> tuple[float,
     noise = np.array([float(given.get("noise", 0.0)) for given in used])
     cutoff = min((float(given["cutoff_hz"]) for given in used if "cutoff_hz" in given), default=None)
     return float(np.sqrt(np.sum(noise**2))) / noise.size, cutoff
+
+
+class ContactEnsembleInputs(Inputs):
+    """
+    What `contact_ensemble` reads of the campaign for one test.
+
+    Attributes
+    ----------
+    prediction : PredictInputs
+    settings : ContactEnsembleSettings
+        Half ranges of the inputs.
+    measurement : MeasurementInputs
+    """
+
+    prediction: PredictInputs
+    space: ContactInputs
+    settings: ContactEnsembleSettings
+    measurement: MeasurementInputs
+
+    @classmethod
+    def of(cls, campaign: Campaign, test: Test) -> ContactEnsembleInputs:
+        """Gather what `contact_ensemble` reads for one test."""
+        return cls(
+            prediction=PredictInputs.of(campaign, test, CONTACT.name),
+            space=ContactInputs.of(campaign, test.specimen),
+            settings=campaign.processing.predict.ensemble.contact,
+            measurement=MeasurementInputs.of(campaign, test),
+        )
+
+
+def contact_ensemble(
+    conditioned: xr.Dataset,
+    rocking: xr.Dataset,
+    inputs: ContactEnsembleInputs,
+    contact: xr.Dataset | None = None,
+    identified: xr.Dataset | None = None,
+) -> xr.Dataset:
+    """
+    Run the contact model many times on the base motion that was recorded, over what is not known of it.
+
+    Parameters
+    ----------
+    conditioned : xr.Dataset
+        Result of `condition`: cut-offs of the channels on the specimen.
+    rocking : xr.Dataset
+        As of `predict`.
+    inputs : ContactEnsembleInputs
+    contact : xr.Dataset, optional
+        As of `predict`; several bodies have none.
+    identified : xr.Dataset, optional
+        As of `predict`.
+
+    Returns
+    -------
+    bands : xr.Dataset
+        As of `ensemble`. By `input` it has the standard deviation of values that are equally likely in their range; of
+        an assembly by `body` the `body_overturning_probability` and, of the members in which it stands, the quantiles
+        of how far it moved for good, `body_moved_band` (m).
+
+    Raises
+    ------
+    StageError
+        As `predict`.
+    """
+    beginning = begin(rocking, inputs.prediction, identified)
+    space, ranges, assembled = inputs.space, inputs.settings, inputs.prediction.assembly
+    law = assembly_law(space.settings) if contact is None else law_of(contact)
+    common: dict[str, Any] = {
+        "law": law,
+        "friction": _about(law.friction, ranges.friction * law.friction),
+        "damping_fraction": _about(law.damping_fraction, ranges.damping_fraction * law.damping_fraction),
+        "motion": beginning.motion,
+        "theta0": beginning.theta0,
+        "omega0": beginning.omega0,
+        "count": ranges.members,
+    }
+    plan: AssemblyPlan | ContactPlan
+    if assembled is not None:
+        misplacement = ranges.misplacement
+        plan = AssemblyPlan(block=space.block, assembly=assembled.assembly, misplacement=misplacement, **common)
+    else:
+        body, tilt = body_of(space, law), _about(space.settings.out_of_plane, abs(ranges.out_of_plane))
+        block = plane_block(body, space.block.gravity)
+        plan = ContactPlan(block=block, body=body, out_of_plane=tilt, step=space.settings.step, **common)
+    try:
+        found = plan.run()
+    except ValueError as error:
+        raise StageError(f"processing.predict.contact: {error}") from error
+    middles = dict(zip(plan.names, (law.friction, law.damping_fraction, 1.0), strict=False))
+    deviations = {name: np.ptp(getattr(plan, name)) / np.sqrt(12.0) / (middles[name] or 1.0) for name in plan.names}
+    start = beginning.theta0 if inputs.prediction.free_vibration else None
+    errors = measurement_errors(conditioned, rocking, start, inputs.measurement)
+    ranked = rank_measured(rocking, beginning, found, np.zeros(plan.count), errors, inputs.measurement)
+    bands = describe_bands(rocking, beginning, found, deviations)
+    if isinstance(plan, AssemblyPlan):
+        bands = bands.assign(_ends(plan, found.levels))
+    return bands.assign(ranked).assign_attrs(model=CONTACT.name, members=plan.count, warnings=[])
+
+
+def _ends(plan: AssemblyPlan, levels: Array) -> dict[str, Any]:
+    """How probably each body falls, and how far it moves for good where it stands."""
+    moved, fell = (np.array(each) for each in zip(*plan.ends, strict=True))
+    standing = [moved[fell[:, place] == 0, place] for place in range(fell.shape[1])]
+    bands = [np.quantile(each, levels) if each.size else np.full(levels.size, np.nan) for each in standing]
+    return {
+        "body": ("body", np.array(list(plan.assembly.bodies), dtype=object)),
+        "body_overturning_probability": ("body", fell.mean(axis=0)),
+        "body_moved_band": (("quantile", "body"), np.array(bands).T),
+    }
+
+
+def _about(middle: float, half: float) -> Range:
+    return middle - half, middle + half

@@ -12,7 +12,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.errors import StageError
 from colonnade.identification.calibration import randomised_pit
 from colonnade.identification.forecasts import Response, forecast_of, forecast_of_peaks, score
-from colonnade.stages.parts.base_motion import base_acceleration
+from colonnade.stages.parts.beginning import base_acceleration
 from colonnade.stages.parts.inputs import Inputs
 
 if TYPE_CHECKING:

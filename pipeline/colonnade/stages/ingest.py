@@ -19,13 +19,18 @@ from colonnade.readers.recording import RecordedChannel, Recording, Window
 from colonnade.signals import quality, timing
 from colonnade.signals.samples import side_by_side
 from colonnade.stages.ingesting import columns
-from colonnade.stages.ingesting.columns import dimension_of, find_column, rounding, too_short, unit_findings, within
-from colonnade.stages.ingesting.quality import (
+from colonnade.stages.ingesting.columns import (
     ChannelInputs,
     channel_verdicts,
     clock_verdicts,
+    dimension_of,
+    find_column,
     flag_dead_on_specimen,
     reviewed,
+    rounding,
+    too_short,
+    unit_findings,
+    within,
 )
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.store.description import variable_name

@@ -22,10 +22,17 @@ from colonnade.signals.rest import single_shock
 from colonnade.signals.samples import stretches
 from colonnade.signals.timing import STRONG
 from colonnade.stages.parts.bodies import AssemblyInputs, measure, measured_variables, together
-from colonnade.stages.parts.conditioned import LEAST_NOISE, axes, base_motion, group
 from colonnade.stages.parts.inputs import Inputs
-from colonnade.stages.parts.markers import misplaced
-from colonnade.stages.parts.transducers import Transducers, outline, transducers
+from colonnade.stages.parts.transducers import (
+    LEAST_NOISE,
+    Transducers,
+    axes,
+    base_motion,
+    group,
+    misplaced,
+    outline,
+    transducers,
+)
 
 if TYPE_CHECKING:
     import xarray as xr

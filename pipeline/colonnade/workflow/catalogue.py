@@ -14,9 +14,8 @@ from colonnade.findings import from_text, to_text
 from colonnade.interruption import expect_none
 from colonnade.sources import code_hash, package_hash
 from colonnade.store import files
-from colonnade.store.freshness import key_of
 from colonnade.store.layout import Layout
-from colonnade.store.provenance import hash_of
+from colonnade.store.provenance import hash_of, key_of
 
 KEPT = ("key", "status", "reason", "content", "ingredients")
 """Attributes of a result that decide whether it, and what follows from it, is up to date."""

@@ -15,9 +15,8 @@ from colonnade.errors import SHORT_OF_MEMORY, ColonnadeError, RunEndedError, Sto
 from colonnade.findings import at_stage
 from colonnade.interruption import expect_none
 from colonnade.store import files
-from colonnade.store.freshness import NEVER_RUN, Recipe
 from colonnade.store.layout import Layout
-from colonnade.store.provenance import Origin, global_attributes
+from colonnade.store.provenance import NEVER_RUN, Origin, Recipe, global_attributes
 from colonnade.store.results import RUN_STAGES, ResultId
 from colonnade.workflow.catalogue import stored_attributes
 from colonnade.workflow.executors import WorkersEndedError

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 
 from colonnade.campaign import Campaign, load
 from colonnade.errors import CampaignError, StoreError, nearest
-from colonnade.report import addresses, who_and_when
-from colonnade.report.interactive.state import UNWATCHED
+from colonnade.report import addresses
+from colonnade.report.interactive.scripts import UNWATCHED
+from colonnade.report.test_page import facts
 from colonnade.store import bundle
-from colonnade.store.freshness import key_of
 from colonnade.store.layout import STATE, Layout
+from colonnade.store.provenance import key_of
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.product import Contents, Product, brought_up_to_date, known
@@ -91,7 +92,7 @@ def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | st
 def _pdf(campaign: Campaign, layout: Layout, folder: Path, catalogue: Catalogue, appendix: bool) -> Product:
     """Give the PDF, made from the pages and their pictures as they are."""
     upstream = {name: key_of(folder / name) for name in [*_pages(campaign, folder), *_shown(folder)]}
-    shown = json.dumps([campaign.title, campaign.campaign, who_and_when.on_cover(campaign), appendix])
+    shown = json.dumps([campaign.title, campaign.campaign, facts.on_cover(campaign), appendix])
     make = partial(_typeset, campaign, folder, appendix)
     return Product("pdf", shown, upstream, catalogue.code(MADE_BY), make, (layout.pdf,))
 

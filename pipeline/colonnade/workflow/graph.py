@@ -103,7 +103,7 @@ class Graph:
 
     def predicting(self, test: Test) -> list[Product]:
         """Return the results of a test from its predictions to the comparison with them."""
-        from colonnade.stages import compare, contact_ensemble, ensemble, predict
+        from colonnade.stages import compare, ensemble, predict
 
         conditioned, rocking = ({name: ResultId(test.id, stage)} for name, stage in _MEASURED.items())
         specimen = {"specimen": ResultId(test.specimen, "specimen")}
@@ -122,10 +122,8 @@ class Graph:
                 continue
             result, upstream = ResultId(test.id, "ensemble", model), {**conditioned, **rocking, **own}
             if MODELS[model].in_space:
-                in_space = contact_ensemble.ContactEnsembleInputs.of(self.campaign, test)
-                ensembles.append(
-                    self.product(result, in_space, upstream | law, _by_name(contact_ensemble.contact_ensemble))
-                )
+                in_space = ensemble.ContactEnsembleInputs.of(self.campaign, test)
+                ensembles.append(self.product(result, in_space, upstream | law, _by_name(ensemble.contact_ensemble)))
             else:
                 in_plane = ensemble.EnsembleInputs.of(self.campaign, test, model)
                 ensembles.append(self.product(result, in_plane, upstream | specimen, _by_name(ensemble.ensemble)))

@@ -22,7 +22,7 @@ from colonnade.identification.response.boundaries import MapPoint, Misfit, brack
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
-from colonnade.store.records.stability_map import as_dataset, as_map
+from colonnade.store.records.stored import as_dataset, as_map
 from colonnade.store.records.summary import map_points
 from colonnade.store.results import ResultId
 from colonnade.workflow.catalogue import Catalogue, stored_attributes
@@ -333,9 +333,9 @@ def _chart(plan: MapPlan, attributes: Mapping[str, str], blocks: Iterable[Arrays
 
 
 def _draw(stored: Sequence[xr.Dataset], points: Sequence[MapPoint], path: Path, specimen: str) -> None:
-    from colonnade.figures.stored import maps
+    from colonnade.figures.maps import response_orders
 
-    files.write_text(path, maps.computed(specimen, [as_map(each) for each in stored], points).svg)
+    files.write_text(path, response_orders.computed(specimen, [as_map(each) for each in stored], points).svg)
 
 
 def as_response(stored: xr.Dataset) -> SteadyResponse:
@@ -394,6 +394,6 @@ def _steady(plan: MapPlan, attributes: Mapping[str, str], blocks: Sequence[Array
 def _draw_responses(
     response: SteadyResponse, plan: MapPlan, points: Sequence[MapPoint], path: Path, specimen: str
 ) -> None:
-    from colonnade.figures.stored import maps
+    from colonnade.figures.maps import response_orders
 
-    files.write_text(path, maps.responses(specimen, response, points, _settings(plan)).svg)
+    files.write_text(path, response_orders.responses(specimen, response, points, _settings(plan)).svg)

@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING
 from colonnade.campaign import Campaign
 from colonnade.campaign.forms.foreseen import ForecastsSummary
 from colonnade.report import addresses
-from colonnade.report.asked import Asked, asked_of
-from colonnade.report.interactive.state import UNWATCHED
-from colonnade.report.photos import Photos
+from colonnade.report.asked import Asked, Photos, asked_of
+from colonnade.report.interactive.scripts import UNWATCHED
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
@@ -178,9 +177,9 @@ class _Report:
 
 
 def _drawing(campaign: Campaign, specimen: str, setup: str) -> Contents:
-    from colonnade.report.drawings import svg
+    from colonnade.report.specimens_page import drawing_svg
 
-    return [svg(campaign, specimen, setup)], ""
+    return [drawing_svg(campaign, specimen, setup)], ""
 
 
 def _page(layout: Layout, asked: Asked) -> Contents:

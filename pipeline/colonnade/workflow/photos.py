@@ -15,7 +15,7 @@ from colonnade.findings import Finding, warning
 from colonnade.interruption import expect_none
 from colonnade.readers.files import sha256_of
 from colonnade.readers.photo import Pixels, read_photo
-from colonnade.report.photos import KIND, Photo, Photos, address_of
+from colonnade.report.asked import KIND, Photo, Photos, address_of
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow.catalogue import Catalogue

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from colonnade.errors import ReadError
 from colonnade.interruption import expect_none
 from colonnade.store import files
-from colonnade.store.freshness import Recipe, stamped
+from colonnade.store.provenance import Recipe, stamped
 from colonnade.store.results import ResultId
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.executors import spread

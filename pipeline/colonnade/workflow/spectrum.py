@@ -195,7 +195,7 @@ def _motion(
     try:
         base = corrected(Ground(factor * motion.acceleration, motion.dt), asked.baseline).acceleration
     except ValueError as error:
-        raise CampaignError(f"--baseline {error}") from None
+        raise CampaignError(f"--baseline: {error}") from None
     vertical = None if motion.vertical is None else abs(factor) * motion.vertical
     return Motion(base, motion.dt, vertical), source, kind == "table"
 
@@ -239,15 +239,15 @@ def _found(
 
 def picture_of(found: Rocking | Overturning) -> Picture:
     """Draw a spectrum."""
+    from colonnade.figures import spectra
     from colonnade.figures.files.output import Picture
-    from colonnade.figures.spectra import overturning, rocking
 
     if isinstance(found, Rocking):
         title = f"Rocking spectrum: {found.source}"
-        figure = rocking.rocking_spectrum(found.spectrum, period=2 * pi / found.column.block.p, title=found.source)
+        figure = spectra.rocking_spectrum(found.spectrum, period=2 * pi / found.column.block.p, title=found.source)
         angles = ", ".join(f"{angle:.4g}" for angle in found.spectrum.critical_angle)
         seen = f"Largest angle over the size of blocks with α = {angles} rad."
         return Picture(figure, "rocking-spectrum", title, seen)
-    figure = overturning.overturning_spectrum(found.spectrum)
+    figure = spectra.overturning_spectrum(found.spectrum)
     title = f"Overturning spectrum: {found.spectrum.pulse}"
     return Picture(figure, "overturning-spectrum", title, f"{found.column.name}: lower and upper limit over frequency.")

@@ -12,9 +12,14 @@ from colonnade.dynamics.contact.elastic.assembly import assemble
 from colonnade.dynamics.contact.elastic.mesh import prism_mesh
 from colonnade.dynamics.contact.elastic.reduction import reduce_body, rigid_on_nodes
 from colonnade.dynamics.contact.law import STATIC_PENETRATION, ContactLaw
-from colonnade.dynamics.contact.modes import FOLLOWED, keep_modes, keep_modes_for_step, longest_with
 from colonnade.dynamics.contact.simulate import simulate
-from colonnade.dynamics.contact.stability import highest_frequency
+from colonnade.dynamics.contact.stability import (
+    FOLLOWED,
+    highest_frequency,
+    keep_modes,
+    keep_modes_for_step,
+    longest_with,
+)
 from colonnade.dynamics.contact.start import Start
 from colonnade.dynamics.contact.structure import Structure
 from colonnade.dynamics.motion import Motion

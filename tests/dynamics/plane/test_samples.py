@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.plane import arc, closed, samples
+from colonnade.dynamics.plane import arc, series, sides
 from colonnade.dynamics.plane.arc import follow
-from colonnade.dynamics.plane.closed import Push
+from colonnade.dynamics.plane.series import Push
 from prism import PRISM
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
@@ -13,7 +13,7 @@ ALPHA, P = PRISM.critical_angle, PRISM.p
 
 @pytest.fixture(autouse=True)
 def as_python(interpreted):
-    interpreted(arc, closed, samples)
+    interpreted(arc, series, sides)
 
 
 @pytest.mark.parametrize("step", [0.05, 0.4])
@@ -22,8 +22,8 @@ def test_samples_in_which_nothing_happens_are_passed_over_to_the_same_state(side
     base = ALPHA * 0.3 * np.sin(np.arange(60.0))
     angles, velocities = np.zeros(60), np.zeros(60)
     angles[0] = side * 0.6 * ALPHA
-    whole = samples.whole_sample(side, ALPHA, P, step / P, float(np.abs(base).max()))
-    reached = samples.undisturbed(angles, velocities, base, 0, False, (ALPHA, ALPHA), whole)
+    whole = sides.whole_sample(side, ALPHA, P, step / P, float(np.abs(base).max()))
+    reached = sides.undisturbed(angles, velocities, base, 0, False, (ALPHA, ALPHA), whole)
     height, rate = 0.6 * ALPHA, 0.0
     for sample in range(reached):
         push = Push(side * base[sample], side * (base[sample + 1] - base[sample]) / step, 1.0, 0.0, 0.0, 1.0, 0.0)
@@ -38,7 +38,7 @@ def test_samples_in_which_nothing_happens_are_passed_over_to_the_same_state(side
 
 def test_at_rest_it_stays_until_the_base_pulls_harder_than_alpha():
     base = ALPHA * np.array([0.0, 0.9, -0.9, 1.0, 1.1, 0.0])
-    whole = samples.whole_sample(1.0, ALPHA, P, 0.01, float(base.max()))
+    whole = sides.whole_sample(1.0, ALPHA, P, 0.01, float(base.max()))
     rest = np.zeros(6), np.zeros(6)
-    assert samples.undisturbed(*rest, base, 0, True, (ALPHA, ALPHA), whole) == 3
-    assert samples.undisturbed(*rest, base, 4, True, (ALPHA, ALPHA), whole) == 4
+    assert sides.undisturbed(*rest, base, 0, True, (ALPHA, ALPHA), whole) == 3
+    assert sides.undisturbed(*rest, base, 4, True, (ALPHA, ALPHA), whole) == 4

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.plane.sides import Sides, rebound, restitution_of, sides_of, survives_free_rocking
-from colonnade.dynamics.plane.uplift import Part, uplift
+from colonnade.dynamics.plane.sides import Part, Sides, rebound, restitution_of, sides_of, survives_free_rocking, uplift
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import rock
 from every import every

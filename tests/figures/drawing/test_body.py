@@ -8,9 +8,8 @@ from matplotlib.figure import Figure
 
 from colonnade.dynamics.block import Block
 from colonnade.figures.drawing import body as drawing
-from colonnade.figures.drawing.parts import Body, Rocking
 from colonnade.figures.drawing.setup import ELEVATION, PLAN, SIDE
-from colonnade.figures.drawing.view import View
+from colonnade.figures.drawing.view import Body, Rocking, View
 
 BLOCK = Block.prism(width=0.086, depth=0.06, height=0.456, mass=26.1)
 PRISM = Body("rectangle", (0.086, 0.086), (0.06, 0.06), 0.456, True, Rocking.of(BLOCK))

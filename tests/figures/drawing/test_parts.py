@@ -5,7 +5,7 @@ from math import cos, sin
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.figures.drawing.parts import Rocking
+from colonnade.figures.drawing.view import Rocking
 
 
 def test_a_prism_rocks_about_the_edges_of_its_base():

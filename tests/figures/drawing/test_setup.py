@@ -4,8 +4,8 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from colonnade.dynamics.block import Block
-from colonnade.figures.drawing.parts import Body, Rocking, Transducer
 from colonnade.figures.drawing.setup import Drawn, setup_drawings
+from colonnade.figures.drawing.view import Body, Rocking, Transducer
 
 BLOCK = Block.prism(width=0.086, depth=0.06, height=0.456, mass=26.1)
 PRISM = Body("rectangle", (0.086, 0.086), (0.06, 0.06), 0.456, True, Rocking.of(BLOCK), ("prism",))

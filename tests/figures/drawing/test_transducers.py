@@ -5,10 +5,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from colonnade.figures.drawing.body import GAP, TABLE
-from colonnade.figures.drawing.parts import Body, Transducer
-from colonnade.figures.drawing.setup import ELEVATION, SIDE
-from colonnade.figures.drawing.transducers import ARROW, COLOURS, SHORT, draw_transducer, places_of
-from colonnade.figures.drawing.view import View
+from colonnade.figures.drawing.setup import ARROW, COLOURS, ELEVATION, SHORT, SIDE, draw_transducer, places_of
+from colonnade.figures.drawing.view import Body, Transducer, View
 
 BODY = Body("rectangle", (0.086, 0.086), (0.06, 0.06), 0.456, True, None)
 TOP = Transducer("top", "displacement", "specimen", (1.0, 0.0, 0.0), (0.043, 0.0, 0.44), "table")

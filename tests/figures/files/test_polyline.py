@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.figures.files.polyline import shorter
+from colonnade.figures.files.output import shorter
 
 POINTS = st.lists(st.tuples(*[st.floats(-5000, 5000)] * 2), min_size=1, max_size=40)
 

@@ -8,10 +8,9 @@ from matplotlib.figure import Figure
 
 from colonnade.figures import Curve, envelope
 from colonnade.figures.files.output import to_png, to_svg
-from colonnade.figures.panels.curve import between
+from colonnade.figures.panels.curve import between, draw_band, draw_curve
 from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side, stacked_panels
 from colonnade.figures.panels.lean import LeanAxes, add_panel
-from colonnade.figures.panels.long import draw_band, draw_curve
 from colonnade.figures.style import styled
 
 

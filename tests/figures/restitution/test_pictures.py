@@ -21,7 +21,7 @@ from colonnade.figures import (
     joint_region,
     peak_decay,
 )
-from colonnade.figures.restitution.marks import draw_marks
+from colonnade.figures.restitution.peaks import draw_marks
 from colonnade.figures.style import MEASURED, model_style
 from colonnade.identification.restitution.peaks import angle_of_energy
 from prism import PRISM

@@ -6,15 +6,15 @@ import pytest
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.pulses import overturning_spectrum
 from colonnade.dynamics.spectra import rocking_spectrum
+from colonnade.figures import spectra
 from colonnade.figures.files.table import table_of
-from colonnade.figures.spectra import overturning, rocking
 from prism import PRISM
 
 
 def test_a_rocking_spectrum_shows_peaks_and_which_blocks_overturn():
     motion = Motion(4.0 * np.sin(4 * np.pi * np.linspace(0, 1, 201)), 0.005)
     spectrum = rocking_spectrum(motion, critical_angle=[0.15, 0.25], period=[0.5, 0.8, 9.0])
-    table = table_of(rocking.rocking_spectrum(spectrum, period=4.0))
+    table = table_of(spectra.rocking_spectrum(spectrum, period=4.0))
     shown = table["largest |θ|/α, α = 0.25 rad"]
     np.testing.assert_allclose(shown, spectrum.peak_ratio[1])
     fallen = table["size 2π/p (s), α = 0.15 rad: overturned"]
@@ -24,7 +24,7 @@ def test_a_rocking_spectrum_shows_peaks_and_which_blocks_overturn():
 
 def test_an_overturning_spectrum_shows_both_limits_and_every_interval():
     spectrum = overturning_spectrum(PRISM, "sine", frequency_ratio=[2.0, 3.0, 4.0], largest=6.0)
-    figure = overturning.overturning_spectrum(spectrum)
+    figure = spectra.overturning_spectrum(spectrum)
     table = table_of(figure)
     np.testing.assert_allclose(table["A = a / (g tan α), lower limit"], spectrum.lower)
     np.testing.assert_allclose(table["A = a / (g tan α), upper limit"], spectrum.upper)
@@ -37,4 +37,4 @@ def test_the_title_of_mavroeidis_and_papageorgious_pulse_has_its_parameters():
     spectrum = overturning_spectrum(
         PRISM, "mavroeidis-papageorgiou", frequency_ratio=[2.0, 3.0], cycles=1.5, phase=1.0, largest=1.5
     )
-    assert "γ = 1.5, ν = 1 rad" in overturning.words_of(spectrum)
+    assert "γ = 1.5, ν = 1 rad" in spectra.words_of(spectrum)

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from colonnade.figures import base_motion
+from colonnade.figures.base_motion import BaseMotion, base_of, base_picture
 from colonnade.figures.files.table import table_of
-from colonnade.figures.stored import base
-from colonnade.figures.stored.base import BaseMotion, base_of, picture
 from colonnade.signals.named_motion import Laid, Series
 
 STEP = 0.01
@@ -52,46 +52,46 @@ def test_a_hole_in_it_a_standing_table_and_a_test_that_was_not_run_have_none(bas
 def test_the_target_is_laid_on_the_record_with_its_factor(based, known, monkeypatch):
     acceleration = known("span-2.0")[2].array("rocking", "base_acceleration")
     reference = Series(acceleration / 2.5, based("span-2.0").interval)
-    monkeypatch.setattr(base, "_reference", lambda campaign, motion: reference)
+    monkeypatch.setattr(base_motion, "_reference", lambda campaign, motion: reference)
     target = based("span-2.0", time_scale=1.0).target
     assert (target.factor, target.correlation) == pytest.approx((2.5, 1.0), rel=1e-3)
     assert based("span-2.0", np.zeros_like).target is None
 
 
 def test_a_motion_is_found_by_its_name_in_any_case(filled_campaign, monkeypatch):
-    monkeypatch.setattr(base, "reference_files", lambda campaign: {"El Centro": "a file"})
-    monkeypatch.setattr(base, "_loaded", lambda source: source)
-    assert base._reference(filled_campaign[0], "EL CENTRO") == "a file"
-    assert base._reference(filled_campaign[0], "Kobe") is None
-    assert base._reference(filled_campaign[0], None) is None
+    monkeypatch.setattr(base_motion, "reference_files", lambda campaign: {"El Centro": "a file"})
+    monkeypatch.setattr(base_motion, "_loaded", lambda source: source)
+    assert base_motion._reference(filled_campaign[0], "EL CENTRO") == "a file"
+    assert base_motion._reference(filled_campaign[0], "Kobe") is None
+    assert base_motion._reference(filled_campaign[0], None) is None
 
 
 def test_a_target_half_as_strong_has_half_the_spectrum(known):
     test, _, _, block = known("span-2.0")
     half = Laid(SHAKING / 2, 1.0, 1.0, 1.0)
-    drawn = picture(test, BaseMotion(TIME, SHAKING, half), block)
+    drawn = base_picture(test, BaseMotion(TIME, SHAKING, half), block)
     assert "Achieved over target 2 to 2." in drawn.description
     assert len(drawn.figure.axes) == 3
-    alone = picture(test, ALONE, block)
+    alone = base_picture(test, ALONE, block)
     assert "target" not in alone.description
     assert alone.description.startswith("Largest achieved response")
     assert table_of(alone.figure)
 
 
 def test_no_period_is_shorter_than_eight_samples_or_longer_than_a_quarter_of_the_record():
-    period = base._spectra(ALONE).period
-    assert (period[0], period[-1]) == pytest.approx((base.FEWEST * STEP, 10.0 / 4))
+    period = base_motion._spectra(ALONE).period
+    assert (period[0], period[-1]) == pytest.approx((base_motion.FEWEST * STEP, 10.0 / 4))
     # A stiff oscillator follows the table: its response is the largest acceleration.
-    assert base._spectra(ALONE).achieved[0] == pytest.approx(np.abs(SHAKING).max(), rel=0.05)
+    assert base_motion._spectra(ALONE).achieved[0] == pytest.approx(np.abs(SHAKING).max(), rel=0.05)
 
 
-@pytest.mark.parametrize("kind", base.WITHOUT_SPECTRUM)
+@pytest.mark.parametrize("kind", base_motion.WITHOUT_SPECTRUM)
 def test_kinds_whose_spectrum_is_nothing_or_one_line_have_no_picture(known, kind):
     test, _, _, block = known("span-2.0")
-    assert picture(test.model_copy(update={"kind": kind}), ALONE, block) is None
+    assert base_picture(test.model_copy(update={"kind": kind}), ALONE, block) is None
 
 
 def test_a_table_that_stood_has_no_picture(known):
     test, _, _, block = known("span-2.0")
-    assert picture(test, None, block) is None
-    assert picture(test, BaseMotion(TIME, np.zeros_like(TIME), None), block) is None
+    assert base_picture(test, None, block) is None
+    assert base_picture(test, BaseMotion(TIME, np.zeros_like(TIME), None), block) is None

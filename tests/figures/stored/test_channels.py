@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from colonnade.figures.stored import channels
+from colonnade.figures import channels
 from colonnade.signals.quality import Flag
 from colonnade.store.records.stored import Stored
 

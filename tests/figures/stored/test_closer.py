@@ -6,7 +6,7 @@ import xarray as xr
 
 from colonnade.campaign import Test
 from colonnade.campaign.forms.summary import TestSummary
-from colonnade.figures.stored import closer
+from colonnade.figures import closer
 from colonnade.store.records.stored import Stored
 from prism import PRISM
 

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from colonnade.figures.stored.curves import measured_ratio
-from colonnade.figures.stored.moving import animation
+from colonnade.figures.moving import animation
+from colonnade.figures.stored.record import measured_ratio
 
 
 @pytest.fixture

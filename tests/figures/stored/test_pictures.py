@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from colonnade.figures.files.table import table_of
+from colonnade.figures.maps import response_orders
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.spans import SpanPanel
-from colonnade.figures.stored import curves, maps, record, restitution
-from colonnade.figures.stored.angle import angle
+from colonnade.figures.record import SpanPanel
+from colonnade.figures.stored import record, restitution
+from colonnade.figures.stored.record import angle, measured_ratio, misfits, motion, predicted_ratios, spreads
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.stages.parts.beginning import AT_REST, RECORDED
 from colonnade.store.records.test import driven_by
@@ -24,10 +25,10 @@ def test_a_test_is_drawn_and_described(known):
 
 def test_the_base_of_a_free_vibration_is_drawn_only_if_it_drives(known):
     # The table of `free-refused` moves; its accelerometer is the wrong way round.
-    for name, motion in (("free-01", AT_REST), ("free-refused", RECORDED)):
+    for name, driving in (("free-01", AT_REST), ("free-refused", RECORDED)):
         test, summary, stored, block = known(name)
         assert stored.array("rocking", "base_acceleration").any()
-        assert driven_by(stored) == motion
+        assert driven_by(stored) == driving
         assert not _draws_base(record.record(test, summary, _driven_by(stored, AT_REST), block))
         assert _draws_base(record.record(test, summary, _driven_by(stored, RECORDED), block))
 
@@ -131,42 +132,42 @@ def test_sine_tests_are_counted_by_outcome():
         MapPoint("b", 3.0, 2.0, "overturned"),
         MapPoint("c", 4.0, 1.4, "rocking"),
     ]
-    picture = maps.tested("map-prism", points)
+    picture = response_orders.tested("map-prism", points)
     assert picture.identity == "map-prism"
     assert picture.description == "3 tests: 2 rocking, 1 overturned."
 
 
 def test_measured_and_predicted_are_over_the_critical_angle(known):
     _, record, stored, block = known("span-2.0")
-    measured = curves.measured_ratio(stored, block)
+    measured = measured_ratio(stored, block)
     assert np.nanmax(np.abs(measured.values)) == pytest.approx(record.peak_ratio, rel=1e-6)
-    assert set(curves.predicted_ratios(stored, block)) == {"linear", "nonlinear"}
+    assert set(predicted_ratios(stored, block)) == {"linear", "nonlinear"}
 
 
 def test_misfits_end_where_the_comparison_ends(known):
     _, _, stored, block = known("span-3.0")
-    measured, predicted = curves.measured_ratio(stored, block), curves.predicted_ratios(stored, block)
-    for model, misfit in curves.misfits(stored, measured, predicted).items():
+    measured, predicted = measured_ratio(stored, block), predicted_ratios(stored, block)
+    for model, misfit in misfits(stored, measured, predicted).items():
         assert misfit.time[-1] <= stored.compared("compared_until", model) < measured.time[-1]
 
 
 def test_each_model_has_the_bands_of_its_ensemble(known):
     _, _, stored, block = known("span-2.0")
-    for spread in curves.spreads(stored, block).values():
+    for spread in spreads(stored, block).values():
         assert spread.bands.shape == (spread.levels.size, spread.time.size)
         assert 0.0 < spread.horizon <= spread.time[-1]
 
 
 def test_what_was_not_measured_is_none(known):
     _, _, stored, block = known("watched")
-    assert curves.measured_ratio(stored, block) is None
-    assert curves.motion(stored, "slide", "mm") is None
-    assert curves.motion(stored, "base_acceleration", "m/s²") is not None
+    assert measured_ratio(stored, block) is None
+    assert motion(stored, "slide", "mm") is None
+    assert motion(stored, "base_acceleration", "m/s²") is not None
 
 
 def test_a_curve_ends_where_it_overturns(known):
     _, record, stored, block = known(STRONG)
-    curve = curves.measured_ratio(stored, block)
+    curve = measured_ratio(stored, block)
     fall = stored.value("rocking", "overturning_time")
     last = int(np.flatnonzero(np.isfinite(curve.values))[-1])
     assert record.outcome == "overturned"

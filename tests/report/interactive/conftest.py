@@ -6,7 +6,7 @@ from base64 import b64decode
 import numpy as np
 import pytest
 
-from colonnade.report.interactive.packing import PLANES
+from colonnade.report.interactive.panels import PLANES
 
 
 @pytest.fixture(scope="session")

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.signal import butter, sosfiltfilt
 
-from colonnade.report.interactive.packing import packed
+from colonnade.report.interactive.panels import packed
 
 numbers = st.floats(-1e12, 1e12) | st.just(float("nan")) | st.floats(1e-20, 1e-9)
 

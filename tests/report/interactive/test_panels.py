@@ -11,9 +11,7 @@ from colonnade.campaign.specimen import AnySpecimen
 from colonnade.figures.drawing.described import body_of
 from colonnade.figures.files.output import Picture
 from colonnade.report.interactive import panels
-from colonnade.report.interactive.moving import outline
-from colonnade.report.interactive.panels import Samples, script
-from colonnade.report.interactive.tables import LONG, tables_of
+from colonnade.report.interactive.panels import LONG, Samples, outline, script, tables_of
 
 
 def test_even_times_are_a_start_and_an_interval():

@@ -7,8 +7,7 @@ import pytest
 from colonnade.errors import StoreError
 from colonnade.report import addresses
 from colonnade.report.interactive import scripts as module
-from colonnade.report.interactive.scripts import FOLDER, PARTS, scripts
-from colonnade.report.interactive.state import UNWATCHED, state_script
+from colonnade.report.interactive.scripts import FOLDER, PARTS, UNWATCHED, scripts, state_script
 
 
 def test_a_page_of_a_test_loads_every_script_and_then_the_state_and_its_data():

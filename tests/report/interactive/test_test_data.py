@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from colonnade.report.interactive import panels, test_data
-from colonnade.report.interactive.packing import Packed
+from colonnade.report.interactive.panels import Packed
 from colonnade.store import files
 from colonnade.store.results import ResultId
 

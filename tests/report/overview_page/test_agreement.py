@@ -7,11 +7,9 @@ import pytest
 import rebuild
 from colonnade.campaign.forms.summary import Warned
 from colonnade.laboratory.programme import KEPT_AWAY
-from colonnade.report.overview_page.agreement import agreement
-from colonnade.report.overview_page.attention import attention
-from colonnade.report.overview_page.confusion import confusions
+from colonnade.report.overview_page.agreement import agreement, confusions
+from colonnade.report.overview_page.attention import attention, warning_groups
 from colonnade.report.pages import renderer_of
-from colonnade.report.problems import warning_groups
 
 
 def prediction(outcome="rocking", nrmse=0.1, rank=None):

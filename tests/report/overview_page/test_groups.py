@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 from colonnade.dynamics.maps import stability_map
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored import record
-from colonnade.report.overview_page import groups, maps, peaks, spans
-from colonnade.report.overview_page.spans import SpanTest
-from colonnade.report.overview_page.thumbnails import HEIGHT, WIDTH, polyline
+from colonnade.report.overview_page import agreement, groups
+from colonnade.report.overview_page.groups import SpanTest
+from colonnade.report.rows import HEIGHT, WIDTH, polyline
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.store.records.stability_map import as_dataset
+from colonnade.store.records.stored import as_dataset
 
 
 def test_sines_of_known_amplitude_are_in_the_ladder_and_all_others_by_kind(rows, filled_campaign):
@@ -37,7 +37,7 @@ def test_sines_of_known_amplitude_are_in_the_ladder_and_all_others_by_kind(rows,
 def test_one_span_alone_is_not_set_beside_itself(reported, filled_campaign):
     row, stored = reported["span-2.0"]
     alone = SpanTest(row, record.span_panel(row.test, stored, filled_campaign[0].block("prism")), "")
-    assert spans.span_groups([alone]) == []
+    assert groups.span_groups([alone]) == []
 
 
 STRONG = "sine-3hz-too-strong-for-the-block-1"
@@ -52,7 +52,7 @@ def with_another(rows, frequency_ratio):
 
 
 def test_two_frequencies_make_a_map_whose_marks_lead_to_their_tests(rows, filled_campaign):
-    (drawn,) = maps.measured_maps(*filled_campaign, with_another(rows, 5.0))
+    (drawn,) = groups.measured_maps(*filled_campaign, with_another(rows, 5.0))
     assert drawn.computed is None
     assert [f'href="test:{name}"' in drawn.measured.svg for name in (STRONG, "another")] == [True, True]
     assert len(drawn.boundaries) == 2
@@ -71,7 +71,7 @@ def test_computed_maps_are_drawn_with_the_tests_and_a_failed_one_is_not(rows, fi
     attributes = {"stage": "map", "settings": json.dumps(chart.options)}
     files.write_failed(layout.stage("prism", "map", "linear"), "no", attributes=attributes)
     files.write(as_dataset(chart), layout.stage("prism", "map", "nonlinear"), attributes=attributes)
-    (drawn,) = maps.measured_maps(campaign, layout, with_another(rows, 5.0))
+    (drawn,) = groups.measured_maps(campaign, layout, with_another(rows, 5.0))
     assert "nonlinear: lower limit" in drawn.computed.svg
     assert ">linear: lower limit" not in drawn.computed.svg
     assert 'href="test:another"' in drawn.computed.svg
@@ -89,7 +89,7 @@ def test_the_peaks_that_agree_least_come_first_too_large_or_too_small(row_of):
         row_of("still", "no-rocking", 0.001, linear=("rocking", 0.2)),
         row_of("falls", "rocking", 0.4, linear=("overturned", None)),
     ]
-    found = peaks.worst(rows, MODELS)
+    found = agreement.worst(rows, MODELS)
     assert [(each.row.id, each.model) for each in found] == [
         ("small", "linear"),
         ("large", "linear"),
@@ -101,7 +101,7 @@ def test_the_peaks_that_agree_least_come_first_too_large_or_too_small(row_of):
 
 def test_no_more_than_ten_are_named(row_of):
     rows = [row_of(f"test-{n}", "rocking", 0.1, linear=("rocking", 0.1 + 0.01 * n)) for n in range(20)]
-    found = peaks.worst(rows, MODELS)
+    found = agreement.worst(rows, MODELS)
     assert [each.row.id for each in found] == [f"test-{n}" for n in range(19, 9, -1)]
 
 
@@ -111,18 +111,18 @@ def test_every_prediction_of_a_test_that_rocked_is_a_point_with_its_band(row_of)
         row_of("b", "rocking", 0.4, linear=("overturned", None)),
         row_of("c", "overturned", linear=("overturned", None)),
     ]
-    found = peaks.points(rows, MODELS, peaks.worst(rows, MODELS))
+    found = agreement.peak_points(rows, MODELS, agreement.worst(rows, MODELS))
     assert found.keys() == {"linear"}
     assert found["linear"] == [(0.4, 0.5, 0.3, 0.6, "a", 1), (0.4, None, None, None, "b", None)]
 
 
 def test_the_picture_leads_to_each_test(row_of):
     rows = [row_of(name, "rocking", 0.4, linear=("rocking", 0.5)) for name in ("a", "b")]
-    picture = peaks.picture(peaks.points(rows, MODELS, []))
+    picture = agreement.peaks_picture(agreement.peak_points(rows, MODELS, []))
     assert 'role="group"' in picture.svg
     for name in ("a", "b"):
         assert f'<a href="test:{name}" aria-label="{name}">' in picture.svg
-    assert peaks.picture({}) is None
+    assert agreement.peaks_picture({}) is None
 
 
 def points(text):

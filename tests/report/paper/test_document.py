@@ -2,7 +2,7 @@
 
 from hashlib import sha256
 
-from colonnade.report.paper.document import document_of
+from colonnade.report.paper.typesetting import document_of
 
 from .conftest import HOSTILE
 

@@ -12,8 +12,7 @@ from PIL import Image
 from colonnade.campaign import load
 from colonnade.errors import StoreError
 from colonnade.report.paper import typesetting
-from colonnade.report.paper.document import document_of
-from colonnade.report.paper.typesetting import pdf_of, prepared, typeset
+from colonnade.report.paper.typesetting import document_of, pdf_of, prepared, typeset
 
 from .conftest import HOSTILE
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from colonnade.figures.stored import base as drawn
+from colonnade.figures import base_motion as drawn
 from colonnade.report.test_page import base
 from colonnade.signals.named_motion import Series
 

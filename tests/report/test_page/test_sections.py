@@ -3,11 +3,11 @@
 import pytest
 
 from colonnade.campaign.forms.summary import PredictionSummary
-from colonnade.report.photos import NO_PHOTOS, Photo, Photos
+from colonnade.report.asked import NO_PHOTOS, Photo, Photos
 from colonnade.report.pictures.subjects import OfTest
-from colonnade.report.test_page import channels, decay, done, found, page, restitution
+from colonnade.report.test_page import channels, found, page, restitution
 from colonnade.report.test_page.facts import known
-from colonnade.report.test_page.spread import verdict_sentence
+from colonnade.report.test_page.found import verdict_sentence
 from colonnade.store.records.stored import Stored, read_test
 from colonnade.units.text import NOTHING
 
@@ -121,26 +121,26 @@ def test_a_clock_is_given_in_milliseconds_and_its_drift_in_millionths(given, wri
 
 def test_a_free_vibration_has_e_its_peaks_and_its_figures(subject):
     free = subject("free-01")
-    found = decay.of_test(free)
+    found = restitution.decay_of(free)
     assert found.facts
     assert found.estimates
-    assert list(found.pictures) == list(decay.FIGURES)
+    assert list(found.pictures) == list(restitution.FIGURES)
     drawn = {name: picture.identity for name, picture in found.pictures.items() if picture is not None}
     assert drawn.items() >= {"fitted": "fitted-free-01", "peaks": "peaks-free-01"}.items()
 
 
 def test_each_peak_is_a_row_of_time_angle_error_fitted_angle_and_use(subject):
-    peaks = decay.of_test(subject("free-01")).peaks
+    peaks = restitution.decay_of(subject("free-01")).peaks
     times = [row[0] for row in peaks]
     assert times == sorted(times)
-    assert all(len(row) == len(decay.PEAK) for row in peaks)
+    assert all(len(row) == len(restitution.PEAK) for row in peaks)
     used = [(abs(angle), abs(fitted)) for _, angle, _, fitted, is_used in peaks if is_used]
     assert used
     assert all(abs(angle - fitted) < 0.05 * angle for angle, fitted in used)
 
 
 def test_any_other_test_has_no_decay(subject):
-    found = decay.of_test(subject("span-2.0"))
+    found = restitution.decay_of(subject("span-2.0"))
     assert (found.facts, found.estimates, found.departures, found.peaks) == ([], [], [], [])
     assert set(found.pictures.values()) == {None}
 
@@ -164,14 +164,14 @@ def test_an_estimator_without_a_value_says_why(reported):
 
 
 def test_a_note_on_a_file_may_hold_a_semicolon(reported):
-    notes = done.of_test(*reported["span-2.0"], []).notes
+    notes = page.done_of(*reported["span-2.0"], []).notes
     assert notes[-1] == 'span-2.0.csv: clock: column 1, "Time" (in s; rising)'
     assert all(note.startswith("span-2.0.csv: ") for note in notes)
 
 
 def test_the_page_says_where_the_results_are_and_when_the_file_says_it_was_recorded(reported):
     row, stored = reported["span-2.0"]
-    known = dict(done.of_test(row, stored, [("operator", "M. Rossi")]).facts)
+    known = dict(page.done_of(row, stored, [("operator", "M. Rossi")]).facts)
     assert known["operator"] == "M. Rossi"
     assert known["results"].startswith("NetCDF files in processed/tests/span-2.0/, next to")
     assert "recorded" not in known, "the file gives no date"
@@ -179,7 +179,7 @@ def test_the_page_says_where_the_results_are_and_when_the_file_says_it_was_recor
 
 def test_a_test_without_results_has_no_place(reported):
     row, _ = reported["span-2.0"]
-    assert "results" not in dict(done.of_test(row, Stored(), []).facts)
+    assert "results" not in dict(page.done_of(row, Stored(), []).facts)
 
 
 def test_what_is_not_known_or_has_no_label_is_left_out_and_the_order_stays():

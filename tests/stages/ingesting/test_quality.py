@@ -14,8 +14,7 @@ from colonnade.campaign.settings import QualitySettings
 from colonnade.readers.recording import Recording
 from colonnade.signals.quality import Flag
 from colonnade.signals.rest import RestWindow
-from colonnade.stages.ingesting.columns import contradictions, recorded_at
-from colonnade.stages.ingesting.quality import channel_verdicts, reviewed
+from colonnade.stages.ingesting.columns import channel_verdicts, contradictions, recorded_at, reviewed
 from colonnade.stages.ingesting.zeroing import find_zero_error, on_angle, on_base
 from prism import PRISM
 

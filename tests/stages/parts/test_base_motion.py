@@ -7,11 +7,10 @@ import xarray as xr
 import chain
 from colonnade.errors import StageError
 from colonnade.identification.fusion.sensors import Accelerometer
-from colonnade.stages.parts import base_motion as driving
-from colonnade.stages.parts import reference_motions
-from colonnade.stages.parts.base_motion import base_acceleration, vertical_acceleration, weakened
-from colonnade.stages.parts.conditioned import axes, base_motion, group
-from colonnade.stages.parts.transducers import Transducers
+from colonnade.stages.parts import beginning as driving
+from colonnade.stages.parts.beginning import base_acceleration, vertical_acceleration, weakened
+from colonnade.stages.parts.reference_motions import load, reference_files
+from colonnade.stages.parts.transducers import Transducers, axes, base_motion, group
 from colonnade.units.text import format_percent
 from every import every
 
@@ -129,7 +128,7 @@ def test_one_of_three_components_has_to_be_named(small_campaign):
     valley = 'file = "valley.dat", interval = "0.02 s"'
     written = f'[motions]\nValley = {{{valley}}}\nNorth = {{{valley}, column = "NS"}}\n\n[setups.frame]'
     campaign, warnings = chain.changed(small_campaign, ("[setups.frame]", written)), []
-    loaded = reference_motions.load(reference_motions.reference_files(campaign), warnings)
+    loaded = load(reference_files(campaign), warnings)
     (told,) = [str(warning) for warning in warnings]
     assert '"Valley" cannot be used' in told
     assert "3 columns may be the acceleration" in told

@@ -12,8 +12,7 @@ from colonnade.dynamics.kinematics import pole_position
 from colonnade.stages.compare import CompareInputs
 from colonnade.stages.condition import ConditionInputs
 from colonnade.stages.contact import ContactInputs
-from colonnade.stages.contact_ensemble import ContactEnsembleInputs
-from colonnade.stages.ensemble import EnsembleInputs
+from colonnade.stages.ensemble import ContactEnsembleInputs, EnsembleInputs
 from colonnade.stages.ingest import IngestInputs
 from colonnade.stages.parts.transducers import outline, transducers
 from colonnade.stages.predict import PredictInputs

@@ -7,7 +7,7 @@ import pytest
 
 from colonnade.dynamics.maps import StabilityMap
 from colonnade.store import files
-from colonnade.store.records.stability_map import as_dataset, as_map
+from colonnade.store.records.stored import as_dataset, as_map
 
 OPTIONS = {"model": "linear", "cycles": 5, "width": 0.01}
 CHART = StabilityMap(

@@ -5,7 +5,7 @@ import pytest
 
 from colonnade.campaign import load
 from colonnade.store.records.summary import read_summary
-from colonnade.workflow.advising.earthquake import STEP, advise_earthquakes
+from colonnade.workflow.advising.sine import STEP, advise_earthquakes
 from colonnade.workflow.foresee import foresee
 
 

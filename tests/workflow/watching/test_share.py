@@ -8,9 +8,9 @@ import pytest
 
 from colonnade.errors import CampaignError
 from colonnade.workflow.watching import arrivals as folders
-from colonnade.workflow.watching import told as module
+from colonnade.workflow.watching import measure as module
 from colonnade.workflow.watching.arrivals import Arrivals, Bell, Share, listening
-from colonnade.workflow.watching.told import command_of, notify
+from colonnade.workflow.watching.measure import command_of, notify
 
 
 @pytest.fixture

@@ -17,8 +17,8 @@ from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.modes import keep_modes_for_step, longest_with
 from colonnade.dynamics.contact.simulate import plane_block, simulate
+from colonnade.dynamics.contact.stability import keep_modes_for_step, longest_with
 
 Identify = Callable[[ContactHistory], tuple[float, str]]
 

@@ -10,8 +10,18 @@ from __future__ import annotations
 import numpy as np
 
 from colonnade.dynamics.kernel import kernel
-from colonnade.dynamics.plane.closed import Jet, Push, Wave, closed_arc, closed_bounds, closed_jet
-from colonnade.dynamics.plane.series import Series, series_arc, series_bounds, series_jet
+from colonnade.dynamics.plane.series import (
+    Jet,
+    Push,
+    Series,
+    Wave,
+    closed_arc,
+    closed_bounds,
+    closed_jet,
+    series_arc,
+    series_bounds,
+    series_jet,
+)
 
 SHORTEST_STEP = 1e-7
 """In x: events closer than this are not separated."""

@@ -10,11 +10,18 @@ import numpy as np
 from colonnade.arrays import Array, Codes
 from colonnade.dynamics.kernel import kernel
 from colonnade.dynamics.plane.arc import follow
-from colonnade.dynamics.plane.closed import Push
-from colonnade.dynamics.plane.samples import undisturbed, whole_sample
-from colonnade.dynamics.plane.series import Series, empty_series
-from colonnade.dynamics.plane.sides import Sides, of_side, rebound, survives_free_rocking, uplift_threshold
-from colonnade.dynamics.plane.uplift import Part, uplift
+from colonnade.dynamics.plane.series import Push, Series, empty_series
+from colonnade.dynamics.plane.sides import (
+    Part,
+    Sides,
+    of_side,
+    rebound,
+    survives_free_rocking,
+    undisturbed,
+    uplift,
+    uplift_threshold,
+    whole_sample,
+)
 
 NONE = np.empty(0)
 """Of what there is not."""

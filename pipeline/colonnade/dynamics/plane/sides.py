@@ -1,8 +1,8 @@
-"""The two sides of a block as kernels see them: what uplifts it, what an impact leaves, whether it comes to rest."""
+"""The two sides of a block as kernels see them: uplift, impacts, coming to rest, samples in which nothing happens."""
 
 from __future__ import annotations
 
-from math import cos, sin, sqrt, tan
+from math import asin, cos, pi, sin, sinh, sqrt, tan
 from typing import NamedTuple
 
 import numpy as np
@@ -122,3 +122,179 @@ def survives_free_rocking(height: float, rate: float, here: int, sides: Sides, l
     arriving = p_here * sqrt(max(2.0 * (energy - _hill(alpha)), 0.0))
     after = restitution_of(restitution, speeds, here, arriving) * arriving / p_there
     return bool(0.5 * after * after + _hill(other_alpha) <= 0.0)
+
+
+HALVINGS = 60
+"""Of an interval: down to rounding."""
+
+ABOVE = 1.0 + 1e-14
+"""Of a threshold, from which on it is passed: what is above it by rounding alone would hop without end."""
+
+
+class Part(NamedTuple):
+    """
+    A part of a base motion: a/g = (level + slope t) sin(ω t + phase), its weight 1 + v/g = weight + lift t.
+
+    t goes from 0 to `length`, s. With ω = 0 and phase = π/2 it is what a record is between two samples.
+    """
+
+    length: float
+    level: float
+    slope: float
+    weight: float
+    lift: float
+    omega: float
+    phase: float
+
+
+@kernel
+def uplift(start: float, part: Part, thresholds: Pair) -> tuple[float, int]:
+    """
+    Find when from `start` on a block at rest uplifts in a part, and on which side; (inf, 0) where it stays.
+
+    It uplifts to θ < 0 (side 0) where a/g is above the first threshold times the weight, to θ > 0 (side 1) where −a/g
+    is above the second, both strictly.
+    """
+    end, level, slope, weight, lift, omega, phase = part
+    now, sine = level + slope * start, sin(omega * start + phase)
+    for k in range(2):
+        sign = (1.0 - 2.0 * k) * sine
+        if sign * now > ABOVE * thresholds[k] * (weight + lift * start):
+            return start, k
+        rise = sign * slope - thresholds[k] * lift
+        short = thresholds[k] * weight - sign * level
+        if omega == 0.0 and sign * (level + slope * end) > ABOVE * thresholds[k] * (weight + lift * end):
+            return max(start, min(end, short / rise)), k
+    if omega == 0.0 or max(now, level + slope * end) <= min(thresholds):
+        return np.inf, 0
+    # Half a wave at a time: sin φ > 0 uplifts to θ < 0, sin φ < 0 to θ > 0.
+    low = start
+    while low < end:
+        half = np.floor((omega * low + phase) / pi + 1e-12)
+        side = int(half % 2.0)
+        high, crossing = min(end, ((half + 1.0) * pi - phase) / omega), np.inf
+        if slope != 0.0:
+            crossing = _first_above(low, high, part, thresholds[side])
+        elif level > thresholds[side]:
+            crossing = (half * pi + asin(thresholds[side] / level) - phase) / omega
+        if low <= crossing < end:
+            return crossing, side
+        low = high
+    return np.inf, 0
+
+
+@kernel
+def _first_above(low: float, high: float, part: Part, threshold: float) -> float:
+    """Find where on a ramp l |sin φ| first passes a threshold within half a wave; inf where it does not."""
+    _, level, slope, _, _, omega, phase = part
+    # The logarithm of l |sin φ| is concave, so that it has one top: where its slope changes its sign.
+    top, right = low, high
+    for _ in range(HALVINGS):
+        middle = 0.5 * (top + right)
+        growing = slope + (level + slope * middle) * omega / tan(omega * middle + phase) > 0.0
+        top, right = (middle, right) if growing else (top, middle)
+    if not (level + slope * top) * abs(sin(omega * top + phase)) > threshold:
+        return np.inf
+    # It rises from the beginning of the half wave to its top.
+    bottom = low
+    for _ in range(HALVINGS):
+        middle = 0.5 * (bottom + top)
+        above = (level + slope * middle) * abs(sin(omega * middle + phase)) > threshold
+        bottom, top = (bottom, middle) if above else (middle, top)
+    return top
+
+
+LONGEST_SAMPLE = 0.5
+"""In x = p t: the bounds of longer samples exclude too few impacts for whole samples to be tried."""
+
+
+class WholeSample(NamedTuple):
+    """
+    What it takes to pass over whole samples on one side.
+
+    Attributes
+    ----------
+    side, p, step, critical : float
+        ±1, p (rad/s), p dt and α.
+    factors : tuple of float
+        Coefficients of θ and ω/p over a sample, and of what α and a/g at its start and end take off each.
+    bounds : tuple of float
+        What excludes an impact inside a sample, see `_march`.
+    """
+
+    side: float
+    p: float
+    step: float
+    critical: float
+    factors: tuple[float, float, float, float, float, float, float, float]
+    bounds: tuple[float, float, float]
+
+
+@kernel
+def whole_sample(side: float, critical: float, p: float, dt: float, largest: float) -> WholeSample:
+    """Prepare one side for samples of the length `dt` under a motion of at most `largest` a/g."""
+    step = p * dt
+    # cosh x − 1, and sinh x − x without the cancellation at small x.
+    rise, q = 2.0 * sinh(0.5 * step) ** 2, step * step
+    excess = sinh(step) - step
+    if step < 0.3:
+        excess = step * q * (1 / 6 + q * (1 / 120 + q * (1 / 5040 + q * (1 / 362880 + q / 39916800))))
+    c, s, mean, mean_rate = 1.0 + rise, step + excess, excess / step, rise / step
+    factors = c, s, rise * critical, s * critical, rise - mean, s - mean_rate, mean, mean_rate
+    limit, most = 0.25 * step**2, critical + largest
+    return WholeSample(side, p, step, critical, factors, (limit, limit * most, 0.5 * step * most))
+
+
+@kernel
+def undisturbed(
+    angles: Array,
+    velocities: Array,
+    base: Array,
+    sample: int,
+    is_resting: bool,
+    thresholds: Pair,
+    whole: WholeSample,
+) -> int:
+    """Pass over the samples in which nothing happens, filling in their state; return the last that is reached."""
+    if is_resting:
+        return _still(base, sample, thresholds)
+    if whole.step >= LONGEST_SAMPLE:
+        return sample
+    return _march(angles, velocities, base, sample, whole)
+
+
+@kernel
+def _march(angles: Array, velocities: Array, base: Array, sample: int, whole: WholeSample) -> int:
+    """
+    Propagate sample by sample for as long as no impact can hide inside one and |θ| ≤ α; return where that ends.
+
+    A chord is above a curve by at most x²/8 times its largest second derivative: where both ends are higher than
+    that, there is no impact between them; nor where it leaves the one end, or comes to the other, faster than
+    (α + largest) x/2.
+    """
+    side, p, _step, critical, factors, bounds = whole
+    c, s, held, held_rate, now, now_rate, then, then_rate = factors
+    limit, floor, quick = bounds
+    height, climb = side * angles[sample], side * velocities[sample] / p
+    back = side * p
+    while sample < base.size - 1:
+        push, following = side * base[sample], side * base[sample + 1]
+        end = c * height + s * climb - (held + now * push + then * following)
+        end_climb = s * height + c * climb - (held_rate + now_rate * push + then_rate * following)
+        clear = climb > quick or min(height, end) > floor + limit * max(height, end) or end_climb < -quick
+        if end > critical or end < 0.0 or not clear:
+            return sample
+        height, climb = end, end_climb
+        sample += 1
+        angles[sample], velocities[sample] = side * height, back * climb
+    return sample
+
+
+@kernel
+def _still(base: Array, sample: int, thresholds: Pair) -> int:
+    """Last sample up to which a block at rest at `sample` stays so."""
+    negative, positive = thresholds
+    for following in range(sample, base.size):
+        if not -positive <= base[following] <= negative:
+            return max(sample, following - 1)
+    return int(base.size - 1)

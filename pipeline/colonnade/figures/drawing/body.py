@@ -6,8 +6,7 @@ from math import atan2, cos, degrees, sin
 
 import numpy as np
 
-from colonnade.figures.drawing.parts import Body, Rocking
-from colonnade.figures.drawing.view import LINE, NAMES, NORMAL, SMALL, Spot, View
+from colonnade.figures.drawing.view import LINE, NAMES, NORMAL, SMALL, Body, Rocking, Spot, View
 from colonnade.figures.style import FAINT, INK, SOFT
 
 TABLE, GAP, GROUND = 0.42, 0.13, 0.1

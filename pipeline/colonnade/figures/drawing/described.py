@@ -13,8 +13,8 @@ from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block
 from colonnade.errors import CampaignError, UnitError, count
 from colonnade.figures.drawing.body import words_of_angle
-from colonnade.figures.drawing.parts import MARKER, Body, Point, Rocking, Transducer
 from colonnade.figures.drawing.setup import Drawn, setup_drawings
+from colonnade.figures.drawing.view import MARKER, Body, Point, Rocking, Transducer
 from colonnade.figures.files.output import Picture
 from colonnade.units.text import listed, quantity
 

@@ -20,7 +20,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from colonnade.arrays import Array
-from colonnade.figures.panels.long import LongBand
+from colonnade.figures.panels.curve import LongBand
 
 Table = dict[str, Sequence[float] | Sequence[str]]
 """Columns by their headings; they need not have one length."""

@@ -1,4 +1,4 @@
-"""Steady responses to a sine: their orders over Ω and A with the sub-harmonic regions, and response curves."""
+"""Orders and amplitudes of steady responses over frequency and amplitude; pictures of all kinds of maps."""
 
 from __future__ import annotations
 
@@ -14,12 +14,15 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.dynamics.history import NO_ROCKING_RATIO
+from colonnade.dynamics.maps import StabilityMap
 from colonnade.dynamics.steady import AT_REST, IRREGULAR, LARGEST_ORDER, OVERTURNED, SteadyResponse
+from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import SMALLEST_RATIO
-from colonnade.figures.maps.measured_map import draw_points
+from colonnade.figures.maps.measured_map import draw_points, measured_map
 from colonnade.figures.maps.stability_map import (
     OVERTURNED_COLOUR,
     scale_axes,
+    stability_map,
     words_of_restitution,
     words_of_sine,
 )
@@ -173,3 +176,41 @@ def _rows(amplitudes: Array) -> list[int]:
     if rocking.size == 0:
         return []
     return sorted(set(rocking[np.linspace(0, rocking.size - 1, CURVES).round().astype(np.intp)].tolist()))
+
+
+def tested(identity: str, points: Sequence[MapPoint]) -> Picture:
+    """Draw the sine tests of a specimen by outcome over Ω and A."""
+    outcomes = [point.outcome for point in points]
+    described = ", ".join(f"{outcomes.count(outcome)} {outcome}" for outcome in dict.fromkeys(outcomes))
+    return Picture(
+        measured_map(points, linked=True),
+        identity,
+        "Sine tests by outcome over frequency ratio Ω and amplitude ratio A",
+        f"{len(points)} tests: {described}.",
+    )
+
+
+def computed(
+    specimen: str, charts: Sequence[StabilityMap], points: Sequence[MapPoint], *, linked: bool = False
+) -> Picture:
+    """Draw the stability maps of a specimen, one for each model, with its sine tests, as links if `linked`."""
+    models = [str(chart.options["model"]) for chart in charts]
+    return Picture(
+        stability_map(charts, points, linked=linked),
+        f"map-{specimen}-{'-'.join(models)}",
+        f"Stability map of {specimen}, {' and '.join(models)} model",
+        f"Outcomes over frequency ratio Ω and amplitude ratio A, with {len(points)} measured points.",
+    )
+
+
+def responses(
+    specimen: str, response: SteadyResponse, points: Sequence[MapPoint], options: Mapping[str, Any]
+) -> Picture:
+    """Draw the steady responses of a specimen by their order, with its measured sine tests."""
+    model = str(options["model"])
+    return Picture(
+        response_orders(response, points, options),
+        f"response-{specimen}-{model}",
+        f"Steady responses of {specimen}, {model} model",
+        f"Orders over frequency ratio Ω and amplitude ratio A, with {len(points)} measured points.",
+    )

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from colonnade.arrays import Array
 from colonnade.figures.panels.layout import BOTTOM, GAP, TOP, legend_above, margins
 from colonnade.figures.panels.lean import add_panel
-from colonnade.figures.restitution.marks import draw_marks
+from colonnade.figures.restitution.peaks import draw_marks
 from colonnade.figures.style import FIT, INK, LIMIT, is_narrow, styled, width
 
 HEIGHT = 2.4

@@ -13,12 +13,57 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
+from colonnade.figures.panels.curve import draw_band
 from colonnade.figures.panels.layout import legend_outside
-from colonnade.figures.panels.long import draw_band
-from colonnade.figures.restitution.marks import draw_marks
-from colonnade.figures.style import FIT, blank_figure, styled
+from colonnade.figures.style import FAINT, FIT, MEASURED, blank_figure, styled
 from colonnade.identification.restitution.peaks import released_energy
 from colonnade.units.text import PERCENT
+
+
+def draw_marks(
+    axes: Axes,
+    x: Array,
+    y: Array,
+    bars: Array,
+    shown: NDArray[np.bool_],
+    used: NDArray[np.bool_],
+    labels: tuple[str, str],
+    *,
+    mark: str = "o",
+    size: float = 3.0,
+) -> None:
+    """
+    Draw marks with their bars.
+
+    Parameters
+    ----------
+    axes : Axes
+    x, y : ndarray, shape (n,)
+    bars : ndarray, shape (n,) or (2, n)
+        Lengths of the bars below and above; none where NaN.
+    shown, used : ndarray of bool, shape (n,)
+    labels : tuple of str
+        Of those that were used, and of those that were left out.
+    mark : str, optional
+    size : float, optional
+        Points.
+    """
+    for chosen, face, label in zip((shown & used, shown & ~used), (MEASURED["color"], "white"), labels, strict=True):
+        if chosen.any():
+            axes.errorbar(
+                x[chosen],
+                y[chosen],
+                yerr=np.nan_to_num(bars[..., chosen]),
+                fmt=mark,
+                markersize=size,
+                markerfacecolor=face,
+                markeredgecolor=MEASURED["color"],
+                markeredgewidth=0.8,
+                ecolor=FAINT,
+                elinewidth=0.8,
+                label=label,
+            )
+
 
 COLUMNS = 3
 

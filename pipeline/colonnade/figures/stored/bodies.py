@@ -13,9 +13,8 @@ from colonnade.campaign.forms.summary import BodyPrediction
 from colonnade.dynamics.assembly import Assembly
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import largest_of, scale_symmetric
-from colonnade.figures.panels.curve import Curve
+from colonnade.figures.panels.curve import Curve, draw_curve
 from colonnade.figures.panels.layout import legend_above, stacked_panels
-from colonnade.figures.panels.long import draw_curve
 from colonnade.figures.style import MEASURED, SOFT, model_style, styled, width
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import bodies_of

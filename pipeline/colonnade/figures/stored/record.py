@@ -1,24 +1,114 @@
-"""Pictures of a test over time: measured and predicted, within each model's spread, and earthquake Spans together."""
+"""Curves of a test's stored results, and its pictures over time: measured, predicted, spreads, Spans."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from matplotlib.figure import Figure
 
+from colonnade.arrays import Array
 from colonnade.campaign import Test
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.block import Block
-from colonnade.figures.bands import bands_over_time
 from colonnade.figures.files.output import Picture
+from colonnade.figures.histories import Spread, bands_over_time, draw_angle, limit_of, time_limits
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.record import Peak, whole_record
-from colonnade.figures.spans import SpanPanel, spans_side_by_side
-from colonnade.figures.stored.curves import measured_ratio, misfits, motion, predicted_ratios, quantities, spreads
+from colonnade.figures.panels.layout import legend_above, side_by_side
+from colonnade.figures.record import Peak, Quantity, SpanPanel, spans_side_by_side, whole_record
+from colonnade.figures.style import is_narrow, styled
+from colonnade.signals.filters import displacement
 from colonnade.stages.parts.beginning import RECORDED
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import driven_by, predicted_peak_time
+from colonnade.units import from_si
 from colonnade.units.text import format_percent, number, quantity
+
+
+def measured_ratio(stored: Stored, block: Block, *, as_recorded: bool = False) -> Curve | None:
+    """Return the measured θ/α about the zero of the predictions, or as recorded; None if it was not measured."""
+    return _ratio(stored, block, "rocking", as_recorded=as_recorded)
+
+
+def true_angle(stored: Stored, measured: Array) -> Array:
+    """Return a measured angle about the zero of the predictions, with the gain that a free vibration shows, rad."""
+    offset, gain = (stored.value("compare", name) for name in ("zero_offset", "angle_gain"))
+    return (measured - float(np.nan_to_num(offset))) / float(np.nan_to_num(gain, nan=1.0))
+
+
+def predicted_ratios(stored: Stored, block: Block) -> dict[str, Curve]:
+    """Return the predicted θ/α by model."""
+    curves = {model: _ratio(stored, block, "predict", model) for model in stored.models("predict")}
+    return {model: curve for model, curve in curves.items() if curve is not None}
+
+
+def spreads(stored: Stored, block: Block) -> dict[str, Spread]:
+    """Return the ensembles' bands of θ/α by model."""
+    found = {}
+    for model in stored.models("ensemble"):
+        time, levels, angles = (
+            stored.array("ensemble", name, model) for name in ("elapsed", "quantile", "rocking_angle_band")
+        )
+        overturning, horizon = (
+            stored.value("ensemble", name, model) for name in ("overturning_probability", "horizon")
+        )
+        found[model] = Spread(time, levels, angles / block.critical_angle_at(angles), overturning, horizon)
+    return found
+
+
+def misfits(stored: Stored, measured: Curve | None, predicted: Mapping[str, Curve]) -> dict[str, Curve]:
+    """Return predicted minus measured θ/α as far as the two are compared, by model."""
+    found = {}
+    for model, curve in predicted.items():
+        until = stored.compared("compared_until", model)
+        if measured is not None and curve.values.shape == measured.values.shape and np.isfinite(until):
+            within = curve.time <= until
+            found[model] = Curve(curve.time[within], (curve.values - measured.values)[within])
+    return found
+
+
+def quantities(stored: Stored, wanted: Sequence[tuple[str, str, str, str]], block: Block) -> list[Quantity]:
+    """Return those motions that were measured; wanted are variable, words, label and unit."""
+    found = []
+    for name, _, label, unit in wanted:
+        curve = motion(stored, name, unit)
+        if curve is not None and np.isfinite(curve.values).any():
+            uplift = block.uplift_acceleration if name == "base_acceleration" else None
+            found.append(Quantity(f"{label}\n({unit})", curve, uplift, "g tan α"))
+    return found
+
+
+def motion(stored: Stored, name: str, unit: str) -> Curve | None:
+    """Return a measured motion over time in a unit, None if it was not measured."""
+    values = stored.array("rocking", name)
+    if not (values.ndim == 1 and values.size):
+        return None
+    return Curve(stored.array("rocking", "elapsed"), from_si(1.0, unit) * values)
+
+
+def base_displacement(stored: Stored) -> tuple[Curve | None, str]:
+    """Return the displacement of the base over time, m, and where it is from; None if its motion was not recorded."""
+    recorded, acceleration = motion(stored, "base_displacement", "m"), motion(stored, "base_acceleration", "m/s²")
+    if recorded is not None and np.isfinite(recorded.values).any():
+        return recorded, "recorded displacement"
+    if acceleration is not None:
+        return acceleration._replace(values=displacement(*acceleration)), "recorded acceleration integrated twice"
+    return None, "not recorded, drawn at rest"
+
+
+def _ratio(
+    stored: Stored, block: Block, stage: str, model: str | None = None, *, as_recorded: bool = True
+) -> Curve | None:
+    if not stored.has(stage, "rocking_angle", model):
+        return None
+    time, angle = stored.array(stage, "elapsed", model), stored.array(stage, "rocking_angle", model)
+    angle = angle if as_recorded else true_angle(stored, angle)
+    # An overturned test ends where it overturns: what a frame or a floor does to it then is no rocking.
+    fall = stored.value(stage, "overturning_time", model)
+    ended = time.size if np.isnan(fall) else int(np.searchsorted(time, fall)) + 1
+    angle = np.where(np.arange(time.size) < ended, angle, np.nan)
+    return Curve(time, angle / block.critical_angle_at(angle))
+
 
 MOTIONS = (
     ("slide", "slide", "slide", "mm"),
@@ -125,3 +215,52 @@ def _end(stored: Stored, measured: Curve | None, predicted: Mapping[str, Curve])
     if measured is not None:
         falls.append(stored.value("rocking", "overturning_time"))
     return None if not falls or np.isnan(falls).any() else max(falls)
+
+
+HEIGHT, LOWER = 2.4, 1.7
+"""Of the panel, and of that in a single column, inches."""
+
+
+@styled()
+def rocking_angle(measured: Curve | None, predicted: Mapping[str, Curve], *, title: str = "") -> Figure:
+    """
+    Draw the rocking angle over the critical angle, measured and by each model.
+
+    Parameters
+    ----------
+    measured : Curve or None
+        θ/α over time (s); None if it was not measured.
+    predicted : mapping of str to Curve
+        θ/α by model.
+    title : str, optional
+        Above the panel.
+
+    Returns
+    -------
+    figure : Figure
+    """
+    figure, ((axes,),) = side_by_side(1, [LOWER if is_narrow() else HEIGHT])
+    curves = [curve for curve in (measured, *predicted.values()) if curve is not None]
+    draw_angle(axes, measured, predicted, limit_of(curves), thinness=0.8)
+    axes.set_title(title)
+    axes.set_xlim(*time_limits(curves))
+    axes.set_xlabel("time (s)")
+    legend_above(figure, [axes])
+    return figure
+
+
+def angle(test: Test, record: TestSummary, stored: Stored, block: Block) -> Picture | None:
+    """Draw the measured and the predicted angle of a test; None without any."""
+    measured, predicted = measured_ratio(stored, block), predicted_ratios(stored, block)
+    if measured is None and not predicted:
+        return None
+    figure = rocking_angle(measured, predicted, title=_title(test, record))
+    return Picture(figure, f"angle-{test.id}", f"{test.id}: rocking angle over time", seen(record, stored))
+
+
+def _title(test: Test, record: TestSummary) -> str:
+    """Say what was done as a paper does: Ω and A of a sine, Span of an earthquake."""
+    if record.frequency_ratio is not None and record.amplitude_ratio is not None:
+        return f"{test.specimen}, Ω = {record.frequency_ratio:.2f}, A = {record.amplitude_ratio:.2f}"
+    done = test.id if test.span is None else f"{test.motion or 'earthquake'}, Span {test.span}"
+    return f"{test.specimen}, {done}"

@@ -14,12 +14,11 @@ from colonnade.errors import count
 from colonnade.figures.files.output import Picture
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
-from colonnade.figures.restitution.history import fitted_history
+from colonnade.figures.restitution.history import Region, fitted_history, joint_region
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
 from colonnade.figures.restitution.many import MIDDLE, MIDDLE_SHARE, impacts_of_many, peaks_of_many
 from colonnade.figures.restitution.peaks import PeakSeries, peak_decay
-from colonnade.figures.restitution.region import Region, joint_region
-from colonnade.figures.stored.curves import measured_ratio
+from colonnade.figures.stored.record import measured_ratio
 from colonnade.identification.restitution.peaks import confidence_band
 from colonnade.store.records.stored import Stored
 from colonnade.units.text import number

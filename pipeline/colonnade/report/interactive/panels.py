@@ -1,17 +1,30 @@
-"""What the interactive panels of a test show: curves, bands and marks in panels, and the samples that they draw."""
+"""What the page's script draws and writes: panels of curves, bands and marks, tables, and packed samples."""
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable
+import zlib
+from base64 import b64encode
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, TypeVar
+from functools import partial
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.report.interactive.packing import PLANES, packed
+from colonnade.campaign.assembly import Whole
+from colonnade.campaign.specimen import Specimen
+from colonnade.dynamics.block import Block
+from colonnade.figures.drawing.described import body_of
+from colonnade.figures.drawing.view import Body, Rocking
+from colonnade.figures.files.output import Picture, as_csv
+from colonnade.figures.files.table import Columns, columns_of
+from colonnade.figures.stored import bodies
+from colonnade.figures.stored.record import base_displacement, measured_ratio, motion, predicted_ratios
+from colonnade.figures.style import model_style
+from colonnade.store.records.stored import Stored
 
 MOST = 20_000_000
 """Samples of a page: in a browser they take half a second and some 200 MB. What is beyond is left out, and said so."""
@@ -96,3 +109,181 @@ def script(page: str, samples: Samples, **more: Any) -> str:
     given = {"page": page, "clocks": samples.clocks, "planes": PLANES, "series": series, **more, "samples": text}
     # Within a script of its own no text can end the script early; U+2028 and U+2029 are escaped by json.
     return f"colonnade.show({json.dumps(given, separators=(',', ':'), allow_nan=False)});\n"
+
+
+BITS = 20
+"""A sample is rounded to this many binary digits of the largest of its series: to a millionth of it, or finer."""
+
+PLANES = 3
+"""Bytes of a difference: twice the second difference of two numbers of `BITS` digits fits, with its sign."""
+
+
+class Packed(NamedTuple):
+    """
+    Series of samples, packed.
+
+    Attributes
+    ----------
+    series : list of dict
+        Of each series: `count`, `step` (the value of one), `order` (how often differences were taken), and `gaps`
+        (first sample and the one after the last of each stretch without value).
+    text : str
+        The bytes of all, compressed by zlib, in base64.
+    """
+
+    series: list[dict[str, Any]]
+    text: str
+
+
+def packed(series: Sequence[Array]) -> Packed:
+    """
+    Pack series of samples into text, in milliseconds for a hundred thousand of them.
+
+    Parameters
+    ----------
+    series : sequence of ndarray, shape (n,)
+        NaN where there is no value; lengths may differ.
+
+    Returns
+    -------
+    packed : Packed
+        Unpacked as float32 each value is within half a step of what it was.
+
+    Notes
+    -----
+    The bits of a float below what a transducer resolves are noise, which no compression makes smaller; rounded to
+    whole steps, a smooth series has second differences of a byte or so. Their bytes are parted into planes (all lowest,
+    all next, …), so that the high ones are runs of zeros.
+    """
+    described, planes = [], []
+    for values in series:
+        whole, step, gaps = _rounded(np.asarray(values, dtype=np.float64))
+        candidates = [np.diff(whole, n=order, prepend=np.zeros(order, dtype=np.int64)) for order in (1, 2)]
+        order = 1 + int(np.abs(candidates[1]).sum() < np.abs(candidates[0]).sum())
+        different = candidates[order - 1]
+        folded = ((different << 1) ^ (different >> 63)).astype("<u4")
+        planes.append(np.ascontiguousarray(folded.view(np.uint8).reshape(-1, 4)[:, :PLANES].T).tobytes())
+        described.append({"count": int(whole.size), "step": step, "order": order, "gaps": gaps})
+    compressor = zlib.compressobj(level=1, strategy=zlib.Z_RLE)
+    data = compressor.compress(b"".join(planes)) + compressor.flush()
+    return Packed(described, b64encode(data).decode())
+
+
+def _rounded(values: Array) -> tuple[np.ndarray[Any, np.dtype[np.int64]], float, list[list[int]]]:
+    """Give whole multiples of a step, the step, and the gaps, which hold the value before them."""
+    finite = np.isfinite(values)
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], ~finite, [False])).astype(np.int8)))
+    if not finite.all():
+        before = np.maximum.accumulate(np.where(finite, np.arange(values.size), -1))
+        values = np.where(before >= 0, values[before], 0.0)
+    largest = float(np.abs(values).max(initial=0.0))
+    step = float(2.0 ** (np.frexp(largest)[1] - BITS)) if largest else 1.0
+    return np.rint(values / step).astype(np.int64), step, edges.reshape(-1, 2).tolist()
+
+
+LONG = 2000
+"""Cells up to which a table is CSV text; the columns of a longer one are packed with the samples of the page."""
+
+
+def tables_of(pictures: Iterable[Picture], samples: Samples) -> tuple[Samples, dict[str, Any]]:
+    """
+    Give the table of each picture by its id: CSV text, or headings with columns. One that is too long has none.
+
+    A column is a list of words, or names a series or, if it rises throughout, a clock of the samples, which are
+    returned with those of the tables.
+    """
+    found: dict[str, Any] = {}
+    for picture in pictures:
+        table = columns_of(picture.figure)
+        if sum(map(len, table.values())) <= LONG:
+            found[picture.identity] = as_csv(table)
+        else:
+            samples, columns = samples.with_more(partial(_columns, table))
+            if columns is not None:
+                found[picture.identity] = {"heads": list(table), "columns": columns}
+    return samples, found
+
+
+def of_page(address: str, pictures: Iterable[Picture]) -> str:
+    """Return the script with the data of a page that has no histories: the tables of its pictures."""
+    samples, tables = tables_of(pictures, Samples())
+    return script(address, samples, tables=tables)
+
+
+def _columns(table: Columns, samples: Samples) -> list[Any]:
+    return [_column(column, samples) for column in table.values()]
+
+
+def _column(column: Array | list[str], samples: Samples) -> Any:
+    if isinstance(column, list):
+        return column
+    column = np.asarray(column, dtype=np.float64)
+    if column.size > 1 and (column[1:] > column[:-1]).all():
+        return {"clock": samples.clock(column)}
+    return {"series": samples.add(column)}
+
+
+def outline(body: Body) -> list[tuple[float, float]]:
+    """Return the corners of a specimen seen along y, x and z in m: from the left end of its base around its top."""
+    base, top = (size / 2 for size in body.width)
+    return [(-base, 0.0), (-top, body.height), (top, body.height), (base, 0.0)]
+
+
+def of_test(specimen: Specimen, block: Block, stored: Stored, samples: Samples) -> dict[str, Any]:
+    """Describe the moving block for the script: measured and by each model, on the recorded motion of the base."""
+    base, how = base_displacement(stored)
+    around = {
+        "base": None if base is None else samples.curve("base", base.time, 1e3 * base.values),
+        "how": f"base: {how}",
+    }
+    if isinstance(specimen, Whole):
+        return _bodies(specimen, block.gravity, stored, samples) | around
+    body, rocking = body_of(specimen, block), Rocking.of(block)
+    measured, slide = measured_ratio(stored, block), motion(stored, "slide", "mm")
+    moving = []
+    if measured is not None:
+        moving.append(samples.curve("measured", *measured, colour="ink"))
+        if slide is not None and np.isfinite(slide.values).any():
+            moving[0]["slide"] = samples.add(slide.values)
+    for model, curve in predicted_ratios(stored, block).items():
+        moving.append(samples.curve(f"{model} model", *curve, colour=model_style(model)["color"]))
+    return {
+        "height": body.height,
+        "bodies": [
+            {
+                "name": each["name"],
+                "colour": each["colour"],
+                "parts": [{"outline": outline(body), "poles": rocking.poles, **each}],
+            }
+            for each in moving
+        ],
+        **around,
+    }
+
+
+def _bodies(specimen: Whole, gravity: float, stored: Stored, samples: Samples) -> dict[str, Any]:
+    """Describe the bodies of an assembly, each turned by its angle (rad) with its slide and rise (mm)."""
+    assembly = specimen.assembly(gravity)
+    found: dict[str, list[dict[str, Any]]] = {}
+    for place, (name, placed) in enumerate(assembly.bodies.items()):
+        body = body_of(specimen.made[name], placed.block)
+        slides, rises = (bodies.histories(stored, place, f"body_{each}") for each in ("slide", "uplift"))
+        for who, angle in bodies.histories(stored, place, "body_angle").items():
+            part = samples.curve(name, *angle, colour="") | {
+                "outline": outline(body),
+                "poles": Rocking.of(placed.block).poles,
+                "place": [placed.position[0], assembly.levels[name]],
+                "is_angle": True,
+            }
+            more = {"slide": slides.get(who), "rise": rises.get(who)}
+            part |= {key: samples.add(1e3 * curve.values) for key, curve in more.items() if curve is not None}
+            found.setdefault(who, []).append(part)
+    return {
+        "height": assembly.height,
+        "bodies": [
+            {"name": who, "colour": "ink", "parts": parts}
+            if who == "measured"
+            else {"name": f"{who} model", "colour": model_style(who)["color"], "parts": parts}
+            for who, parts in found.items()
+        ],
+    }

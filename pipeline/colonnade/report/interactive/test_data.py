@@ -16,12 +16,19 @@ from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import Spread
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored import bodies
-from colonnade.figures.stored.curves import measured_ratio, misfits, motion, predicted_ratios, spreads
-from colonnade.figures.stored.record import BASE, MOTIONS, SHADED
+from colonnade.figures.stored.record import (
+    BASE,
+    MOTIONS,
+    SHADED,
+    measured_ratio,
+    misfits,
+    motion,
+    predicted_ratios,
+    spreads,
+)
 from colonnade.figures.style import model_style
-from colonnade.report.interactive import moving
-from colonnade.report.interactive.panels import Samples, script
-from colonnade.report.interactive.tables import tables_of
+from colonnade.report.interactive import panels
+from colonnade.report.interactive.panels import Samples, script, tables_of
 from colonnade.store.records.stored import GOOD, Stored
 from colonnade.units import from_si
 from colonnade.units.text import CHANNEL_UNITS, format_percent
@@ -75,7 +82,7 @@ def of_test(
         drawn[0]["is_open"] = True
     moves = None
     if any(panel.get("is_angle") for group in drawn for panel in group["panels"]):
-        samples, moves = samples.with_more(partial(moving.of_test, campaign.specimens[test.specimen], block, stored))
+        samples, moves = samples.with_more(partial(panels.of_test, campaign.specimens[test.specimen], block, stored))
     critical = [block.negative.critical_angle, block.positive.critical_angle]
     samples, tables = tables_of(pictures, samples)
     return script(test.id, samples, groups=shown if drawn else [], critical=critical, moving=moves, tables=tables)

@@ -1,15 +1,17 @@
-"""What needs a look before anything else: failures, serious findings, missed outcomes, warnings, misfits outside."""
+"""What needs a look before anything else: failures and findings in groups, missed outcomes, misfits outside."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from colonnade.campaign.forms.assessed import AssessmentSummary
+from colonnade.campaign.forms.summary import Warned
 from colonnade.findings import Severity
 from colonnade.identification.response.rank import WITHIN
-from colonnade.report.overview_page.confusion import Cell, Confusion
-from colonnade.report.problems import WarningGroup
+from colonnade.report.overview_page.agreement import Cell, Confusion
 from colonnade.report.rows import TestRow
 from colonnade.store.records.stored import Failure
 
@@ -75,3 +77,31 @@ def attention(
         explained=len(groups) - len(causes),
         notes=sum(group.first.severity == Severity.NOTE for group in causes),
     )
+
+
+_NUMBER = re.compile(r"(?<![A-Za-z_-])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?: (\w+?)s?\b)?")
+
+
+class WarningGroup(NamedTuple):
+    """Warnings of one stage that differ in their numbers alone: the first, and who has them."""
+
+    first: Warned
+    subjects: list[str]
+
+
+def warning_groups(given: Iterable[tuple[str, Warned]]) -> list[WarningGroup]:
+    """
+    Gather warnings, the worst first, and of these those that most subjects have.
+
+    Parameters
+    ----------
+    given : iterable of (str, Warned)
+        Each with its subject: a test's id, or ``specimen <id>``.
+    """
+    groups: dict[tuple[str, str, str], WarningGroup] = {}
+    for subject, found in given:
+        key = found.stage, found.severity, _NUMBER.sub(r"# \1", found.text)
+        group = groups.setdefault(key, WarningGroup(found, []))
+        if subject not in group.subjects:
+            group.subjects.append(subject)
+    return sorted(groups.values(), key=lambda group: (Severity(group.first.severity).rank, -len(group.subjects)))

@@ -12,15 +12,17 @@ from math import isfinite
 from typing import Any, Literal, NamedTuple
 
 from colonnade.campaign.assembly import Whole
+from colonnade.figures import base_motion, channels, closer, moving
 from colonnade.figures.drawing import described
 from colonnade.figures.files.output import Movie, Picture
+from colonnade.figures.maps import response_orders
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow
-from colonnade.figures.stored import angle, base, bodies, channels, closer, maps, moving, record
+from colonnade.figures.stored import bodies, record
 from colonnade.figures.stored import restitution as decays
 from colonnade.identification.response.boundaries import makes_map
-from colonnade.report.forecasts_page import page as forecasts_page
-from colonnade.report.overview_page import peaks as agreement
-from colonnade.report.overview_page.spans import span_groups
+from colonnade.report import forecasts_page as forecasts_page
+from colonnade.report.overview_page import agreement as agreement
+from colonnade.report.overview_page.groups import span_groups
 from colonnade.report.pictures.subjects import OfCampaign, OfSpecimen, OfTest, Subject
 from colonnade.store.records.forecast import FEWEST
 from colonnade.store.results import models_shown
@@ -59,7 +61,7 @@ def _record(one: OfTest) -> Picture | None:
 
 
 def _angle(one: OfTest) -> Picture | None:
-    return angle.angle(one.row.test, one.row.record, one.stored, one.block)
+    return record.angle(one.row.test, one.row.record, one.stored, one.block)
 
 
 def _bands(one: OfTest) -> Picture | None:
@@ -95,7 +97,8 @@ def _closer(one: OfTest) -> Picture | None:
 
 
 def _base(one: OfTest) -> Picture | None:
-    return base.picture(one.row.test, base.base_of(one.campaign, one.row.test, one.stored), one.block)
+    base = base_motion.base_of(one.campaign, one.row.test, one.stored)
+    return base_motion.base_picture(one.row.test, base, one.block)
 
 
 def _joints(one: OfTest) -> Picture | None:
@@ -141,11 +144,11 @@ def _impacts(one: OfSpecimen) -> Picture | None:
 
 
 def _measured_map(one: OfSpecimen) -> Picture | None:
-    return maps.tested(f"map-{one.name}", one.points) if makes_map(one.points) else None
+    return response_orders.tested(f"map-{one.name}", one.points) if makes_map(one.points) else None
 
 
 def _map(one: OfSpecimen) -> Picture | None:
-    return maps.computed(one.name, one.charts, one.points, linked=True) if one.charts else None
+    return response_orders.computed(one.name, one.charts, one.points, linked=True) if one.charts else None
 
 
 def _spans(one: OfSpecimen) -> Picture | None:
@@ -159,7 +162,7 @@ def _spans(one: OfSpecimen) -> Picture | None:
 
 def _agreement(one: OfCampaign) -> Picture | None:
     models = models_shown(one.campaign)
-    return agreement.picture(agreement.points(one.rows, models, agreement.worst(one.rows, models)))
+    return agreement.peaks_picture(agreement.peak_points(one.rows, models, agreement.worst(one.rows, models)))
 
 
 def _calibration(one: OfCampaign) -> Picture | None:

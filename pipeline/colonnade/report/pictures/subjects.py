@@ -16,9 +16,8 @@ from colonnade.figures.restitution.peaks import PeakSeries
 from colonnade.figures.stored import record as curves
 from colonnade.figures.stored import restitution
 from colonnade.identification.response.boundaries import MapPoint
-from colonnade.report.forecasts_page.page import calibrations_of
-from colonnade.report.overview_page.maps import charts_of
-from colonnade.report.overview_page.spans import SpanTest
+from colonnade.report.forecasts_page import calibrations_of
+from colonnade.report.overview_page.groups import SpanTest, charts_of
 from colonnade.report.rows import TestRow
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import Failure, Stored, read_specimen, read_test

@@ -13,9 +13,9 @@ from colonnade.assessment.measures import table_measures
 from colonnade.campaign import Campaign
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.size import at_prototype
+from colonnade.figures import base_motion
+from colonnade.figures.base_motion import BaseMotion
 from colonnade.figures.files.output import Picture
-from colonnade.figures.stored import base
-from colonnade.figures.stored.base import BaseMotion
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.signals.filters import lowpass
@@ -49,14 +49,14 @@ class Table:
 
 def of_test(campaign: Campaign, row: TestRow, stored: Stored, block: Block) -> Table:
     """Measure the table's motion, and draw it with its target."""
-    motion = base.base_of(campaign, row.test, stored)
+    motion = base_motion.base_of(campaign, row.test, stored)
     if motion is None:
         return Table([], [], None, has_target=False)
     scale = campaign.specimens[row.test.specimen].scale
     return Table(
         _measures(motion, stored, campaign.gravity, scale),
         known([*_sine(row, stored), *_target(motion)]),
-        base.picture(row.test, motion, block),
+        base_motion.base_picture(row.test, motion, block),
         has_target=motion.target is not None,
     )
 

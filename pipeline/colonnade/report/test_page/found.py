@@ -1,21 +1,23 @@
-"""What was found: the measured motion in numbers, and the figure of the whole record."""
+"""What was found: the measured motion in numbers, its bodies, and whether it is within each model's spread."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isnan
+from math import hypot, isnan, nan
 
+from colonnade.campaign.forms.summary import BodyPrediction, PredictionSummary
 from colonnade.dynamics.size import at_prototype
 from colonnade.figures.files.output import Picture
 from colonnade.figures.stored import record
+from colonnade.identification.response.rank import FEWEST, is_within
 from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import driven_by, largest_motion, predicted_peak_time
-from colonnade.store.records.wording import order
-from colonnade.units.text import NOTHING, acceleration, quantity, ratio
+from colonnade.store.records.wording import by_bodies, order
+from colonnade.units.text import NOTHING, acceleration, format_percent, number, quantity, ratio
 
 
 @dataclass(frozen=True)
@@ -89,3 +91,95 @@ def _at_prototype(row: TestRow, stored: Stored, scale: float) -> str:
     )
     known = ((name, quantity(value, unit)) for name, value, unit in parts)
     return ", ".join(f"{name} {text}" for name, text in known if text != NOTHING)
+
+
+FINEST = 5
+"""Decimals of displacements in m and of turns in rad that are shown."""
+
+
+@dataclass(frozen=True)
+class BodyRow:
+    """A body as measured, or as a model has it: cells as they are shown."""
+
+    name: str
+    who: str
+    outcome: str
+    peak: str
+    opening: str
+    opened: str
+    moved: str
+    along: str
+    turned: str
+    separation: str
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """`rows` is empty for a single body; `answer` says in a sentence what became of them."""
+
+    answer: str
+    rows: list[BodyRow]
+    joints: Picture | None
+    plan: Picture | None
+
+
+def bodies_of(subject: OfTest) -> Bodies:
+    """Put what is known of each body into rows, from the top to the bottom as they stand."""
+    record = subject.row.record
+    rows = []
+    for name, body in reversed(record.bodies.items()):
+        opening, opened = quantity(body.opening, "mm"), quantity(body.opening_time, "s", 4)
+        rows.append(_row(name, "measured", body, opening, opened, body.separation or ""))
+        for model, each in body.predicted.items():
+            rows.append(_row("", f"{model} model", each, "–", "–", ""))
+            if each.overturning_probability is not None:
+                low, high = (number(None if end is None else 1e3 * end) for end in (each.moved_low, each.moved_high))
+                falls = format_percent(each.overturning_probability)
+                band = "–" if each.moved_low is None else f"{low} to {high} mm"
+                rows.append(BodyRow("", "its runs", f"{falls} overturn", "–", "–", "–", band, "–", "–", ""))
+    return Bodies(by_bodies(record), rows, picture("joints", subject), picture("plan", subject))
+
+
+def _row(name: str, who: str, body: BodyPrediction, opening: str, opened: str, separation: str) -> BodyRow:
+    fell = body.outcome == "overturned"
+    x, y = (None if each is None or fell else round(each, FINEST) for each in (body.residual_x, body.residual_y))
+    far = None if x is None or y is None else round(hypot(x, y), FINEST)
+    along = ", ".join(number(None if each is None else 1e3 * each) for each in (x, y))
+    turned = quantity(None if fell or body.residual_yaw is None else round(body.residual_yaw, FINEST), "mrad")
+    outcome = body.outcome or "not measured"
+    return BodyRow(
+        name, who, outcome, ratio(body.peak_ratio), opening, opened, quantity(far, "mm"), along, turned, separation
+    )
+
+
+@dataclass(frozen=True)
+class ModelSpread:
+    """`verdicts` has a sentence for each model; `bands` is None without an ensemble."""
+
+    verdicts: list[str]
+    bands: Picture | None
+
+
+def spread_of(subject: OfTest) -> ModelSpread:
+    """Say of each model whether the measured angle is within its spread, and draw the bands."""
+    predictions = subject.row.record.predicted.items()
+    verdicts = (verdict_sentence(model, predicted) for model, predicted in predictions)
+    return ModelSpread(list(filter(None, verdicts)), picture("bands", subject))
+
+
+def verdict_sentence(model: str, predicted: PredictionSummary) -> str:
+    """Say whether the measured angle is within the model's own spread, up to its horizon."""
+    if predicted.horizon is None:
+        return ""
+    name, until = f"{model.capitalize()} model", quantity(predicted.horizon, "s", 4)
+    rank = predicted.within_spread
+    within = is_within(nan if rank is None else rank)
+    if within is None:
+        return f"{name}: predicted up to {until}; not ranked: that needs {FEWEST} runs and a measured angle."
+    said = [f"{format_percent(rank or 0.0)} of the runs are closer to their median"]
+    if predicted.peak_rank is not None:
+        said.append(f"{format_percent(predicted.peak_rank)} stay below the measured peak")
+    if predicted.overturning_probability:
+        said.append(f"{format_percent(predicted.overturning_probability)} overturn")
+    where = "within" if within else "outside"
+    return f"{name}: the measured angle is {where} its own spread up to {until} ({'; '.join(said)})."

@@ -1,26 +1,28 @@
-"""The page of one test, put together from its sections; each section has a module of its own in `test_page`."""
+"""The page of one test, put together from its sections, and what was done."""
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
 
 from colonnade.campaign import Campaign
 from colonnade.figures.files.output import Picture
-from colonnade.report import drawings, who_and_when
-from colonnade.report.drawings import Drawing
-from colonnade.report.photos import Photos
+from colonnade.report import specimens_page
+from colonnade.report.asked import Photos
 from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.rows import TestRow
-from colonnade.report.test_page import base, bodies, channels, decay, done, found, spread
+from colonnade.report.specimens_page import Drawing
+from colonnade.report.test_page import base, channels, facts, found, restitution
 from colonnade.report.test_page.base import Table
-from colonnade.report.test_page.bodies import Bodies
 from colonnade.report.test_page.channels import ChannelRow
-from colonnade.report.test_page.decay import Decay
-from colonnade.report.test_page.done import Done
-from colonnade.report.test_page.found import Found
-from colonnade.report.test_page.spread import ModelSpread
+from colonnade.report.test_page.facts import Fact, known
+from colonnade.report.test_page.found import Bodies, Found, ModelSpread
+from colonnade.report.test_page.restitution import Decay
+from colonnade.store.layout import Layout
 from colonnade.store.records.stored import Stored
+from colonnade.units.text import number, quantity
 
 
 @dataclass(frozen=True)
@@ -54,14 +56,61 @@ def of_test(campaign: Campaign, row: TestRow, stored: Stored, shown: Photos) -> 
         stored=stored,
         review=stored.texts("ingest", "review") or list(campaign.review(test.id).sentences),
         photos=shown,
-        done=done.of_test(row, stored, who_and_when.of_test(campaign, test)),
-        drawing=drawings.of_setup(campaign, test.specimen, test.setup),
+        done=done_of(row, stored, facts.who_and_when_of_test(campaign, test)),
+        drawing=specimens_page.drawing_of(campaign, test.specimen, test.setup),
         found=found.of_test(subject),
-        bodies=bodies.of_test(subject),
+        bodies=found.bodies_of(subject),
         closer=picture("closer", subject),
         base=base.of_test(campaign, row, stored, block),
-        spread=spread.of_test(subject),
-        decay=decay.of_test(subject),
+        spread=found.spread_of(subject),
+        decay=restitution.decay_of(subject),
         channels=channels.of_test(stored),
         recording=picture("channels", subject),
     )
+
+
+@dataclass(frozen=True)
+class Done:
+    """`facts` of the campaign file; `notes` on the raw files."""
+
+    facts: list[Fact]
+    notes: list[str]
+
+
+def done_of(row: TestRow, stored: Stored, who_and_when: list[Fact]) -> Done:
+    """Say where, when and by whom the test was done, what was asked for, and what the readers noted."""
+    recorded = ("recorded", stored.text("ingest", "recorded_at"))
+    return Done([*who_and_when, *known([recorded, *_facts(row), ("results", _place(row, stored))])], _notes(stored))
+
+
+def _place(row: TestRow, stored: Stored) -> str:
+    """Say where the results are: a link would be broken as soon as the report is moved alone."""
+    if not stored.datasets:
+        return ""
+    return f"NetCDF files in {Layout(Path()).test(row.id).as_posix()}/, next to the folder of the report, not in it"
+
+
+def _facts(row: TestRow) -> list[Fact]:
+    test = row.test
+    return [
+        ("set-up", test.setup),
+        ("motion", test.motion or ""),
+        ("Span", "" if test.span is None else str(test.span)),
+        ("time scale", number(test.time_scale)),
+        ("frequency", quantity(test.frequency, "Hz")),
+        ("Ω = ω/p", number(row.record.frequency_ratio, 4)),
+        ("A = a/(g tan α)", number(row.record.amplitude_ratio, 4)),
+        ("part of the file", _interval(test.window) or "all"),
+        ("zero from", _interval(test.zero) if isinstance(test.zero, tuple) else test.zero),
+        ("notes", test.notes or ""),
+    ]
+
+
+def _interval(given: tuple[float, float] | None) -> str:
+    return f"{given[0]:g} s to {given[1]:g} s" if given is not None else ""
+
+
+def _notes(stored: Stored) -> list[str]:
+    """Split the notes on the files, each of which begins with the name of its file; a note may hold a semicolon."""
+    names = "|".join(re.escape(PurePosixPath(path).name) for path in stored.raw_files)
+    return list(filter(None, re.split(f"; (?=(?:{names}): )", stored.text("ingest", "notes"))))

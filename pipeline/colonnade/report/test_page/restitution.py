@@ -1,13 +1,18 @@
-"""The stored restitution of a free vibration in words: every estimator, the departures, and the assumptions."""
+"""The stored restitution of a free vibration in words and figures: estimators, departures, peaks."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from colonnade.campaign.forms.summary import IdentifiedSummary
+from colonnade.figures.files.output import Picture
 from colonnade.figures.stored.restitution import STAGE, estimate_rows
+from colonnade.report.pictures.registry import picture
+from colonnade.report.pictures.subjects import OfTest
+from colonnade.report.test_page.facts import Fact, known
 from colonnade.store.records.stored import Stored
-from colonnade.units.text import NOTHING, format_uncertain, interval, quantity
+from colonnade.units.text import format_uncertain, interval, quantity
 
 
 class EstimateText(NamedTuple):
@@ -48,7 +53,7 @@ def facts_of(stored: Stored, found: IdentifiedSummary | None) -> list[tuple[str,
     """Give e of a free vibration, by which estimator and what that assumes, or why it was refused."""
     chosen = next((each for each in estimates_of(stored) if each.recommended), None)
     slope, error = (stored.value(STAGE, f"restitution_slope{end}") for end in ("", "_standard_error"))
-    facts = (
+    facts = [
         ("e", value_of(stored, found)),
         ("refused", stored.text(STAGE, "reason")),
         ("from", chosen.name if chosen else ""),
@@ -59,5 +64,40 @@ def facts_of(stored: Stored, found: IdentifiedSummary | None) -> list[tuple[str,
             f"{format_uncertain(slope, error)} per rad/s" if error > 0 else "",
         ),
         ("rest angle subtracted", quantity(stored.value(STAGE, "zero_offset"), "mrad", 2)),
+    ]
+    return known(facts)
+
+
+PEAK = ("peak_time", "peak_angle", "peak_angle_standard_error", "fitted_angle", "peak_used")
+"""Columns of the table of peaks, by their stored names."""
+
+FIGURES = ("fitted", "estimators", "peaks", "impacts", "region")
+"""Names of the figures, in their order."""
+
+
+@dataclass(frozen=True)
+class Decay:
+    """
+    A free vibration; without facts the section is left out.
+
+    `peaks` are time, angle, standard error, fitted angle and whether it was used; `pictures` are None if there is
+    nothing to draw.
+    """
+
+    facts: list[Fact]
+    estimates: list[EstimateText]
+    departures: list[str]
+    peaks: list[tuple[float, ...]]
+    pictures: dict[str, Picture | None]
+
+
+def decay_of(subject: OfTest) -> Decay:
+    """Put what is stored of a test's restitution into words and figures."""
+    stored = subject.stored
+    return Decay(
+        facts=facts_of(stored, subject.row.record.restitution),
+        estimates=estimates_of(stored),
+        departures=stored.texts(STAGE, "departures"),
+        peaks=list(zip(*(stored.array(STAGE, name).tolist() for name in PEAK), strict=True)),
+        pictures={name: picture(name, subject) for name in FIGURES},
     )
-    return [(label, text) for label, text in facts if text not in ("", NOTHING)]

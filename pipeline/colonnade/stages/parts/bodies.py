@@ -22,10 +22,8 @@ from colonnade.identification.fusion.motion import Circumstances, specimen_motio
 from colonnade.identification.fusion.pose import SpecimenMotion
 from colonnade.identification.fusion.sensors import Readings, Transducer, UnseenRotationError
 from colonnade.identification.response.outcome import angle_features
-from colonnade.stages.parts.conditioned import group
 from colonnade.stages.parts.inputs import Inputs
-from colonnade.stages.parts.markers import MarkerInputs, markers_of
-from colonnade.stages.parts.transducers import Transducers, outline, transducers
+from colonnade.stages.parts.transducers import MarkerInputs, Transducers, group, markers_of, outline, transducers
 from colonnade.store.description import variable_name
 
 if TYPE_CHECKING:

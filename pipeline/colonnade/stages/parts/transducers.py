@@ -1,18 +1,148 @@
-"""The channels of a set-up as transducers for the identification: on the specimen, and on the table."""
+"""Channels as identification uses them: transducers, markers, base motion on each axis, readings."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
+from typing import TYPE_CHECKING, TypeVar
 
+import numpy as np
 from pydantic import BaseModel, ConfigDict
 
-from colonnade.arrays import Vector
+from colonnade.arrays import Array, Vector
 from colonnade.campaign import Channel
+from colonnade.campaign.channel import ALONG
+from colonnade.campaign.setup import Marker, Tracking
 from colonnade.campaign.specimen import Cone, Cylinder, Prism, Specimen
+from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, pole_position
-from colonnade.identification.fusion.sensors import Accelerometer, Gyroscope, Transducer
+from colonnade.findings import MEASUREMENT, Finding, note, serious, warning
+from colonnade.identification.fusion.sensors import Accelerometer, Gyroscope, Readings, Transducer
+from colonnade.signals.filters import second_derivative
+from colonnade.stages.parts.inputs import Inputs
 from colonnade.store.description import variable_name
+from colonnade.units.text import format_percent, listed, with_minus
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+FEWEST = 4
+"""Markers with which the places of all are compared."""
+
+MISPLACED = 0.01
+"""m, by which a marker may be off its place at rest, relative to the others."""
+
+
+class MarkerInputs(Inputs):
+    """
+    A marker.
+
+    Attributes
+    ----------
+    body : str
+    at : (float, float, float)
+        From the centre of the body's base, m.
+    channels : dict of str to (float, float, float)
+        Directions of its three channels by their variables.
+    """
+
+    body: str
+    at: Vector
+    channels: dict[str, Vector]
+
+
+def markers_of(
+    markers: Mapping[str, Marker], tracking: Tracking, recorders: Collection[str]
+) -> dict[str, MarkerInputs]:
+    """Gather the markers that have a place, of recorders that recorded."""
+    return {
+        name: MarkerInputs(
+            body=each.on,
+            at=each.at,
+            channels={variable_name(f"{name}_{key}"): axis for key, axis in zip("xyz", tracking.axes, strict=True)},
+        )
+        for name, each in markers.items()
+        if each.at is not None and each.recorder in recorders
+    }
+
+
+def misplaced(conditioned: xr.Dataset, markers: Mapping[str, MarkerInputs], assembly: Assembly) -> list[Finding]:
+    """
+    Find markers that are not, at rest, where their `on` and `at` put them relative to each other.
+
+    Parameters
+    ----------
+    conditioned : xr.Dataset
+        Result of `condition`: what was taken off each channel at rest is where the marker was.
+    markers : mapping of str to MarkerInputs
+    assembly : Assembly
+
+    Notes
+    -----
+    Where the cameras have their origin is not known: the median over all markers is taken for it.
+    """
+    used = {
+        name: each
+        for name, each in markers.items()
+        if each.body in assembly.bodies
+        and all(channel in conditioned and "zero" in conditioned[channel].attrs for channel in each.channels)
+    }
+    if len(used) < FEWEST:
+        return []
+    declared = np.array([_declared(each, assembly) for each in used.values()])
+    seen = np.array([_seen(each, conditioned) for each in used.values()])
+    seen = seen - np.median(seen - declared, axis=0)
+    off, names = seen - declared, list(used)
+    wrong = np.flatnonzero(np.linalg.norm(off, axis=1) > MISPLACED).tolist()
+    if 2 * len(wrong) > len(used):
+        text = (
+            f"At rest {len(wrong)} of {len(used)} markers are more than {1e3 * MISPLACED:g} mm from where `on` and "
+            "`at` put them relative to each other. Check the axes of the tracking, and the unit."
+        )
+        return [serious("geometry", text)]
+    bodies = dict.fromkeys(used[names[each]].body for each in wrong)
+    found = []
+    for body in bodies:
+        own = [each for each, name in enumerate(names) if used[name].body == body]
+        mine = [each for each in own if each in wrong]
+        where = _along(off[mine].mean(axis=0))
+        if mine == own and len(own) > 1 and np.ptp(off[mine], axis=0).max() < MISPLACED:
+            text = f"At rest all markers of body {body} are off their places {where}: check the dimensions of the "
+            text += "bodies below it, its position, and whether its markers are on it."
+        else:
+            text = f"At rest {listed([names[each] for each in mine])} on body {body} "
+            text += f"{'is' if len(mine) == 1 else 'are'} off the place that `on` and `at` give, {where}."
+        found.append(serious("geometry", " ".join((text, *_exchanged(mine, names, declared, seen)))))
+    return found
+
+
+def _declared(marker: MarkerInputs, assembly: Assembly) -> Array:
+    """Where a marker is at rest, in the frame of the table, m."""
+    return np.append(assembly.bodies[marker.body].position, assembly.levels[marker.body]) + marker.at
+
+
+def _seen(marker: MarkerInputs, conditioned: xr.Dataset) -> Array:
+    """Where the cameras see it at rest, along the axes of the table, m."""
+    along = [float(conditioned[name].attrs["zero"]) * np.array(axis) for name, axis in marker.channels.items()]
+    return np.asarray(np.sum(along, axis=0))
+
+
+def _along(off: Array) -> str:
+    x, y, z = (with_minus(str(round(each))) for each in (1e3 * off).tolist())
+    return f"by {x}, {y} and {z} mm along x, y and z"
+
+
+def _exchanged(wrong: list[int], names: list[str], declared: Array, seen: Array) -> list[str]:
+    """Say of markers that are where another one should be."""
+    said = []
+    for each in wrong:
+        apart = np.linalg.norm(declared - seen[each], axis=1)
+        nearest = int(np.argmin(apart))
+        if apart[nearest] < MISPLACED and nearest != each:
+            said.append(
+                f"{names[each]} is where {names[nearest]} should be: are their columns, or their bodies, exchanged?"
+            )
+    return said
 
 
 class Transducers(BaseModel):
@@ -98,3 +228,97 @@ def outline(specimen: Specimen, block: Block) -> Outline:
             base, top = specimen.base_diameter / 2, specimen.top_diameter / 2
             return Outline(base, base, is_round=True, taper=(top - base) / specimen.height)
     return Outline(pole_position(block), 0.0)
+
+
+Kind = TypeVar("Kind")
+
+AXES = {"": 0, "transverse_": 1, "vertical_": 2}
+"""Axes of the base motion by the beginning of its variables' names."""
+
+LARGEST_DIFFERENCE = 0.1
+"""Of the base motion (RMS), by which several table channels may differ from their mean without a warning."""
+
+DERIVED = "derived base motion"
+"""Kind of the finding that the base acceleration is the second derivative of a displacement."""
+
+LEAST_NOISE = 1e-9
+"""m, rad, …: smallest noise assumed for a reading, so that it has a finite weight."""
+
+
+def base_motion(conditioned: xr.Dataset, channels: Transducers, warnings: list[Finding]) -> dict[str, Array]:
+    """
+    Average the table's channels along each axis; without an accelerometer along x, differentiate its displacement.
+
+    Returns
+    -------
+    base : dict of str to ndarray, shape (n,)
+        As far as they were recorded: `base_acceleration` and `base_displacement`, and these with `transverse_` and
+        `vertical_` before; m/s² and m.
+    """
+    base: dict[str, Array] = {}
+    for quantity, table in (("acceleration", channels.accelerations), ("displacement", channels.displacements)):
+        for prefix, axis in AXES.items():
+            along = {name: direction[axis] for name, direction in table.items() if abs(direction[axis]) >= ALONG}
+            values = [conditioned[name].to_numpy() / part for name, part in along.items() if name in conditioned]
+            if values:
+                base[f"{prefix}base_{quantity}"] = mean = np.mean(values, axis=0)
+            if len(values) > 1:
+                names = [str(conditioned[name].attrs.get("channel", name)) for name in along if name in conditioned]
+                warnings.append(_several(f"{quantity} along {'xyz'[axis]}", names, np.array(values), mean))
+    if "base_acceleration" not in base and "base_displacement" in base:
+        base["base_acceleration"], finding = _derived(conditioned, channels, base["base_displacement"])
+        warnings.append(finding)
+    return base
+
+
+def _derived(conditioned: xr.Dataset, channels: Transducers, displacement: Array) -> tuple[Array, Finding]:
+    """Differentiate the table's displacement twice; a warning if an accelerometer along x was to give the motion."""
+    interval = float(np.diff(conditioned["elapsed"].to_numpy()[:2])[0])
+    cutoff = min(float(conditioned[name].attrs["cutoff_hz"]) for name in channels.displacements if name in conditioned)
+    is_meant = not any(abs(direction[0]) >= ALONG for direction in channels.accelerations.values())
+    weight = note if is_meant else warning
+    finding = weight(
+        DERIVED,
+        "The base acceleration is the second derivative of the table's displacement, because no table accelerometer "
+        f"is usable. It contains nothing above {cutoff:.3g} Hz.",
+    )
+    return second_derivative(displacement, interval, cutoff), finding
+
+
+def _several(what: str, names: list[str], values: Array, mean: Array) -> Finding:
+    """Say that the base motion is the mean of several channels, and warn where they do not agree."""
+    text = f"The base {what} is the mean of {' and '.join(names)}"
+    off = np.sqrt(np.nanmean((values - mean) ** 2, axis=1))
+    share = float(off.max()) / max(float(np.sqrt(np.nanmean(mean**2))), 1e-300)
+    if share <= LARGEST_DIFFERENCE:
+        return note("several table channels", f"{text}; they agree to {format_percent(share, 1)}.")
+    odd = names[int(off.argmax())]
+    return warning(
+        "several table channels",
+        f"{text}, but they differ: {odd} by {format_percent(share)} of it (RMS). If one of them is wrong or "
+        'is not fixed to the table, change its `on`, or set quantity = "other".',
+        follows=MEASUREMENT,
+    )
+
+
+def axes(base: Mapping[str, Array], quantity: str, time: Array) -> Array:
+    """Motion of the table along x, y, z; zero along an axis that was not recorded, or is missing for a moment."""
+    along = dict.fromkeys(range(3), np.zeros_like(time))
+    along |= {axis: base[name] for prefix, axis in AXES.items() if (name := f"{prefix}base_{quantity}") in base}
+    return np.array([along[axis] for axis in range(3)])
+
+
+def group(conditioned: xr.Dataset, known: Mapping[str, Kind], gravity: float) -> Readings[Kind]:
+    """Transducers of one kind, as far as they are usable, and what they read: changes from rest."""
+    names = [name for name in known if name in conditioned]
+    values, noise, cutoff = [], [], []
+    for name in names:
+        given = conditioned[name].attrs
+        transducer = known[name]
+        # Gravity, unless what was read at rest was taken off whole.
+        resting = transducer.direction[2] * gravity if isinstance(transducer, Accelerometer) else 0.0
+        values.append(conditioned[name].to_numpy() - given.get("rest_value", 0.0 if "zero" in given else resting))
+        noise.append(max(float(given.get("noise", 0.0)), LEAST_NOISE))
+        cutoff.append(float(given.get("cutoff_hz", np.inf)))
+    shape = (len(values), conditioned.sizes["elapsed"])
+    return Readings([known[name] for name in names], np.array(values).reshape(shape), np.array(noise), np.array(cutoff))

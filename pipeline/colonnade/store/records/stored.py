@@ -23,6 +23,8 @@ from colonnade.store.results import ResultId, results_of
 if TYPE_CHECKING:
     import xarray as xr
 
+    from colonnade.dynamics.maps import StabilityMap
+
 Made = tuple[str, str | None]
 """Stage that made a result and, if the stage runs once for each model, the model."""
 
@@ -245,3 +247,30 @@ def _listed(attribute: object) -> list[str]:
     if not attribute:
         return []
     return [str(item) for item in attribute] if isinstance(attribute, (list, tuple)) else [str(attribute)]
+
+
+CELLS = {"outcome": "outcome", "overturning_fraction": "overturning_fraction"}
+LIMITS = {"no_rocking_limit": "no_rocking", "lower_limit": "lower", "upper_limit": "upper"}
+INTERVALS = {name: name for name in ("interval_frequency_ratio", "interval_start", "interval_end")}
+"""Stored variables over Ω and A, over Ω, and of intervals, with the field of the map that each holds."""
+
+
+def as_dataset(chart: StabilityMap) -> xr.Dataset:
+    """Return a map in its stored form: outcomes over Ω and A, limits over Ω, the options as attributes."""
+    import xarray as xr
+
+    shapes = {("frequency_ratio", "amplitude_ratio"): CELLS, "frequency_ratio": LIMITS, "interval": INTERVALS}
+    return xr.Dataset(
+        {name: (over, getattr(chart, own)) for over, names in shapes.items() for name, own in names.items()},
+        coords={"frequency_ratio": chart.frequency_ratio, "amplitude_ratio": chart.amplitude_ratio},
+        attrs=chart.options,
+    )
+
+
+def as_map(stored: xr.Dataset) -> StabilityMap:
+    """Return a stored map as the library gives it."""
+    from colonnade.dynamics.maps import StabilityMap
+
+    names = CELLS | LIMITS | INTERVALS | {name: name for name in ("frequency_ratio", "amplitude_ratio")}
+    values = {own: stored[name].to_numpy() for name, own in names.items()}
+    return StabilityMap(**values, options=json.loads(stored.attrs["settings"]))

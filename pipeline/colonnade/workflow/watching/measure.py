@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import json
+import shlex
+import subprocess
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -11,13 +14,13 @@ import numpy as np
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.forms.summary import RestitutionSummary, TestSummary, Warned
-from colonnade.errors import StoreError
+from colonnade.errors import CampaignError, StoreError
 from colonnade.findings import Finding, Severity, as_record
 from colonnade.identification.plausibility.transducers import ChannelState, changes
+from colonnade.report.interactive.scripts import state_script
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.store.records.stability_map import as_map
-from colonnade.store.records.stored import Failure, Stored
+from colonnade.store.records.stored import Failure, Stored, as_map
 from colonnade.store.records.test import record_of_specimen, record_of_test
 from colonnade.store.results import ResultId
 from colonnade.units.text import interval, listed, number
@@ -214,3 +217,77 @@ def _limits(layout: Layout, specimen: str, record: TestSummary) -> dict[str, flo
         }
         return {limit: value for limit, value in at.items() if np.isfinite(value)}
     return {}
+
+
+PATIENCE = 10.0
+"""Seconds after which the command is ended."""
+
+
+def command_of(text: str) -> list[str]:
+    """
+    Split a command into program and arguments; no shell reads it.
+
+    Raises
+    ------
+    CampaignError
+        If it is empty or a quote is not closed.
+
+    Examples
+    --------
+    >>> command_of("notify-send 'A test'")
+    ['notify-send', 'A test']
+    """
+    try:
+        parts = shlex.split(text)
+    except ValueError as error:
+        raise CampaignError(f"--notify {text!r}: this is not a command ({error}).") from None
+    if not parts:
+        raise CampaignError("--notify: it is empty. A program and its arguments were expected.")
+    return parts
+
+
+def notify(command: Sequence[str], line: Mapping[str, Any]) -> str:
+    """Give a line to a command, and wait for it; return what went wrong, empty if nothing did."""
+    try:
+        done = subprocess.run(
+            command,
+            input=json.dumps(line, ensure_ascii=False),
+            encoding="utf-8",
+            errors="replace",
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            timeout=PATIENCE,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        return f"{command[0]} was ended: it took longer than {PATIENCE:g} s."
+    except OSError as error:
+        return f"{command[0]} could not be started ({error.strerror or error})."
+    if done.returncode:
+        said = (done.stderr or "").strip().splitlines()
+        return f"{command[0]} ended with {done.returncode}{f': {said[-1][:200]}' if said else ''}."
+    return ""
+
+
+def write_state(
+    layout: Layout, *, is_watched: bool, shown: str = "", line: str = "", line_written: float = 0.0
+) -> None:
+    """Write the state script, see `state_script`, as a sign of life of now."""
+    text = state_script(is_watched=is_watched, written=time.time(), shown=shown, line=line, line_written=line_written)
+    try:
+        files.write_text(layout.state, text)
+    except StoreError:  # the watch goes on; a page that is open keeps what it shows
+        return
+
+
+def shown_now(layout: Layout) -> str:
+    """
+    Give a mark of what the report shows: that of its overview.
+
+    The overview is the last page that is written, so the mark changes when all pages are there.
+    """
+    try:
+        status = layout.report.stat()
+    except OSError:
+        return ""
+    return f"{status.st_mtime_ns:x}-{status.st_size:x}"

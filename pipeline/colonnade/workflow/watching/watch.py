@@ -16,15 +16,14 @@ from colonnade.campaign.forms.summary import TestSummary
 from colonnade.campaign.found import WITHOUT_TEST, files_in
 from colonnade.errors import CampaignError, StoreError
 from colonnade.interruption import expect_none
-from colonnade.report.interactive.state import EVERY
+from colonnade.report.interactive.scripts import EVERY
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.workflow.advising.next import advise_after
 from colonnade.workflow.lock import is_refusal, only_watch
 from colonnade.workflow.watching.arrivals import Arrivals, Bell, Share, last_change, listening, marks_of
 from colonnade.workflow.watching.behind import Behind
-from colonnade.workflow.watching.measure import Line, measure, measured
-from colonnade.workflow.watching.told import notify, shown_now, write_state
+from colonnade.workflow.watching.measure import Line, measure, measured, notify, shown_now, write_state
 
 TEXTS = ("review.toml", "tests.csv", "tests.xlsx")
 """Files next to the campaign file that people change while it is watched."""

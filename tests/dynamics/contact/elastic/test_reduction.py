@@ -9,8 +9,13 @@ from scipy.linalg import eigh
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.elastic.assembly import assemble, rigid_modes
 from colonnade.dynamics.contact.elastic.mesh import prism_mesh, round_mesh
-from colonnade.dynamics.contact.elastic.model import elastic_body, mesh_of
-from colonnade.dynamics.contact.elastic.reduction import linear_coefficients, modal_damping, reduce_body
+from colonnade.dynamics.contact.elastic.reduction import (
+    elastic_body,
+    linear_coefficients,
+    mesh_of,
+    modal_damping,
+    reduce_body,
+)
 
 PRISM = assemble(prism_mesh(0.086, 0.086, 0.456, (2, 2, 6)), 26.10)
 CONE = assemble(round_mesh(0.097, 0.0755, 0.480, (2, 1, 4)), 21.94)

@@ -7,12 +7,11 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import rigid_body
-from colonnade.dynamics.contact.elastic.model import meshed_body
-from colonnade.dynamics.contact.elastic.reduction import reduce_body
-from colonnade.dynamics.contact.elastic.rim import refine_rim
+from colonnade.dynamics.contact.elastic.mesh import refine_rim
+from colonnade.dynamics.contact.elastic.reduction import meshed_body, reduce_body
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.modes import keep_modes
 from colonnade.dynamics.contact.simulate import simulate
+from colonnade.dynamics.contact.stability import keep_modes
 
 GRAVITY = 9.81
 SIZES = {"diameter": 0.097, "height": 0.455}

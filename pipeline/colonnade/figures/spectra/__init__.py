@@ -1,1 +1,0 @@
-"""Figures of rocking spectra and overturning spectra."""

@@ -1,1 +1,0 @@
-"""The page of forecasts: what was foreseen, what happened, and what the forecasts are worth."""
