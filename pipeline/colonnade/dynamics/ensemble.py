@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import ceil, inf, nan, sqrt
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -269,23 +269,69 @@ class Plan(ABC):
         """Run one member alone: what it drew, and its history on its own clock."""
         return self.follow(np.random.default_rng(np.random.SeedSequence(self.seed, spawn_key=(member,))))
 
+    def ends(self, history: Any) -> dict[str, Array]:
+        """What else is kept of the end of one member's history, by name."""
+        return {}
+
     def run(self) -> Ensemble:
         """Run all members."""
+        central = self.central_angle()
+        return self.gather(central, [self.members(central, range(self.count))])
+
+    def central_angle(self) -> Array:
+        """Give the angle with nothing varied, on the clock of the bands."""
+        return self.central().angle[:: self._stride]
+
+    @property
+    def _stride(self) -> int:
         size = self.motion.acceleration.size
-        stride = max(ceil(size / LONGEST_CLOCK), ceil(size * self.count / MOST_ANGLES))
-        time, central = self.motion.time[::stride], self.central().angle[::stride]
-        inputs, peaks, overturned = np.empty((self.count, len(self.names))), np.empty(self.count), np.empty(self.count)
-        deviations = np.empty((self.count, time.size), dtype=np.float32)
-        histories = np.empty((min(self.count, KEPT), time.size), dtype=np.float32)
-        for member in range(self.count):
-            inputs[member], history = self.member(member)
-            peaks[member] = nan if history.peak_ratio is None else history.peak_ratio
-            overturned[member] = history.overturning_time * (self.motion.time[-1] / history.time[-1])
-            deviations[member] = history.angle[::stride] - central
+        return max(ceil(size / LONGEST_CLOCK), ceil(size * self.count / MOST_ANGLES))
+
+    def members(self, central: Array, members: range) -> dict[str, NDArray[Any]]:
+        """
+        Run some of the members.
+
+        Parameters
+        ----------
+        central : ndarray, shape (n,)
+            rad, of `central_angle`.
+        members : range
+            Their numbers, rising.
+
+        Returns
+        -------
+        found : dict of str to ndarray
+            By member `inputs`, `peak_ratio`, `overturning_time` (s), `deviation` from the central angle (rad), and
+            those of `ends`; `histories` (rad) of those among the first `KEPT`. The same whoever runs them.
+        """
+        size = len(members)
+        found: dict[str, NDArray[Any]] = {
+            "inputs": np.empty((size, len(self.names))),
+            "peak_ratio": np.empty(size),
+            "overturning_time": np.empty(size),
+            "deviation": np.empty((size, central.size), dtype=np.float32),
+            "histories": np.empty((len(range(KEPT)[members.start : members.stop]), central.size), dtype=np.float32),
+        }
+        ends = []
+        for row, member in enumerate(members):
+            found["inputs"][row], history = self.member(member)
+            found["peak_ratio"][row] = nan if history.peak_ratio is None else history.peak_ratio
+            found["overturning_time"][row] = history.overturning_time * (self.motion.time[-1] / history.time[-1])
+            found["deviation"][row] = history.angle[:: self._stride] - central
             if member < KEPT:
                 standing = capped(history.time, history.angle, history.overturning_time, self.block)
-                histories[member] = standing[::stride]
+                found["histories"][row] = standing[:: self._stride]
+            ends.append(self.ends(history))
+        return found | {name: np.array([each[name] for each in ends]) for name in ends[0]}
+
+    def gather(self, central: Array, parts: Sequence[Mapping[str, NDArray[Any]]]) -> Ensemble:
+        """Put what `members` gave of all of them, in their order, into an ensemble."""
+        inputs, peaks, overturned, deviations, histories = (
+            parts[0][name] if len(parts) == 1 else np.concatenate([part[name] for part in parts])
+            for name in ("inputs", "peak_ratio", "overturning_time", "deviation", "histories")
+        )
         bands = central + np.quantile(deviations, LEVELS, axis=0, overwrite_input=True)
+        time = self.motion.time[:: self._stride]
         return Ensemble(time, central, np.asarray(LEVELS), bands, inputs, peaks, overturned, histories, self.names)
 
 

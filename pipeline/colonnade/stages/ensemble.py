@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
@@ -13,7 +15,7 @@ from colonnade.campaign.channel import ALONG
 from colonnade.campaign.settings import ContactEnsembleSettings, PlaneEnsembleSettings
 from colonnade.dynamics.contact.ensemble import AssemblyPlan, ContactPlan, Range
 from colonnade.dynamics.contact.simulate import plane_block
-from colonnade.dynamics.ensemble import PlanePlan
+from colonnade.dynamics.ensemble import Plan, PlanePlan
 from colonnade.dynamics.models import CONTACT
 from colonnade.dynamics.uncertainty import INPUTS, Uncertainty
 from colonnade.errors import StageError
@@ -182,12 +184,25 @@ class ContactEnsembleInputs(Inputs):
         )
 
 
+Parts = Sequence[Mapping[str, NDArray[Any]]]
+"""What the members of an ensemble gave, in their order."""
+
+Run = Callable[[Plan, Array], Parts]
+"""Runs all members of a plan, given its central angle."""
+
+
+def all_at_once(plan: Plan, central: Array) -> Parts:
+    """Run all members here, one after the other."""
+    return [plan.members(central, range(plan.count))]
+
+
 def contact_ensemble(
     conditioned: xr.Dataset,
     rocking: xr.Dataset,
     inputs: ContactEnsembleInputs,
     contact: xr.Dataset | None = None,
     identified: xr.Dataset | None = None,
+    run: Run = all_at_once,
 ) -> xr.Dataset:
     """
     Run the contact model many times on the base motion that was recorded, over what is not known of it.
@@ -203,6 +218,8 @@ def contact_ensemble(
         As of `predict`; several bodies have none.
     identified : xr.Dataset, optional
         As of `predict`.
+    run : callable, optional
+        Runs the members; each gives the same wherever it is run.
 
     Returns
     -------
@@ -237,9 +254,11 @@ def contact_ensemble(
         block = plane_block(body, space.block.gravity)
         plan = ContactPlan(block=block, body=body, out_of_plane=tilt, step=space.settings.step, **common)
     try:
-        found = plan.run()
+        central = plan.central_angle()
+        parts = run(plan, central)
     except ValueError as error:
         raise StageError(f"processing.predict.contact: {error}") from error
+    found = plan.gather(central, parts)
     middles = dict(zip(plan.names, (law.friction, law.damping_fraction, 1.0), strict=False))
     deviations = {name: np.ptp(getattr(plan, name)) / np.sqrt(12.0) / (middles[name] or 1.0) for name in plan.names}
     start = beginning.theta0 if inputs.prediction.free_vibration else None
@@ -247,17 +266,17 @@ def contact_ensemble(
     ranked = rank_measured(rocking, beginning, found, np.zeros(plan.count), errors, inputs.measurement)
     bands = describe_bands(rocking, beginning, found, deviations)
     if isinstance(plan, AssemblyPlan):
-        bands = bands.assign(_ends(plan, found.levels))
+        bands = bands.assign(_ends(list(plan.assembly.bodies), parts, found.levels))
     return bands.assign(ranked).assign_attrs(model=CONTACT.name, members=plan.count, warnings=[])
 
 
-def _ends(plan: AssemblyPlan, levels: Array) -> dict[str, Any]:
+def _ends(bodies: Sequence[str], parts: Parts, levels: Array) -> dict[str, Any]:
     """How probably each body falls, and how far it moves for good where it stands."""
-    moved, fell = (np.array(each) for each in zip(*plan.ends, strict=True))
+    moved, fell = (np.concatenate([part[name] for part in parts]) for name in ("moved", "fell"))
     standing = [moved[fell[:, place] == 0, place] for place in range(fell.shape[1])]
     bands = [np.quantile(each, levels) if each.size else np.full(levels.size, np.nan) for each in standing]
     return {
-        "body": ("body", np.array(list(plan.assembly.bodies), dtype=object)),
+        "body": ("body", np.array(bodies, dtype=object)),
         "body_overturning_probability": ("body", fell.mean(axis=0)),
         "body_moved_band": (("quantile", "body"), np.array(bands).T),
     }

@@ -8,18 +8,23 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.models import MODELS
+from colonnade.sources import code_hash
 from colonnade.store.forecasts import Known
 from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId, models_of
 from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.executors import Arrays, Where, blocks_of, in_blocks
 from colonnade.workflow.product import Product
 from colonnade.workflow.raw_files import RawFiles, expect_unchanged
 
 if TYPE_CHECKING:
     import xarray as xr
     from pydantic import BaseModel
+
+    from colonnade.dynamics.ensemble import Plan
 
 COMPARED = {"predict": "predicted", "ensemble": "ensembles"}
 """Stages whose results `compare` takes by model, and the name of the argument."""
@@ -101,8 +106,12 @@ class Graph:
         inputs, upstream = contact.ContactInputs.of(self.campaign, specimen_id), ResultId(specimen_id, "specimen")
         return self.product(ResultId(specimen_id, "contact"), inputs, {"specimen": upstream}, _by_name(contact.contact))
 
-    def predicting(self, test: Test) -> list[Product]:
-        """Return the results of a test from its predictions to the comparison with them."""
+    def predicting(self, test: Test, where: Where | None = None) -> list[Product]:
+        """
+        Return the results of a test from its predictions to the comparison with them.
+
+        `where` is where members of the contact model's ensembles are run; in their own process without it.
+        """
         from colonnade.stages import compare, ensemble, predict
 
         conditioned, rocking = ({name: ResultId(test.id, stage)} for name, stage in _MEASURED.items())
@@ -123,7 +132,9 @@ class Graph:
             result, upstream = ResultId(test.id, "ensemble", model), {**conditioned, **rocking, **own}
             if MODELS[model].in_space:
                 in_space = ensemble.ContactEnsembleInputs.of(self.campaign, test)
-                ensembles.append(self.product(result, in_space, upstream | law, _by_name(ensemble.contact_ensemble)))
+                run = ensemble.all_at_once if where is None else partial(_members, self.layout.blocks(result), where)
+                work = _by_name(partial(ensemble.contact_ensemble, run=run))
+                ensembles.append(self.product(result, in_space, upstream | law, work))
             else:
                 in_plane = ensemble.EnsembleInputs.of(self.campaign, test, model)
                 ensembles.append(self.product(result, in_plane, upstream | specimen, _by_name(ensemble.ensemble)))
@@ -174,6 +185,14 @@ class Graph:
 
 _MEASURED = {"conditioned": "condition", "rocking": "rocking"}
 """Arguments of later stages, and the stage of a test that gives each."""
+
+
+def _members(folder: Path, where: Where, plan: Plan, central: Array) -> list[Arrays]:
+    """Run the members of a plan in blocks; finished ones are known again by the plan and the code."""
+    import joblib
+
+    key = joblib.hash((code_hash(["colonnade.dynamics"]), plan, central))
+    return in_blocks(partial(plan.members, central), blocks_of(plan.count), folder, key, **where._asdict())
 
 
 def _made(work: Callable[..., xr.Dataset], inputs: Any, upstream: Mapping[str, Any]) -> xr.Dataset:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Literal
 
 from colonnade.campaign import Campaign, Test
@@ -84,7 +85,20 @@ class Walk:
             self.pool()
         if self._asks_for("predict"):
             self.calibrate({self._test(name).specimen for name in tests if self._is_in_space(self._test(name))})
-            self.follow(self._products("predicting", name) for name in tests if self._can_be_predicted(name))
+            self._predict([name for name in tests if self._can_be_predicted(name)])
+
+    def _predict(self, tests: Sequence[str]) -> None:
+        """Bring predictions up to date; members of an ensemble on contact, minutes each, spread over all workers."""
+        products = {name: self._products("predicting", name) for name in tests}
+        long = {name: own for name, own in products.items() if any(_is_long(each.result) for each in own)}
+        self.follow(own for name, own in products.items() if name not in long)
+        self.follow([each for each in own if not _is_last(each.result)] for own in long.values())
+        for product in (each for own in long.values() for each in own if _is_long(each.result)):
+            if product.result.subject not in self.failed["test"]:
+                self.follow([[product]], is_here=True)
+                forget(self.graph.layout.blocks(product.result))
+        if self._asks_for("compare"):
+            self.follow(own[-1:] for name, own in long.items() if name not in self.failed["test"])
 
     def at_once(self, name: str) -> list[ResultId]:
         """
@@ -222,9 +236,14 @@ class Walk:
     def _all(self, phase: Phase, name: str) -> list[Product]:
         """Return the results of a test, made once: gathering what they read of the campaign takes time."""
         if (phase, name) not in self._known:
-            made_by = self.graph.measuring if phase == "measuring" else self.graph.predicting
-            self._known[phase, name] = made_by(self._test(name))
+            test, where = self._test(name), Where(self.workers, self.scheduler, partial(self._tell_members, name))
+            made = self.graph.measuring(test) if phase == "measuring" else self.graph.predicting(test, where)
+            self._known[phase, name] = made
         return self._known[phase, name]
+
+    def _tell_members(self, name: str, done: int, total: int) -> None:
+        if self.progress is not None:
+            self.progress(StageRun(name, "ensemble", "done"), done, total)
 
     def _free_vibrations(self, specimens: Collection[str]) -> list[str]:
         tests = {name: self._test(name) for name in self.included}
@@ -253,3 +272,13 @@ class Walk:
 
     def _test(self, name: str) -> Test:
         return self._campaign.tests[name]
+
+
+def _is_long(result: ResultId) -> bool:
+    """Whether a result is an ensemble on contact."""
+    return result.stage == "ensemble" and MODELS[str(result.model)].in_space
+
+
+def _is_last(result: ResultId) -> bool:
+    """Whether a result is made after the others of its test, where that has an ensemble on contact."""
+    return _is_long(result) or result.stage == "compare"

@@ -5,6 +5,7 @@ import pytest
 from colonnade.campaign import load
 from colonnade.errors import CampaignError, StoreError
 from colonnade.store.records.summary import read_summary
+from colonnade.workflow.advising import next as advising
 from colonnade.workflow.advising.next import advise, advise_after
 
 
@@ -37,3 +38,24 @@ def test_after_a_test_only_its_own_kind_is_advised(undisturbed):
     (free,) = advise_after(campaign, undisturbed.layout, "free-01", summary.tests)
     assert free.kind == "free-vibration"
     assert advise_after(campaign, undisturbed.layout, "pulse-01", summary.tests) == []
+
+
+def test_the_report_advises_while_tests_are_planned(small, monkeypatch):
+    small.complete()
+    assert "What next" not in small.layout.report.read_text(encoding="utf-8")
+
+    campaign_file = small.folder / "campaign.toml"
+    campaign_file.write_text(campaign_file.read_text() + '\n[table]\nstroke = "75 mm"\n')
+    small.complete()
+    text = small.layout.report.read_text(encoding="utf-8")
+    (free,) = advising.advise(small.folder).advice
+    assert "What next" in text
+    assert free.row()[-1].replace("<", "&lt;") in text
+
+    def refuse(*_):
+        raise AssertionError("advice was made again")
+
+    monkeypatch.setattr(advising, "advise_kind", refuse)
+    small.layout.report.unlink()
+    small.complete()
+    assert "What next" in small.layout.report.read_text(encoding="utf-8")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -81,8 +81,6 @@ class AssemblyPlan(Plan):
         Lowest and highest value, all in between equally likely.
     misplacement : float
         m: each body stands off its place by up to this along x and along y, all equally likely.
-    ends : list of (ndarray, ndarray), each of shape (bodies,)
-        Of each member that was run: how far each body moved for good (m), and whether it fell.
     """
 
     assembly: Assembly
@@ -90,7 +88,6 @@ class AssemblyPlan(Plan):
     friction: Range
     damping_fraction: Range
     misplacement: float = 0.0
-    ends: list[tuple[Array, Array]] = field(default_factory=list, compare=False)
     names: ClassVar[tuple[str, ...]] = ("friction", "damping_fraction")
 
     def central(self) -> AssemblyHistory:
@@ -106,11 +103,13 @@ class AssemblyPlan(Plan):
             x, y = (np.array(body.position) + self.misplacement * random.uniform(-1.0, 1.0, 2)).tolist()
             placed[name] = replace(body, position=(x, y))
         law = replace(self.law, friction=friction, damping_fraction=fraction)
-        history = self._simulate(law, Assembly(placed))
-        moved = np.array([np.hypot(x, y) for x, y, _ in history.residuals.values()])
-        fell = np.array([np.isfinite(body.overturning_time) for body in history.bodies.values()], dtype=np.float64)
-        self.ends.append((moved, fell))
-        return inputs, history
+        return inputs, self._simulate(law, Assembly(placed))
+
+    def ends(self, history: AssemblyHistory) -> dict[str, Array]:
+        """How far each body `moved` for good (m), and whether it `fell`."""
+        moved = [np.hypot(x, y) for x, y, _ in history.residuals.values()]
+        fell = [float(np.isfinite(body.overturning_time)) for body in history.bodies.values()]
+        return {"moved": np.array(moved), "fell": np.array(fell)}
 
     def _simulate(self, law: ContactLaw, assembly: Assembly) -> AssemblyHistory:
         return simulate_assembly(assembly, self.motion, law=law, theta0=self.theta0, omega0=self.omega0)

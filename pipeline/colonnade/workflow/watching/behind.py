@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO
 
-from colonnade.workflow import executors
+from colonnade.workflow import orphans
 from colonnade.workflow.lock import is_refusal
 
 NICENESS = 10
@@ -78,7 +78,7 @@ class Behind:
     def start(self) -> None:
         """Begin a run."""
         self._output, self._complaints = (tempfile.TemporaryFile() for _ in range(2))  # noqa: SIM115 — `_end` closes
-        command = [sys.executable, "-m", executors.__name__, str(os.getpid())]
+        command = [sys.executable, "-m", orphans.__name__, str(os.getpid())]
         command += ["run", str(self.campaign_file), "--await", "--json"]
         command += [] if self.results is None else ["--results", str(self.results)]
         command += [] if self.workers is None else ["--workers", str(self.workers)]
