@@ -12,6 +12,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError
 from colonnade.stages.contact import law_of
 from colonnade.store import files
+from colonnade.store.results import ResultId
 from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import make_maps
@@ -82,6 +83,33 @@ def test_an_ensemble_of_the_contact_model_is_compared_and_reported_while_it_is_a
     in_space.run(until="report")
     assert "Contact model: predicted up to" not in (report / "tests" / "pulse-01.html").read_text(encoding="utf-8")
     assert "with varied friction" not in (report / "methods.html").read_text(encoding="utf-8")
+
+
+def test_members_on_contact_are_those_of_one_process_and_finished_ones_outlast_an_interrupt(in_space):
+    in_space.edit("members = 20", "members = 5\ncontact = {members = 3}")
+    in_space.edit('step = "30 us", penetration = 1e-6', 'step = "90 us", penetration = 1e-5')
+    in_space.run(workers=1)
+    path, told = in_space.layout.stage("pulse-01", "ensemble", "contact"), []
+    alone = files.read(path)
+    path.unlink()
+
+    def stop_after(most):
+        def tell(stage, done, total):
+            if (stage.subject, stage.stage, stage.model, total) == ("pulse-01", "ensemble", None, 3):
+                told.append((done, total))
+                if 0 < done == most:
+                    raise KeyboardInterrupt
+
+        return tell
+
+    with pytest.raises(KeyboardInterrupt):
+        in_space.run(workers=2, progress=stop_after(1))
+    assert not path.exists()
+    in_space.run(workers=2, progress=stop_after(4))
+    assert told == [(0, 3), (1, 3), (1, 3), (2, 3), (3, 3)]
+    for name in alone:
+        np.testing.assert_array_equal(files.read(path)[name].to_numpy(), alone[name].to_numpy())
+    assert not in_space.layout.blocks(ResultId("pulse-01", "ensemble", "contact")).exists()
 
 
 def test_a_specimen_without_a_law_fails_its_tests_with_what_to_do(in_space):
