@@ -133,6 +133,19 @@ def test_a_map_needs_the_law_and_then_is_made(in_space):
     assert make_maps(in_space.folder, wanted, workers=1)[0].action == "up-to-date"
 
 
+def test_a_map_of_several_bodies_is_made_by_the_contact_model_alone(in_space):
+    channels = "\n[setups.frame.channels]"
+    in_space.edit(channels, f'\n[assemblies.two]\nstack = ["prism", "prism"]\n{channels}')
+    in_space.edit(
+        'step = "30 us", penetration = 1e-6, damping_fraction = 0.3', "penetration = 1e-3, damping_fraction = 1"
+    )
+    wanted = Wanted(("contact",), (2.0, 3.0), (0.8, 8.0), (2, 2), cycles=1.0)
+    (made,) = make_maps(in_space.folder, wanted, specimens=["two"], workers=1)
+    assert files.read(made.path)["outcome"].to_numpy()[:, 1].tolist() == [2, 2]
+    with pytest.raises(CampaignError, match="do not rock as one block"):
+        make_maps(in_space.folder, replace(wanted, models=("nonlinear",)), specimens=["two"], workers=1)
+
+
 def test_limits_beside_those_of_the_contact_model_are_found_alike(in_space):
     calibrate(in_space.folder, workers=1)
     plain = Wanted(("linear",), (2.0, 3.0), (0.8, 6.0), (2, 3), cycles=2.0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import partial
 from math import pi, tan
 from typing import TYPE_CHECKING, Any
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Codes
+from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.history import NO_ROCKING_RATIO, Outcome
 from colonnade.dynamics.models import DEFAULT, PLANE_MODELS, model_of
@@ -55,19 +56,22 @@ class InSpace:
 
     Attributes
     ----------
-    body : ContactBody
+    body : ContactBody or Assembly
     law : ContactLaw
-    step : float
-        s.
+        Of an assembly, that of all its interfaces.
+    step : float, optional
+        s; of an assembly not given.
     """
 
-    body: ContactBody
+    body: ContactBody | Assembly
     law: ContactLaw
-    step: float
+    step: float | None = None
 
     @property
     def options(self) -> dict[str, Any]:
         """What the result depends on, by name."""
+        if isinstance(self.body, Assembly):
+            return {"bodies": repr(self.body), **asdict(self.law), "samples_a_cycle": SAMPLES_A_CYCLE}
         return {
             "body": self.body.description,
             "contact_stiffness": self.law.node_stiffness(self.body).sum() / self.body.node_area.sum(),
@@ -81,8 +85,10 @@ class InSpace:
     def outcome(self, motion: Motion, gravity: float) -> Outcome:
         """Run a base motion."""
         # Its engine is compiled on import.
-        from colonnade.dynamics.contact.simulate import simulate
+        from colonnade.dynamics.contact.simulate import simulate, simulate_assembly
 
+        if isinstance(self.body, Assembly):
+            return simulate_assembly(self.body, motion, law=self.law).outcome
         return simulate(self.body, motion, law=self.law, gravity=gravity, step=self.step).outcome
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -169,11 +170,16 @@ def models_of(campaign: Campaign, test: Test) -> tuple[str, ...]:
     """Models that a test is predicted by."""
     if test.kind in WITHOUT_PREDICTION:
         return ()
-    whole, asked = campaign.specimens[test.specimen], campaign.processing.predict.models
-    if not whole.is_assembly:
-        return asked
-    # Bodies that do not rock as one block are for the contact model alone.
-    return (*(model for model in asked if whole.is_in_plane and model != _in_space()), _in_space())
+    asked = campaign.processing.predict.models
+    if campaign.specimens[test.specimen].is_assembly:
+        asked = (*(model for model in asked if model != _in_space()), _in_space())
+    return models_moving(campaign, test.specimen, asked)
+
+
+def models_moving(campaign: Campaign, specimen: str, models: Iterable[str]) -> tuple[str, ...]:
+    """Return those that move a specimen: bodies that do not rock as one block are for the contact model alone."""
+    is_in_plane = campaign.specimens[specimen].is_in_plane
+    return tuple(model for model in models if is_in_plane or model == _in_space())
 
 
 def _in_space() -> str:

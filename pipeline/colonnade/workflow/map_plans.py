@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from colonnade.campaign import Campaign
+from colonnade.campaign.assembly import Whole
 from colonnade.campaign.syntax.fields import MAP_RATIO, MOST_CYCLES, MOST_POINTS, outside
 from colonnade.dynamics.block import Sided
 from colonnade.dynamics.models import MODELS
@@ -19,6 +20,7 @@ from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import map_points, read_summary
+from colonnade.store.results import models_moving
 from colonnade.workflow.pooling import restitution_taken
 
 if TYPE_CHECKING:
@@ -113,12 +115,17 @@ def plan_of(
     Raises
     ------
     CampaignError
-        If a value of `wanted` is out of its range.
+        If a value of `wanted` is out of its range, or the model does not move the specimen.
     """
     from colonnade.dynamics.maps import EDGE, MapPlan
     from colonnade.dynamics.search import STEPS_A_WIDTH, WIDTH
 
     _expect_bounded(wanted)
+    if model not in models_moving(campaign, specimen, (model,)):
+        raise CampaignError(
+            f"{specimen}: its bodies do not rock as one block, which the {model} model moves. Give --model contact, or "
+            "another --specimen."
+        )
     if wanted.responses and wanted.motion is not None:
         raise CampaignError("Steady responses are responses to a sine. Leave out the recorded motion.")
     motion, frequency = (None, None) if wanted.motion is None else _recorded(campaign, layout, wanted.motion)
@@ -174,13 +181,15 @@ def _space(campaign: Campaign, layout: Layout, specimen: str) -> InSpace:
     from colonnade.dynamics.maps import InSpace
     from colonnade.stages import contact
 
+    whole, settings = campaign.specimens[specimen], campaign.processing.predict.contact
+    if isinstance(whole, Whole):
+        return InSpace(whole.assembly(campaign.gravity), contact.assembly_law(settings))
     path = layout.stage(specimen, "contact")
     law = files.read(path) if path.is_file() else None
     if law is None or law.attrs["status"] != "done":
         raise CampaignError(f"{specimen}: its law of contact is not known yet. Run `colonnade calibrate` first.")
-    read = contact.ContactInputs.of(campaign, specimen)
     own = contact.law_of(law)
-    return InSpace(contact.body_of(read, own), own, read.settings.step)
+    return InSpace(contact.body_of(contact.ContactInputs.of(campaign, specimen), own), own, settings.step)
 
 
 def _around(values: Sequence[float], usual: tuple[float, float]) -> tuple[float, float]:

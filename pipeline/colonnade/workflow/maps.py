@@ -24,7 +24,7 @@ from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
 from colonnade.store.records.stored import as_dataset, as_map
 from colonnade.store.records.summary import map_points
-from colonnade.store.results import ResultId
+from colonnade.store.results import ResultId, models_moving
 from colonnade.workflow.catalogue import Catalogue, stored_attributes
 from colonnade.workflow.executors import Arrays, Counted, Where, blocks_of, forget, in_blocks
 from colonnade.workflow.graph import Graph
@@ -164,7 +164,7 @@ def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Itera
         points, restitution = map_points(summary.tests, specimen), summary.specimens[specimen].restitution
         if not makes_map(points) or restitution.value is None:
             continue
-        for model in graph.campaign.processing.predict.models:
+        for model in models_moving(graph.campaign, specimen, graph.campaign.processing.predict.models):
             if MODELS[model].in_space:
                 continue
             known = pair(restitution.value), restitution.source

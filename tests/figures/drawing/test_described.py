@@ -2,6 +2,8 @@
 
 import pytest
 
+import drums
+from colonnade.campaign import load
 from colonnade.errors import CampaignError
 from colonnade.figures.drawing import described
 
@@ -93,3 +95,17 @@ def test_a_draft_is_drawn_on_a_body_that_stands_in():
     }
     assert places[0.043, 0.44] != "white"
     assert "white" in places.values()
+
+
+def test_bodies_of_an_assembly_are_drawn_where_they_stand(tmp_path):
+    (tmp_path / "raw").mkdir()
+    marker = 'm1 = {columns = ["m1 X", "m1 Y", "m1 Z"], unit = "mm", on = "2", at = ["100 mm", "0 mm", "180 mm"]}\n'
+    (tmp_path / "campaign.toml").write_text(drums.CAMPAIGN + marker + drums.TEST)
+    campaign = load(tmp_path)
+    drawn = described.drawn_of(campaign, "column", "drums")
+    levels = drums.COLUMN.levels
+    assert [place[2] for _, place in drawn.body.parts.values()] == pytest.approx(list(levels.values()))
+    assert drawn.body.height == pytest.approx(drums.COLUMN.height)
+    [seen] = [each for each in drawn.transducers if each.name == "m1"]
+    assert seen.at == pytest.approx((0.1, 0.0, 0.18 + levels["2"]))
+    assert len(described.of_campaign(campaign).figure.axes) == 3

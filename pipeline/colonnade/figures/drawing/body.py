@@ -6,7 +6,7 @@ from math import atan2, cos, degrees, sin
 
 import numpy as np
 
-from colonnade.figures.drawing.view import LINE, NAMES, NORMAL, SMALL, Body, Rocking, Spot, View
+from colonnade.figures.drawing.view import LINE, NAMES, NORMAL, SMALL, Body, Point, Rocking, Spot, View
 from colonnade.figures.style import FAINT, INK, SOFT
 
 TABLE, GAP, GROUND = 0.42, 0.13, 0.1
@@ -35,17 +35,27 @@ def draw_table(view: View, half: float) -> None:
         view.axes.plot(place, (low + floor) / 2, "o", markersize=5.0, color=FAINT, markerfacecolor="none")
 
 
-def draw_body(view: View, body: Body) -> None:
-    """Draw the outline, and whether it stands in for one that is not known."""
+def draw_body(view: View, body: Body, at: Point = (0.0, 0.0, 0.0)) -> None:
+    """Draw the outline, and whether it stands in for one that is not known; of several bodies each, with its name."""
+    for name, (part, place) in body.parts.items():
+        draw_body(view, part, place)
+        if view.up == 2 and view.across == 0:
+            turn = 90 if part.height > 2 * part.width[0] else 0
+            view.text((place[0], place[2] + 0.4 * part.height), name, rotation=turn, zorder=5)
+    if body.parts:
+        return
+    across, up = view.spot(at)
     look = {"facecolor": STEEL, "zorder": 3, "linestyle": "-" if body.is_known else (0, (4.0, 2.0))}
     if view.up == 1:
         for size, fill in ((0, STEEL), (1, "none")):
-            view.shape(_seen_from_above(body, size), **{**look, "facecolor": fill})
+            seen = [(across + x, up + y) for x, y in _seen_from_above(body, size)]
+            view.shape(seen, **{**look, "facecolor": fill})
             if body.width[0] == body.width[1]:
                 break
         return
     base, top = (size[index] / 2 for size in [body.width if view.across == 0 else body.depth] for index in (0, 1))
-    view.shape([(-base, 0.0), (base, 0.0), (top, body.height), (-top, body.height)], **look)
+    corners = [(-base, 0.0), (base, 0.0), (top, body.height), (-top, body.height)]
+    view.shape([(across + x, up + z) for x, z in corners], **look)
 
 
 def _seen_from_above(body: Body, end: int) -> list[Spot]:

@@ -8,6 +8,7 @@ from typing import Any
 
 from colonnade import units
 from colonnade.campaign import Campaign
+from colonnade.campaign.assembly import Whole
 from colonnade.campaign.channel import Channel
 from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block
@@ -33,8 +34,13 @@ STAND_IN = Body("rectangle", (0.1, 0.1), (0.1, 0.1), 0.5, is_known=False, rockin
 
 def drawn_of(campaign: Campaign, specimen: str, setup: str) -> Drawn:
     """Describe a specimen with the transducers of a setup."""
-    body = body_of(campaign.specimens[specimen], campaign.block(specimen))
-    channels, markers = campaign.channels_in(specimen, setup), campaign.setups[setup].markers
+    whole, markers = campaign.specimens[specimen], campaign.setups[setup].markers
+    channels = campaign.channels_in(specimen, setup)
+    if isinstance(whole, Whole):
+        body = _several(whole, campaign.gravity)
+        channels = {name: _in_place(campaign.setups[setup].channels[name], body) for name in channels}
+    else:
+        body = body_of(whole, campaign.block(specimen))
     followed = {f"{name}_{axis}" for name in markers for axis in "xyz"}
     transducers = [transducer_of(name, each) for name, each in channels.items() if name not in followed]
     # A marker is one point, which is followed along three axes.
@@ -110,6 +116,40 @@ def body_of(specimen: Specimen, block: Block) -> Body:
         rocking=rocking,
         words=words,
     )
+
+
+def _several(whole: Whole, gravity: float) -> Body:
+    """Describe the bodies of an assembly where they stand."""
+    assembly = whole.assembly(gravity)
+    parts = {
+        name: (body_of(whole.made[name], placed.block), (*placed.position, assembly.levels[name]))
+        for name, placed in assembly.bodies.items()
+    }
+    width, depth = (
+        2 * max(abs(place[axis]) + max(getattr(part, size)) / 2 for part, place in parts.values())
+        for axis, size in enumerate(("width", "depth"))
+    )
+    words = [f"{count(len(parts), 'body', 'bodies')}, {quantity(whole.mass, 'kg', 4)}"]
+    words += [f"{name}: {whole.placed[name].specimen}" for name in reversed(parts)]
+    return Body(
+        "rectangle",
+        (width, width),
+        (depth, depth),
+        assembly.height,
+        is_known=True,
+        rocking=None,
+        words=words,
+        parts=parts,
+    )
+
+
+def _in_place(channel: Channel, body: Body) -> Channel:
+    """Return a channel with its place from the base of all bodies, if it is on one of them."""
+    if channel.on is None or channel.on not in body.parts:
+        return channel
+    there = body.parts[channel.on][1]
+    at = None if channel.at is None else tuple(own + each for own, each in zip(channel.at, there, strict=True))
+    return channel.model_copy(update={"on": "specimen", "at": at})
 
 
 def _sides(negative: float, positive: float) -> list[tuple[float, str]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import cos
 from typing import Literal, NamedTuple
@@ -35,6 +35,8 @@ class Body(NamedTuple):
         None if it is not known.
     words : sequence of str
         What is written beside it.
+    parts : mapping of str to (Body, Point)
+        Its bodies and where the middle of the base of each is, if it has several.
     """
 
     base: Literal["rectangle", "circle"]
@@ -44,6 +46,7 @@ class Body(NamedTuple):
     is_known: bool
     rocking: Rocking | None
     words: Sequence[str] = ()
+    parts: Mapping[str, tuple[Body, Point]] = {}
 
 
 class Rocking(NamedTuple):
@@ -103,6 +106,8 @@ class Transducer(NamedTuple):
 
 
 NAMES = ("x", "y", "z")
+MOST = 2
+"""Numbers of transducers behind each other that are written."""
 THIN, LINE = 0.6, 1.0
 FINE, SMALL, NORMAL = 6.5, 7.0, 7.5
 """Sizes of text, points."""
@@ -266,15 +271,15 @@ def _height(label: Label) -> float:
 
 def _together(labels: Sequence[Label]) -> list[Label]:
     """Write those without detail that are at one spot as one: the numbers of transducers behind each other."""
-    found: dict[Spot, Label] = {}
-    others = []
-    for spot, name, detail, colour in labels:
-        if detail:
-            others.append((spot, name, detail, colour))
-        else:
-            before = f"{found[spot][1]}, " if spot in found else ""
-            found[spot] = (spot, before + name, "", colour)
-    return [*others, *found.values()]
+    found: dict[Spot, list[Label]] = {}
+    for label in labels:
+        if not label[2]:
+            found.setdefault(label[0], []).append(label)
+    many = [
+        (spot, f"{own[0][1]} …" if len(own) > MOST else ", ".join(each[1] for each in own), "", own[-1][3])
+        for spot, own in found.items()
+    ]
+    return [*(label for label in labels if label[2]), *many]
 
 
 def _spaced(wanted: Sequence[float], least: float, low: float, high: float) -> list[float]:
