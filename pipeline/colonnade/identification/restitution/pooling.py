@@ -105,7 +105,7 @@ def pool(
     Raises
     ------
     ValueError
-        If values are missing or an error is not positive.
+        If values are missing, an error is not positive, or a test took for exact what is not `known` exactly.
 
     Notes
     -----
@@ -179,6 +179,10 @@ def _share(e: Array, error: Array, joints: Sequence[Joint], known: Array) -> tup
     slopes, mean, covariance = np.zeros((e.size, 2)), np.zeros(2), np.zeros((2, 2))
     if moved.size == 0:
         return _Shared(mean, covariance, slopes), e, error
+    if not all(joint.covariance[place, place] > 0 for joint in joints for place in 1 + moved):
+        raise ValueError(
+            f"known is {tuple(known.tolist())}, but a test took α or p for exact; the same for all tests was expected"
+        )
     beforehand = np.diag(known[moved] ** -2.0)
     own = [joint.covariance[np.ix_(1 + moved, 1 + moved)] for joint in joints]
     inverses = [np.linalg.inv(each) for each in own]
