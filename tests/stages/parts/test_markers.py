@@ -45,7 +45,7 @@ def test_two_markers_that_are_exchanged_are_named_with_each_other(told):
         (r'm2a = \{columns = \["2a X", "2a Y", "2a Z"\]', 'm2a = {columns = ["2b X", "2b Y", "2b Z"]'),
         (r'm2b = \{columns = \["2b X", "2b Y", "2b Z"\]', 'm2b = {columns = ["2a X", "2a Y", "2a Z"]'),
     )
-    assert "m2a, m2b on body 2 are off" in text
+    assert "m2a, m2b on body 2 are off the place that `on` and `at` give, m2a by 0, −100 and 160 mm" in text
     assert "m2a is where m2b should be" in text
     assert "m2b is where m2a should be" in text
 
@@ -64,6 +64,12 @@ def test_a_drum_that_is_declared_too_high_lifts_what_stands_on_it(told):
     )
     (text,) = texts
     assert text.startswith("At rest all markers of body 3 are off their places by 0, 0 and −20 mm along x, y and z")
+
+
+def test_a_wrong_height_of_all_drums_is_told_from_joint_to_joint(told):
+    (text,) = told((r'height = "200 mm"', 'height = "230 mm"'))
+    assert "2 above 1 by 0, 0 and −30 mm along x, y and z, 3 above 2 by 0, 0 and −30 mm" in text
+    assert text.endswith("Check the heights of the bodies.")
 
 
 def test_axes_that_are_turned_are_told_once(told):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
@@ -95,6 +95,10 @@ def misplaced(conditioned: xr.Dataset, markers: Mapping[str, MarkerInputs], asse
     off, names = seen - declared, list(used)
     wrong = np.flatnonzero(np.linalg.norm(off, axis=1) > MISPLACED).tolist()
     if 2 * len(wrong) > len(used):
+        if steps := _steps(off, [each.body for each in used.values()], assembly):
+            said = listed([f"{body} above {lower} {_along(step)}" for (body, lower), step in steps.items()])
+            text = f"At rest bodies are off their places: {said}. Check the heights of the bodies."
+            return [serious("geometry", text)]
         text = (
             f"At rest {len(wrong)} of {len(used)} markers are more than {1e3 * MISPLACED:g} mm from where `on` and "
             "`at` put them relative to each other. Check the axes of the tracking, and the unit."
@@ -105,15 +109,28 @@ def misplaced(conditioned: xr.Dataset, markers: Mapping[str, MarkerInputs], asse
     for body in bodies:
         own = [each for each, name in enumerate(names) if used[name].body == body]
         mine = [each for each in own if each in wrong]
+        together = np.ptp(off[mine], axis=0).max() < MISPLACED
         where = _along(off[mine].mean(axis=0))
-        if mine == own and len(own) > 1 and np.ptp(off[mine], axis=0).max() < MISPLACED:
+        if mine == own and len(own) > 1 and together:
             text = f"At rest all markers of body {body} are off their places {where}: check the dimensions of the "
             text += "bodies below it, its position, and whether its markers are on it."
         else:
             text = f"At rest {listed([names[each] for each in mine])} on body {body} "
-            text += f"{'is' if len(mine) == 1 else 'are'} off the place that `on` and `at` give, {where}."
+            text += f"{'is' if len(mine) == 1 else 'are'} off the place that `on` and `at` give, "
+            text += f"{where if together else '; '.join(f'{names[each]} {_along(off[each])}' for each in mine)}."
         found.append(serious("geometry", " ".join((text, *_exchanged(mine, names, declared, seen)))))
     return found
+
+
+def _steps(off: Array, bodies: Sequence[str], assembly: Assembly) -> dict[tuple[str, str], Array]:
+    """How far off each body is above the one that it stands on, m; nothing if the markers of a body disagree."""
+    whole = {body: off[[each == body for each in bodies]] for body in dict.fromkeys(bodies)}
+    if max(np.ptp(own, axis=0).max() for own in whole.values()) > MISPLACED:
+        return {}
+    means = {body: own.mean(axis=0) for body, own in whole.items()}
+    pairs = [(body, lower) for body in means for lower in assembly.bodies[body].on[:1] if lower in means]
+    steps = {(body, lower): means[body] - means[lower] for body, lower in pairs}
+    return {each: step for each, step in steps.items() if np.linalg.norm(step) > MISPLACED}
 
 
 def _declared(marker: MarkerInputs, assembly: Assembly) -> Array:
