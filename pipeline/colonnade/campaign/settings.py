@@ -108,6 +108,8 @@ class ContactEnsembleSettings(Table):
     """Half of the range of the contact's damping, about that of the contact model."""
     out_of_plane: Angle = setting(1e-3, "rad")
     """Half of the range of the rotation about x at the start, about that of the contact model."""
+    penetration: Number = setting(0.5, "of the penetration", ge=0.0, lt=1.0)
+    """Half of the range of how deep the bodies of an assembly sink into their contacts, which sets the stiffness."""
     misplacement: Length = setting(1e-3, "m")
     """How far each body of an assembly may stand off its place, along x and along y."""
 

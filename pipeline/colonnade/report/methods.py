@@ -65,6 +65,8 @@ _STORED: dict[str, tuple[str, str, str | Callable[[float], str]]] = {
     "range of friction": (_ENSEMBLE_IN_SPACE, "settings.friction", _range),
     "range of damping": (_ENSEMBLE_IN_SPACE, "settings.damping_fraction", _range),
     "range of rotation": (_ENSEMBLE_IN_SPACE, "settings.out_of_plane", "± {:g} rad"),
+    "range of penetration": (_ENSEMBLE_IN_SPACE, "settings.penetration", _range),
+    "misplacement": (_ENSEMBLE_IN_SPACE, "settings.misplacement", lambda place: f"± {text.quantity(place, 'mm')}"),
 }
 """Settings by the name that the text uses: stage, path in its inputs, and how the value is written."""
 

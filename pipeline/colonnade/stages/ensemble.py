@@ -247,8 +247,9 @@ def contact_ensemble(
     }
     plan: AssemblyPlan | ContactPlan
     if assembled is not None:
-        misplacement = ranges.misplacement
-        plan = AssemblyPlan(block=space.block, assembly=assembled.assembly, misplacement=misplacement, **common)
+        common |= {"assembly": assembled.assembly, "misplacement": ranges.misplacement}
+        penetration = _about(law.penetration, ranges.penetration * law.penetration)
+        plan = AssemblyPlan(block=space.block, penetration=penetration, **common)
     else:
         body, tilt = body_of(space, law), _about(space.settings.out_of_plane, abs(ranges.out_of_plane))
         block = plane_block(body, space.block.gravity)
@@ -259,8 +260,8 @@ def contact_ensemble(
     except ValueError as error:
         raise StageError(f"processing.predict.contact: {error}") from error
     found = plan.gather(central, parts)
-    middles = dict(zip(plan.names, (law.friction, law.damping_fraction, 1.0), strict=False))
-    deviations = {name: np.ptp(getattr(plan, name)) / np.sqrt(12.0) / (middles[name] or 1.0) for name in plan.names}
+    middles = {name: getattr(law, name, 1.0) or 1.0 for name in plan.names}
+    deviations = {name: np.ptp(getattr(plan, name)) / np.sqrt(12.0) / middles[name] for name in plan.names}
     start = beginning.theta0 if inputs.prediction.free_vibration else None
     errors = measurement_errors(conditioned, rocking, start, inputs.measurement)
     ranked = rank_measured(rocking, beginning, found, np.zeros(plan.count), errors, inputs.measurement)

@@ -77,8 +77,8 @@ class AssemblyPlan(Plan):
     assembly : Assembly
     law : ContactLaw
         As of `ContactPlan`.
-    friction, damping_fraction : pair of float
-        Lowest and highest value, all in between equally likely.
+    friction, damping_fraction, penetration : pair of float
+        Lowest and highest value, all in between equally likely; the penetration in m.
     misplacement : float
         m: each body stands off its place by up to this along x and along y, all equally likely.
     """
@@ -87,8 +87,9 @@ class AssemblyPlan(Plan):
     law: ContactLaw
     friction: Range
     damping_fraction: Range
+    penetration: Range
     misplacement: float = 0.0
-    names: ClassVar[tuple[str, ...]] = ("friction", "damping_fraction")
+    names: ClassVar[tuple[str, ...]] = ("friction", "damping_fraction", "penetration")
 
     def central(self) -> AssemblyHistory:
         """Run the model with its law, each body in its place."""
@@ -96,13 +97,13 @@ class AssemblyPlan(Plan):
 
     def follow(self, random: np.random.Generator) -> tuple[Array, AssemblyHistory]:
         """Draw what one member takes, in the order of `names`, and the places of its bodies; run the model with it."""
-        inputs = random.uniform(*np.array([self.friction, self.damping_fraction]).T)
-        friction, fraction = inputs.tolist()
+        inputs = random.uniform(*np.array([getattr(self, name) for name in self.names]).T)
+        friction, fraction, penetration = inputs.tolist()
         placed = {}
         for name, body in self.assembly.bodies.items():
             x, y = (np.array(body.position) + self.misplacement * random.uniform(-1.0, 1.0, 2)).tolist()
             placed[name] = replace(body, position=(x, y))
-        law = replace(self.law, friction=friction, damping_fraction=fraction)
+        law = replace(self.law, friction=friction, damping_fraction=fraction, penetration=penetration)
         return inputs, self._simulate(law, Assembly(placed))
 
     def ends(self, history: AssemblyHistory) -> dict[str, Array]:
