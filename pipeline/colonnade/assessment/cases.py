@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from math import ceil
+from math import ceil, inf
 from typing import NamedTuple
 
 import numpy as np
 
 from colonnade.arrays import Array, Codes, Mask
 from colonnade.assessment.prototype import UNCERTAIN, Prototype, draw, drawn_column
+from colonnade.dynamics.assembly import Assembly
+from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.models import NONLINEAR, model_of, plane_model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.reactions import reactions
-from colonnade.dynamics.plane.run import OVERTURNS, ends_of, expect_usable, prepared
+from colonnade.dynamics.plane.run import OUTCOMES, OVERTURNS, ends_of, expect_usable, prepared
 from colonnade.dynamics.rock import rock
 from colonnade.validation import number, whole
 
@@ -36,6 +38,45 @@ MOST_POWER = 4
 
 
 @dataclass(frozen=True)
+class OnContact:
+    """
+    Several bodies, which the contact model moves in place of the one block of the column.
+
+    Attributes
+    ----------
+    assembly : Assembly
+    law : ContactLaw
+        Of all interfaces; a draw has its own friction, if that has a range.
+    displaced : float
+        m: a body that ends farther from its place than this counts as one that overturned.
+    """
+
+    assembly: Assembly
+    law: ContactLaw
+    displaced: float = inf
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether a motion and its opposite do the same: bodies are symmetric, and each mirrors another or itself."""
+        bodies = [(body.block, *body.position) for body in self.assembly.bodies.values()]
+        return all(block.is_symmetric and (block, -x, y) in bodies for block, x, y in bodies)
+
+    def end(self, motion: Motion, friction: float) -> tuple[int, float, float]:
+        """Run a motion: index into `OUTCOMES`, largest lean over α (NaN if it overturns), its instant, s."""
+        # Its engine is compiled on import.
+        from colonnade.dynamics.contact.simulate import simulate_assembly
+
+        law = self.law if np.isnan(friction) else replace(self.law, friction=friction)
+        history = simulate_assembly(self.assembly, motion, law=law)
+        if history.peak_ratio is None:
+            return OVERTURNS, np.nan, history.overturning_time
+        if max(float(np.hypot(x, y)) for x, y, _ in history.residuals.values()) > self.displaced:
+            return OVERTURNS, np.nan, float(history.time[-1])
+        lean = np.max([body.lean for body in history.bodies.values()], axis=0)
+        return OUTCOMES.index(history.outcome), history.peak_ratio, float(history.time[lean.argmax()])
+
+
+@dataclass(frozen=True)
 class Cases:
     """
     All that the histories of an assessment follow from; any part of them can be run anywhere and gives the same.
@@ -52,6 +93,8 @@ class Cases:
         What a record's component, and the vertical motion with it, is multiplied by; NaN where it is not run.
     model : str
         A plane one.
+    several : OnContact, optional
+        What is run in place of the prototype's block, of which only the drawn friction then counts.
 
     Raises
     ------
@@ -68,6 +111,7 @@ class Cases:
     motions: tuple[Motion, ...]
     factors: Array
     model: str = NONLINEAR.name
+    several: OnContact | None = None
 
     def __post_init__(self) -> None:
         plane_model_of(self.model)
@@ -86,7 +130,7 @@ class Cases:
     @property
     def signs(self) -> tuple[int, ...]:
         """What each case is multiplied by in turn: +1 and −1, or +1 alone."""
-        return (1,) if self.prototype.is_symmetric else (1, -1)
+        return (1,) if (self.several or self.prototype).is_symmetric else (1, -1)
 
     @property
     def shape(self) -> tuple[int, int, int, int, int]:
@@ -187,6 +231,12 @@ def run_cases(cases: Cases) -> Outcomes:
             here = (record, level, slice(None), side, place)
             if _falls_away(plane, gravity):
                 found.outcome[here] = FALLS_AWAY
+                continue
+            if cases.several is not None:
+                for number_, friction in enumerate(cases.drawn("friction")[record].tolist()):
+                    end = cases.several.end(plane, friction)
+                    for values, value in zip(vars(found).values(), end, strict=True):
+                        values[record, level, number_, side, place] = value
                 continue
             ends = ends_of(plane, columns, gravity=gravity, model=cases.model)
             for name, values in vars(found).items():

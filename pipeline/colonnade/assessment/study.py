@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
-from colonnade.assessment.cases import COMPONENTS, Cases, Outcomes, default_levels, factors_at, run_cases
+from colonnade.assessment.cases import COMPONENTS, Cases, OnContact, Outcomes, default_levels, factors_at, run_cases
 from colonnade.assessment.fragility import Fragility, summarise
 from colonnade.assessment.ground import LARGEST_DRIFT, NONE, Ground, correction_of
 from colonnade.assessment.hazard import Hazard, hazard_curve
@@ -17,7 +18,9 @@ from colonnade.assessment.intervals import LEVEL, RESAMPLES, Resampling
 from colonnade.assessment.measures import MEASURES, Measure, measure_of, measured, measures_of
 from colonnade.assessment.outcomes import gather
 from colonnade.assessment.prototype import MOST_DRAWS, Limits, Prototype, draw
+from colonnade.dynamics.assembly import Assembly, as_one
 from colonnade.dynamics.block import Block, Sided
+from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.models import NONLINEAR
 from colonnade.dynamics.motion import Motion
 from colonnade.validation import described, instance, number, samples, text, whole
@@ -83,6 +86,7 @@ def plan_study(
     drift: float = LARGEST_DRIFT,
     baseline: str = NONE,
     seed: int = 0,
+    several: OnContact | None = None,
 ) -> Study:
     """
     Measure the records, scale them, and plan the histories.
@@ -105,6 +109,8 @@ def plan_study(
     drift, baseline : optional
         As of `intensity_measures`; a correction applies to the motions that are run.
     seed : int, optional
+    several : OnContact, optional
+        As of `Cases`; `levels` are then needed.
 
     Returns
     -------
@@ -127,6 +133,8 @@ def plan_study(
         why = next(iter(reasons.values()), "there is no record")
         raise ValueError(f"No record has a {scaled_over.name}: {why}")
     intensity, power = values[scaled_over.id][usable], scaled_over.power
+    if levels is None and several is not None:
+        raise ValueError(f"levels are needed for several bodies: levels of the {scaled_over.name} were expected")
     if levels is None:
         found = default_levels(prototype, [recorded[row] for row in usable], intensity, power=power, model=model)
     else:
@@ -140,7 +148,7 @@ def plan_study(
     reasons |= {(names[row], "z"): FALLS for row in usable[~runs]}
     rows = usable[runs]
     drawn = np.stack([draw(prototype, draws, seed, record=number) for number in range(rows.size)])
-    cases = Cases(prototype, drawn, tuple(recorded[row] for row in rows), factors[runs], model)
+    cases = Cases(prototype, drawn, tuple(recorded[row] for row in rows), factors[runs], model, several)
     kept = tuple(names[row] for row in rows)
     values = {name: each[rows] for name, each in values.items()}
     return Study(kept, cases, scaled_over, found, values, drifts[rows], _left_out(kept, reasons))
@@ -285,7 +293,7 @@ def _scaled(study: Study, signs: int) -> dict[str, Array]:
 
 
 def fragility(
-    block: Block,
+    block: Block | Assembly,
     motions: Mapping[str, Motion] | Sequence[Motion],
     *,
     restitution: Sided | None = None,
@@ -294,6 +302,9 @@ def fragility(
     restitution_range: Limits | None = None,
     critical_angle_range: Limits | None = None,
     p_range: Limits | None = None,
+    contact: ContactLaw | None = None,
+    friction_range: Limits | None = None,
+    displaced: float = inf,
     draws: int = DRAWS,
     overturned: float = 1.0,
     hazard: tuple[ArrayLike, ArrayLike] | None = None,
@@ -310,8 +321,8 @@ def fragility(
 
     Parameters
     ----------
-    block : Block
-        The real column.
+    block : Block or Assembly
+        The real column; several bodies are moved by the contact model, a minute or more for each history.
     motions : mapping of str to Motion, or sequence of Motion
         Records, by name or numbered from 1. Both horizontal components are cases in the plane, with vertical motion.
     restitution : float or pair of float, optional
@@ -322,6 +333,9 @@ def fragility(
         Of it, SI; chosen so that the share of records that overturn goes from 0 to 1 if not given.
     restitution_range, critical_angle_range, p_range : pair of float, optional
         Limits between which e, α (rad) and p (rad/s) are drawn for each record; known exactly if not given.
+    contact, friction_range, displaced : optional
+        Of several bodies: the law of their contacts, the limits between which its friction is drawn, and how far from
+        its place, m, a body may end; one that ends farther counts as one that overturned.
     draws : int, optional
     overturned : float, optional
         A largest |θ|/α above this counts as overturned.
@@ -360,6 +374,13 @@ def fragility(
     >>> found.lognormal.rises[0] < 4.0, len(found.outcomes.records)
     (True, 4)
     """
+    several = None
+    if isinstance(block, Assembly):
+        limit = number("displaced", displaced, "a positive distance in m", above=0.0, finite=False)
+        several = OnContact(block, contact or ContactLaw(), limit)
+        block = as_one(block)
+    elif contact is not None or friction_range is not None or displaced != inf:
+        raise ValueError("contact, friction_range and displaced are for an Assembly; a Block was found")
     instance("block", block, Block)
     named = _named(motions)
     whole("draws", draws, 1, MOST_DRAWS)
@@ -369,9 +390,11 @@ def fragility(
     prototype = Prototype(
         block,
         max(block.restitution, 0.0) if restitution is None else restitution,
+        None if several is None else several.law.friction,
         restitution_range=restitution_range,
         critical_angle_range=critical_angle_range,
         p_range=p_range,
+        friction_range=friction_range,
     )
     study = plan_study(
         prototype,
@@ -384,6 +407,7 @@ def fragility(
         drift=drift,
         baseline=baseline,
         seed=seed,
+        several=several,
     )
     return judge(study, run_cases(study.cases), resampling, overturned=overturned, hazard=curve)
 
