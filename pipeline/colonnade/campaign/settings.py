@@ -16,9 +16,9 @@ from pydantic import BeforeValidator, Field, WithJsonSchema
 from colonnade.campaign.syntax.fields import (
     STEP,
     Angle,
+    Coordinate,
     Duration,
     Frequency,
-    Length,
     Number,
     OneOf,
     Pressure,
@@ -110,7 +110,7 @@ class ContactEnsembleSettings(Table):
     """Half of the range of the rotation about x at the start, about that of the contact model."""
     penetration: Number = setting(0.5, "of the penetration", ge=0.0, lt=1.0)
     """Half of the range of how deep the bodies of an assembly sink into their contacts, which sets the stiffness."""
-    misplacement: Length = setting(1e-3, "m")
+    misplacement: Coordinate = setting(1e-3, "m")
     """How far each body of an assembly may stand off its place, along x and along y."""
 
 

@@ -247,7 +247,7 @@ def contact_ensemble(
     }
     plan: AssemblyPlan | ContactPlan
     if assembled is not None:
-        common |= {"assembly": assembled.assembly, "misplacement": ranges.misplacement}
+        common |= {"assembly": assembled.assembly, "misplacement": abs(ranges.misplacement)}
         penetration = _about(law.penetration, ranges.penetration * law.penetration)
         plan = AssemblyPlan(block=space.block, penetration=penetration, **common)
     else:
