@@ -72,3 +72,9 @@ def test_the_moving_picture_has_each_body_at_its_place(shaken):
     assert (measured["name"], predicted["name"]) == ("measured", "contact model")
     assert [part["place"] for part in measured["parts"]] == [[0.0, 0.0], [0.0, 0.2], [0.0, 0.4]]
     assert {"slide", "rise", "outline", "poles"} <= measured["parts"][0].keys()
+
+
+def test_bodies_that_do_not_rock_as_one_block_have_no_e(shaken):
+    words = words_of((shaken / "report/specimens/column.html").read_text())
+    assert "e –, as its bodies do not rock as one block" in words
+    assert "rigid-body e, without bounce –" in words

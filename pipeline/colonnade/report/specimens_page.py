@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isfinite, tan
 from typing import NamedTuple
@@ -25,6 +25,9 @@ from colonnade.report.test_page import restitution
 from colonnade.report.test_page.restitution import EstimateText
 from colonnade.store.records.stored import Failure, Stored
 from colonnade.units.text import NOTHING, interval, listed, number, percent, quantity
+
+APART = "as its bodies do not rock as one block"
+"""In place of the source of an e."""
 
 BOUNDS = ("restitution_low", "restitution_high", "level")
 
@@ -124,7 +127,7 @@ def of_specimen(
     specimen, block = campaign.specimens[name], campaign.block(name)
     value, low, high, level = (pooled.value("specimen", each) for each in ("restitution", *BOUNDS))
     unknown = "failed" if pooled.failures else "not yet known"
-    return SpecimenPage(
+    page = SpecimenPage(
         id=name,
         shape=specimen.shape,
         scale="" if specimen.scale is None else f"1:{specimen.scale:g}",
@@ -144,6 +147,9 @@ def of_specimen(
         free_vibrations=free_vibrations,
         subject=OfSpecimen(campaign, name, pooled, [each.drawn for each in free_vibrations]),
     )
+    if specimen.is_in_plane:
+        return page
+    return replace(page, e=NOTHING, source=APART, rigid=NOTHING, ratio=NOTHING, method="", reason="")
 
 
 def _between(pooled: Stored) -> str:
