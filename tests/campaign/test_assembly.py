@@ -81,6 +81,11 @@ def test_a_frame_rocks_in_the_plane_by_its_columns(edited):
         ('["drum", "drum", "drum"]', '["drum", "drm"]', 'Unknown specimen "drm". Did you mean "drum"?'),
         ("[assemblies.column]", "[assemblies.drum]", '"drum" cannot be the id of an assembly: a specimen has it.'),
         ("[assemblies.column]", "[assemblies.table]", '"table" cannot be the id of an assembly'),
+        (
+            "[setups.drums.channels]",
+            '[assessments.site]\nspecimen = "column"\nrecords = "records"\n[setups.drums.channels]',
+            "The bodies of column do not rock as one block.",
+        ),
         ('stack = ["drum", "drum", "drum"]', "", "Either `stack`"),
         ('on = "2"', 'on = "9"', 'Unknown body "9"'),
         ('unit = "mm", on', 'unit = "V", on', "V"),

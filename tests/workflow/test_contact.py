@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from colonnade.campaign import load
 from colonnade.dynamics.contact.body import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.motion import Motion
@@ -13,9 +14,11 @@ from colonnade.errors import CampaignError
 from colonnade.stages.contact import law_of
 from colonnade.store import files
 from colonnade.store.results import ResultId
+from colonnade.workflow.advising.next import advise_kind, of_interest
 from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import make_maps
+from colonnade.workflow.pooling import one_specimen
 from prism import PRISM
 
 
@@ -144,6 +147,18 @@ def test_a_map_of_several_bodies_is_made_by_the_contact_model_alone(in_space):
     assert files.read(made.path)["outcome"].to_numpy()[:, 1].tolist() == [2, 2]
     with pytest.raises(CampaignError, match="do not rock as one block"):
         make_maps(in_space.folder, replace(wanted, models=("nonlinear",)), specimens=["two"], workers=1)
+
+
+def test_no_question_about_a_block_is_answered_of_bodies_that_do_not_rock_as_one(in_space):
+    drum = '[specimens.drum]\nshape = "prism"\nwidth = "1 m"\ndepth = "1 m"\nheight = "1 m"\nmass = "900 kg"\n'
+    channels = "\n[setups.frame.channels]"
+    in_space.edit(channels, f'\n[assemblies.two]\nstack = ["drum", "drum"]\n\n{drum}{channels}')
+    campaign = load(in_space.folder)
+    with pytest.raises(CampaignError, match="two: its bodies do not rock as one block"):
+        one_specimen(campaign, "two")
+    assert one_specimen(campaign, "prism") == "prism"
+    assert of_interest(campaign) == ["prism", "two"]
+    assert advise_kind(campaign, in_space.layout, "two", "free-vibration", {}) == []
 
 
 def test_limits_beside_those_of_the_contact_model_are_found_alike(in_space):

@@ -28,7 +28,13 @@ def dangling(campaign: CampaignFile) -> Iterator[Problem]:
     for name, assessment in campaign.assessments.items():
         place = ("assessments", name, "specimen")
         yield from unknown(place, "specimen", assessment.specimen, campaign.specimens)
-        if assessment.specimen in campaign.specimens and assessment.specimen not in campaign.prototype:
+        if assessment.specimen in campaign.specimens and not campaign.specimens[assessment.specimen].is_in_plane:
+            yield (
+                place,
+                f"The bodies of {assessment.specimen} do not rock as one block. One block or a frame was expected; "
+                "`colonnade.fragility` of the library is for several bodies.",
+            )
+        elif assessment.specimen in campaign.specimens and assessment.specimen not in campaign.prototype:
             yield (
                 place,
                 f"[prototype.{assessment.specimen}] is missing. It says what is assumed of the real column; its "

@@ -78,12 +78,17 @@ def expect_specimens(campaign: Campaign, names: Iterable[str]) -> None:
 
 
 def one_specimen(campaign: Campaign, name: str | None) -> str:
-    """Give the specimen of this id or, without one, the only one of a campaign."""
+    """Give the specimen of this id or, without one, the only one of a campaign; it has to rock as one block."""
     if name is None and len(campaign.specimens) > 1:
         listed = nearest("", campaign.specimens)
         raise CampaignError(f"The campaign has several specimens. Name one with --specimen ID.{listed}")
     chosen = next(iter(campaign.specimens)) if name is None else name
     expect_specimens(campaign, [chosen])
+    if not campaign.specimens[chosen].is_in_plane:
+        raise CampaignError(
+            f"{chosen}: its bodies do not rock as one block, which the models in the plane move. "
+            "`colonnade map --model contact`, and `colonnade.fragility` of the library, are for several bodies."
+        )
     return chosen
 
 
