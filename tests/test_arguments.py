@@ -122,9 +122,9 @@ ARGUMENTS = {
         "duration": "duration",
         "cycles": "cycles ramp",
         "columns": "column",
-        "limits": "restitution_range critical_angle_range p_range",
+        "limits": "restitution_range critical_angle_range p_range friction_range",
         "fine": "edge rest_angle",
-        "a coefficient": "friction",
+        "a coefficient": "friction displaced",
     }.items()
     for argument in arguments.split()
 }

@@ -54,5 +54,7 @@ def test_bodies_that_mirror_each_other_are_run_with_one_sign():
 def test_what_is_for_several_bodies_is_refused_for_one_and_the_reverse():
     with pytest.raises(ValueError, match="are for an Assembly; a Block was found"):
         fragility(DRUM, [pulse(1.0)] * 2, displaced=0.01)
+    with pytest.raises(ValueError, match="a ContactLaw was expected"):
+        fragility(Assembly.stack(a=DRUM, b=DRUM), [pulse(1.0)] * 2, contact="soft")
     with pytest.raises(ValueError, match="levels are needed for several bodies"):
         fragility(Assembly.stack(a=DRUM, b=DRUM), [pulse(1.0)] * 2)

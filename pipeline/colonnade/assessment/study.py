@@ -375,11 +375,12 @@ def fragility(
     (True, 4)
     """
     several = None
+    limit = number("displaced", displaced, "a positive distance in m", above=0.0, finite=False)
     if isinstance(block, Assembly):
-        limit = number("displaced", displaced, "a positive distance in m", above=0.0, finite=False)
-        several = OnContact(block, contact or ContactLaw(), limit)
+        law = ContactLaw() if contact is None else instance("contact", contact, ContactLaw)
+        several = OnContact(block, law, limit)
         block = as_one(block)
-    elif contact is not None or friction_range is not None or displaced != inf:
+    elif contact is not None or friction_range is not None or limit != inf:
         raise ValueError("contact, friction_range and displaced are for an Assembly; a Block was found")
     instance("block", block, Block)
     named = _named(motions)

@@ -32,7 +32,7 @@ def dangling(campaign: CampaignFile) -> Iterator[Problem]:
             yield (
                 place,
                 f"The bodies of {assessment.specimen} do not rock as one block. One block or a frame was expected; "
-                "`colonnade.fragility` of the library is for several bodies.",
+                "`fragility` of the library is for several bodies.",
             )
         elif assessment.specimen in campaign.specimens and assessment.specimen not in campaign.prototype:
             yield (
