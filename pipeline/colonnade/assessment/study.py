@@ -374,14 +374,8 @@ def fragility(
     >>> found.lognormal.rises[0] < 4.0, len(found.outcomes.records)
     (True, 4)
     """
-    several = None
-    limit = number("displaced", displaced, "a positive distance in m", above=0.0, finite=False)
-    if isinstance(block, Assembly):
-        law = ContactLaw() if contact is None else instance("contact", contact, ContactLaw)
-        several = OnContact(block, law, limit)
-        block = as_one(block)
-    elif contact is not None or friction_range is not None or limit != inf:
-        raise ValueError("contact, friction_range and displaced are for an Assembly; a Block was found")
+    several = _several(block, contact, friction_range, displaced)
+    block = as_one(block) if isinstance(block, Assembly) else block
     instance("block", block, Block)
     named = _named(motions)
     whole("draws", draws, 1, MOST_DRAWS)
@@ -411,6 +405,19 @@ def fragility(
         several=several,
     )
     return judge(study, run_cases(study.cases), resampling, overturned=overturned, hazard=curve)
+
+
+def _several(
+    block: Block | Assembly, contact: ContactLaw | None, friction_range: Limits | None, displaced: float
+) -> OnContact | None:
+    """Check what is said of several bodies, and put it together; None of one block."""
+    limit = number("displaced", displaced, "a positive distance in m", above=0.0, finite=False)
+    if isinstance(block, Assembly):
+        law = ContactLaw() if contact is None else instance("contact", contact, ContactLaw)
+        return OnContact(block, law, limit)
+    if contact is not None or friction_range is not None or limit != inf:
+        raise ValueError("contact, friction_range and displaced are for an Assembly; a Block was found")
+    return None
 
 
 def _named(motions: Mapping[str, Motion] | Sequence[Motion]) -> dict[str, Motion]:

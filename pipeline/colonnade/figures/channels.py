@@ -251,7 +251,7 @@ AROUND = 12
 
 
 def picture(test: Test, stored: Stored) -> Picture | None:
-    """Draw all channels of a test as recorded; None if their samples are not at hand."""
+    """Draw all channels of a test as recorded; None without their samples."""
     recorded, conditioned = (stored.datasets.get((stage, None)) for stage in ("ingest", "condition"))
     names = [] if recorded is None else [str(name) for name, each in recorded.data_vars.items() if _is_channel(each)]
     if recorded is None or not names:

@@ -219,7 +219,7 @@ def contact_ensemble(
     identified : xr.Dataset, optional
         As of `predict`.
     run : callable, optional
-        Runs the members; each gives the same wherever it is run.
+        Runs the members; their results do not depend on where that is.
 
     Returns
     -------
