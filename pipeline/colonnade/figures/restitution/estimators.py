@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from colonnade.figures.style import FIT, INK, LIMIT, MEASURED, SOFT, styled, width
-from colonnade.units.text import format_uncertain
+from colonnade.units.text import interval
 
 ROW, GROUP = 0.21, 0.26
 """Heights of an estimate's row and of a group's title, inches."""
@@ -121,8 +121,7 @@ def _draw_row(axes: Axes, place: float, row: EstimateRow, title: str) -> None:
         edge, mark = (0.0, "<") if row.value < low else (1.0, ">")
         beside = axes.get_yaxis_transform()
         axes.plot([edge], [place], mark, color=colour, markersize=size, clip_on=False, transform=beside)
-    half = (row.high - row.low) / 2
-    told = format_uncertain(row.value, half) if np.isfinite(half) else f"{row.value:.4f}"
+    told = interval(row.value, row.low, row.high)
     _write(axes, place, told, width() - LEFT - RIGHT + 0.12, weight=weight)
 
 
