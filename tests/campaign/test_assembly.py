@@ -6,6 +6,7 @@ import pytest
 import drums
 from colonnade.campaign import load
 from colonnade.errors import CampaignError
+from colonnade.workflow.check import check
 
 PORTAL = """
 [assemblies.portal.bodies]
@@ -102,3 +103,24 @@ def test_bodies_in_a_circle_are_refused_with_their_names(edited):
     bodies = '[assemblies.column.bodies]\na = {specimen = "drum", on = "b"}\nb = {specimen = "drum", on = "a"}'
     with pytest.raises(CampaignError, match="a, b stand on each other in a circle"):
         edited(('[assemblies.column]\nstack = ["drum", "drum", "drum"]', bodies), ('on = "2"', 'on = "a"'))
+
+
+def test_a_night_of_runs_is_the_default_of_several_bodies_and_check_says_so(edited):
+    campaign = edited(("members = 0\n", ""))
+    quake = campaign.tests["quake"]
+    assert campaign.members(quake, "contact") == 40
+    said = [found.text for found in check(campaign).campaign.warnings if found.kind == "ensembles"]
+    assert len(said) == 1
+    assert "moves several bodies 40 times, over what is not known of 1 test." in said[0]
+    campaign = edited()
+    assert campaign.members(quake, "contact") == 0
+    assert "ensembles" not in [found.kind for found in check(campaign).campaign.warnings]
+
+
+def test_one_body_is_not_repeated_on_contact_unless_asked(edited):
+    campaign = edited(
+        ("members = 0\n", ""), ('specimen = "column"', 'specimen = "drum"'), ('on = "2"', 'on = "specimen"')
+    )
+    quake = campaign.tests["quake"]
+    assert campaign.members(quake, "contact") == 0
+    assert campaign.members(quake, "nonlinear") == 100

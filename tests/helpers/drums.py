@@ -32,6 +32,9 @@ drum = {shape = "prism", width = "200 mm", depth = "200 mm", height = "200 mm", 
 penetration = 1e-6
 step = "20 us"
 
+[processing.predict.ensemble.contact]
+members = 0
+
 [assemblies.column]
 stack = ["drum", "drum", "drum"]
 

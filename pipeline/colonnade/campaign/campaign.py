@@ -141,6 +141,10 @@ class Campaign(CampaignKeys):
         """Block of a specimen, with the campaign's gravity."""
         return self.specimens[specimen].block(self.gravity)
 
+    def members(self, test: Test, model: str) -> int:
+        """Runs of a model's ensemble on the motion of a test; 0 for no ensemble."""
+        return self.processing.predict.members(model, is_assembly=self.specimens[test.specimen].is_assembly)
+
     def ensemble_settings(self, specimen: str) -> EnsembleSettings:
         """Settings of a specimen's ensembles, with what its own `uncertainty` says."""
         settings, own = self.processing.predict.ensemble, self.specimens[specimen].uncertainty

@@ -97,11 +97,16 @@ class RestitutionSettings(Table):
     """Probability of the interval that is given for e."""
 
 
+OVERNIGHT = 40
+"""Runs on contact of each test of several bodies: 20 tests of four drums over 20 s take four cores seven hours."""
+
+
 class ContactEnsembleSettings(Table):
     """Settings of the contact model's ensembles: the number of runs, and the ranges of its inputs."""
 
-    members: Whole = setting(0, ge=0, le=100_000)
-    """Runs of the contact model over its unknown inputs, each as long as its prediction; 0 for no ensemble."""
+    members: Literal["auto"] | Annotated[Whole, Field(ge=0, le=100_000)] = setting("auto")
+    """Runs of the contact model over its unknown inputs, each as long as its prediction; 0 for no ensemble; "auto" is
+    40 for an assembly, whose tests so take a night, and 0 for a single body."""
     friction: Number = setting(0.2, "of the friction", ge=0.0, le=1.0)
     """Half of the range of friction, about that of the contact model; all values in it are equally likely."""
     damping_fraction: Number = setting(0.2, "of the damping fraction", ge=0.0, le=1.0)
@@ -185,9 +190,12 @@ class PredictSettings(Table):
     contact: ContactSettings = ContactSettings()
     """The contact model, if it is among the models."""
 
-    def members(self, model: str) -> int:
+    def members(self, model: str, *, is_assembly: bool) -> int:
         """Runs of a model's ensemble; 0 for no ensemble."""
-        return self.ensemble.contact.members if model_of(model).in_space else self.ensemble.members
+        if not model_of(model).in_space:
+            return self.ensemble.members
+        asked = self.ensemble.contact.members
+        return asked if asked != "auto" else OVERNIGHT * is_assembly
 
 
 class NextSettings(Table):

@@ -164,7 +164,7 @@ class ContactEnsembleInputs(Inputs):
     ----------
     prediction : PredictInputs
     settings : ContactEnsembleSettings
-        Half ranges of the inputs.
+        Half ranges of the inputs; `members` is a number.
     measurement : MeasurementInputs
     """
 
@@ -176,10 +176,11 @@ class ContactEnsembleInputs(Inputs):
     @classmethod
     def of(cls, campaign: Campaign, test: Test) -> ContactEnsembleInputs:
         """Gather what `contact_ensemble` reads for one test."""
+        members = {"members": campaign.members(test, CONTACT.name)}
         return cls(
             prediction=PredictInputs.of(campaign, test, CONTACT.name),
             space=ContactInputs.of(campaign, test.specimen),
-            settings=campaign.processing.predict.ensemble.contact,
+            settings=campaign.processing.predict.ensemble.contact.model_copy(update=members),
             measurement=MeasurementInputs.of(campaign, test),
         )
 
@@ -243,7 +244,7 @@ def contact_ensemble(
         "motion": beginning.motion,
         "theta0": beginning.theta0,
         "omega0": beginning.omega0,
-        "count": ranges.members,
+        "count": int(ranges.members),
     }
     plan: AssemblyPlan | ContactPlan
     if assembled is not None:

@@ -199,7 +199,7 @@ def models_shown(campaign: Campaign) -> tuple[str, ...]:
 def results_of(campaign: Campaign, test: Test) -> list[ResultId]:
     """Results that a test has if nothing fails, in the order in which they are made."""
     models = models_of(campaign, test)
-    repeated = [model for model in models if campaign.processing.predict.members(model) > 0]
+    repeated = [model for model in models if campaign.members(test, model) > 0]
     found = [ResultId(test.id, stage) for stage in ("ingest", "condition", "rocking")]
     if test.kind == "free-vibration":
         found.append(ResultId(test.id, "restitution"))

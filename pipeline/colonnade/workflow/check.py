@@ -9,6 +9,7 @@ from pathlib import Path
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.assessment import Assessment
+from colonnade.dynamics.models import CONTACT
 from colonnade.errors import ReadError, StageError, count
 from colonnade.findings import Finding, Severity, at_stage, in_order, note, warning
 from colonnade.interruption import expect_none
@@ -110,7 +111,7 @@ def check(campaign: Campaign, progress: Callable[[int, int], None] = lambda done
         return read(path, file.format, file.options, within=campaign.folder)
 
     campaign = with_copies(campaign, digests_of_equal_sizes(campaign))
-    campaign = campaign.but(warnings=(*campaign.warnings, *unshown_photos(campaign)))
+    campaign = campaign.but(warnings=(*campaign.warnings, *unshown_photos(campaign), *_overnight(campaign)))
     found: dict[str, Checked] = {}
     for name, test in campaign.tests.items():
         progress(len(found), len(campaign.tests))
@@ -126,6 +127,20 @@ def check(campaign: Campaign, progress: Callable[[int, int], None] = lambda done
         each.concerning = campaign.concerning(name)
     assessments = {name: _records_checked(asked) for name, asked in campaign.assessments.items()}
     return CampaignCheck(campaign, found, assessments)
+
+
+def _overnight(campaign: Campaign) -> list[Finding]:
+    """Say how often several bodies are moved, which takes hours."""
+    tests = [test for test in campaign.tests.values() if campaign.specimens[test.specimen].is_assembly]
+    runs = sum(campaign.members(test, CONTACT.name) for test in tests)
+    if not runs:
+        return []
+    said = (
+        f"The contact model moves several bodies {runs} times, over what is not known of {count(len(tests), 'test')}. "
+        "Four drums over 20 s take about two minutes of one core each time; the runs are spread over all cores. For a "
+        "first look without them, write `members = 0` under [processing.predict.ensemble.contact]."
+    )
+    return [note("ensembles", said)]
 
 
 def _checked(campaign: Campaign, test: Test, reading: Reading) -> Checked:

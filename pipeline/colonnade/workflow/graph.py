@@ -127,7 +127,7 @@ class Graph:
             predictions.append(
                 self.product(ResultId(test.id, "predict", model), inputs, upstream, _by_name(predict.predict))
             )
-            if not self.campaign.processing.predict.members(model):
+            if not self.campaign.members(test, model):
                 continue
             result, upstream = ResultId(test.id, "ensemble", model), {**conditioned, **rocking, **own}
             if MODELS[model].in_space:

@@ -101,7 +101,7 @@ def test_what_stands_on_a_body_that_fell_has_fallen(tmp_path):
 def test_runs_of_the_contact_model_say_how_probably_a_body_falls_and_how_far_it_moves(tmp_path):
     history = drums.write_campaign(tmp_path, 6.0)
     path = tmp_path / "campaign.toml"
-    path.write_text(path.read_text() + "\n[processing.predict.ensemble.contact]\nmembers = 2\n")
+    path.write_text(path.read_text().replace("members = 0", "members = 2"))
     assert not run(tmp_path, until="compare", workers=1).failed
     bands = files.read(Layout(tmp_path).stage("quake", "ensemble", "contact"))
     falls = bands["body_overturning_probability"].to_numpy()
