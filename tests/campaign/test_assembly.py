@@ -85,7 +85,7 @@ def test_a_frame_rocks_in_the_plane_by_its_columns(edited):
         (
             "[setups.drums.channels]",
             '[assessments.site]\nspecimen = "column"\nrecords = "records"\n[setups.drums.channels]',
-            "The bodies of column do not rock as one block.",
+            "A history of the bodies of column takes minutes",
         ),
         ('stack = ["drum", "drum", "drum"]', "", "Either `stack`"),
         ('on = "2"', 'on = "9"', 'Unknown body "9"'),
@@ -109,12 +109,12 @@ def test_a_night_of_runs_is_the_default_of_several_bodies_and_check_says_so(edit
     campaign = edited(("members = 0\n", ""))
     quake = campaign.tests["quake"]
     assert campaign.members(quake, "contact") == 40
-    said = [found.text for found in check(campaign).campaign.warnings if found.kind == "ensembles"]
+    said = [found.text for found in check(campaign).campaign.warnings if found.kind == "runs on contact"]
     assert len(said) == 1
-    assert "moves several bodies 40 times, over what is not known of 1 test." in said[0]
+    assert "moves the bodies of 1 test 40 times, over what is not known." in said[0]
     campaign = edited()
     assert campaign.members(quake, "contact") == 0
-    assert "ensembles" not in [found.kind for found in check(campaign).campaign.warnings]
+    assert "runs on contact" not in [found.kind for found in check(campaign).campaign.warnings]
 
 
 def test_one_body_is_not_repeated_on_contact_unless_asked(edited):

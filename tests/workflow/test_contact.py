@@ -11,11 +11,15 @@ from colonnade.dynamics.contact.body import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError
+from colonnade.stages.assessing.plan import AssessmentInputs
 from colonnade.stages.contact import law_of
 from colonnade.store import files
+from colonnade.store.records.assessment import sentences
 from colonnade.store.results import ResultId
 from colonnade.workflow.advising.next import advise_kind, of_interest
+from colonnade.workflow.assessing import Where, assess_campaign
 from colonnade.workflow.calibration import calibrate
+from colonnade.workflow.check import check
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import make_maps
 from colonnade.workflow.pooling import one_specimen
@@ -159,6 +163,72 @@ def test_no_question_about_a_block_is_answered_of_bodies_that_do_not_rock_as_one
     assert one_specimen(campaign, "prism") == "prism"
     assert of_interest(campaign) == ["prism", "two"]
     assert advise_kind(campaign, in_space.layout, "two", "free-vibration", {}) == []
+
+
+SITE = """
+[assemblies.two]
+stack = ["prism", "prism"]
+
+[assessments.site]
+specimen = "two"
+scale = 2
+records = "records"
+levels = ["0.2 m/s", "3 m/s"]
+displaced = "50 mm"
+measures = ["pga"]
+draws = 1
+resamples = 100
+"""
+
+
+def test_a_real_column_of_several_bodies_is_assessed_by_the_contact_model(in_space):
+    in_space.edit("\n[setups.frame.channels]", f"{SITE}\n[setups.frame.channels]")
+    in_space.edit(
+        'step = "30 us", penetration = 1e-6, damping_fraction = 0.3', "penetration = 1e-3, damping_fraction = 1"
+    )
+    (in_space.folder / "records").mkdir()
+    time = np.arange(0.0, 1.0, 0.01)
+    for frequency in (2.0, 2.5):
+        pulse = np.where(time < 1 / frequency, np.sin(2 * np.pi * frequency * time), 0.0)
+        rows = np.column_stack((time, pulse))
+        head = "time [s],acceleration [m/s^2]"
+        np.savetxt(in_space.folder / "records" / f"{frequency}.csv", rows, delimiter=",", header=head, comments="")
+    campaign = load(in_space.folder)
+    (said,) = check(campaign).assessments["site"].findings
+    assert "moves two 8 times" in said.text
+    [found] = assess_campaign(campaign, in_space.layout, (), Where(workers=1))
+    record = found.record
+    assert (record.displaced, record.restitution.value, record.friction) == (0.05, None, 0.6)
+    assert record.friction_range == pytest.approx((0.48, 0.72))
+    overturned = found.result["case_overturned"].to_numpy()[:, :, :, 0, 0]
+    assert overturned[:, 1].all()
+    plan = AssessmentInputs.of(campaign, campaign.assessments["site"]).several.enlarged(2.0, 0.05)
+    assert plan.assembly.height == pytest.approx(2 * campaign.specimens["two"].assembly(9.81).height)
+    motion = Motion(found.result["case_factor"].to_numpy()[0, 0, 0] * pulse_of(in_space, 2.0), 0.01)
+    of_the_first = [found.result[f"case_{name}"].to_numpy()[0, 0, 0, 0, 0] for name in ("outcome", "peak_ratio")]
+    assert plan.end(motion, 0.6)[:2] == tuple(of_the_first)
+    first, *_, last = sentences(record)
+    assert first.startswith("A body falls, or ends more than 50 mm from its place, with a probability of 5\xa0%")
+    assert "drums" not in last
+
+
+def pulse_of(in_space, frequency):
+    """Acceleration of one of its records."""
+    return np.loadtxt(in_space.folder / "records" / f"{frequency}.csv", delimiter=",", skiprows=1)[:, 1]
+
+
+def test_what_an_assessment_of_several_bodies_needs_is_said(in_space):
+    file, channels = in_space.folder / "campaign.toml", "\n[setups.frame.channels]"
+    plain = file.read_text(encoding="utf-8")
+    for old, new, words in (
+        ('levels = ["0.2 m/s", "3 m/s"]\n', "", "assessments.site.levels: It is missing"),
+        ('specimen = "two"\n', 'specimen = "prism"\n', "assessments.site.displaced: It is for several bodies"),
+        ("[assessments.site]", "[prototype.two]\nrestitution = 0.9\n\n[assessments.site]", "Leave this table out"),
+    ):
+        file.write_text(plain.replace(channels, f"{SITE.replace(old, new)}{channels}", 1), encoding="utf-8")
+        with pytest.raises(CampaignError) as refused:
+            load(in_space.folder)
+        assert words in str(refused.value)
 
 
 def test_limits_beside_those_of_the_contact_model_are_found_alike(in_space):

@@ -95,6 +95,8 @@ class Assessment(Table):
     """CSV file with annual rates of exceedance of the measure at the site."""
     overturned: fields.Number = setting(1.0, "of α", ge=0.05, le=1.0)
     """A largest rotation beyond this fraction of the critical angle counts as overturned."""
+    displaced: fields.Length | None = None
+    """Of several bodies, such as "20 mm": one that ends farther from its place counts as one that overturned."""
     model: Annotated[str, fields.OneOf(tuple(PLANE_MODELS))] = setting("nonlinear")
     """Model in the plane that is run."""
     draws: fields.Whole = setting(8, ge=1, le=1000)

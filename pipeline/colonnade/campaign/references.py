@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from colonnade.campaign.assembly import RESERVED, Whole
+from colonnade.campaign.assessment import Assessment
 from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.channel import MAIN, SURROUNDINGS
 from colonnade.campaign.setup import Setup
@@ -27,20 +28,10 @@ def dangling(campaign: CampaignFile) -> Iterator[Problem]:
         yield from unknown(("prototype", name), "specimen", name, campaign.specimens)
     for name, assessment in campaign.assessments.items():
         place = ("assessments", name, "specimen")
-        yield from unknown(place, "specimen", assessment.specimen, campaign.specimens)
-        if assessment.specimen in campaign.specimens and not campaign.specimens[assessment.specimen].is_in_plane:
-            yield (
-                place,
-                f"The bodies of {assessment.specimen} do not rock as one block. One block or a frame was expected; "
-                "`fragility` of the library is for several bodies.",
-            )
-        elif assessment.specimen in campaign.specimens and assessment.specimen not in campaign.prototype:
-            yield (
-                place,
-                f"[prototype.{assessment.specimen}] is missing. It says what is assumed of the real column; its "
-                '`restitution` at least was expected: a number, "rigid-body", or "identified" to take that of the '
-                "model.",
-            )
+        if assessment.specimen in campaign.specimens:
+            yield from _assessed(campaign, name, assessment)
+        else:
+            yield from unknown(place, "specimen", assessment.specimen, campaign.specimens)
     for index, test_id, earlier in clashes(test.id for test in campaign.tests):
         only = f'It differs from "{earlier}" only in upper and lower case'
         same = "This id is used twice" if test_id == earlier else only
@@ -53,6 +44,30 @@ def dangling(campaign: CampaignFile) -> Iterator[Problem]:
             for recorder in test.files:
                 yield from unknown(("tests", index, "file", recorder), "recorder", recorder, known, where)
     yield from _faces(campaign)
+
+
+def _assessed(campaign: CampaignFile, name: str, assessment: Assessment) -> Iterator[Problem]:
+    """Find what an assessment of one block needs, and one of several bodies."""
+    specimen, place = assessment.specimen, ("assessments", name)
+    if campaign.specimens[specimen].is_in_plane:
+        if specimen not in campaign.prototype:
+            yield (
+                (*place, "specimen"),
+                f"[prototype.{specimen}] is missing. It says what is assumed of the real column; its `restitution` at "
+                'least was expected: a number, "rigid-body", or "identified" to take that of the model.',
+            )
+        if assessment.displaced is not None:
+            yield (*place, "displaced"), f"It is for several bodies, and {specimen} rocks as one block. Leave it out."
+        return
+    if specimen in campaign.prototype:
+        yield (
+            ("prototype", specimen),
+            f"The bodies of {specimen} do not rock as one block, so that it has no e, α and p. Leave this table out; "
+            "friction and damping are those of [processing.predict.contact].",
+        )
+    if assessment.levels is None:
+        message = f"It is missing. A history of the bodies of {specimen} takes minutes, so that none is run to find it."
+        yield (*place, "levels"), message
 
 
 def _clashing(place: Place, names: Iterable[str], *, as_variables: bool = False) -> Iterator[Problem]:

@@ -277,7 +277,7 @@ def _drawn(assessed: Assessed, out: Path | None, data: Path | None) -> list[Path
 
 def _show_assessed(assessed: Assessed) -> None:
     from colonnade.report.assessments_page import symbol
-    from colonnade.store.records.assessment import NOT_COVERED, level, sentences
+    from colonnade.store.records.assessment import level, sentences
     from colonnade.units.text import format_percent, number
 
     record = assessed.record
@@ -292,7 +292,6 @@ def _show_assessed(assessed: Assessed) -> None:
         complain(f"note: {said}")
     if record.status == "failed":
         return
-    say(f"  {NOT_COVERED}")
     say()
     rows = [
         (

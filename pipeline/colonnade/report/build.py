@@ -25,7 +25,6 @@ from colonnade.report.specimens_page import SpecimenPage
 from colonnade.store.layout import Layout
 from colonnade.store.records import advice as advising
 from colonnade.store.records.advice import Advice
-from colonnade.store.records.assessment import NOT_COVERED
 from colonnade.store.records.stored import read_specimen
 from colonnade.store.records.summary import read_summary
 from colonnade.store.results import models_shown
@@ -77,7 +76,6 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
         "advice": {"heads": advising.HEADS, "rows": [each.row() for each in advice]},
         "assessments": assessed,
         "symbol": symbol,
-        "not_covered": NOT_COVERED,
         "not_computed": NOT_COMPUTED,
     }
     if campaign.assessments:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -72,7 +72,7 @@ def assessment(plan: Plan, outcomes: Mapping[str, Outcomes]) -> xr.Dataset:
         fragilities = {name: judged(name) for name in plan.studies}
     except ValueError as error:
         raise StageError(str(error)) from error
-    needed = friction_needed(plan.studies[ASSUMED].cases)
+    needed = None if plan.inputs.several else friction_needed(plan.studies[ASSUMED].cases)
     found = answer(plan, outcomes[ASSUMED], fragilities, _sliding(plan, outcomes[ASSUMED], needed))
     result = _dataset(plan, outcomes[ASSUMED], needed, fragilities[ASSUMED])
     return result.assign_attrs(
@@ -91,10 +91,10 @@ def _known(values: list[float | None]) -> Array | None:
     return None if np.isnan(found).all() else found
 
 
-def _sliding(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded) -> float | None:
-    """Share of the histories that need more friction than there is; None if none is given."""
+def _sliding(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded | None) -> float | None:
+    """Share of the histories that need more friction than there is; None if none is given, or bodies do slide."""
     cases = plan.studies[ASSUMED].cases
-    if cases.prototype.friction is None:
+    if cases.prototype.friction is None or needed is None:
         return None
     drawn = counted_draws(cases.shape[2])
     run = outcomes.is_run[:, :, drawn]
@@ -111,7 +111,7 @@ def _spectra(study: Study) -> Array:
     return found
 
 
-def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: Fragility) -> xr.Dataset:
+def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded | None, fragility: Fragility) -> xr.Dataset:
     import xarray as xr
 
     study = plan.studies[ASSUMED]
@@ -121,9 +121,11 @@ def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: 
     lognormal = fragility.lognormal.probability(over)
     isotonic = fragility.isotonic
     drawn = {f"drawn_{name}": (("record", "draw"), study.cases.drawn(name)) for name in UNCERTAIN}
-    disaggregated = {}
+    disaggregated: dict[str, Any] = {}
+    if needed is not None:
+        disaggregated = {"case_friction": (("record", "level", "sign", "component"), needed.largest)}
     if (rate := fragility.rate) is not None:
-        disaggregated = {"rate_edge": ("edge", rate.edges), "rate_share": ("part", rate.contributions)}
+        disaggregated |= {"rate_edge": ("edge", rate.edges), "rate_share": ("part", rate.contributions)}
     curves = {
         f"{kind}_probability{end}": (dimension, values)
         for kind, dimension, band in (
@@ -138,7 +140,6 @@ def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: 
             "case_overturned": (AXES, outcomes.exceeds(plan.inputs.asked.overturned).astype(np.int8)),
             "case_peak_ratio": (AXES, outcomes.peak_ratio),
             "case_factor": (("record", "level", "component"), study.cases.factors),
-            "case_friction": (("record", "level", "sign", "component"), needed.largest),
             "curve_intensity": ("curve", over),
             "stripe_intensity": ("stripe", isotonic.intensity),
             **curves,

@@ -125,7 +125,7 @@ def check(campaign: Campaign, progress: Callable[[int, int], None] = lambda done
     campaign = with_contradictions(campaign, {name: each.findings for name, each in found.items()})
     for name, each in found.items():
         each.concerning = campaign.concerning(name)
-    assessments = {name: _records_checked(asked) for name, asked in campaign.assessments.items()}
+    assessments = {name: _records_checked(campaign, asked) for name, asked in campaign.assessments.items()}
     return CampaignCheck(campaign, found, assessments)
 
 
@@ -135,12 +135,17 @@ def _overnight(campaign: Campaign) -> list[Finding]:
     runs = sum(campaign.members(test, CONTACT.name) for test in tests)
     if not runs:
         return []
+    first = "For a first look without them, write `members = 0` under [processing.predict.ensemble.contact]."
+    return [_on_contact(f"the bodies of {count(len(tests), 'test')}", runs, first)]
+
+
+def _on_contact(what: str, runs: int, remedy: str = "Fewer `levels` and `draws` take less.") -> Finding:
+    """Say how often bodies are moved by the contact model, and that it takes hours."""
     said = (
-        f"The contact model moves several bodies {runs} times, over what is not known of {count(len(tests), 'test')}. "
-        "Four drums over 20 s take about two minutes of one core each time; the runs are spread over all cores. For a "
-        "first look without them, write `members = 0` under [processing.predict.ensemble.contact]."
+        f"The contact model moves {what} {count(runs, 'time')}, over what is not known. Four drums over 20 s take "
+        f"about two minutes of one core each time; the runs are spread over all cores. {remedy}"
     )
-    return [note("ensembles", said)]
+    return note("runs on contact", said)
 
 
 def _checked(campaign: Campaign, test: Test, reading: Reading) -> Checked:
@@ -160,7 +165,7 @@ def _checked(campaign: Campaign, test: Test, reading: Reading) -> Checked:
     return checked
 
 
-def _records_checked(asked: Assessment) -> Checked:
+def _records_checked(campaign: Campaign, asked: Assessment) -> Checked:
     """Read the ground motions and the hazard of an assessment; no history is run."""
     from colonnade.assessment.outcomes import FEWEST
     from colonnade.readers.ground_motions.hazard import read_hazard_of
@@ -182,6 +187,10 @@ def _records_checked(asked: Assessment) -> Checked:
         )
         checked.findings += at_stage((warning("ground motion", each) for each in said), "assessment")
         checked.findings += at_stage((note("ground motion", each) for each in records.notes), "assessment")
+        if not campaign.specimens[asked.specimen].is_in_plane:
+            motions = sum(2 - (each.motion.transverse is None) for each in records.records)
+            runs = motions * len(asked.levels or ()) * (1 + asked.draws)
+            checked.findings += at_stage([_on_contact(asked.specimen, runs)], "assessment")
     if asked.hazard is not None:
         try:
             read_hazard_of(asked.hazard, asked.measure)

@@ -87,7 +87,7 @@ def one_specimen(campaign: Campaign, name: str | None) -> str:
     if not campaign.specimens[chosen].is_in_plane:
         raise CampaignError(
             f"{chosen}: its bodies do not rock as one block, which the models in the plane move. "
-            "`colonnade map --model contact`, and `fragility` of the library, are for several bodies."
+            "For several bodies: `colonnade map --model contact`, or [assessments.<name>] in the campaign file."
         )
     return chosen
 

@@ -141,9 +141,11 @@ class AssessmentSummary(Record):
     baseline: str = "none"
     """Correction of the records."""
     restitution: Estimate = Estimate()
-    """e that was assumed, with the limits between which it was drawn."""
+    """e that was assumed, with the limits between which it was drawn; null of several bodies on contact."""
     restitution_source: str | None = None
     """Where that e comes from: given, identified or rigid-body."""
+    displaced: Known = None
+    """Of several bodies: how far from its place, m, one may end; one that ends farther counts as overturned."""
     uplift_acceleration: Known = None
     """Horizontal acceleration at which the column starts to rock, m/s², without vertical motion."""
     uplift: Estimate = Estimate()

@@ -109,13 +109,17 @@ def answer(
 def _assumed(plan: Plan, column: Prototype) -> dict[str, Any]:
     """Give what was assumed of the column."""
     low, high = column.restitution_range or (None, None)
+    one = plan.inputs.several is None
     return {
         "critical_angle": column.block.critical_angle,
         "critical_angle_range": column.critical_angle_range,
         "p": column.block.p,
         "p_range": column.p_range,
-        "restitution": Estimate(value=float(np.mean(pair(column.restitution))), low=low, high=high),
-        "restitution_source": plan.restitution_source,
+        "restitution": Estimate(value=float(np.mean(pair(column.restitution))), low=low, high=high)
+        if one
+        else Estimate(),
+        "restitution_source": plan.restitution_source if one else None,
+        "displaced": plan.inputs.asked.displaced,
         "friction": column.friction,
         "friction_range": column.friction_range,
         "uplift_acceleration": column.block.uplift_acceleration,

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
 
+from colonnade.assessment.cases import OnContact
 from colonnade.assessment.ground import NONE
 from colonnade.assessment.hazard import Hazard
 from colonnade.assessment.outcomes import FEWEST
@@ -16,14 +19,17 @@ from colonnade.assessment.prototype import Prototype
 from colonnade.assessment.study import Study, plan_study
 from colonnade.campaign import Campaign
 from colonnade.campaign import assessment as written
+from colonnade.campaign.assembly import Whole
 from colonnade.campaign.assessment import Assessment
 from colonnade.campaign.forms.assessed import UNCORRECTED
-from colonnade.campaign.settings import PlaneEnsembleSettings
-from colonnade.dynamics.block import Block, Sided, pair
+from colonnade.campaign.settings import ContactSettings, PlaneEnsembleSettings
+from colonnade.dynamics.assembly import Assembly, Placed
+from colonnade.dynamics.block import Block, Side, Sided, pair
 from colonnade.dynamics.size import at_prototype
 from colonnade.dynamics.uncertainty import member_block
 from colonnade.errors import StageError, count
 from colonnade.readers.ground_motions.record_set import RecordSet
+from colonnade.stages.contact import assembly_law
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.specimen import restitution_spread
 
@@ -85,17 +91,21 @@ def real_column(inputs: ColumnInputs, pooled: xr.Dataset) -> tuple[Prototype, st
 
 def _enlarged(block: Block, scale: float) -> Block:
     """Enlarge a model of the same material; angles stay, lengths, mass and inertia grow."""
-    sides = block.sides
-    return Block.measured(
-        mass=at_prototype("mass", block.mass, scale),
-        pole_distance=(
-            at_prototype("length", sides[0].pole_distance, scale),
-            at_prototype("length", sides[1].pole_distance, scale),
-        ),
-        critical_angle=(sides[0].critical_angle, sides[1].critical_angle),
-        inertia=(at_prototype("inertia", sides[0].inertia, scale), at_prototype("inertia", sides[1].inertia, scale)),
-        gravity=block.gravity,
+    length, inertia = (partial(at_prototype, quantity, scale=scale) for quantity in ("length", "inertia"))
+    negative, positive = (
+        Side(each.critical_angle, length(value=each.pole_distance), inertia(value=each.inertia))
+        for each in (block.negative, block.positive)
     )
+    solid = block.solid and replace(
+        block.solid,
+        half_depth=length(value=block.solid.half_depth),
+        height=length(value=block.solid.height),
+        top=(length(value=block.solid.top[0]), length(value=block.solid.top[1])),
+        inertia_x=inertia(value=block.solid.inertia_x),
+        inertia_z=inertia(value=block.solid.inertia_z),
+    )
+    mass = at_prototype("mass", block.mass, scale)
+    return replace(block, mass=mass, negative=negative, positive=positive, solid=solid)
 
 
 def _restitution(inputs: ColumnInputs, block: Block, pooled: xr.Dataset) -> tuple[Sided, tuple[float, float], str]:
@@ -123,20 +133,47 @@ ASSUMED = "as assumed"
 """The columns and records of the answer."""
 
 
+class SeveralInputs(Inputs):
+    """What is read about bodies that do not rock as one block: where they stand, as tested, and their contact."""
+
+    assembly: Assembly
+    contact: ContactSettings
+
+    def enlarged(self, scale: float, displaced: float | None) -> OnContact:
+        """Return the real bodies; one that ends farther than `displaced`, m, from its place has overturned."""
+        bodies = {
+            name: Placed(_enlarged(body.block, scale), body.on, (scale * body.position[0], scale * body.position[1]))
+            for name, body in self.assembly.bodies.items()
+        }
+        return OnContact(Assembly(bodies), assembly_law(self.contact), inf if displaced is None else displaced)
+
+
 class AssessmentInputs(ColumnInputs):
     """What an assessment reads of the campaign."""
 
     specimen: str
     asked: Assessment
+    several: SeveralInputs | None = None
 
     @classmethod
     def of(cls, campaign: Campaign, asked: Assessment) -> AssessmentInputs:
         """Gather what an assessment reads; of its files the names: their content enters the key by itself."""
-        specimen = campaign.specimens[asked.specimen]
+        specimen, several = campaign.specimens[asked.specimen], None
+        if isinstance(specimen, Whole) and not specimen.is_in_plane:
+            predict = campaign.processing.predict
+            several = SeveralInputs(assembly=specimen.assembly(campaign.gravity), contact=predict.contact)
+            friction, share = predict.contact.friction, predict.ensemble.contact.friction
+            limits = friction * (1.0 - share), friction * (1.0 + share)
+            prototype = written.Prototype.model_construct(
+                restitution="rigid-body", friction=friction, friction_range=limits
+            )
+        else:
+            prototype = campaign.prototype[asked.specimen]
         return cls(
             block=specimen.block(campaign.gravity),
             scale=asked.scale or specimen.scale or 1.0,
-            prototype=campaign.prototype[asked.specimen],
+            prototype=prototype,
+            several=several,
             specimen=asked.specimen,
             asked=asked.model_copy(
                 update={"records": Path(asked.records.name), "hazard": asked.hazard and Path(asked.hazard.name)}
@@ -201,6 +238,8 @@ def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | Non
         )
     motions = {each.name: each.motion for each in records.records}
 
+    several = None if inputs.several is None else inputs.several.enlarged(inputs.scale, asked.displaced)
+
     def planned(baseline: str) -> Study:
         return plan_study(
             column,
@@ -213,6 +252,7 @@ def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | Non
             drift=asked.drift,
             baseline=baseline,
             seed=asked.seed,
+            several=several,
         )
 
     try:
@@ -220,9 +260,11 @@ def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | Non
     except ValueError as error:
         raise StageError(str(error)) from error
     _expect_enough(study)
-    studies = {ASSUMED: study} | {name: study.of(other) for name, other in _variants(column).items()}
+    # The contact model has no e to vary, and takes minutes for each history.
+    variants = _variants(column) if inputs.several is None else {}
+    studies = {ASSUMED: study} | {name: study.of(other) for name, other in variants.items()}
     why = ""
-    if asked.baseline != NONE:
+    if asked.baseline != NONE and inputs.several is None:
         # Records that are corrected because they drift may have no answer as they are.
         try:
             plain = planned(NONE)

@@ -6,9 +6,9 @@ from colonnade.assessment.measures import measure_of
 from colonnade.campaign.forms.assessed import UNCORRECTED, AssessmentSummary, Estimate, Variant
 from colonnade.units.text import NOTHING, PERCENT, number, percent, quantity, with_minus
 
+ONE_BLOCK = "columns of several drums, a plinth or a capital that moves by itself, "
 NOT_COVERED = (
-    "Not covered: columns of several drums, a plinth or a capital that moves by itself, anchorage, rocking in two "
-    "directions at once, and whether the records are those that the site has to expect."
+    "anchorage, rocking in two directions at once, and whether the records are those that the site has to expect."
 )
 
 SOURCES = {
@@ -82,8 +82,14 @@ def sentences(record: AssessmentSummary) -> list[str]:
         *_resurrected(record),
         *_rate(record),
         _assumed(record),
+        f"Not covered: {'' if _has_several(record) else ONE_BLOCK}{NOT_COVERED}",
     ]
     return found
+
+
+def _has_several(record: AssessmentSummary) -> bool:
+    """Whether it is about bodies that do not rock as one block, and so have no e."""
+    return record.restitution.value is None
 
 
 def _rocks(record: AssessmentSummary) -> str:
@@ -108,7 +114,10 @@ def _overturns(record: AssessmentSummary) -> str:
             said.append(f"{share}{PERCENT} nowhere within the levels")
     interval = any(each.low or each.high for each in (record.five_percent, record.fifty_percent))
     brackets = f" In brackets: 95{PERCENT} over the records." if interval else ""
-    return f"It overturns with a probability of {', and of '.join(said)}.{brackets}"
+    overturns = "A body falls" if _has_several(record) else "It overturns"
+    if record.displaced is not None:
+        overturns += f", or ends more than {quantity(record.displaced, 'mm')} from its place,"
+    return f"{overturns} with a probability of {', and of '.join(said)}.{brackets}"
 
 
 def _restitution_matters(record: AssessmentSummary) -> list[str]:
@@ -145,7 +154,8 @@ def _parts(record: AssessmentSummary) -> list[str]:
     records, parameters = record.dispersion_records, record.dispersion_parameters
     if record.dispersion.value is None or records is None or parameters is None:
         return []
-    more = "records matter more than e, α and p" if records > parameters else "e, α and p matter more than the records"
+    inputs = "frictions" if _has_several(record) else "e, α and p"
+    more = f"records matter more than {inputs}" if records > parameters else f"{inputs} matter more than the records"
     return [
         f"β is {number(record.dispersion.value, 2)}. From record to record it is {number(records, 2)}, within a record "
         f"{number(parameters, 2)}: the {more}. They need not add up to β: a column that overturns at one level may "
@@ -177,9 +187,12 @@ def _assumed(record: AssessmentSummary) -> str:
     limits = None if e.low is None or e.high is None else (e.low, e.high)
     source = SOURCES[record.restitution_source or "given"]
     sliding = "sliding is not judged"
-    if record.friction is not None:
-        sliding = f"that it does not slide on friction {_within(number(record.friction), record.friction_range)}"
+    friction = "" if record.friction is None else f"friction {_within(number(record.friction), record.friction_range)}"
+    if friction:
+        sliding = f"that it does not slide on {friction}"
     records = "as they are" if record.baseline == "none" else f"after a correction ({record.baseline})"
+    if _has_several(record):
+        return f"Assumed: {friction} in all joints, by the contact model. The records are scaled {records}."
     return (
         f"Assumed: α {_within(quantity(record.critical_angle, 'rad'), record.critical_angle_range)}, "
         f"p {_within(quantity(record.p, 'rad/s'), record.p_range)}, e {_within(number(e.value), limits, source)}; "
