@@ -17,7 +17,9 @@ MOST_SAMPLES = 1000
 
 def cramer_rao_error(draw: Draw) -> float:
     """
-    Smallest standard error of the mean e; unknown are e of each impact, release, zero, drift, α, p and gain.
+    Smallest standard error of the mean e.
+
+    Unknown are e of each impact or its change with the speed, release, zero, drift, α, p and gain.
 
     Notes
     -----
@@ -58,6 +60,10 @@ def cramer_rao_error(draw: Draw) -> float:
     if draw.width:
         columns += [change(1.0, alpha=1), change(1.0, p=1), rocking.angle(time)]
         prior += [draw.width**-2] * 3
+    if rocking.by_speed:
+        course = rocking.course()[1]
+        columns.append(impacts.T @ (course - course.mean()))
+        prior.append(0.0)
     if draw.scatter:
         columns += list(impacts)
         # ln e scatters by so much.

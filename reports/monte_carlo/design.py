@@ -107,6 +107,10 @@ class Draw:
         Share of the sampling interval between the clock's zero and the record's.
     seed : tuple of int
         Of the noise.
+    truth : float
+        e, or its mean.
+    chance : ndarray, shape (m,)
+        What chance adds to e at each impact.
     """
 
     block: Block
@@ -122,6 +126,7 @@ class Draw:
     phase: float
     seed: tuple[int, ...]
     truth: float
+    chance: Array
 
     @property
     def cutoff(self) -> float | None:
@@ -194,8 +199,8 @@ def draw(kind: Kind, seed: int, number: int) -> Draw:
     # As many impacts as leave peaks that can be seen.
     lost = np.log(LOWEST * (2 - LOWEST) / (value["release"] * (2 - value["release"])))
     impacts = max(min(int(value["impacts"]), int(lost / (2 * np.log(value["restitution"])))), 6)
-    e = value["restitution"] + kind.scatter * random.normal(size=impacts)
-    e = np.minimum(e, 0.9995)
+    e = np.minimum(value["restitution"] + kind.scatter * random.normal(size=impacts), 0.9995)
+    chance = e - value["restitution"]
     hold = float(random.integers(2) * random.uniform(0.1, LONGEST_HOLD))
     rocking = FreeRocking(alpha, p, e, release, hold)
     while not rocking.course()[2].min() > 1e-3 * np.sin(min(alpha) / 2) ** 2:
@@ -210,5 +215,5 @@ def draw(kind: Kind, seed: int, number: int) -> Draw:
         block, errors, kind.error, kind.scatter, rocking, value["noise"], value["offset"], value["rate"],
         kind.fixed.get("pink", PINK if number % 3 == 0 else 0.0),
         kind.fixed.get("filtered", bool(random.integers(2))),
-        float(random.random()), (seed, number), truth,
+        float(random.random()), (seed, number), truth, chance,
     )  # fmt: skip

@@ -33,7 +33,7 @@ class FreeRocking:
         e of each impact, before its speed counts; the record ends before a further one.
     release_angle, release_time : float
     by_speed : float
-        Change of e from an impact at rest to one with p α.
+        Change of e from an impact at rest to one with p α, the mean of both sides.
     """
 
     critical_angle: tuple[float, float]
@@ -60,10 +60,11 @@ class FreeRocking:
         top = np.sin(self.critical_angle[side] / 2) ** 2
         fallen = top - np.sin((self.critical_angle[side] - abs(self.release_angle)) / 2) ** 2
         impacts, used, turning = [], [], [top - fallen]
+        unit = float(np.mean(np.multiply(self.p, self.critical_angle)))
         for number, e in enumerate(self.restitution):
             time += (1 if number == 0 else 2) * self._half(side, fallen)
             speed = 2 * self.p[side] * np.sqrt(fallen)
-            e -= self.by_speed * speed / (self.p[side] * self.critical_angle[side])
+            e -= self.by_speed * speed / unit
             impacts.append(time)
             used.append(e)
             side = 1 - side

@@ -25,6 +25,7 @@ from colonnade.identification.restitution.path import (
     FIRST_ARCS,
     FIXED,
     GAIN,
+    LIKELY_SCATTER,
     MEAN,
     ZERO,
     Path,
@@ -46,7 +47,11 @@ FEWEST_ARCS = 4
 LEAST_NOISE = 1e-6
 """Of α, standard deviation: less is the rounding of computed records."""
 
-FIRST_SCATTER = 1e-3
+MISFIT = 4.0
+"""Times as much residual power with the impacts, rounded by a low-pass, from which the record did not go through it."""
+
+MOST_LAID = 4
+"""Times that a path is laid with the scatter, and the trend, that the last one shows."""
 
 ODD_RELEASE = 2.0
 """Times as much residual power after the release as later, from which the block was not released from rest."""
@@ -119,7 +124,11 @@ class Estimated:
     @cached_property
     def answer(self) -> Solved:
         """What the record says of the mean e; of that at the mean speed, if e surely changes with the speed."""
-        return self.model.with_direction(self.speeds).solved() if self.has_trend else self.solved
+        if not self.has_trend:
+            return self.solved
+        # It is not quite linear: e over the speed and ln e over it cannot both be.
+        bent = self.speeds**2 - (self.speeds**2).mean()
+        return self.model.with_direction(bent, 4 / self.trend[0] ** 4).with_direction(self.speeds).solved()
 
     @property
     def logarithm(self) -> float:
@@ -245,7 +254,7 @@ def _least(path: Path) -> float:
 def _estimated(path: Path, priors: Priors, lowpass: float | None) -> Estimated:
     if path.count < FEWEST_ARCS:
         raise UnfollowedError(f"{FEWEST_ARCS} arcs are needed, and {path.count} could be followed")
-    samples, scatter = path.samples, FIRST_SCATTER
+    samples, scatter = path.samples, LIKELY_SCATTER
     spectrum = None
     if samples.interval is None or samples.step is None:
         path = replace(path, passed=filter_of(None, 1.0, 1))
@@ -253,14 +262,18 @@ def _estimated(path: Path, priors: Priors, lowpass: float | None) -> Estimated:
         if lowpass is None:
             path = laid(path, priors, scatter)
             lowpass = find_cutoff(path.residual, samples.interval, samples.step)
+            rounded = replace(path, passed=filter_of(lowpass, samples.step, samples.group))
+            if lowpass is not None and rounded.power > MISFIT * path.power:
+                lowpass = None
         if lowpass is not None and lowpass * samples.interval > FINEST_CUTOFF:
             lowpass = None
         path = replace(path, passed=filter_of(lowpass, samples.step, samples.group))
         spectrum = Spectrum(0.0, lowpass, samples.interval, samples.step)
-    for _ in range(3):
-        path = laid(path, priors, scatter)
+    trend = None
+    for _ in range(MOST_LAID):
+        path = laid(path, priors, scatter, trend)
         found = _linear(path, priors, spectrum)
-        now = max(found.solved.scatter, 1e-6)
+        now, trend = max(found.answer.scatter, 1e-6), found.speeds if found.has_trend else None
         if abs(now - scatter) < 0.1 * scatter:
             break
         scatter = now

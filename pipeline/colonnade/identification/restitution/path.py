@@ -223,9 +223,10 @@ class Priors:
             return np.append(np.where(self.widths > 0, self.widths, 1.0) ** -2.0, np.full(count - 1, scatter**-2.0))
 
 
-def laid(path: Path, priors: Priors, scatter: float) -> Path:
+def laid(path: Path, priors: Priors, scatter: float, free: Array | None = None) -> Path:
     """
-    Move a path to where it is closest to the record, with departures of ln e that a scatter allows.
+    Move a path to where it is closest to the record, with departures of ln e that a scatter allows, and any along
+    `free`, shape (m − 1,).
 
     Raises
     ------
@@ -236,7 +237,9 @@ def laid(path: Path, priors: Priors, scatter: float) -> Path:
     -----
     Least squares by Gauss and Newton, with (value / width)² of each unknown added; noise as the residuals show.
     """
-    moved, precision = priors.moved(path.count), priors.precision(path.count, scatter)
+    moved, precision = priors.moved(path.count), np.diag(priors.precision(path.count, scatter))
+    if free is not None:
+        precision[FIXED:, FIXED:] -= np.outer(free, free) / (free @ free * scatter**2)
     power = path.power
     here = _objective(path, precision, power)
     if not np.isfinite(here):
@@ -263,13 +266,13 @@ def _objective(path: Path, precision: Array, power: float) -> float:
     counted = path.residual[path.counted]
     if not counted.size > path.values.size:
         return np.inf
-    return float(counted @ counted / power + (path.values**2 * precision).sum())
+    return float(counted @ counted / power + path.values @ precision @ path.values)
 
 
 def _step(path: Path, moved: Mask, precision: Array, power: float) -> tuple[Array, float]:
     products, gradient = path.products
-    matrix = products[np.ix_(moved, moved)] / power + np.diag(precision[moved])
-    right = (gradient / power - precision * path.values)[moved]
+    matrix = products[np.ix_(moved, moved)] / power + precision[np.ix_(moved, moved)]
+    right = (gradient / power - precision @ path.values)[moved]
     scale = np.sqrt(np.diag(matrix))
     if not (np.isfinite(scale).all() and (scale > 0).all()):
         raise UnfollowedError("an unknown has no effect")

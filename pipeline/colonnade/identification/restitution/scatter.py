@@ -61,15 +61,15 @@ class LinearModel:
         level = max(float(left) / max(samples - unknowns - impacts, 1.0), least)
         return cls(products, precision, known, level)
 
-    def with_direction(self, direction: Array) -> LinearModel:
-        """Return the model with one more unknown, the last of b: Z times a direction, shape (m,)."""
+    def with_direction(self, direction: Array, precision: float = 0.0) -> LinearModel:
+        """Return the model with one more unknown, the last of b: Z times a direction, shape (m,); 1 / its variance."""
         k = self.precision.size
         turn = np.eye(self.products.shape[0])
         added = np.zeros(turn.shape[0])
         added[1 + k :] = direction
         turn = np.insert(turn, 1 + k, added, axis=1)
         return LinearModel(
-            turn.T @ self.products @ turn, np.append(self.precision, 0.0), np.append(self.known, 0.0), self.level
+            turn.T @ self.products @ turn, np.append(self.precision, precision), np.append(self.known, 0.0), self.level
         )
 
     def solved(self) -> Solved:
