@@ -18,8 +18,7 @@ from colonnade.dynamics.spectra import DAMPING, response_spectrum
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import draw_limit, largest_of, scale_symmetric, time_limits
 from colonnade.figures.panels.curve import Curve, draw_curve
-from colonnade.figures.panels.layout import BOTTOM, TOP, legend_above, margins
-from colonnade.figures.panels.lean import add_panel
+from colonnade.figures.panels.layout import BOTTOM, TOP, add_panel, legend_above, margins
 from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, LineStyle, is_narrow, styled, width
 from colonnade.signals.named_motion import Laid, Series, laid_on
 from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load, reference_files

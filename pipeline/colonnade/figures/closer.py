@@ -17,8 +17,7 @@ from colonnade.dynamics.block import Block
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import ANGLE_LABEL, LARGEST_RATIO, scale_symmetric
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.panels.layout import BOTTOM, TOP, legend_above, margins
-from colonnade.figures.panels.lean import add_panel
+from colonnade.figures.panels.layout import BOTTOM, TOP, add_panel, legend_above, margins
 from colonnade.figures.stored.record import measured_ratio, predicted_ratios
 from colonnade.figures.style import LIMIT, MEASURED, SOFT, LineStyle, is_narrow, model_style, styled, width
 from colonnade.store.records.stored import Stored

@@ -7,10 +7,9 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple, TypedDict
+from typing import Any, TypedDict
 
 import matplotlib
-from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from colonnade.dynamics.models import model_of
@@ -122,41 +121,6 @@ def _settings() -> Any:
         matplotlib.rc_file(STYLE_FILE, use_default_template=False)
         settings = matplotlib.rcParams.copy()
     return {name: settings[name] for name in settings if name != "backend"}
-
-
-class ScaleStyle(NamedTuple):
-    """How a scale looks: colours; widths, sizes and distances in points."""
-
-    grid_color: str
-    grid_width: float
-    color: str
-    tick_width: float
-    tick_size: float
-    pad: float
-    label_color: str
-    label_size: float
-    label_pad: float
-
-
-def scale_style() -> ScaleStyle:
-    """Return how the scales of panels look that are made now, from the style sheet."""
-    return _scale_style(narrow=is_narrow())
-
-
-@cache
-def _scale_style(*, narrow: bool) -> ScaleStyle:
-    settings = _settings() | (SMALL_TEXT if narrow else {})
-    return ScaleStyle(
-        to_hex(settings["grid.color"]),
-        float(settings["grid.linewidth"]),
-        to_hex(settings["ytick.color"]),
-        float(settings["ytick.major.width"]),
-        float(settings["ytick.major.size"]),
-        float(settings["ytick.major.pad"]),
-        to_hex(settings["ytick.labelcolor"]),
-        float(settings["ytick.labelsize"]),
-        float(settings["axes.labelpad"]),
-    )
 
 
 def blank_figure(height: float) -> Figure:

@@ -1,6 +1,4 @@
-"""Panels: stacked or side by side, with lean axes, curves thinned to what can be seen and long ones whole."""
-
-import re
+"""Panels: stacked or side by side, curves thinned to what can be seen and long ones whole."""
 
 import numpy as np
 import pytest
@@ -9,16 +7,13 @@ from matplotlib.figure import Figure
 from colonnade.figures import Curve, envelope
 from colonnade.figures.files.output import to_png, to_svg
 from colonnade.figures.panels.curve import between, draw_band, draw_curve
-from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side, stacked_panels
-from colonnade.figures.panels.lean import LeanAxes, add_panel
-from colonnade.figures.style import styled
+from colonnade.figures.panels.layout import COLUMNS, add_panel, legend_above, side_by_side, stacked_panels
 
 
 def test_stacked_panels_share_their_time_and_only_the_lowest_has_its_numbers():
     figure, axes = stacked_panels([2.0, 0.8, 0.8])
     axes[0].set_xlim(0, 7)
     assert [one.get_xlim() for one in axes] == [(0, 7)] * 3
-    assert [one.xaxis.get_visible() for one in axes] == [False, False, True]
     heights = [one.get_position().height * figure.get_size_inches()[1] for one in axes]
     assert heights == pytest.approx([2.0, 0.8, 0.8])
 
@@ -51,77 +46,14 @@ def test_without_a_name_there_is_no_legend():
     assert figure.legends == []
 
 
-def test_an_upper_panel_borrows_the_upright_grid_of_the_lowest_one():
+def test_an_upper_panel_has_the_upright_grid_of_the_lowest_one_without_its_numbers():
     figure, (upper, lower) = stacked_panels([1.0, 1.0])
     lower.set_xlim(0, 7)
-    [grid] = upper.artists
-    assert grid.lines().tolist() == [0, 1, 2, 3, 4, 5, 6, 7]
-    drawn = to_svg(figure, identity="panels", title="", description="")
-    assert any(path.count("M") == 8 for path in re.findall(r'd="([^"]*)"', drawn))
-    assert not upper.xaxis.get_visible()
-
-
-WRITTEN = re.compile(r"<text[^>]*?(?:x=\"([-\d.]+)\" y=\"([-\d.]+)\"|translate\(([-\d.]+) ([-\d.]+)\))[^>]*>([^<]*)")
-
-
-def drawn(lean, shape):
-    """Where each text of a figure is, points."""
-    with styled():
-        figure = Figure(figsize=(4.0, 3.0))
-        panel = add_panel(figure, 1.0, 0.5, 2.5, 2.0) if lean else figure.add_axes((1 / 4, 0.5 / 3, 2.5 / 4, 2 / 3))
-        shape(panel)
-        text = to_svg(figure, identity="one", title="", description="")
-    return {said: (float(a or c), float(b or d)) for a, b, c, d, said in WRITTEN.findall(text)}
-
-
-def linear(panel):
-    panel.set_xlim(0.0, 7.3)
-    panel.set_ylim(-0.52, 0.47)
-
-
-def logarithmic(panel):
-    panel.set_xscale("log")
-    panel.set_xlim(0.02, 30)
-    panel.set_ylim(0.0, 3.0)
-
-
-def tiny(panel):
-    panel.set_xlim(0, 1)
-    panel.set_ylim(-3e-7, 5e-7)
-
-
-@pytest.mark.parametrize("shape", [linear, tiny], ids=["linear", "with a power of ten"])
-def test_the_same_numbers_are_at_the_same_places(shape):
-    lean, usual = drawn(True, shape), drawn(False, shape)
-    assert lean.keys() == usual.keys()
-    assert len(lean) > 8
-    for said, place in lean.items():
-        assert place == pytest.approx(usual[said], abs=3.0), said
-
-
-def test_no_tick_is_made_for_drawing():
-    with styled():
-        figure = Figure()
-        panel = add_panel(figure, 1.0, 0.5, 2.5, 2.0)
-        panel.plot([0, 1], [0, 1])
-        to_svg(figure, identity="one", title="", description="")
-    assert isinstance(panel, LeanAxes)
-    assert (panel.xaxis.majorTicks, panel.yaxis.majorTicks) == ([], [])
-
-
-def test_ticks_beyond_the_view_are_not_drawn():
-    with styled():
-        panel = add_panel(Figure(), 1.0, 0.5, 2.5, 2.0)
-        logarithmic(panel)
-        assert panel.xaxis.shown_ticks() == pytest.approx([0.1, 1.0, 10.0])
-
-
-def test_labels_that_are_turned_off_are_not_drawn():
-    def unlabelled(panel):
-        linear(panel)
-        panel.tick_params(labelleft=False)
-
-    assert drawn(True, unlabelled).keys() == drawn(True, linear).keys() - {"−0.4", "−0.2", "0.0", "0.2", "0.4"}
+    to_svg(figure, identity="panels", title="", description="")
+    for panel, is_labelled in ((upper, False), (lower, True)):
+        assert panel.get_xticks().tolist() == [0, 1, 2, 3, 4, 5, 6, 7]
+        assert all(tick.gridline.get_visible() for tick in panel.xaxis.get_major_ticks())
+        assert all(tick.label1.get_visible() is is_labelled for tick in panel.xaxis.get_major_ticks())
 
 
 def test_a_panel_is_where_it_was_asked_for():

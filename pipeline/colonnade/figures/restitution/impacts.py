@@ -12,8 +12,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array
-from colonnade.figures.panels.layout import BOTTOM, GAP, TOP, legend_above, margins
-from colonnade.figures.panels.lean import add_panel
+from colonnade.figures.panels.layout import BOTTOM, GAP, TOP, add_panel, legend_above, margins
 from colonnade.figures.restitution.peaks import draw_marks
 from colonnade.figures.style import FIT, INK, LIMIT, is_narrow, styled, width
 
