@@ -8,6 +8,7 @@ from colonnade.figures import Curve, envelope
 from colonnade.figures.files.output import to_png, to_svg
 from colonnade.figures.panels.curve import between, draw_band, draw_curve
 from colonnade.figures.panels.layout import COLUMNS, add_panel, legend_above, side_by_side, stacked_panels
+from colonnade.figures.style import styled
 
 
 def test_stacked_panels_share_their_time_and_only_the_lowest_has_its_numbers():
@@ -47,7 +48,8 @@ def test_without_a_name_there_is_no_legend():
 
 
 def test_an_upper_panel_has_the_upright_grid_of_the_lowest_one_without_its_numbers():
-    figure, (upper, lower) = stacked_panels([1.0, 1.0])
+    with styled():
+        figure, (upper, lower) = stacked_panels([1.0, 1.0])
     lower.set_xlim(0, 7)
     to_svg(figure, identity="panels", title="", description="")
     for panel, is_labelled in ((upper, False), (lower, True)):
