@@ -276,11 +276,11 @@ def unequal_sides(tilt: float, error: float, critical: float) -> Departure | Non
 
 
 def scatters(found: Estimated) -> bool:
-    """Whether e of single impacts scatters more than impacts alone explain."""
+    """Whether e of single impacts scatters more than impacts alone explain, beyond any change with their speed."""
     if found.path.count <= FEWEST_IMPACTS:
         return False
     large = np.exp(found.logarithm) * SCATTERS > LARGEST_SCATTER
-    return bool(found.solved.weights[large].sum() > SURELY)
+    return bool(found.answer.weights[large].sum() > SURELY)
 
 
 def find_turned(turned: Estimated | None, *others: Estimated | None) -> list[Departure]:
@@ -309,9 +309,8 @@ def found_by_impact(found: Estimated, *, driven: bool) -> Departure | None:
         return None
     mean = float(np.exp(found.logarithm))
     change, error = (mean * each for each in found.trend)
-    is_trend = found.has_trend and abs(change) > LEAST_CHANGE
-    scatter = mean * found.solved.scatter
-    if scatters(found) and not (is_trend and scatter < abs(change)):
+    scatter = mean * found.answer.scatter
+    if scatters(found):
         cause = (
             "the recorded motion of the table does not explain it. Check the gain, sign and clock of its accelerometer."
             if driven
@@ -320,11 +319,11 @@ def found_by_impact(found: Estimated, *, driven: bool) -> Departure | None:
         )
         return Departure(
             MOVING, scatter, scatter / (2 * e.size) ** 0.5, "1",
-            f"e of single impacts scatters by {scatter:.3f}, from {e.min():.3f} to {e.max():.3f}; up to "
+            f"e of single impacts scatters by {scatter:.3g}, from {e.min():.3f} to {e.max():.3f}; up to "
             f"{LARGEST_SCATTER:g} was expected of impacts alone: {cause}",
             refuses=True,
         )  # fmt: skip
-    if not is_trend:
+    if not found.has_trend or abs(change) <= LEAST_CHANGE:
         return None
     return Departure(
         "speed-dependent restitution", change, error, "1",

@@ -329,7 +329,7 @@ def _joint_of_peaks(chosen: Estimate, uncertainty: Uncertainty) -> Joint | None:
 
 def _constancy(found: Estimated) -> Constancy:
     """Change of e with the speed of impact, and its scatter."""
-    e, scatter = exp(found.logarithm), exp(found.logarithm) * found.solved.scatter
+    e, scatter = exp(found.logarithm), exp(found.logarithm) * found.answer.scatter
     extent = float(np.ptp(found.landing))
     if found.landing.size < 3 or not extent > 0:
         return Constancy(scatter=scatter)

@@ -97,7 +97,7 @@ class Constancy:
     change : float
         Of e by that slope over the velocities seen.
     scatter : float
-        Standard deviation of e from impact to impact beyond the errors.
+        Standard deviation of e from impact to impact beyond the errors, and beyond the change if that is sure.
     """
 
     slope: float = np.nan
