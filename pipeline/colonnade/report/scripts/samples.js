@@ -2,7 +2,7 @@
 "use strict";
 const colonnade = {};
 
-// Undo report/interactive/packing.py: inflate, join the planes of bytes, unfold the sign, add up the differences.
+// Undo report/interactive/panels.py: inflate, join the planes of bytes, unfold the sign, add up the differences.
 colonnade.unpack = async function (given) {
   const packed = Uint8Array.from(atob(given.samples), (letter) => letter.charCodeAt(0));
   const inflated = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
