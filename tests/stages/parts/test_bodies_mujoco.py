@@ -64,8 +64,8 @@ def shaken(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("drums")
     history = History(drums.pulse(request.param))
     drums.write_campaign(folder, request.param, history)
-    with (folder / "campaign.toml").open("a") as file:
-        file.write("\n[processing.predict.contact]\ndamping_fraction = 2.0\n")
+    file = folder / "campaign.toml"
+    file.write_text(file.read_text().replace('penetration = 1e-6\nstep = "20 us"', "damping_fraction = 2.0"))
     assert not run(folder, until="compare", workers=1).failed
     results = [files.read(Layout(folder).stage("quake", *stage)) for stage in (("rocking",), ("predict", "contact"))]
     return history, *results
