@@ -229,6 +229,10 @@ interval of the mean.
 """
 
 
+WIDTHS = (1, 2, 3, 5)
+"""Of the axis of widths."""
+
+
 def draw_kinds(found: dict[str, Any]) -> Figure:
     """Draw coverage and width of each kind, this version beside 0.1."""
     judged, before = [Judged(**each) for each in found["kinds"]], found["before"]
@@ -248,6 +252,8 @@ def draw_kinds(found: dict[str, Any]) -> Figure:
     right.set_xlabel("median width over the best")
     right.axvline(1.0, color="0.6", lw=0.8)
     right.set_xscale("log")
+    right.set_xticks(WIDTHS, map(str, WIDTHS))
+    right.minorticks_off()
     right.legend(fontsize=7, frameon=False)
     return figure
 
