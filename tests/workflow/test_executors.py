@@ -2,6 +2,8 @@
 
 import os
 import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -31,6 +33,19 @@ def die_once(place):
         mark.touch()
         os.kill(os.getpid(), signal.SIGKILL)
     return mark.name
+
+
+def test_the_caller_may_use_joblib_afterwards_and_we_after_it():
+    """In a process of its own: what joblib finds depends on all that ran before."""
+    program = (
+        "from joblib import Parallel, delayed\n"
+        "from colonnade.workflow.executors import spread\n"
+        "for _ in range(2):\n"
+        "    found = sorted(spread(abs, [-1, -2, -3], workers=2))\n"
+        "    print(found, Parallel(2)(delayed(abs)(value) for value in (-4, -5)))\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert ended.stdout == "[1, 2, 3] [4, 5]\n" * 2, ended.stderr
 
 
 @pytest.mark.parametrize(("items", "workers"), [([3, 1, 2], 1), ([3], 4)], ids=["one worker", "one item"])

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from functools import partial
 from math import pi
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
@@ -115,12 +115,11 @@ def run_tests(plan: Plan, folder: Path, seed: int, workers: int | None) -> dict[
 
 def spread_over(workers: int | None, function: Callable[..., Result], *arguments: Collection[Any]) -> Iterable[Result]:
     """Call a function with each of several arguments, as `map` does, in so many processes; None takes one a core."""
-    import joblib
-    from joblib.externals.loky import get_reusable_executor
+    from joblib import Parallel, cpu_count, delayed
 
-    count = min(workers or joblib.cpu_count(), len(arguments[0]))
-    # Processes that a run has left waiting are taken over; those of joblib.Parallel are of another kind.
-    return map(function, *arguments) if count == 1 else get_reusable_executor(count).map(function, *arguments)
+    count = min(workers or cpu_count(), len(arguments[0]))
+    calls = (delayed(function)(*each) for each in zip(*arguments, strict=True))
+    return cast(list[Result], Parallel(count, max_nbytes=None)(calls))
 
 
 def run_test(plan: Plan, trial: Trial, folder: Path, seed: np.random.SeedSequence) -> dict[str, Any]:

@@ -200,11 +200,13 @@ def _handed_out(
 
 def _processes(count: int) -> Workers:
     """Start processes of this machine, or take those of the last call; none outlives this process."""
-    from joblib.externals.loky import get_reusable_executor
+    from joblib.executor import get_memmapping_executor
 
-    # Each settles in as it starts, not with its first item: one that never gets any has to notice its parent's end too.
+    # Joblib's own kind, which a later `joblib.Parallel` of the caller can follow. Each settles in as it starts, not
+    # with its first item: one that never gets any has to notice its parent's end too.
     with held_back():
-        pool = get_reusable_executor(count, initializer=_settle_in, initargs=(os.getpid(),), env=_ONE_THREAD)
+        settled = {"initializer": _settle_in, "initargs": (os.getpid(),), "env": _ONE_THREAD}
+        pool = get_memmapping_executor(count, max_nbytes=None, **settled)
     return Workers(pool, lambda: count, lambda: None, lambda error: error, partial(_stop_quietly, pool))
 
 
