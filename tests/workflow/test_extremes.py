@@ -16,10 +16,9 @@ PROCESSING = {
     "restitution.lowest_amplitude": [1.0000001e-6, 0.9999999999999999],
     "restitution.level": [0.5000000000000001, 0.9999989],
     "predict.rest_angle": [1.0000001e-10, 0.09999999],
-    "predict.ensemble.critical_angle": [5e-324, 0.5],
-    "predict.ensemble.p": [5e-324, 0.5],
-    "predict.ensemble.filter": [5e-324, 0.5],
 }
+ENSEMBLE = "[processing.predict.ensemble]\n"
+"""A table that the campaign has."""
 SPECIMEN = {
     "mass": [f"{value:g} kg" for value in BETWEEN["mass"]],
     "scale": list(SCALE),
@@ -30,6 +29,11 @@ CASES = [
         (f"[processing]\n{key} = {value!r}\n\n[setups.", "[setups.")
         for key, both in PROCESSING.items()
         for value in both
+    ),
+    *(
+        (f"{ENSEMBLE}{key} = {value!r}\n", ENSEMBLE)
+        for key in ("critical_angle", "p", "filter")
+        for value in (5e-324, 0.5)
     ),
     *(
         (f'mass = "26.10 kg", {key} = {value!r}}}', 'mass = "26.10 kg"}')

@@ -48,7 +48,7 @@ LEAST_NOISE = 1e-6
 """Of α, standard deviation: less is the rounding of computed records."""
 
 MISFIT = 4.0
-"""Times as much residual power with the impacts, rounded by a low-pass, from which the record did not go through it."""
+"""Times as much residual power with a low-pass, or with the part from the release on, from which there is no such."""
 
 MOST_LAID = 4
 """Times that a path is laid with the scatter, and the trend, that the last one shows."""
@@ -228,9 +228,11 @@ def estimate(path: Path, priors: Priors, lowpass: float | None, lowest: float, *
         if before is not None:
             try:
                 found = _estimated(before, priors, lowpass)
-                if not _is_odd(found.path):
-                    return found
-                path = without_first(found.path)
+                # On a table that moves, a release at rest may lead astray.
+                if found.path.power < MISFIT * path.power:
+                    if not _is_odd(found.path):
+                        return found
+                    path = without_first(found.path)
             except UnfollowedError:
                 pass
         return _estimated(path, priors, lowpass)
