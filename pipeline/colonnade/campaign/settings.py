@@ -17,6 +17,7 @@ from colonnade.campaign.syntax.fields import (
     STEP,
     Angle,
     Coordinate,
+    Deviation,
     Duration,
     Frequency,
     Number,
@@ -122,7 +123,7 @@ class ContactEnsembleSettings(Table):
 class MeasurementSettings(Table):
     """How well the measured rocking angle is known, and how uncertain a prediction may become."""
 
-    angle_gain: Number = setting(0.005, "of the angle", ge=0.0, le=0.5)
+    angle_gain: Deviation = setting(0.005, "of the angle")
     """Standard deviation of the calibration of the measured rocking angle."""
     angle_zero: Number = setting(5e-4, "of α", ge=0.0, le=0.5)
     """Standard deviation of the zero of the measured rocking angle; that of its drift between the rests, if larger."""
@@ -137,9 +138,9 @@ class PlaneEnsembleSettings(Table):
     """Runs of each model over its uncertain inputs; 0 for no ensemble."""
     restitution: Number = setting(0.005, ge=0.0, le=0.5)
     """Standard deviation of e from test to test if fewer than two free vibrations show it."""
-    critical_angle: Number = setting(0.005, "of α", ge=0.0, le=0.5)
+    critical_angle: Deviation = setting(0.005, "of α")
     """Standard deviation of the critical angle."""
-    p: Number = setting(0.005, "of p", ge=0.0, le=0.5)
+    p: Deviation = setting(0.005, "of p")
     """Standard deviation of the frequency parameter."""
     gain: Number = setting(0.005, "of the acceleration", ge=0.0, le=0.5)
     """Standard deviation of the calibration of the table's acceleration."""

@@ -39,20 +39,17 @@ _VOLUMES: dict[str, Callable[..., float]] = {
 _TANGENT = "the tangent of the angle, half width over height of the centre of mass"
 _HEIGHT = "the height of the centre of mass, not its distance from the pole"
 
-Deviation = Annotated[fields.Number, Field(ge=0.0, le=0.5)]
-"""A relative standard deviation."""
-
 _MEASURED = {"critical_angle": "rad", "pole_distance": "mm", "inertia": "kg m²"}
 
 
 class SpecimenUncertainty(Table):
     """How well a specimen is known, as relative standard deviations; a key left out is that of the settings."""
 
-    critical_angle: Deviation | None = None
+    critical_angle: fields.Deviation | None = None
     """Of the critical angle; default: `processing.predict.ensemble.critical_angle`."""
-    p: Deviation | None = None
+    p: fields.Deviation | None = None
     """Of the frequency parameter; default: `processing.predict.ensemble.p`."""
-    angle_gain: Deviation | None = None
+    angle_gain: fields.Deviation | None = None
     """Of the calibration of the measured rocking angle; default: `processing.predict.ensemble.angle_gain`."""
 
 

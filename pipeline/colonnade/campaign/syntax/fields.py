@@ -53,6 +53,9 @@ FACTOR = (1e-9, 1e9)
 SCALE = (1e-3, 1e5)
 """Of a model: 1e5 means 1:100 000."""
 
+EXACT = 1e-9
+"""A relative standard deviation up to this is none: its square would be lost in the rounding."""
+
 PLAIN = (1e-6, 1e6)
 """Of other numbers that have no unit."""
 
@@ -333,6 +336,8 @@ Velocity = Annotated[float, Quantity("velocity")]
 Acceleration = Annotated[float, Quantity("acceleration")]
 FrequencyParameter = Annotated[float, Quantity("angular_velocity", between=FREQUENCY_PARAMETER, example="1.26 rad/s")]
 Restitution = Annotated[Number, Field(gt=0.0, le=1.0)]
+Deviation = Annotated[Number, Field(ge=0.0, le=0.5), AfterValidator(lambda width: width if width > EXACT else 0.0)]
+"""A relative standard deviation."""
 PositiveNumber = Annotated[Number, Field(ge=PLAIN[0], le=PLAIN[1])]
 Scale = Annotated[Number, Field(ge=SCALE[0], le=SCALE[1])]
 Position = tuple[Coordinate, Coordinate, Coordinate]
