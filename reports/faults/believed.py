@@ -151,7 +151,7 @@ COURSE = Group(
             test="free",
             happens="A transducer slipped in its clamp by 3 mm.",
             plant=in_file("free.csv", _slipped),
-            message="e of single impacts scatters by .*: the table moves, or somebody touched the block",
+            message="e of single impacts scatters by .*: the table moves, somebody touched the block, or a trans",
             picture=pair((3.5, 7.0), "With the fault, top and bottom differ until 5 s."),
             mend="Use the part of the test after it, or leave the channel out.",
             mending=review('[[trim]]\ntest = "free"\nwindow = ["5.1 s", "22 s"]'),

@@ -314,8 +314,8 @@ def found_by_impact(found: Estimated, *, driven: bool) -> Departure | None:
         cause = (
             "the recorded motion of the table does not explain it. Check the gain, sign and clock of its accelerometer."
             if driven
-            else "the table moves, or somebody touched the block. No value is given; record the table's acceleration "
-            '(on = "table", quantity = "acceleration"), or repeat the test on a table at rest.'
+            else "the table moves, somebody touched the block, or a transducer slipped. No value is given; record the "
+            'table\'s acceleration (on = "table", quantity = "acceleration"), or repeat the test on a table at rest.'
         )
         return Departure(
             MOVING, scatter, scatter / (2 * e.size) ** 0.5, "1",
