@@ -110,7 +110,7 @@ def write_assemblies(folder: Path, *, seed: int = 0, workers: int | None = 1) ->
     for name in ("raw", "truth"):
         own_files(folder / name)
     put(folder / FILE_NAME, (resources("colonnade.laboratory") / "assemblies.toml").read_bytes())
-    campaign = load(folder)
+    campaign = load(folder.absolute())  # as workers may have started in another folder
     seeds = np.random.SeedSequence(seed).spawn(len(SHAKEN))
     done = spread_over(workers, partial(_record, campaign), SHAKEN, seeds)
     truth = {"seed": seed, "tests": {name: true for each in done for name, true in each.items()}}

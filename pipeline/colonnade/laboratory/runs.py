@@ -109,7 +109,8 @@ def write(plan: Plan, folder: Path | str, *, seed: int = 0, workers: int | None 
 def run_tests(plan: Plan, folder: Path, seed: int, workers: int | None) -> dict[str, dict[str, Any]]:
     """Run all tests of a plan, each with a seed of its own, in so many processes; return records by test."""
     seeds = np.random.SeedSequence(seed).spawn(len(plan.trials))
-    done = spread_over(workers, partial(run_test, plan), plan.trials, [folder] * len(seeds), seeds)
+    # Workers that were left waiting may have started in another folder.
+    done = spread_over(workers, partial(run_test, plan), plan.trials, [folder.absolute()] * len(seeds), seeds)
     return {trial.name: record for trial, record in zip(plan.trials, done, strict=True)}
 
 
