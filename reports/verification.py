@@ -49,7 +49,7 @@ def _restitution(found: Found) -> list[Row]:
             "The truth is plane rocking of a rigid block: not a real contact.",
         ),
         Row(
-            "median width over that of the best interval there could be",
+            "median width over that of the best possible interval",
             f"{min(row['width'] for row in kinds):.2f} to {max(row['width'] for row in kinds):.2f}",
             "The errors of α, p and gain have the standard deviation that the estimator is told.",
         ),

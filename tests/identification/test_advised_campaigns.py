@@ -135,8 +135,8 @@ def test_the_advice_needs_three_fifths_of_the_tests_of_bisection_and_holds_the_t
         peer = result[prior, "bisection"][2].sum(axis=1)
         assert np.median(tests.sum(axis=1)) <= 0.6 * np.median(peer)
         assert (tests.sum(axis=1) <= peer).all()
-    # With predictions as they are, at every single frequency too: 90 % intervals hold less than 15 of 20 in 1 %.
-    assert (result["as predicted", "advice"][0].sum(axis=0) >= 15).all()
+    # With predictions as they are, at every single frequency too.
+    assert (result["as predicted", "advice"][0].sum(axis=0) >= 18).all()
 
 
 def test_two_frequencies_of_one_campaign_are_found_with_fewer_tests_than_by_bisection():

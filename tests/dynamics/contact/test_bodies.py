@@ -37,14 +37,18 @@ def _tilted(assembly, law, tangent):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("block", STACKS.values(), ids=STACKS)
 @pytest.mark.parametrize("count", [2, 4])
-def test_a_stack_on_a_table_that_tilts_opens_at_its_base_joint(block, count):
-    """By statics at tan = D / H, H the height of the whole stack; before that the elastic contact tilts a little."""
+@pytest.mark.parametrize(
+    ("block", "law", "open_at"),
+    [(CUBE, ContactLaw(friction=5.0), 1e-4), (DRUM, ContactLaw(friction=5.0, penetration=1e-8), 1e-3)],
+    ids=STACKS,
+)
+def test_a_stack_on_a_table_that_tilts_opens_at_its_base_joint(block, law, open_at, count):
+    """By statics at tan = D / H, H the height of the whole stack; a round rim sinks in, and leans, before that."""
     assembly = _stack(block, count)
-    history, shares = _tilted(assembly, ContactLaw(friction=5.0, penetration=1e-8), 0.3 / (0.25 * count))
+    history, shares = _tilted(assembly, law, 0.3 / (0.25 * count))
     opened = {
-        name: int(np.argmax(np.abs(body.relative.angle) > 1e-3 * assembly.critical_angles[name]))
+        name: int(np.argmax(np.abs(body.relative.angle) > open_at * assembly.critical_angles[name]))
         for name, body in history.bodies.items()
     }
     assert shares[opened["d0"]] == pytest.approx(1.0, abs=0.01)
