@@ -58,6 +58,11 @@ def noted() -> bool:
     return bool(_noted)
 
 
+def answered() -> None:
+    """Take what was noted for done: the command ends in its own way, and nothing is sent again."""
+    _noted.clear()
+
+
 def expect_none() -> None:
     """
     Stop here if a signal came: called between two pieces of work.
@@ -116,9 +121,14 @@ def _dropped(failure: sys.UnraisableHookArgs) -> None:
     if not (_noted and issubclass(failure.exc_type, KeyboardInterrupt)):
         sys.__unraisablehook__(failure)
         return
-    again = threading.Timer(_AGAIN, _send, (_noted[-1],))
+    again = threading.Timer(_AGAIN, _send_unanswered)
     again.daemon = True
     again.start()
+
+
+def _send_unanswered() -> None:
+    if _noted:
+        _send(_noted[-1])
 
 
 def stop() -> None:

@@ -144,6 +144,35 @@ def test_a_watch_that_is_interrupted_before_its_one_round_is_130(colonnade, camp
     assert [colonnade("watch", *once).returncode for once in ((), ("--once",))] == [0, 130]
 
 
+DROPPED_WITHIN_THE_WATCH = """
+import os, signal, time
+from colonnade import cli, interruption
+from colonnade.cli import watch
+from colonnade.workflow.watching import watch as watching
+
+class Handle:
+    def __del__(self):
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(9)
+
+def until_dropped(*_, **__):
+    Handle()
+    interruption.expect_none()
+
+complain, watching.watch = watch.complain, until_dropped
+watch.complain = lambda sentence: (time.sleep(0.5), complain(sentence))
+cli.main(["watch"])
+"""
+
+
+@posix
+def test_a_signal_that_ends_a_watch_does_not_come_again(tmp_path):
+    script = tmp_path / "watched.py"
+    script.write_text(DROPPED_WITHIN_THE_WATCH)
+    ended = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, encoding="utf-8", timeout=60)
+    assert (ended.returncode, ended.stderr) == (0, "The watch has ended. All results are kept.\n")
+
+
 INSIDE_EXEC = """
 def invoke(arguments):
     exec("os.kill(os.getpid(), signal.SIGTERM); time.sleep(9)")

@@ -11,6 +11,7 @@ import rich_click as click
 
 from colonnade.cli.common.console import complain, say
 from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_option, results_option, workers_option
+from colonnade.interruption import answered
 
 if TYPE_CHECKING:
     from colonnade.store.records.advice import Advice
@@ -74,6 +75,7 @@ def watch(
     except KeyboardInterrupt:
         if once:
             raise
+        answered()
     complain("The watch has ended. All results are kept.")
     return 0
 
