@@ -39,7 +39,7 @@ demo: $(DEMO_INSTALLED)
 define CHECKED
 $(BIN)/ruff check
 $(BIN)/ruff format --check
-$(BIN)/mypy
+$(BIN)/mypy --num-workers 2
 $(BIN)/lint-imports
 endef
 

@@ -61,13 +61,17 @@ def dropped(kind):
 
 
 def test_an_interrupt_that_python_dropped_is_sent_again(monkeypatch):
-    sent = []
+    sent, due = [], []
     monkeypatch.setattr(interruption, "_send", sent.append)
     monkeypatch.setattr(
-        interruption.threading, "Timer", lambda wait, call, given: SimpleNamespace(start=lambda: call(*given))
+        interruption.threading, "Timer", lambda _, call: SimpleNamespace(start=lambda: due.append(call))
     )
     interruption._noted.append(signal.SIGINT)
     interruption._dropped(dropped(KeyboardInterrupt))
+    due[0]()
+    assert sent == [signal.SIGINT]
+    interruption.answered()
+    due[0]()
     assert sent == [signal.SIGINT]
 
 
