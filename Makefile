@@ -39,7 +39,7 @@ demo: $(DEMO_INSTALLED)
 define CHECKED
 $(BIN)/ruff check
 $(BIN)/ruff format --check
-$(BIN)/mypy --num-workers 2
+$(BIN)/mypy
 $(BIN)/lint-imports
 endef
 

@@ -4,6 +4,7 @@ import gc
 import inspect
 import json
 import os
+import pickle
 import shutil
 import signal
 import sys
@@ -216,6 +217,21 @@ def foreseen(filled_campaign, tmp_path_factory):
 def foreseen_copy(foreseen, undrawn, tmp_path):
     """The same, to change."""
     return Path(shutil.copytree(foreseen[0], tmp_path / "campaign"))
+
+
+@pytest.fixture(scope="session")
+def shaken_drums(made_once):
+    """How a column of drums moved, and a campaign of its recording that was run."""
+    import drums
+    from colonnade.workflow import run
+
+    def record(folder):
+        history = drums.write_campaign(folder)
+        (folder / "history").write_bytes(pickle.dumps(history))
+        run(folder, workers=1)
+
+    folder = made_once("drums", record)
+    return pickle.loads((folder / "history").read_bytes()), folder
 
 
 @pytest.fixture(scope="session")

@@ -27,6 +27,7 @@ def pulse(frequency):
     return Motion(np.where(inside, np.sin(2 * np.pi * frequency * (TIME - 0.1)), 0.0), 0.005)
 
 
+@pytest.mark.whole
 def test_several_bodies_overturn_or_end_too_far_from_their_places():
     column, motions = Assembly.stack(a=DRUM, b=DRUM, c=DRUM), [pulse(1.7), pulse(2.0)]
     found = fragility(column, motions, levels=[0.6, 2.0], contact=LAW, displaced=1e-3, draws=1, resamples=100)
@@ -36,6 +37,7 @@ def test_several_bodies_overturn_or_end_too_far_from_their_places():
     assert found.outcomes.peak[0, 0, 0, 0] == pytest.approx(history.peak_ratio, rel=1e-6)
 
 
+@pytest.mark.whole
 def test_friction_is_that_of_the_draw():
     column, strong = (
         OnContact(Assembly.stack(a=DRUM, b=DRUM), LAW, displaced=1e-3),

@@ -19,6 +19,7 @@ MOTIONS = {f"r{seed}": Motion(ground_motion(seed), 1 / RATE) for seed in range(6
 LEVELS = {"pgv": [0.8, 1.5, 3.0], "pga": [3.0, 6.0, 12.0], "arias": [0.5, 2.0, 8.0], "sa(0.5 s)": [2.0, 5.0]}
 
 
+@pytest.mark.whole
 @settings(max_examples=8)
 @given(st.sampled_from(list(LEVELS)), st.integers(0, 5))
 def test_a_scaled_record_has_the_level_of_its_measure(measure, record):

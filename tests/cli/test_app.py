@@ -73,6 +73,7 @@ def test_the_campaigns_assessments_are_shown(assessed_copy, capsys):
     assert "warning: Left out: broken.csv" in told.err
 
 
+@pytest.mark.whole
 def test_a_column_without_a_campaign_is_answered_and_drawn(assessed, tmp_path, capsys):
     column = ["--critical-angle", "0.18 rad", "--p", "1.26 rad/s", "--restitution", "0.95"]
     levels = ["--level", "1 m/s", "--level", "2 m/s", "--level", "4 m/s", "--draws", "1", "--resamples", "100"]

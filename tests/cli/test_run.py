@@ -84,6 +84,7 @@ def test_identify_stops_with_the_restitution(colonnade, campaign):
     assert not list(campaign.rglob("predicted-*.nc"))
 
 
+@pytest.mark.whole
 def test_from_redoes_a_stage_and_what_follows(colonnade, campaign):
     colonnade("run", "--workers", "1")
     again = json.loads(colonnade("run", "--workers", "1", "--from", "predict", "--json").stdout)
@@ -91,6 +92,7 @@ def test_from_redoes_a_stage_and_what_follows(colonnade, campaign):
     assert redone == {"predict", "ensemble", "compare"}
 
 
+@pytest.mark.whole
 def test_run_prints_the_cause_before_what_follows_from_it(colonnade, with_gain):
     with_gain("10 mm/mm")
     told = colonnade("run", "--workers", "1").stdout
@@ -131,6 +133,7 @@ def test_an_appendix_is_left_out_of_a_pdf_only(colonnade):
     assert "add --pdf" in refused.stderr
 
 
+@pytest.mark.whole
 def test_the_report_is_typeset_and_bundled_if_asked(colonnade, campaign, tmp_path):
     asked = ("report", "--workers", "1", "--pdf", "--bundle", "all.zip")
     told = colonnade(*asked)

@@ -66,6 +66,7 @@ def folders(place):
     return sorted(place.glob(kernel.FOLDER + "*"))
 
 
+@pytest.mark.whole
 def test_kept_machine_code_follows_every_source_that_it_is_made_of(package):
     assert asked(package) == (7.0, 0, 1)
     assert asked(package) == (7.0, 1, 0)

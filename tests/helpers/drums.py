@@ -1,7 +1,5 @@
 """A column of drums on a table, recorded by an optical system: moved by the contact engine, seen by exact rotations."""
 
-from functools import cache
-
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -65,7 +63,6 @@ def pulse(strength, duration=4.0):
     return Motion(np.where(inside, strength * np.sin(4 * np.pi * (time - 0.5)), 0.0), STEP)
 
 
-@cache
 def shaken(strength):
     """The history of the column, on a contact that is soft enough for long steps."""
     return simulate_assembly(COLUMN, pulse(strength), law=ContactLaw(penetration=1e-6), step=2e-5)
@@ -85,7 +82,7 @@ def recorded(history, seed=0):
     return columns
 
 
-def write_campaign(folder, strength=6.0, history=None):
+def write_campaign(folder, history=None, strength=6.0):
     """Write the campaign of one test; return the history that it recorded."""
     history = history or shaken(strength)
     acceleration = pulse(strength).acceleration

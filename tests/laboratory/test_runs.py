@@ -303,12 +303,14 @@ def test_a_folder_that_is_not_free_is_refused_and_left_alone(there, error, said,
     assert tree(tmp_path) == before
 
 
+@pytest.mark.whole
 def test_several_processes_write_what_one_writes(tmp_path):
     for folder, workers in (("one", 1), ("two", 2)):
         write(statue_plan(), tmp_path / folder, seed=1, workers=workers)
     assert tree(tmp_path / "one") == tree(tmp_path / "two")
 
 
+@pytest.mark.whole
 def test_it_writes_after_a_run_has_left_its_processes_waiting(tmp_path):
     spread = executors._processes(2)  # of another kind than those of joblib.Parallel
     assert list(spread.pool.map(abs, [-1, -2])) == [1, 2]

@@ -58,6 +58,7 @@ def samples_of(recording):
     return sum(channel.values.size for channel in recording.channels)
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", WHOLE)
 def test_a_damaged_file_is_read_or_refused(tmp_path, name):
     path = write(name, tmp_path)

@@ -6,22 +6,17 @@ import re
 import numpy as np
 import pytest
 
-import drums
 from colonnade.campaign import load
 from colonnade.campaign.forms.summary import Summary
 from colonnade.figures.stored import bodies
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import read_test
-from colonnade.workflow import run
 from read_pages import words_of
 
 
 @pytest.fixture(scope="module")
-def shaken(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("drums")
-    drums.write_campaign(folder, 6.0)
-    run(folder, workers=1)
-    return folder
+def shaken(shaken_drums):
+    return shaken_drums[1]
 
 
 @pytest.fixture(scope="module")

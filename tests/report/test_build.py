@@ -22,6 +22,7 @@ def two_tests(filled_campaign, tmp_path):
     return campaign, layout
 
 
+@pytest.mark.whole
 def test_the_same_results_give_the_same_bytes_and_no_new_file(two_tests):
     folder = built(*two_tests).parent
     texts, before = written(two_tests[1]), {path: path.stat().st_mtime_ns for path in folder.rglob("*.html")}
@@ -30,6 +31,7 @@ def test_the_same_results_give_the_same_bytes_and_no_new_file(two_tests):
     assert {path: path.stat().st_mtime_ns for path in folder.rglob("*.html")} == before
 
 
+@pytest.mark.whole
 def test_the_page_of_a_specimen_is_drawn_again_only_if_what_it_shows_changed(two_tests, undrawn, monkeypatch):
     campaign, layout = two_tests
     drawn = []

@@ -170,6 +170,7 @@ def test_a_second_run_is_refused_by_name(layout):
         pass
 
 
+@pytest.mark.whole
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are forked")
 def test_a_run_that_is_killed_loses_nothing(layout):
     """Every file is whole or absent, the lock is free, and the next run gives the undisturbed values."""

@@ -35,6 +35,7 @@ def die_once(place):
     return mark.name
 
 
+@pytest.mark.whole
 def test_the_caller_may_use_joblib_afterwards_and_we_after_it():
     """In a process of its own: what joblib finds depends on all that ran before."""
     program = (
@@ -69,6 +70,7 @@ def test_an_error_is_the_one_that_was_raised(workers):
         list(spread(refuse, range(4), workers=workers))
 
 
+@pytest.mark.whole
 @pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
 def test_what_a_stopped_worker_did_is_done_again(tmp_path):
     (tmp_path / "second").touch()

@@ -56,6 +56,7 @@ def test_nothing_stays_behind_a_failure(small, until):
     assert [path.name for path in small.layout.test("pulse-01").iterdir()] == ["recorded.nc"]
 
 
+@pytest.mark.whole
 def test_a_full_disk_is_told_and_the_test_is_tried_again(untouched, monkeypatch):
     sync = os.fsync
     refuse = Layout(untouched.folder).stage("pulse-01", "condition").parent
@@ -93,6 +94,7 @@ def test_a_specimen_that_fails_is_no_fault_of_its_tests(untouched, monkeypatch):
     assert untouched.summary()["tests"]["pulse-01"]["reason"] == "specimen prism: No two free vibrations agree."
 
 
+@pytest.mark.whole
 def test_a_share_that_drops_while_a_file_is_read_is_not_kept_against_it(untouched, monkeypatch):
     known = registry.formats()["delimited"]
     dropped = replace(known, read=fails(OSError(errno.EIO, "Input/output error")))

@@ -58,6 +58,7 @@ def done(result):
     return {(stage.subject, stage.stage) for stage in result.stages if stage.action == "done"}
 
 
+@pytest.mark.whole
 def test_what_was_foreseen_is_scored_after_the_test_and_only_that_is_redone(foreseen_copy):
     folder = foreseen_copy
     run(folder, only=[LATER.replace("9", "2.0")], workers=1)

@@ -80,6 +80,7 @@ def test_what_no_stage_reads_redoes_nothing(small):
     assert small.redone() == {}
 
 
+@pytest.mark.whole
 def test_changed_sources_redo_everything_and_give_the_same_values(small, monkeypatch):
     before = small.contents()
     monkeypatch.setattr(Catalogue, "code", lambda self, made_by, model=None: "other sources")

@@ -93,6 +93,7 @@ def test_a_specimen_without_e_has_no_map(small):
     assert list(kept_maps(graph, summary.model_copy(update={"specimens": {"prism": refused}}), ["prism"])) == []
 
 
+@pytest.mark.whole
 def test_a_run_that_starts_again_from_the_report_makes_its_maps_again(small):
     summary = with_sines(small, 2.0, 3.0)
     kept(small, summary)

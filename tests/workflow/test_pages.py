@@ -21,6 +21,7 @@ def pages(small):
     return {path.relative_to(folder).as_posix(): path.read_text() for path in folder.rglob("*.html")}
 
 
+@pytest.mark.whole
 def test_of_one_changed_test_alone_the_results_are_read(small, read_again):
     small.change_a_sample("pulse-01")
     small.run(until="report")

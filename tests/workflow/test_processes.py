@@ -92,6 +92,7 @@ def test_a_test_that_stops_its_worker_each_time_fails_alone_and_is_tried_again(
     resumes()
 
 
+@pytest.mark.whole
 def test_an_interrupt_in_this_process_frees_the_lock_and_leaves_whole_files(untouched, resumes):
     def interrupt(stage, done, total):
         raise KeyboardInterrupt

@@ -69,6 +69,7 @@ def test_a_folder_of_results_that_is_a_link_is_refused_and_nothing_is_touched(sm
     assert (state(elsewhere), small.files()) == before
 
 
+@pytest.mark.whole
 @needs_links
 def test_results_that_are_links_are_replaced_and_what_they_led_to_is_left_alone(small, undisturbed, elsewhere):
     for place in FILES:
@@ -89,6 +90,7 @@ def test_a_pipe_among_the_results_is_told_and_not_waited_for(small, place):
         small.run(until="report")
 
 
+@pytest.mark.whole
 def test_results_may_lie_on_another_disk(untouched, undisturbed, tmp_path, capsys):
     other = tmp_path / "another disk"
     result = untouched.run(until="report", results=other)

@@ -6,6 +6,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+import pytest
 from hypothesis import Phase, example, given, settings
 from hypothesis import strategies as st
 
@@ -59,6 +60,7 @@ def write(folder, name, ending, columns, has_clock, delimiter):
         )
 
 
+@pytest.mark.whole
 @settings(max_examples=40, deadline=None, phases=(Phase.explicit, Phase.reuse, Phase.generate))
 @given(st.lists(tables, min_size=1, max_size=9))
 @example([("usp000hzq8", ".csv", [(("LVDT 1", "mm"), "sine")], True, ";")])

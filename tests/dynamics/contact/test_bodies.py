@@ -142,6 +142,7 @@ def test_a_frame_begins_to_rock_as_a_column_does(share, level, outcome):
     assert history.outcome == outcome
 
 
+@pytest.mark.whole
 def test_a_drum_thrown_off_is_the_one_that_overturned():
     """The upper one is pushed off, and what it stood on stays."""
     assembly = _stack(DRUM, 2)
@@ -224,6 +225,7 @@ def test_a_stack_of_two_opens_the_joints_that_mujoco_opens_with_its_impacts():
     assert np.abs(ours - theirs)[:third].max() < 0.02 * alpha
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("seed", [0, 1, 5])
 def test_drums_that_stand_off_their_places_keep_their_energy_as_they_slide_over_edges(seed):
     """Edges that are off the other face at rest bear once they have slid there; nothing bursts apart."""

@@ -104,6 +104,7 @@ def test_what_swells_is_stopped_at_its_bound(do, monkeypatch):
     assert came_of(do("swell")) == 1e8  # which is none of a bound's business
 
 
+@pytest.mark.whole
 @on_linux
 def test_what_does_not_end_is_stopped(do, monkeypatch):
     monkeypatch.setattr(enclosure, "SECONDS", 1)

@@ -9,21 +9,16 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow import run
 
-STRENGTH = 6.0
-
 
 @pytest.fixture(scope="module")
-def column(tmp_path_factory):
+def column(shaken_drums):
     """The history of a column, and what a run of its campaign made of the recording."""
-    folder = tmp_path_factory.mktemp("drums")
-    history = drums.write_campaign(folder, STRENGTH)
-    done = run(folder, until="compare", workers=1)
-    assert not done.failed
+    history, folder = shaken_drums
     results = {
         stage: files.read(Layout(load(folder).folder).stage("quake", *stage))
         for stage in (("rocking",), ("predict", "contact"))
     }
-    return history, results["rocking",], results["predict", "contact"], done
+    return history, results[("rocking",)], results["predict", "contact"]
 
 
 def centre(history, name):
@@ -37,7 +32,7 @@ def centre(history, name):
 
 @pytest.mark.parametrize("name", ["1", "2", "3"])
 def test_each_body_is_measured_as_it_moved(column, name):
-    history, measured, _, _ = column
+    history, measured, _ = column
     body, place = history.bodies[name], list(history.bodies).index(name)
     # 25 Hz of the low-pass and 20 µm of noise.
     for variable, true, allowed in (
@@ -56,7 +51,7 @@ def test_each_body_is_measured_as_it_moved(column, name):
 
 
 def test_joints_say_when_and_how_far_they_opened(column):
-    history, measured, _, _ = column
+    history, measured, _ = column
     for place, body in enumerate(history.bodies.values()):
         width = 0.2
         assert float(measured["body_opening"][place]) == pytest.approx(
@@ -68,7 +63,7 @@ def test_joints_say_when_and_how_far_they_opened(column):
 
 
 def test_the_contact_model_moves_the_bodies_on_the_recorded_motion(column):
-    history, _, predicted, _ = column
+    history, _, predicted = column
     assert predicted.attrs["outcome"] == history.outcome
     assert float(predicted["peak_ratio"]) == pytest.approx(history.peak_ratio, abs=0.01)
     first = predicted["elapsed"].to_numpy() < 1.3  # the motion as recorded differs by its noise
@@ -79,7 +74,7 @@ def test_the_contact_model_moves_the_bodies_on_the_recorded_motion(column):
 
 def test_a_body_without_markers_is_named_and_the_others_are_measured(tmp_path, column):
     history = column[0]
-    drums.write_campaign(tmp_path, STRENGTH, history)
+    drums.write_campaign(tmp_path, history)
     text = (tmp_path / "campaign.toml").read_text().splitlines()
     (tmp_path / "campaign.toml").write_text("\n".join(line for line in text if not line.startswith("m2")))
     done = run(tmp_path, until="rocking", workers=1)
@@ -90,7 +85,7 @@ def test_a_body_without_markers_is_named_and_the_others_are_measured(tmp_path, c
 
 
 def test_what_stands_on_a_body_that_fell_has_fallen(tmp_path):
-    history = drums.write_campaign(tmp_path, 4.5)
+    history = drums.write_campaign(tmp_path, strength=4.5)
     assert history.overturned_bodies == ("1", "2", "3")
     run(tmp_path, until="rocking", workers=1)
     measured = files.read(Layout(tmp_path).stage("quake", "rocking"))
@@ -98,8 +93,9 @@ def test_what_stands_on_a_body_that_fell_has_fallen(tmp_path):
     assert measured.attrs["outcome"] == "overturned"
 
 
+@pytest.mark.whole
 def test_runs_of_the_contact_model_say_how_probably_a_body_falls_and_how_far_it_moves(tmp_path):
-    history = drums.write_campaign(tmp_path, 6.0)
+    history = drums.write_campaign(tmp_path, strength=6.0)
     path = tmp_path / "campaign.toml"
     path.write_text(path.read_text().replace("members = 0", "members = 2"))
     assert not run(tmp_path, until="compare", workers=1).failed

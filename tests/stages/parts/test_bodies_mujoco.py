@@ -63,7 +63,7 @@ class History:
 def shaken(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("drums")
     history = History(drums.pulse(request.param))
-    drums.write_campaign(folder, request.param, history)
+    drums.write_campaign(folder, history, request.param)
     file = folder / "campaign.toml"
     file.write_text(file.read_text().replace('penetration = 1e-6\nstep = "20 us"', "damping_fraction = 2.0"))
     assert not run(folder, until="compare", workers=1).failed

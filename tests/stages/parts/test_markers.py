@@ -8,15 +8,10 @@ import drums
 from colonnade.workflow import run
 
 
-@pytest.fixture(scope="module")
-def history():
-    return drums.shaken(6.0)
-
-
 @pytest.fixture
-def told(tmp_path, history):
+def told(tmp_path, shaken_drums):
     """What a run says of places, after some of the campaign file was replaced."""
-    drums.write_campaign(tmp_path, 6.0, history)
+    drums.write_campaign(tmp_path, shaken_drums[0])
 
     def run_with(*pairs):
         path = tmp_path / "campaign.toml"
@@ -77,8 +72,8 @@ def test_axes_that_are_turned_are_told_once(told):
     assert re.match(r"At rest \d of 9 markers .* Check the axes of the tracking", text)
 
 
-def test_a_gap_in_the_tracking_stays_a_gap(tmp_path, history):
-    drums.write_campaign(tmp_path, 6.0, history)
+def test_a_gap_in_the_tracking_stays_a_gap(tmp_path, shaken_drums):
+    drums.write_campaign(tmp_path, shaken_drums[0])
     path = tmp_path / "raw/quake.csv"
     rows = path.read_text().splitlines()
     column = rows[0].split(",").index("3a X")
