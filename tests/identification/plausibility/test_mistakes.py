@@ -12,7 +12,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.identification.plausibility.mistakes import stuck, undone
 from colonnade.identification.plausibility.rotation import Rotation
-from colonnade.identification.plausibility.transducers import base_scale
+from colonnade.identification.plausibility.transducers import base_scale, judge
 from every import every
 from prism import PRISM
 
@@ -58,7 +58,7 @@ def test_transducers_on_the_wall_that_are_declared_to_the_table_are_named(chosen
     rotation, base, moved = shaken
     wrong = _changed(rotation, chosen, moved)
     assert undone(INTERVAL, wrong, base, PRISM).text.startswith(f"{names}: `relative_to` is wrong")
-    assert base_scale(INTERVAL, wrong, base, PRISM) is None  # what it would say is that of the mistake
+    assert base_scale(judge(INTERVAL, wrong, base, PRISM)) is None  # what it would say is that of the mistake
 
 
 def _coupled(rotation, corner):

@@ -11,7 +11,7 @@ from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.identification.plausibility.rotation import Rotation
-from colonnade.identification.plausibility.transducers import base_scale, suspicions
+from colonnade.identification.plausibility.transducers import base_scale, judge, suspicions
 from prism import PRISM
 
 RATE = 500.0
@@ -67,7 +67,7 @@ def _times(rotation, index, factor):
 
 def _said(sound, change=lambda rotation: rotation):
     rotation, base, block = sound
-    return list(map(str, suspicions(1 / RATE, change(rotation), base, block)))
+    return list(map(str, suspicions(judge(1 / RATE, change(rotation), base, block))))
 
 
 def test_a_sound_set_up_is_not_doubted(sound):
@@ -114,7 +114,7 @@ def test_swapped_columns_are_named(sound):
 def test_swapped_columns_are_named_even_where_gains_make_up_for_heights():
     rotation, base = _free(PRISM, (0.44, 0.04))
     # What is left is that the points of a block do not move in straight lines.
-    (told,) = map(str, suspicions(1 / RATE, _swapped(rotation, (11.0, 1.0)), base, PRISM))
+    (told,) = map(str, suspicions(judge(1 / RATE, _swapped(rotation, (11.0, 1.0)), base, PRISM)))
     assert "look swapped" in told
 
 
@@ -140,8 +140,8 @@ def test_all_of_them_wrong_alike_is_told_as_such(sound):
 @pytest.mark.parametrize(("factor", "found"), [(1.0, 1.0), (9.81, 9.81), (-1.0, -1.0), (1 / 9.81, 1 / 9.81)])
 def test_rocking_tells_how_wrong_the_tables_acceleration_is(factor, found):
     rotation, base = _shaken(PRISM, (0.44, 0.04))
-    assert base_scale(1 / RATE, rotation, factor * base, PRISM) == pytest.approx(found, rel=0.08)
-    told = list(map(str, suspicions(1 / RATE, rotation, factor * base, PRISM)))
+    assert base_scale(judge(1 / RATE, rotation, factor * base, PRISM)) == pytest.approx(found, rel=0.08)
+    told = list(map(str, suspicions(judge(1 / RATE, rotation, factor * base, PRISM))))
     assert ["opposite to the table's acceleration" in each for each in told] == ([True] if factor < 0 else [])
 
 
@@ -149,7 +149,7 @@ def test_rocking_tells_how_wrong_the_tables_acceleration_is(factor, found):
 def test_a_zero_taken_while_the_block_leans_is_no_gain(share):
     rotation, base = _shaken(PRISM, (0.44, 0.04))
     leaning = share * PRISM.critical_angle * rotation.levers[:, None]
-    assert suspicions(1 / RATE, replace(rotation, readings=rotation.readings - leaning), base, PRISM) == []
+    assert suspicions(judge(1 / RATE, replace(rotation, readings=rotation.readings - leaning), base, PRISM)) == []
 
 
 def test_a_gain_is_told_of_a_block_that_falls_onto_its_frame_and_of_a_record_that_is_cut_while_it_rocks():
@@ -168,8 +168,8 @@ def test_of_a_specimen_that_stands_nothing_is_told():
     angle = np.zeros(5000)
     rotation = _rotation(PRISM, angle, (0.44, 0.04))
     base = 0.5 * PRISM.uplift_acceleration * np.sin(2 * np.pi * 5 * np.arange(5000) / RATE)
-    assert suspicions(1 / RATE, rotation, base, PRISM) == []
-    assert base_scale(1 / RATE, rotation, base, PRISM) is None
+    assert suspicions(judge(1 / RATE, rotation, base, PRISM)) == []
+    assert base_scale(judge(1 / RATE, rotation, base, PRISM)) is None
 
 
 CORRECT = [1.05, 1.1, 1.4, 0.7]
@@ -189,7 +189,7 @@ def test_gains_that_are_all_wrong_alike_are_named_with_the_factor_that_would_agr
 def test_a_wrong_width_is_named_first_where_the_table_shows_that_the_gains_are_right(width):
     rotation, base = _shaken(PRISM, (0.44, 0.04))
     believed = Block.prism(width=width, depth=0.086, height=0.456, mass=26.10)
-    (told,) = suspicions(1 / RATE, rotation, base, believed)
+    (told,) = suspicions(judge(1 / RATE, rotation, base, believed))
     assert told.kind == "specimen"
     found = re.search(r"a base of ([\d.]+) mm for ([\d.]+) mm", told.text)
     assert float(found[1]) == pytest.approx(86.0, rel=0.02)
@@ -199,7 +199,7 @@ def test_a_wrong_width_is_named_first_where_the_table_shows_that_the_gains_are_r
 @pytest.mark.parametrize("rate", [0.95, 1.1, 2.0])
 def test_a_wrong_clock_is_named_with_the_sampling_rate_that_would_agree(rate):
     rotation, base = _free(PRISM, (0.44, 0.04))
-    (told,) = suspicions(rate / RATE, rotation, base, PRISM)
+    (told,) = suspicions(judge(rate / RATE, rotation, base, PRISM))
     assert told.kind == "clock"
     assert float(re.search(r"a sampling rate × ([\d.]+)", told.text)[1]) == pytest.approx(rate, rel=0.02)
 
@@ -211,7 +211,7 @@ def test_a_wrong_height_is_named_with_the_lever_that_would_agree(sound, height):
         pytest.skip("its transducers are elsewhere")
     responses = rotation.responses.copy()
     responses[0] = point_displacement(ANGLES, [[0.043, 0.0, height]], block)[0, :, 0]
-    (told,) = suspicions(1 / RATE, replace(rotation, responses=responses), base, block)
+    (told,) = suspicions(judge(1 / RATE, replace(rotation, responses=responses), base, block))
     assert told.text.startswith("channel top shows")
     assert "and that bottom shows" in told.text
     assert float(re.search(r"whose lever is ([\d.]+) mm", told.text)[1]) == pytest.approx(440, rel=0.01)
@@ -221,6 +221,6 @@ def test_degrees_read_as_radians_are_named_as_such():
     rotation, base = _free(PRISM, (0.44,))
     angle = np.rad2deg(rotation.readings / 0.44)
     inclinometer = Rotation(("tilt",), angle, ANGLES[None], ANGLES, *np.full((2, 1), 1e-3), ("angle",))
-    (told,) = map(str, suspicions(1 / RATE, inclinometer, base, PRISM))
+    (told,) = map(str, suspicions(judge(1 / RATE, inclinometer, base, PRISM)))
     assert "degrees read as radians" in told
     assert "volts" not in told

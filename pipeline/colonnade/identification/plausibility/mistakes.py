@@ -62,13 +62,13 @@ FASTEST = 4.0
 def mistakes(
     interval: float, rotation: Rotation, scales: Sequence[Scale], acceleration: Array | None, block: Block
 ) -> list[Finding]:
-    """Name what has to be mended before a scale means anything; see `suspicions`."""
+    """Name what has to be mended before a scale means anything; see `judge`."""
     mistake = undone(interval, rotation, acceleration, block)
     return [mistake] if mistake else stuck(interval, rotation, scales, acceleration, block)
 
 
 def undone(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> Finding | None:
-    """Name the one mistake without which transducers agree on one rotation, and far better; see `suspicions`."""
+    """Name the one mistake without which transducers agree on one rotation, and far better; see `judge`."""
     if len(rotation.names) == 1:
         return _coupled_alone(interval, rotation, acceleration, block)
     before, moved = rotation.residual(), float(np.nanstd(rotation.readings, axis=1).min())
@@ -176,7 +176,7 @@ def stuck(
     interval: float, rotation: Rotation, scales: Sequence[Scale], acceleration: Array | None, block: Block
 ) -> list[Finding]:
     """
-    Name transducers that stand still during an arc, or jump; see `suspicions` for the arguments.
+    Name transducers that stand still during an arc, or jump; see `judge` for the arguments.
 
     Notes
     -----

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -70,7 +71,7 @@ class Rotation:
     blur: float = 0.0
     flagged: Mask | None = None
 
-    @property
+    @cached_property
     def levers(self) -> Array:
         """Reading over angle about rest, shape (m,)."""
         return np.array([lever(self.angles, response) for response in self.responses])

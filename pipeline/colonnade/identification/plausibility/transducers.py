@@ -44,9 +44,30 @@ WANDERED = 0.25
 """Of the largest motion of both tests: a zero that shifts by more wandered."""
 
 
-def suspicions(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> list[Finding]:
+@dataclass(frozen=True)
+class Judged:
     """
-    Say which transducers cannot be right, with the probable cause.
+    Transducers that were held against the equation of motion.
+
+    Attributes
+    ----------
+    rotation : Rotation
+    block : Block
+    scales : list of Scale
+        Of each transducer.
+    mistakes : list of Finding
+        What has to be mended before a scale means anything.
+    """
+
+    rotation: Rotation
+    block: Block
+    scales: list[Scale]
+    mistakes: list[Finding]
+
+
+def judge(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> Judged:
+    """
+    Hold each transducer against the equation of motion.
 
     Parameters
     ----------
@@ -56,6 +77,14 @@ def suspicions(interval: float, rotation: Rotation, acceleration: Array | None, 
     acceleration : ndarray, shape (n,), or None
         Of the table along x, m/s².
     block : Block
+    """
+    scales = rotation.scales(interval, acceleration, block)
+    return Judged(rotation, block, scales, mistakes(interval, rotation, scales, acceleration, block))
+
+
+def suspicions(judged: Judged) -> list[Finding]:
+    """
+    Say which transducers cannot be right, with the probable cause.
 
     Returns
     -------
@@ -66,26 +95,25 @@ def suspicions(interval: float, rotation: Rotation, acceleration: Array | None, 
     -----
     Each transducer's scale is found separately, see `scale_of`, so that a wrong one can be named.
     """
-    scales = rotation.scales(interval, acceleration, block)
+    rotation, scales = judged.rotation, judged.scales
     known = [index for index, scale in enumerate(scales) if scale.is_known]
-    if found := mistakes(interval, rotation, scales, acceleration, block):
-        return found
-    if not known:
-        return []
-    return [*_gains(rotation, scales, known, block), *_dead(rotation, scales), *_signs(rotation, scales, known)]
+    if judged.mistakes or not known:
+        return judged.mistakes
+    return [*_gains(rotation, scales, known, judged.block), *_dead(rotation, scales), *_signs(rotation, scales, known)]
 
 
-def base_scale(interval: float, rotation: Rotation, acceleration: Array, block: Block) -> float | None:
+def base_scale(judged: Judged) -> float | None:
     """
     How many times too large the table's acceleration is, by what it does to the specimen; None if unknown.
 
-    See `suspicions` for the arguments. Negative where its sign, or that of all transducers, is wrong.
+    Negative where its sign, or that of all transducers, is wrong.
     """
-    scales = rotation.scales(interval, acceleration, block)
     found = [
-        each.value / each.base for each in scales if each.is_known and each.base_is_known and as_expected(each.value)
+        each.value / each.base
+        for each in judged.scales
+        if each.is_known and each.base_is_known and as_expected(each.value)
     ]
-    if not found or mistakes(interval, rotation, scales, acceleration, block):
+    if not found or judged.mistakes:
         return None
     # Transducers that turn against each other do not show the sign; see `suspicions`.
     return float(np.median(np.abs(found))) * (-1.0 if max(found) < 0 else 1.0)

@@ -20,7 +20,7 @@ from colonnade.identification.plausibility import table_motion
 from colonnade.identification.plausibility.rotation import Rotation, lever
 from colonnade.identification.plausibility.scale import as_expected, cause
 from colonnade.identification.plausibility.table_motion import TableChannel
-from colonnade.identification.plausibility.transducers import base_scale, suspicions
+from colonnade.identification.plausibility.transducers import Judged, base_scale, judge, suspicions
 from colonnade.signals.named_motion import Series, check_motion
 from colonnade.signals.quality import Flag
 from colonnade.signals.samples import filled_in
@@ -121,9 +121,18 @@ def doubts(conditioned: xr.Dataset, inputs: PlausibilityInputs) -> list[Finding]
     accelerations = _along_x(conditioned, inputs.accelerations)
     displacements = _along_x(conditioned, inputs.displacements)
     rotation = _rotation(conditioned, inputs, displacements)
-    found, acceleration = _table(interval, accelerations, displacements, rotation, block)
-    if rotation is not None and not any(each.kind in table_motion.MISPLACED for each in found):
-        found += suspicions(interval, rotation, acceleration, block)
+    acceleration = None
+    if accelerations:
+        acceleration = accelerations[0].values
+    elif displacements:
+        acceleration = table_motion.derived(interval, displacements[0])
+    judged = None if rotation is None else judge(interval, rotation, acceleration, block)
+    found, factor = _table(interval, accelerations, displacements, judged) if accelerations else ([], 1.0)
+    if acceleration is not None and factor != 1.0:
+        acceleration = acceleration / factor
+        judged = None if rotation is None else judge(interval, rotation, acceleration, block)
+    if judged is not None and not any(each.kind in table_motion.MISPLACED for each in found):
+        found += suspicions(judged)
     found += [hums for each in accelerations if (hums := table_motion.humming(interval, each))]
     found += _gravity(conditioned, block.gravity)
     if inputs.motion and accelerations and acceleration is not None:
@@ -202,17 +211,11 @@ def _rotation(
 
 
 def _table(
-    interval: float,
-    accelerations: list[TableChannel],
-    displacements: list[TableChannel],
-    rotation: Rotation | None,
-    block: Block,
-) -> tuple[list[Finding], Array | None]:
-    """Doubts about the table's channels, by each other and by what rocks the specimen; its acceleration put right."""
-    if not accelerations:
-        return [], table_motion.derived(interval, displacements[0]) if displacements else None
-    values, names = accelerations[0].values, " and ".join(each.name for each in accelerations)
-    seen = None if rotation is None else base_scale(interval, rotation, values, block)
+    interval: float, accelerations: list[TableChannel], displacements: list[TableChannel], judged: Judged | None
+) -> tuple[list[Finding], float]:
+    """Doubts about the table's channels, by each other and by what rocks the specimen; how many times too large."""
+    names = " and ".join(each.name for each in accelerations)
+    seen = None if judged is None else base_scale(judged)
     found: list[Finding] = []
     agree = False
     for one, other in product(accelerations, displacements):
@@ -224,22 +227,23 @@ def _table(
             wrong = table_motion.guilty(compared.factor, seen)
             found.append(table_motion.disagreement(one, other, compared, wrong))
             if wrong == "acceleration":
-                return found, values / compared.factor
+                return found, compared.factor
         else:
             agree = True
-    if rotation is None or found:
-        return found, values
+    if judged is None or found:
+        return found, 1.0
+    rotation = judged.rotation
     longest = int(np.abs(rotation.levers).argmax())
     arm = float(rotation.levers[longest])
     angle, noise = filled_in(rotation.readings[longest]) / arm, float(rotation.noise[longest]) / abs(arm)
-    misplaced = table_motion.by_rocking(interval, names, values, angle, noise, block)
+    misplaced = table_motion.by_rocking(interval, names, accelerations[0].values, angle, noise, judged.block)
     if misplaced is not None:
-        return [misplaced], values
+        return [misplaced], 1.0
     if agree or seen is None or as_expected(seen) or not accelerations[0].is_good:
-        return [], values
+        return [], 1.0
     why = cause(seen, "acceleration")
     text = f"channel {names} is {abs(seen):.3g} times what the specimen's rocking requires: {why}"
-    return [serious("gain", text)], values / abs(seen)
+    return [serious("gain", text)], abs(seen)
 
 
 def _gravity(conditioned: xr.Dataset, gravity: float) -> list[Finding]:
