@@ -18,10 +18,10 @@ from colonnade.figures.moving import animation
 from colonnade.figures.stored import record, restitution
 from colonnade.laboratory import paper_programme, prism_programme, write_campaign
 from colonnade.laboratory.programme import KEPT_AWAY
-from colonnade.report.overview_page.agreement import agreement
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import read_test
 from colonnade.store.records.summary import map_points
+from colonnade.store.records.wording import agreement
 from study import HERE, table, write_numbers
 
 PICTURE = HERE.parent / "docs" / "demo.gif"

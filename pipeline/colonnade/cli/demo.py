@@ -108,7 +108,7 @@ def _run(
 
 
 def _show_bodies(comparison: dict[str, Any]) -> None:
-    from colonnade.report.overview_page.agreement import agreement
+    from colonnade.store.records.wording import agreement
 
     rows = []
     for name, test in comparison["tests"].items():
@@ -126,7 +126,7 @@ def _show_bodies(comparison: dict[str, Any]) -> None:
 
 def _show(comparison: dict[str, Any]) -> None:
     from colonnade.laboratory.programme import KEPT_AWAY
-    from colonnade.report.overview_page.agreement import agreement
+    from colonnade.store.records.wording import agreement
     from colonnade.units.text import interval, ratio
 
     for specimen, restitution in comparison["restitution"].items():

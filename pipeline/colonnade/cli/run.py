@@ -150,8 +150,7 @@ def run_with_progress(campaign: Path, **choices: Any) -> RunResult:
 def _show_result(result: RunResult, *, verbose: bool) -> None:
     """Show each redone test, agreement, findings, failures, and the paths of the results."""
     from colonnade.campaign.forms.summary import Summary
-    from colonnade.report.overview_page.agreement import agreement
-    from colonnade.store.records.wording import LEGEND, pooled, predicted
+    from colonnade.store.records.wording import LEGEND, agreement, pooled, predicted
 
     redone = [stage for stage in result.stages if stage.action == "done"]
     if verbose:

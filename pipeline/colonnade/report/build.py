@@ -17,7 +17,7 @@ from colonnade.report.interactive import panels
 from colonnade.report.interactive.scripts import scripts
 from colonnade.report.methods import REFERENCES, Used
 from colonnade.report.overview_page import groups
-from colonnade.report.overview_page.agreement import agreement, confusions, peak_points, peaks_picture, worst
+from colonnade.report.overview_page.agreement import confusions, peak_points, peaks_picture, worst
 from colonnade.report.overview_page.attention import WarningGroup, attention, warning_groups
 from colonnade.report.parts import Part
 from colonnade.report.rows import TestRow
@@ -27,6 +27,7 @@ from colonnade.store.records import advice as advising
 from colonnade.store.records.advice import Advice
 from colonnade.store.records.stored import read_specimen
 from colonnade.store.records.summary import read_summary
+from colonnade.store.records.wording import agreement
 from colonnade.store.results import models_shown
 from colonnade.units.text import format_percent
 

@@ -10,7 +10,7 @@ from itertools import pairwise
 from math import acosh, ceil, exp, isnan, log, nan
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import STANDARD_GRAVITY
@@ -258,7 +258,9 @@ def _reach(run: Callable[[float], float], target: float, fractions: Sequence[flo
             near = min((low, high), key=lambda fraction: abs(run(fraction) - target))
             if abs(run(near) - target) > TOLERANCE:
                 # Within the tolerance it is a root: the search ends there.
-                brentq(partial(_misfit, run, target), low, high, xtol=1e-9, maxiter=MOST_RUNS, disp=False)
+                scipy.optimize.brentq(
+                    partial(_misfit, run, target), low, high, xtol=1e-9, maxiter=MOST_RUNS, disp=False
+                )
             return True
     # A single fraction is only computed.
     return bool(len(fractions) == 1 and abs(run(fractions[0]) - target) <= TOLERANCE)
