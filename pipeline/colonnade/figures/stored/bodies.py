@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from math import cos, sin
+
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
-from scipy.spatial.transform import Rotation
 
 from colonnade.arrays import Array
 from colonnade.campaign import Test
@@ -109,12 +110,12 @@ def _plan(shown: dict[str, dict[str, BodyPrediction]], assembly: Assembly) -> Fi
         panel.add_patch(Polygon(outline, fill=False, edgecolor=SOFT, linestyle=(0, (1, 2)), label="at rest"))
         for who, record in every.items():
             look = MEASURED if who == "measured" else model_style(who)
-            turned = Rotation.from_euler("z", record.residual_yaw or 0.0).as_matrix()[:2, :2]
+            cosine, sine = cos(record.residual_yaw or 0.0), sin(record.residual_yaw or 0.0)
             place = 1e3 * np.array([record.residual_x or 0.0, record.residual_y or 0.0])
             label = "at the end" if who == "measured" else f"at the end, {who} model"
             panel.add_patch(
                 Polygon(
-                    outline @ turned.T + place,
+                    outline @ np.array([[cosine, sine], [-sine, cosine]]) + place,
                     fill=False,
                     edgecolor=look["color"],
                     linestyle=look["linestyle"],
