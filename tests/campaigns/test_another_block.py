@@ -61,6 +61,9 @@ def _plan():
     )
 
 
+pytestmark = pytest.mark.whole
+
+
 @pytest.fixture(scope="module")
 def stone(made_once, outcome):
     return outcome(made_once("stone", lambda folder: run(write(_plan(), folder, seed=7).path, workers=1)))

@@ -26,6 +26,7 @@ def recorded(tmp_path, monkeypatch):
     return write
 
 
+@pytest.mark.whole
 def test_two_blocks_on_one_table_are_two_tests_on_one_file(recorded, tmp_path):
     written = recorded("pair")
     result = run(tmp_path, only=list(written.truth["tests"]), until="compare", workers=1)

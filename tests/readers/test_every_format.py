@@ -81,6 +81,7 @@ def test_a_damaged_file_is_read_or_refused(tmp_path, name):
         assert 0 < seen.total() < seeds * len(KINDS)
 
 
+@pytest.mark.whole
 @every("name", PACKED)
 def test_a_file_that_ends_anywhere_is_refused_or_warned_of(tmp_path, name):
     path = write(name, tmp_path)

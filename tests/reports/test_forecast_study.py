@@ -42,6 +42,7 @@ def test_its_first_tests_come_out_as_stored(found):
         np.testing.assert_allclose(pit, values[:2], atol=2.5 / found["members"])
 
 
+@pytest.mark.whole
 def test_a_small_study_finds_skill_over_the_base_rate_and_writes_its_page(tmp_path):
     found = forecast_study.study(6, 7, 1, tests=2, members=10)
     assert found["judged"]["tests"]["count"] == sum(found["judged"]["tests"]["outcomes"]) == 12

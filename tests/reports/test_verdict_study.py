@@ -60,6 +60,7 @@ def test_the_page_is_made_from_the_numbers(found):
     assert (HERE / "verdict-study.svg").read_text(encoding="utf-8").startswith("<svg")
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", ["true", "wrong"])
 def test_the_first_tests_have_the_same_ranks_again(found, name):
     wrong = {"true": 0.0, "wrong": found["wrong"]}[name]

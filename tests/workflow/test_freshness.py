@@ -121,6 +121,7 @@ def test_verifying_heals_results_that_were_altered(small):
     assert small.run(verify=True).notices == ()
 
 
+@pytest.mark.whole
 def test_a_result_that_was_altered_is_recomputed_by_an_ordinary_run(small):
     before, path = small.contents(), small.layout.stage("pulse-01", "rocking")
     alter(path)

@@ -81,6 +81,7 @@ def test_a_map_takes_the_identified_restitution_and_is_that_of_the_library(small
     assert stored.options == expected.options
 
 
+@pytest.mark.whole
 def test_several_processes_give_the_same_bit_for_bit(small):
     alone = content(small)
     small.layout.stage("prism", "map", "linear").unlink()

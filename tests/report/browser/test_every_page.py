@@ -42,7 +42,6 @@ def test_only_boxes_that_scroll_are_wider_than_a_telephone(report_folder, visit)
         assert widths(page, TELEPHONE) == [], address
 
 
-@pytest.mark.smoke
 def test_nobody_is_left_out(report_folder, visit):
     page = visit("index.html")
     for address in KINDS[2:7]:

@@ -84,6 +84,7 @@ def test_a_body_without_markers_is_named_and_the_others_are_measured(tmp_path, c
     assert any("2: no transducer on it" in each.text for every in done.findings.values() for each, _ in every)
 
 
+@pytest.mark.whole
 def test_what_stands_on_a_body_that_fell_has_fallen(tmp_path):
     history = drums.write_campaign(tmp_path, strength=4.5)
     assert history.overturned_bodies == ("1", "2", "3")
