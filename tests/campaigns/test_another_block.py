@@ -19,6 +19,8 @@ RESTITUTION = 0.93
 CATCH = 0.35
 SHAPE = {"shape": "prism", "width": "250 mm", "depth": "300 mm", "height": "1.1 m", "mass": "180 kg"}
 
+pytestmark = pytest.mark.whole
+
 
 def _displacement(channel, column, full_scale, offset, height):
     return Transducer(

@@ -8,7 +8,7 @@ import jsonschema
 import pytest
 
 from colonnade.campaign.campaign import CampaignFile
-from colonnade.campaign.forms.schema import DIALECT, NAMES, json_schema, schema_text
+from colonnade.campaign.forms.schema import DIALECT, NAMES, json_schema
 from colonnade.errors import CampaignError
 from colonnade.readers.registry import formats
 
@@ -72,10 +72,8 @@ def inside(node):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_its_text_is_the_schema_in_its_dialect(name):
-    assert json.loads(schema_text(name)) == json_schema(name)
+def test_it_names_its_dialect(name):
     assert json_schema(name)["$schema"] == DIALECT
-    assert schema_text(name).endswith("}\n")
 
 
 @pytest.mark.parametrize("name", ["campaign", "review"])

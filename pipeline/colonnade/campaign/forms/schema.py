@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 from colonnade.campaign.campaign import CampaignFile
@@ -54,11 +53,6 @@ def json_schema(name: str) -> dict[str, Any]:
             schema["properties"][kind].pop("default", None)
         return {"$schema": DIALECT} | schema
     raise CampaignError(f'Unknown schema "{name}".{nearest(name, NAMES)}')
-
-
-def schema_text(name: str) -> str:
-    """Give a schema as the text of its file in raw_schema; `name` as for `json_schema`."""
-    return json.dumps(json_schema(name), indent=2, ensure_ascii=False) + "\n"
 
 
 def _campaign() -> dict[str, Any]:
