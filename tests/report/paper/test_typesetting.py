@@ -51,7 +51,7 @@ def test_what_people_wrote_is_shown_as_text(campaign, folder):
     with prepared(document_of(campaign, folder)) as compiler:
         headings = [texts_in(each["body"]) for each in json.loads(compiler.query("heading"))]
         paragraphs = [texts_in(each["body"]) for each in json.loads(compiler.query("par"))]
-    assert headings[1:4] == ["Summary", "Specimen prism", "El Centro"]
+    assert headings[1:5] == ["Summary", "Specimen prism", "Spans", "El Centro"]
     assert paragraphs.count(HOSTILE) == 3, "on the cover and in both tests"
 
 
@@ -76,7 +76,7 @@ def test_the_compiler_sees_only_the_files_of_the_document(campaign, folder):
 
 def test_pages_are_whole_as_pictures(campaign, folder):
     pages = [Image.open(BytesIO(page)) for page in typeset(document_of(campaign, folder), "png")]
-    assert len(pages) == 9  # cover, contents, summary, specimen, two Spans, methods, two tests
+    assert len(pages) == 8  # cover, contents, summary, specimen, Spans, methods, two tests
     for page in pages:
         darkest = min(low for low, _ in page.convert("RGB").getextrema())
         assert darkest < 100, "the page is not empty"

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     import typst
 
 SPANS = "spans"
-"""Section of the overview that has chapters of its own. A section that is not printed says so: `data-paper="no"`."""
+"""Section of the overview that is a chapter of its own. A section that is not printed says so: `data-paper="no"`."""
 
 PHOTO, DRAWING = ".jpg", ".svg"
 """Endings of the files that pages show as pictures."""
@@ -72,7 +72,8 @@ def document_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> D
     chapters = [_chapter("Summary", overview, summary.parts(without=SPANS))]
     for name, address in zip(campaign.specimens, specimens, strict=True):
         chapters.append(_chapter(f"Specimen {name}", address, gather.page(address).parts()))
-    chapters += [_chapter(title, "", inside) for title, inside in _by_title(summary.sections.get(SPANS, []))]
+    if spans := summary.sections.get(SPANS):
+        chapters.append(_chapter(_plain(spans[0]["in"]), "", spans))
     chapters += [_chapter(title, page, gather.page(page).parts()) for page, title in optional.items()]
     chapters.append(_chapter("Methods", methods, gather.page(methods).parts()))
     chapters[-1]["equations"] = True
@@ -97,17 +98,6 @@ def document_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> D
 def _chapter(title: str, address: str, inside: list[Block]) -> dict[str, Any]:
     said = [block for block in inside if block["is"] != "heading" or _plain(block["in"]) != title]
     return {"title": title, "label": address, "in": said, "equations": False}
-
-
-def _by_title(blocks: list[Block]) -> list[tuple[str, list[Block]]]:
-    """Part the section of all Spans at its subheadings, one a specimen and motion."""
-    parts: list[tuple[str, list[Block]]] = []
-    for block in blocks:
-        if block["is"] == "heading" and block["depth"] == 2:
-            parts.append((_plain(block["in"]), []))
-        elif parts:
-            parts[-1][1].append(block)
-    return parts
 
 
 def _pictures(blocks: list[Block]) -> Iterator[Block]:
