@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from functools import lru_cache
 from math import cos, tan
 from typing import Annotated, Any, Literal, Self
 
@@ -131,11 +132,7 @@ class Specimen(Table):
         block : Block
             Of the dimensions, with measured values in their place where given.
         """
-        measured: dict[str, Any] = {name: getattr(self, name) for name in _MEASURED}
-        block = self.dimensions(gravity)
-        if block is None:
-            return Block.measured(mass=self.mass, gravity=gravity, **measured)
-        return block.override(**measured)
+        return _block_of(self, gravity)
 
     def deviations(self, gravity: float) -> list[str]:
         """
@@ -167,6 +164,16 @@ class Specimen(Table):
                     f"that the dimensions give; the given value is used.{hint}"
                 )
         return sentences
+
+
+@lru_cache(maxsize=1000)
+def _block_of(specimen: Specimen, gravity: float) -> Block:
+    """Make the block; a run with nothing to do asks for it ten times a test."""
+    measured: dict[str, Any] = {name: getattr(specimen, name) for name in _MEASURED}
+    block = specimen.dimensions(gravity)
+    if block is None:
+        return Block.measured(mass=specimen.mass, gravity=gravity, **measured)
+    return block.override(**measured)
 
 
 class Prism(Specimen):

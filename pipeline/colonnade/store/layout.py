@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from colonnade.campaign.loading import FILE_NAME
@@ -58,7 +59,7 @@ class Layout:
         """Folder that holds `processed` and `report`."""
         return self.folder if self.results is None else self.results
 
-    @property
+    @cached_property
     def processed(self) -> Path:
         """Folder of all results."""
         return self.home / "processed"
