@@ -152,12 +152,15 @@ LONGER = np.arange(0, 14, INTERVAL)
 HELD = slice(0, 750)
 
 
-def _stuck(angle, noise=1e-4, flagged=None):
-    """Of an inclinometer with noise after whatever happened to its signal; some of it may be flagged before."""
-    noisy = angle + np.random.default_rng(0).normal(0, noise, angle.size)
+def _stuck(*angles, noise=1e-4, flagged=None):
+    """Of inclinometers with noise after whatever happened to their signals; some of it may be flagged before."""
+    count = len(angles)
+    noisy = np.array(angles) + np.random.default_rng(0).normal(0, noise, np.shape(angles))
+    names = ("tilt", "other")[:count]
     rotation = Rotation(
-        ("tilt",), noisy[None], ANGLES[None], ANGLES, np.array([noise]), np.ones(1), ("angle",), flagged=flagged
-    )
+        names, noisy, np.tile(ANGLES, (count, 1)), ANGLES, np.full(count, noise), np.ones(count), ("angle",) * count,
+        flagged=flagged,
+    )  # fmt: skip
     return stuck(INTERVAL, rotation, rotation.scales(INTERVAL, None, PRISM), None, PRISM)
 
 
@@ -225,3 +228,9 @@ def test_a_block_is_not_doubted_that(motion, angle):
         "is held and let go again": np.concatenate((angle[HELD.stop : 4000], lifted, angle)),
     }
     assert _stuck(motions[motion]) == []
+
+
+def test_what_jumps_with_a_specimen_that_fell_did_not_tear(angle):
+    fallen = np.where(LONGER > 5.0, 1.2 * PRISM.critical_angle, angle)
+    assert [found.kind for found in _stuck(fallen, angle)] == ["dead channel"]
+    assert _stuck(fallen, fallen) == []

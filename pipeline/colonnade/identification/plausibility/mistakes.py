@@ -181,8 +181,12 @@ def stuck(
     Notes
     -----
     An arc whose angle bends by κ deviates over a window of length T by κT²/√720 at least, at its peak.
+
+    Where most of the others come to rest beyond the critical angle, the specimen fell, and what jumps with it did not
+    tear: drums of a column fall faster than a block turns.
     """
     found = []
+    fell = np.array([_lies(rotation.angle(index), block) for index in range(len(rotation.names))])
     for index, scale in enumerate(scales):
         name, is_angle, reading = rotation.names[index], rotation.measures_angle(index), rotation.readings[index]
         of_angle = scale.value if scale.is_known else 1.0
@@ -203,7 +207,7 @@ def stuck(
                 "specimen may have overturned. Give the channel's `range`; repeat the test with a larger one"
             )
             found.append(serious("end of the range", text))
-        elif torn := _torn(interval, angle, noise, block):
+        elif (fell.sum() - fell[index] <= (fell.size - 1) / 2) and (torn := _torn(interval, angle, noise, block)):
             sample, size = torn
             text = (
                 f"channel {name} jumps by {_written(size * abs(rotation.levers[index]), is_angle)} "
@@ -249,6 +253,12 @@ def _is_entered(angle: Array, place: slice, window: int, least: float) -> bool:
     """Whether an angle is smaller by `least` before and after: that of a specimen that comes to rest leaning is not."""
     around = np.abs(angle[[max(place.start - window, 0), min(place.stop + window, angle.size - 1)]])
     return bool(around.max() < float(np.median(np.abs(angle[place]))) - least)
+
+
+def _lies(angle: Array, block: Block) -> bool:
+    """Whether the last known angle is beyond the critical one."""
+    known = angle[np.isfinite(angle)]
+    return bool(known.size and abs(known[-1]) > block.critical_angle)
 
 
 def _torn(interval: float, angle: Array, noise: float, block: Block) -> tuple[int, float] | None:
