@@ -18,8 +18,10 @@ Both methods go from one frequency to the next, and end one when the 90 % interv
   has but the choice of amplitudes.
 
 Found (tests a campaign, median of 20 seeds; held of 140 intervals, and of 20 at the worst frequency): as predicted,
-advice 28.5 (138, 19), bisection 64.5 (137, 19), with the shared end 41.5 (133, 17); prior wrong by 20 %, advice 31.5
-(135, 17), bisection 64 (135, 18), with the shared end 40 (137, 18). At the first frequency the advice saves one test or
+advice 33.5 (136, 17), bisection 63.5 (137, 19), with the shared end 44.5 (132, 17); prior wrong by 20 %, advice 34
+(135, 16), bisection 63 (135, 18), with the shared end 43.5 (133, 15). Of 150 seeds, as predicted, the advice's intervals
+held at the seven frequencies in 150, 150, 150, 150, 145, 143 and 137: 17 of 20 at the last was chance.
+At the first frequency the advice saves one test or
 none; what is found there saves the others.
 """
 
@@ -37,6 +39,10 @@ MOST_TESTS = 60
 """At one frequency."""
 
 SEEDS = range(20)
+MORE_SEEDS = range(150)
+"""With which the intervals of a single frequency are judged: of 20, a sound one often holds fewer than 18."""
+
+METHODS = ("advice", "bisection", "bisection, shared end")
 WRONG = "wrong by 20 %"
 """Upwards for half of the seeds of each sign of the error of e, downwards for the others."""
 
@@ -84,22 +90,23 @@ def campaign(truth, seed, predicted, sensitivity, frequencies, method):
     return intervals, np.array([each.overturned.size for each in tests])
 
 
-def run_seed(seed, sine, predicted, sensitivity):
-    """All methods on one truth, with the predictions as they are and wrong by 20 %; the true boundaries first."""
+def run_seed(seed, sine, predicted, sensitivity, priors, methods):
+    """Methods on one truth, with the predictions as they are or wrong by 20 %; the true boundaries first."""
     truth = Truth.drawn(seed, sine)
     true = [truth.boundary(frequency, near) for frequency, near in zip(FREQUENCIES, predicted, strict=True)]
     run = partial(campaign, truth, seed, sensitivity=sensitivity, frequencies=FREQUENCIES)
     return np.array(true), {
         (prior, method): run(predicted * factor, method=method)
         for prior, factor in {"as predicted": 1.0, WRONG: 1.2 if seed // 2 % 2 else 1 / 1.2}.items()
-        for method in ("advice", "bisection", "bisection, shared end")
+        for method in methods
+        if prior in priors
     }
 
 
-def study(seeds, sine=ONE_CYCLE):
+def study(seeds, sine=ONE_CYCLE, priors=("as predicted", WRONG), methods=METHODS):
     """Whether held (seeds, frequencies), width of the intervals, and numbers of tests, by prior and method."""
     predicted, sensitivity = predicted_limits(sine), sensitivities(sine, FREQUENCIES)
-    found = Parallel(n_jobs=2)(delayed(run_seed)(seed, sine, predicted, sensitivity) for seed in seeds)
+    found = Parallel(n_jobs=2)(delayed(run_seed)(seed, sine, predicted, sensitivity, priors, methods) for seed in seeds)
     true = np.array([each for each, _ in found])
     result = {}
     for key in found[0][1]:
@@ -135,8 +142,14 @@ def test_the_advice_needs_three_fifths_of_the_tests_of_bisection_and_holds_the_t
         peer = result[prior, "bisection"][2].sum(axis=1)
         assert np.median(tests.sum(axis=1)) <= 0.6 * np.median(peer)
         assert (tests.sum(axis=1) <= peer).all()
-    # With predictions as they are, at every single frequency too.
-    assert (result["as predicted", "advice"][0].sum(axis=0) >= 18).all()
+
+
+@pytest.mark.slow
+def test_with_predictions_as_they_are_the_intervals_of_every_single_frequency_hold_the_truth():
+    discrepancy, result = study(MORE_SEEDS, priors=("as predicted",), methods=("advice",))
+    report(discrepancy, result)
+    held, _, _ = result["as predicted", "advice"]
+    assert (held.mean(axis=0) >= 18 / 20).all()
 
 
 def test_two_frequencies_of_one_campaign_are_found_with_fewer_tests_than_by_bisection():
