@@ -19,10 +19,9 @@ Both methods go from one frequency to the next, and end one when the 90 % interv
 
 Found (tests a campaign, median of 20 seeds; held of 140 intervals, and of 20 at the worst frequency): as predicted,
 advice 33.5 (136, 17), bisection 63.5 (137, 19), with the shared end 44.5 (132, 17); prior wrong by 20 %, advice 34
-(135, 16), bisection 63 (135, 18), with the shared end 43.5 (133, 15). Of 150 seeds, as predicted, the advice's intervals
-held at the seven frequencies in 150, 150, 150, 150, 145, 143 and 137: 17 of 20 at the last was chance.
-At the first frequency the advice saves one test or
-none; what is found there saves the others.
+(135, 16), bisection 63 (135, 18), with the shared end 43.5 (133, 15). Of 150 seeds, as predicted, the advice's
+intervals held at the seven frequencies in 150, 150, 150, 150, 145, 143 and 137. At the first frequency the advice saves
+one test or none; what is found there saves the others.
 """
 
 from functools import partial
