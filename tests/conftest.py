@@ -228,7 +228,7 @@ def shaken_drums(made_once):
     def record(folder):
         history = drums.write_campaign(folder)
         (folder / "history").write_bytes(pickle.dumps(history))
-        run(folder, workers=1)
+        assert not run(folder, workers=1).failed
 
     folder = made_once("drums", record)
     return pickle.loads((folder / "history").read_bytes()), folder
