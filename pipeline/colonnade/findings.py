@@ -152,6 +152,8 @@ def from_text(text: str) -> list[Finding]:
     >>> from_text('["cut off"]')[0].severity
     <Severity.WARNING: 'warning'>
     """
+    if text == "[]":
+        return []
     try:
         records = json.loads(text or "[]")
     except json.JSONDecodeError:

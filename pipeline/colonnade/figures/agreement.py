@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
 
+from colonnade.arrays import Array
 from colonnade.figures.files.output import link_to
 from colonnade.figures.style import INK, LIMIT, model_style, styled, width
 
@@ -18,6 +19,12 @@ LEAST_SPAN = 0.1, 1.0
 
 ROOM = 1.25
 """Factor by which the axes reach beyond the points; predictions outside, and overturning, are marked at the edge."""
+
+PANEL = 0.88
+"""Of its share of the width, the side of a panel without its labels."""
+
+CLEAR = 7.0
+"""Printer's points from the middle of a label to the next mark that are enough."""
 
 
 class PeakPoint(NamedTuple):
@@ -83,7 +90,7 @@ def predicted_over_measured(points: Mapping[str, Sequence[PeakPoint]]) -> Figure
         axes.remove()
     for axes, (model, own) in zip(panels, drawn.items(), strict=False):
         _scale(axes, limits)
-        _draw(axes, model, own, limits)
+        _draw(axes, model, own, limits, 72 * PANEL * side)
         axes.set_title(f"{model} model")
         axes.set_xlabel("measured max |θ|/α")
     panels[0].set_ylabel("predicted max |θ|/α")
@@ -111,7 +118,8 @@ def _scale(axes: Axes, limits: tuple[float, float]) -> None:
     axes.plot(limits, limits, **LIMIT)
 
 
-def _draw(axes: Axes, model: str, points: Sequence[PeakPoint], limits: tuple[float, float]) -> None:
+def _draw(axes: Axes, model: str, points: Sequence[PeakPoint], limits: tuple[float, float], side: float) -> None:
+    """Draw the points of a model in a panel of this side, in printer's points."""
     low, high = limits
     color = model_style(model)["color"]
     bars = [point for point in points if point.low is not None]
@@ -141,13 +149,31 @@ def _draw(axes: Axes, model: str, points: Sequence[PeakPoint], limits: tuple[flo
                 zorder=3,
             )
             places.set_urls([link_to(point.test) for point, _ in own])
-    for point, height in (each for own in marked.values() for each in own):
-        if point.number is not None:
-            axes.annotate(
-                str(point.number),
-                (point.measured, height),
-                xytext=(4, 2 if height < high / 1.2 else -8),
-                textcoords="offset points",
-                fontsize=7,
-                color=INK,
-            )
+    drawn = [each for own in marked.values() for each in own]
+    where = np.log([[point.measured, height] for point, height in drawn])
+    where = (where - np.log(low)) / np.log(high / low) * side
+    taken = list(where)
+    for place, (point, height) in zip(where, drawn, strict=True):
+        if point.number is None:
+            continue
+        shift = _free_place(place, np.array(taken), side)
+        taken.append(place + shift)
+        axes.annotate(
+            str(point.number),
+            (point.measured, height),
+            xytext=tuple(shift),
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            fontsize=7,
+            color=INK,
+        )
+
+
+def _free_place(place: Array, taken: Array, side: float) -> Array:
+    """Find where around a point, in printer's points, a label is clear of all that is there and of the edges."""
+    shifts = np.array([(7, 4), (7, -4), (8, 0), (-7, 4), (-7, -4), (-8, 0), (0, 8), (0, -8)], dtype=np.float64)
+    seen = place + shifts
+    free = np.hypot(*(seen[:, None] - taken).transpose(2, 0, 1)).min(axis=1)
+    room = np.minimum(free, np.minimum(seen, side - seen).min(axis=1))
+    return np.asarray(shifts[np.argmax(np.minimum(room, CLEAR))])

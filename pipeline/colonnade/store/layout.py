@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 
 from colonnade.campaign.loading import FILE_NAME
@@ -146,7 +146,7 @@ class Layout:
 
     def path(self, result: ResultId) -> Path:
         """File of a result."""
-        return self.processed / result.file
+        return _path(self.processed, result)
 
     def stage(self, subject: str, stage: str, model: str | None = None) -> Path:
         """File of the result of a stage for a test or a specimen; `model` if the stage has one file for each model."""
@@ -169,3 +169,8 @@ class Layout:
         """Results that are there, in the order of their paths."""
         made = {stage.file.format(subject="*", model="*") for stage in STAGES.values()}
         return sorted({path for pattern in made for path in self.processed.glob(f"{pattern}.nc")})
+
+
+@lru_cache(1 << 16)  # a run asks for each ten times, and a path that is known has its text too
+def _path(processed: Path, result: ResultId) -> Path:
+    return processed / result.file

@@ -80,6 +80,11 @@ class Catalogue:
         found : (Mark, answer) or None
             None if there is no such file.
         """
+        entry = self._entry(kind, path, ask, *more)
+        return None if entry is None else (tuple(entry[0]), entry[1])
+
+    def _entry(self, kind: str, path: Path, ask: Callable[[Path], Any], *more: Any) -> list[Any] | None:
+        """Return mark and answer, with what else was found out from the answer; None if there is no such file."""
         place = os.fspath(path).removeprefix(self._home)
         if os.path.isabs(place):  # noqa: PTH117
             place = os.path.relpath(path, self._home)  # ten times as slow
@@ -89,11 +94,12 @@ class Catalogue:
         except OSError:
             return None
         for known in (self._seen[kind].get(name), None if self._verify else self._known[kind].get(name)):
-            if known is not None and known[0] == list(mark):
-                self._seen[kind][name] = known
-                return mark, known[1]
-        self._seen[kind][name] = [list(mark), ask(path)]
-        return mark, self._seen[kind][name][1]
+            if known is not None and tuple(known[0]) == mark:
+                break
+        else:
+            known = [mark, ask(path)]
+        self._seen[kind][name] = known
+        return known
 
     def attributes(self, path: Path) -> Mapping[str, Any]:
         """Attributes `KEPT` of a result and its findings; empty if it is missing or damaged."""
@@ -141,8 +147,10 @@ class Catalogue:
 
     def content(self, path: Path) -> str | None:
         """Hash of the attributes `KEPT` of a result and its findings; None if it is missing."""
-        found = self.lookup("results", path, _kept)
-        return hash_of(found[1]) if found else None
+        entry = self._entry("results", path, _kept)
+        if entry is not None and len(entry) == 2:
+            entry.append(hash_of(entry[1]))
+        return None if entry is None else str(entry[2])
 
     def kept(self, product: str, key: str) -> tuple[str, str] | None:
         """Text that was kept of a product under this key, and why it could not be made; None if there is none."""

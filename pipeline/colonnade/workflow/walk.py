@@ -73,6 +73,7 @@ class Walk:
     stages: list[StageRun] = field(default_factory=list)
     failed: dict[Subject, dict[str, str]] = field(default_factory=lambda: defaultdict(dict))
     _known: dict[tuple[Phase, str], list[Product]] = field(default_factory=dict)
+    _fresh: set[str] = field(default_factory=set)  # tests that were brought up to date to their last result
 
     def through(self, tests: Sequence[str]) -> None:
         """Bring tests up to date, and the specimens that they need."""
@@ -86,6 +87,8 @@ class Walk:
         if self._asks_for("predict"):
             self.calibrate({self._test(name).specimen for name in tests if self._is_in_space(self._test(name))})
             self._predict([name for name in tests if self._can_be_predicted(name)])
+        if self._asks_for("compare"):
+            self._fresh |= {name for name in tests if name not in self.failed["test"]}
 
     def _predict(self, tests: Sequence[str]) -> None:
         """Bring predictions up to date; members of an ensemble on contact, minutes each, spread over all workers."""
@@ -167,7 +170,8 @@ class Walk:
     def stale(self, *phases: Phase) -> dict[str, str]:
         """Ids of the tests that have a missing or outdated result, of these phases or of any, and what to say of it."""
         every: tuple[Phase, ...] = phases or ("measuring", "predicting")
-        products = {name: [one for phase in every for one in self._all(phase, name)] for name in self.included}
+        names = [name for name in self.included if name not in self._fresh]
+        products = {name: [one for phase in every for one in self._all(phase, name)] for name in names}
         whys = {
             name: why_pending(self.chain(each, redo=False), self.graph.catalogue.attributes)
             for name, each in products.items()

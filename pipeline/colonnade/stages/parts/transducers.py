@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
@@ -193,7 +194,12 @@ class Transducers(BaseModel):
 
 def transducers(channels: Mapping[str, Channel]) -> Transducers:
     """Sort a set-up's channels by what they measure."""
-    named = {variable_name(name): channel for name, channel in channels.items()}
+    return _sorted(tuple(channels.items()))
+
+
+@lru_cache
+def _sorted(channels: tuple[tuple[str, Channel], ...]) -> Transducers:
+    named = {variable_name(name): channel for name, channel in channels}
     return Transducers(
         positions=dict(_positions(named)),
         gyroscopes={
