@@ -19,14 +19,12 @@ def test_a_map_is_written_with_its_picture(colonnade, campaign):
 
 def test_commands_have_one_default_model():
     from colonnade.campaign.assessment import Assessment
-    from colonnade.cli.spectrum import spectrum
     from colonnade.workflow.map_plans import Wanted
+    from colonnade.workflow.spectrum import Asked
 
-    ((mapped,), shaken) = (
-        next(option.default for option in command.params if option.name == "model")
-        for command in (map_command, spectrum)
-    )
-    assert {mapped, shaken, Assessment.model_fields["model"].default, *Wanted().models} == {"nonlinear"}
+    (mapped,) = next(option.default for option in map_command.params if option.name == "model")
+    asked = (table.model_fields["model"].default for table in (Asked, Assessment))
+    assert {mapped, *asked, *Wanted().models} == {"nonlinear"}
 
 
 def test_each_model_has_its_own_map_and_json_tells_where(colonnade, campaign):

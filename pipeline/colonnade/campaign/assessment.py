@@ -82,13 +82,13 @@ class Assessment(Table):
     specimen: Identifier
     """Id of the specimen; [prototype.<specimen>] says what the real column is."""
     records: MotionPath
-    """A folder of ground motions, or a CSV list of them, from the folder of the campaign file."""
+    """A folder of ground motions, or a CSV list of them."""
     scale: fields.Scale | None = None
     """How many times larger the column is; the scale of the specimen if it is not given."""
     measure: Annotated[fields.Text, AfterValidator(_scaling_measure)] = setting("pgv")
     """Measure of intensity to whose levels the records are scaled: the curve is over it."""
     levels: fields.Several | None = None
-    """Levels of the measure, such as ["0.2 m/s", "0.4 m/s"]; if not given, chosen so that shares run from 0 to 1."""
+    """Levels of the measure, such as "0.4 m/s"; if not given, chosen so that shares run from 0 to 1."""
     measures: Annotated[fields.Several, AfterValidator(_measures)] | None = None
     """Measures that are compared with it; all that the records have if not given."""
     hazard: MotionPath | None = None
@@ -104,9 +104,9 @@ class Assessment(Table):
     resamples: fields.Whole = setting(1000, ge=100, le=100_000)
     """Times that the records are drawn again for the intervals."""
     drift: fields.Number = setting(LARGEST_DRIFT, "of the peak velocity", ge=0.0, le=1.0)
-    """Largest velocity at the end of a record that has no drift."""
+    """Largest velocity at the end of a record without drift, over its peak velocity."""
     baseline: Annotated[fields.Text, AfterValidator(_baseline)] = setting(NONE)
-    """Correction of records that drift; "none" leaves them as they are."""
+    """Correction of records that drift: linear, quadratic or highpass(0.1 Hz); "none" leaves them as they are."""
     seed: fields.Whole = setting(0, ge=0, le=2**31 - 1)
     """Of all that is drawn."""
 

@@ -182,11 +182,11 @@ class Prism(Specimen):
     shape: Literal["prism"]
     """Its shape."""
     width: fields.Length
-    """Along x, the direction of shaking, such as "86 mm"."""
+    """Width along x, the direction of shaking, such as "86 mm"."""
     depth: fields.Length
-    """Along y, across the direction of shaking."""
+    """Depth along y, across the direction of shaking."""
     height: fields.Length
-    """Along z."""
+    """Height, along z."""
 
 
 class Cylinder(Specimen):
@@ -197,7 +197,7 @@ class Cylinder(Specimen):
     diameter: fields.Length
     """Diameter, such as "97 mm"."""
     height: fields.Length
-    """Along z."""
+    """Height, along z."""
 
 
 class Cone(Specimen):
@@ -210,7 +210,7 @@ class Cone(Specimen):
     top_diameter: fields.Length
     """Diameter at the top."""
     height: fields.Length
-    """Along z."""
+    """Height, along z."""
 
 
 class Measured(Specimen):

@@ -11,14 +11,14 @@ from click import get_current_context
 from click.core import ParameterSource
 
 from colonnade.cli.common.console import complain, say, show_fields, show_json, show_table, work_progress
+from colonnade.cli.common.keys import WithKeys, options_of
 from colonnade.cli.common.options import (
     CAMPAIGN,
-    MODEL,
     LateChoice,
     campaign_argument,
+    column_keys,
     column_options,
     json_option,
-    plane_models,
     results_option,
     scheduler_option,
     workers_option,
@@ -45,7 +45,15 @@ def _pulses() -> Iterable[str]:
     return PULSES
 
 
+def _spectrum_keys() -> list[click.Option]:
+    from colonnade.workflow.spectrum import Asked
+
+    return [*column_keys(), *options_of(Asked.model_fields, with_defaults=True)]
+
+
 @click.command(
+    cls=WithKeys,
+    keys=_spectrum_keys,
     epilog='Example: colonnade spectrum --motion record.AT2 --shape prism --width "1 m" --height "5 m"',
     help=f"""
     Show what a base motion or a pulse does to a column.
@@ -64,39 +72,6 @@ def _pulses() -> Iterable[str]:
 @click.option("--motion", metavar="FILE|NAME", help="A file, a test that recorded it, or one of [motions].")
 @click.option("--pulse", type=LateChoice(_pulses), help="Kind of pulse.")
 @column_options
-@click.option("--model", type=LateChoice(plane_models), default=MODEL, show_default=True, help="Model of rocking.")
-@click.option("--unit", help='Unit of the accelerations in the file, such as "g".')
-@click.option("--interval", metavar="TIME", help='Sampling interval of the file, such as "0.01 s".')
-@click.option("--column", metavar="NAME|NUMBER", help="Column of the accelerations in the file.")
-@click.option("--peak", metavar="ACCELERATION", help='Bring the motion to this peak, such as "0.3 g".')
-@click.option(
-    "--baseline",
-    default="none",
-    show_default=True,
-    metavar="METHOD",
-    help="Correct the motion's baseline: linear, quadratic or highpass(0.1 Hz).",
-)
-@click.option(
-    "--drift",
-    type=float,
-    help="Largest drift over PGV of a motion with PGV; by default 0.1, or 0.25 of a table at rest at both ends.",
-)
-@click.option(
-    "--slenderness", multiple=True, metavar="ANGLE", help="A further α of the rocking spectrum. Repeat it for several."
-)
-@click.option("--periods", type=float, nargs=2, metavar="LOW HIGH", help="Sizes 2π/p of the rocking spectrum, s.")
-@click.option("--omega", type=float, nargs=2, metavar="LOW HIGH", help="Frequency ratios Ω of the pulse.")
-@click.option("--points", type=int, default=24, show_default=True, help="Number of sizes or of frequencies.")
-@click.option("--cycles", type=float, default=2.0, show_default=True, help="γ of mavroeidis-papageorgiou.")
-@click.option("--phase", type=float, default=0.0, show_default=True, help="ν of mavroeidis-papageorgiou, in degrees.")
-@click.option("--largest", type=float, default=10.0, show_default=True, help="Largest A that is tried.")
-@click.option(
-    "--least-width",
-    type=float,
-    default=0.01,
-    show_default=True,
-    help="In A: narrower intervals are islands, not limits.",
-)
 @click.option("--out", type=click.Path(path_type=Path), metavar="FILE", help="Draw it: .svg, .pdf or .png.")
 @click.option("--data", type=click.Path(path_type=Path), metavar="FILE", help="Write what is drawn as a .csv table.")
 @results_option
@@ -170,7 +145,17 @@ def _show(found: Rocking | Overturning, out: Path | None, data: Path | None, as_
     return 0
 
 
+def _fragility_keys() -> list[click.Option]:
+    from colonnade.campaign.assessment import Assessment
+
+    keys = Assessment.model_fields.keys() - {"specimen", "scale", "measures", "displaced"}
+    own = {key: field for key, field in Assessment.model_fields.items() if key in keys}
+    return [*column_keys("restitution_range", "friction"), *options_of(own)]
+
+
 @click.command(
+    cls=WithKeys,
+    keys=_fragility_keys,
     epilog="Example: colonnade fragility demo --name prism",
     help=f"""
     Say how probably a real column overturns on a set of ground motions.
@@ -186,23 +171,6 @@ def _show(found: Rocking | Overturning, out: Path | None, data: Path | None, as_
 @campaign_argument
 @click.option("--name", multiple=True, metavar="NAME", help="Only this assessment of the campaign; may be repeated.")
 @column_options
-@click.option(
-    "--records", type=click.Path(path_type=Path), metavar="DIR|FILE", help="Ground motions: a folder or a list."
-)
-@click.option("--restitution-range", type=float, nargs=2, metavar="LOW HIGH", help="Limits between which e is drawn.")
-@click.option("--friction", type=float, metavar="MU", help="Friction between the column and what it stands on.")
-@click.option("--measure", metavar="ID", help="Measure of intensity over which the records are scaled, such as pgv.")
-@click.option(
-    "--level", "levels", multiple=True, metavar="LEVEL", help='One level of it, such as "0.4 m/s"; repeat it.'
-)
-@click.option("--hazard", type=click.Path(path_type=Path), metavar="FILE", help="Annual rates of exceedance, as CSV.")
-@click.option("--overturned", type=float, metavar="SHARE", help="Share of α beyond which it counts as overturned.")
-@click.option("--model", type=LateChoice(plane_models), help="Model of rocking.")
-@click.option("--draws", type=int, metavar="N", help="Draws of e, α, p and friction.")
-@click.option("--drift", type=float, metavar="SHARE", help="Largest end velocity over PGV of a record without drift.")
-@click.option("--baseline", metavar="METHOD", help="Correct the records: linear, quadratic or highpass(0.1 Hz).")
-@click.option("--resamples", type=int, metavar="N", help="Times that the records are drawn again.")
-@click.option("--seed", type=int, metavar="N", help="Of all that is drawn.")
 @click.option("--out", type=click.Path(path_type=Path), metavar="FILE", help="Draw the curve: .svg, .pdf or .png.")
 @click.option("--data", type=click.Path(path_type=Path), metavar="FILE", help="Write what is drawn as a .csv table.")
 @workers_option

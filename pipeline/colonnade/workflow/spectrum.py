@@ -14,10 +14,10 @@ from pydantic import Field
 from colonnade.assessment.ground import NONE, Ground, corrected
 from colonnade.assessment.measures import IntensityMeasures, intensity_measures
 from colonnade.campaign import Campaign
-from colonnade.campaign.syntax.fields import MAP_RATIO, MOST_POINTS, Duration, Limits, Quantity
+from colonnade.campaign.syntax.fields import MAP_RATIO, MOST_POINTS, Duration, Limits, OneOf, Quantity
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.history import History
-from colonnade.dynamics.models import NONLINEAR
+from colonnade.dynamics.models import NONLINEAR, PLANE_MODELS
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.pulses import OverturningSpectrum, overturning_spectrum
 from colonnade.dynamics.rock import rock
@@ -44,31 +44,31 @@ class Asked(Table):
     """What a spectrum is asked for with, besides its column; quantities as in a campaign file."""
 
     unit: str | None = None
-    """Of the accelerations in a file that does not give it."""
+    """Unit of the accelerations in a file that does not give it, such as "g"."""
     interval: Duration | None = None
-    """Sampling interval of a file that does not give it."""
+    """Sampling interval of a file that does not give it, such as "0.01 s"."""
     column: str | None = None
-    """Name or number of the column of a file."""
+    """Name or number of the column of the accelerations in a file."""
     peak: Annotated[float, Quantity("acceleration")] | None = None
-    """Acceleration that the motion is brought to."""
+    """Peak that the motion is brought to, such as "0.3 g"."""
     baseline: str = NONE
-    """Name of a correction."""
+    """Correction of the motion's baseline: linear, quadratic or highpass(0.1 Hz)."""
     drift: float | None = None
-    """As of `intensity_measures`; that of a table's motion if a test recorded it."""
+    """Largest drift over PGV of a motion with PGV; by default 0.1, or 0.25 of a table at rest at both ends."""
     slenderness: tuple[Annotated[float, Quantity("angle")], ...] = ()
-    """Further α of a rocking spectrum, besides that of the column."""
+    """A further α of the rocking spectrum, besides that of the column."""
     periods: Limits[_Ratio] | None = None
-    """First and last 2π/p, s; by default from a fourth of the column's to four times."""
+    """Sizes 2π/p of the rocking spectrum, s; by default from a fourth of the column's to four times."""
     omega: Limits[_Ratio] = FREQUENCIES
-    """First and last Ω = ω/p of a pulse."""
+    """Frequency ratios Ω = ω/p of the pulse."""
     points: Annotated[int, Field(ge=2, le=MOST_POINTS)] = 24
-    """Sizes, in equal ratios, or frequencies, in equal steps."""
-    model: str = NONLINEAR.name
-    """A plane one."""
+    """Number of sizes, in equal ratios, or of frequencies, in equal steps."""
+    model: Annotated[str, OneOf(tuple(PLANE_MODELS))] = NONLINEAR.name
+    """Model of rocking."""
     cycles: float = 2.0
-    """γ of Mavroeidis and Papageorgiou's pulse."""
+    """γ of mavroeidis-papageorgiou."""
     phase: float = 0.0
-    """Its ν, in degrees."""
+    """ν of mavroeidis-papageorgiou, in degrees."""
     largest: float = 10.0
     """Largest A that is tried."""
     least_width: float = WIDTH

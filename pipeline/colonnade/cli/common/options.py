@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import rich_click as click
+
+from colonnade.cli.common.keys import options_of
+
+if TYPE_CHECKING:
+    from pydantic.fields import FieldInfo
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -33,13 +38,6 @@ def models() -> Iterable[str]:
     from colonnade.dynamics.models import MODELS
 
     return MODELS
-
-
-def plane_models() -> Iterable[str]:
-    """Names of the models in the plane."""
-    from colonnade.dynamics.models import PLANE_MODELS
-
-    return PLANE_MODELS
 
 
 def _shapes() -> Iterable[str]:
@@ -79,28 +77,28 @@ one_specimen_option = click.option(
 
 
 def column_options(command: Command) -> Command:
-    """Add the options that say which column is asked about; `workflow.real_column` reads them."""
+    """Add the options that say which column is asked about, besides `column_keys`; see `workflow.real_column`."""
     options = (
         one_specimen_option,
         click.option("--scale", type=float, metavar="FACTOR", help="How many times larger the column is."),
         click.option("--shape", type=LateChoice(_shapes), help="Shape of a column that is given by its sizes."),
-        click.option("--width", metavar="LENGTH", help='Of a prism, along the motion, such as "1 m".'),
-        click.option("--diameter", metavar="LENGTH", help="Of a cylinder."),
-        click.option("--base-diameter", metavar="LENGTH", help="Of a truncated cone."),
-        click.option("--top-diameter", metavar="LENGTH", help="Of a truncated cone."),
-        click.option("--height", metavar="LENGTH", help='Of any of them, such as "5 m".'),
-        click.option("--critical-angle", metavar="ANGLE", help='Of the column, such as "0.18 rad".'),
-        click.option("--p", metavar="FREQUENCY", help='Frequency parameter of the column, such as "1.26 rad/s".'),
-        click.option(
-            "--restitution",
-            metavar="E",
-            help="Its e: a number, rigid-body, or identified for that of the model. Without a specimen rigid-body if "
-            "it is not given.",
-        ),
     )
     for option in reversed(options):
         command = option(command)
     return command
+
+
+def column_keys(*more: str) -> list[click.Option]:
+    """Make the options for sizes of a column, and for keys of [prototype.<specimen>]: e, α, p and `more`."""
+    from colonnade.campaign.assessment import Prototype
+    from colonnade.campaign.specimen import SIZED
+
+    sizes: dict[str, FieldInfo] = {}
+    for model in SIZED.values():
+        sizes |= model.model_fields
+    sizes = {key: sizes[key] for key in ("width", "diameter", "base_diameter", "top_diameter", "height")}
+    prototype = {key: Prototype.model_fields[key] for key in ("critical_angle", "p", "restitution", *more)}
+    return options_of(sizes | prototype)
 
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
