@@ -16,22 +16,13 @@ from colonnade.dynamics.models import MODELS
 from colonnade.errors import count
 from colonnade.figures.files.output import Picture, link_to
 from colonnade.report.addresses import of_specimen, of_test, scripts_of
+from colonnade.report.pictures.registry import picture
+from colonnade.report.rows import KINDS
 from colonnade.report.test_page import facts
 from colonnade.store.records import wording
 from colonnade.store.results import models_shown
 from colonnade.units import text
 from colonnade.units.text import format_percent
-
-KINDS = {
-    "free-vibration": "Free vibrations",
-    "sine": "Sine tests",
-    "earthquake": "Earthquake tests",
-    "pulse": "Pulse tests",
-    "noise": "Noise tests",
-    "tilt": "Tilt tests",
-    "other": "Other tests",
-}
-"""Kinds of test in words, in the order in which they stand."""
 
 _SECTION = re.compile(r'<section id="([\w-]+)"(?: data-paper="no")?>\s*<h2>(.*?)</h2>', re.DOTALL)
 
@@ -87,6 +78,7 @@ class Renderer:
             **common,
             "kinds": KINDS,
             "count": count,
+            "picture": picture,
             "listed": text.listed,
             "test_page": of_test,
             "scripts_of": scripts_of,

@@ -16,6 +16,17 @@ from colonnade.store.records import wording
 from colonnade.store.records.stored import Failure, Stored
 from colonnade.store.results import models_shown
 
+KINDS = {
+    "free-vibration": "Free vibrations",
+    "sine": "Sine tests",
+    "earthquake": "Earthquake tests",
+    "pulse": "Pulse tests",
+    "noise": "Noise tests",
+    "tilt": "Tilt tests",
+    "other": "Other tests",
+}
+"""Kinds of test in words, in the order in which they stand."""
+
 
 @dataclass(frozen=True)
 class TestRow:

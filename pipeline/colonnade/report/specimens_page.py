@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from math import isfinite, tan
 from typing import NamedTuple
 
@@ -15,11 +14,9 @@ from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block, pair
 from colonnade.dynamics.size import at_prototype
 from colonnade.figures.drawing import described
-from colonnade.figures.files.output import Picture
 from colonnade.figures.stored.restitution import STAGE
 from colonnade.findings import in_order
 from colonnade.report import addresses
-from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import Decaying, OfSpecimen, OfTest
 from colonnade.report.test_page import restitution
 from colonnade.report.test_page.restitution import EstimateText
@@ -76,10 +73,9 @@ class FreeVibration(NamedTuple):
 @dataclass(frozen=True)
 class SpecimenPage:
     """
-    What the page of a specimen shows; text, tables and pictures.
+    What the page of a specimen shows; its pictures are of `subject`.
 
     `e` is the value that predictions use, with its interval; `contact` the law of the contact model, name and value.
-    Pictures are made of `subject` when somebody asks for them: a page that is up to date needs none.
     """
 
     id: str
@@ -100,11 +96,6 @@ class SpecimenPage:
     failures: list[Failure]
     free_vibrations: Sequence[FreeVibration]
     subject: OfSpecimen = field(repr=False)
-
-    @cached_property
-    def pictures(self) -> dict[str, Picture | None]:
-        """Each by its name; None where there is nothing to draw."""
-        return {name: picture(name, self.subject) for name in ("estimators", "peaks", "impacts")}
 
 
 def free_vibration(subject: OfTest) -> FreeVibration:

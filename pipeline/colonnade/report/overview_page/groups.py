@@ -15,8 +15,7 @@ from colonnade.figures.maps import response_orders
 from colonnade.figures.record import SpanPanel
 from colonnade.figures.stored import record
 from colonnade.identification.response.boundaries import Boundaries, Bracket, MapPoint, bracket_boundaries, makes_map
-from colonnade.report.pages import KINDS
-from colonnade.report.rows import TestRow
+from colonnade.report.rows import KINDS, TestRow
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import as_map

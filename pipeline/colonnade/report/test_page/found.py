@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import hypot, isnan, nan
 
-from colonnade.campaign.forms.summary import BodyPrediction, PredictionSummary
+from colonnade.campaign.forms.summary import BodyPrediction, PredictionSummary, TestSummary
 from colonnade.dynamics.size import at_prototype
-from colonnade.figures.files.output import Picture
 from colonnade.figures.stored import record
 from colonnade.identification.response.rank import FEWEST, is_within
-from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
@@ -23,23 +21,19 @@ from colonnade.units.text import NOTHING, acceleration, format_percent, number, 
 @dataclass(frozen=True)
 class Found:
     """
-    The measured motion and the predicted ones.
-
-    `record` is None if there is nothing to draw; `predicted_times` are when each model's largest angle or its
-    overturning is, s.
+    The measured motion and the predicted ones; `predicted_times` are when each model's largest angle or its overturning
+    is, s.
     """
 
     facts: list[Fact]
-    record: Picture | None
     predicted_times: dict[str, float]
 
 
 def of_test(subject: OfTest) -> Found:
-    """Say what was measured, and draw it with what the models predict."""
+    """Say what was measured, and when the models have their largest angle."""
     row, stored = subject.row, subject.stored
     return Found(
         known(_facts(row, stored, subject.campaign.specimens[row.test.specimen].scale)),
-        picture("record", subject),
         {model: predicted_peak_time(stored, model) for model in stored.models("predict")},
     )
 
@@ -119,13 +113,10 @@ class Bodies:
 
     answer: str
     rows: list[BodyRow]
-    joints: Picture | None
-    plan: Picture | None
 
 
-def bodies_of(subject: OfTest) -> Bodies:
+def bodies_of(record: TestSummary) -> Bodies:
     """Put what is known of each body into rows, from the top to the bottom as they stand."""
-    record = subject.row.record
     rows = []
     for name, body in reversed(record.bodies.items()):
         opening, opened = quantity(body.opening, "mm"), quantity(body.opening_time, "s", 4)
@@ -137,7 +128,7 @@ def bodies_of(subject: OfTest) -> Bodies:
                 falls = format_percent(each.overturning_probability)
                 band = "–" if each.moved_low is None else f"{low} to {high} mm"
                 rows.append(BodyRow("", "its runs", f"{falls} overturn", "–", "–", "–", band, "–", "–", ""))
-    return Bodies(by_bodies(record), rows, picture("joints", subject), picture("plan", subject))
+    return Bodies(by_bodies(record), rows)
 
 
 def _row(name: str, who: str, body: BodyPrediction, opening: str, opened: str, separation: str) -> BodyRow:
@@ -152,19 +143,9 @@ def _row(name: str, who: str, body: BodyPrediction, opening: str, opened: str, s
     )
 
 
-@dataclass(frozen=True)
-class ModelSpread:
-    """`verdicts` has a sentence for each model; `bands` is None without an ensemble."""
-
-    verdicts: list[str]
-    bands: Picture | None
-
-
-def spread_of(subject: OfTest) -> ModelSpread:
-    """Say of each model whether the measured angle is within its spread, and draw the bands."""
-    predictions = subject.row.record.predicted.items()
-    verdicts = (verdict_sentence(model, predicted) for model, predicted in predictions)
-    return ModelSpread(list(filter(None, verdicts)), picture("bands", subject))
+def verdicts_of(record: TestSummary) -> list[str]:
+    """Say of each model whether the measured angle is within its spread."""
+    return list(filter(None, (verdict_sentence(model, each) for model, each in record.predicted.items())))
 
 
 def verdict_sentence(model: str, predicted: PredictionSummary) -> str:

@@ -7,10 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from colonnade.campaign import Campaign
-from colonnade.figures.files.output import Picture
 from colonnade.report import specimens_page
 from colonnade.report.asked import Photos
-from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import Drawing
@@ -18,7 +16,7 @@ from colonnade.report.test_page import base, channels, facts, found, restitution
 from colonnade.report.test_page.base import Table
 from colonnade.report.test_page.channels import ChannelRow
 from colonnade.report.test_page.facts import Fact, known
-from colonnade.report.test_page.found import Bodies, Found, ModelSpread
+from colonnade.report.test_page.found import Bodies, Found
 from colonnade.report.test_page.restitution import Decay
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import Stored
@@ -27,24 +25,31 @@ from colonnade.units.text import number, quantity
 
 @dataclass(frozen=True)
 class TestPage:
-    """What the page of a test shows: its row, what is stored, and a field for each section."""
+    """What the page of a test shows: its row, what is stored, and a field for each section but for its pictures."""
 
     __test__ = False  # pytest takes a class of this name for a test
 
-    row: TestRow
-    stored: Stored
+    subject: OfTest
     review: list[str]
     photos: Photos
     done: Done
     drawing: Drawing
     found: Found
     bodies: Bodies
-    closer: Picture | None
     base: Table
-    spread: ModelSpread
+    spread: list[str]
     decay: Decay
     channels: tuple[ChannelRow, ...]
-    recording: Picture | None
+
+    @property
+    def row(self) -> TestRow:
+        """Its row in the tables."""
+        return self.subject.row
+
+    @property
+    def stored(self) -> Stored:
+        """What is stored of it."""
+        return self.subject.stored
 
 
 def of_test(campaign: Campaign, row: TestRow, stored: Stored, shown: Photos) -> TestPage:
@@ -52,20 +57,17 @@ def of_test(campaign: Campaign, row: TestRow, stored: Stored, shown: Photos) -> 
     test, block = row.test, campaign.block(row.test.specimen)
     subject = OfTest(campaign, row, stored)
     return TestPage(
-        row=row,
-        stored=stored,
+        subject=subject,
         review=stored.texts("ingest", "review") or list(campaign.review(test.id).sentences),
         photos=shown,
         done=done_of(row, stored, facts.who_and_when_of_test(campaign, test)),
         drawing=specimens_page.drawing_of(campaign, test.specimen, test.setup),
         found=found.of_test(subject),
-        bodies=found.bodies_of(subject),
-        closer=picture("closer", subject),
+        bodies=found.bodies_of(row.record),
         base=base.of_test(campaign, row, stored, block),
-        spread=found.spread_of(subject),
+        spread=found.verdicts_of(row.record),
         decay=restitution.decay_of(subject),
         channels=channels.of_test(stored),
-        recording=picture("channels", subject),
     )
 
 

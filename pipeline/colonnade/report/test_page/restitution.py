@@ -1,4 +1,4 @@
-"""The stored restitution of a free vibration in words and figures: estimators, departures, peaks."""
+"""The stored restitution of a free vibration in words: estimators, departures, peaks."""
 
 from __future__ import annotations
 
@@ -6,9 +6,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from colonnade.campaign.forms.summary import IdentifiedSummary
-from colonnade.figures.files.output import Picture
 from colonnade.figures.stored.restitution import STAGE, estimate_rows
-from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.store.records.stored import Stored
@@ -71,33 +69,27 @@ def facts_of(stored: Stored, found: IdentifiedSummary | None) -> list[tuple[str,
 PEAK = ("peak_time", "peak_angle", "peak_angle_standard_error", "fitted_angle", "peak_used")
 """Columns of the table of peaks, by their stored names."""
 
-FIGURES = ("fitted", "estimators", "peaks", "impacts", "region")
-"""Names of the figures, in their order."""
-
 
 @dataclass(frozen=True)
 class Decay:
     """
     A free vibration; without facts the section is left out.
 
-    `peaks` are time, angle, standard error, fitted angle and whether it was used; `pictures` are None if there is
-    nothing to draw.
+    `peaks` are time, angle, standard error, fitted angle and whether it was used.
     """
 
     facts: list[Fact]
     estimates: list[EstimateText]
     departures: list[str]
     peaks: list[tuple[float, ...]]
-    pictures: dict[str, Picture | None]
 
 
 def decay_of(subject: OfTest) -> Decay:
-    """Put what is stored of a test's restitution into words and figures."""
+    """Put what is stored of a test's restitution into words."""
     stored = subject.stored
     return Decay(
         facts=facts_of(stored, subject.row.record.restitution),
         estimates=estimates_of(stored),
         departures=stored.texts(STAGE, "departures"),
         peaks=list(zip(*(stored.array(STAGE, name).tolist() for name in PEAK), strict=True)),
-        pictures={name: picture(name, subject) for name in FIGURES},
     )
