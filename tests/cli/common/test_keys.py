@@ -1,13 +1,20 @@
 """Options that come from the keys of tables."""
 
+import rich_click as click
+
 from colonnade.cli.app import app
+
+
+def options(name):
+    command = app.commands[name]
+    return {each.name: each for each in command.get_params(click.Context(command))}
 
 
 def test_options_of_a_table_are_those_of_its_keys():
     from colonnade.campaign.assessment import Assessment
     from colonnade.workflow.spectrum import Asked
 
-    made = {each.name: each for each in app.commands["spectrum"].params}
+    made = options("spectrum")
     assert Asked.model_fields.keys() <= made.keys()
     assert all(made[key].help.startswith(field.description) for key, field in Asked.model_fields.items())
     assert (made["omega"].nargs, made["slenderness"].multiple, made["slenderness"].opts) == (2, True, ["--slenderness"])
@@ -19,6 +26,6 @@ def test_options_of_a_table_are_those_of_its_keys():
         "choice",
     ]
     left_out = {"specimen", "scale", "measures", "displaced"}
-    assess = {each.name: each for each in app.commands["fragility"].params}
+    assess = options("fragility")
     assert Assessment.model_fields.keys() - left_out <= assess.keys()
     assert assess["levels"].opts == ["--level"]

@@ -16,21 +16,15 @@ class WithKeys(click.RichCommand):
     """A command with options that `keys` gives, made only when it is used: a table loads pydantic."""
 
     def __init__(self, *given: Any, keys: Callable[[], list[click.Option]], **more: Any) -> None:
-        self._keys, self._own = keys, list[click.Parameter]()
+        self._keys: Callable[[], list[click.Option]] | None = keys
         super().__init__(*given, **more)
 
-    @property
-    def params(self) -> list[click.Parameter]:
-        """Its own arguments and options, and those of the tables ahead of where results go."""
-        if (keys := self._keys) is not None:
-            self._keys = None  # type: ignore[assignment]
-            place = next(number for number, each in enumerate(self._own) if each.name == "out")
-            self._own[place:place] = keys()
-        return self._own
-
-    @params.setter
-    def params(self, own: list[click.Parameter]) -> None:
-        self._own = own
+    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
+        """Return its own arguments and options, and those of the tables ahead of where results go."""
+        if self._keys is not None:
+            place = next(number for number, each in enumerate(self.params) if each.name == "out")
+            self.params[place:place], self._keys = self._keys(), None
+        return super().get_params(ctx)
 
 
 def options_of(keys: Mapping[str, FieldInfo], *, with_defaults: bool = False) -> list[click.Option]:
@@ -44,38 +38,36 @@ def options_of(keys: Mapping[str, FieldInfo], *, with_defaults: bool = False) ->
     with_defaults : bool, optional
         Whether the help says the defaults.
     """
-    return [_option(key, field, with_defaults=with_defaults) for key, field in keys.items()]
+    from colonnade.campaign.syntax.fields import OneOf, Quantity
 
-
-def _option(key: str, field: FieldInfo, *, with_defaults: bool) -> click.Option:
-    found = [*_parts(field.annotation), *field.metadata]
-    texts = [each for each in found if isinstance(each, str)]
-    lists = [each for each in found if get_origin(each) is tuple]
-    is_many, is_pair = (any((Ellipsis in get_args(each)) is many for each in lists) for many in (True, False))
-    words = next((each.words for each in found if hasattr(each, "words")), None)
-    quantity = next((each for each in found if hasattr(each, "dimension")), None)
-    kinds = [each for each in (float, int, Path) if each in found]
-    kind: Any = click.Choice(words) if words else str if texts or quantity or str in found else kinds[0]
-    flag = "--" + (key.removesuffix("s") if is_many and str in found else key).replace("_", "-")
-    said = str(field.description) + (" Repeat it for several." if is_many else "")
-    if with_defaults and field.default not in (None, ()):
-        usual = field.default if isinstance(field.default, tuple) else (field.default,)
-        said += f" Default: {' '.join(f'{each:g}' if isinstance(each, float) else str(each) for each in usual)}."
-    return click.Option(
-        [flag, key],
-        type=click.Path(path_type=Path) if kind is Path else kind,
-        nargs=2 if is_pair else 1,
-        multiple=is_many,
-        metavar="LOW HIGH" if is_pair else quantity.dimension.upper() if quantity else None,
-        help=said,
-    )
+    made = []
+    for key, field in keys.items():
+        found = [*_parts(field.annotation), *field.metadata]
+        tuples = [get_args(each) for each in found if get_origin(each) is tuple]
+        is_many, is_pair = any(... in each for each in tuples), any(... not in each for each in tuples)
+        words = [click.Choice(each.words) for each in found if isinstance(each, OneOf)]
+        dimension = [each.dimension for each in found if isinstance(each, Quantity)]
+        plain = str if dimension else next(each for each in (str, Path, float, int) if each in found)
+        said = str(field.description) + " Repeat it for several." * is_many
+        if with_defaults and field.default not in (None, ()):
+            said += f" Default: {str(field.default).strip('()').replace(',', '')}."
+        flag = key.removesuffix("s") if is_many and not dimension else key
+        made.append(
+            click.Option(
+                ["--" + flag.replace("_", "-"), key],
+                type=words[0] if words else click.Path(path_type=Path) if plain is Path else plain,
+                nargs=2 if is_pair else 1,
+                multiple=is_many,
+                metavar="LOW HIGH" if is_pair else dimension[0].upper() if dimension else None,
+                help=said,
+            )
+        )
+    return made
 
 
 def _parts(annotation: Any) -> Iterator[Any]:
     """Give a type, all within it, and what is said of it, such as its quantity."""
     yield annotation
-    if get_origin(annotation) is Literal:
-        yield from get_args(annotation)
-        return
+    is_words = get_origin(annotation) is Literal
     for each in (*get_args(annotation), *getattr(annotation, "__metadata__", ())):
-        yield from _parts(each)
+        yield from [type(each)] if is_words else _parts(each)

@@ -25,11 +25,13 @@ from colonnade.units.text import number, quantity
 
 @dataclass(frozen=True)
 class TestPage:
-    """What the page of a test shows: its row, what is stored, and a field for each section but for its pictures."""
+    """What the page of a test shows, a field for each section; its pictures are of `subject`."""
 
     __test__ = False  # pytest takes a class of this name for a test
 
     subject: OfTest
+    row: TestRow
+    stored: Stored
     review: list[str]
     photos: Photos
     done: Done
@@ -41,16 +43,6 @@ class TestPage:
     decay: Decay
     channels: tuple[ChannelRow, ...]
 
-    @property
-    def row(self) -> TestRow:
-        """Its row in the tables."""
-        return self.subject.row
-
-    @property
-    def stored(self) -> Stored:
-        """What is stored of it."""
-        return self.subject.stored
-
 
 def of_test(campaign: Campaign, row: TestRow, stored: Stored, shown: Photos) -> TestPage:
     """Put all that is stored of a test into words and figures."""
@@ -58,6 +50,8 @@ def of_test(campaign: Campaign, row: TestRow, stored: Stored, shown: Photos) -> 
     subject = OfTest(campaign, row, stored)
     return TestPage(
         subject=subject,
+        row=row,
+        stored=stored,
         review=stored.texts("ingest", "review") or list(campaign.review(test.id).sentences),
         photos=shown,
         done=done_of(row, stored, facts.who_and_when_of_test(campaign, test)),
