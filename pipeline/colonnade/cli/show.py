@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,21 +20,6 @@ if TYPE_CHECKING:
     from colonnade.campaign.forms.summary import Summary
 
 Record = dict[str, Any]
-
-UNITS = {
-    "α": ("peak_ratio", "release_ratio", "nrmse", "peak_low", "peak_high"),
-    "s": ("duration", "peak_time", "horizon"),
-    "Hz": ("frequency",),
-    "m/s²": ("pga",),
-    "mm": ("peak_slide",),
-    "mrad": ("residual",),
-    "rad": ("critical_angle",),
-    "rad/s": ("p",),
-    "m": ("pole_distance", "width", "depth", "height", "diameter", "base_diameter", "top_diameter"),
-    "kg": ("mass",),
-    "kg m²": ("inertia",),
-}
-"""Keys of the summary that have a unit; all other numbers have none."""
 
 
 @click.group()
@@ -179,34 +165,61 @@ def _show_records(
 
 
 def _specimen_cells(record: Record) -> tuple[str, ...]:
-    from colonnade.units.text import interval
-
-    restitution = record["restitution"]
-    value, low, high = (restitution[name] for name in ("value", "low", "high"))
-    e = shown(value) if low is None else interval(value, low, high, restitution["level"])
     columns = ("critical_angle", "pole_distance", "inertia", "p", "rigid_restitution")
     geometry = [shown(record[column]) for column in columns]
-    return (record["shape"], *geometry, e, restitution["source"] or restitution["reason"] or "")
+    e = record["restitution"]
+    return (record["shape"], *geometry, _estimate(e), e["source"] or e["reason"] or "")
+
+
+def _estimate(e: Mapping[str, Any]) -> str:
+    """Write a coefficient of restitution with its interval, if it has one."""
+    from colonnade.units.text import interval
+
+    return shown(e["value"]) if e["low"] is None else interval(e["value"], e["low"], e["high"], e.get("level"))
 
 
 def _flat(record: Mapping[str, Any], prefix: str = "") -> list[tuple[str, str]]:
     """Write a nested record as lines of `a.b` and value, leaving out what is not known."""
     lines: list[tuple[str, str]] = []
     for key, value in record.items():
+        name = f"{prefix}{key}"
         if isinstance(value, Mapping):
-            lines += _flat(value, f"{prefix}{key}.")
+            is_estimate = {"value", "low", "high"} <= value.keys()
+            lines += [(name, _estimate(value))] if is_estimate and value["value"] is not None else []
+            left = {each: of for each, of in value.items() if not is_estimate or each not in ESTIMATE}
+            lines += _flat(left, f"{name}.")
         elif key == "warnings":
-            lines += [(f"{prefix}{key}", line_of(each)) for each in value]
+            lines += [(name, line_of(each)) for each in value]
         elif value is not None and value != []:
-            lines.append((f"{prefix}{key}", _with_unit(f"{prefix}{key}", value)))
+            lines.append((name, _with_unit(key, value)))
     return lines
 
 
+ESTIMATE = ("value", "low", "high", "level")
+"""Keys of a number with its interval."""
+
+SMALL = {"m": "mm", "rad": "mrad"}
+"""Units of values below 0.1."""
+
+
 def _with_unit(key: str, value: object) -> str:
-    unit = next((unit for unit, keys in UNITS.items() if key.rpartition(".")[2] in keys), "")
-    if isinstance(value, float) and unit in ("mm", "mrad"):
-        value = 1000 * value
+    unit = _units().get(key, "")
+    if isinstance(value, float) and unit in SMALL and 0.0 < abs(value) < 0.1:
+        value, unit = 1000 * value, SMALL[unit]
     return f"{shown(value)} {unit}".rstrip()
+
+
+@cache
+def _units() -> dict[str, str]:
+    """Give the units of keys of the summary; all other numbers have none."""
+    from colonnade.campaign.forms import summary as forms
+    from colonnade.campaign.specimen import OUTER_DIMENSIONS
+    from colonnade.campaign.syntax.table import Record as Form
+
+    models = [each for each in vars(forms).values() if isinstance(each, type) and issubclass(each, Form)]
+    said = {key: field.json_schema_extra for model in models for key, field in model.model_fields.items()}
+    found = {key: str(extra["unit"]) for key, extra in said.items() if isinstance(extra, dict) and "unit" in extra}
+    return found | dict.fromkeys(OUTER_DIMENSIONS, "m")
 
 
 @click.command(epilog="Example: colonnade schema campaign > campaign.schema.json")

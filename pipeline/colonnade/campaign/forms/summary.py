@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -13,6 +13,11 @@ from colonnade.findings import Finding, Severity
 
 Outcome = Literal["no-rocking", "rocking", "overturned"]
 Order = int | Literal["irregular"] | None
+Share = Annotated[Known, Field(json_schema_extra={"unit": "α"})]
+Metres = Annotated[Known, Field(json_schema_extra={"unit": "m"})]
+Radians = Annotated[Known, Field(json_schema_extra={"unit": "rad"})]
+Seconds = Annotated[Known, Field(json_schema_extra={"unit": "s"})]
+Hertz = Annotated[Known, Field(json_schema_extra={"unit": "Hz"})]
 
 
 class RestitutionSummary(Record):
@@ -45,7 +50,7 @@ class SpecimenPrototype(Record):
     """Frequency parameter, rad/s."""
     pole_distance: float
     """R, m."""
-    mass: float
+    mass: float = Field(json_schema_extra={"unit": "kg"})
     """kg."""
     inertia: float
     """I₀ about the pole, kg m²."""
@@ -56,13 +61,13 @@ class SpecimenPrototype(Record):
 class SpecimenSummary(Record):
     """A specimen; of one that is not symmetric the side with the smaller critical angle."""
 
-    critical_angle: float
+    critical_angle: float = Field(json_schema_extra={"unit": "rad"})
     """α, rad."""
-    p: float
+    p: float = Field(json_schema_extra={"unit": "rad/s"})
     """Frequency parameter, rad/s."""
-    pole_distance: float
+    pole_distance: float = Field(json_schema_extra={"unit": "m"})
     """R, m."""
-    inertia: float
+    inertia: float = Field(json_schema_extra={"unit": "kg m²"})
     """I₀ about the pole, kg m²."""
     restitution: RestitutionSummary
     """Coefficient of restitution."""
@@ -75,21 +80,21 @@ class PredictionSummary(Record):
 
     outcome: Outcome | None = None
     """Predicted outcome."""
-    peak_ratio: Known = None
+    peak_ratio: Share = None
     """max |θ| / α; null when overturned."""
-    nrmse: Known = None
+    nrmse: Share = None
     """RMS of predicted − measured, over α, until either first passes α."""
     order: Order = None
     """Predicted order of a sine test's response; see the test's own."""
-    horizon: Known = None
+    horizon: Seconds = None
     """Time up to which the model predicts the angle, s: the first at which the 95 % band of its runs is wider than the
     setting `processing.predict.ensemble.horizon`, else the record's end; null if it has no runs."""
     within_spread: Known = None
     """Rank of the measured angle: share of the model's runs that are closer to their median, by their largest scaled
     distance up to the horizon. Within the model's own spread: at most 0.95."""
-    peak_low: Known = None
+    peak_low: Share = None
     """Lower end of the band that holds the peaks of 95 % of the model's runs, as max |θ| / α."""
-    peak_high: Known = None
+    peak_high: Share = None
     """Its upper end; null where more than 2.5 % of the runs overturn."""
     peak_rank: Known = None
     """Share of the model's runs whose peak, measured with the same noise, would be below the measured one."""
@@ -106,7 +111,7 @@ class HistorySummary(Record):
     """Lower end of its interval."""
     high: Known = None
     """Upper end of its interval."""
-    residual: Known = None
+    residual: Radians = None
     """RMS of measured − simulated angle, rad."""
 
 
@@ -128,13 +133,13 @@ class IdentifiedSummary(Record):
 class TestPrototype(Record):
     """A test at prototype scale; accelerations and angles are those of the model."""
 
-    duration: float
+    duration: float = Field(json_schema_extra={"unit": "s"})
     """Length of the record, s."""
-    frequency: Known = None
+    frequency: Hertz = None
     """Of a sine test, Hz."""
-    peak_time: Known = None
+    peak_time: Seconds = None
     """Time of the peak, s."""
-    peak_slide: Known = None
+    peak_slide: Metres = None
     """Largest slide, m."""
 
 
@@ -169,17 +174,17 @@ class BodyPrediction(Record):
 
     outcome: Outcome | None = None
     """Predicted outcome."""
-    peak_ratio: Known = None
+    peak_ratio: Share = None
     """Largest rocking angle in the joint below, over the critical angle of all that turns there; null where it fell."""
-    residual_x: Known = None
+    residual_x: Metres = None
     """Displacement along x of the centre of its base at the end, from where it stood, m."""
-    residual_y: Known = None
+    residual_y: Metres = None
     """The same along y, m."""
-    residual_yaw: Known = None
+    residual_yaw: Radians = None
     """Rotation about the vertical at the end, rad."""
-    moved_low: Known = None
+    moved_low: Metres = None
     """Of the model's runs in which it stands, 95 % move it farther than this and less than the next, m."""
-    moved_high: Known = None
+    moved_high: Metres = None
     """The upper end of that band, m."""
     overturning_probability: Known = None
     """Share of the model's runs in which it falls."""
@@ -190,9 +195,9 @@ class BodySummary(BodyPrediction):
 
     outcome: Outcome | None = None
     """Measured outcome; null where it was not measured."""
-    opening: Known = None
+    opening: Metres = None
     """Largest gap of the joint below, m."""
-    opening_time: Known = None
+    opening_time: Seconds = None
     """When that joint first opened, s; null where it did not."""
     separation: str | None = None
     """What its transducers separate, or why it was not measured."""
@@ -223,21 +228,21 @@ class TestSummary(Record):
     """Measured outcome."""
     observed_outcome: str | None = None
     """As in the campaign file."""
-    peak_ratio: Known = None
+    peak_ratio: Share = None
     """max |θ| / α; null when overturned. Of a free vibration over the time that is predicted."""
-    peak_time: Known = None
+    peak_time: Seconds = None
     """Time of the peak, s."""
-    release_ratio: Known = None
+    release_ratio: Share = None
     """Of a free vibration max |θ| / α before the time that is predicted: the angle that it was released from."""
-    pga: Known = None
+    pga: Annotated[Known, Field(json_schema_extra={"unit": "m/s²"})] = None
     """Peak acceleration of the table, m/s²."""
-    duration: Known = None
+    duration: Seconds = None
     """Length of the record, s."""
-    peak_slide: Known = None
+    peak_slide: Metres = None
     """Largest slide of the base on the table while the specimen stands, m; null where not measured."""
     impacts: int | None = None
     """Impacts followed by a peak above noise and 0.001 α."""
-    frequency: Known = None
+    frequency: Hertz = None
     """Of a sine test, as recorded on the table, Hz; as given where the record does not show it."""
     frequency_ratio: Known = None
     """Ω = ω / p of a sine test."""
