@@ -79,4 +79,5 @@ def test_a_test_is_a_row_that_fits_on_80_columns_and_its_details_have_units(colo
     assert told["test"] == "free-01"
     assert re.fullmatch(r"0\.\d+ α", told["peak_ratio"])
     assert re.fullmatch(r"1[12](\.\d+)? s", told["duration"])
-    assert re.fullmatch(r"0\.9[45]\d*", told["restitution.value"])
+    assert re.fullmatch(r"0\.9[45]\d* ± 0\.0\d+", told["restitution"])
+    assert told["peak_slide"].endswith(" mm")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -89,19 +89,33 @@ def of_test(
 
 
 def _response(stored: Stored, block: Block, samples: Samples) -> list[Panel]:
-    found = [
-        _angles(stored, block, samples),
-        _joints(stored, samples),
-        _misfit(stored, block, samples),
-        _motions(stored, samples),
+    return [
+        *_angles(stored, block, samples),
+        *_joints(stored, samples),
+        *_misfit(stored, block, samples),
+        *_motions(stored, samples),
     ]
-    return [panel for panels in found for panel in panels]
+
+
+def _panel(title: str, short: str, unit: str, curves: list[dict[str, Any]], **more: Any) -> list[Panel]:
+    """Describe a panel; none without a curve."""
+    return [{"title": title, "short": short, "unit": unit, "curves": curves, **more}] if curves else []
+
+
+def _compared(curves: Mapping[str, Curve], samples: Samples, factor: float = 1.0) -> list[dict[str, Any]]:
+    """Describe curves as measured and by each model."""
+    return [
+        samples.curve("measured", curve.time, factor * curve.values, colour="ink", width=1.3)
+        if who == "measured"
+        else samples.curve(f"{who} model", curve.time, factor * curve.values, **_look(who))
+        for who, curve in curves.items()
+        if _has(curve)
+    ]
 
 
 def _angles(stored: Stored, block: Block, samples: Samples) -> list[Panel]:
     measured, predicted = measured_ratio(stored, block), predicted_ratios(stored, block)
-    curves = [] if measured is None else [samples.curve("measured", *measured, colour="ink", width=1.3)]
-    curves += [samples.curve(f"{model} model", *curve, **_look(model)) for model, curve in predicted.items()]
+    curves = _compared(({} if measured is None else {"measured": measured}) | predicted, samples)
     if not curves:
         return []
     bands, marks = [], []
@@ -111,18 +125,8 @@ def _angles(stored: Stored, block: Block, samples: Samples) -> list[Panel]:
         if np.isfinite(spread.horizon) and spread.horizon < spread.time[-1]:
             text = f"horizon, {model} model"
             marks.append({"name": text, "time": spread.horizon, "colour": model_style(model)["color"]})
-    return [
-        {
-            "title": "Rocking angle over critical angle, θ/α",
-            "short": "θ/α",
-            "unit": "",
-            "is_angle": True,
-            "curves": curves,
-            "bands": bands,
-            "marks": marks,
-            "levels": [1.0, -1.0],
-        }
-    ]
+    title, more = "Rocking angle over critical angle, θ/α", {"is_angle": True, "levels": [1.0, -1.0]}
+    return _panel(title, "θ/α", "", curves, bands=bands, marks=marks, **more)
 
 
 def _bands(model: str, spread: Spread, samples: Samples, *, is_open: bool) -> list[dict[str, Any]]:
@@ -145,24 +149,14 @@ def _joints(stored: Stored, samples: Samples) -> list[Panel]:
     """One panel for the joint below each body of an assembly, the upper ones first."""
     found = []
     for place, name in reversed(list(enumerate(stored.array("rocking", "body")))):
-        curves = [
-            samples.curve("measured", curve.time, 1e3 * curve.values, colour="ink", width=1.3)
-            if who == "measured"
-            else samples.curve(f"{who} model", curve.time, 1e3 * curve.values, **_look(who))
-            for who, curve in bodies.histories(stored, place, "body_joint_angle").items()
-        ]
-        if curves:
-            title = f"Rocking angle in the joint below {name}"
-            found.append({"title": title, "short": f"joint below {name}", "unit": "mrad", "curves": curves})
+        curves = _compared(bodies.histories(stored, place, "body_joint_angle"), samples, 1e3)
+        found += _panel(f"Rocking angle in the joint below {name}", f"joint below {name}", "mrad", curves)
     return found
 
 
 def _misfit(stored: Stored, block: Block, samples: Samples) -> list[Panel]:
-    measured, predicted = measured_ratio(stored, block), predicted_ratios(stored, block)
-    found = misfits(stored, measured, predicted)
-    curves = [samples.curve(f"{model} model", *curve, **_look(model)) for model, curve in found.items() if _has(curve)]
-    title = "Predicted minus measured, over critical angle"
-    return [{"title": title, "short": "misfit", "unit": "", "curves": curves}] if curves else []
+    found = misfits(stored, measured_ratio(stored, block), predicted_ratios(stored, block))
+    return _panel("Predicted minus measured, over critical angle", "misfit", "", _compared(found, samples))
 
 
 def _motions(stored: Stored, samples: Samples) -> list[Panel]:
@@ -172,14 +166,11 @@ def _motions(stored: Stored, samples: Samples) -> list[Panel]:
         curve = motion(stored, name, unit)
         if curve is not None and _has(curve):
             found.setdefault(unit, []).append(samples.curve(words, *curve, **_numbered(index)))
+    named = {unit: [curve["name"] for curve in curves] for unit, curves in found.items()}
     return [
-        {
-            "title": ", ".join(curve["name"] for curve in curves).capitalize(),
-            "short": " ".join(curve["name"] for curve in curves),
-            "unit": unit,
-            "curves": curves,
-        }
+        panel
         for unit, curves in found.items()
+        for panel in _panel(", ".join(named[unit]).capitalize(), " ".join(named[unit]), unit, curves)
     ]
 
 
@@ -192,7 +183,7 @@ def _base(stored: Stored, block: Block, samples: Samples) -> list[Panel]:
             levels = [level, -level] if name == "base_acceleration" else []
             curves = [samples.curve(words, *curve, colour="soft", width=1)]
             title = words.capitalize() + ("; dotted: ± g tan α" if levels else "")
-            found.append({"title": title, "short": words, "unit": unit, "curves": curves, "levels": levels})
+            found += _panel(title, words, unit, curves, levels=levels)
     return found
 
 
@@ -208,15 +199,11 @@ def _conditioned(conditioned: xr.Dataset | None, samples: Samples) -> list[Panel
             curves = found.setdefault(quantity, [])
             values = from_si(1.0, CHANNEL_UNITS[quantity]) * variable.to_numpy()
             curves.append(samples.curve(str(channel), time, values, **_numbered(len(curves))))
-    return [
-        {
-            "title": f"{quantity.replace('_', ' ').capitalize()}, conditioned",
-            "short": f"conditioned {quantity.replace('_', ' ')}",
-            "unit": CHANNEL_UNITS[quantity],
-            "curves": curves,
-        }
-        for quantity, curves in found.items()
-    ]
+    panels = []
+    for quantity, curves in found.items():
+        words = quantity.replace("_", " ")
+        panels += _panel(f"{words.capitalize()}, conditioned", f"conditioned {words}", CHANNEL_UNITS[quantity], curves)
+    return panels
 
 
 def _recorded(recorded: xr.Dataset | None, conditioned: xr.Dataset | None, samples: Samples) -> list[Panel]:
