@@ -9,12 +9,15 @@ from typing import Any
 
 import numpy as np
 from scipy.ndimage import maximum_filter1d
+from scipy.optimize import minimize_scalar
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign
 from colonnade.campaign.forms.summary import Summary, TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import amplitude, capped
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import rock
 from colonnade.figures.stored.record import measured_ratio, predicted_ratios
 from colonnade.identification.response.boundaries import MapPoint, bracket_boundaries
 from colonnade.identification.response.order import response_order
@@ -135,6 +138,9 @@ Numbers = dict[str, Any]
 LARGE_ARCS = 4
 """Arcs after the start of a prediction whose amplitudes are the initial large ones."""
 
+FITTED, TRIED = (0.9, 0.9995), 200
+"""Values of e with which the linearised solution is held against a free vibration."""
+
 STAGE = 10
 """Periods of the table at the beginning of a steady sine whose response has an order of its own."""
 
@@ -189,7 +195,33 @@ def free_vibration(stored: Stored, block: Block) -> Numbers:
             "late": nrmse(measured.values[late], curve.values[late], 1.0),
         }
     one, other = predicted[ANALYTICAL], predicted[NUMERICAL]
-    return found | {"numerical_to_analytical": nrmse(one.values, other.values, 1.0)}
+    return found | {
+        "numerical_to_analytical": nrmse(one.values, other.values, 1.0),
+        "best_linear": _best_linear(measured.time, measured.values, one.values, block),
+    }
+
+
+def _best_linear(time: Array, measured: Array, predicted: Array, block: Block) -> Numbers:
+    """Give the e with which the linearised solution follows θ/α best from the peak where `predicted` begins."""
+    begin = int(np.argmax(np.isfinite(predicted)))
+    still = Motion(np.zeros(time.size - begin), float(time[1] - time[0]))
+
+    def misfit(restitution: float) -> float:
+        moved = rock(
+            block,
+            still,
+            restitution=restitution,
+            model=ANALYTICAL,
+            theta0=float(predicted[begin]) * block.critical_angle,
+        )
+        return nrmse(measured[begin:], moved.angle / block.critical_angle, 1.0)
+
+    # A misfit over e has several dips: arcs of another e fall in and out of step. The deepest is refined.
+    tried = np.linspace(*FITTED, TRIED)
+    best = float(tried[np.argmin([misfit(float(each)) for each in tried])])
+    step = (FITTED[1] - FITTED[0]) / (TRIED - 1)
+    found = minimize_scalar(misfit, bounds=(best - step, best + step), method="bounded", options={"xatol": 1e-6})
+    return {"restitution": float(found.x), "misfit": float(found.fun)}
 
 
 def sine(stored: Stored, block: Block) -> Numbers:

@@ -136,7 +136,7 @@ CHANGES = {
     "table-1-prism-inertia": ("specimens.prism.inertia", 1.9),
     "critical-angles-are-angles": ("specimens.prism.tangent", 0.1864),
     "one-p-for-all": ("specimens.cone.p", 5.6312),
-    "e-by-best-fit": ("restitution.prism.by_whole_histories", [0.97]),
+    "e-by-best-fit": ("free_vibrations.free-01.best_linear.restitution", 0.97),
     "prism-correlates": ("tests.free-02.predicted.linear.nrmse", 0.2),
     "numerical-free-vibration": ("free_vibrations.free-01.numerical_to_analytical", 0.3),
     "rocking-in-space": ("three_dimensional.disturbances", {"push": {"size": None, "prism": 0.3}}),
