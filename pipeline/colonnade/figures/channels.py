@@ -252,7 +252,8 @@ AROUND = 12
 def picture(test: Test, stored: Stored) -> Picture | None:
     """Draw all channels of a test as recorded; None without their samples."""
     recorded, conditioned = (stored.datasets.get((stage, None)) for stage in ("ingest", "condition"))
-    names = [] if recorded is None else [str(name) for name, each in recorded.data_vars.items() if _is_channel(each)]
+    variables = {} if recorded is None else recorded.data_vars
+    names = [str(name) for name, each in variables.items() if "channel" in each.attrs and each.ndim == 1]
     if recorded is None or not names:
         return None
     shown = names[:MOST_CHANNELS]
@@ -276,10 +277,6 @@ def picture(test: Test, stored: Stored) -> Picture | None:
         f"{'; '.join(flagged)}. {count(len(spikes), 'spike')}.",
         " ".join(notes),
     )
-
-
-def _is_channel(variable: xr.DataArray) -> bool:
-    return "channel" in variable.attrs and variable.ndim == 1
 
 
 def _channel(name: str, recorded: xr.Dataset, conditioned: xr.Dataset | None, given: Mapping[str, Any]) -> Channel:

@@ -16,6 +16,7 @@ from colonnade.dynamics.block import Block
 from colonnade.figures.drawing.described import body_of
 from colonnade.figures.drawing.view import Body
 from colonnade.figures.files.output import Movie
+from colonnade.figures.histories import time_limits
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored.record import base_displacement, true_angle
 from colonnade.figures.style import INK, MEASURED, SOFT, model_style, styled
@@ -71,7 +72,7 @@ def rocking_block(
     """
     if not angles or body.rocking is None:
         raise ValueError("no history of a body with poles was given; at least one was expected")
-    first, last = _time_limits(list(angles.values()))
+    first, last = time_limits(list(angles.values()))
     frames = min(max(ceil((last - first) * RATE), 2), MOST_FRAMES)
     times = np.linspace(first, last, frames)
     speed = (last - first) * RATE / frames
@@ -188,10 +189,6 @@ def _at(curve: Curve, times: Array) -> Array:
         return np.zeros_like(times)
     # Past its end a history keeps its last value: an overturned block stays where it fell.
     return np.interp(times, curve.time[known], curve.values[known])
-
-
-def _time_limits(curves: Sequence[Curve]) -> tuple[float, float]:
-    return min(float(curve.time[0]) for curve in curves), max(float(curve.time[-1]) for curve in curves)
 
 
 def _label(name: str) -> str:

@@ -25,6 +25,7 @@ from colonnade.units import text
 from colonnade.units.text import format_percent
 
 _SECTION = re.compile(r'<section id="([\w-]+)"(?: data-paper="no")?>\s*<h2>(.*?)</h2>', re.DOTALL)
+"""Id and title of a section, as templates write them: for the table of contents of a page."""
 
 _MARK = re.compile(f'href="{link_to("")}([^"]+)"')
 """Link of a mark in a figure to a test."""
@@ -83,7 +84,7 @@ class Renderer:
             "test_page": of_test,
             "scripts_of": scripts_of,
             "specimen_page": of_specimen,
-            "sections": _sections,
+            "sections": _SECTION.findall,
         }
         self._environment.filters |= {
             "setting": _setting,
@@ -108,11 +109,6 @@ class Renderer:
         """Give the `<svg>` of a picture, and note that the page shows it."""
         self.pictures.append(picture)
         return Markup(picture.svg)
-
-
-def _sections(body: str) -> list[tuple[str, str]]:
-    """Find the sections of a page for its table of contents: id and title, as its templates wrote them."""
-    return _SECTION.findall(body)
 
 
 def _setting(setting: Setting) -> str:

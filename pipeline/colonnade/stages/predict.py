@@ -13,7 +13,7 @@ from colonnade.dynamics.history import History, amplitude
 from colonnade.dynamics.models import model_of
 from colonnade.dynamics.rock import rock
 from colonnade.errors import StageError
-from colonnade.findings import Finding, serious
+from colonnade.findings import serious
 from colonnade.stages.contact import ContactInputs, assembly_law, body_of, law_of, law_variables
 from colonnade.stages.parts.beginning import Beginning, BeginningInputs, begin
 from colonnade.stages.parts.bodies import AssemblyInputs, predicted_variables
@@ -119,7 +119,10 @@ def predict(
             _space_variables(moved, beginning.first)
             | law_variables(moved.body, moved.law, moved.block.gravity)
             | {"energy_residual": ((), moved.energies.relative_residual)}
-        ).assign_attrs(body=moved.body.description, warnings=[*beginning.warnings, *_of_engine(moved)])
+        ).assign_attrs(
+            body=moved.body.description,
+            warnings=[*beginning.warnings, *(serious("energy balance", text) for text in moved.warnings)],
+        )
     history = rock(
         block,
         beginning.motion,
@@ -168,10 +171,6 @@ def _assembled(beginning: Beginning, time: Array, inputs: AssemblyInputs, space:
         coords={"elapsed": ("elapsed", time)},
         attrs={"outcome": moved.outcome, "driven_by": beginning.driven_by, "warnings": beginning.warnings},
     )
-
-
-def _of_engine(moved: ContactHistory) -> list[Finding]:
-    return [serious("energy balance", text) for text in moved.warnings]
 
 
 def sides(specimen: xr.Dataset) -> tuple[float, float]:

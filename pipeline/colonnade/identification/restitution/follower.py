@@ -59,10 +59,14 @@ class Followed(NamedTuple):
 
 
 @kernel
-def _stages(
+def _step(
     height: float, speed: float, length: float, critical: float, square: float, first: float, last: float
-) -> tuple[float, float, float, float, float, float, float, float]:
-    """Accelerations of a step's four stages and their derivatives by the height; the push at its start and end."""
+) -> tuple[float, float, float, float, float, float, float, float, float, float]:
+    """
+    Height and speed after a step, accelerations of its four stages and their derivatives by the height.
+
+    `first` and `last` are the push at its start and end.
+    """
     middle = 0.5 * (first + last)
     lean = critical - height
     s, c = sin(lean), cos(lean)
@@ -75,7 +79,10 @@ def _stages(
     three, by_three = -square * (s + middle * c), square * (c - middle * s)
     lean = critical - (height + length * speed + 0.5 * length * length * two)
     s, c = sin(lean), cos(lean)
-    return one, two, three, -square * (s + last * c), by_one, by_two, by_three, square * (c - last * s)
+    four, by_four = -square * (s + last * c), square * (c - last * s)
+    higher = height + length * speed + length * length / 6.0 * (one + two + three)
+    faster = speed + length / 6.0 * (one + 2.0 * two + 2.0 * three + four)
+    return higher, faster, one, two, three, four, by_one, by_two, by_three, by_four
 
 
 @kernel
@@ -146,20 +153,16 @@ def follow(
             next_push = 0.0
             if not at_rest:
                 next_push = push + (sign * base[i] - push) * (length / (time[i] - now) if time[i] != now else 1.0)
-            stages = _stages(height, speed, length, alpha, square, push, next_push)
-            one, two, three, four, by_one, by_two, by_three, by_four = stages
-            higher = height + length * speed + length * length / 6.0 * (one + two + three)
-            faster = speed + length / 6.0 * (one + 2.0 * two + 2.0 * three + four)
+            stepped = _step(height, speed, length, alpha, square, push, next_push)
+            higher, faster, one, two, three, four, by_one, by_two, by_three, by_four = stepped
             landed = way > 0 and higher <= 0.0 and faster < 0.0
             if landed:
                 whole, whole_push = length, next_push
                 for _ in range(5):
                     length -= higher / faster
                     next_push = push + (whole_push - push) * (length / whole)
-                    stages = _stages(height, speed, length, alpha, square, push, next_push)
-                    one, two, three, four, by_one, by_two, by_three, by_four = stages
-                    higher = height + length * speed + length * length / 6.0 * (one + two + three)
-                    faster = speed + length / 6.0 * (one + 2.0 * two + 2.0 * three + four)
+                    stepped = _step(height, speed, length, alpha, square, push, next_push)
+                    higher, faster, one, two, three, four, by_one, by_two, by_three, by_four = stepped
                 ends_at_sample = False
             if derived:
                 h, hu = _vary(h, hu, length, by_one, by_two, by_three, by_four, 0.0, 0.0, 0.0, 0.0)

@@ -182,10 +182,6 @@ def pdf_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> bytes:
     return typeset(document_of(campaign, folder, appendix=appendix))[0]
 
 
-def _template() -> bytes:
-    return (resources("colonnade.report") / "templates" / TEMPLATE).read_bytes()
-
-
 def typeset(document: Document, format: Literal["pdf", "png"] = "pdf") -> list[bytes]:
     """
     Typeset a document.
@@ -235,7 +231,7 @@ def prepared(document: Document) -> Iterator[typst.Compiler]:
     )
     with TemporaryDirectory(prefix="colonnade-report-") as made:
         root = Path(made).resolve()
-        (root / TEMPLATE).write_bytes(_template())
+        (root / TEMPLATE).write_bytes((resources("colonnade.report") / "templates" / TEMPLATE).read_bytes())
         (root / "report.json").write_text(json.dumps(document.data, ensure_ascii=False), encoding="utf-8")
         for name, picture in document.pictures.items():
             (root / name).write_text(NO_XML.sub("", picture), encoding="utf-8")
