@@ -78,7 +78,7 @@ def test_the_result_holds_what_it_was_made_from(stored, answer):
 
 
 def test_without_records_there_is_no_answer():
-    with pytest.raises(StageError, match="no ground motion can be used"):
+    with pytest.raises(StageError, match="no ground motion that can be used; at least 2"):
         _plan(RecordSet((), (), ()))
 
 
@@ -103,6 +103,9 @@ def _records(offset):
 def test_records_that_drift_have_an_answer_when_corrected_and_a_reason_as_they_are():
     plan = _plan(_records(0.05), "identified", baseline="linear", levels=["1 m/s", "2 m/s", "4 m/s"])
     assert "1 ground motion with a peak ground velocity; at least 2" in plan.without_correction
+    assert plan.without_correction.count("the record drifts, by") == 3
+    with pytest.raises(StageError, match=r'taken off by baseline = "linear" \(--baseline linear\)'):
+        _plan(_records(0.05))
     found = _answered(plan)
     assert found.baseline == "linear"
     assert (found.variants[-1].name, found.variants[-1].reason) == (UNCORRECTED, plan.without_correction)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import inf
@@ -230,12 +231,8 @@ def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | Non
     except ValueError as error:
         raise StageError(f"The real column cannot be: {error}") from error
     asked = inputs.asked
-    if len(records.records) < FEWEST:
-        reasons = "; ".join(f"{each.name}: {each.reason}" for each in records.left_out[:3])
-        raise StageError(
-            f"{count(len(records.records), 'ground motion')} can be used; at least {FEWEST} were expected."
-            + (f" Left out: {reasons}" if reasons else "")
-        )
+    unread = {each.name: each.reason.removeprefix(f"{each.name}: ") for each in records.left_out}
+    _expect_enough([each.name for each in records.records], "that can be used", unread)
     motions = {each.name: each.motion for each in records.records}
 
     several = None if inputs.several is None else inputs.several.enlarged(inputs.scale, asked.displaced)
@@ -259,7 +256,8 @@ def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | Non
         study = planned(asked.baseline)
     except ValueError as error:
         raise StageError(str(error)) from error
-    _expect_enough(study)
+    drifting = asked.baseline if study.left_out else ""
+    _expect_enough(study.names, f"with a {study.measure.name}", study.left_out | unread, drifting)
     # The contact model has no e to vary, and takes minutes for each history.
     variants = _variants(column) if inputs.several is None else {}
     studies = {ASSUMED: study} | {name: study.of(other) for name, other in variants.items()}
@@ -268,20 +266,27 @@ def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | Non
         # Records that are corrected because they drift may have no answer as they are.
         try:
             plain = planned(NONE)
-            _expect_enough(plain)
+            _expect_enough(plain.names, f"with a {plain.measure.name}", plain.left_out)
             studies[UNCORRECTED] = plain.of(column)
         except (ValueError, StageError) as error:
             why = str(error)
     return Plan(inputs, records, hazard, source, studies, why)
 
 
-def _expect_enough(study: Study) -> None:
-    if len(study.names) < FEWEST:
-        name, reason = next(iter(study.left_out.items()))
-        raise StageError(
-            f"{count(len(study.names), 'ground motion')} with a {study.measure.name}; at least {FEWEST} were expected. "
-            f"Left out: {name}: {reason}"
-        )
+NAMED = 3
+"""Records that are left out and named where there are too few."""
+
+
+def _expect_enough(names: Sequence[str], what: str, left_out: Mapping[str, str], baseline: str = "") -> None:
+    if len(names) >= FEWEST:
+        return
+    reasons = "; ".join(f"{name}: {reason.rstrip('.')}" for name, reason in list(left_out.items())[:NAMED])
+    advice = ' A drift is taken off by baseline = "linear" (--baseline linear).' if baseline == NONE else ""
+    raise StageError(
+        f"{count(len(names), 'ground motion')} {what}; at least {FEWEST} were expected."
+        + (f" Left out: {reasons}." if reasons else "")
+        + advice
+    )
 
 
 def _variants(column: Prototype) -> dict[str, Prototype]:
