@@ -3,7 +3,8 @@ import pytest
 from matplotlib.colors import to_hex
 
 from colonnade.figures import Curve, SpanPanel, spans_side_by_side
-from colonnade.figures.style import model_style
+from colonnade.figures.panels.layout import PAGE
+from colonnade.figures.style import journal, model_style
 
 TIME = np.linspace(0.0, 10.0, 2001)
 
@@ -60,3 +61,10 @@ def test_a_fourth_span_begins_a_new_band():
 def test_without_prediction_and_base_the_measured_stands_alone():
     figure = spans_side_by_side(panels(2, (), base=False))
     assert [len(axes.lines) for axes in figure.axes] == [1, 1]
+
+
+def test_three_spans_fit_a_column_of_a_page_each_with_its_labels():
+    with journal("single"):
+        figure = spans_side_by_side(panels())
+    assert figure.get_figheight() <= PAGE + 0.3  # a second row of the legend
+    assert [axes.get_ylabel() for axes in figure.axes] == ["θ / α", "θ / α", "base\n(m/s²)"] * 3

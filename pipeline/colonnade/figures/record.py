@@ -22,7 +22,7 @@ from colonnade.figures.histories import (
 )
 from colonnade.figures.panels.curve import Curve, draw_curve, envelope
 from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side, stacked_panels
-from colonnade.figures.style import BASE, MEASURED, model_style, styled
+from colonnade.figures.style import BASE, MEASURED, is_narrow, model_style, styled
 
 ANGLE_HEIGHT, OTHER_HEIGHT = 2.0, 0.8
 """Heights of the panels, inches."""
@@ -205,7 +205,7 @@ def spans_side_by_side(panels: Sequence[SpanPanel]) -> Figure:
             scale_symmetric(column[-1], largest)
         column[-1].set_xlabel("time (s)")
         column[0].set_xlim(*time_limits([*curves, *bases]))
-    for column in grid[::COLUMNS]:
+    for column in grid[:: 1 if is_narrow() else COLUMNS]:
         for one in column[:rows]:
             one.set_ylabel(ANGLE_LABEL)
         if bases:

@@ -22,6 +22,9 @@ ROOMY = 4
 ROW = 0.15
 """Height of a further row of a legend, inches."""
 
+PAGE, LEAST_HEIGHT = 9.3, 0.5
+"""Height of a journal's page, inches, and the share of their heights that panels of a single column keep at least."""
+
 COLUMNS = 3
 """Largest number of columns side by side: more would be too narrow to read."""
 
@@ -80,7 +83,11 @@ def side_by_side(columns: int, heights: Sequence[float], *, title: float = 0.2) 
         raise ValueError(f"{columns} columns of {len(heights)} panels; at least one column with one panel was expected")
     across = 1 if is_narrow() else min(columns, COLUMNS)
     bands = -(-columns // across)
-    band = title + sum(heights) + GAP * (len(heights) - 1) + BOTTOM
+    room = title + GAP * (len(heights) - 1) + BOTTOM
+    if is_narrow():
+        share = ((PAGE - TOP) / bands - room) / sum(heights)
+        heights = [height * min(1.0, max(share, LEAST_HEIGHT)) for height in heights]
+    band = room + sum(heights)
     total = TOP + bands * band
     left, right = margins()
     panel = (width() - left - right - (across - 1) * GAP) / across
