@@ -13,7 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from colonnade.arrays import Array
 from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
 from colonnade.figures.panels.layout import stacked_panels
-from colonnade.figures.style import INK, LIMIT, MEASURED, LineStyle, model_style, styled
+from colonnade.figures.style import INK, LIMIT, MEASURED, LineStyle, is_narrow, model_style, styled
 from colonnade.units.text import format_percent
 
 SMALLEST_RATIO = 0.02
@@ -222,10 +222,12 @@ def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Fi
         draw_angle(panel, measured, {}, limit)
         panel.set_ylabel(ANGLE_LABEL)
         shares = " and ".join(format_percent(spread.share(index)) for index in range(int((spread.levels < 0.5).sum())))
-        said = f"line: measured; bands: {shares} of the {model} model's runs"
+        said = f"measured, and bands of {shares} of the {model} model's runs"
+        if is_narrow():
+            said = f"{model} model: {shares} of its runs"
         if spread.overturning_probability > 0:
             said += f"; {format_percent(spread.overturning_probability)} overturn"
-        panel.annotate(said, (0.995, 0.04), xycoords="axes fraction", ha="right", fontsize=8, color=INK)
+        panel.set_title(said, loc="right", fontsize=7 if is_narrow() else 8, color=INK, pad=1.5)
     axes[-1].set_xlim(*time_limits(curves))
     axes[-1].set_xlabel("time (s)")
     return figure
