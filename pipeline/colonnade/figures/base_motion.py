@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,7 +19,7 @@ from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import draw_limit, largest_of, scale_symmetric, time_limits
 from colonnade.figures.panels.curve import Curve, draw_curve
 from colonnade.figures.panels.layout import BOTTOM, TOP, add_panel, legend_above, margins
-from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, LineStyle, is_narrow, styled, width
+from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, is_narrow, styled, width
 from colonnade.signals.named_motion import Laid, Series, laid_on
 from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load, reference_files
 from colonnade.store.records.stored import Stored
@@ -31,13 +31,14 @@ HISTORY_HEIGHT, SPECTRUM_HEIGHT, BETWEEN = 1.3, 1.6, 0.62
 APART = 0.8
 """Between the two lower panels, inches."""
 
-TARGET: LineStyle = {"color": FIT["color"], "linestyle": (0, (4.0, 1.6)), "linewidth": 1.0}
+TARGET: dict[str, Any] = {"color": FIT["color"], "linewidth": 2.6, "alpha": 0.45}
+"""A broad line below the thin one of what was achieved: both are seen where they agree."""
 
 DECADES = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 """Periods that an axis names, s."""
 
-RATIO_LIMITS = (0.0, 2.0)
-"""Of the axis of the ratio."""
+LEAST_RATIO, LARGEST_RATIO = 0.2, 1.0
+"""How far the axis of the ratio reaches to either side of 1, at least and at most."""
 
 
 class BaseSpectra(NamedTuple):
@@ -105,10 +106,11 @@ def _draw_spectra(axes: Axes, spectra: BaseSpectra) -> None:
 
 
 def _draw_ratio(axes: Axes, period: Array, ratio: Array) -> None:
-    axes.plot(period, np.clip(ratio, *RATIO_LIMITS), color=MEASURED["color"], linewidth=1.0)
+    reach = min(max(LEAST_RATIO, 1.1 * float(np.abs(ratio - 1.0).max())), LARGEST_RATIO)
+    axes.plot(period, np.clip(ratio, 1.0 - reach, 1.0 + reach), color=MEASURED["color"], linewidth=1.0)
     axes.axhline(1.0, **LIMIT)
     axes.axhspan(0.9, 1.1, color=FAINT, alpha=0.15, linewidth=0)
-    axes.set_ylim(*RATIO_LIMITS)
+    axes.set_ylim(1.0 - reach, 1.0 + reach)
     axes.set_ylabel("achieved / target")
     _scale_periods(axes, period)
 
@@ -119,7 +121,7 @@ def _scale_periods(axes: Axes, period: Array) -> None:
     axes.xaxis.set_major_locator(FixedLocator([each for each in DECADES if period[0] <= each <= period[-1]]))
     axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axes.yaxis.set_major_locator(MaxNLocator(nbins=5))
+    axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
     axes.set_xlabel("period of the oscillator (s)")
 
 
