@@ -94,10 +94,10 @@ class Catalogue:
         except OSError:
             return None
         for known in (self._seen[kind].get(name), None if self._verify else self._known[kind].get(name)):
-            if known is not None and tuple(known[0]) == mark:
+            if known is not None and known[0] == list(mark):
                 break
         else:
-            known = [mark, ask(path)]
+            known = [list(mark), ask(path)]
         self._seen[kind][name] = known
         return known
 
