@@ -176,33 +176,20 @@ _RAW = "It needs a raw file that could be read."
 _ANGLE = "It needs a measured or predicted angle."
 _FREE = "It needs a free vibration with an angle."
 _FREED = f"{_FREE} Its fit must free the critical angle."
+_TWO = "It needs two Spans of one motion."
 _SCORED = f"It needs {FEWEST} scored forecasts."
 FIGURES: tuple[Entry, ...] = (
     Entry("record", "test", "all of a test over time: angle, misfit, other motions, base", _ANGLE, _record),
     Entry("angle", "test", "rocking angle over time, measured and predicted", _ANGLE, _angle),
     Entry("closer", "test", "phase portrait, and of a sine the steady state", _ANGLE, _closer, is_narrow=False),
     Entry("base", "test", "table's motion and its spectrum, with the target", "It needs a table motion.", _base),
-    Entry(
-        "channels",
-        "test",
-        "every channel as recorded: flags, spikes, spectra",
-        _RAW,
-        _channels,
-        is_narrow=False,
-    ),
+    Entry("channels", "test", "every channel as recorded: flags, spikes, spectra", _RAW, _channels, is_narrow=False),
     Entry("bands", "test", "measured angle over each model's bands", "It needs an ensemble.", _bands),
     Entry("fitted", "test", "free vibration, fitted history and residual", _FREE, _fitted),
     Entry("estimators", "test", "e from every estimator", _FREE, _estimators_of_test, is_narrow=False),
     Entry("peaks", "test", "energy of successive peaks and its line", _FREE, _peaks_of_test),
     Entry("impacts", "test", "e of each impact over its velocity", _FREE, _impacts_of_test),
-    Entry(
-        "region",
-        "test",
-        "joint region of e and the critical angle",
-        _FREED,
-        _region,
-        is_narrow=False,
-    ),
+    Entry("region", "test", "joint region of e and the critical angle", _FREED, _region, is_narrow=False),
     Entry("joints", "test", "angle in the joint below each body over time", _BODIES, _joints),
     Entry("plan", "test", "where each body stands at the end, from above", _BODIES, _plan, is_narrow=False),
     Entry("setup", "test", "specimen and transducers to scale", "", _setup, is_narrow=False),
@@ -212,13 +199,7 @@ FIGURES: tuple[Entry, ...] = (
     Entry("impacts", "specimen", "e of each impact of every record", _FREE, _impacts),
     Entry("measured-map", "specimen", "sine tests by outcome over Ω and A", _SINES, _measured_map),
     Entry("map", "specimen", "computed stability map with the measured points", f"{_SINES} {_MAP}", _map),
-    Entry(
-        "spans",
-        "specimen",
-        "earthquake tests of a motion side by side by Span",
-        "It needs two Spans of one motion.",
-        _spans,
-    ),
+    Entry("spans", "specimen", "earthquake tests of a motion side by side by Span", _TWO, _spans),
     Entry("agreement", "campaign", "predicted over measured peak of each test", "A test must have rocked.", _agreement),
     Entry("calibration", "campaign", "reliability and PIT of forecasts", _SCORED, _calibration),
 )
