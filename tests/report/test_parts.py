@@ -1,14 +1,17 @@
 """A test in the report: what its page shows, and its part of the pages about all tests, as text and back."""
 
+import gc
 import shutil
+import weakref
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from colonnade.campaign import load
 from colonnade.report.asked import asked_of
-from colonnade.report.parts import Part, drawn
+from colonnade.report.parts import Part, drawn, seldom_collected
 from colonnade.store.layout import Layout
 from colonnade.workflow import run
 
@@ -109,3 +112,15 @@ def test_curves_and_peaks_come_back_to_the_last_bit(filled_campaign, monkeypatch
 
 def test_a_failure_keeps_its_stage(filled_campaign):
     assert part_of(*filled_campaign, "sine-dead")[1].row.failures[0].stage == "ingest"
+
+
+def test_what_a_page_made_is_gone_after_it():
+    before = gc.get_threshold()
+    with seldom_collected():
+        figure = Figure()
+        figure.subplots()
+        made = weakref.ref(figure)
+        del figure
+        assert made() is not None  # an axes and its figure refer to each other
+    assert made() is None
+    assert gc.get_threshold() == before

@@ -166,13 +166,17 @@ class _Report:
 
     def _specimen(self, name: str) -> Contents:
         from colonnade.report.build import specimen_page
+        from colonnade.report.parts import seldom_collected
 
-        return [text for _, text in specimen_page(self.campaign, self.layout, name, self._parts)], ""
+        with seldom_collected():
+            return [text for _, text in specimen_page(self.campaign, self.layout, name, self._parts)], ""
 
     def _whole(self, places: Sequence[str]) -> Contents:
         from colonnade.report.build import whole_pages
+        from colonnade.report.parts import seldom_collected
 
-        texts = dict(whole_pages(self.campaign, self.layout, self._parts, self.advice))
+        with seldom_collected():
+            texts = dict(whole_pages(self.campaign, self.layout, self._parts, self.advice))
         return [texts[place] for place in places], ""
 
 
