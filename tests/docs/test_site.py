@@ -110,7 +110,7 @@ def test_a_page_can_be_read_by_everybody(address, visit):
 
 
 @pytest.mark.parametrize(
-    ("words", "found"), [("restitution", "explanation/restitution.html"), ("calibrate", "reference/commands.html")]
+    ("words", "found"), [("restitution", "explanation/restitution.html"), ("least-width", "reference/commands.html")]
 )
 def test_search_finds(words, found, visit):
     page = visit("search.html")

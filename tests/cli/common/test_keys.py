@@ -1,13 +1,10 @@
 """Options that come from the keys of tables."""
 
-import rich_click as click
-
 from colonnade.cli.app import app
 
 
 def options(name):
-    command = app.commands[name]
-    return {each.name: each for each in command.get_params(click.Context(command))}
+    return {each.name: each for each in app.commands[name].params}
 
 
 def test_options_of_a_table_are_those_of_its_keys():

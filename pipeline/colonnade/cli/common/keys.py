@@ -19,12 +19,17 @@ class WithKeys(click.RichCommand):
         self._keys: Callable[[], list[click.Option]] | None = keys
         super().__init__(*given, **more)
 
-    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
-        """Return its own arguments and options, and those of the tables ahead of where results go."""
+    @property
+    def params(self) -> list[click.Parameter]:
+        """Its own arguments and options, and those of the tables ahead of where results go."""
         if self._keys is not None:
-            place = next(number for number, each in enumerate(self.params) if each.name == "out")
-            self.params[place:place], self._keys = self._keys(), None
-        return super().get_params(ctx)
+            place = next(number for number, each in enumerate(self._params) if each.name == "out")
+            self._params[place:place], self._keys = self._keys(), None
+        return self._params
+
+    @params.setter
+    def params(self, own: list[click.Parameter]) -> None:
+        self._params = own
 
 
 def options_of(keys: Mapping[str, FieldInfo], *, with_defaults: bool = False) -> list[click.Option]:
