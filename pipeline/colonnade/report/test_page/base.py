@@ -100,13 +100,7 @@ def _measures(motion: BaseMotion, stored: Stored, gravity: float, scale: float |
             [displacement[0] if isnan(measured) else measured, displacement[1]],
             "measured" if not isnan(measured) else drifts if isnan(displacement[0]) else f"twice the {integrated}",
         ),
-        row(
-            "Arias intensity",
-            "m/s",
-            "velocity",
-            arias,
-            "π/(2g) times the integral of the squared acceleration",
-        ),
+        row("Arias intensity", "m/s", "velocity", arias, "π/(2g) times the integral of the squared acceleration"),
     ]
 
 
