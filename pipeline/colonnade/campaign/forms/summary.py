@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -13,11 +13,18 @@ from colonnade.findings import Finding, Severity
 
 Outcome = Literal["no-rocking", "rocking", "overturned"]
 Order = int | Literal["irregular"] | None
-Share = Annotated[Known, Field(json_schema_extra={"unit": "α"})]
-Metres = Annotated[Known, Field(json_schema_extra={"unit": "m"})]
-Radians = Annotated[Known, Field(json_schema_extra={"unit": "rad"})]
-Seconds = Annotated[Known, Field(json_schema_extra={"unit": "s"})]
-Hertz = Annotated[Known, Field(json_schema_extra={"unit": "Hz"})]
+
+
+def _in(unit: str) -> Any:
+    """Give the field of a number with its unit, which the schema and `colonnade show` take from it."""
+    return Field(json_schema_extra={"unit": unit})
+
+
+Ratio = Annotated[Known, _in("α")]
+Metres = Annotated[Known, _in("m")]
+Radians = Annotated[Known, _in("rad")]
+Seconds = Annotated[Known, _in("s")]
+Hertz = Annotated[Known, _in("Hz")]
 
 
 class RestitutionSummary(Record):
@@ -50,7 +57,7 @@ class SpecimenPrototype(Record):
     """Frequency parameter, rad/s."""
     pole_distance: float
     """R, m."""
-    mass: float = Field(json_schema_extra={"unit": "kg"})
+    mass: float = _in("kg")
     """kg."""
     inertia: float
     """I₀ about the pole, kg m²."""
@@ -61,13 +68,13 @@ class SpecimenPrototype(Record):
 class SpecimenSummary(Record):
     """A specimen; of one that is not symmetric the side with the smaller critical angle."""
 
-    critical_angle: float = Field(json_schema_extra={"unit": "rad"})
+    critical_angle: float = _in("rad")
     """α, rad."""
-    p: float = Field(json_schema_extra={"unit": "rad/s"})
+    p: float = _in("rad/s")
     """Frequency parameter, rad/s."""
-    pole_distance: float = Field(json_schema_extra={"unit": "m"})
+    pole_distance: float = _in("m")
     """R, m."""
-    inertia: float = Field(json_schema_extra={"unit": "kg m²"})
+    inertia: float = _in("kg m²")
     """I₀ about the pole, kg m²."""
     restitution: RestitutionSummary
     """Coefficient of restitution."""
@@ -80,9 +87,9 @@ class PredictionSummary(Record):
 
     outcome: Outcome | None = None
     """Predicted outcome."""
-    peak_ratio: Share = None
+    peak_ratio: Ratio = None
     """max |θ| / α; null when overturned."""
-    nrmse: Share = None
+    nrmse: Ratio = None
     """RMS of predicted − measured, over α, until either first passes α."""
     order: Order = None
     """Predicted order of a sine test's response; see the test's own."""
@@ -92,9 +99,9 @@ class PredictionSummary(Record):
     within_spread: Known = None
     """Rank of the measured angle: share of the model's runs that are closer to their median, by their largest scaled
     distance up to the horizon. Within the model's own spread: at most 0.95."""
-    peak_low: Share = None
+    peak_low: Ratio = None
     """Lower end of the band that holds the peaks of 95 % of the model's runs, as max |θ| / α."""
-    peak_high: Share = None
+    peak_high: Ratio = None
     """Its upper end; null where more than 2.5 % of the runs overturn."""
     peak_rank: Known = None
     """Share of the model's runs whose peak, measured with the same noise, would be below the measured one."""
@@ -133,7 +140,7 @@ class IdentifiedSummary(Record):
 class TestPrototype(Record):
     """A test at prototype scale; accelerations and angles are those of the model."""
 
-    duration: float = Field(json_schema_extra={"unit": "s"})
+    duration: float = _in("s")
     """Length of the record, s."""
     frequency: Hertz = None
     """Of a sine test, Hz."""
@@ -174,7 +181,7 @@ class BodyPrediction(Record):
 
     outcome: Outcome | None = None
     """Predicted outcome."""
-    peak_ratio: Share = None
+    peak_ratio: Ratio = None
     """Largest rocking angle in the joint below, over the critical angle of all that turns there; null where it fell."""
     residual_x: Metres = None
     """Displacement along x of the centre of its base at the end, from where it stood, m."""
@@ -228,13 +235,13 @@ class TestSummary(Record):
     """Measured outcome."""
     observed_outcome: str | None = None
     """As in the campaign file."""
-    peak_ratio: Share = None
+    peak_ratio: Ratio = None
     """max |θ| / α; null when overturned. Of a free vibration over the time that is predicted."""
     peak_time: Seconds = None
     """Time of the peak, s."""
-    release_ratio: Share = None
+    release_ratio: Ratio = None
     """Of a free vibration max |θ| / α before the time that is predicted: the angle that it was released from."""
-    pga: Annotated[Known, Field(json_schema_extra={"unit": "m/s²"})] = None
+    pga: Annotated[Known, _in("m/s²")] = None
     """Peak acceleration of the table, m/s²."""
     duration: Seconds = None
     """Length of the record, s."""

@@ -71,7 +71,7 @@ def options_of(keys: Mapping[str, FieldInfo], *, with_defaults: bool = False) ->
 
 
 def _parts(annotation: Any) -> Iterator[Any]:
-    """Give a type, all within it, and what is said of it, such as its quantity."""
+    """Give a type, the types within it, and the annotations of both, such as a quantity."""
     yield annotation
     is_words = get_origin(annotation) is Literal
     for each in (*get_args(annotation), *getattr(annotation, "__metadata__", ())):
