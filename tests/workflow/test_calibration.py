@@ -53,7 +53,7 @@ def test_a_law_that_cannot_be_found_says_why(untouched):
     assert (refused["restitution"], refused["source"], refused["step"], refused["path"]) == (None, "", None, None)
 
 
-MAP = Wanted(frequency_ratio=(3.0, 4.0), amplitude_ratio=(0.5, 1.5), points=(2, 3), cycles=2.0)
+MAP = Wanted(omega=(3.0, 4.0), amplitude=(0.5, 1.5), points=(2, 3), cycles=2.0)
 
 
 def summarised(small):

@@ -179,7 +179,7 @@ def test_workers_that_do_not_see_the_campaign_are_told(cluster, untouched):
 
 
 def test_a_map_made_on_the_cluster_is_that_of_one_process_bit_for_bit(cluster, untouched):
-    wanted = Wanted(frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(5, 6), cycles=4.0)
+    wanted = Wanted(omega=(2.0, 5.0), amplitude=(0.8, 2.0), points=(5, 6), cycles=4.0)
     contents = []
     for options in ({"scheduler": cluster}, {"workers": 1}):
         (made,) = make_maps(untouched.folder, wanted, **options)

@@ -1,7 +1,6 @@
 """The contact model in a campaign: its law by specimen, its predictions beside the others, its maps."""
 
 import json
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -130,7 +129,7 @@ def test_a_specimen_without_a_law_fails_its_tests_with_what_to_do(in_space):
 
 
 def test_a_map_needs_the_law_and_then_is_made(in_space):
-    wanted = Wanted(("contact",), (2.0, 3.0), (0.8, 6.0), (2, 3), cycles=2.0)
+    wanted = Wanted(models=("contact",), omega=(2.0, 3.0), amplitude=(0.8, 6.0), points=(2, 3), cycles=2.0)
     with pytest.raises(CampaignError, match="Run `colonnade calibrate` first"):
         make_maps(in_space.folder, wanted, workers=1)
     calibrate(in_space.folder, workers=1)
@@ -149,11 +148,12 @@ def test_a_map_of_several_bodies_is_made_by_the_contact_model_alone(in_space):
     in_space.edit(
         'step = "30 us", penetration = 1e-6, damping_fraction = 0.3', "penetration = 1e-3, damping_fraction = 1"
     )
-    wanted = Wanted(("contact",), (2.0, 3.0), (0.8, 8.0), (2, 2), cycles=1.0)
+    wanted = Wanted(models=("contact",), omega=(2.0, 3.0), amplitude=(0.8, 8.0), points=(2, 2), cycles=1.0)
     (made,) = make_maps(in_space.folder, wanted, specimens=["two"], workers=1)
     assert files.read(made.path)["outcome"].to_numpy()[:, 1].tolist() == [2, 2]
+    nonlinear = Wanted(**(wanted.model_dump() | {"models": ("nonlinear",)}))
     with pytest.raises(CampaignError, match="do not rock as one block"):
-        make_maps(in_space.folder, replace(wanted, models=("nonlinear",)), specimens=["two"], workers=1)
+        make_maps(in_space.folder, nonlinear, specimens=["two"], workers=1)
 
 
 def test_no_question_about_a_block_is_answered_of_bodies_that_do_not_rock_as_one(in_space):
@@ -237,11 +237,11 @@ def test_what_an_assessment_of_several_bodies_needs_is_said(in_space):
 
 def test_limits_beside_those_of_the_contact_model_are_found_alike(in_space):
     calibrate(in_space.folder, workers=1)
-    plain = Wanted(("linear",), (2.0, 3.0), (0.8, 6.0), (2, 3), cycles=2.0)
+    plain = Wanted(models=("linear",), omega=(2.0, 3.0), amplitude=(0.8, 6.0), points=(2, 3), cycles=2.0)
     (alone,) = make_maps(in_space.folder, plain, workers=1)
     assert alone.action == "done"
     assert _width(alone) == 0.01
-    beside = make_maps(in_space.folder, replace(plain, models=("linear", "contact")), workers=1)
+    beside = make_maps(in_space.folder, Wanted(**(plain.model_dump() | {"models": ("linear", "contact")})), workers=1)
     assert [_width(made) for made in beside] == [4 * 2.6, 4 * 2.6]
 
 

@@ -14,8 +14,8 @@ from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import kept_maps, make_maps
 from colonnade.workflow.walk import Walk
 
-LINEAR = Wanted(("linear",))
-RARE = Wanted(("linear",), points=(3, 4), cycles=2.0)
+LINEAR = Wanted(models=("linear",))
+RARE = Wanted(models=("linear",), points=(3, 4), cycles=2.0)
 
 
 @pytest.fixture(autouse=True)

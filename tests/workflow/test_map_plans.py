@@ -1,21 +1,25 @@
 """What a map is asked to show, and the axes, base motion and rules that follow from it and from what was measured."""
 
 import json
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from colonnade.campaign import load
-from colonnade.campaign.syntax.fields import MOST_CYCLES, MOST_POINTS
+from colonnade.campaign.syntax.fields import MOST_CYCLES
 from colonnade.dynamics.models import MODELS
 from colonnade.errors import CampaignError
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.workflow import map_plans as plans
 from colonnade.workflow.map_plans import Wanted, measured_points
+from colonnade.workflow.real_column import picked
 from every import every
 
-FEW = Wanted(("linear",), points=(3, 4), cycles=2.0)
+FEW = Wanted(models=("linear",), points=(3, 4), cycles=2.0)
+
+
+def changed(wanted, **changes):
+    return Wanted(**(wanted.model_dump() | changes))
 
 
 def planned(small, wanted=FEW, *points, model="linear"):
@@ -27,18 +31,21 @@ def sine(frequency_ratio, amplitude_ratio):
 
 
 def test_what_is_stored_of_a_wish_is_read_back():
-    all_given = Wanted(("nonlinear",), (2.0, 5.0), (0.8, 2.0), (6, 10), 5.0, 1.5, 2.0, "sine-01")
+    all_given = Wanted(
+        **{"models": ("nonlinear",), "omega": (2.0, 5.0), "amplitude": (0.8, 2.0), "points": (6, 10)},
+        **{"cycles": 5.0, "phase": 1.5, "ramp": 2.0, "motion": "sine-01"},
+    )
     for wanted in (Wanted(), all_given):
         assert Wanted.of(wanted.text(), wanted.models[0]) == wanted
 
 
 def test_other_plane_models_and_responses_are_not_part_of_what_a_map_was_asked_for():
-    assert replace(FEW, models=("linear", "nonlinear"), responses=True).text() == FEW.text()
-    assert replace(FEW, phase=1.0).text() != FEW.text()
+    assert changed(FEW, models=("linear", "nonlinear"), responses=True).text() == FEW.text()
+    assert changed(FEW, phase=1.0).text() != FEW.text()
 
 
 def test_a_map_beside_one_in_space_is_planned_alike_when_it_is_looked_at_again(small):
-    wanted = Wanted(("linear", "contact"))
+    wanted = Wanted(models=("linear", "contact"))
     again = Wanted.of(wanted.text(), "linear")
     assert planned(small, again).options == planned(small, wanted).options
     assert planned(small, again).options != planned(small, Wanted()).options
@@ -59,7 +66,7 @@ def test_without_sine_tests_the_axes_are_the_usual_ones(untouched):
 
 
 def test_the_models_own_number_of_points_is_used(untouched):
-    plan = planned(untouched, replace(FEW, points=None))
+    plan = planned(untouched, changed(FEW, points=None))
     assert (plan.frequency_ratio.size, plan.amplitude_ratio.size) == MODELS["linear"].map_points
 
 
@@ -70,7 +77,7 @@ def test_sine_tests_are_within_the_axes_with_a_margin_of_a_tenth_and_more(untouc
 
 
 def test_given_axes_come_before_those_of_the_tests(untouched):
-    plan = planned(untouched, replace(FEW, frequency_ratio=(3.0, 5.0), amplitude_ratio=(1.0, 2.0)), sine(2.0, 9.0))
+    plan = planned(untouched, changed(FEW, omega=(3.0, 5.0), amplitude=(1.0, 2.0)), sine(2.0, 9.0))
     np.testing.assert_allclose(plan.frequency_ratio, [3.0, 4.0, 5.0])
     np.testing.assert_allclose(plan.amplitude_ratio, np.linspace(1.0, 2.0, 4))
 
@@ -78,17 +85,18 @@ def test_given_axes_come_before_those_of_the_tests(untouched):
 @every(
     ("changes", "said"),
     [
-        ({"frequency_ratio": (1.0, 1e9)}, "--omega: 1e+09 was found"),
-        ({"amplitude_ratio": (0.0, 1.0)}, "--amplitude: 0 was found"),
-        ({"cycles": 2 * MOST_CYCLES}, "--cycles"),
-        ({"ramp": float("nan")}, "--ramp: nan was found"),
-        ({"points": (3, MOST_POINTS + 1)}, f"--points: {MOST_POINTS + 1} was found"),
+        ({"omega": (1.0, 1e9)}, "--omega: "),
+        ({"omega": (3.0, 2.0)}, "--omega: 3 and 2 (SI) were found. The second has to be the larger one."),
+        ({"amplitude": (0.0, 1.0)}, "--amplitude: "),
+        ({"cycles": 2 * MOST_CYCLES}, "--cycles: "),
+        ({"ramp": float("nan")}, "--ramp: "),
+        ({"points": (3, 10_001)}, "--points: "),
     ],
 )
-def test_a_map_that_would_never_end_is_refused_by_its_option(untouched, changes, said):
+def test_a_map_that_would_never_end_is_refused_by_its_option(changes, said):
     with pytest.raises(CampaignError) as caught:
-        planned(untouched, replace(FEW, **changes))
-    assert said in str(caught.value)
+        picked(Wanted, changes)
+    assert str(caught.value).startswith(said)
 
 
 def test_a_summary_that_was_damaged_gives_no_points(small):

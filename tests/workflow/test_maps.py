@@ -23,11 +23,11 @@ from every import every
 from prism import PRISM, SPECIMEN, entry
 
 PLAN = MapPlan(PRISM, frequency_ratio=[2.0, 3.0], amplitude_ratio=[1.0, 2.0])
-FEW = Wanted(("linear",), frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(6, 10), cycles=5.0)
+FEW = Wanted(models=("linear",), omega=(2.0, 5.0), amplitude=(0.8, 2.0), points=(6, 10), cycles=5.0)
 
 
 def asking(**changes):
-    return Wanted(**(vars(FEW) | changes))
+    return Wanted(**(FEW.model_dump() | changes))
 
 
 SINE = f"""\
@@ -101,7 +101,7 @@ def test_several_models_have_a_map_each_and_a_picture_together(small):
 
 
 def test_the_table_motion_of_a_sine_test_is_stretched_over_a_map(sine_test):
-    (result,) = make_maps(sine_test, asking(motion="sine-01", frequency_ratio=(2.0, 6.0), points=(5, 13)), workers=1)
+    (result,) = make_maps(sine_test, asking(motion="sine-01", omega=(2.0, 6.0), points=(5, 13)), workers=1)
     stored = as_map(files.read(result.path))
     assert stored.options["base_motion"] == "recorded"
     assert stored.options["motion_frequency"] == pytest.approx(3.0, rel=1e-4)
@@ -164,7 +164,7 @@ def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
     small.layout.summary_json.write_text(json.dumps(summary), encoding="utf-8")
     assert measured_points(small.layout, "prism") == [MapPoint("pulse-01", 6.0, 4.0, "overturned")]
     assert measured_points(small.layout, "another") == []
-    result = made(small, Wanted(("linear",), points=(3, 4), cycles=2.0))
+    result = made(small, Wanted(models=("linear",), points=(3, 4), cycles=2.0))
     chart = as_map(files.read(result.path))
     assert chart.frequency_ratio[0] < 6.0 < chart.frequency_ratio[-1]
     assert chart.amplitude_ratio[0] < 4.0 < chart.amplitude_ratio[-1]
@@ -175,8 +175,7 @@ def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
     ("wanted", "specimens", "found"),
     [
         (FEW, ("prysm",), 'no specimen "prysm".*Did you mean "prism"'),
-        (Wanted(frequency_ratio=(3.0, 2.0)), (), "frequency_ratio has to be positive, finite and increasing"),
-        (Wanted(cycles=0.0), (), "at least one cycle"),
+        (Wanted(cycles=0.5), (), "at least one cycle"),
         (Wanted(motion="pulse-99"), (), 'no test "pulse-99"'),
         (Wanted(motion="pulse-01"), (), "pulse-01: its table motion cannot be stretched"),
         (Wanted(motion="pulse-01", responses=True), (), "Leave out the recorded motion"),
@@ -196,7 +195,7 @@ MAP = """
 import sys
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import make_maps
-wanted = Wanted(("linear",), frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(60, 10), cycles=5.0)
+wanted = Wanted(models=("linear",), omega=(2.0, 5.0), amplitude=(0.8, 2.0), points=(60, 10), cycles=5.0)
 make_maps(sys.argv[1], wanted, workers=1, progress=lambda done, total: print(done, flush=True))
 """
 

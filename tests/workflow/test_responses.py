@@ -1,7 +1,6 @@
 """Steady responses of a campaign: those of the library, made once, drawn, with what they depend on."""
 
 import json
-from dataclasses import replace
 
 import numpy as np
 
@@ -11,11 +10,11 @@ from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import SETTLING, as_response, make_maps
 from prism import PRISM
 
-FEW = Wanted(("linear",), (2.0, 5.0), (0.8, 2.0), (6, 10), cycles=5.0, responses=True)
+FEW = Wanted(models=("linear",), omega=(2.0, 5.0), amplitude=(0.8, 2.0), points=(6, 10), cycles=5.0, responses=True)
 
 
 def made(small, **changes):
-    (only,) = make_maps(small.folder, replace(FEW, **changes), workers=1)
+    (only,) = make_maps(small.folder, Wanted(**(FEW.model_dump() | changes)), workers=1)
     return only
 
 

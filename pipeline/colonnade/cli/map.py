@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING, Any
 import rich_click as click
 
 from colonnade.cli.common.console import say, show_fields, show_json, show_table, work_progress
+from colonnade.cli.common.keys import WithKeys, options_of
 from colonnade.cli.common.options import (
     CAMPAIGN,
-    MODEL,
-    LateChoice,
     campaign_argument,
     json_option,
-    models,
     results_option,
     scheduler_option,
     specimen_option,
@@ -27,8 +25,16 @@ if TYPE_CHECKING:
     from colonnade.workflow.maps import MapMade
 
 
+def _keys() -> list[click.Option]:
+    from colonnade.workflow.map_plans import Wanted
+
+    return options_of(Wanted.model_fields, with_defaults=True)
+
+
 @click.command(
     "map",
+    cls=WithKeys,
+    keys=_keys,
     epilog="Example: colonnade map demo --specimen prism --omega 1.1 7.8 --ramp 3",
     help=f"""
     Compute stability maps over frequency and amplitude, with the measured points on them.
@@ -44,34 +50,6 @@ if TYPE_CHECKING:
 )
 @campaign_argument
 @specimen_option
-@click.option(
-    "--model",
-    multiple=True,
-    type=LateChoice(models),
-    default=(MODEL,),
-    show_default=True,
-    help="Repeat the option for several: each gets its own map, and one picture shows the limits of all.",
-)
-@click.option(
-    "--omega", type=float, nargs=2, metavar="LOW HIGH", help="Frequency ratios Ω; by default around the sine tests."
-)
-@click.option(
-    "--amplitude", type=float, nargs=2, metavar="LOW HIGH", help="Amplitude ratios A; by default around the tests."
-)
-@click.option(
-    "--points",
-    type=click.IntRange(min=2),
-    nargs=2,
-    metavar="N M",
-    help="Numbers of Ω and of A; by default 24 and 150, for the contact model 14 and 31.",
-)
-@click.option("--cycles", type=float, default=20.0, show_default=True, help="Cycles at full amplitude.")
-@click.option("--phase", type=float, default=0.0, show_default=True, help="Phase of the sine at its start, in degrees.")
-@click.option("--ramp", type=float, default=0.0, show_default=True, help="Cycles of the linear rise, and of the fall.")
-@click.option("--motion", metavar="TEST", help="Use the recorded table motion of this sine test instead of a sine.")
-@click.option(
-    "--responses", is_flag=True, help="Also compute the orders and amplitudes of the steady responses, with curves."
-)
 @workers_option
 @scheduler_option
 @results_option
@@ -79,24 +57,19 @@ if TYPE_CHECKING:
 def map_command(
     campaign: Path,
     specimen: tuple[str, ...],
-    model: tuple[str, ...],
-    omega: tuple[float, float] | None,
-    amplitude: tuple[float, float] | None,
-    phase: float,
     workers: int | None,
     scheduler: str | None,
     results: Path | None,
     as_json: bool,
-    **wanted: Any,
+    **options: Any,
 ) -> int:
     """Make maps, show their limits and misfits, and return the exit code."""
-    from math import radians
-
     from colonnade.workflow.map_plans import Wanted
     from colonnade.workflow.maps import make_maps
+    from colonnade.workflow.real_column import picked
 
-    asked = Wanted(model, omega, amplitude, phase=radians(phase), **wanted)
-    with work_progress(f"Mapping by the {' and the '.join(model)} model") as progress:
+    asked = picked(Wanted, options)
+    with work_progress(f"Mapping by the {' and the '.join(asked.models)} model") as progress:
         made = make_maps(
             campaign,
             asked,

@@ -14,11 +14,10 @@ from colonnade.cli.common.console import complain, say, show_fields, show_json, 
 from colonnade.cli.common.keys import WithKeys, options_of
 from colonnade.cli.common.options import (
     CAMPAIGN,
-    LateChoice,
     campaign_argument,
     column_keys,
-    column_options,
     json_option,
+    one_specimen_option,
     results_option,
     scheduler_option,
     workers_option,
@@ -37,12 +36,6 @@ OF_PULSE = ("omega", "cycles", "phase", "largest", "least_width")
 
 SHAPE = ("cycles", "phase")
 """Those of one pulse alone."""
-
-
-def _pulses() -> Iterable[str]:
-    from colonnade.dynamics.pulses import PULSES
-
-    return PULSES
 
 
 def _spectrum_keys() -> list[click.Option]:
@@ -70,20 +63,20 @@ def _spectrum_keys() -> list[click.Option]:
 )
 @campaign_argument
 @click.option("--motion", metavar="FILE|NAME", help="A file, a test that recorded it, or one of [motions].")
-@click.option("--pulse", type=LateChoice(_pulses), help="Kind of pulse.")
-@column_options
+@one_specimen_option
 @click.option("--out", type=click.Path(path_type=Path), metavar="FILE", help="Draw it: .svg, .pdf or .png.")
 @click.option("--data", type=click.Path(path_type=Path), metavar="FILE", help="Write what is drawn as a .csv table.")
 @results_option
 @json_option
-def spectrum(campaign: Path, motion: str | None, pulse: str | None, results: Path | None, **options: Any) -> int:
+def spectrum(campaign: Path, motion: str | None, results: Path | None, **options: Any) -> int:
     """Compute a spectrum, show and draw it, and return the exit code."""
+    pulse = options["pulse"]
     if (motion is None) == (pulse is None):
         raise click.UsageError("Give either --motion or --pulse.")
     _refuse(OF_MOTION if pulse else OF_PULSE, "--motion" if pulse else "--pulse")
     if pulse != "mavroeidis-papageorgiou":
         _refuse(SHAPE, "--pulse mavroeidis-papageorgiou")
-    from colonnade.workflow.real_column import AskedColumn
+    from colonnade.workflow.real_column import AskedColumn, picked
     from colonnade.workflow.spectrum import Asked, overturning_of, rocking_of
 
     out, data, as_json = (options.pop(name) for name in ("out", "data", "as_json"))
@@ -92,10 +85,10 @@ def spectrum(campaign: Path, motion: str | None, pulse: str | None, results: Pat
 
         expect_places(out, data)
     known, layout = _campaign(campaign, results)
-    column, asked = AskedColumn.of(options), Asked.of(options)
+    column, asked = AskedColumn.of(options), picked(Asked, options)
     if motion is not None:
         return _show(rocking_of(known, layout, column, motion, asked), out, data, as_json)
-    return _show(overturning_of(known, layout, column, str(pulse), asked), out, data, as_json)
+    return _show(overturning_of(known, layout, column, asked), out, data, as_json)
 
 
 def _refuse(names: Iterable[str], only: str) -> None:
@@ -170,7 +163,7 @@ def _fragility_keys() -> list[click.Option]:
 )
 @campaign_argument
 @click.option("--name", multiple=True, metavar="NAME", help="Only this assessment of the campaign; may be repeated.")
-@column_options
+@one_specimen_option
 @click.option("--out", type=click.Path(path_type=Path), metavar="FILE", help="Draw the curve: .svg, .pdf or .png.")
 @click.option("--data", type=click.Path(path_type=Path), metavar="FILE", help="Write what is drawn as a .csv table.")
 @workers_option

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
-from math import isfinite, nan
-from typing import TYPE_CHECKING
+from math import isfinite, nan, radians
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
+from pydantic import Field
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.assembly import Whole
-from colonnade.campaign.syntax.fields import MAP_RATIO, MOST_CYCLES, MOST_POINTS, outside
+from colonnade.campaign.syntax.fields import MOST_CYCLES, Limits, MapPoints, MapRatio, Number, OneOf
+from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import Sided
-from colonnade.dynamics.models import MODELS
+from colonnade.dynamics.models import MODELS, NONLINEAR
 from colonnade.errors import CampaignError, StoreError, nearest
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
@@ -35,49 +36,41 @@ LARGEST_AMPLITUDE_IN_SPACE = 3.5
 """The same largest A if the contact model is among the models."""
 
 
-@dataclass(frozen=True)
-class Wanted:
-    """
-    What a map is asked to show.
+_Cycles = Annotated[Number, Field(ge=0.0, le=MOST_CYCLES)]
 
-    Attributes
-    ----------
-    models : tuple of str
-        Each gets a map of its own; several share a picture, with limits found by the same rule.
-    frequency_ratio, amplitude_ratio : pair of float or None
-        First and last Ω and A; by default they include the specimen's sine tests.
-    points : pair of int or None
-        How many of each; by default the `map_points` of the model.
-    cycles, phase, ramp : float
-        Of the sine, see `dynamics.maps.chart.stability_map`.
-    motion : str or None
-        Id of a sine test whose recorded table motion is used instead, stretched to Ω and scaled to A.
-    responses : bool
-        Also the steady responses to the sine, over the same Ω and A.
-    """
 
-    models: tuple[str, ...] = ("nonlinear",)
-    frequency_ratio: tuple[float, float] | None = None
-    amplitude_ratio: tuple[float, float] | None = None
-    points: tuple[int, int] | None = None
-    cycles: float = 20.0
-    phase: float = 0.0
-    ramp: float = 0.0
+class Wanted(Table):
+    """What a map is asked to show."""
+
+    models: tuple[Annotated[str, OneOf(tuple(MODELS))], ...] = (NONLINEAR.name,)
+    """Model of rocking; each has a map of its own, and one picture shows the limits of all."""
+    omega: Limits[MapRatio] | None = None
+    """Frequency ratios Ω; by default around the sine tests."""
+    amplitude: Limits[MapRatio] | None = None
+    """Amplitude ratios A; by default around the sine tests."""
+    points: tuple[MapPoints, MapPoints] | None = None
+    """Numbers of Ω and of A; by default 24 and 150, for the contact model 14 and 31."""
+    cycles: _Cycles = 20.0
+    """Cycles at full amplitude."""
+    phase: Annotated[Number, Field(ge=-360.0, le=360.0)] = 0.0
+    """Phase of the sine at its start, in degrees."""
+    ramp: _Cycles = 0.0
+    """Cycles of the linear rise, and of the fall."""
     motion: str | None = None
+    """A sine test whose recorded table motion is used instead of a sine, stretched to Ω and scaled to A."""
     responses: bool = False
+    """Also compute the orders and amplitudes of the steady responses, with curves."""
 
     def text(self) -> str:
         """Write what a map of one model is asked for with, as it is stored with the map; of others, those in space."""
-        asked = {name: value for name, value in asdict(self).items() if name != "responses"}
-        return json.dumps(asked | {"models": [name for name in self.models if MODELS[name].in_space]})
+        in_space = tuple(name for name in self.models if MODELS[name].in_space)
+        return self.model_copy(update={"models": in_space}).model_dump_json(exclude={"responses"})
 
     @classmethod
     def of(cls, text: str, model: str) -> Wanted:
         """Read what a stored map of a model was asked for with; raises ValueError or TypeError if that is altered."""
         asked = json.loads(text)
-        pairs = {name: tuple(asked[name]) for name in ("frequency_ratio", "amplitude_ratio", "points") if asked[name]}
-        models = tuple(dict.fromkeys((model, *asked["models"])))
-        return cls(**asked | pairs | {"models": models})
+        return cls(**asked | {"models": tuple(dict.fromkeys((model, *asked["models"])))})
 
 
 def measured_points(layout: Layout, specimen: str) -> list[MapPoint]:
@@ -115,12 +108,11 @@ def plan_of(
     Raises
     ------
     CampaignError
-        If a value of `wanted` is out of its range, or the model does not move the specimen.
+        If no map can be made so, or the model does not move the specimen.
     """
     from colonnade.dynamics.maps import EDGE, MapPlan
     from colonnade.dynamics.search import STEPS_A_WIDTH, WIDTH
 
-    _expect_bounded(wanted)
     if model not in models_moving(campaign, specimen, (model,)):
         raise CampaignError(
             f"{specimen}: its bodies do not rock as one block, which the {model} model moves. Give --model contact, or "
@@ -129,12 +121,12 @@ def plan_of(
     if wanted.responses and wanted.motion is not None:
         raise CampaignError("Steady responses are responses to a sine. Leave out the recorded motion.")
     motion, frequency = (None, None) if wanted.motion is None else _recorded(campaign, layout, wanted.motion)
-    omegas = wanted.frequency_ratio or _around([point.frequency_ratio for point in points], USUAL_FREQUENCIES)
+    omegas = wanted.omega or _around([point.frequency_ratio for point in points], USUAL_FREQUENCIES)
     largest = max((1.2 * point.amplitude_ratio for point in points), default=0.0)
     space = _space(campaign, layout, specimen) if MODELS[model].in_space else None
     in_space = [MODELS[name] for name in wanted.models if MODELS[name].in_space]
     usual = LARGEST_AMPLITUDE_IN_SPACE if in_space else USUAL_AMPLITUDE
-    amplitudes = wanted.amplitude_ratio or (LOWEST_AMPLITUDE, max(usual, float(np.ceil(largest * 2) / 2)))
+    amplitudes = wanted.amplitude or (LOWEST_AMPLITUDE, max(usual, float(np.ceil(largest * 2) / 2)))
     grid = wanted.points or MODELS[model].map_points
     width, edge = WIDTH, EDGE
     if in_space:
@@ -150,7 +142,7 @@ def plan_of(
             amplitude_ratio=np.linspace(*amplitudes, grid[1]),
             restitution=restitution,
             cycles=wanted.cycles,
-            phase=wanted.phase,
+            phase=radians(wanted.phase),
             ramp=wanted.ramp,
             model=model,
             motion=motion,
@@ -161,19 +153,6 @@ def plan_of(
         )
     except ValueError as error:
         raise CampaignError(f"This map cannot be made: {str(error).rstrip('.')}.") from error
-
-
-def _expect_bounded(wanted: Wanted) -> None:
-    """Refuse numbers with which a map would never end, or fill the memory."""
-    for name, ratios in (("omega", wanted.frequency_ratio), ("amplitude", wanted.amplitude_ratio)):
-        for ratio in ratios or ():
-            if expected := outside(ratio, MAP_RATIO):
-                raise CampaignError(f"--{name}: {ratio:g} was found. {expected}")
-    for name, cycles in (("cycles", wanted.cycles), ("ramp", wanted.ramp), ("phase", wanted.phase)):
-        if not abs(cycles) <= MOST_CYCLES:
-            raise CampaignError(f"--{name}: {cycles:g} was found. At most {MOST_CYCLES:g} was expected.")
-    if max(wanted.points or (0,)) > MOST_POINTS:
-        raise CampaignError(f"--points: {max(wanted.points or (0,))} was found. At most {MOST_POINTS} were expected.")
 
 
 def _space(campaign: Campaign, layout: Layout, specimen: str) -> InSpace:

@@ -168,7 +168,7 @@ def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Itera
             if MODELS[model].in_space:
                 continue
             known = pair(restitution.value), restitution.source
-            usual = _map(graph, specimen, Wanted((model,)), model, points, known, None)[1]
+            usual = _map(graph, specimen, Wanted(models=(model,)), model, points, known, None)[1]
             stored = stored_attributes(usual.paths[0])
             try:
                 asked = _map(graph, specimen, Wanted.of(stored[ASKED], model), model, points, known, None)[1]

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import pi
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 from pydantic import ValidationError
 
@@ -14,7 +14,7 @@ from colonnade.assessment.prototype import Prototype as RealColumn
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessment import Prototype
 from colonnade.campaign.specimen import OUTER_DIMENSIONS, SIZED
-from colonnade.campaign.syntax.fields import Scale
+from colonnade.campaign.syntax.fields import OneOf, Scale
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
 from colonnade.dynamics.spectra import rectangular
@@ -166,7 +166,7 @@ def find_column(
         return _without_specimen(asked, has_campaign=campaign is not None)
     name = one_specimen(campaign, asked.specimen)
     known = campaign.specimens[name]
-    scale = checked(_Size, {"scale": asked.scale}).scale or (known.scale if is_real else None) or 1.0
+    scale = checked(Size, {"scale": asked.scale}).scale or (known.scale if is_real else None) or 1.0
     if is_real or scale != 1.0 or {"critical_angle", "p"} & asked.properties.keys():
         own = campaign.prototype.get(name)
         written = {} if own is None else own.model_dump(exclude_none=True)
@@ -181,10 +181,13 @@ def find_column(
     return FoundColumn(name, inputs, restitution_taken(campaign, layout, name), asked.has_own_size)
 
 
-class _Size(Table):
-    """Option that is not a key of [prototype.<specimen>]."""
+class Size(Table):
+    """Options that are not keys of [prototype.<specimen>]."""
 
     scale: Scale | None = None
+    """How many times larger the column is."""
+    shape: Annotated[str, OneOf(tuple(SIZED))] | None = None
+    """Shape of a column that is given by its sizes."""
 
 
 def _without_specimen(asked: AskedColumn, *, has_campaign: bool) -> FoundColumn:
@@ -261,6 +264,11 @@ def checked(model: type[Written], written: Mapping[str, Any], names: Mapping[str
         named = ((str(each["loc"][0] if each["loc"] else "shape"), each["msg"]) for each in error.errors())
         problems = [f"--{(names or {}).get(key, key).replace('_', '-')}: {said}" for key, said in named]
         raise CampaignError("\n".join(problems)) from None
+
+
+def picked(model: type[Written], options: Mapping[str, Any]) -> Written:
+    """Pick from the options of a command those that are keys of a table; None and () are not given; as `checked`."""
+    return checked(model, {key: options[key] for key in model.model_fields if options.get(key) not in (None, ())})
 
 
 def _with_number(key: str, value: Any) -> Any:

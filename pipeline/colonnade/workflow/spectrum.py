@@ -2,31 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi, radians, sqrt
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
-from pydantic import Field
 
 from colonnade.assessment.ground import NONE, Ground, corrected
 from colonnade.assessment.measures import IntensityMeasures, intensity_measures
 from colonnade.campaign import Campaign
-from colonnade.campaign.syntax.fields import MAP_RATIO, MOST_POINTS, Duration, Limits, OneOf, Quantity
+from colonnade.campaign.syntax.fields import Duration, Limits, MapPoints, MapRatio, OneOf, Quantity
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.history import History
 from colonnade.dynamics.models import NONLINEAR, PLANE_MODELS
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.pulses import OverturningSpectrum, overturning_spectrum
+from colonnade.dynamics.pulses import PULSES, OverturningSpectrum, overturning_spectrum
 from colonnade.dynamics.rock import rock
 from colonnade.dynamics.search import WIDTH
 from colonnade.dynamics.spectra import RockingSpectrum, rocking_spectrum
 from colonnade.errors import CampaignError
 from colonnade.store.layout import Layout
 from colonnade.units.text import number, quantity
-from colonnade.workflow.real_column import AskedColumn, FoundColumn, checked, find_column
+from colonnade.workflow.real_column import AskedColumn, FoundColumn, find_column
 
 if TYPE_CHECKING:
     from colonnade.figures.files.output import Picture
@@ -37,12 +35,12 @@ REACH = 4.0
 FREQUENCIES = (0.5, 8.0)
 """Ω of an overturning spectrum."""
 
-_Ratio = Annotated[float, Field(ge=MAP_RATIO[0], le=MAP_RATIO[1])]
-
 
 class Asked(Table):
     """What a spectrum is asked for with, besides its column; quantities as in a campaign file."""
 
+    pulse: Annotated[str, OneOf(tuple(PULSES))] | None = None
+    """Kind of pulse."""
     unit: str | None = None
     """Unit of the accelerations in a file that does not give it, such as "g"."""
     interval: Duration | None = None
@@ -57,11 +55,11 @@ class Asked(Table):
     """Largest drift over PGV of a motion with PGV; by default 0.1, or 0.25 of a table at rest at both ends."""
     slenderness: tuple[Annotated[float, Quantity("angle")], ...] = ()
     """A further α of the rocking spectrum, besides that of the column."""
-    periods: Limits[_Ratio] | None = None
+    periods: Limits[MapRatio] | None = None
     """Sizes 2π/p of the rocking spectrum, s; by default from a fourth of the column's to four times."""
-    omega: Limits[_Ratio] = FREQUENCIES
+    omega: Limits[MapRatio] = FREQUENCIES
     """Frequency ratios Ω = ω/p of the pulse."""
-    points: Annotated[int, Field(ge=2, le=MOST_POINTS)] = 24
+    points: MapPoints = 24
     """Number of sizes, in equal ratios, or of frequencies, in equal steps."""
     model: Annotated[str, OneOf(tuple(PLANE_MODELS))] = NONLINEAR.name
     """Model of rocking."""
@@ -73,11 +71,6 @@ class Asked(Table):
     """Largest A that is tried."""
     least_width: float = WIDTH
     """In A: narrower intervals are islands, not limits."""
-
-    @classmethod
-    def of(cls, options: Mapping[str, Any]) -> Asked:
-        """Pick from the options of a command those that are about the spectrum; raises CampaignError."""
-        return checked(cls, {key: options[key] for key in cls.model_fields if options.get(key) is not None})
 
 
 @dataclass(frozen=True)
@@ -156,15 +149,13 @@ def rocking_of(
     return Rocking(known, base, source, history, spectrum, measures)
 
 
-def overturning_of(
-    campaign: Campaign | None, layout: Layout | None, column: AskedColumn, pulse: str, asked: Asked
-) -> Overturning:
-    """Compute the overturning spectrum of a kind of pulse for a column; as of `rocking_of`."""
+def overturning_of(campaign: Campaign | None, layout: Layout | None, column: AskedColumn, asked: Asked) -> Overturning:
+    """Compute the overturning spectrum of the pulse that is asked for; as of `rocking_of`."""
     known = find_column(column, campaign, layout)
     try:
         spectrum = overturning_spectrum(
             known.block,
-            pulse,
+            str(asked.pulse),
             cycles=asked.cycles,
             phase=radians(asked.phase),
             frequency_ratio=np.linspace(*asked.omega, asked.points),

@@ -6,8 +6,6 @@ import sys
 import pytest
 
 from colonnade.cli.app import app
-from colonnade.cli.common.options import models
-from colonnade.dynamics.models import MODELS
 
 
 def options(command):
@@ -29,10 +27,6 @@ def test_an_option_has_the_same_help_everywhere():
                 said.setdefault((each.opts[0], each.multiple), set()).add(each.help)
     assert ("--specimen", False) in said
     assert all(len(texts) == 1 for texts in said.values())
-
-
-def test_the_names_of_models_are_those_of_their_registry():
-    assert list(models()) == list(MODELS)
 
 
 def test_names_are_read_only_when_they_are_needed():

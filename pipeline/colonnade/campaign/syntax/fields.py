@@ -62,14 +62,8 @@ PLAIN = (1e-6, 1e6)
 FREQUENCY_PARAMETER = (1e-2, 1e3)
 """Of a specimen's p, rad/s: of columns of 1 km and of less than 0.1 mm."""
 
-MAP_RATIO = (1e-3, 1e3)
-"""Of the frequency and amplitude ratios of a map."""
-
 MOST_CYCLES = 10_000.0
 """Of a sine of a map, and of its rise."""
-
-MOST_POINTS = 10_000
-"""Of either axis of a map."""
 
 Vector = tuple[float, float, float]
 
@@ -340,6 +334,10 @@ Deviation = Annotated[Number, Field(ge=0.0, le=0.5), AfterValidator(lambda width
 """A relative standard deviation."""
 PositiveNumber = Annotated[Number, Field(ge=PLAIN[0], le=PLAIN[1])]
 Scale = Annotated[Number, Field(ge=SCALE[0], le=SCALE[1])]
+MapRatio = Annotated[Number, Field(ge=1e-3, le=1e3)]
+"""A frequency or amplitude ratio of a map or spectrum."""
+MapPoints = Annotated[Whole, Field(ge=2, le=10_000)]
+"""Of either axis of a map."""
 Position = tuple[Coordinate, Coordinate, Coordinate]
 Direction = Annotated[tuple[Number, Number, Number], AfterValidator(_unit_vector)]
 Interval = Limits[Delay]

@@ -23,7 +23,7 @@ class WithKeys(click.RichCommand):
     def params(self) -> list[click.Parameter]:
         """Its own arguments and options, and those of the tables ahead of where results go."""
         if self._keys is not None:
-            place = next(number for number, each in enumerate(self._params) if each.name == "out")
+            place = next(number for number, each in enumerate(self._params) if each.name in ("out", "workers"))
             self._params[place:place], self._keys = self._keys(), None
         return self._params
 
@@ -52,18 +52,20 @@ def options_of(keys: Mapping[str, FieldInfo], *, with_defaults: bool = False) ->
         is_many, is_pair = any(... in each for each in tuples), any(... not in each for each in tuples)
         words = [click.Choice(each.words) for each in found if isinstance(each, OneOf)]
         dimension = [each.dimension for each in found if isinstance(each, Quantity)]
-        plain = str if dimension else next(each for each in (str, Path, float, int) if each in found)
+        plain = str if dimension else next(each for each in (str, Path, float, bool, int) if each in found)
         said = str(field.description) + " Repeat it for several." * is_many
-        if with_defaults and field.default not in (None, ()):
-            said += f" Default: {str(field.default).strip('()').replace(',', '')}."
+        if with_defaults and field.default not in (None, (), False):
+            default = field.default if isinstance(field.default, tuple) else (field.default,)
+            said += f" Default: {' '.join(map(str, default))}."
         flag = key.removesuffix("s") if is_many and not dimension else key
         made.append(
             click.Option(
                 ["--" + flag.replace("_", "-"), key],
                 type=words[0] if words else click.Path(path_type=Path) if plain is Path else plain,
+                is_flag=plain is bool or None,
                 nargs=2 if is_pair else 1,
                 multiple=is_many,
-                metavar="LOW HIGH" if is_pair else dimension[0].upper() if dimension else None,
+                metavar="LOW HIGH" if is_pair and plain is float else dimension[0].upper() if dimension else None,
                 help=said,
             )
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -14,36 +14,6 @@ if TYPE_CHECKING:
     from pydantic.fields import FieldInfo
 
 Command = TypeVar("Command", bound=Callable[..., Any])
-
-
-class LateChoice(click.Choice):  # type: ignore[type-arg]
-    """A choice whose names are loaded only when they are needed, so that every command starts quickly."""
-
-    def __init__(self, names: Callable[[], Iterable[str]]) -> None:
-        self.case_sensitive = True
-        self._names = names
-
-    @property
-    def choices(self) -> tuple[str, ...]:  # type: ignore[override]
-        """The names."""
-        return tuple(self._names())
-
-
-MODEL = "nonlinear"
-"""Default model of every command that runs a single one."""
-
-
-def models() -> Iterable[str]:
-    """Names of the models."""
-    from colonnade.dynamics.models import MODELS
-
-    return MODELS
-
-
-def _shapes() -> Iterable[str]:
-    from colonnade.campaign.specimen import SIZED
-
-    return SIZED
 
 
 campaign_argument = click.argument("campaign", type=click.Path(path_type=Path), default=Path(), metavar="[CAMPAIGN]")
@@ -76,29 +46,18 @@ one_specimen_option = click.option(
 )
 
 
-def column_options(command: Command) -> Command:
-    """Add the options that say which column is asked about, besides `column_keys`; see `workflow.real_column`."""
-    options = (
-        one_specimen_option,
-        click.option("--scale", type=float, metavar="FACTOR", help="How many times larger the column is."),
-        click.option("--shape", type=LateChoice(_shapes), help="Shape of a column that is given by its sizes."),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
-
-
 def column_keys(*more: str) -> list[click.Option]:
-    """Make the options for sizes of a column, and for keys of [prototype.<specimen>]: e, α, p and `more`."""
+    """Make the options that say which column: its sizes, and keys of [prototype.<specimen>]: e, α, p and `more`."""
     from colonnade.campaign.assessment import Prototype
     from colonnade.campaign.specimen import SIZED
+    from colonnade.workflow.real_column import Size
 
     sizes: dict[str, FieldInfo] = {}
     for model in SIZED.values():
         sizes |= model.model_fields
     sizes = {key: sizes[key] for key in ("width", "diameter", "base_diameter", "top_diameter", "height")}
     prototype = {key: Prototype.model_fields[key] for key in ("critical_angle", "p", "restitution", *more)}
-    return options_of(sizes | prototype)
+    return options_of(Size.model_fields | sizes | prototype)
 
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
