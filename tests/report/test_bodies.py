@@ -11,6 +11,7 @@ from colonnade.campaign.forms.summary import Summary
 from colonnade.figures.stored import bodies
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import read_test
+from colonnade.units.text import acceleration
 from read_pages import words_of
 
 
@@ -69,7 +70,17 @@ def test_the_moving_picture_has_each_body_at_its_place(shaken):
     assert {"slide", "rise", "outline", "poles"} <= measured["parts"][0].keys()
 
 
-def test_bodies_that_do_not_rock_as_one_block_have_no_e(shaken):
-    words = words_of((shaken / "report/specimens/column.html").read_text())
-    assert "e –, as its bodies do not rock as one block" in words
-    assert "rigid-body e, without bounce –" in words
+def test_bodies_that_do_not_rock_as_one_block_have_joints_and_no_e(shaken):
+    page = (shaken / "report/specimens/column.html").read_text()
+    words = words_of(page)
+    whole = load(shaken).specimens["column"].assembly(9.81)
+    opens = [9.81 * np.tan(whole.critical_angles[name]) for name in whole.bodies]
+    assert f"First to open: the joint below 1, from {acceleration(opens[0])}" in words
+    assert 'id="restitution"' not in page
+    found = re.findall(r"(\d) drum, \w+ [\d.]+ × [\d. ×]+mm \S+ kg (\w+) \S+ m?m (\S+ m/s² \(\S+ g\))", words)
+    assert found == [(f"{k + 1}", f"{k}" if k else "table", acceleration(opens[k])) for k in range(3)]
+
+
+def test_a_specimen_that_is_only_part_of_an_assembly_has_no_page(shaken):
+    assert load(shaken).of_interest == ["column"]
+    assert [path.name for path in (shaken / "report/specimens").iterdir()] == ["column.html"]

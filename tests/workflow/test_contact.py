@@ -15,7 +15,7 @@ from colonnade.stages.contact import law_of
 from colonnade.store import files
 from colonnade.store.records.assessment import sentences
 from colonnade.store.results import ResultId
-from colonnade.workflow.advising.next import advise_kind, of_interest
+from colonnade.workflow.advising.next import advise_kind
 from colonnade.workflow.assessing import Where, assess_campaign
 from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.check import check
@@ -164,7 +164,7 @@ def test_no_question_about_a_block_is_answered_of_bodies_that_do_not_rock_as_one
     with pytest.raises(CampaignError, match="two: its bodies do not rock as one block"):
         one_specimen(campaign, "two")
     assert one_specimen(campaign, "prism") == "prism"
-    assert of_interest(campaign) == ["prism", "two"]
+    assert campaign.of_interest == ["prism", "two"]
     assert advise_kind(campaign, in_space.layout, "two", "free-vibration", {}) == []
 
 

@@ -104,6 +104,14 @@ class Campaign(CampaignKeys):
         keys |= {"tests": tests, "path": path, "folder": path.parent, "warnings": warnings, "awaited": awaited}
         return cls.model_construct(**keys)
 
+    @property
+    def of_interest(self) -> list[str]:
+        """Specimens with a page and advice of their own: not those that are only bodies of an assembly."""
+        wholes = [each for each in self.specimens.values() if isinstance(each, Whole)]
+        parts = {body.specimen for whole in wholes for body in whole.placed.values()}
+        tested = {test.specimen for test in self.tests.values()}
+        return [name for name in self.specimens if name in tested or name not in parts]
+
     def but(self, **changed: Any) -> Campaign:
         """Return the campaign with some attributes changed."""
         return self.model_copy(update=changed)

@@ -65,6 +65,6 @@ def of_campaign(optional: Iterable[str]) -> list[str]:
 
 def addresses(campaign: Campaign, optional: Iterable[str]) -> list[str]:
     """Addresses of everything that shows a campaign."""
-    single = [*map(of_test, campaign.tests), *map(of_specimen, campaign.specimens)]
+    single = [*map(of_test, campaign.tests), *map(of_specimen, campaign.of_interest)]
     setups = [of_setup(*pair) for pair in campaign.combinations]
     return [*single, *map(of_data, single), *setups, *of_campaign(optional)]

@@ -28,7 +28,7 @@ from colonnade.store.records.advice import Advice
 from colonnade.store.records.stored import read_specimen
 from colonnade.store.records.summary import read_summary
 from colonnade.store.records.wording import agreement
-from colonnade.store.results import models_shown
+from colonnade.store.results import models_moving, models_shown
 from colonnade.units.text import format_percent
 
 Pages = Iterator[tuple[str, str]]
@@ -41,6 +41,7 @@ def specimen_page(campaign: Campaign, layout: Layout, name: str, parts: Sequence
     rows = [part.row for part in own]
     shown = {
         "specimen": _specimen(campaign, layout, name, own),
+        "models": models_moving(campaign, name, models_shown(campaign)),
         "groups": [group for group in groups.by_specimen(campaign, rows) if group.specimen == name],
         "maps": [drawn for drawn in groups.measured_maps(campaign, layout, rows) if drawn.specimen == name],
     }
@@ -62,7 +63,7 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
         On the next tests.
     """
     renderer, used = pages.renderer_of(campaign), Used()
-    specimens = [_specimen(campaign, layout, name, parts) for name in campaign.specimens]
+    specimens = [_specimen(campaign, layout, name, parts) for name in campaign.of_interest]
     for part in parts:
         used.add(part.used)
     for page in specimens:

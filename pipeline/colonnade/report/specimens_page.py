@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign
+from colonnade.campaign.assembly import Whole
 from colonnade.campaign.forms.summary import Warned
 from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block, pair
@@ -21,7 +22,7 @@ from colonnade.report.pictures.subjects import Decaying, OfSpecimen, OfTest
 from colonnade.report.test_page import restitution
 from colonnade.report.test_page.restitution import EstimateText
 from colonnade.store.records.stored import Failure, Stored
-from colonnade.units.text import NOTHING, interval, listed, number, percent, quantity
+from colonnade.units.text import NOTHING, acceleration, interval, listed, number, percent, quantity
 
 APART = "as its bodies do not rock as one block"
 """In place of the source of an e."""
@@ -75,12 +76,15 @@ class SpecimenPage:
     """
     What the page of a specimen shows; its pictures are of `subject`.
 
-    `e` is the value that predictions use, with its interval; `contact` the law of the contact model, name and value.
+    `e` is the value that predictions use, with its interval; `contact` the law of the contact model, name and value;
+    `bodies` those of an assembly, from the bottom to the top.
     """
 
     id: str
     shape: str
     scale: str
+    answer: str
+    bodies: list[tuple[str, ...]]
     properties: list[Property]
     drawings: list[Drawing]
     deviations: list[str]
@@ -118,15 +122,19 @@ def of_specimen(
     specimen, block = campaign.specimens[name], campaign.block(name)
     value, low, high, level = (pooled.value("specimen", each) for each in ("restitution", *BOUNDS))
     unknown = "failed" if pooled.failures else "not yet known"
+    e = interval(value, low, high, level)
+    source = SOURCES.get(pooled.text("specimen", "restitution_source"), unknown)
     page = SpecimenPage(
         id=name,
         shape=specimen.shape,
         scale="" if specimen.scale is None else f"1:{specimen.scale:g}",
+        answer=f"e {e}, {source}",
+        bodies=[],
         properties=_properties(specimen, block, campaign.gravity),
         drawings=drawings_of(campaign, name),
         deviations=list(specimen.deviations(campaign.gravity)),
-        e=interval(value, low, high, level),
-        source=SOURCES.get(pooled.text("specimen", "restitution_source"), unknown),
+        e=e,
+        source=source,
         rigid=number(block.restitution, 4),
         ratio=number(value / block.restitution, 4),
         method=pooled.text("specimen", "method"),
@@ -138,9 +146,31 @@ def of_specimen(
         free_vibrations=free_vibrations,
         subject=OfSpecimen(campaign, name, pooled, [each.drawn for each in free_vibrations]),
     )
+    if not isinstance(specimen, Whole):
+        return page
+    first, bodies = _bodies(specimen, campaign.gravity)
+    page = replace(page, bodies=bodies)
     if specimen.is_in_plane:
         return page
-    return replace(page, e=NOTHING, source=APART, rigid=NOTHING, ratio=NOTHING, method="", reason="")
+    return replace(page, answer=first, e=NOTHING, source=APART, rigid="", ratio=NOTHING, method="", reason="")
+
+
+def _bodies(whole: Whole, gravity: float) -> tuple[str, list[tuple[str, ...]]]:
+    """Say which joint opens first, and list the bodies; one on several others opens no joint by itself."""
+    assembly, rows = whole.assembly(gravity), list[tuple[str, ...]]()
+    opens = {name: gravity * tan(each) for name, each in assembly.critical_angles.items()}
+    opens = {name: each for name, each in opens.items() if len(assembly.bodies[name].on) < 2}
+    for name, body in assembly.bodies.items():
+        specimen, made = whole.placed[name].specimen, whole.made[name]
+        sizes = " × ".join(number(1e3 * size, 4) for size in made.sizes().values())
+        said = f"{specimen}, {made.shape} {sizes} mm"
+        level, least = quantity(assembly.levels[name], "mm"), opens.get(name)
+        above = NOTHING if least is None else acceleration(least)
+        rows.append((name, said, quantity(made.mass, "kg", 4), listed(body.on) or "table", level, above))
+    least = min(opens.values())
+    first = [name for name, each in opens.items() if each <= 1.001 * least]
+    joint = "joint" if len(first) == 1 else "joints"
+    return f"First to open: the {joint} below {listed(first)}, from {acceleration(least)}", rows
 
 
 def _between(pooled: Stored) -> str:

@@ -230,7 +230,8 @@ def _taken(found: _Identified, inputs: SpecimenInputs) -> xr.Dataset:
     else:
         value, source = pair(block.restitution), "rigid-body"
         reason = "; ".join(found.refused) or "no free vibration of this specimen was identified"
-        method = "rigid body without bounce, 1 − (2 m R b/I₀) sin α (Housner 1963)"
+        beam = ", the beam counts four times in m" if block.beam_ratio else ""
+        method = f"rigid body without bounce, 1 − (2 m R b/I₀) sin α (Housner 1963){beam}"
     return xr.Dataset(
         {
             "side_restitution": ("side", np.array(value)),

@@ -115,13 +115,13 @@ class _Report:
     def specimens(self) -> Iterator[Product]:
         """The page of each specimen."""
         campaign, models = self.campaign, models_shown(self.campaign)
-        around = (campaign.title, campaign.gravity, tuple(campaign.specimens), models)
-        for name, specimen in campaign.specimens.items():
+        around = (campaign.title, campaign.gravity, tuple(campaign.of_interest), models)
+        for name in campaign.of_interest:
             results = [ResultId(name, "specimen"), ResultId(name, "contact")]
             results += [ResultId(name, "map", model) for model in models]
             tests = {test: key for test, key in self._keys.items() if campaign.tests[test].specimen == name}
             setups = {pair: tests for pair, tests in campaign.combinations.items() if pair[0] == name}
-            shows = repr((around, specimen, setups, [campaign.setups[setup] for _, setup in setups]))
+            shows = repr((around, campaign.specimens[name], setups, [campaign.setups[setup] for _, setup in setups]))
             page, make = addresses.of_specimen(name), partial(self._specimen, name)
             places = [addresses.of_data(page), page]
             yield self._product(f"specimen-page {name}", shows, self._contents(results) | tests, make, places)

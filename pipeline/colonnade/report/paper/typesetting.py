@@ -63,14 +63,14 @@ def document_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> D
         Whether each test has its pages, too.
     """
     tests = list(map(addresses.of_test, campaign.tests)) if appendix else []
-    specimens = list(map(addresses.of_specimen, campaign.specimens))
+    specimens = list(map(addresses.of_specimen, campaign.of_interest))
     overview, methods = addresses.WHOLE["overview"], addresses.WHOLE["methods"]
     document = Document({})
     optional = {page: title for page, title in addresses.OPTIONAL.items() if (folder / page).is_file()}
     gather = _Gatherer(folder, document, {*tests, *specimens, *optional, overview, methods})
     summary = gather.page(overview)
     chapters = [_chapter("Summary", overview, summary.parts(without=SPANS))]
-    for name, address in zip(campaign.specimens, specimens, strict=True):
+    for name, address in zip(campaign.of_interest, specimens, strict=True):
         chapters.append(_chapter(f"Specimen {name}", address, gather.page(address).parts()))
     if spans := summary.sections.get(SPANS):
         chapters.append(_chapter(_plain(spans[0]["in"]), "", spans))

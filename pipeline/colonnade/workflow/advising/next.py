@@ -14,7 +14,6 @@ import numpy as np
 from pydantic import TypeAdapter
 
 from colonnade.campaign import Campaign, load
-from colonnade.campaign.assembly import Whole
 from colonnade.campaign.forms.summary import Summary, TestSummary
 from colonnade.errors import StoreError
 from colonnade.identification.advice import LAST_PEAK, advise_free_vibration
@@ -95,7 +94,7 @@ def advise(
         raise StoreError(f"{loaded.folder}: this campaign has no results yet. Run `colonnade run` first.")
     tests = records_of_tests(loaded, summary)
     advice: list[Advice] = []
-    asked = list(product(specimens or of_interest(loaded), KINDS))
+    asked = list(product(specimens or loaded.of_interest, KINDS))
     for done, (name, kind) in enumerate(asked, 1):
         advice += advise_kind(loaded, layout, name, kind, tests)
         if progress is not None:
@@ -117,14 +116,6 @@ def advise_after(campaign: Campaign, layout: Layout, name: str, measured: Mappin
         return found
     ratio = record.frequency_ratio
     return [each for each in found if abs(each.values.get("frequency_ratio", 0.0) / ratio - 1) < SAME_FREQUENCY]
-
-
-def of_interest(campaign: Campaign) -> list[str]:
-    """Specimens about which there is advice without being asked: not those that are only bodies of an assembly."""
-    wholes = [each for each in campaign.specimens.values() if isinstance(each, Whole)]
-    parts = {body.specimen for whole in wholes for body in whole.placed.values()}
-    tested = {test.specimen for test in campaign.tests.values()}
-    return [name for name in campaign.specimens if name in tested or name not in parts]
 
 
 def advise_kind(
@@ -168,7 +159,7 @@ def advice_shown(
     advice : list of Advice
     """
     tests, code = records_of_tests(campaign, summary), catalogue.code(MADE_BY)
-    asked = [(name, kind) for name in of_interest(campaign) for kind in KINDS]
+    asked = [(name, kind) for name in campaign.of_interest for kind in KINDS]
     products = (_advice(campaign, layout, catalogue, name, kind, tests, code) for name, kind in asked)
     made = {str(each.product.id): each.text for each in brought_up_to_date(products, catalogue, workers=workers)}
     return [each for name, kind in asked for each in _ADVICE.validate_json(made[f"advice {name} {kind}"])]
