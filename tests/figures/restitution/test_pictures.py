@@ -21,6 +21,7 @@ from colonnade.figures import (
     joint_region,
     peak_decay,
 )
+from colonnade.figures.files.table import columns_of
 from colonnade.figures.restitution.peaks import draw_marks
 from colonnade.figures.style import MEASURED, model_style
 from colonnade.identification.restitution.peaks import angle_of_energy
@@ -116,6 +117,22 @@ def decay(title="free-01", *, count=20, restitution=0.95, used=None):
     angle = np.asarray(angle_of_energy(0.8 * restitution ** (2 * number), PRISM.critical_angle)) * (-1.0) ** number
     chosen = number <= (count if used is None else used)
     return PeakSeries(title, angle, np.full(count, 1e-4), np.where(chosen, angle, np.nan), chosen)
+
+
+def test_bars_that_would_merge_are_a_band_about_e_and_stay_in_the_table():
+    speed = np.geomspace(1.0, 0.1, 80)
+    series = ImpactSeries("free-01", speed, np.full(80, 0.95), 2e-3 / speed, np.full(80, True))
+    figure = impact_restitution([series], level=Level(0.95, 0.948, 0.952, "e identified"))
+    axes = figure.axes[0]
+    (band,) = (each for each in axes.collections if each.get_label() == "± two standard errors of an impact")
+    outline = band.get_paths()[0].vertices
+    (near,) = {round(y, 9) for x, y in outline if x == speed[40] and y > 0.95}
+    assert near == pytest.approx(0.95 + 4e-3 / speed[40])
+    (bars,) = (each for each in axes.containers if isinstance(each, ErrorbarContainer))
+    assert bars[2][0].get_linewidth() == 0
+    columns = columns_of(figure)
+    low = next(values for name, values in columns.items() if "impact used, low" in name)
+    np.testing.assert_allclose(low, 0.95 - 4e-3 / speed)
 
 
 def test_a_constant_restitution_is_a_straight_line_of_slope_two_ln_e():

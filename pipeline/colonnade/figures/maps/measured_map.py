@@ -8,6 +8,7 @@ from typing import Any, cast
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from colonnade.figures.files.output import link_to
@@ -100,7 +101,7 @@ def draw_points(axes: Axes, points: Sequence[MapPoint], *, prefix: str = "", lin
             places = axes.scatter(
                 [point.frequency_ratio for point in chosen],
                 [point.amplitude_ratio for point in chosen],
-                s=26,
+                s=12 if is_narrow() else 26,
                 linewidths=0.9,
                 label=f"{prefix}{NAMES[outcome]}",
                 zorder=4,
@@ -117,6 +118,7 @@ def draw_points(axes: Axes, points: Sequence[MapPoint], *, prefix: str = "", lin
                 textcoords="offset points",
                 va="center",
                 fontsize=7,
+                path_effects=[withStroke(linewidth=2.5, foreground="white")],
             )
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from colonnade.arrays import Array
 from colonnade.figures.panels.layout import BOTTOM, GAP, TOP, add_panel, legend_above, margins
 from colonnade.figures.restitution.peaks import draw_marks
-from colonnade.figures.style import FIT, INK, LIMIT, is_narrow, styled, width
+from colonnade.figures.style import FAINT, FIT, INK, LIMIT, is_narrow, styled, width
 
 HEIGHT = 2.4
 """Of the panels, inches."""
@@ -33,6 +33,9 @@ BEST = 0.25
 
 SPREAD = 6.0
 """Robust standard deviations about the median that the axis of e shows; what tiny impacts scatter may leave it."""
+
+MOST_BARS, AROUND = 60, 9
+"""Impacts up to which each has its bar; of more the bars merge: a band has the median error of so many neighbours."""
 
 MOST_NAMED = 3
 """Free vibrations up to which each is named in the legend."""
@@ -73,7 +76,7 @@ def impact_restitution(
     Parameters
     ----------
     series : sequence of ImpactSeries
-        One a free vibration; bars are ± two standard errors.
+        One a free vibration; bars, or if they are many a band about the level, are ± two standard errors.
     level : Level, optional
         The value if e is constant.
     rigid : float, optional
@@ -101,11 +104,15 @@ def impact_restitution(
     axes.set_xlim(0, 1.05 * fastest)
     if later is not None:
         later.set_xlim(0, max(one.velocity.size for one in series) + 1)
+    has_bars = sum(int(np.isfinite(one.restitution).sum()) for one in series) <= MOST_BARS / (1 + is_narrow())
+    if not has_bars:
+        _draw_errors(axes, later, series, level)
     for index, one in enumerate(series):
         mark, named = MARKS[index % len(MARKS)], 1 < len(series) <= MOST_NAMED
-        _draw_impacts(axes, one, one.velocity, mark, named=named)
+        _draw_impacts(axes, one, one.velocity, mark, named=named, has_bars=has_bars)
         if later is not None:
-            _draw_impacts(later, one, np.arange(1.0, one.velocity.size + 1), mark, named=named)
+            numbers = np.arange(1.0, one.velocity.size + 1)
+            _draw_impacts(later, one, numbers, mark, named=named, has_bars=has_bars)
     if level is not None and np.isfinite(level.value):
         for panel in filter(None, (axes, later)):
             draw_level(panel, level)
@@ -136,11 +143,40 @@ def _panels() -> tuple[Axes, Axes]:
     return axes, later
 
 
-def _draw_impacts(axes: Axes, impacts: ImpactSeries, place: Array, mark: str, *, named: bool) -> None:
+def _draw_errors(axes: Axes, later: Axes | None, series: Sequence[ImpactSeries], level: Level | None) -> None:
+    """Draw where e of an impact is expected to lie if it is constant, by the errors of its neighbours."""
+    error = np.concatenate([2 * one.standard_error for one in series])
+    values = np.concatenate([one.restitution for one in series])
+    speeds = np.concatenate([one.velocity for one in series])
+    numbers = np.concatenate([np.arange(1.0, one.velocity.size + 1) for one in series])
+    seen = np.isfinite(error) & np.isfinite(values) & np.isfinite(speeds)
+    middle = float(np.median(values[seen])) if level is None or not np.isfinite(level.value) else level.value
+    for panel, place in ((axes, speeds), (later, numbers)):
+        if panel is not None and seen.sum() > AROUND:
+            order = np.flatnonzero(seen)[np.argsort(place[seen], kind="stable")]
+            wide = np.median(np.lib.stride_tricks.sliding_window_view(error[order], AROUND), axis=1)
+            wide = np.pad(wide, AROUND // 2, mode="edge")
+            name = "± two standard errors of an impact"
+            panel.fill_between(
+                place[order], middle - wide, middle + wide, color=FAINT, alpha=0.3, linewidth=0, label=name
+            )
+
+
+def _draw_impacts(axes: Axes, impacts: ImpactSeries, place: Array, mark: str, *, named: bool, has_bars: bool) -> None:
     shown = np.isfinite(impacts.restitution) & np.isfinite(impacts.velocity)
     labels = (impacts.title if named else "impact used", "impact left out")
     bars = 2 * impacts.standard_error
-    draw_marks(axes, place, impacts.restitution, bars, shown, impacts.used, labels, mark=mark)
+    draw_marks(
+        axes,
+        place,
+        impacts.restitution,
+        bars,
+        shown,
+        impacts.used,
+        labels,
+        mark=mark,
+        thickness=0.8 if has_bars else 0.0,
+    )
 
 
 def draw_level(axes: Axes, level: Level) -> None:

@@ -31,6 +31,7 @@ def draw_marks(
     *,
     mark: str = "o",
     size: float = 3.0,
+    thickness: float = 0.8,
 ) -> None:
     """
     Draw marks with their bars.
@@ -47,6 +48,8 @@ def draw_marks(
     mark : str, optional
     size : float, optional
         Points.
+    thickness : float, optional
+        Of the bars, points; with 0 they are in the figure's table alone.
     """
     for chosen, face, label in zip((shown & used, shown & ~used), (MEASURED["color"], "white"), labels, strict=True):
         if chosen.any():
@@ -60,7 +63,7 @@ def draw_marks(
                 markeredgecolor=MEASURED["color"],
                 markeredgewidth=0.8,
                 ecolor=FAINT,
-                elinewidth=0.8,
+                elinewidth=thickness,
                 label=label,
             )
 
