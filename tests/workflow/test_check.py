@@ -46,8 +46,14 @@ def test_every_test_is_looked_at_counted_and_nothing_is_written(untouched):
     counted, before = [], untouched.files()
     found = checked(untouched, progress=lambda done, total: counted.append((done, total)))
     assert [each.status for each in found.tests.values()] == ["good"] * 4
-    assert counted == [(0, 4), (1, 4), (2, 4), (3, 4)]
+    assert counted == [(done, 4) for done in range(5)]
     assert untouched.files() == before
+
+
+def test_several_processes_find_the_same(untouched, monkeypatch):
+    alone = checked(untouched)
+    monkeypatch.setattr("colonnade.workflow.check.MANY", 1)
+    assert checked(untouched) == alone
 
 
 def test_a_test_that_people_excluded_is_not_read(untouched):

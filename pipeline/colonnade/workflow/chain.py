@@ -27,7 +27,7 @@ from colonnade.workflow.product import Look, Product
 if TYPE_CHECKING:
     import xarray as xr
 
-_WORKER_LOST = (
+WORKER_LOST = (
     "The system stopped the process that worked on this test, twice: the second time nothing else was running. Either "
     "memory ran out, or a damaged raw file crashed the library that reads it. Close other programs and run again. If "
     "the test still fails, copy the raw file from the recorder again, or export it as text."
@@ -132,7 +132,7 @@ def worker_lost(chain: Chain) -> list[StageRun]:
     late = (product for product in chain.products if chain.why(product, stored_attributes))
     stopped = next(late, chain.products[-1]).result
     remove_later(chain.layout, chain.results, stopped.order - 1)
-    return [StageRun(stopped.subject, stopped.stage, "failed", stopped.model, _WORKER_LOST)]
+    return [StageRun(stopped.subject, stopped.stage, "failed", stopped.model, WORKER_LOST)]
 
 
 def remove_later(layout: Layout, results: Sequence[ResultId], order: int) -> None:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cache
+from itertools import groupby
 from pathlib import Path
 
 from colonnade.campaign import Campaign, Test
@@ -12,9 +13,10 @@ from colonnade.campaign.assessment import Assessment
 from colonnade.dynamics.models import CONTACT
 from colonnade.errors import ReadError, StageError, count
 from colonnade.findings import Finding, Severity, at_stage, in_order, note, warning
-from colonnade.interruption import expect_none
 from colonnade.readers.recording import Recording
 from colonnade.store.results import models_of
+from colonnade.workflow.chain import WORKER_LOST
+from colonnade.workflow.executors import spread
 from colonnade.workflow.photos import unshown_photos
 from colonnade.workflow.pooling import with_contradictions
 from colonnade.workflow.raw_files import digests_of_equal_sizes, with_copies
@@ -86,7 +88,8 @@ class CampaignCheck:
         return [*self.tests.items(), *((f"assessment {name}", each) for name, each in self.assessments.items())]
 
 
-Reading = Callable[[Path, str, str], Recording]
+MANY = 16
+"""Files from which starting other processes is sooner done than reading them one after the other."""
 
 
 def check(campaign: Campaign, progress: Callable[[int, int], None] = lambda done, total: None) -> CampaignCheck:
@@ -103,25 +106,23 @@ def check(campaign: Campaign, progress: Callable[[int, int], None] = lambda done
     -------
     checked : CampaignCheck
     """
-    from colonnade.readers.registry import read
-
-    @lru_cache(maxsize=2)  # tests that share a file follow each other in most campaigns
-    def reading(path: Path, setup: str, recorder: str) -> Recording:
-        file = campaign.setups[setup].recorders[recorder].file
-        return read(path, file.format, file.options, within=campaign.folder)
-
     campaign = with_copies(campaign, digests_of_equal_sizes(campaign))
     campaign = campaign.but(warnings=(*campaign.warnings, *unshown_photos(campaign), *_overnight(campaign)))
     found: dict[str, Checked] = {}
-    for name, test in campaign.tests.items():
-        progress(len(found), len(campaign.tests))
-        expect_none()
+    for name in campaign.tests:
         if excluded := campaign.review(name).excluded:
             found[name] = Checked(findings=[note("excluded", f"{excluded} (review.toml).")])
         elif awaited := campaign.left_out(name):
             found[name] = Checked(findings=[note("planned", f"{awaited}. This planned test has not been run yet.")])
-        else:
-            found[name] = _checked(campaign, test, reading)
+    waiting = [test for name, test in campaign.tests.items() if name not in found]
+    # Tests that share a file follow each other in most campaigns: it is read once.
+    together = [list(tests) for _, tests in groupby(waiting, lambda test: test.files)]
+    parts = [campaign.but(tests={test.id: test for test in tests}) for tests in together]
+    progress(len(found), len(campaign.tests))
+    for read in spread(_read_and_checked, parts, workers=None if len(parts) >= MANY else 1, lost=_lost):
+        found |= read
+        progress(len(found), len(campaign.tests))
+    found = {name: found[name] for name in campaign.tests}
     campaign = with_contradictions(campaign, {name: each.findings for name, each in found.items()})
     for name, each in found.items():
         each.concerning = campaign.concerning(name)
@@ -148,7 +149,23 @@ def _on_contact(what: str, runs: int, remedy: str = "Fewer `levels` and `draws` 
     return note("runs on contact", said)
 
 
-def _checked(campaign: Campaign, test: Test, reading: Reading) -> Checked:
+def _read_and_checked(part: Campaign) -> dict[str, Checked]:
+    """Check tests that share their files."""
+    from colonnade.readers.registry import read
+
+    @cache
+    def reading(path: Path, setup: str, recorder: str) -> Recording:
+        file = part.setups[setup].recorders[recorder].file
+        return read(path, file.format, file.options, within=part.folder)
+
+    return {name: _checked(part, test, reading) for name, test in part.tests.items()}
+
+
+def _lost(part: Campaign) -> dict[str, Checked]:
+    return {name: Checked(problems=[WORKER_LOST]) for name in part.tests}
+
+
+def _checked(campaign: Campaign, test: Test, reading: Callable[[Path, str, str], Recording]) -> Checked:
     checked = Checked()
     recordings: dict[str, Recording] = {}
     for recorder, path in test.files.items():
