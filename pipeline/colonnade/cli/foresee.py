@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
@@ -56,30 +56,12 @@ if TYPE_CHECKING:
 )
 @results_option
 @json_option
-def foresee(
-    campaign: Path,
-    motion: str,
-    level: tuple[str, ...],
-    specimen: str | None,
-    test: str | None,
-    time_scale: float | None,
-    results: Path | None,
-    as_json: bool,
-) -> int:
+def foresee(campaign: Path, level: tuple[str, ...], as_json: bool, **options: Any) -> int:
     """Make forecasts, show them, and return the exit code."""
     from colonnade.workflow.foresee import foresee as make
 
     with work_progress("Foreseeing") as progress:
-        made = make(
-            campaign,
-            motion=motion,
-            levels=level,
-            specimen=specimen,
-            test=test,
-            time_scale=time_scale,
-            results=results,
-            progress=progress,
-        )
+        made = make(campaign, levels=level, progress=progress, **options)
     if as_json:
         show_json([{"file": each.path, **each.forecast.model_dump(mode="json", by_alias=True)} for each in made])
         return 0

@@ -54,31 +54,15 @@ def _keys() -> list[click.Option]:
 @scheduler_option
 @results_option
 @json_option
-def map_command(
-    campaign: Path,
-    specimen: tuple[str, ...],
-    workers: int | None,
-    scheduler: str | None,
-    results: Path | None,
-    as_json: bool,
-    **options: Any,
-) -> int:
+def map_command(campaign: Path, specimen: tuple[str, ...], results: Path | None, as_json: bool, **options: Any) -> int:
     """Make maps, show their limits and misfits, and return the exit code."""
     from colonnade.workflow.map_plans import Wanted
     from colonnade.workflow.maps import make_maps
     from colonnade.workflow.real_column import picked
 
-    asked = picked(Wanted, options)
+    asked, where = picked(Wanted, options), {key: options[key] for key in ("workers", "scheduler")}
     with work_progress(f"Mapping by the {' and the '.join(asked.models)} model") as progress:
-        made = make_maps(
-            campaign,
-            asked,
-            specimens=specimen,
-            workers=workers,
-            scheduler=scheduler,
-            results=results,
-            progress=progress,
-        )
+        made = make_maps(campaign, asked, specimens=specimen, results=results, progress=progress, **where)
     if as_json:
         show_json(made)
         return 0
@@ -133,13 +117,10 @@ HEADS = (
 @results_option
 @json_option
 def calibrate(
-    campaign: Path,
-    specimen: tuple[str, ...],
-    workers: int | None,
-    results: Path | None,
-    as_json: bool,
+    campaign: Path, specimen: tuple[str, ...], workers: int | None, results: Path | None, as_json: bool
 ) -> int:
     """Calibrate, show the laws, and return the exit code."""
+    from colonnade.units.text import NOTHING, number, quantity, written
     from colonnade.workflow.calibration import calibrate as calibrated
 
     made = calibrated(campaign, specimens=specimen, workers=workers, results=results)
@@ -150,14 +131,14 @@ def calibrate(
         (
             each["specimen"],
             each["mesh"],
-            _number(None if each["step"] is None else 1e6 * each["step"], ".3g", " µs"),
-            _number(each["damping_fraction"], ".3g"),
-            _number(each["effective_damping"], ".3g"),
-            _number(each["stiffness"], ".3g", " N/m³"),
-            _number(each["restitution"], ".4f"),
-            each["source"] or "–",
-            _number(each["target"], ".4f"),
-            _number(each["velocity_ratio"], ".4f"),
+            quantity(each["step"], "µs"),
+            number(each["damping_fraction"]),
+            number(each["effective_damping"]),
+            written(each["stiffness"] and 1e-9 * each["stiffness"], "N/mm³", 3),
+            number(each["restitution"], 4),
+            each["source"] or NOTHING,
+            number(each["target"], 4),
+            number(each["velocity_ratio"], 4),
         )
         for each in made
     ]
@@ -168,7 +149,3 @@ def calibrate(
         if each["path"] is not None:
             say("law: {path}".format_map(each))
     return int(any(each["restitution"] is None for each in made))
-
-
-def _number(value: float | None, form: str, unit: str = "") -> str:
-    return "–" if value is None else f"{value:{form}}{unit}"

@@ -64,42 +64,32 @@ def _run_and_show(
     return int(result.failed or (strict and result.has_warnings))
 
 
-def _up_to(stage: str, name: str, what: str, writes: str, example: str) -> click.Command:
+def _up_to(stage: str, name: str, what: str, writes: str) -> click.Command:
     """Make the command that runs as far as one stage."""
 
     def command(campaign: Path, **choices: Any) -> Any:
         assert run.callback is not None
         return run.callback(campaign, until=stage, **choices)
 
-    text = f"{what}\n\n{CAMPAIGN}\n\n{writes}"
-    made: click.Command = click.command(name, help=text, epilog=f"Example: {example}")(
-        campaign_argument(work_options(command))
-    )
+    text, example = f"{what}\n\n{CAMPAIGN}\n\nWrites {writes}", f"Example: colonnade {name} demo --only free-01"
+    made: click.Command = click.command(name, help=text, epilog=example)(campaign_argument(work_options(command)))
     return made
 
 
-ingest = _up_to(
-    "ingest",
-    "ingest",
-    "Read the raw files into SI channels with quality flags.",
-    "Writes processed/tests/<ID>/recorded.nc.",
-    "colonnade ingest demo --only free-01",
-)
+IN = "processed/tests/<ID>/"
 
+ingest = _up_to("ingest", "ingest", "Read the raw files into SI channels with quality flags.", f"{IN}recorded.nc.")
 identify = _up_to(
     "restitution",
     "identify",
     "Identify the restitution, up to each specimen's pooled e.",
-    "Writes results up to processed/tests/<ID>/restitution.nc of each free vibration, and processed/specimens/<ID>.nc.",
-    "colonnade identify demo",
+    f"results up to {IN}restitution.nc of each free vibration, and processed/specimens/<ID>.nc.",
 )
-
 predict = _up_to(
     "predict",
     "predict",
     "Run the models on the recorded base motion, after the stages that they need.",
-    "Writes results up to processed/tests/<ID>/predicted-<MODEL>.nc.",
-    "colonnade predict demo --only span-2.5",
+    f"results up to {IN}predicted-<MODEL>.nc.",
 )
 
 

@@ -170,20 +170,11 @@ def _fragility_keys() -> list[click.Option]:
 @scheduler_option
 @results_option
 @json_option
-def fragility(
-    campaign: Path,
-    name: tuple[str, ...],
-    out: Path | None,
-    data: Path | None,
-    workers: int | None,
-    scheduler: str | None,
-    results: Path | None,
-    as_json: bool,
-    **options: Any,
-) -> int:
+def fragility(campaign: Path, name: tuple[str, ...], results: Path | None, as_json: bool, **options: Any) -> int:
     """Assess, show the answers, and return the exit code."""
     from colonnade.workflow.executors import Where
 
+    out, data, workers, scheduler = (options.pop(key) for key in ("out", "data", "workers", "scheduler"))
     if out is not None or data is not None:
         from colonnade.figures.files.saving import expect_places
 
