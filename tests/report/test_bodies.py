@@ -9,8 +9,9 @@ import pytest
 from colonnade.campaign import load
 from colonnade.campaign.forms.summary import Summary
 from colonnade.figures.stored import bodies
+from colonnade.report.specimens_page import of_specimen
 from colonnade.store.layout import Layout
-from colonnade.store.records.stored import read_test
+from colonnade.store.records.stored import read_specimen, read_test
 from colonnade.units.text import acceleration
 from read_pages import words_of
 
@@ -84,3 +85,14 @@ def test_bodies_that_do_not_rock_as_one_block_have_joints_and_no_e(shaken):
 def test_a_specimen_that_is_only_part_of_an_assembly_has_no_page(shaken):
     assert load(shaken).of_interest == ["column"]
     assert [path.name for path in (shaken / "report/specimens").iterdir()] == ["column.html"]
+
+
+def test_what_is_odd_about_a_part_is_told_on_the_page_of_the_assembly(shaken, tmp_path):
+    written = (shaken / "campaign.toml").read_text()
+    (tmp_path / "campaign.toml").write_text(
+        written.replace('mass = "20 kg"', 'mass = "20 kg", pole_distance = "0.1 m"')
+    )
+    campaign = load(tmp_path)
+    page = of_specimen(campaign, "column", read_specimen(campaign, Layout(shaken), "column"), [])
+    (said,) = page.deviations
+    assert said.startswith("drum: ")

@@ -149,7 +149,9 @@ def of_specimen(
     if not isinstance(specimen, Whole):
         return page
     first, bodies = _bodies(specimen, campaign.gravity)
-    page = replace(page, bodies=bodies)
+    parts = {specimen.placed[name].specimen: made for name, made in specimen.made.items()}
+    deviations = [f"{part}: {said}" for part, made in parts.items() for said in made.deviations(campaign.gravity)]
+    page = replace(page, bodies=bodies, deviations=deviations)
     if specimen.is_in_plane:
         return page
     return replace(page, answer=first, e=NOTHING, source=APART, rigid="", ratio=NOTHING, method="", reason="")
