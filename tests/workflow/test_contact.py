@@ -14,6 +14,7 @@ from colonnade.stages.assessing.plan import AssessmentInputs
 from colonnade.stages.contact import law_of
 from colonnade.store import files
 from colonnade.store.records.assessment import sentences
+from colonnade.store.records.test import record_of_specimen
 from colonnade.store.results import ResultId
 from colonnade.workflow.advising.next import advise_kind
 from colonnade.workflow.assessing import Where, assess_campaign
@@ -21,7 +22,7 @@ from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.check import check
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import make_maps
-from colonnade.workflow.pooling import one_specimen
+from colonnade.workflow.pooling import one_specimen, restitution_taken
 from prism import PRISM
 
 
@@ -166,6 +167,12 @@ def test_no_question_about_a_block_is_answered_of_bodies_that_do_not_rock_as_one
     assert one_specimen(campaign, "prism") == "prism"
     assert campaign.of_interest == ["prism", "two"]
     assert advise_kind(campaign, in_space.layout, "two", "free-vibration", {}) == []
+    taken = record_of_specimen(campaign, "two", restitution_taken(campaign, in_space.layout, "two")).restitution
+    assert (taken.value, taken.reason) == (None, "Its bodies do not rock as one block.")
+    with pytest.raises(CampaignError, match="two: the contact of several bodies is not calibrated"):
+        calibrate(in_space.folder, specimens=["two"])
+    few = Wanted(models=("linear",), omega=(2.0, 3.0), amplitude=(0.8, 2.0), points=(2, 2), cycles=1.0)
+    assert [made.specimen for made in make_maps(in_space.folder, few, workers=1)] == ["prism"]
 
 
 SITE = """

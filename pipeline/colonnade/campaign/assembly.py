@@ -52,6 +52,10 @@ class AssemblyTable(Table):
         return stacked | self.bodies
 
 
+APART = "its bodies do not rock as one block"
+"""Why an assembly that is no frame has no e."""
+
+
 class Whole(Specimen):
     """
     An assembly as a specimen: the block as which its bodies rock together.

@@ -168,7 +168,7 @@ def _specimen_cells(record: Record) -> tuple[str, ...]:
     columns = ("critical_angle", "pole_distance", "inertia", "p", "rigid_restitution")
     geometry = [shown(record[column]) for column in columns]
     e = record["restitution"]
-    return (record["shape"], *geometry, _estimate(e), e["source"] or e["reason"] or "")
+    return (record["shape"], *geometry, _estimate(e), (e["reason"] if e["value"] is None else e["source"]) or "")
 
 
 def _estimate(e: Mapping[str, Any]) -> str:

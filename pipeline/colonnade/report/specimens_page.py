@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign
-from colonnade.campaign.assembly import Whole
+from colonnade.campaign.assembly import APART, Whole
 from colonnade.campaign.forms.summary import Warned
 from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block, pair
@@ -23,9 +23,6 @@ from colonnade.report.test_page import restitution
 from colonnade.report.test_page.restitution import EstimateText
 from colonnade.store.records.stored import Failure, Stored
 from colonnade.units.text import NOTHING, acceleration, interval, listed, number, percent, quantity
-
-APART = "as its bodies do not rock as one block"
-"""In place of the source of an e."""
 
 BOUNDS = ("restitution_low", "restitution_high", "level")
 
@@ -154,7 +151,7 @@ def of_specimen(
     page = replace(page, bodies=bodies, deviations=deviations)
     if specimen.is_in_plane:
         return page
-    return replace(page, answer=first, e=NOTHING, source=APART, rigid="", ratio=NOTHING, method="", reason="")
+    return replace(page, answer=first, e=NOTHING, source=f"as {APART}", rigid="", ratio=NOTHING, method="", reason="")
 
 
 def _bodies(whole: Whole, gravity: float) -> tuple[str, list[tuple[str, ...]]]:

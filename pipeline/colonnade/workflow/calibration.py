@@ -10,6 +10,7 @@ from colonnade.campaign import load
 from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.units.text import listed
 from colonnade.workflow.catalogue import Catalogue, stored_attributes
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
@@ -44,7 +45,7 @@ def calibrate(
     campaign : Path or str
         A campaign.toml or its folder; its free vibrations have been identified.
     specimens : sequence of str, optional
-        Ids; default all.
+        Ids; default all single blocks that are not only parts of an assembly.
     workers : int, optional
         Processes; default one a core.
     results : Path or str, optional
@@ -65,7 +66,14 @@ def calibrate(
     """
     loaded = load(Path(campaign))
     expect_specimens(loaded, specimens)
-    layout, chosen = Layout.of(loaded.path, results), list(specimens or loaded.specimens)
+    blocks = [name for name in loaded.of_interest if not loaded.specimens[name].is_assembly]
+    layout, chosen = Layout.of(loaded.path, results), list(specimens or blocks)
+    several = [name for name in chosen if loaded.specimens[name].is_assembly]
+    if several or not chosen:
+        raise CampaignError(
+            f"{listed(several or loaded.of_interest)}: the contact of several bodies is not calibrated. They have the "
+            "law of the settings under processing.predict.contact."
+        )
     mesh = loaded.processing.predict.contact.mesh
     with only_run(layout) as run_id:
         for name in chosen:

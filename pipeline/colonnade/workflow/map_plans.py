@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import Field
 
 from colonnade.campaign import Campaign
-from colonnade.campaign.assembly import Whole
+from colonnade.campaign.assembly import APART, Whole
 from colonnade.campaign.syntax.fields import MOST_CYCLES, Limits, MapPoints, MapRatio, Number, OneOf
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import Sided
@@ -115,8 +115,7 @@ def plan_of(
 
     if model not in models_moving(campaign, specimen, (model,)):
         raise CampaignError(
-            f"{specimen}: its bodies do not rock as one block, which the {model} model moves. Give --model contact, or "
-            "another --specimen."
+            f"{specimen}: {APART}, which the {model} model moves. Give --model contact, or another --specimen."
         )
     if wanted.responses and wanted.motion is not None:
         raise CampaignError("Steady responses are responses to a sine. Leave out the recorded motion.")

@@ -115,7 +115,7 @@ def make_maps(
         A campaign.toml or its folder.
     wanted : Wanted
     specimens : sequence of str, optional
-        Ids; default all.
+        Ids; default those that the models move, but not those that are only parts of an assembly.
     workers, scheduler : optional
         As of `spread`.
     results : Path or str, optional
@@ -139,7 +139,12 @@ def make_maps(
     layout, where = Layout.of(loaded.path, results), Where(workers, scheduler, progress)
     with only_run(layout) as run_id:
         walk = Walk(Graph(loaded, layout, Catalogue(layout)), run_id)
-        return [made for name in (specimens or loaded.specimens) for made in _of_specimen(walk, name, wanted, where)]
+        usual = [name for name in loaded.of_interest if models_moving(loaded, name, wanted.models)]
+        return [
+            made
+            for name in (specimens or usual or loaded.of_interest)
+            for made in _of_specimen(walk, name, wanted, where)
+        ]
 
 
 def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Iterator[Product]:

@@ -8,6 +8,7 @@ from math import isclose
 from typing import TYPE_CHECKING
 
 from colonnade.campaign import Campaign, Test
+from colonnade.campaign.assembly import APART
 from colonnade.errors import CampaignError, StoreError, nearest
 from colonnade.findings import Finding, Severity
 from colonnade.store import files
@@ -79,14 +80,14 @@ def expect_specimens(campaign: Campaign, names: Iterable[str]) -> None:
 
 def one_specimen(campaign: Campaign, name: str | None) -> str:
     """Give the specimen of this id or, without one, the only one of a campaign; it has to rock as one block."""
-    if name is None and len(campaign.specimens) > 1:
-        listed = nearest("", campaign.specimens)
+    if name is None and len(campaign.of_interest) > 1:
+        listed = nearest("", campaign.of_interest)
         raise CampaignError(f"The campaign has several specimens. Name one with --specimen ID.{listed}")
-    chosen = next(iter(campaign.specimens)) if name is None else name
+    chosen = campaign.of_interest[0] if name is None else name
     expect_specimens(campaign, [chosen])
     if not campaign.specimens[chosen].is_in_plane:
         raise CampaignError(
-            f"{chosen}: its bodies do not rock as one block, which the models in the plane move. "
+            f"{chosen}: {APART}, which the models in the plane move. "
             "For several bodies: `colonnade map --model contact`, or [assessments.<name>] in the campaign file."
         )
     return chosen

@@ -61,7 +61,7 @@ def records_of_specimens(campaign: Campaign, summary: Summary | None) -> dict[st
         records[name] = {
             "shape": specimen.shape,
             "mass": specimen.mass,
-            "rigid_restitution": block.restitution,
+            "rigid_restitution": block.restitution if specimen.is_in_plane else None,
             "critical_angle": block.critical_angle,
             "pole_distance": block.pole_distance,
             "inertia": block.inertia,

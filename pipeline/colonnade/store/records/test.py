@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from colonnade.campaign import Campaign, Test
+from colonnade.campaign.assembly import APART
 from colonnade.campaign.forms.summary import (
     BodyPrediction,
     BodySummary,
@@ -240,7 +241,7 @@ def record_of_specimen(campaign: Campaign, name: str, pooled: xr.Dataset) -> Spe
     pooled : xr.Dataset
         Its restitution, as the stage `specimen` gives it.
     """
-    block = campaign.block(name)
+    block, is_one = campaign.block(name), campaign.specimens[name].is_in_plane
     negative, positive = (float(value) for value in pooled["side_restitution"])
     return SpecimenSummary(
         critical_angle=block.critical_angle,
@@ -248,13 +249,13 @@ def record_of_specimen(campaign: Campaign, name: str, pooled: xr.Dataset) -> Spe
         pole_distance=block.pole_distance,
         inertia=block.inertia,
         restitution=RestitutionSummary(
-            value=negative if negative == positive else (negative, positive),
+            value=None if not is_one else negative if negative == positive else (negative, positive),
             low=float(pooled["restitution_low"]),
             high=float(pooled["restitution_high"]),
             level=float(pooled["level"]),
             source=pooled.attrs["restitution_source"],
             method=pooled.attrs["method"] or None,
-            reason=pooled.attrs["reason"] or None,
+            reason=(pooled.attrs["reason"] or None) if is_one else f"{APART[0].upper()}{APART[1:]}.",
             tests=tuple(map(str, pooled["test_id"].to_numpy())),
         ),
         prototype=specimen_prototype(campaign, name),
