@@ -124,3 +124,18 @@ def test_what_a_page_made_is_gone_after_it():
         assert made() is not None  # an axes and its figure refer to each other
     assert made() is None
     assert gc.get_threshold() == before
+
+
+def test_no_figure_of_a_page_is_left_after_it(started):
+    def left():
+        return sum(isinstance(each, Figure) for each in gc.get_objects())
+
+    campaign, layout = started
+    part_of(campaign, layout)
+    before = left()
+    gc.disable()
+    try:
+        part_of(campaign, layout)
+        assert left() == before
+    finally:
+        gc.enable()

@@ -165,7 +165,8 @@ def test_no_question_about_a_block_is_answered_of_bodies_that_do_not_rock_as_one
     with pytest.raises(CampaignError, match="two: its bodies do not rock as one block"):
         one_specimen(campaign, "two")
     assert one_specimen(campaign, "prism") == "prism"
-    assert campaign.of_interest == ["prism", "two"]
+    assert campaign.of_interest == ("prism", "two")
+    assert campaign.but(tests={}).of_interest == campaign.of_interest
     assert advise_kind(campaign, in_space.layout, "two", "free-vibration", {}) == []
     taken = record_of_specimen(campaign, "two", restitution_taken(campaign, in_space.layout, "two")).restitution
     assert (taken.value, taken.reason) == (None, "Its bodies do not rock as one block.")

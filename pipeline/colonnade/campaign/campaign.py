@@ -93,6 +93,8 @@ class Campaign(CampaignKeys):
     """Decisions in review.toml, for the tests that it names."""
     awaited: dict[str, str] = Field(default={})
     """The raw file that each planned test still has to get, by test."""
+    of_interest: tuple[str, ...] = ()
+    """Specimens with a page and advice of their own: not those that are only bodies of an assembly."""
 
     @classmethod
     def of(cls, written: CampaignFile, path: Path, warnings: tuple[Finding, ...]) -> Campaign:
@@ -101,16 +103,12 @@ class Campaign(CampaignKeys):
         missing = {name: missing_file(test, path.parent) for name, test in tests.items() if test.planned}
         awaited = {name: file for name, file in missing.items() if file}
         keys: dict[str, Any] = {name: getattr(written, name) for name in CampaignKeys.model_fields}
+        wholes = [each for each in written.specimens.values() if isinstance(each, Whole)]
+        parts = {body.specimen for whole in wholes for body in whole.placed.values()}
+        tested = {test.specimen for test in written.tests}
+        keys["of_interest"] = tuple(name for name in written.specimens if name in tested or name not in parts)
         keys |= {"tests": tests, "path": path, "folder": path.parent, "warnings": warnings, "awaited": awaited}
         return cls.model_construct(**keys)
-
-    @property
-    def of_interest(self) -> list[str]:
-        """Specimens with a page and advice of their own: not those that are only bodies of an assembly."""
-        wholes = [each for each in self.specimens.values() if isinstance(each, Whole)]
-        parts = {body.specimen for whole in wholes for body in whole.placed.values()}
-        tested = {test.specimen for test in self.tests.values()}
-        return [name for name in self.specimens if name in tested or name not in parts]
 
     def but(self, **changed: Any) -> Campaign:
         """Return the campaign with some attributes changed."""

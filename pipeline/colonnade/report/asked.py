@@ -62,7 +62,7 @@ class Asked:
         campaign = self.campaign.with_relative_paths()
         test = campaign.tests[self.test]
         place = (campaign.title, campaign.facility, campaign.gravity)
-        around = (place, tuple(campaign.of_interest), models_shown(campaign))
+        around = (place, campaign.of_interest, models_shown(campaign))
         own = (test, campaign.specimens[test.specimen], campaign.setups[test.setup], campaign.review(test.id))
         return repr((around, own, self.before, self.after, self.record, self.is_outdated, self.photos))
 

@@ -80,9 +80,8 @@ class Part:
 
 def drawn(layout: Layout, asked: Asked) -> tuple[list[str], str]:
     """Read a test and draw its page: the page, the script with its samples, and its part as text."""
-    renderer = pages.renderer_of(asked.campaign)
     with seldom_collected(), styled():
-        return _drawn(renderer, layout, asked)
+        return _drawn(pages.renderer_of(asked.campaign), layout, asked)
 
 
 def _drawn(renderer: pages.Renderer, layout: Layout, asked: Asked) -> tuple[list[str], str]:

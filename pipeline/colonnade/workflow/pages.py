@@ -115,7 +115,7 @@ class _Report:
     def specimens(self) -> Iterator[Product]:
         """The page of each specimen."""
         campaign, models = self.campaign, models_shown(self.campaign)
-        around = (campaign.title, campaign.gravity, tuple(campaign.of_interest), models)
+        around = (campaign.title, campaign.gravity, campaign.of_interest, models)
         for name in campaign.of_interest:
             results = [ResultId(name, "specimen"), ResultId(name, "contact")]
             results += [ResultId(name, "map", model) for model in models]
