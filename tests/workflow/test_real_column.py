@@ -129,6 +129,8 @@ def test_an_option_that_cannot_be_is_named(campaign, options, words):
 
 
 def test_one_of_several_specimens_is_named(campaign):
-    two = campaign.but(specimens={**campaign.specimens, "second": campaign.specimens["prism"]})
+    two = campaign.but(
+        specimens={**campaign.specimens, "second": campaign.specimens["prism"]}, of_interest=("prism", "second")
+    )
     with pytest.raises(CampaignError, match="several specimens"):
         found(two)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from colonnade.campaign import Campaign, load
 from colonnade.campaign.forms.summary import Summary
-from colonnade.errors import CampaignError, nearest
+from colonnade.errors import CampaignError, StoreError, nearest
 from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
@@ -104,19 +105,24 @@ def run(
     layout = Layout.of(loaded.path, results)
     with only_run(layout) as run_id:
         catalogue = Catalogue(layout, verify=verify)
-        notices = catalogue.remove_altered()
-        raw = {test.id: raw_files(loaded, test, catalogue) for test in loaded.tests.values()}
-        loaded = with_copies(loaded, _digests(loaded, raw))
-        for test in loaded.tests.values():
-            if loaded.left_out(test.id):
-                remove_later(layout, results_of(loaded, test), order=-1)
-        graph = Graph(loaded, layout, catalogue, raw)
-        walk = Walk(graph, run_id, start_from, last, workers, scheduler, progress, notices.append)
-        walk.through(tests)
-        loaded, outdated, summary = _summed_up(walk, awaiting=awaiting)
-        report = None
-        if last == "report":
-            loaded, report = _reported(walk, loaded, outdated, summary)
+        try:
+            notices = catalogue.remove_altered()
+            raw = {test.id: raw_files(loaded, test, catalogue) for test in loaded.tests.values()}
+            loaded = with_copies(loaded, _digests(loaded, raw))
+            for test in loaded.tests.values():
+                if loaded.left_out(test.id):
+                    remove_later(layout, results_of(loaded, test), order=-1)
+            graph = Graph(loaded, layout, catalogue, raw)
+            walk = Walk(graph, run_id, start_from, last, workers, scheduler, progress, notices.append)
+            walk.through(tests)
+            loaded, outdated, summary = _summed_up(walk, awaiting=awaiting)
+            report = None
+            if last == "report":
+                loaded, report = _reported(walk, loaded, outdated, summary)
+        except BaseException:
+            with suppress(StoreError):  # many files were looked at, and pages drawn, that the next run need not
+                catalogue.save(is_whole=False)
+            raise
         catalogue.save(is_whole=last == "report")
     concerning = {name: loaded.concerning(name) for name in loaded.tests}
     return RunResult(tuple(walk.stages), layout.summary_json, report, loaded.warnings, concerning, tuple(notices))
