@@ -69,6 +69,14 @@ def test_two_campaigns_do_not_share_one_folder_of_results(small, tmp_path):
     run_once(small.folder.rename(tmp_path / "moved") / "campaign.toml", results)
 
 
+def test_a_copy_of_a_folder_is_a_campaign_of_its_own(small, tmp_path):
+    run_once(small.folder / "campaign.toml")
+    copy = shutil.copytree(small.folder, tmp_path / "copy")
+    run_once(copy / "campaign.toml")
+    with pytest.raises(StoreError, match="results of another campaign"):
+        run_once(copy / "campaign.toml", small.folder)
+
+
 def run_once(campaign_file, results=None):
     with only_run(Layout.of(campaign_file, results)):
         pass

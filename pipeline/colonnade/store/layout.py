@@ -111,7 +111,7 @@ class Layout:
 
     @property
     def owner(self) -> Path:
-        """The path of the campaign file whose results these are."""
+        """The campaign file whose results these are: its name if they are in its own folder, else its path."""
         return self.processed / ".campaign"
 
     @property

@@ -108,10 +108,14 @@ def _held(
 
 
 def _expect_own(layout: Layout) -> None:
-    """Refuse a folder of results of another campaign, if its file is still where it was; else note whose it is."""
+    """
+    Refuse a folder of results of another campaign, if its file is still where it was; else note whose it is.
+
+    A campaign in whose own folder they are is noted by the name of its file: a copy of the folder is a campaign too.
+    """
     own = layout.folder / layout.file
     try:
-        noted = Path(layout.owner.read_text(encoding="utf-8").strip())
+        noted = layout.home / layout.owner.read_text(encoding="utf-8").strip()
     except (FileNotFoundError, ValueError):
         noted = own
     there = own if layout.results is None else layout.home / FILE_NAME
@@ -121,7 +125,7 @@ def _expect_own(layout: Layout) -> None:
                 f"{layout.home}: the results of another campaign, {other}, are in this folder and would be "
                 "overwritten. Give each campaign a folder of its own with --results."
             )
-    write_text(layout.owner, f"{own}\n")
+    write_text(layout.owner, f"{own if layout.results else own.name}\n")
 
 
 def expect_run(layout: Layout, run_id: str) -> None:
