@@ -25,6 +25,9 @@ WITHIN, DIFFERS = "✓", "≠"
 LEGEND = "✓ history inside the 95 % band of the model's runs; ≠ outside or another outcome"
 """What they mean; 80 columns."""
 
+LEAST_MOVED = 5e-5
+"""m: a body that is less far from where it stood is there still, as well as cameras see."""
+
 
 def pooled(found: RestitutionSummary) -> str:
     """
@@ -114,7 +117,7 @@ def measured(test: TestSummary, level: float | None = None) -> str:
 
 
 def farthest(test: TestSummary) -> tuple[str, float] | None:
-    """Return the body that moved farthest for good, and how far, m; None if one fell or none is known."""
+    """Return the body that moved farthest for good, and how far, m; None if one fell, or none is known to have moved."""
     moved = {
         name: hypot(body.residual_x, body.residual_y)
         for name, body in test.bodies.items()
@@ -122,7 +125,8 @@ def farthest(test: TestSummary) -> tuple[str, float] | None:
     }
     if not moved or any(body.outcome == "overturned" for body in test.bodies.values()):
         return None
-    return max(moved.items(), key=lambda each: each[1])
+    far = max(moved.items(), key=lambda each: each[1])
+    return far if far[1] >= LEAST_MOVED else None
 
 
 def by_bodies(test: TestSummary) -> str:
@@ -135,6 +139,9 @@ def by_bodies(test: TestSummary) -> str:
     >>> low = BodySummary(outcome="rocking", residual_x=3e-3, residual_y=4e-3, opening=0.02, opening_time=1.25)
     >>> by_bodies(TestSummary(status="done", kind="earthquake", specimen="a", bodies={"1": low}))
     'Body 1 moved farthest for good: 5 mm. The joint below 1 opened first, at 1.25 s, and by up to 20 mm.'
+    >>> still = BodySummary(outcome="no-rocking", residual_x=4e-6, residual_y=-3e-6)
+    >>> by_bodies(TestSummary(status="done", kind="earthquake", specimen="a", bodies={"1": still}))
+    'No joint opened, and no body is left elsewhere.'
     """
     fallen = [name for name, body in test.bodies.items() if body.outcome == "overturned"]
     opened = {name: body.opening_time for name, body in test.bodies.items() if body.opening_time is not None}
@@ -146,6 +153,8 @@ def by_bodies(test: TestSummary) -> str:
         far_open = quantity(test.bodies[first].opening, "mm")
         when = quantity(opened[first], "s", 4)
         said.append(f"The joint below {first} opened first, at {when}, and by up to {far_open}.")
+    if not said and {body.outcome for body in test.bodies.values()} == {"no-rocking"}:
+        return "No joint opened, and no body is left elsewhere."
     return " ".join(said)
 
 
