@@ -56,7 +56,7 @@ READ = {
 REFUSED = {
     "SOURCES.md": "delimited: no rows of numbers",
     "diadem/testfile.DAT": r"this is a DIAdem .DAT header, which is not read here. Save the data set",
-    "diadem/testfile.tdx": r"diadem: the values of testfile.TDM: read that file instead",
+    "diadem/testfile.tdx": "testfile.tdx: it holds the values of testfile.TDM; read that file instead",
     "strongmotion/5526-1.V1": r"in the format of BHRC \(Iran\), which is not read here. Download the record as COSMOS",
 }
 

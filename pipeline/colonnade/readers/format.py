@@ -22,7 +22,7 @@ class Recognition:
     yes : bool
     reason : str
     is_known : bool
-        Whether the file is in a known format that is not read here, as `reason` says; no other format is tried.
+        Whether the file is known, and is not read, for the `reason`; no other format is tried.
     """
 
     yes: bool

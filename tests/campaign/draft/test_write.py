@@ -57,6 +57,14 @@ def test_a_voltage_asks_for_its_gain_and_a_file_without_clock_for_its_rate(folde
     assert channels(document)["acc"]["gain"].startswith("? g/")
 
 
+def test_a_column_that_may_be_the_clock_is_named(folder):
+    folder.write("free-01.csv", {"X": 0.02 * np.arange(DECAY.size), "LVDT 1 [mm]": DECAY}, clock=None)
+    document, drafted = folder.draft()
+    assert document["setups"]["setup"]["sampling_rate"] == "? Hz"
+    (asked,) = [each.asked for each in drafted.open if each.key.endswith("sampling_rate")]
+    assert asked.endswith('give the samples per second; set time = "X" if that is one: it rises in equal steps of 0.02')
+
+
 def test_what_is_no_measurement_is_left_out_with_the_reason(folder):
     folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY, "LED Light": SINE})
     document, drafted = folder.draft()

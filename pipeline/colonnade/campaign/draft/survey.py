@@ -16,6 +16,7 @@ from colonnade.campaign.draft.words import as_id, unique
 from colonnade.campaign.syntax.document import natural, toml_value
 from colonnade.campaign.syntax.names import inside
 from colonnade.errors import ColonnadeError
+from colonnade.readers.clock import may_be_clock
 from colonnade.readers.files import irregular
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import MOST_GENERAL, read
@@ -75,7 +76,11 @@ class Shape:
 
 @dataclass(frozen=True)
 class Column:
-    """One column of a raw file, by its number from 1; its unit is as written in the file."""
+    """
+    One column of a raw file, by its number from 1; its unit is as written in the file.
+
+    `hint` says that it may be the clock of a file in which none was found.
+    """
 
     number: int
     name: str
@@ -84,6 +89,7 @@ class Column:
     is_clock: bool
     has_clock: bool
     shape: Shape
+    hint: str = ""
 
 
 @dataclass(frozen=True)
@@ -210,7 +216,10 @@ def _seen(relative: str, recording: Recording) -> RawFile:
         if steps.size and (step := float(np.median(steps))) > 0:
             rate, duration = 1 / step, float(np.nansum(steps))
     columns = tuple(
-        Column(number, each.name, each.heading, each.unit, each.is_clock, each.time is not None, shape_of(each))
+        Column(
+            *(number, each.name, each.heading, each.unit, each.is_clock, each.time is not None, shape_of(each)),
+            may_be_clock(each.heading, each.values) if each.time is None else "",
+        )
         for number, each in enumerate(recording.channels, start=1)
     )
     day = recording.start and recording.start.date()

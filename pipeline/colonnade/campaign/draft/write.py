@@ -305,7 +305,9 @@ class DraftSetup:
         file = self.tests[0][recorder]
         lines: Lines = [Line("file", toml_value({"format": file.format}), "recognised; the rest is detected")]
         if not any(column.has_clock for column in file.columns):
-            lines.append(Line("sampling_rate", '"? Hz"', question="no time column found: give the samples per second"))
+            hint = next((column.hint for column in file.columns if column.hint), "")
+            asked = f"no time column found: give the samples per second{hint}"
+            lines.append(Line("sampling_rate", '"? Hz"', question=asked))
         return lines
 
     def test(self, test: Files, name: str, shape: str) -> Lines:

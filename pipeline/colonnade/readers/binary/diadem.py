@@ -38,7 +38,8 @@ def recognise(head: Head) -> Recognition:
         return Recognition(True, "XML of a .TDM")
     if path.suffix.casefold() == ".tdx":
         headers = [entry.name for entry in path.parent.glob(f"{path.stem}.*") if entry.suffix.casefold() == ".tdm"]
-        return Recognition(False, f"the values of {(headers or ['a .TDM'])[0]}: read that file instead")
+        reason = f"it holds the values of {(headers or ['a .TDM'])[0]}; read that file instead"
+        return Recognition(False, reason, is_known=True)
     return Recognition(False, "not the header of a .TDM")
 
 
