@@ -117,7 +117,7 @@ def measured(test: TestSummary, level: float | None = None) -> str:
 
 
 def farthest(test: TestSummary) -> tuple[str, float] | None:
-    """Return the body that moved farthest for good, and how far, m; None if one fell or none moved, as far as is known."""
+    """Return the body that moved farthest for good, and how far, m; None if one fell or none is known to move."""
     moved = {
         name: hypot(body.residual_x, body.residual_y)
         for name, body in test.bodies.items()
