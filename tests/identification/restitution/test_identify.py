@@ -100,6 +100,15 @@ def test_what_is_no_free_rocking_is_refused_with_its_reason(angle, words):
     assert words in _refusal(angle)
 
 
+def test_degrees_and_milliseconds_are_named():
+    time, angle = _nonlinear_decay(0.976)
+    for given, words in (
+        ((time, np.degrees(angle)), "in rad, not in degrees"),
+        ((1e3 * time, angle), "in s, not in ms"),
+    ):
+        assert identify_restitution(*given, PRISM).reason.endswith(f"{words}.")
+
+
 def test_time_that_does_not_increase_is_an_error():
     with pytest.raises(ValueError, match="does not increase"):
         identify_restitution([0.0, 1.0, 1.0], [0.0, 0.0, 0.0], PRISM)

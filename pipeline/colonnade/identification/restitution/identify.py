@@ -55,6 +55,9 @@ DISAGREEMENT, NEGLIGIBLE = 3.0, 0.01
 WIDEST = 2.0
 """ln e at most, where an interval ends; above 0 there is no e."""
 
+FARTHEST = 2.0
+"""rad: no block leans so far."""
+
 FAR = 2.0
 """Prior widths beyond which a shift of α, of the gain or of p is a doubt."""
 
@@ -137,7 +140,7 @@ def identify_restitution(
         return _refused(f"The record holds fewer than {FEWEST_SAMPLES} values.", level, Peaks())
     record = Record.seen(thinned(times, angles, block), block, lowest_amplitude, noise)
     if reason := _no_free_rocking(record):
-        return _refused(reason, level, record.peaks)
+        return _refused(reason + _in_other_units(times, angles, block), level, record.peaks)
     known = Priors.of(uncertainty.critical_angle, uncertainty.p, uncertainty.angle_gain)
     found, why = _followed(record, known, lowpass)
     driven, departures = False, list[Departure]()
@@ -236,6 +239,14 @@ def _no_free_rocking(record: Record) -> str:
         f"At least {FEWEST_ARCS} peaks between two impacts, above "
         f"{record.lowest / record.block.critical_angle:.2g} of the critical angle, are needed; the record has {count}."
     )
+
+
+def _in_other_units(times: Array, angles: Array, block: Block) -> str:
+    """Hint at degrees in place of rad, or ms in place of s; empty if neither is likely."""
+    largest, step = float(np.nanmax(np.abs(angles))), float(np.median(np.diff(times)))
+    if largest > FARTHEST:
+        return f" Angles reach {largest:.3g}: they are expected in rad, not in degrees."
+    return f" Samples are {step:.3g} s apart: times are expected in s, not in ms." if step * block.p > 1.0 else ""
 
 
 def _result(
