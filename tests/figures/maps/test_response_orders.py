@@ -61,7 +61,7 @@ def test_measured_points_carry_their_sub_harmonic_order():
 
 def test_what_the_responses_depend_on_stands_above():
     title = response_orders(response(), [], OPTIONS).axes[0].get_title(loc="left")
-    assert title == "linear model; e = 0.9; linear ramps of 2, phase 0.00 rad, 400 cycles to settle"
+    assert title == "linear model; e = 0.9; linear ramps of 2, phase 0°, 400 cycles to settle"
 
 
 def test_a_single_column_is_no_map():

@@ -28,6 +28,7 @@ from colonnade.figures.style import (
     width,
 )
 from colonnade.identification.response.boundaries import MapPoint
+from colonnade.units import from_si
 
 NARROW_LINE = 62
 """Letters of a line above the map in a single column."""
@@ -164,7 +165,7 @@ def _words(charts: Sequence[StabilityMap]) -> str:
 def words_of_sine(options: Mapping[str, Any]) -> str:
     """Return in words the ramps and the phase of the sine of a map or of steady responses."""
     ramp = f"linear ramps of {options['ramp']:g}" if options["ramp"] else "no ramp"
-    return f"{ramp}, phase {options['phase']:.2f} rad"
+    return f"{ramp}, phase {from_si(options['phase'], 'deg'):.3g}°"
 
 
 def words_of_restitution(options: Mapping[str, Any]) -> str:
