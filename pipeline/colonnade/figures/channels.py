@@ -16,7 +16,7 @@ from colonnade.campaign import Test
 from colonnade.errors import count
 from colonnade.figures.files.output import Picture
 from colonnade.figures.panels.curve import Curve, draw_curve, envelope
-from colonnade.figures.panels.layout import BOTTOM, TOP, add_panel, legend_above, margins
+from colonnade.figures.panels.layout import BOTTOM, TOP, add_panel, leave_scale_to_last, legend_above, margins
 from colonnade.figures.style import FAINT, INK, LIMIT, MEASURED, SOFT, styled, width
 from colonnade.signals.metrics import Density, density
 from colonnade.signals.quality import Flag
@@ -137,8 +137,7 @@ def channels_as_recorded(channels: Sequence[Channel], spikes: Sequence[Spike] = 
         _draw_history(over_time, channel)
         _draw_spectrum(over_frequency, channel)
     for panels, name in ((histories, "time (s)"), (spectra, "frequency (Hz)")):
-        for one in panels[:-1]:
-            one.tick_params(bottom=False, labelbottom=False)
+        leave_scale_to_last(panels)
         panels[-1].set_xlabel(name)
     ends = [(channel.curve.time[0], channel.curve.time[-1]) for channel in channels if channel.curve.time.size]
     if ends:

@@ -72,6 +72,12 @@ def model_style(model: str, thinness: float = 1.0) -> LineStyle:
     return {"color": line.color, "linestyle": (0, line.dash), "linewidth": thinness * line.width}
 
 
+def grid_style() -> dict[str, Any]:
+    """Look of the lines of the grid in the style sheet that is applied."""
+    given = matplotlib.rcParams
+    return {"color": given["grid.color"], "linestyle": "-", "linewidth": given["grid.linewidth"]}
+
+
 @contextmanager
 def journal(column: str) -> Iterator[None]:
     """Draw figures as wide as the "single" or "double" column of a journal, in this context."""
