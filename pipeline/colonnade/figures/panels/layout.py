@@ -140,7 +140,7 @@ class _Rules(Artist):
 
 
 def leave_scale_to_last(panels: Sequence[Axes]) -> None:
-    """Show the horizontal axis of panels below the last alone: ticks nobody sees took a fifth of a page's time."""
+    """Show the horizontal axis below the last panel alone: ticks that nobody sees were a sixth of a page's calls."""
     for one in panels[:-1]:
         one.tick_params(bottom=False, labelbottom=False)
         one.xaxis.set_visible(False)
