@@ -165,10 +165,28 @@ cli.main(["watch"])
 """
 
 
+INTERRUPTED_WITHIN_AN_IMPORT = """
+import os, signal, time
+from colonnade import cli
+from colonnade.workflow.watching import watch as watching
+
+def interrupted(*_, **__):
+    try:
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(9)
+    except KeyboardInterrupt as error:
+        raise ImportError("initialization failed") from error
+
+watching.watch = interrupted
+cli.main(["watch"])
+"""
+
+
 @posix
-def test_a_signal_that_ends_a_watch_does_not_come_again(tmp_path):
+@pytest.mark.parametrize("watched", [DROPPED_WITHIN_THE_WATCH, INTERRUPTED_WITHIN_AN_IMPORT], ids=["dropped", "import"])
+def test_a_signal_ends_a_watch_once_wherever_it_falls(tmp_path, watched):
     script = tmp_path / "watched.py"
-    script.write_text(DROPPED_WITHIN_THE_WATCH)
+    script.write_text(watched)
     ended = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, encoding="utf-8", timeout=60)
     assert (ended.returncode, ended.stderr) == (0, "The watch has ended. All results are kept.\n")
 

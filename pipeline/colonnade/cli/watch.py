@@ -11,7 +11,7 @@ import rich_click as click
 
 from colonnade.cli.common.console import complain, say
 from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_option, results_option, workers_option
-from colonnade.interruption import answered
+from colonnade.interruption import answered, noted
 
 if TYPE_CHECKING:
     from colonnade.store.records.advice import Advice
@@ -72,8 +72,8 @@ def watch(
             show=partial(_show, as_json=as_json),
             say=complain,
         )
-    except KeyboardInterrupt:
-        if once:
+    except (KeyboardInterrupt, Exception) as error:  # the import of a compiled module makes an ImportError of it
+        if once or not (noted() or isinstance(error, KeyboardInterrupt)):
             raise
         answered()
     complain("The watch has ended. All results are kept.")
