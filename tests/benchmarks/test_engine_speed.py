@@ -5,6 +5,8 @@ Marked slow; `python -m pytest -m slow tests/benchmarks/test_engine_speed.py -s`
 """
 
 import itertools
+import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -14,7 +16,7 @@ import paper_schemes as schemes
 from colonnade.dynamics.plane.march import NONE, Forcing, propagate
 from colonnade.dynamics.plane.sides import sides_of
 from prism import PRISM
-from processor_time import seconds_of
+from processor_time import least_seconds
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
 RESTITUTION, REST = 0.976, 1e-6
@@ -31,10 +33,10 @@ its time follows their latency. So do the engine's samples, with three such oper
 The more impacts, the smaller the quotient: the paper's scheme hardly notices them, and has errors of 1e-3 α where the
 engine has 1e-14 α. Measured on records of 62, 78 and 110 impacts:
 
-- AMD EPYC, Zen 4, 21 ns a step: 59, 54 and 47 times; 0.21 steps a sample and 8 an impact. An earlier bound was 50 times
-  for all three records; the last falls short of it here.
-- The same with a call for each step, 26 ns: 62, 56 and 47 times with the engine of that time.
-- An unnamed processor on which the bound of 50 was set, 37 ns with a call: 63 to 66 times with the engine of that time.
+- AMD EPYC, 21 to 25 ns a step: 60, 57 and 50 times; 0.21 steps a sample and 7 an impact. An earlier bound was 50
+  times for all three records; the last is just at it.
+- An unnamed processor on which that bound was set, 37 ns with a call for each step: 63 to 66 times with the engine of
+  that time.
 
 For 62 impacts the bound is 50 times, for 110 it is 39.
 """
@@ -104,9 +106,9 @@ def test_the_exact_engine_beside_solve_ivp_and_the_papers_runge_kutta(capsys):
         errors = [_error(angles, reference), _error(theirs, reference), _error(papers(base)[0], reference)]
         assert errors[0] < 1e-11
         assert errors[1] < 1e-11
-        own = seconds_of(lambda base=base: _exact(base), 100)
-        seconds = seconds_of(lambda base=base: _solve_ivp(base), 1), seconds_of(lambda base=base: papers(base), 5)
-        rows.append((own, *seconds, *errors, impact_times.size))
+        own, runge_kutta = least_seconds(partial(_exact, base), partial(papers, base), rounds=20)
+        (ivp,) = least_seconds(partial(_solve_ivp, base), rounds=1)
+        rows.append((own, ivp, runge_kutta, *errors, impact_times.size))
     ratios = [[row[k] / row[0] for row in rows] for k in (1, 2)]
     cost = [steps * base.size * row[0] / row[2] for base, row in zip(records, rows, strict=True)]
     allowed = [STEPS_A_SAMPLE * base.size + STEPS_AN_IMPACT * row[-1] for base, row in zip(records, rows, strict=True)]
@@ -124,19 +126,78 @@ def test_the_exact_engine_beside_solve_ivp_and_the_papers_runge_kutta(capsys):
     assert all(own <= most for own, most in zip(cost, allowed, strict=True))
 
 
+class Peer:
+    """heyoka on the full equation with a/g linear between samples: x = p t from a sample on, angle over α."""
+
+    def __init__(self, heyoka, tolerance):
+        angle, rate = heyoka.make_vars("angle", "rate")
+        side, start, slope = (heyoka.par[i] for i in range(3))
+        base, turned = start + slope * heyoka.time, ALPHA * (side - angle)
+        bend = -(heyoka.sin(turned) + base * heyoka.cos(turned)) / ALPHA
+
+        def impact(integrator, _sign):
+            state, pars = integrator.state, integrator.pars
+            state[0], state[1], pars[0] = 0.0, RESTITUTION * state[1], -pars[0]
+            return True
+
+        self.integrator = heyoka.taylor_adaptive(
+            [(angle, rate), (rate, bend)],
+            [0.0, 0.0],
+            tol=tolerance,
+            t_events=[heyoka.t_event(angle, callback=impact, cooldown=1e-9)],
+        )
+
+    def angles(self, base, first, state):
+        """Angles over α at the samples after the `first`, at which the block has this state."""
+        integrator, width, angles = self.integrator, P * INTERVAL, []
+        integrator.state[:], integrator.pars[0] = state, math.copysign(1.0, state[0])
+        integrator.reset_cooldowns()
+        for start, end in itertools.pairwise(base[first:]):
+            integrator.pars[1:] = start, (end - start) / width
+            integrator.time = 0.0
+            integrator.propagate_until(width)
+            angles.append(integrator.state[0])
+        return np.array(angles)
+
+
+def test_the_full_equation_on_a_record_beside_heyoka(capsys):
+    heyoka = pytest.importorskip("heyoka", reason="install the extra bench")
+    heyoka.set_logger_level_critical()
+    peer, finest = Peer(heyoka, 1e-10), Peer(heyoka, 1e-17)
+    for base in _records():
+        own = partial(propagate, Forcing(0.0, np.pi / 2, INTERVAL, NONE, base, NONE), SIDES, is_linearised=False)
+        angles, velocities, impacts, _, end = own()
+        assert np.isnan(end.time)
+        first = int(np.flatnonzero(np.abs(angles) > 0.05 * ALPHA)[0])
+        start = angles[first] / ALPHA, velocities[first] / (ALPHA * P)
+        reference, theirs = finest.angles(base, first, start), peer.angles(base, first, start)
+        errors = [np.abs(each - reference).max() for each in (angles[first + 1 :] / ALPHA, theirs)]
+        seconds = least_seconds(own, partial(peer.angles, base, first, start), rounds=10)
+        with capsys.disabled():
+            print(
+                f"\n{impacts.size} impacts, nonlinear: {1e3 * seconds[0]:.2f} ms (error {errors[0]:.0e} α), heyoka "
+                f"{1e3 * seconds[1]:.1f} ms ({errors[1]:.0e} α): {seconds[1] / seconds[0]:.1f} times",
+                end="",
+            )
+        assert errors[0] < 1e-9
+        assert seconds[1] / seconds[0] >= 2.2
+
+
 def test_the_exact_engine_beside_a_bare_pass_over_the_samples(capsys):
     # 50 s at 500 Hz, without rocking and with 400 impacts; the peer reads, multiplies and writes each sample.
     moment = np.arange(0, 50, 0.002)
     base = np.sin(2 * np.pi * 4 * moment) * ALPHA
     written = np.empty_like(base)
-    bare = seconds_of(lambda: np.multiply(base, 2.0, out=written), 200)
-    costs = {level: seconds_of(lambda level=level: _exact(level * base), 30) for level in (0.9, 1.5)}
+    levels = 0.9, 1.5
+    bare, *seconds = least_seconds(
+        partial(np.multiply, base, 2.0, out=written), *(partial(_exact, level * base) for level in levels), rounds=20
+    )
     with capsys.disabled():
         print(f"\nbare pass: {1e9 * bare / base.size:.2f} ns a sample", end="")
-        for level, cost in costs.items():
+        for level, cost in zip(levels, seconds, strict=True):
             print(
                 f"; exact engine at A α/tan α = {level}: {1e9 * cost / base.size:.1f} ns, {cost / bare:.0f} times",
                 end="",
             )
         print()
-    assert costs[1.5] / bare < 200
+    assert seconds[1] / bare < 200

@@ -19,7 +19,7 @@ import pytest
 
 from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_outcomes, harmonic_run
 from prism import PRISM
-from processor_time import seconds_of
+from processor_time import least_seconds
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
 CYCLES, RESTITUTION = 30, 0.976
@@ -102,7 +102,7 @@ def test_trajectories_a_second_beside_heyoka(capsys, model, least):
         for ratio, levels in amplitudes.items():
             harmonic_outcomes(PRISM, Harmonic.cycles(ratio * P, CYCLES), levels, (RESTITUTION,) * 2, model)
 
-    seconds, theirs = seconds_of(own, 20), seconds_of(lambda: [peer.run(*case) for case in cases], 3)
+    seconds, theirs = least_seconds(own, lambda: [peer.run(*case) for case in cases], rounds=20)
     impacts = sum(harmonic_run(PRISM, Harmonic.cycles(ratio * P, CYCLES), level, (RESTITUTION,) * 2, model=model)
                   .impact_times.size for ratio, level, *_ in cases)  # fmt: skip
     with capsys.disabled():

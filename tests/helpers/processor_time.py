@@ -1,14 +1,20 @@
-"""What a call costs, as the benchmarks compare it."""
+"""What calls cost, as the benchmarks compare them."""
 
 import time
 
+TURN = 0.01
+"""s of a function's turn at least: a single short call after another function's would find the caches cold."""
 
-def seconds_of(function, times):
-    """Least processor time of some calls, s, after one that compiles."""
-    function()
-    spent = []
-    for _ in range(times):
-        begin = time.process_time()
+
+def least_seconds(*functions, rounds):
+    """Least processor time of each call, s: in turns, since a processor's clock moves; after one that compiles."""
+    for function in functions:
         function()
-        spent.append(time.process_time() - begin)
-    return min(spent)
+    least = [float("inf")] * len(functions)
+    for _ in range(rounds):
+        for number, function in enumerate(functions):
+            end = time.process_time() + TURN
+            while (begin := time.process_time()) < end:
+                function()
+                least[number] = min(least[number], time.process_time() - begin)
+    return least

@@ -141,7 +141,7 @@ def closed_jet(x: float, wave: Wave) -> Jet:
     return new_height, new_rate, bend, twist, abs(new_free), abs(new_free_rate), new_sine, new_cosine
 
 
-ORDER = 18
+ORDER = 22
 """Most terms of a series; the step is chosen so that the last ones are below rounding."""
 
 RECIPROCAL = 1.0 / np.maximum(np.arange(ORDER + 1), 1)
@@ -154,9 +154,10 @@ NEGLIGIBLE = 1e-18
 
 
 class Series(NamedTuple):
-    """Taylor coefficients in x, shape (`ORDER` + 1,): of h, sin u, cos u and q sin φ; whether they are linearised."""
+    """Taylor coefficients in x, shape (`ORDER` + 1,): of h, k h_k, sin u, cos u, q sin φ; whether they are linear."""
 
     height: Array
+    rising: Array
     sine: Array
     cosine: Array
     forcing: Array
@@ -165,8 +166,8 @@ class Series(NamedTuple):
 
 def empty_series(is_linearised: bool = False) -> Series:
     """Return room for the series of one arc after the other."""
-    height, sine, cosine, forcing = np.empty((4, ORDER + 1))
-    return Series(height, sine, cosine, forcing, is_linearised)
+    height, rising, sine, cosine, forcing = np.empty((5, ORDER + 1))
+    return Series(height, rising, sine, cosine, forcing, is_linearised)
 
 
 @kernel
@@ -184,7 +185,7 @@ def series_arc(
 @kernel
 def _expand(start: float, rate: float, critical: float, push: Push, wanted: float, work: Series) -> int:
     """Fill in the coefficients, as many as `wanted` needs, and return how many."""
-    height, sine, cosine, forcing, linearised = work
+    height, rising, sine, cosine, forcing, linearised = work
     q, change, weight, lift, ratio, even, odd = push
     angle, now = critical - start, q * even
     # even and odd: k-th Taylor coefficients of sin φ and of its quarter turn; growth: the one before of sin φ.
@@ -192,7 +193,7 @@ def _expand(start: float, rate: float, critical: float, push: Push, wanted: floa
         share, growth = ratio * RECIPROCAL[k], even
         even, odd = odd * share, -even * share
         forcing[k] = q * even + change * growth
-    height[0], height[1] = start, rate
+    height[0], height[1], rising[1] = start, rate, rate
     sine[0], cosine[0] = (angle, 1.0) if linearised else (sin(angle), cos(angle))
     power, small = wanted, 0
     for k in range(ORDER - 1):
@@ -201,16 +202,17 @@ def _expand(start: float, rate: float, critical: float, push: Push, wanted: floa
             sine[k], cosine[k] = -height[k], 0.0
             product = forcing[k]
         elif k > 0:
-            falling, rising = 0.0, 0.0
+            of_sine, of_cosine = 0.0, 0.0
             for j in range(1, k + 1):
-                falling += j * height[j] * cosine[k - j]
-                rising += j * height[j] * sine[k - j]
+                of_sine += rising[j] * cosine[k - j]
+                of_cosine += rising[j] * sine[k - j]
                 product += forcing[j] * cosine[k - j]
-            sine[k], cosine[k] = -falling * RECIPROCAL[k], rising * RECIPROCAL[k]
+            sine[k], cosine[k] = -of_sine * RECIPROCAL[k], of_cosine * RECIPROCAL[k]
         product += weight * sine[k] + now * cosine[k]
         if k > 0:
             product += lift * sine[k - 1]
-        height[k + 2] = -product * RECIPROCAL[k + 1] * RECIPROCAL[k + 2]
+        rising[k + 2] = -product * RECIPROCAL[k + 1]
+        height[k + 2] = rising[k + 2] * RECIPROCAL[k + 2]
         power *= wanted
         small = small + 1 if abs(height[k + 2]) * power < NEGLIGIBLE else 0
         if small == 2:
