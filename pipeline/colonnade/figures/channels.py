@@ -42,6 +42,9 @@ MOST_SPIKES = 6
 LONGEST_NAME = 16
 """Letters of a channel's name above a spike."""
 
+UNIT_ROOM = 0.1
+"""Of a row's height, in which the recorder's unit leaves no room for a value."""
+
 INTERVALS = 300
 """Time intervals to which flagged samples are thinned."""
 
@@ -183,7 +186,7 @@ def _draw_recorded(axes: Axes, recorded: Scale) -> None:
     ends = sorted(((low - recorded.offset) / recorded.gain, (high - recorded.offset) / recorded.gain))
     for tick in MaxNLocator(nbins=3, steps=[1, 2, 5, 10]).tick_values(*ends):
         height = recorded.gain * tick + recorded.offset
-        if low <= height <= high:
+        if low <= height <= high - UNIT_ROOM * (high - low):
             text = f"{tick:g}".replace("-", "−")
             axes.text(1.01, height, text, transform=axes.get_yaxis_transform(), fontsize=7.5, va="center", color=SOFT)
     axes.text(1.01, 1.02, recorded.unit, transform=axes.transAxes, fontsize=8, va="bottom", color=SOFT)
