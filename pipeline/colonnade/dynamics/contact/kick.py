@@ -108,29 +108,30 @@ def _fill_forces(system: System, state: State, near: Near, side: int, step: floa
         normal = max(0.0, elastic - part * share * contact[node, 1] * load[index, 11])
         limit = friction * normal if normal > 0.0 else 0.0
         # The slip of before, as far as this normal force still holds it.
-        stiffness, x, y = share * contact[node, 2], slip[slot, 0], slip[slot, 1]
-        held = stiffness**2 * (x**2 + y**2)
-        if held > limit**2:
-            keep = limit / sqrt(held)
-            x, y = keep * x, keep * y
-        load[index, 7], load[index, 8] = x, y
+        stiffness, damping = share * contact[node, 2], share * contact[node, 3]
+        load[index, 7], load[index, 8] = slip[slot, 0], slip[slot, 1]
+        _shorten(load, index, 7, stiffness, limit)
         # The slip after the step; beyond the limit of friction the point slides.
-        x, y = x + load[index, 12], y + load[index, 13]
-        stretched, sticks = stiffness**2 * (x**2 + y**2), 1.0
-        if stretched > limit**2:
-            keep, sticks = limit / sqrt(stretched), 0.0
-            x, y = keep * x, keep * y
-        along, across = -stiffness * x, -stiffness * y
+        load[index, 4], load[index, 5] = load[index, 7] + load[index, 12], load[index, 8] + load[index, 13]
+        slides = _shorten(load, index, 4, stiffness, limit)
+        load[index, 0], load[index, 1] = -stiffness * load[index, 4], -stiffness * load[index, 5]
         # A point that sticks is damped, up to the limit.
-        if sticks == 1.0:
-            along -= share * contact[node, 3] * load[index, 9]
-            across -= share * contact[node, 3] * load[index, 10]
-            pulled = along**2 + across**2
-            if pulled > limit**2:
-                keep = limit / sqrt(pulled)
-                along, across = keep * along, keep * across
-        load[index, 0], load[index, 1], load[index, 2], load[index, 3] = along, across, normal, elastic
-        load[index, 4], load[index, 5], load[index, 6] = x, y, sticks
+        if not slides:
+            load[index, 0] -= damping * load[index, 9]
+            load[index, 1] -= damping * load[index, 10]
+            _shorten(load, index, 0, 1.0, limit)
+        load[index, 2], load[index, 3], load[index, 6] = normal, elastic, 0.0 if slides else 1.0
+
+
+@kernel_in_place
+def _shorten(load: Array, row: int, column: int, stiffness: float, limit: float) -> bool:
+    """Shorten a vector, times its stiffness, to the limit of friction; say whether it was longer."""
+    square = stiffness**2 * (load[row, column] ** 2 + load[row, column + 1] ** 2)
+    if square <= limit**2:
+        return False
+    load[row, column] *= limit / sqrt(square)
+    load[row, column + 1] *= limit / sqrt(square)
+    return True
 
 
 @kernel_in_place

@@ -160,7 +160,7 @@ def _list(state: State, near: Near, row: int, node: int, slot: int, share: float
 def inside(half_x: float, half_y: float, band: float, is_round: float, x: float, y: float) -> float:
     """Say how much a point at (x, y) of a face counts: 1 inside its outline, 0 outside, ½ at the edge."""
     within = half_x - sqrt(x * x + y * y) if is_round == 1.0 else min(half_x - abs(x), half_y - abs(y))
-    return min(max(0.5 + within / band, 0.0), 1.0)
+    return 1.0 if within >= band else min(max(0.5 + within / band, 0.0), 1.0)
 
 
 @kernel_in_place
