@@ -159,6 +159,8 @@ def _list(state: State, near: Near, row: int, node: int, slot: int, share: float
 @kernel_in_place
 def inside(half_x: float, half_y: float, band: float, is_round: float, x: float, y: float) -> float:
     """Say how much a point at (x, y) of a face counts: 1 inside its outline, 0 outside, ½ at the edge."""
+    if is_round == 1.0 and x * x + y * y <= (half_x - band) ** 2:
+        return 1.0
     within = half_x - sqrt(x * x + y * y) if is_round == 1.0 else min(half_x - abs(x), half_y - abs(y))
     return 1.0 if within >= band else min(max(0.5 + within / band, 0.0), 1.0)
 
@@ -217,7 +219,8 @@ def _move_arc(system: System, state: State, near: Near, side: int, node: int, an
         held += span * weights[point] * (slip[first + point, 0] ** 2 + slip[first + point, 1] ** 2)
         any_touched = max(any_touched, touched[first + point])
         about = angle + half * places[point] - former
-        about -= 2.0 * pi * floor((about + pi) / (2.0 * pi))
+        if not -pi <= about < pi:
+            about -= 2.0 * pi * floor((about + pi) / (2.0 * pi))
         carried[point, 0], carried[point, 1] = 0.0, 0.0
         if half > 0.0 and span > 0.0 and (abs(about) < span or span >= pi):
             _read_slip(slip, first, places, about / span, span >= pi, carried, point)
