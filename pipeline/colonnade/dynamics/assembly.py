@@ -102,7 +102,9 @@ class Assembly(Digested):
 
     def __post_init__(self) -> None:
         if not isinstance(self.bodies, Mapping) or not self.bodies:
-            raise ValueError(f"bodies is {described(self.bodies)}; a mapping of names to Placed was expected")
+            raise ValueError(
+                f"bodies is {described(self.bodies)}; at least one block by name was expected, as stack(drum=block)"
+            )
         for name, body in self.bodies.items():
             instance(name, body, Placed)
             for below in body.on:

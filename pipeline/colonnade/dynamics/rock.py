@@ -144,8 +144,8 @@ def rock(
     if isinstance(block, Assembly):
         if not asked.in_space or restitution is not None or out_of_plane != 0.0:
             raise ValueError(
-                f'An assembly was given, with model "{model}", restitution {described(restitution)} and out_of_plane '
-                f'{out_of_plane:g} rad; model="contact" without the other two was expected'
+                f'model is "{model}", restitution {described(restitution)}, out_of_plane {out_of_plane:g} rad; of '
+                'bodies on each other only model="contact" was expected, which finds what an impact takes by itself'
             )
         from colonnade.dynamics.contact.simulate import simulate_assembly
 

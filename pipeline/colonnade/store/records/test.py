@@ -254,7 +254,7 @@ def record_of_specimen(campaign: Campaign, name: str, pooled: xr.Dataset) -> Spe
             high=float(pooled["restitution_high"]),
             level=float(pooled["level"]),
             source=pooled.attrs["restitution_source"],
-            method=pooled.attrs["method"] or None,
+            method=(pooled.attrs["method"] or None) if is_one else None,
             reason=(pooled.attrs["reason"] or None) if is_one else f"{APART[0].upper()}{APART[1:]}.",
             tests=tuple(map(str, pooled["test_id"].to_numpy())),
         ),
