@@ -12,7 +12,7 @@ def test_a_map_is_written_with_its_picture(colonnade, campaign):
     paths = dict(line.split(": ") for line in told.stdout.splitlines()[1:])
     assert Path(paths["map"]) == campaign / "processed" / "maps" / "prism-nonlinear.nc"
     assert "<svg" in Path(paths["figure"]).read_text(encoding="utf-8")
-    assert told.stdout.startswith("prism, nonlinear model: no measured point, e rigid-body; computed: never run\n")
+    assert told.stdout.startswith("prism, nonlinear model: no measured point, e rigid-body; computed\n")
 
 
 def test_commands_have_one_default_model():

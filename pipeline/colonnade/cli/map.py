@@ -79,8 +79,11 @@ def map_command(campaign: Path, specimen: tuple[str, ...], results: Path | None,
 
 
 def _show_limits(made: MapMade) -> None:
+    from colonnade.store.provenance import NEVER_RUN
+
     measured = count(made.measured, "measured point")
-    why = f"computed: {made.because}" if made.because else "up to date"
+    why = f"computed again, {made.because}" if made.because else "up to date"
+    why = "computed" if made.because == NEVER_RUN else why
     say(f"{made.specimen}, {made.model} model: {measured}, e {made.restitution_source}; {why}")
     limits = (("lower", made.lower), ("upper", made.upper))
     show_fields([(f"{name} limit − measured", _misfit(misfit)) for name, misfit in limits if misfit is not None])
