@@ -1,6 +1,7 @@
 """`colonnade map` as a person meets it: a table, the paths, and what to do where it cannot be."""
 
 import json
+import re
 from pathlib import Path
 
 SMALL = ("--omega", "2", "4", "--amplitude", "0.8", "2", "--points", "3", "5", "--cycles", "3", "--workers", "1")
@@ -75,11 +76,11 @@ def test_the_law_is_shown_and_stored(colonnade, campaign):
 
 
 def test_an_e_that_was_not_identified_is_shown_as_the_velocity_ratio(colonnade, campaign):
-    few = CONTACT + "\n[processing.restitution]\nlowest_amplitude = 0.45\n"
+    few = CONTACT + "mesh = 300\n\n[processing.restitution]\nlowest_amplitude = 0.45\n"
     path = campaign / "campaign.toml"
     given = path.read_text(encoding="utf-8").replace('"26.10 kg"', '"26.10 kg", restitution = 0.97')
     path.write_text(given + few, encoding="utf-8")
-    assert " velocity-ratio " in colonnade("calibrate", "--workers", "1").stdout
+    assert re.search(r"prism +300 .* velocity-ratio ", colonnade("calibrate", "--workers", "1").stdout)
     (made,) = json.loads(colonnade("calibrate", "--workers", "1", "--json").stdout)
     assert made["source"] == "velocity-ratio"
     assert made["restitution"] == made["velocity_ratio"]

@@ -81,7 +81,7 @@ def test_a_law_says_which_e_it_gives(law):
 
 
 def test_each_law_keeps_the_modes_that_the_step_follows_with_it():
-    read = inputs((("depth", 0.086), ("height", 0.456), ("width", 0.086)), mesh="coarse", step="5 us")
+    read = inputs((("depth", 0.086), ("height", 0.456), ("width", 0.086)), mesh=1224, step="5 us")
     stiff = partial(ContactLaw.stiff, rigid_body(PRISM), PRISM.gravity)
     slight, strong = (calibrating.body_of(read, stiff(damping_fraction=fraction)) for fraction in (0.1, 2.0))
     assert slight.frequencies.size > strong.frequencies.size

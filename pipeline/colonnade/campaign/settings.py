@@ -21,7 +21,6 @@ from colonnade.campaign.syntax.fields import (
     Duration,
     Frequency,
     Number,
-    OneOf,
     Pressure,
     Quantity,
     Whole,
@@ -34,9 +33,6 @@ from colonnade.errors import nearest
 
 DEFAULT_MODELS = tuple(name for name, model in MODELS.items() if model.is_default)
 """Models that `predict` runs unless the campaign names others."""
-
-MESHES = ("rigid", "coarse", "medium", "fine")
-"""Bodies of the contact model: rigid on nodes or circles, or elastic on one of three meshes."""
 
 
 def _models(value: object) -> tuple[str, ...]:
@@ -160,9 +156,9 @@ class EnsembleSettings(MeasurementSettings, PlaneEnsembleSettings):
 class ContactSettings(Table):
     """Settings of the contact model."""
 
-    mesh: Annotated[str, OneOf(MESHES)] = setting("rigid")
-    """Body of the contact model: "rigid" (a round base on whole circles), or elastic on a "coarse", "medium" or "fine"
-    mesh."""
+    mesh: Literal["rigid"] | Annotated[Whole, Field(ge=100, le=30_000)] = setting("rigid")
+    """Body of the contact model: "rigid" (a round base on whole circles), or elastic with about so many degrees of
+    freedom, such as 1224, 5478 or 20322 of the paper's meshes."""
     step: Annotated[float, Quantity("time", between=STEP, example="10 us")] = setting(DEFAULT_STEP, "s")
     """Time step of the contact model; it has to be stable."""
     damping_fraction: Literal["auto"] | Annotated[Number, Field(ge=0.0, le=10.0)] = setting("auto")

@@ -133,7 +133,7 @@ def calibrate(
     rows = [
         (
             each["specimen"],
-            each["mesh"],
+            str(each["mesh"]),
             quantity(each["step"], "µs"),
             number(each["damping_fraction"]),
             number(each["effective_damping"]),

@@ -209,7 +209,7 @@ def _whole_body(inputs: ContactInputs) -> ContactBody:
         return rigid_body(inputs.block)
     if not sizes:
         raise StageError(
-            f'processing.predict.contact.mesh is "{settings.mesh}", but this specimen is of shape '
+            f'processing.predict.contact.mesh is {settings.mesh}, but this specimen is of shape '
             f'"{inputs.shape}" and has no dimensions to mesh. mesh = "rigid" was expected.'
         )
     from colonnade.dynamics.contact.elastic.reduction import elastic_body
@@ -217,7 +217,7 @@ def _whole_body(inputs: ContactInputs) -> ContactBody:
     return elastic_body(
         sizes,
         inputs.block.mass,
-        mesh=settings.mesh,
+        degrees_of_freedom=settings.mesh,
         modulus=settings.modulus,
         poisson_ratio=settings.poisson_ratio,
     )

@@ -144,6 +144,6 @@ def test_a_step_of_ten_microseconds_keeps_modes_that_the_engine_advances_with_cl
 
 
 def test_a_step_that_not_even_the_rigid_body_allows_is_refused():
-    reduced = reduce_body(ELASTIC, vibration_modes=6, attachment=False)
+    reduced = reduce_body(ELASTIC, vibration_modes=6)
     with pytest.raises(ValueError, match="even the rigid body on this contact needs one of at most"):
         keep_modes_for_step(reduced, ContactLaw.stiff(reduced, 9.81), 1e-2)

@@ -127,7 +127,7 @@ def keep_modes(body: ContactBody, highest_frequency: float) -> ContactBody:
         modes=body.modes[:, :, :kept],
         frequencies=body.frequencies[:kept],
         modal_damping=body.modal_damping[:kept],
-        description=f"{body.description}, of which {kept} up to {highest_frequency:.4g} rad/s",
+        description=f"{body.description}, of which {f'{kept} up to {highest_frequency:.4g} rad/s' if kept else 'none'}",
     )
 
 

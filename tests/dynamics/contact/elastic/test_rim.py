@@ -7,8 +7,9 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import rigid_body
+from colonnade.dynamics.contact.elastic.assembly import assemble
 from colonnade.dynamics.contact.elastic.mesh import refine_rim
-from colonnade.dynamics.contact.elastic.reduction import meshed_body, reduce_body
+from colonnade.dynamics.contact.elastic.reduction import mesh_of, reduce_body
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.stability import keep_modes
@@ -22,7 +23,7 @@ ALPHA = CYLINDER.critical_angle
 @pytest.fixture(scope="module")
 def meshed():
     """The coarse mesh of the cylinder with the eight nodes of its rim."""
-    return reduce_body(meshed_body(SIZES, CYLINDER.mass, mesh="coarse"))
+    return reduce_body(assemble(mesh_of(SIZES, 1224), CYLINDER.mass))
 
 
 def test_area_mass_and_stiffness_are_spread_and_the_meshs_nodes_stay(meshed):

@@ -13,9 +13,6 @@ from colonnade.dynamics.contact.body import ContactBody
 
 Whole = NDArray[np.int64]
 
-PAPERS_DEGREES_OF_FREEDOM = {"coarse": 1224, "medium": 5478, "fine": 20322}
-"""Table 2 of Manos, Petalas and Demosthenous. 5478 and 20322 have no factors that make a grid of bricks."""
-
 PRISM_ASPECT = 1.7
 """Longest over shortest edge of a brick that a grid of a prism is allowed for the sake of its number of nodes."""
 
@@ -50,11 +47,6 @@ class Mesh:
     base: Whole
     description: str
 
-    @property
-    def degrees_of_freedom(self) -> int:
-        """Three a node."""
-        return 3 * len(self.points)
-
 
 def prism_mesh(width: float, depth: float, height: float, divisions: tuple[int, int, int]) -> Mesh:
     """
@@ -66,14 +58,7 @@ def prism_mesh(width: float, depth: float, height: float, divisions: tuple[int, 
         Along x, y, z, m.
     divisions : tuple of int
         Bricks along x, y, z.
-
-    Raises
-    ------
-    ValueError
-        If a length is not positive or a number of bricks is below 1.
     """
-    _check_lengths(width=width, depth=depth, height=height)
-    _check_numbers(divisions)
     along_x, along_y, layers = divisions
     x, y = np.meshgrid(
         np.linspace(-width / 2, width / 2, along_x + 1), np.linspace(-depth / 2, depth / 2, along_y + 1), indexing="ij"
@@ -95,18 +80,11 @@ def round_mesh(base_diameter: float, top_diameter: float, height: float, divisio
     divisions : tuple of int
         Bricks along a side of the core (the rim then has four times as many), rings around it, layers.
 
-    Raises
-    ------
-    ValueError
-        If a length is not positive or a number of bricks is below 1.
-
     Notes
     -----
     The nodes of the rim lie on the true circle, so that the body rocks on its true edge; the section is the polygon
     through them, smaller than the disc by 2 (π/n)²/3 for n nodes (1.6 % with 20, 0.4 % with 40).
     """
-    _check_lengths(base_diameter=base_diameter, top_diameter=top_diameter, height=height)
-    _check_numbers(divisions)
     core, rings, layers = divisions
     section, quadrilaterals = _disc(core, rings)
     levels = np.linspace(0.0, 1.0, layers + 1)
@@ -133,7 +111,6 @@ def prism_divisions(width: float, depth: float, height: float, degrees_of_freedo
     >>> [prism_divisions(0.086, 0.086, 0.456, number) for number in (1224, 5478, 20322)]
     [(5, 3, 16), (8, 6, 28), (10, 10, 55)]
     """
-    _check_lengths(width=width, depth=depth, height=height)
     nodes = degrees_of_freedom / 3
     found = []
     for along_x in range(1, ceil(nodes / 4)):
@@ -164,7 +141,6 @@ def round_divisions(
     >>> [round_divisions(0.097, 0.097, 0.455, number) for number in (1224, 5478, 20322)]
     [(2, 1, 23), (4, 2, 31), (6, 3, 55)]
     """
-    _check_lengths(base_diameter=base_diameter, top_diameter=top_diameter, height=height)
     radius = (base_diameter + top_diameter) / 4
     nodes = degrees_of_freedom / 3
     found = []
@@ -226,17 +202,6 @@ def _raise(section: Array, quadrilaterals: Whole, levels: Array, scales: Array, 
     up = count
     cells = np.column_stack((far + up, far, right + up, left + up, right, left, near + up, near))
     return Mesh(points, cells, np.arange(count), f"{description}, {3 * len(points)} degrees of freedom")
-
-
-def _check_lengths(**lengths: float) -> None:
-    for name, length in lengths.items():
-        if not length > 0.0:
-            raise ValueError(f"{name} is {length}; a positive length in m was expected")
-
-
-def _check_numbers(divisions: tuple[int, int, int]) -> None:
-    if min(divisions) < 1:
-        raise ValueError(f"divisions are {divisions}; three whole numbers from 1 on were expected")
 
 
 RIM_NODES = 288

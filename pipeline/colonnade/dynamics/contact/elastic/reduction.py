@@ -18,7 +18,6 @@ from colonnade.dynamics.contact.elastic.assembly import (
     rigid_modes,
 )
 from colonnade.dynamics.contact.elastic.mesh import (
-    PAPERS_DEGREES_OF_FREEDOM,
     Mesh,
     prism_divisions,
     prism_mesh,
@@ -26,7 +25,6 @@ from colonnade.dynamics.contact.elastic.mesh import (
     round_divisions,
     round_mesh,
 )
-from colonnade.errors import nearest
 
 VIBRATION_MODES = 40
 """Free vibration modes kept by default."""
@@ -38,23 +36,18 @@ SHIFT = 1e-3
 """Of the squared frequency (speed of sound over the largest length), added to every mode while solving."""
 
 
-def reduce_body(
-    body: ElasticBody,
-    *,
-    vibration_modes: int = VIBRATION_MODES,
-    attachment: bool = True,
-) -> ContactBody:
+def reduce_body(body: ElasticBody, *, vibration_modes: int = VIBRATION_MODES) -> ContactBody:
     """
     Reduce a meshed body to modes that the contact engine can advance one by one.
+
+    Beside vibration modes it keeps the residual deformation under a unit force at each base node along each axis: so
+    the base's static flexibility is the mesh's own, whatever the number of vibration modes.
 
     Parameters
     ----------
     body : ElasticBody
     vibration_modes : int, optional
         Lowest free vibration modes, exact for the mesh.
-    attachment : bool, optional
-        Also keep the residual deformation under a unit force at each base node along each axis. With them the base's
-        static flexibility is the mesh's own, whatever the number of vibration modes.
 
     Returns
     -------
@@ -72,6 +65,9 @@ def reduce_body(
     made orthogonal to each other through the small eigenproblem of their flexibility, so that stiffness and mass are
     both diagonal. Inertia forces of the rotation on the deformation are left out (strains are small).
     """
+    from scipy.sparse import eye_array
+    from scipy.sparse.linalg import splu
+
     elastic_modes = 3 * len(body.points) - 6
     if not 0 <= vibration_modes < elastic_modes:
         raise ValueError(
@@ -81,27 +77,26 @@ def reduce_body(
     roots = np.sqrt(np.repeat(body.node_mass, 3))
     scaled = _scale(body.stiffness, 1 / roots)
     rigid = roots[:, None] * rigid_modes(body.points, body.node_mass)
-    solve = _solver(scaled, _shift(body), 3 * len(body.base))
+    shifted = (scaled + _shift(body) * eye_array(roots.size)).tocsc()
+    factors = splu(shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
     def flexibility(loads: Array) -> Array:
-        return _without(rigid, solve(_without(rigid, loads)))
+        return _without(rigid, factors.solve(_without(rigid, loads)))
 
     modes, frequencies = _vibration(scaled, flexibility, rigid, vibration_modes)
-    if attachment:
-        loads = np.zeros((roots.size, 3 * len(body.base)))
-        loaded = (3 * body.base[:, None] + np.arange(3)).ravel()
-        loads[loaded, np.arange(loaded.size)] = 1 / roots[loaded]
-        shapes, attached = _attachment(scaled, _without(modes, flexibility(_without(modes, loads))))
-        modes, frequencies = np.hstack((modes, shapes)), np.concatenate((frequencies, attached))
+    loads = np.zeros((roots.size, 3 * len(body.base)))
+    loaded = (3 * body.base[:, None] + np.arange(3)).ravel()
+    loads[loaded, np.arange(loaded.size)] = 1 / roots[loaded]
+    shapes, attached = _attachment(scaled, _without(modes, flexibility(_without(modes, loads))))
+    modes, frequencies = np.hstack((modes, shapes)), np.concatenate((frequencies, attached))
     order = np.argsort(frequencies)
     frequencies, modes = frequencies[order], modes[:, order] / roots[:, None]
-    kept = "with" if attachment else "without"
     return replace(
         rigid_on_nodes(body),
         modes=modes.reshape(-1, 3, frequencies.size)[body.base],
         frequencies=frequencies,
         modal_damping=modal_damping(body, modes, frequencies),
-        description=f"{body.description}; {vibration_modes} vibration modes {kept} attachment modes",
+        description=f"{body.description}; {vibration_modes} vibration modes with attachment modes",
     )
 
 
@@ -165,65 +160,11 @@ def _shift(body: ElasticBody) -> float:
     return SHIFT * body.material.modulus / body.material.density / longest**2
 
 
-def _solver(matrix: Any, shift: float, layer: int) -> Callable[[Array], Array]:
-    """
-    Factor matrix + shift · 1, whose layers of `layer` unknowns are coupled to their neighbours only.
-
-    Notes
-    -----
-    Block Cholesky from layer to layer, with the inverses of the dense corners kept: a solution is products alone.
-    """
-    from scipy.linalg import cholesky, solve_triangular
-
-    starts = range(0, matrix.shape[0], layer)
-    corners: list[Array] = []
-    links: list[Array] = []
-    for start in starts:
-        block = matrix[start : start + layer, start : start + layer].toarray()
-        block[np.diag_indices(layer)] += shift
-        if start:
-            below = matrix[start : start + layer, start - layer : start].toarray()
-            links.append(below @ corners[-1].T)
-            block -= links[-1] @ links[-1].T
-        corners.append(solve_triangular(cholesky(block, lower=True), np.eye(layer), lower=True))
-
-    def solve(loads: Array) -> Array:
-        parts = [loads[start : start + layer] for start in starts]
-        for i, corner in enumerate(corners):
-            right = parts[i] - links[i - 1] @ parts[i - 1] if i else parts[i]
-            parts[i] = corner @ right
-        for i in reversed(range(len(corners))):
-            right = parts[i] - links[i].T @ parts[i + 1] if i + 1 < len(corners) else parts[i]
-            parts[i] = corners[i].T @ right
-        return np.concatenate(parts)
-
-    return solve
-
-
 LINEAR_VISCOSITY = 0.06
 """b₁ of the pressure b₁ ρ c L ε̇ against the rate ε̇ of volume change: Abaqus/Explicit's default."""
 
 
-def linear_coefficients(body: ElasticBody, linear: float = LINEAR_VISCOSITY) -> Array:
-    """
-    Give the pressure over the rate of volume change, b₁ ρ c L, of each brick.
-
-    Parameters
-    ----------
-    body : ElasticBody
-    linear : float, optional
-        b₁.
-
-    Returns
-    -------
-    coefficients : ndarray, shape (e,)
-        Pa s. L is the brick's volume over its largest face and c the speed of dilatational waves.
-    """
-    material = body.material
-    return linear * material.density * material.dilatational_speed * body.element_lengths
-
-
-def modal_damping(body: ElasticBody, modes: Array, frequencies: Array, linear: float = LINEAR_VISCOSITY) -> Array:
+def modal_damping(body: ElasticBody, modes: Array, frequencies: Array) -> Array:
     """
     Give each mode the damping that the linear bulk viscosity is to it.
 
@@ -234,8 +175,6 @@ def modal_damping(body: ElasticBody, modes: Array, frequencies: Array, linear: f
         Mass-normalised shapes, kg^-½.
     frequencies : ndarray, shape (m,)
         rad/s.
-    linear : float, optional
-        b₁.
 
     Returns
     -------
@@ -244,17 +183,17 @@ def modal_damping(body: ElasticBody, modes: Array, frequencies: Array, linear: f
 
     Notes
     -----
-    ζ = φᵀ C φ / 2ω with C = Σ_e V_e b₁ ρ c L_e d_e d_eᵀ, d_e the brick's mean divergence. For a mode of pure volume
-    change it grows with the frequency, b₁ L ω / 2c; a mode of pure shear or torsion has none. What C couples between
-    modes is left out. It is damping of the material and has a share of its own in the balance of energy, apart from
-    that of the contact.
+    ζ = φᵀ C φ / 2ω with C = Σ_e V_e b₁ ρ c L_e d_e d_eᵀ; d_e is the brick's mean divergence, L_e its volume over its
+    largest face and c the speed of dilatational waves. For a mode of pure volume change it grows with the frequency,
+    b₁ L ω / 2c; a mode of pure shear or torsion has none. What C couples between modes is left out. It is damping of
+    the material and has a share of its own in the balance of energy, apart from that of the contact.
     """
-    rates = body.volume_rate @ modes
-    weights = body.volumes * linear_coefficients(body, linear)
-    return np.asarray((weights @ rates**2) / (2 * frequencies))
+    material = body.material
+    pressures = LINEAR_VISCOSITY * material.density * material.dilatational_speed * body.element_lengths
+    return np.asarray((body.volumes * pressures) @ (body.volume_rate @ modes) ** 2 / (2 * frequencies))
 
 
-def mesh_of(sizes: Mapping[str, float], mesh: str) -> Mesh:
+def mesh_of(sizes: Mapping[str, float], degrees_of_freedom: int) -> Mesh:
     """
     Mesh a body by its outer dimensions.
 
@@ -263,50 +202,31 @@ def mesh_of(sizes: Mapping[str, float], mesh: str) -> Mesh:
     sizes : mapping of str to float
         m; "width", "depth", "height" of a prism, "diameter", "height" of a cylinder, "base_diameter", "top_diameter",
         "height" of a truncated cone.
-    mesh : {"coarse", "medium", "fine"}
-
-    Returns
-    -------
-    mesh : Mesh
-        With about the degrees of freedom of the paper's (Table 2).
+    degrees_of_freedom : int
+        About how many, three a node.
 
     Raises
     ------
     ValueError
-        If the mesh is unknown, or the dimensions are those of no known shape.
+        If the dimensions are those of no known shape.
     """
-    if mesh not in PAPERS_DEGREES_OF_FREEDOM:
-        raise ValueError(f'Unknown mesh "{mesh}".{nearest(mesh, PAPERS_DEGREES_OF_FREEDOM)}')
-    number = PAPERS_DEGREES_OF_FREEDOM[mesh]
     if sizes.keys() == {"width", "depth", "height"}:
         edges = sizes["width"], sizes["depth"], sizes["height"]
-        return prism_mesh(*edges, prism_divisions(*edges, number))
+        return prism_mesh(*edges, prism_divisions(*edges, degrees_of_freedom))
     if sizes.keys() == {"diameter", "height"}:
         lengths = sizes["diameter"], sizes["diameter"], sizes["height"]
     elif sizes.keys() == {"base_diameter", "top_diameter", "height"}:
         lengths = sizes["base_diameter"], sizes["top_diameter"], sizes["height"]
     else:
         raise ValueError(f"The dimensions are {', '.join(sizes)}; those of a prism, a cylinder or a cone were expected")
-    return round_mesh(*lengths, round_divisions(*lengths, number))
-
-
-def meshed_body(
-    sizes: Mapping[str, float],
-    mass: float,
-    *,
-    mesh: str,
-    modulus: float = STEELS_MODULUS,
-    poisson_ratio: float = STEELS_POISSON_RATIO,
-) -> ElasticBody:
-    """Assemble a body of given mass (kg) from its dimensions; arguments and errors as for `mesh_of` and `assemble`."""
-    return assemble(mesh_of(sizes, mesh), mass, modulus=modulus, poisson_ratio=poisson_ratio)
+    return round_mesh(*lengths, round_divisions(*lengths, degrees_of_freedom))
 
 
 def elastic_body(
     sizes: Mapping[str, float],
     mass: float,
     *,
-    mesh: str,
+    degrees_of_freedom: int,
     modulus: float = STEELS_MODULUS,
     poisson_ratio: float = STEELS_POISSON_RATIO,
 ) -> ContactBody:
@@ -315,7 +235,7 @@ def elastic_body(
 
     Parameters
     ----------
-    sizes, mesh
+    sizes, degrees_of_freedom
         As of `mesh_of`.
     mass : float
         kg.
@@ -333,5 +253,6 @@ def elastic_body(
     ValueError
         If an argument is out of its range.
     """
-    body = reduce_body(meshed_body(sizes, mass, mesh=mesh, modulus=modulus, poisson_ratio=poisson_ratio))
+    mesh = mesh_of(sizes, degrees_of_freedom)
+    body = reduce_body(assemble(mesh, mass, modulus=modulus, poisson_ratio=poisson_ratio))
     return body if "width" in sizes else refine_rim(body)
