@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from colonnade.figures import to_svg
+from colonnade.figures.files.output import to_svg
 
 HERE = Path(__file__).resolve().parent
 RECORD = 400

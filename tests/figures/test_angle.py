@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from colonnade.figures import Curve
+from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored.record import HEIGHT, LOWER, rocking_angle
 from colonnade.figures.style import COLUMNS, MEASURED, journal
 

@@ -4,8 +4,8 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from colonnade.dynamics.models import MODELS
-from colonnade.figures import Curve
 from colonnade.figures.histories import LARGEST_RATIO, SMALLEST_RATIO, Spread, draw_angle, limit_of, time_limits
+from colonnade.figures.panels.curve import Curve
 from colonnade.figures.style import MEASURED, model_style
 
 TIME = np.linspace(0.0, 10.0, 2001)

@@ -2,8 +2,9 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.models import MODELS
-from colonnade.figures import Curve, Peak, Quantity, whole_record
 from colonnade.figures.histories import Spread
+from colonnade.figures.panels.curve import Curve
+from colonnade.figures.record import Peak, Quantity, whole_record
 from colonnade.figures.style import styled
 
 TIME = np.linspace(0.0, 10.0, 2001)

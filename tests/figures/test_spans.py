@@ -2,8 +2,9 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_hex
 
-from colonnade.figures import Curve, SpanPanel, spans_side_by_side
+from colonnade.figures.panels.curve import Curve
 from colonnade.figures.panels.layout import PAGE
+from colonnade.figures.record import SpanPanel, spans_side_by_side
 from colonnade.figures.style import journal, model_style
 
 TIME = np.linspace(0.0, 10.0, 2001)

@@ -6,14 +6,6 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.models import MODELS
-from colonnade.figures import (
-    Curve,
-    estimators_side_by_side,
-    fitted_history,
-    impact_restitution,
-    peak_decay,
-    spans_side_by_side,
-)
 from colonnade.figures.agreement import predicted_over_measured
 from colonnade.figures.channels import channels_as_recorded
 from colonnade.figures.closer import closer_look
@@ -21,8 +13,14 @@ from colonnade.figures.forecasts import reliability_and_pit
 from colonnade.figures.maps.measured_map import measured_map
 from colonnade.figures.maps.stability_map import stability_map
 from colonnade.figures.moving import rocking_block
+from colonnade.figures.panels.curve import Curve
 from colonnade.figures.panels.layout import side_by_side, stacked_panels
+from colonnade.figures.record import spans_side_by_side
+from colonnade.figures.restitution.estimators import estimators_side_by_side
+from colonnade.figures.restitution.history import fitted_history
+from colonnade.figures.restitution.impacts import impact_restitution
 from colonnade.figures.restitution.many import impacts_of_many, peaks_of_many
+from colonnade.figures.restitution.peaks import peak_decay
 from colonnade.figures.style import WIDTH, blank_figure, journal, model_style, styled
 from every import every
 from prism import PRISM

@@ -209,7 +209,7 @@ def _whole_body(inputs: ContactInputs) -> ContactBody:
         return rigid_body(inputs.block)
     if not sizes:
         raise StageError(
-            f'processing.predict.contact.mesh is {settings.mesh}, but this specimen is of shape '
+            f"processing.predict.contact.mesh is {settings.mesh}, but this specimen is of shape "
             f'"{inputs.shape}" and has no dimensions to mesh. mesh = "rigid" was expected.'
         )
     from colonnade.dynamics.contact.elastic.reduction import elastic_body

@@ -8,8 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
 
-from colonnade.figures import Curve, Quantity, SpanPanel, spans_side_by_side, to_svg, whole_record
-from colonnade.figures.files.output import shorter
+from colonnade.figures.files.output import shorter, to_svg
+from colonnade.figures.panels.curve import Curve
+from colonnade.figures.record import Quantity, SpanPanel, spans_side_by_side, whole_record
 
 TEXT = 'Test <a> & "b"'
 

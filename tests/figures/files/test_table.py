@@ -10,12 +10,11 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 from matplotlib.figure import Figure
 
-from colonnade.figures import Curve, Quantity, whole_record
 from colonnade.figures.files.output import to_csv
 from colonnade.figures.files.table import table_of
 from colonnade.figures.histories import Spread
-from colonnade.figures.panels.curve import draw_band, draw_curve
-from colonnade.figures.record import Peak
+from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
+from colonnade.figures.record import Peak, Quantity, whole_record
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
 

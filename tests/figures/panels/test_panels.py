@@ -5,9 +5,8 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from colonnade.figures import Curve, envelope
 from colonnade.figures.files.output import to_png, to_svg
-from colonnade.figures.panels.curve import between, draw_band, draw_curve
+from colonnade.figures.panels.curve import Curve, between, draw_band, draw_curve, envelope
 from colonnade.figures.panels.layout import COLUMNS, add_panel, legend_above, side_by_side, stacked_panels
 from colonnade.figures.style import styled
 

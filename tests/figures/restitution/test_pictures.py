@@ -7,22 +7,12 @@ from matplotlib.figure import Figure
 from scipy import stats
 
 from colonnade.dynamics.block import Block
-from colonnade.figures import (
-    Curve,
-    EstimateGroup,
-    EstimateRow,
-    ImpactSeries,
-    Level,
-    PeakSeries,
-    Region,
-    estimators_side_by_side,
-    fitted_history,
-    impact_restitution,
-    joint_region,
-    peak_decay,
-)
 from colonnade.figures.files.table import columns_of
-from colonnade.figures.restitution.peaks import draw_marks
+from colonnade.figures.panels.curve import Curve
+from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
+from colonnade.figures.restitution.history import Region, fitted_history, joint_region
+from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
+from colonnade.figures.restitution.peaks import PeakSeries, draw_marks, peak_decay
 from colonnade.figures.style import MEASURED, model_style
 from colonnade.identification.restitution.peaks import angle_of_energy
 from prism import PRISM

@@ -45,7 +45,7 @@ LOGARITHMIC = 6.0
 
 
 @styled()
-def measured_map(points: Sequence[MapPoint], *, linked: bool = False, axes: Axes | None = None) -> Figure:
+def measured_map(points: Sequence[MapPoint], *, linked: bool = False) -> Figure:
     """
     Draw the measured map of a specimen.
 
@@ -55,8 +55,6 @@ def measured_map(points: Sequence[MapPoint], *, linked: bool = False, axes: Axes
         Its sine tests.
     linked : bool, optional
         Whether each mark leads to its test, see `output.link_to`.
-    axes : Axes, optional
-        To draw into; a new figure with its legend otherwise.
 
     Returns
     -------
@@ -74,18 +72,15 @@ def measured_map(points: Sequence[MapPoint], *, linked: bool = False, axes: Axes
     """
     if not points:
         raise ValueError("no sine test was given; at least one point of the map was expected")
-    own = axes is None
-    if axes is None:
-        axes = blank_figure(3.6).subplots()
+    figure = blank_figure(3.6)
+    axes = figure.subplots()
     _draw_scale(axes, points)
     for name, label, style in BOUNDARIES:
         _draw_boundary(axes, bracket_boundaries(points), name, label, style)
     draw_points(axes, points, linked=linked)
-    figure = cast(Figure, axes.get_figure(root=True))
-    if own:
-        labels = axes.get_legend_handles_labels()[1]
-        ncols = fitting(labels, inches=width(), points=7.0, most=5) if is_narrow() else 5
-        figure.legend(loc="outside upper left", ncols=ncols, columnspacing=1.2, handletextpad=0.5, borderaxespad=0.2)
+    labels = axes.get_legend_handles_labels()[1]
+    ncols = fitting(labels, inches=width(), points=7.0, most=5) if is_narrow() else 5
+    figure.legend(loc="outside upper left", ncols=ncols, columnspacing=1.2, handletextpad=0.5, borderaxespad=0.2)
     return figure
 
 

@@ -97,18 +97,14 @@ class Region(NamedTuple):
 
 
 @styled()
-def joint_region(
-    regions: Sequence[Region], *, levels: Sequence[float] = (0.5, 0.95), fixed: tuple[float, float, float] | None = None
-) -> Figure:
+def joint_region(regions: Sequence[Region], *, fixed: tuple[float, float, float] | None = None) -> Figure:
     """
-    Draw ellipses of confidence over e and α.
+    Draw the ellipses inside which e and α together lie with a confidence of 50 and of 95 %.
 
     Parameters
     ----------
     regions : sequence of Region
         One a free vibration.
-    levels : sequence of float, optional
-        Confidence that both quantities together lie inside.
     fixed : (float, float, float), optional
         e with its interval from the fit with the given α: drawn at 1.
 
@@ -126,7 +122,7 @@ def joint_region(
     figure = blank_figure(3.0)
     axes = figure.subplots()
     for region in regions:
-        for level in levels:
+        for level in (0.5, 0.95):
             outline = _ellipse(region, level)
             axes.plot(*outline, label=format_percent(level), color=FIT["color"], linewidth=0.6 + 0.8 * level)
             axes.fill(*outline, color=FIT["color"], alpha=0.1, linewidth=0)

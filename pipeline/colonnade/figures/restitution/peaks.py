@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -97,7 +97,7 @@ class PeakSeries(NamedTuple):
 
 
 @styled()
-def peak_decay(series: Sequence[PeakSeries], block: Block, *, axes: Sequence[Axes] | None = None) -> Figure:
+def peak_decay(series: Sequence[PeakSeries], block: Block) -> Figure:
     """
     Draw the energy of successive peaks against the impact number, a panel a test, all on the same scales.
 
@@ -106,8 +106,6 @@ def peak_decay(series: Sequence[PeakSeries], block: Block, *, axes: Sequence[Axe
     series : sequence of PeakSeries
     block : Block
         Its critical angles scale the energy.
-    axes : sequence of Axes, optional
-        Axes to draw into, one for each test; by default a new figure with its legend.
 
     Returns
     -------
@@ -125,30 +123,25 @@ def peak_decay(series: Sequence[PeakSeries], block: Block, *, axes: Sequence[Axe
     """
     if not series:
         raise ValueError("no free vibration was given; at least one series of peaks was expected")
-    own = axes is None
-    if axes is None:
-        columns = min(len(series), COLUMNS)
-        rows = -(-len(series) // columns)
-        figure = blank_figure(0.7 + 2.1 * rows)
-        grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
-        for unused in grid.flat[len(series) :]:
-            unused.remove()
-        axes = list(grid.flat[: len(series)])
-        for index, one in enumerate(axes):
-            # The lowest panel of each column carries the scale, also where the last row is not full.
-            one.tick_params(labelbottom=index + columns >= len(series))
-            one.set_xlabel("impact number n" if index + columns >= len(series) else "")
-            one.set_ylabel("energy / barrier" if index % columns == 0 else "")
-    for one, peaks in zip(axes, series, strict=True):
+    columns = min(len(series), COLUMNS)
+    rows = -(-len(series) // columns)
+    figure = blank_figure(0.7 + 2.1 * rows)
+    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    for unused in grid.flat[len(series) :]:
+        unused.remove()
+    axes = list(grid.flat[: len(series)])
+    for index, (one, peaks) in enumerate(zip(axes, series, strict=True)):
+        # The lowest panel of each column carries the scale, also where the last row is not full.
+        one.tick_params(labelbottom=index + columns >= len(series))
+        one.set_xlabel("impact number n" if index + columns >= len(series) else "")
+        one.set_ylabel("energy / barrier" if index % columns == 0 else "")
         _draw_peaks(one, peaks, block)
-        figure = cast(Figure, one.get_figure(root=True))
     lowest = min((_lowest(peaks, block) for peaks in series), default=1.0)
     for one in axes:
         if lowest < 1.0:
             one.set_ylim(bottom=max(one.get_ylim()[0], lowest))
         label_energies(one)
-    if own:
-        legend_outside(figure, axes)
+    legend_outside(figure, axes)
     return figure
 
 
