@@ -110,12 +110,3 @@ def test_a_folder_that_is_a_link_is_neither_read_nor_written(tmp_path):
         write_forecast(layout, ForecastFile.model_validate(CONTENT))
     assert len(read_forecasts(layout).refused) == 1
     assert not list((tmp_path / "elsewhere").iterdir())
-
-
-def test_the_digests_change_with_a_file(tmp_path):
-    layout = Layout(tmp_path)
-    path = write_forecast(layout, ForecastFile.model_validate(CONTENT))
-    before = read_forecasts(layout).digests
-    path.write_text("{}", encoding="utf-8")
-    assert before.keys() == read_forecasts(layout).digests.keys()
-    assert before != read_forecasts(layout).digests

@@ -61,19 +61,18 @@ class OnContact:
         bodies = [(body.block, *body.position) for body in self.assembly.bodies.values()]
         return all(block.is_symmetric and (block, -x, y) in bodies for block, x, y in bodies)
 
-    def end(self, motion: Motion, friction: float) -> tuple[int, float, float]:
-        """Run a motion: index into `OUTCOMES`, largest lean over α (NaN if it overturns), its instant, s."""
+    def end(self, motion: Motion, friction: float) -> tuple[int, float]:
+        """Run a motion: index into `OUTCOMES`, and largest lean over α (NaN if it overturns)."""
         # Its engine is compiled on import.
         from colonnade.dynamics.contact.simulate import simulate_assembly
 
         law = self.law if np.isnan(friction) else replace(self.law, friction=friction)
         history = simulate_assembly(self.assembly, motion, law=law)
         if history.peak_ratio is None:
-            return OVERTURNS, np.nan, history.overturning_time
+            return OVERTURNS, np.nan
         if max(float(np.hypot(x, y)) for x, y, _ in history.residuals.values()) > self.displaced:
-            return OVERTURNS, np.nan, float(history.time[-1])
-        lean = np.max([body.lean for body in history.bodies.values()], axis=0)
-        return OUTCOMES.index(history.outcome), history.peak_ratio, float(history.time[lean.argmax()])
+            return OVERTURNS, np.nan
+        return OUTCOMES.index(history.outcome), history.peak_ratio
 
 
 @dataclass(frozen=True)
@@ -163,13 +162,10 @@ class Outcomes:
         Index into `dynamics.plane.run.OUTCOMES`, or `NOT_RUN` or `FALLS_AWAY`.
     peak_ratio : ndarray
         Largest |θ|/α, by the drawn α; NaN if the column overturns or was not run.
-    instant : ndarray
-        s, of that peak; if it overturns, when |θ| passed α for good; NaN if it was not run.
     """
 
     outcome: Codes
     peak_ratio: Array
-    instant: Array
 
     @property
     def is_run(self) -> Mask:
@@ -220,7 +216,7 @@ def in_plane(motion: Motion, place: int, factor: float) -> Motion | None:
 def run_cases(cases: Cases) -> Outcomes:
     """Run all cases in this process."""
     _records, levels, _draws, _signs, components = shape = cases.shape
-    found = Outcomes(np.full(shape, NOT_RUN, dtype=np.int8), np.full(shape, np.nan), np.full(shape, np.nan))
+    found = Outcomes(np.full(shape, NOT_RUN, dtype=np.int8), np.full(shape, np.nan))
     gravity = cases.prototype.block.gravity
     for record, motion in enumerate(cases.motions):
         columns = [prepared(*drawn_column(cases.prototype, values)) for values in cases.draws[record]]

@@ -41,9 +41,6 @@ WAVELETS = 10
 SHIFT = 0.4
 """How far from the first the others may lie, in scales."""
 
-PULSE_LIKE = 0.85
-"""Indicator above which Baker (2007) calls a motion pulse-like."""
-
 
 class Pulse(NamedTuple):
     """

@@ -144,7 +144,7 @@ def rocking_spectrum(
     expect_usable(max(blocks, key=lambda block: block.p), motion)
     sides = [prepared(block, restitution) for block in blocks]
     ends = in_threads(lambda each: ends_of(motion, [each], gravity=gravity, model=model), sides, threads)
-    codes, peak, _instant, speed = (np.reshape(part, (angles.size, -1)) for part in zip(*ends, strict=True))
+    codes, peak, speed = (np.reshape(part, (angles.size, -1)) for part in zip(*ends, strict=True))
     velocity = speed / np.reshape([block.p for block in blocks], speed.shape)
     e = np.array([each.restitution for each in sides[:: periods.size]])
     return RockingSpectrum(angles, periods, peak, velocity, codes == OVERTURNS, e, model)

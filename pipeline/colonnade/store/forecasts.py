@@ -65,13 +65,6 @@ class Forecasts:
     known: tuple[Known, ...] = ()
     refused: tuple[Refused, ...] = ()
 
-    @property
-    def digests(self) -> dict[str, str]:
-        """Hash of each file by its name, for what is made from them."""
-        return {each.name: each.sha256 for each in self.known} | {
-            each.name: hash_of(each.reason) for each in self.refused
-        }
-
 
 def write_forecast(layout: Layout, forecast: ForecastFile) -> Path:
     """

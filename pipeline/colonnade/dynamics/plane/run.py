@@ -127,15 +127,12 @@ class Ends(NamedTuple):
         Index into `OUTCOMES`.
     peak_ratio : ndarray, shape (n,)
         Largest |θ|/α at the samples; NaN if the block overturns.
-    instant : ndarray, shape (n,)
-        s, of that peak, 0 without rocking; if the block overturns, when |θ| passed α for good.
     peak_velocity : ndarray, shape (n,)
         Largest |ω| at the samples up to overturning, rad/s.
     """
 
     outcome: Codes
     peak_ratio: Array
-    instant: Array
     peak_velocity: Array
 
 
@@ -175,7 +172,7 @@ def ends_of(motion: Motion, blocks: Sequence[Sides], *, gravity: float, model: s
     Returns
     -------
     ends : Ends
-        The same, to the last bit, as outcome, `peak_ratio` and `peak_time` of `rock`.
+        The same, to the last bit, as outcome and `peak_ratio` of `rock`.
 
     Notes
     -----
@@ -187,18 +184,16 @@ def ends_of(motion: Motion, blocks: Sequence[Sides], *, gravity: float, model: s
     chosen, forcing = plane_model_of(model), forcing_of(motion, gravity)
     largest = np.inf if forcing.weights.size > 0 else float(np.abs(forcing.levels).max())
     codes = np.full(len(blocks), STANDS, dtype=np.int8)
-    peaks, instants, speeds = np.zeros((3, len(blocks)))
+    peaks, speeds = np.zeros((2, len(blocks)))
     for number, sides in enumerate(blocks):
         if largest <= chosen.uplift_threshold(min(sides.critical)):
             continue
         angles, velocities, _, _, (time, _, _) = propagate(forcing, sides, is_linearised=chosen.is_linearised)
         if np.isfinite(time):
-            codes[number], peaks[number], instants[number] = OVERTURNS, np.nan, time
+            codes[number], peaks[number] = OVERTURNS, np.nan
             speeds[number] = np.abs(velocities[: int(time / motion.dt) + 1]).max()
             continue
-        low, high = int(angles.argmin()), int(angles.argmax())
-        sizes = -angles[low] / sides.critical[0], angles[high] / sides.critical[1]
-        peaks[number], speeds[number] = max(sizes), np.abs(velocities).max()
-        instants[number] = motion.dt * (low if sizes[0] > sizes[1] else high)
+        peaks[number] = max(-angles.min() / sides.critical[0], angles.max() / sides.critical[1])
+        speeds[number] = np.abs(velocities).max()
         codes[number] = ROCKS if peaks[number] > NO_ROCKING_RATIO else STANDS
-    return Ends(codes, peaks, instants, speeds)
+    return Ends(codes, peaks, speeds)

@@ -35,14 +35,6 @@ class Material:
     modulus: float = STEELS_MODULUS
     poisson_ratio: float = STEELS_POISSON_RATIO
 
-    def __post_init__(self) -> None:
-        if not (self.density > 0.0 and self.modulus > 0.0):
-            raise ValueError(
-                f"The density is {self.density} kg/m³ and the modulus {self.modulus} Pa; positive values were expected"
-            )
-        if not -1.0 < self.poisson_ratio < 0.5:
-            raise ValueError(f"poisson_ratio is {self.poisson_ratio}; a value between −1 and 0.5 was expected")
-
     @property
     def lame(self) -> tuple[float, float]:
         """Lamé's λ and µ, Pa."""
@@ -128,11 +120,6 @@ def assemble(
     Returns
     -------
     body : ElasticBody
-
-    Raises
-    ------
-    ValueError
-        If the mass, the modulus or Poisson's ratio is out of its range.
 
     Notes
     -----

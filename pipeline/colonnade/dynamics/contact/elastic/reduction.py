@@ -251,7 +251,7 @@ def elastic_body(
     Raises
     ------
     ValueError
-        If an argument is out of its range.
+        If the dimensions are those of no known shape.
     """
     mesh = mesh_of(sizes, degrees_of_freedom)
     body = reduce_body(assemble(mesh, mass, modulus=modulus, poisson_ratio=poisson_ratio))
