@@ -46,7 +46,7 @@ _STORED: dict[str, tuple[str, str, str | Callable[[float], str]]] = {
     "lowest amplitude": ("restitution", "settings.lowest_amplitude", "{:g} α"),
     "level": ("restitution", "settings.level", format_percent),
     "rest angle": ("predict", "rest_angle", "{:g} α"),
-    "mesh": ("predict", "space.settings.mesh", "{}"),
+    "mesh": ("predict", "space.settings.mesh", "elastic (about {:d} degrees of freedom)"),
     "contact step": ("predict", "space.settings.step", lambda step: text.quantity(step, "µs")),
     "friction": ("predict", "space.settings.friction", "{:g}"),
     "damping fraction": ("predict", "space.settings.damping_fraction", "{:g}"),
@@ -147,8 +147,8 @@ def _at(inputs: Mapping[str, Any], path: str) -> Any:
 
 
 def _written(value: Any, form: str | Callable[[float], str]) -> str:
-    if value == "auto":
-        return "auto"
+    if isinstance(value, str):
+        return value
     if isinstance(value, list):
         return f"{value[0]:g} s to {value[1]:g} s"
     return form.format(value) if isinstance(form, str) else form(value)
