@@ -26,7 +26,7 @@ CASES = Cases(COLUMN, DRAWS, WAVES, np.tile([[1.0, np.nan], [3.0, 1.0]], (3, 1, 
 def test_blocks_give_what_the_whole_gives(tmp_path):
     outcomes = outcomes_of(CASES, Where(workers=1), tmp_path, "key")
     whole = run_cases(CASES)
-    for name in ("outcome", "peak_ratio", "instant"):
+    for name in ("outcome", "peak_ratio"):
         np.testing.assert_array_equal(getattr(outcomes, name), getattr(whole, name))
 
 
@@ -80,5 +80,5 @@ def test_ten_kills_and_a_resumption_give_the_undisturbed_values(start, tmp_path)
     outcomes = outcomes_of(MANY, again, tmp_path, "key")
     assert steps[0][0] >= done[-1]
     whole = run_cases(MANY)
-    for name in ("outcome", "peak_ratio", "instant"):
+    for name in ("outcome", "peak_ratio"):
         np.testing.assert_array_equal(getattr(outcomes, name), getattr(whole, name))
