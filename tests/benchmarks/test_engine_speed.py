@@ -15,6 +15,7 @@ from scipy.integrate import solve_ivp
 import paper_schemes as schemes
 from colonnade.dynamics.plane.march import NONE, Forcing, propagate
 from colonnade.dynamics.plane.sides import sides_of
+from heyoka_rocking import integrator
 from prism import PRISM
 from processor_time import least_seconds
 
@@ -126,53 +127,40 @@ def test_the_exact_engine_beside_solve_ivp_and_the_papers_runge_kutta(capsys):
     assert all(own <= most for own, most in zip(cost, allowed, strict=True))
 
 
-class Peer:
-    """heyoka on the full equation with a/g linear between samples: x = p t from a sample on, angle over α."""
+def _heyoka(tolerance):
+    """Make heyoka's integrator of a/g linear in x from a sample on."""
+    return integrator(
+        lambda heyoka: heyoka.par[1] + heyoka.par[2] * heyoka.time,
+        is_linearised=False,
+        restitution=RESTITUTION,
+        tolerance=tolerance,
+    )
 
-    def __init__(self, heyoka, tolerance):
-        angle, rate = heyoka.make_vars("angle", "rate")
-        side, start, slope = (heyoka.par[i] for i in range(3))
-        base, turned = start + slope * heyoka.time, ALPHA * (side - angle)
-        bend = -(heyoka.sin(turned) + base * heyoka.cos(turned)) / ALPHA
 
-        def impact(integrator, _sign):
-            state, pars = integrator.state, integrator.pars
-            state[0], state[1], pars[0] = 0.0, RESTITUTION * state[1], -pars[0]
-            return True
-
-        self.integrator = heyoka.taylor_adaptive(
-            [(angle, rate), (rate, bend)],
-            [0.0, 0.0],
-            tol=tolerance,
-            t_events=[heyoka.t_event(angle, callback=impact, cooldown=1e-9)],
-        )
-
-    def angles(self, base, first, state):
-        """Angles over α at the samples after the `first`, at which the block has this state."""
-        integrator, width, angles = self.integrator, P * INTERVAL, []
-        integrator.state[:], integrator.pars[0] = state, math.copysign(1.0, state[0])
-        integrator.reset_cooldowns()
-        for start, end in itertools.pairwise(base[first:]):
-            integrator.pars[1:] = start, (end - start) / width
-            integrator.time = 0.0
-            integrator.propagate_until(width)
-            angles.append(integrator.state[0])
-        return np.array(angles)
+def _angles(peer, base, first, state):
+    """Angles over α at the samples after the `first`, at which the block has this state, by heyoka."""
+    width, angles = P * INTERVAL, []
+    peer.state[:], peer.pars[0] = state, math.copysign(1.0, state[0])
+    peer.reset_cooldowns()
+    for start, end in itertools.pairwise(base[first:]):
+        peer.pars[1:] = start, (end - start) / width
+        peer.time = 0.0
+        peer.propagate_until(width)
+        angles.append(peer.state[0])
+    return np.array(angles)
 
 
 def test_the_full_equation_on_a_record_beside_heyoka(capsys):
-    heyoka = pytest.importorskip("heyoka", reason="install the extra bench")
-    heyoka.set_logger_level_critical()
-    peer, finest = Peer(heyoka, 1e-10), Peer(heyoka, 1e-17)
+    peer, finest = _heyoka(1e-10), _heyoka(1e-17)
     for base in _records():
         own = partial(propagate, Forcing(0.0, np.pi / 2, INTERVAL, NONE, base, NONE), SIDES, is_linearised=False)
         angles, velocities, impacts, _, end = own()
         assert np.isnan(end.time)
         first = int(np.flatnonzero(np.abs(angles) > 0.05 * ALPHA)[0])
         start = angles[first] / ALPHA, velocities[first] / (ALPHA * P)
-        reference, theirs = finest.angles(base, first, start), peer.angles(base, first, start)
+        reference, theirs = (_angles(each, base, first, start) for each in (finest, peer))
         errors = [np.abs(each - reference).max() for each in (angles[first + 1 :] / ALPHA, theirs)]
-        seconds = least_seconds(own, partial(peer.angles, base, first, start), rounds=10)
+        seconds = least_seconds(own, partial(_angles, peer, base, first, start), rounds=10)
         with capsys.disabled():
             print(
                 f"\n{impacts.size} impacts, nonlinear: {1e3 * seconds[0]:.2f} ms (error {errors[0]:.0e} α), heyoka "

@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_outcomes, harmonic_run
+from heyoka_rocking import integrator
 from prism import PRISM
 from processor_time import least_seconds
 
@@ -29,24 +30,12 @@ FREQUENCIES = np.linspace(4.5, 7.8, 6)
 class Peer:
     """heyoka on the same equation: x = p t, angle over α."""
 
-    def __init__(self, heyoka, model, tolerance):
-        angle, rate = heyoka.make_vars("angle", "rate")
-        side, level, ratio = (heyoka.par[i] for i in range(3))
-        base = level * heyoka.sin(ratio * heyoka.time)
-        if model == "linear":
-            bend = angle - side - base / ALPHA
-        else:
-            turned = ALPHA * (side - angle)
-            bend = -(heyoka.sin(turned) + base * heyoka.cos(turned)) / ALPHA
-
-        def impact(integrator, _sign):
-            state, pars = integrator.state, integrator.pars
-            state[0], state[1], pars[0] = 0.0, RESTITUTION * state[1], -pars[0]
-            return True
-
-        event = heyoka.t_event(angle, callback=impact, cooldown=1e-6)
-        self.integrator = heyoka.taylor_adaptive(
-            [(angle, rate), (rate, bend)], [0.0, 0.0], tol=tolerance, t_events=[event]
+    def __init__(self, model, tolerance):
+        self.integrator = integrator(
+            lambda heyoka: heyoka.par[1] * heyoka.sin(heyoka.par[2] * heyoka.time),
+            is_linearised=model == "linear",
+            restitution=RESTITUTION,
+            tolerance=tolerance,
         )
 
     def run(self, ratio, amplitude, start, state):
@@ -87,11 +76,9 @@ def last_state(model, ratio, amplitude):
 @pytest.mark.slow
 @pytest.mark.parametrize(("model", "least"), [("linear", 10.0), ("nonlinear", 2.0)])
 def test_trajectories_a_second_beside_heyoka(capsys, model, least):
-    heyoka = pytest.importorskip("heyoka", reason="install the extra bench")
-    heyoka.set_logger_level_critical()
     cases = rocking_cases(model)
     amplitudes = {ratio: np.array([case[1] for case in cases if case[0] == ratio]) for ratio in FREQUENCIES}
-    peer, reference = Peer(heyoka, model, 1e-10), Peer(heyoka, model, 1e-17)
+    peer, reference = Peer(model, 1e-10), Peer(model, 1e-17)
     expected = np.array([reference.run(*case) for case in cases])
     errors = {
         "heyoka": np.abs(np.array([peer.run(*case) for case in cases]) - expected).max(axis=1),

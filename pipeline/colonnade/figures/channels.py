@@ -42,7 +42,7 @@ MOST_SPIKES = 6
 LONGEST_NAME = 16
 """Letters of a channel's name above a spike."""
 
-UNIT_ROOM = 0.1
+UNIT_ROOM = 0.06
 """Of a row's height, in which the recorder's unit leaves no room for a value."""
 
 INTERVALS = 300
