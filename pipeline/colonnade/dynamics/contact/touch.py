@@ -159,6 +159,7 @@ def _list(state: State, near: Near, row: int, node: int, slot: int, share: float
 @kernel_in_place
 def inside(half_x: float, half_y: float, band: float, is_round: float, x: float, y: float) -> float:
     """Say how much a point at (x, y) of a face counts: 1 inside its outline, 0 outside, ½ at the edge."""
+    # Most points are far inside: they need neither root nor quotient.
     if is_round == 1.0 and x * x + y * y <= (half_x - band) ** 2:
         return 1.0
     within = half_x - sqrt(x * x + y * y) if is_round == 1.0 else min(half_x - abs(x), half_y - abs(y))
