@@ -126,7 +126,7 @@ def _fill_forces(system: System, state: State, near: Near, side: int, step: floa
 @kernel_in_place
 def _shorten(load: Array, row: int, column: int, stiffness: float, limit: float) -> bool:
     """Shorten a vector, times its stiffness, to the limit of friction; say whether it was longer."""
-    # In place: of values that are returned the compiler takes root and quotient ahead of the condition, for every point.
+    # In place: of returned values the compiler takes root and quotient ahead of the condition, for every point.
     square = stiffness**2 * (load[row, column] ** 2 + load[row, column + 1] ** 2)
     if square <= limit**2:
         return False
