@@ -39,7 +39,7 @@ class Table(BaseModel):
     Every problem in it becomes a "problem" error: the key's place in `loc`, and a finished sentence as its message.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=False, use_attribute_docstrings=True)
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True, defer_build=True)
 
     @model_validator(mode="wrap")
     @classmethod
@@ -213,5 +213,10 @@ class Record(BaseModel):
     """Base of all records that are written as JSON: no unknown field, no NaN."""
 
     model_config = ConfigDict(
-        frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True, use_attribute_docstrings=True
+        frozen=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        populate_by_name=True,
+        use_attribute_docstrings=True,
+        defer_build=True,
     )
