@@ -26,6 +26,14 @@ def test_prism_has_the_closed_form_of_a_rectangle():
     assert block.uplift_acceleration == pytest.approx(9.81 * 86 / 456, rel=1e-14)
 
 
+def test_a_block_too_wide_to_rock_on_stands_after_one_impact():
+    wide = Block.prism(width=1.0, depth=0.5, height=0.5, mass=100.0)
+    assert wide.restitution == 0.0
+    history = rock(wide, theta0=0.1, duration=3.0, model="nonlinear")
+    assert history.impact_times.size == 1
+    assert history.angle[-1] == 0.0
+
+
 @given(width=LENGTHS, height=LENGTHS)
 def test_cylinder_is_a_cone_of_equal_diameters_with_its_textbook_inertia(width, height):
     block = Block.cylinder(diameter=width, height=height, mass=3.0)

@@ -205,7 +205,7 @@ SMALL = {"m": "mm", "rad": "mrad"}
 def _with_unit(key: str, value: object) -> str:
     unit = _units().get(key, "")
     if isinstance(value, float) and unit in SMALL and 0.0 < abs(value) < 0.1:
-        value, unit = 1000 * value, SMALL[unit]
+        value, unit = round(1000 * value, 4), SMALL[unit]
     return f"{shown(value)} {unit}".rstrip()
 
 

@@ -290,10 +290,12 @@ class Block(Digested):
         """
         Rigid-body coefficient of restitution without bounce, e = 1 − (2 m R b / I₀) sin α (Housner 1963).
 
+        At least 0: where the formula is negative, as for a prism with sin² α > 2/3, the block stands after one impact.
         The beam of a frame counts four times in m: see `frame`.
         """
         side = self.governing
-        return 1 - 2 * self._mass_at(2) * side.pole_distance * side.half_width / side.inertia * sin(side.critical_angle)
+        lost = 2 * self._mass_at(2) * side.pole_distance * side.half_width / side.inertia * sin(side.critical_angle)
+        return max(1 - lost, 0.0)
 
     @property
     def uplift_acceleration(self) -> float:

@@ -108,7 +108,9 @@ def _shown(
     used: Used,
 ) -> dict[str, Any]:
     """Give what the pages about the whole campaign show."""
-    rows, models = [part.row for part in tests], models_shown(campaign)
+    rows, asked = [part.row for part in tests], models_shown(campaign)
+    # Bodies that do not rock as one block are predicted by one model alone, whatever is asked for.
+    models = [model for model in asked if any(row.predicted(model).outcome for row in rows)] or asked
     findings, mistaken, furthest = (
         _warnings(rows, specimens, assessed),
         confusions(rows, models),
@@ -116,6 +118,7 @@ def _shown(
     )
     return {
         "tests": rows,
+        "models": models,
         "specimens": specimens,
         "warnings": findings,
         "attention": attention(rows, models, findings, mistaken, {one.name: one.record for one in assessed}),
