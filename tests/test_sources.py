@@ -8,6 +8,8 @@ from colonnade import sources
 from colonnade.dynamics.models import MODELS
 from colonnade.sources import code_hash, package_hash
 
+pytestmark = pytest.mark.whole
+
 CONTACT_ENGINE = "dynamics/contact/march.py"
 
 
@@ -39,6 +41,7 @@ def of(stage, **given):
     return code_hash([f"colonnade.stages.{stage}"], alone=("colonnade.campaign", "colonnade.store"), **given)
 
 
+@pytest.mark.smoke
 def test_a_docstring_or_a_comment_changes_no_code(package):
     before, whole = of("rocking"), package_hash()
     edit(package, "stages/rocking.py", '"""', '"""Now in other words. ')

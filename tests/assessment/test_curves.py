@@ -84,6 +84,7 @@ def test_a_curve_whose_resamples_do_not_show_the_scatter_has_no_interval_and_say
     assert np.isnan([fit.median.low, fit.beta.high, fit.probability([MEDIAN]).low[0]]).all()
 
 
+@pytest.mark.whole
 def test_intervals_of_few_records_at_few_levels_hold_the_truth_as_often_as_they_say_or_are_not_given():
     """Without the resamples that have no curve, of 12 records at levels of 0.9 β apart, β would be held in 3 of 4."""
     population = Population(records=12, draws=1, levels=6, of_parameters=0.0)

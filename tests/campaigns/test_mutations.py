@@ -13,6 +13,8 @@ from colonnade.stages.ingest import IngestInputs, ingest
 from damage import KINDS, damaged
 from prism import SPECIMEN, entry
 
+pytestmark = pytest.mark.whole
+
 CAMPAIGN = f"""schema = 1
 campaign = "damaged"
 title = "Damaged"

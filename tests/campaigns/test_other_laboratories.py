@@ -5,6 +5,8 @@ import shutil
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.whole
+
 SPECIMEN = """
 [specimens.statue]
 shape = "measured"

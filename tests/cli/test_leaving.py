@@ -13,9 +13,12 @@ from colonnade.cli import invoke
 from colonnade.cli.app import COMMANDS, app
 from every import every
 
+pytestmark = pytest.mark.whole
+
 posix = pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
 
 
+@pytest.mark.smoke
 def test_help_is_a_success(process):
     told = process("--help")
     assert (told.returncode, told.stderr) == (0, "")
@@ -30,6 +33,7 @@ def test_every_command_has_help_with_an_example(colonnade, command):
     assert f"Example: colonnade {command}" in told.stdout
 
 
+@pytest.mark.smoke
 @every(
     ("arguments", "code", "said"),
     [
@@ -61,6 +65,7 @@ def test_what_cannot_be_done_is_said_and_leaves_campaign_files(colonnade, campai
     assert {path: path.read_bytes() for path in campaign.rglob("*.toml")} == before
 
 
+@pytest.mark.smoke
 def test_a_process_ends_with_the_code_of_its_command(process):
     assert [process(*arguments).returncode for arguments in ((), ("rnu",))] == [2, 2]
 
@@ -113,7 +118,6 @@ def await_path(path):
         pytest.param("killpg", getattr(signal, "SIGHUP", 0), id="a terminal that closes reaches the workers too"),
     ],
 )
-@pytest.mark.whole
 @pytest.mark.usefixtures("interruptible")
 def test_an_interrupted_run_is_130_and_the_next_one_ends_it(colonnade, campaign, send, sent):
     running = started(campaign, "run", "--workers", "2", start_new_session=True)

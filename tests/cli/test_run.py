@@ -14,6 +14,7 @@ def times(folder):
     return {path: path.stat().st_mtime_ns for path in folder.rglob("*") if path.is_file()}
 
 
+@pytest.mark.whole
 def test_run_gives_a_line_a_redone_test_then_agreement_and_says_where_the_report_is(colonnade, campaign, changed):
     told = colonnade("run", "--workers", "1")
     assert (told.returncode, told.stderr) == (0, "")

@@ -64,6 +64,7 @@ def test_a_summary_that_was_damaged_is_told(colonnade, campaign, text):
     assert "summary.json: it was altered or damaged. Run `colonnade run` to make it again." in told.stderr
 
 
+@pytest.mark.whole
 @pytest.mark.usefixtures("undrawn")
 def test_a_test_is_a_row_that_fits_on_80_columns_and_its_details_have_units(colonnade, changed, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")

@@ -63,6 +63,7 @@ def test_nonlinear_sine_pulse_has_its_published_level(radius, limit):  # Numeric
     assert spectrum.lower[0] == pytest.approx(limit, abs=5e-6, nan_ok=True)
 
 
+@pytest.mark.whole
 @every("model", ["linear", "nonlinear"])
 @every("pulse", PULSES)
 def test_the_block_stands_just_below_the_spectrum_and_overturns_just_above(pulse, model):

@@ -103,6 +103,7 @@ def test_what_are_no_axes_is_refused(history):
         colonnade.plot(history, ax="here")
 
 
+@pytest.mark.whole
 def test_a_history_is_animated_and_can_be_written(history, tmp_path):
     moving = colonnade.animate(history)
     moving.save(tmp_path / "rocking.gif", writer="pillow", dpi=30)

@@ -155,6 +155,7 @@ def test_a_narrow_interval_is_enough():
     assert (advice.is_enough, advice.left) == (True, 0)
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("tests", [SineTests.of(2.0), BRACKETED], ids=["new", "bracketed"])
 def test_about_as_many_tests_are_left_as_it_says(tests):
     before = advise(tests)

@@ -75,6 +75,7 @@ def check_width(result, seen):
     assert width < 4e-3
 
 
+@pytest.mark.whole
 def test_where_it_bounces_the_interval_holds_the_mean_of_what_the_angle_loses():
     # The velocities at the first contacts are not all of it: what the bounce takes shows in the next peak.
     results, ratios = [], []

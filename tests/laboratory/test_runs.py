@@ -317,6 +317,7 @@ def test_it_writes_after_a_run_has_left_its_processes_waiting(tmp_path):
     write(statue_plan(), tmp_path, seed=1, workers=2)
 
 
+@pytest.mark.whole
 def test_a_relative_folder_is_the_callers_whatever_processes_are_waiting(tmp_path, monkeypatch):
     write(statue_plan(), tmp_path / "first", seed=1, workers=2)
     monkeypatch.chdir(tmp_path)

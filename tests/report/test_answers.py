@@ -3,6 +3,8 @@
 import json
 from html import unescape
 
+import pytest
+
 from colonnade.campaign import load
 from colonnade.campaign.forms.summary import Summary
 from colonnade.report.assessments_page import assessments_page
@@ -55,6 +57,7 @@ def with_summary(folder):
     return campaign, layout
 
 
+@pytest.mark.whole
 def test_each_forecast_is_listed_with_what_happened(foreseen_copy):
     (foreseen_copy / "forecasts" / "<b>.json").write_text("{}", encoding="utf-8")
     campaign, layout = with_summary(foreseen_copy)

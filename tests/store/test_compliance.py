@@ -10,6 +10,8 @@ from colonnade.store.provenance import Origin, global_attributes
 from colonnade.store.results import ResultId
 from small_campaign import STRONG
 
+pytestmark = pytest.mark.whole
+
 TIME = np.arange(400) * 0.005
 CLOCK = {"elapsed": TIME}
 GEOSPATIAL = "geospatial"  # a specimen on a shake table has no place on the globe

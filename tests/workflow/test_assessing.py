@@ -16,6 +16,8 @@ from colonnade.workflow.run import run
 from every import every
 from short_campaign import Small
 
+pytestmark = pytest.mark.whole
+
 HERE = Where(workers=1)
 
 
@@ -38,7 +40,6 @@ def test_options_replace_keys_and_store_nothing(assessed):
     assert sorted(path.stat().st_mtime_ns for path in assessed.rglob("*") if path.is_file()) == before
 
 
-@pytest.mark.whole
 def test_a_column_without_a_campaign_is_the_same_column(assessed):
     campaign = load(assessed)
     block = campaign.block("prism")
@@ -100,7 +101,6 @@ def test_limits_of_another_value_do_not_hold_for_the_one_that_is_asked(assessed)
     assert found.record.friction_range == (0.5, 0.7)
 
 
-@pytest.mark.whole
 def test_a_hazard_replaces_that_of_the_campaign(assessed, tmp_path):
     hazard = tmp_path / "other.csv"
     hazard.write_text("pgv [m/s], rate [1/year]\n0.05,0.04\n0.3,0.004\n3,6e-6\n", encoding="utf-8")

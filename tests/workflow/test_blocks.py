@@ -7,6 +7,8 @@ import pytest
 
 from colonnade.workflow.executors import forget, in_blocks
 
+pytestmark = pytest.mark.whole
+
 BLOCKS = tuple(range(6))
 
 

@@ -8,6 +8,8 @@ from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import make_maps
 
+pytestmark = pytest.mark.whole
+
 BODY = 'mass = "26.10 kg"}'
 GIVEN = 'mass = "26.10 kg", restitution = 0.93}'
 

@@ -2,6 +2,8 @@
 
 import shutil
 
+import pytest
+
 from colonnade.campaign import load
 from colonnade.findings import note, serious, warning
 from colonnade.readers import registry
@@ -50,6 +52,7 @@ def test_every_test_is_looked_at_counted_and_nothing_is_written(untouched):
     assert untouched.files() == before
 
 
+@pytest.mark.whole
 def test_several_processes_find_the_same(untouched, monkeypatch):
     alone = checked(untouched)
     monkeypatch.setattr("colonnade.workflow.check.MANY", 1)

@@ -25,7 +25,10 @@ from colonnade.workflow.maps import make_maps
 from colonnade.workflow.pooling import one_specimen, restitution_taken
 from prism import PRISM
 
+pytestmark = pytest.mark.whole
 
+
+@pytest.mark.smoke
 def test_a_campaign_is_predicted_by_the_contact_model_beside_the_others(in_space):
     redone = in_space.redone()
     assert redone["prism", "contact"] == "never run"
@@ -62,7 +65,6 @@ def test_every_result_of_the_contact_model_tells_its_law_and_its_nodes(in_space)
     assert 0.0 <= float(predicted["energy_residual"]) < 0.01
 
 
-@pytest.mark.whole
 def test_an_ensemble_of_the_contact_model_is_compared_and_reported_while_it_is_asked_for(in_space):
     in_space.edit("members = 20", "members = 5\ncontact = {members = 3}")
     in_space.edit('step = "30 us", penetration = 1e-6', 'step = "90 us", penetration = 1e-5')
@@ -96,7 +98,6 @@ def test_an_ensemble_of_the_contact_model_is_compared_and_reported_while_it_is_a
     assert "here: elastic (about 300 degrees of freedom) body" in methods
 
 
-@pytest.mark.whole
 def test_members_on_contact_are_those_of_one_process_and_finished_ones_outlast_an_interrupt(in_space):
     in_space.edit("members = 20", "members = 5\ncontact = {members = 3}")
     in_space.edit('step = "30 us", penetration = 1e-6', 'step = "90 us", penetration = 1e-5')
@@ -145,7 +146,6 @@ def test_a_map_needs_the_law_and_then_is_made(in_space):
     assert make_maps(in_space.folder, wanted, workers=1)[0].action == "up-to-date"
 
 
-@pytest.mark.whole
 def test_a_map_of_several_bodies_is_made_by_the_contact_model_alone(in_space):
     channels = "\n[setups.frame.channels]"
     in_space.edit(channels, f'\n[assemblies.two]\nstack = ["prism", "prism"]\n{channels}')
@@ -196,7 +196,6 @@ resamples = 100
 """
 
 
-@pytest.mark.whole
 def test_a_real_column_of_several_bodies_is_assessed_by_the_contact_model(in_space):
     in_space.edit("\n[setups.frame.channels]", f"{SITE}\n[setups.frame.channels]")
     in_space.edit(

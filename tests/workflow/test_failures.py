@@ -13,13 +13,14 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow import graph
 
-pytestmark = pytest.mark.usefixtures("undrawn")
+pytestmark = [pytest.mark.whole, pytest.mark.usefixtures("undrawn")]
 
 
 def failures(result):
     return {stage.subject: stage for stage in result.stages if stage.action == "failed"}
 
 
+@pytest.mark.smoke
 def test_a_bad_file_fails_its_test_alone_with_the_reason(untouched):
     untouched.raw("pulse-01").write_bytes(b"\x00\x01 not a recording")
     result = untouched.run(until="report")
@@ -56,7 +57,6 @@ def test_nothing_stays_behind_a_failure(small, until):
     assert [path.name for path in small.layout.test("pulse-01").iterdir()] == ["recorded.nc"]
 
 
-@pytest.mark.whole
 def test_a_full_disk_is_told_and_the_test_is_tried_again(untouched, monkeypatch):
     sync = os.fsync
     refuse = Layout(untouched.folder).stage("pulse-01", "condition").parent
@@ -94,7 +94,6 @@ def test_a_specimen_that_fails_is_no_fault_of_its_tests(untouched, monkeypatch):
     assert untouched.summary()["tests"]["pulse-01"]["reason"] == "specimen prism: No two free vibrations agree."
 
 
-@pytest.mark.whole
 def test_a_share_that_drops_while_a_file_is_read_is_not_kept_against_it(untouched, monkeypatch):
     known = registry.formats()["delimited"]
     dropped = replace(known, read=fails(OSError(errno.EIO, "Input/output error")))

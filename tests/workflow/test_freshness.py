@@ -11,6 +11,8 @@ import xarray as xr
 from colonnade.report.test_page import page
 from colonnade.workflow.catalogue import Catalogue
 
+pytestmark = pytest.mark.whole
+
 OF_A_PULSE = {"ingest", "condition", "rocking", "predict", "ensemble", "compare"}
 OF_A_FREE_VIBRATION = OF_A_PULSE | {"restitution"}
 
@@ -27,6 +29,7 @@ def stages_of(redone, subject):
     return {stage for name, stage in redone if name == subject}
 
 
+@pytest.mark.smoke
 def test_a_first_run_executes_everything_and_says_why(untouched):
     redone = untouched.redone()
     assert set(redone.values()) == {"never run"}
@@ -35,6 +38,7 @@ def test_a_first_run_executes_everything_and_says_why(untouched):
     assert stages_of(redone, "prism") == {"specimen"}
 
 
+@pytest.mark.smoke
 def test_a_second_run_executes_no_stage_and_changes_no_file(small):
     small.run(until="report")
     before = small.files()
@@ -80,7 +84,6 @@ def test_what_no_stage_reads_redoes_nothing(small):
     assert small.redone() == {}
 
 
-@pytest.mark.whole
 def test_changed_sources_redo_everything_and_give_the_same_values(small, monkeypatch):
     before = small.contents()
     monkeypatch.setattr(Catalogue, "code", lambda self, made_by, model=None: "other sources")
@@ -121,7 +124,6 @@ def test_verifying_heals_results_that_were_altered(small):
     assert small.run(verify=True).notices == ()
 
 
-@pytest.mark.whole
 def test_a_result_that_was_altered_is_recomputed_by_an_ordinary_run(small):
     before, path = small.contents(), small.layout.stage("pulse-01", "rocking")
     alter(path)

@@ -64,6 +64,7 @@ def plain(attributes):
     return {name: np.asarray(value).tolist() for name, value in attributes.items() if name != "warnings"}
 
 
+@pytest.mark.whole
 def test_what_a_step_hands_on_is_what_its_file_holds(untouched, monkeypatch):
     handed = {}
     write = files.write

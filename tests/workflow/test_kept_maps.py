@@ -14,6 +14,8 @@ from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import kept_maps, make_maps
 from colonnade.workflow.walk import Walk
 
+pytestmark = pytest.mark.whole
+
 LINEAR = Wanted(models=("linear",))
 RARE = Wanted(models=("linear",), points=(3, 4), cycles=2.0)
 
@@ -58,6 +60,7 @@ def test_one_frequency_makes_no_map(small):
     assert kept(small, with_sines(small)) == []
 
 
+@pytest.mark.smoke
 def test_a_run_and_the_command_give_and_reuse_the_same_map(small):
     summary = with_sines(small, 2.0, 3.0)
     kept(small, summary)
@@ -93,7 +96,6 @@ def test_a_specimen_without_e_has_no_map(small):
     assert list(kept_maps(graph, summary.model_copy(update={"specimens": {"prism": refused}}), ["prism"])) == []
 
 
-@pytest.mark.whole
 def test_a_run_that_starts_again_from_the_report_makes_its_maps_again(small):
     summary = with_sines(small, 2.0, 3.0)
     kept(small, summary)

@@ -22,6 +22,8 @@ from colonnade.workflow.maps import as_map, given, make_maps
 from every import every
 from prism import PRISM, SPECIMEN, entry
 
+pytestmark = pytest.mark.whole
+
 PLAN = MapPlan(PRISM, frequency_ratio=[2.0, 3.0], amplitude_ratio=[1.0, 2.0])
 FEW = Wanted(models=("linear",), omega=(2.0, 5.0), amplitude=(0.8, 2.0), points=(6, 10), cycles=5.0)
 
@@ -81,7 +83,6 @@ def test_a_map_takes_the_identified_restitution_and_is_that_of_the_library(small
     assert stored.options == expected.options
 
 
-@pytest.mark.whole
 def test_several_processes_give_the_same_bit_for_bit(small):
     alone = content(small)
     small.layout.stage("prism", "map", "linear").unlink()
@@ -200,7 +201,6 @@ make_maps(sys.argv[1], wanted, workers=1, progress=lambda done, total: print(don
 """
 
 
-@pytest.mark.whole
 def test_a_map_that_is_killed_goes_on_where_it_was_and_leaves_nothing_behind(start, small):
     process = start(MAP, small.folder, said=3)
     process.kill()

@@ -6,6 +6,8 @@ import pytest
 
 from colonnade.report import parts
 
+pytestmark = pytest.mark.whole
+
 
 @pytest.fixture
 def read_again(monkeypatch):
@@ -21,7 +23,6 @@ def pages(small):
     return {path.relative_to(folder).as_posix(): path.read_text() for path in folder.rglob("*.html")}
 
 
-@pytest.mark.whole
 def test_of_one_changed_test_alone_the_results_are_read(small, read_again):
     small.change_a_sample("pulse-01")
     small.run(until="report")

@@ -3,12 +3,15 @@
 import json
 
 import numpy as np
+import pytest
 
 from colonnade.dynamics.steady import steady_response
 from colonnade.store import files
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import SETTLING, as_response, make_maps
 from prism import PRISM
+
+pytestmark = pytest.mark.whole
 
 FEW = Wanted(models=("linear",), omega=(2.0, 5.0), amplitude=(0.8, 2.0), points=(6, 10), cycles=5.0, responses=True)
 

@@ -6,6 +6,8 @@ import pytest
 from colonnade.errors import CampaignError
 from colonnade.store import files
 
+pytestmark = pytest.mark.whole
+
 SIGNED = 'who = "V. D."\nwhen = 2013-04-26\nwhy = "as seen on the video"\n'
 
 
@@ -34,6 +36,7 @@ DECISIONS = [
 ]
 
 
+@pytest.mark.smoke
 @pytest.mark.parametrize(("kind", "said"), DECISIONS)
 def test_a_decision_redoes_its_test_alone_and_is_kept_with_the_recording(small, kind, said):
     others = {name: content for name, content in small.contents().items() if "pulse-01" not in name}

@@ -10,6 +10,8 @@ from colonnade.campaign import load
 from colonnade.campaign.draft.write import MOST_SETUPS, draft
 from colonnade.errors import CampaignError
 
+pytestmark = pytest.mark.whole
+
 TIME = np.arange(0.0, 1.0, 0.01)
 SINE = np.sin(2 * np.pi * 8 * TIME)
 TABLES = {

@@ -42,6 +42,7 @@ def beyond(departure, truth):
     return abs(departure.size - truth) / departure.standard_error
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("restitution", [0.85, 0.95, 0.985])
 @pytest.mark.parametrize("offset", [0.0, 0.003], ids=["zero right", "zero off"])
 def test_a_sound_record_departs_in_nothing(restitution, offset):

@@ -55,6 +55,7 @@ def test_a_tilted_table_is_found_and_does_not_refuse_e(degrees, noise):
     assert sides == ([pytest.approx(np.deg2rad(degrees), rel=0.03)] if abs(np.deg2rad(degrees)) > 0.005 * ALPHA else [])
 
 
+@pytest.mark.whole
 def test_intervals_hold_the_truth_as_often_as_they_say():
     time, angle = _nonlinear_decay(0.976)
     rng = np.random.default_rng(2013)

@@ -50,6 +50,7 @@ def test_intervals_of_three_tests_hold_the_truth_as_often_as_they_say():
     assert held >= 0.94 * 400
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("tests", [2, 3, 10, 20])
 @pytest.mark.parametrize("share", [0.5, 0.95])
 def test_so_many_new_tests_are_within_their_range_as_it_says(tests, share):
@@ -62,6 +63,7 @@ def test_so_many_new_tests_are_within_their_range_as_it_says(tests, share):
     assert np.mean(held) == pytest.approx(share, abs=3 * np.sqrt(share * (1 - share) / 600))
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("tests", [2, 3, 10, 20])
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0])
 def test_a_95_percent_range_holds_new_tests_however_large_the_errors_of_the_tests_are(tests, ratio):

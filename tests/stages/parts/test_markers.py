@@ -7,6 +7,8 @@ import pytest
 import drums
 from colonnade.workflow import run
 
+pytestmark = pytest.mark.whole
+
 
 @pytest.fixture
 def told(tmp_path, shaken_drums):
@@ -26,6 +28,7 @@ def told(tmp_path, shaken_drums):
     return run_with
 
 
+@pytest.mark.smoke
 def test_a_sound_recording_has_nothing_to_tell(told):
     assert told() == []
 

@@ -16,8 +16,9 @@ from colonnade.workflow.watching.measure import Line
 from colonnade.workflow.watching.watch import watch
 from prism import entry
 
+pytestmark = pytest.mark.whole
 
-@pytest.mark.whole
+
 def test_arriving_files_become_lines_and_the_rest_follows(small, tmp_path, monkeypatch):
     monkeypatch.setattr(module, "GRACE", 1.0)
     share = tmp_path / "share"
