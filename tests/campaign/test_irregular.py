@@ -63,6 +63,7 @@ def test_a_device_is_told():
         colonnade.read_motion("/dev/zero", unit="g", dt=0.01)
 
 
+@pytest.mark.whole
 @pipes
 def test_a_raw_file_and_a_reference_motion_that_are_pipes_fail_their_test_alone(tmp_path):
     os.mkfifo(tmp_path / "a.csv")

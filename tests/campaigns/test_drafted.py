@@ -47,6 +47,7 @@ def test_the_raw_folder_of_the_demo_gives_the_truth_again(tmp_path):
     assert restitution["low"] <= 0.976 <= restitution["high"]
 
 
+@pytest.mark.whole
 def test_the_shake_table_recordings_of_others_run(shared_data, tmp_path):
     shutil.copytree(shared_data / "shaketable", tmp_path / "table", copy_function=shutil.copyfile)
     drafted = draft(tmp_path / "table")

@@ -4,6 +4,8 @@ import json
 import re
 from pathlib import Path
 
+import pytest
+
 SMALL = ("--omega", "2", "4", "--amplitude", "0.8", "2", "--points", "3", "5", "--cycles", "3", "--workers", "1")
 
 
@@ -35,6 +37,7 @@ def test_each_model_has_its_own_map_and_json_tells_where(colonnade, campaign):
     assert again[0]["action"] == "up-to-date"
 
 
+@pytest.mark.whole
 def test_several_models_and_their_responses_are_written_with_a_picture_together(colonnade, campaign):
     models = ("--model", "linear", "--model", "nonlinear")
     told = colonnade("map", *SMALL, *models, "--ramp", "1", "--responses")

@@ -79,6 +79,7 @@ def test_kept_machine_code_follows_every_source_that_it_is_made_of(package):
     assert len(folders(package / "__pycache__")) == 3
 
 
+@pytest.mark.whole
 def test_without_any_folder_each_process_compiles(package, tmp_path):
     (package / "__pycache__").touch()  # a file, so that nothing can be put there
     (tmp_path / "file").touch()

@@ -1,4 +1,5 @@
 import numpy as np
+import pytest
 
 from colonnade.figures.agreement import PeakPoint, predicted_over_measured
 from colonnade.figures.style import journal
@@ -49,6 +50,7 @@ def test_named_tests_carry_their_number():
     assert [text.get_text() for text in panel(point(0.2, 0.3, number=7), point(0.4, 0.4)).texts] == ["7"]
 
 
+@pytest.mark.whole
 @every("column", ["", "single", "double"])
 @every("models", [MODELS[:1], MODELS[:2], MODELS], ids=len)
 def test_titles_and_labels_are_inside_the_figure(models, column):

@@ -68,6 +68,7 @@ def test_the_page_of_a_specimen_is_drawn_again_only_if_what_it_shows_changed(two
     assert drawn_now() == both
 
 
+@pytest.mark.whole
 def test_outdated_results_are_pending_and_not_shown(two_tests):
     built(*two_tests, outdated={"span-2.0"})
     texts = written(two_tests[1])

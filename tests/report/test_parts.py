@@ -15,6 +15,8 @@ from colonnade.report.parts import Part, drawn, seldom_collected
 from colonnade.store.layout import Layout
 from colonnade.workflow import run
 
+pytestmark = pytest.mark.whole
+
 SHAKEN = "span-2.0"
 
 

@@ -20,6 +20,7 @@ def test_the_numbers_of_a_study_are_kept_a_record_a_line(path, tmp_path):
     assert (tmp_path / path.name).read_text(encoding="utf-8") == path.read_text(encoding="utf-8")
 
 
+@pytest.mark.whole
 @given(st.recursive(PLAIN, lambda inner: st.lists(inner, max_size=9) | st.dictionaries(st.text(), inner, max_size=9)))
 def test_numbers_are_read_as_they_were_written(tmp_path_factory, numbers):
     path = tmp_path_factory.getbasetemp() / "numbers.json"

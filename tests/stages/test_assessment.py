@@ -100,6 +100,7 @@ def _records(offset):
     return RecordSet(tuple(records), (), ("cut",))
 
 
+@pytest.mark.whole
 def test_records_that_drift_have_an_answer_when_corrected_and_a_reason_as_they_are():
     plan = _plan(_records(0.05), "identified", baseline="linear", levels=["1 m/s", "2 m/s", "4 m/s"])
     assert "1 ground motion with a peak ground velocity; at least 2" in plan.without_correction
@@ -119,6 +120,7 @@ def test_without_enough_records_with_the_measure_there_is_no_answer():
         _plan(_records(0.05))
 
 
+@pytest.mark.whole
 @every(("levels", "side"), [(["0.01 m/s", "0.02 m/s"], "above"), (["80 m/s", "90 m/s"], "below")])
 def test_what_is_beyond_the_levels_is_so_on_its_side(levels, side):
     found = _answered(_plan(_records(0.0), levels=levels))

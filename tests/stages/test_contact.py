@@ -24,6 +24,8 @@ from colonnade.store.description import VARIABLES
 from colonnade.store.records.stored import Stored
 from prism import PRISM
 
+pytestmark = pytest.mark.whole
+
 STEP = 3e-5
 SPECIMEN = xr.Dataset({"restitution": ((), 0.976)}, attrs={"restitution_source": "given"})
 CYLINDER = Block.cylinder(diameter=0.097, height=0.455, mass=26.30)
@@ -52,6 +54,7 @@ def history(law):
     return free(law, 5.4)
 
 
+@pytest.mark.smoke
 def test_a_laboratory_identifies_the_e_that_was_asked_for(law, history):
     assert float(law["contact_restitution"]) == pytest.approx(0.976, abs=TOLERANCE)
     every = round(1e-3 / history.time[1])

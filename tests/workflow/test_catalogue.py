@@ -59,6 +59,7 @@ ALTERED = {
 }
 
 
+@pytest.mark.whole
 def test_a_catalogue_that_is_no_good_or_was_altered_only_costs_time(small, opened):
     summary, sound = small.summary(), small.layout.catalogue.read_text(encoding="utf-8")
     (key, *_) = json.loads(sound)["kept"]["record pulse-01"]
@@ -82,6 +83,7 @@ def test_records_follow_their_results(small):
     assert json.loads(remembered["record pulse-01"][1]) == small.summary()["tests"]["pulse-01"]
 
 
+@pytest.mark.whole
 def test_what_is_gone_from_the_campaign_is_forgotten(small):
     text = (small.folder / "campaign.toml").read_text(encoding="utf-8")
     (small.folder / "campaign.toml").write_text(text[: text.rindex("[[tests]]")], encoding="utf-8")

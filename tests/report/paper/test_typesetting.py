@@ -38,6 +38,7 @@ def texts_in(content):
     return content["text"] if content.get("func") == "text" else texts_in(list(content.values()))
 
 
+@pytest.mark.whole
 def test_the_same_report_gives_the_same_bytes_in_another_process_and_folder(campaign, folder, tmp_path_factory):
     elsewhere = tmp_path_factory.mktemp("elsewhere") / "moved"
     shutil.copytree(campaign.folder, elsewhere)
