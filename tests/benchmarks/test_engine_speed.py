@@ -123,7 +123,7 @@ def test_the_exact_engine_beside_solve_ivp_and_the_papers_runge_kutta(capsys):
         print(f"\n{', '.join(f'{each:,.0f}' for each in ratios[0])} times solve_ivp")
         print(f"{', '.join(f'{each:.1f}' for each in ratios[1])} times the paper's Runge–Kutta: as much as", end=" ")
         print(", ".join(f"{own:.0f} of {most:.0f}" for own, most in zip(cost, allowed, strict=True)), "steps allowed")
-    assert min(ratios[0]) >= 5000
+    assert min(ratios[0]) >= 15_000
     assert all(own <= most for own, most in zip(cost, allowed, strict=True))
 
 
