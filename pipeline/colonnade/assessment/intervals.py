@@ -108,8 +108,8 @@ def studentised(value: Array, error: Array, values: Array, errors: Array, level:
     out as Student's t is for that number of records (Hesterberg 2015). `reports/fragility-study.md` shows the coverage.
     """
     t = (values - value) / np.where(errors > 0, errors, np.nan)
-    reach = np.sqrt(records / (records - 1)) * scipy.stats.t.ppf((1 + level) / 2, records - 1)
-    outside = scipy.stats.norm.sf(reach)
+    reach = np.sqrt(records / (records - 1)) * scipy.special.stdtrit(records - 1, (1 + level) / 2)
+    outside = scipy.special.ndtr(-reach)
     known = ~np.isnan(t).all(axis=0)
     low, high = np.full((2, *value.shape), np.nan)
     if known.any():

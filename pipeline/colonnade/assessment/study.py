@@ -384,7 +384,7 @@ def fragility(
     curve = _curve(hazard)
     prototype = Prototype(
         block,
-        max(block.restitution, 0.0) if restitution is None else restitution,
+        block.restitution if restitution is None else restitution,
         None if several is None else several.law.friction,
         restitution_range=restitution_range,
         critical_angle_range=critical_angle_range,

@@ -125,7 +125,7 @@ def advise_free_vibration(
     scatter = float(np.sqrt(((e.size - 1) * pooled.between**2 + USUAL_SCATTER**2) / e.size))
     more = np.arange(1, FARTHEST + 1)
     weights = (1 / (error**2 + scatter**2)).sum() + more / (test_error**2 + scatter**2)
-    predicted = scipy.stats.t.ppf((1 + level) / 2, e.size + more - 1) / np.sqrt(weights)
+    predicted = scipy.special.stdtrit(e.size + more - 1, (1 + level) / 2) / np.sqrt(weights)
 
     half_width = (pooled.high - pooled.low) / 2
     is_enough = e.size > 1 and half_width <= wanted

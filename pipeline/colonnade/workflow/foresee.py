@@ -189,7 +189,6 @@ def inputs_of(campaign: Campaign, layout: Layout, specimen: str, tilt: float) ->
 
     pooled, settings = restitution_taken(campaign, layout, specimen), campaign.ensemble_settings(specimen)
     block = campaign.block(specimen)
-    rigid = max(block.restitution, 0.0)
     spread = spread_of(pooled, settings)
     negative, positive = sides(pooled)
     ends = {name: float(pooled[f"restitution_{name}"]) for name in ("low", "high")}
@@ -200,7 +199,7 @@ def inputs_of(campaign: Campaign, layout: Layout, specimen: str, tilt: float) ->
             **{name: min(max(end, 0.0), 1.0) if np.isfinite(end) else None for name, end in ends.items()},
             level=float(pooled["level"]),
             source=pooled.attrs["restitution_source"],
-            rigid_body=(rigid, rigid),
+            rigid_body=(block.restitution, block.restitution),
         ),
         spread=ForecastSpread(
             **{name: getattr(spread, name) for name in SPREAD},

@@ -139,7 +139,7 @@ def pool(
         weights = 1 / (error**2 + between)
     value = float(np.average(e, weights=weights))
     standard_error = by_weights = float(1 / np.sqrt(weights.sum()))
-    reach = float(scipy.stats.t.ppf((1 + level) / 2, freedom) if freedom else scipy.stats.norm.ppf((1 + level) / 2))
+    reach = float(scipy.special.stdtrit(freedom or np.inf, (1 + level) / 2))
     if freedom:
         by_scatter = float(np.sqrt((weights * (e - value) ** 2).sum() / (freedom * weights.sum())))
         standard_error = max(by_weights, by_scatter)
@@ -150,7 +150,7 @@ def pool(
     slope = np.average(shared.slopes, axis=0, weights=weights)
     common = max(float(slope @ shared.covariance @ slope), 0.0) ** 0.5
     # The common error is a normal one, however few the tests are.
-    half = float(np.hypot(reach * standard_error, scipy.stats.norm.ppf((1 + level) / 2) * common))
+    half = float(np.hypot(reach * standard_error, scipy.special.ndtri((1 + level) / 2) * common))
     covariance = np.zeros((3, 3))
     covariance[1:, 1:] = shared.covariance
     covariance[0, 1:] = covariance[1:, 0] = shared.covariance @ slope / value

@@ -114,7 +114,7 @@ def _restitution(inputs: ColumnInputs, block: Block, pooled: xr.Dataset) -> tupl
     given = inputs.prototype
     if given.restitution != "identified":
         rigid = given.restitution == "rigid-body"
-        e = max(block.restitution, 0.0) if rigid else float(given.restitution)
+        e = block.restitution if rigid else float(given.restitution)
         return e, _around(e), "rigid-body" if rigid else "given"
     negative, positive = (float(each) for each in pooled["side_restitution"])
     e = float(np.mean((negative, positive)))
@@ -122,7 +122,7 @@ def _restitution(inputs: ColumnInputs, block: Block, pooled: xr.Dataset) -> tupl
     margin = USUAL_MARGIN
     if source == "identified":
         deviation, freedom = restitution_spread(pooled, inputs.usual_scatter)
-        margin = deviation * float(scipy.stats.t.ppf((1 + float(pooled["level"])) / 2, freedom or np.inf))
+        margin = deviation * float(scipy.special.stdtrit(freedom or np.inf, (1 + float(pooled["level"])) / 2))
     return (e if negative == positive else (negative, positive)), _around(e, margin), source
 
 
@@ -294,7 +294,7 @@ def _variants(column: Prototype) -> dict[str, Prototype]:
     e = np.array(pair(column.restitution))
     changed = {
         "nothing varied": e,
-        "the e of a rigid body": np.full(2, max(column.block.restitution, 0.0)),
+        "the e of a rigid body": np.full(2, column.block.restitution),
         f"an e smaller by {USUAL_MARGIN:g}": np.maximum(e - USUAL_MARGIN, 0.0),
         f"an e larger by {USUAL_MARGIN:g}": np.minimum(e + USUAL_MARGIN, 1.0),
     }
