@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import io
 import os
 import sys
@@ -28,6 +29,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         if isinstance(stream, io.TextIOWrapper):
             # A console that cannot show θ or ± gets a question mark, not a traceback.
             stream.reconfigure(errors="replace")
+    gc.set_threshold(10_000, 20, 50)  # what libraries make stays: looking for garbage in it takes a tenth of a command
     interruption.listen()
     try:
         code = invoke(arguments)
