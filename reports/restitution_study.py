@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,7 @@ import colonnade
 from monte_carlo.bound import cramer_rao_error
 from monte_carlo.design import SPREAD, Kind, draw, kinds
 from monte_carlo.new_test import NewTest, judge_new_tests
-from study import HERE, options, rounded, table, write_figure, write_numbers
+from study import HERE, Study, rounded, table
 
 NAME = "restitution-study"
 RECORDS, CAMPAIGNS, SEED, WORKERS = 400, 500, 2026, 2
@@ -140,24 +139,25 @@ def judge(name: str, trials: list[Trial]) -> Judged:
     return Judged(name, len(trials), count, held / count, test.low, test.high, ratio, width / 2, bias, refused, said)
 
 
-def numbers(records: int, campaigns: int, seed: int, workers: int) -> dict[str, Any]:
-    """Everything that the page says."""
+def study(records: int, campaigns: int, seed: int, workers: int) -> Any:
+    """Run everything, and gather what the page gives."""
     judged = []
     with Parallel(n_jobs=workers, batch_size=8) as pool:
         for place, kind in enumerate(kinds()):
             trials = pool(delayed(run)(kind, seed + place, number) for number in range(records))
             judged.append(judge(kind.name, list(trials)))
-    return {
+    found = {
         "records": records,
         "campaigns": campaigns,
         "seed": seed,
         "kinds": [asdict(each) for each in judged],
-        "before": json.loads(BEFORE.read_text(encoding="utf-8")) if BEFORE.exists() else {},
+        "before": json.loads(BEFORE.read_text(encoding="utf-8")),
         "new_test": [asdict(each) for each in judge_new_tests(campaigns, seed, workers)],
     }
+    return rounded(found, 4)
 
 
-def page(found: dict[str, Any]) -> str:
+def page(found: dict[str, Any], figure: str = f"{NAME}.svg") -> str:
     """Write the page of the study."""
     judged = [Judged(**each) for each in found["kinds"]]
     before = found["before"]
@@ -216,7 +216,7 @@ it took the block and the gain as exact, and chose between six estimators.
 
 {table(heads, [row(one) for one in judged])}
 
-![Coverage and width of each kind]({NAME}.svg)
+![Coverage and width of each kind]({figure})
 
 ## A new test
 
@@ -258,24 +258,15 @@ def draw_kinds(found: dict[str, Any]) -> Figure:
     return figure
 
 
-def write(found: dict[str, Any], folder: Path) -> None:
-    """Write page, numbers and figure into a folder."""
-    write_numbers(folder / f"{NAME}.json", found)
-    (folder / f"{NAME}.md").write_text(page(found), encoding="utf-8")
-    described = "Coverage and relative width of the intervals of e, kind by kind, beside those of version 0.1."
-    write_figure(
-        folder / f"{NAME}.svg", draw_kinds(found), "Coverage and width of the identified restitution", described
-    )
-
-
-def main() -> None:
-    """Run the study and write page, numbers and figure; end with an error if a kind is not as it should be."""
-    told = options(__doc__, records=RECORDS, campaigns=CAMPAIGNS, seed=SEED, workers=WORKERS)
-    found = rounded(numbers(told.records, told.campaigns, told.seed, told.workers), 4)
-    write(found, told.folder)
-    if failed := [f"{each['name']}: {each['complaint']}" for each in found["kinds"] if each["complaint"]]:
-        raise SystemExit("\n".join(failed))
-
+STUDY = Study(
+    NAME,
+    page,
+    draw_kinds,
+    "Coverage and width of the identified restitution",
+    "Coverage and relative width of the intervals of e, kind by kind, beside those of version 0.1.",
+)
 
 if __name__ == "__main__":
-    main()
+    performed = STUDY.perform(study, __doc__, records=RECORDS, campaigns=CAMPAIGNS, seed=SEED, workers=WORKERS)
+    if failed := [f"{each['name']}: {each['complaint']}" for each in performed["kinds"] if each["complaint"]]:
+        raise SystemExit("\n".join(failed))

@@ -82,11 +82,13 @@ class Study:
         if self.draw is not None:
             write_figure(folder / f"{self.name}.svg", self.draw(found), self.title, self.described)
 
-    def perform(self, measure: Callable[..., Any], description: str | None, **counts: int) -> None:
-        """Measure as the options say, by default so many, and write what was found."""
+    def perform(self, measure: Callable[..., Any], description: str | None, **counts: int) -> Any:
+        """Measure as the options say, by default so many, and write what was found; return it, too."""
         told = vars(options(description, **counts))
         folder = told.pop("folder")
-        self.write(measure(**told), folder)
+        found = measure(**told)
+        self.write(found, folder)
+        return found
 
 
 def table(heads: Iterable[str], rows: Iterable[Sequence[object]]) -> str:

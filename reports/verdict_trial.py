@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -58,71 +59,25 @@ TRANSDUCER_NOISE = 1e-4
 
 GRAVITY = 9.81
 
-CAMPAIGN = """
-schema = 1
-campaign = "verdicts"
-title = "Tests whose truth is known"
-{specimens}{setups}{tests}
-"""
-
-SPECIMEN = """
-[specimens.{name}]
-shape = "prism"
-width = "{width} m"
-depth = "{width} m"
-height = "{height} m"
-mass = "100 kg"
-"""
-
-DISPLACEMENT = """
-[setups.{name}.channels.{channel}]
-column = "{column}"
-quantity = "displacement"
-unit = "m"
-on = "specimen"
-at = ["{edge} m", "0 m", "{above} m"]
-direction = [1, 0, 0]
-relative_to = "table"
-"""
-
-ACCELERATION = """
-[setups.{name}.channels.table_acceleration]
-column = "TABLE"
-quantity = "acceleration"
-unit = "m/s^2"
-on = "table"
-direction = [1, 0, 0]
-"""
-
-TEST = """
-[[tests]]
-id = "{name}-{kind}"
-kind = "{kind}"
-specimen = "{name}"
-setup = "{name}"
-file = "none.csv"
-"""
+DISPLACEMENT = 'quantity = "displacement", unit = "m", on = "specimen", direction = [1, 0, 0], relative_to = "table"'
+ACCELERATION = 'column = "TABLE", quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]'
 
 
 def campaign_text() -> str:
     """Write the campaign file of all specimens and kinds."""
-    widths = {name: height / SLENDERNESS for name, height in HEIGHTS.items()}
-    return CAMPAIGN.format(
-        specimens="".join(
-            SPECIMEN.format(name=name, width=widths[name], height=height) for name, height in HEIGHTS.items()
-        ),
-        setups="".join(_setup(name, height) for name, height in HEIGHTS.items()),
-        tests="".join(TEST.format(name=name, kind=kind) for name in HEIGHTS for kind in KINDS),
-    )
-
-
-def _setup(name: str, height: float) -> str:
-    edge, heights = height / SLENDERNESS / 2, {"top": 0.9 * height, "bottom": 0.05 * height}
-    above = (
-        DISPLACEMENT.format(name=name, channel=channel, column=channel.upper(), edge=edge, above=each)
-        for channel, each in heights.items()
-    )
-    return "".join(above) + ACCELERATION.format(name=name)
+    lines = ["schema = 1", 'campaign = "verdicts"', 'title = "Tests whose truth is known"']
+    for name, height in HEIGHTS.items():
+        width = height / SLENDERNESS
+        size = f'width = "{width} m", depth = "{width} m", height = "{height} m", mass = "100 kg"'
+        lines.append(f'specimens.{name} = {{shape = "prism", {size}}}')
+        for channel, above in {"top": 0.9 * height, "bottom": 0.05 * height}.items():
+            own = f'column = "{channel.upper()}", at = ["{width / 2} m", "0 m", "{above} m"]'
+            lines.append(f"setups.{name}.channels.{channel} = {{{own}, {DISPLACEMENT}}}")
+        lines.append(f"setups.{name}.channels.table_acceleration = {{{ACCELERATION}}}")
+    for name, kind in itertools.product(HEIGHTS, KINDS):
+        lines += ["[[tests]]", f'id = "{name}-{kind}"', f'kind = "{kind}"', f'specimen = "{name}"']
+        lines += [f'setup = "{name}"', 'file = "none.csv"']
+    return "\n".join(lines) + "\n"
 
 
 @dataclass(frozen=True)
