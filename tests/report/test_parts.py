@@ -3,7 +3,6 @@
 import gc
 import shutil
 import weakref
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -72,14 +71,13 @@ def test_a_page_is_known_by_all_of_the_campaign_that_it_shows(started, tmp_path)
     predict = campaign.processing.predict.model_copy(update={"models": ("linear",)})
     processing = campaign.processing.model_copy(update={"predict": predict})
     one = asked(campaign, layout, "later")
-    overturned = one.record.model_copy(update={"outcome": "overturned"})
     known = [
         one,
         asked(campaign, layout, "watched"),
-        replace(one, before=SHAKEN),
-        replace(one, after=None),
-        replace(one, record=overturned),
-        replace(one, is_outdated=True),
+        asked(campaign, layout, "later", {"later"}),
+        asked(campaign.but(tests={"later": campaign.tests["later"]}), layout, "later"),
+        asked(campaign, layout, SHAKEN),
+        asked(campaign, Layout(tmp_path), SHAKEN),
         *(
             asked(campaign.but(**changes), layout, "later")
             for changes in ({"title": "Another"}, {"gravity": 9.8}, {"processing": processing})

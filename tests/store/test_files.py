@@ -162,12 +162,11 @@ def test_text_is_written_only_where_it_differs(tmp_path):
     assert path.read_text(encoding="utf-8") == "β"
 
 
-def test_what_a_killed_run_left_is_swept_and_results_stay(tmp_path):
+def test_what_a_killed_run_left_is_told_from_results(tmp_path):
     (tmp_path / "tests").mkdir()
     (tmp_path / "tests" / ".a.nc.123.partial").write_bytes(b"half")
     (tmp_path / "tests" / "a.nc").write_bytes(b"whole")
-    files.sweep(tmp_path)
-    assert [entry.name for entry in (tmp_path / "tests").iterdir()] == ["a.nc"]
+    assert files.half_written(tmp_path) == [tmp_path / "tests" / ".a.nc.123.partial"]
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 
 from colonnade.campaign import Campaign
@@ -45,7 +45,7 @@ class Asked:
     """
     A test whose page is asked for: its neighbours, record and photos, and whether its results are out of date.
 
-    `campaign` holds this test alone; all of it that a page shows is in `shows`.
+    `campaign` holds this test alone; `shows` is all of it that a page shows, with paths from its folder.
     """
 
     campaign: Campaign
@@ -54,35 +54,22 @@ class Asked:
     after: str | None
     record: TestSummary
     is_outdated: bool
-    photos: Photos = NO_PHOTOS
-
-    @property
-    def shows(self) -> str:
-        """All of the campaign that the page shows; paths are those from its folder."""
-        campaign = self.campaign.with_relative_paths()
-        test = campaign.tests[self.test]
-        place = (campaign.title, campaign.facility, campaign.gravity)
-        around = (place, campaign.of_interest, models_shown(campaign))
-        own = (test, campaign.specimens[test.specimen], campaign.setups[test.setup], campaign.review(test.id))
-        return repr((around, own, self.before, self.after, self.record, self.is_outdated, self.photos))
+    photos: Photos
+    shows: str
 
 
 def asked_of(
     campaign: Campaign, layout: Layout, outdated: Collection[str] = (), photos: Mapping[str, Photos] | None = None
-) -> list[Asked]:
+) -> Iterator[Asked]:
     """Ask for the page of each test: with its record and its neighbours."""
-    ids = [None, *campaign.tests, None]
+    ids, light = [None, *campaign.tests, None], campaign.with_relative_paths()
     records = records_of_tests(campaign, read_summary(layout))
-    return [
-        Asked(
-            campaign.but(tests={name: test}),
-            name,
-            before,
-            after,
-            # Forecasts have a page of their own: one that is added redoes no other.
-            records[name].model_copy(update={"forecast": None}),
-            name in outdated,
-            (photos or {}).get(name, NO_PHOTOS),
-        )
-        for before, (name, test), after in zip(ids, campaign.tests.items(), ids[2:], strict=False)
-    ]
+    place = (campaign.title, campaign.facility, campaign.gravity, campaign.of_interest)
+    specimens, setups = ({name: repr(each) for name, each in of.items()} for of in (light.specimens, light.setups))
+    for before, (name, test), after in zip(ids, campaign.tests.items(), ids[2:], strict=False):
+        alone = campaign.but(tests={name: test})
+        # Forecasts have a page of their own: one that is added redoes no other.
+        record = records[name].model_copy(update={"forecast": None})
+        own = (light.tests[name], specimens[test.specimen], setups[test.setup], campaign.review(name))
+        given = (before, after, record, name in outdated, (photos or {}).get(name, NO_PHOTOS))
+        yield Asked(alone, name, *given, repr((place, models_shown(alone), own, given)))

@@ -220,11 +220,9 @@ def remove(path: Path) -> bool:
     return True
 
 
-def sweep(folder: Path) -> None:
-    """Remove temporary files that a killed run left; only the holder of the lock may call it."""
-    for path in own_files(folder):
-        if path.name.startswith(".") and path.name.endswith(PARTIAL):
-            remove(path)
+def half_written(folder: Path) -> list[Path]:
+    """List temporary files that a killed run left; only the holder of the lock may remove them. Raises: `own_files`."""
+    return [path for path in own_files(folder) if path.name.startswith(".") and path.name.endswith(PARTIAL)]
 
 
 def _in_one_step(path: Path, write_to: Callable[[Path], object]) -> None:

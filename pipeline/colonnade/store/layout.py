@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -9,6 +10,7 @@ from pathlib import Path
 
 from colonnade.campaign.loading import FILE_NAME
 from colonnade.errors import StoreError
+from colonnade.store.files import own_files
 from colonnade.store.results import STAGES, ResultId
 
 STATE = "state.js"
@@ -166,9 +168,10 @@ class Layout:
         return path.with_name(f".{path.stem}")
 
     def results_there(self) -> list[Path]:
-        """Results that are there, in the order of their paths."""
-        made = {stage.file.format(subject="*", model="*") for stage in STAGES.values()}
-        return sorted({path for pattern in made for path in self.processed.glob(f"{pattern}.nc")})
+        """Results that are there, in the order of their paths; StoreError as of `own_files`."""
+        made = "|".join(stage.file.format(subject="[^/]+", model="[^/]+") for stage in STAGES.values())
+        is_result = re.compile(rf"{re.escape(self.processed.as_posix())}/(?:{made})\.nc").fullmatch
+        return [path for path in sorted(own_files(self.processed)) if is_result(path.as_posix())]
 
 
 @lru_cache(1 << 16)  # a run asks for each ten times, and a path that is known has its text too

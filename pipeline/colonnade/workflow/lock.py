@@ -5,10 +5,9 @@ from __future__ import annotations
 import json
 import os
 import platform
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from datetime import datetime
-from functools import partial
 from pathlib import Path
 from uuid import uuid4
 
@@ -16,7 +15,7 @@ from filelock import FileLock, Timeout
 
 from colonnade.campaign import FILE_NAME
 from colonnade.errors import RunEndedError, StoreError
-from colonnade.store.files import own_files, remove, sweep, write_text
+from colonnade.store.files import half_written, remove, write_text
 from colonnade.store.layout import Layout
 
 _RUNNING = "this campaign is already being run"
@@ -46,8 +45,7 @@ def only_run(layout: Layout) -> Iterator[str]:
         f"{layout.folder}: {_RUNNING}, by {{holder}}. Wait for that run to end, or stop it: "
         "only one run at a time may write results."
     )
-    with _held(layout, layout.lock, layout.lock_holder, refusal, partial(_sweep, layout)) as run_id:
-        _sweep(layout)
+    with _held(layout, layout.lock, layout.lock_holder, refusal, sweeps=True) as run_id:
         yield run_id
 
 
@@ -67,12 +65,13 @@ def only_watch(layout: Layout) -> Iterator[None]:
 
 
 @contextmanager
-def _held(
-    layout: Layout, path: Path, holder: Path, refusal: str, after_a_kill: Callable[[], None] = lambda: None
-) -> Iterator[str]:
-    """Hold a lock and say by whom; give the name of this holding. At the end clean up if the last one was killed."""
-    for folder in _folders(layout):
-        own_files(folder)
+def _held(layout: Layout, path: Path, holder: Path, refusal: str, *, sweeps: bool = False) -> Iterator[str]:
+    """
+    Hold a lock and say by whom; give the name of this holding.
+
+    If it `sweeps`, it removes what is half-written; once more at the end, if the last holder was killed.
+    """
+    left = _half_written(layout)
     try:
         if path.is_symlink():
             path.unlink()
@@ -97,12 +96,14 @@ def _held(
             "since": datetime.now().astimezone().isoformat("T", "seconds"),
         }
         write_text(holder, json.dumps(who) + "\n")
+        if sweeps:
+            _remove(left)
         yield run_id
     finally:
         try:
             remove(holder)
-            if was_killed:  # its workers may have lived on for a moment
-                after_a_kill()
+            if was_killed and sweeps:  # its workers may have lived on for a moment
+                _remove(_half_written(layout))
         finally:
             lock.release()
 
@@ -145,13 +146,13 @@ def expect_run(layout: Layout, run_id: str) -> None:
         raise RunEndedError(f"{layout.home}: the run that asked for this has ended; nothing more is written for it.")
 
 
-def _folders(layout: Layout) -> tuple[Path, Path]:
-    return layout.processed, layout.report.parent
+def _half_written(layout: Layout) -> list[Path]:
+    return [*half_written(layout.processed), *half_written(layout.report.parent)]
 
 
-def _sweep(layout: Layout) -> None:
-    for folder in _folders(layout):
-        sweep(folder)
+def _remove(paths: Iterable[Path]) -> None:
+    for path in paths:
+        remove(path)
 
 
 def _named(holder: Path) -> str:
