@@ -41,6 +41,13 @@ def of(stage, **given):
     return code_hash([f"colonnade.stages.{stage}"], alone=("colonnade.campaign", "colonnade.store"), **given)
 
 
+def of_text(package, text):
+    """Code of a module with this text."""
+    (package / "stages/extra.py").write_text(text, encoding="utf-8")
+    forget()
+    return code_hash(["colonnade.stages.extra"])
+
+
 @pytest.mark.smoke
 def test_a_docstring_or_a_comment_changes_no_code(package):
     before, whole = of("rocking"), package_hash()
@@ -48,6 +55,25 @@ def test_a_docstring_or_a_comment_changes_no_code(package):
     edit(package, "stages/rocking.py", "\n\n\n", "\n\n\n# a comment\n\n")
     assert of("rocking") == before
     assert package_hash() != whole
+
+
+@pytest.mark.parametrize(
+    ("text", "is_same"),
+    [
+        ("if 1:\n    # why\n    a = 1\n    b = 2\n", True),
+        ("if 1:\n    a = 1\n\n    # why\n    b = 2\n", True),
+        ("if 1:\n    'as a docstring'\n    a = 1\n    b = 2\n", True),
+        ("if 1:\n    a = 1\nelse:\n    b = 2\n", False),
+        ("if 1:\n    a = 1\nb = 2\n", False),
+        ("if 2:\n    a = 1\n    b = 2\n", False),
+    ],
+)
+def test_code_is_what_is_stated_and_where(package, text, is_same):
+    assert (of_text(package, text) == of_text(package, "if 1:\n    a = 1\n    b = 2\n")) is is_same
+
+
+def test_a_line_of_a_text_is_no_comment(package):
+    assert of_text(package, "a = '''\n# one\n'''\n") != of_text(package, "a = '''\n# two\n'''\n")
 
 
 def test_a_statement_changes_the_code_of_those_who_import_it_and_of_no_others(package):

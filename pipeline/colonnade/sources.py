@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import hashlib
-from collections.abc import Collection
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -41,8 +41,8 @@ def code_hash(roots: Collection[str], *, alone: Collection[str] = (), without: C
     Returns
     -------
     code : str
-        SHA-256 of the modules as parsed: a comment, a docstring or a blank line changes nothing. With a room count its
-        templates, scripts, styles and tables.
+        SHA-256 of their statements as written: a docstring, or a line that is blank or a comment, changes nothing. With
+        a room count its templates, scripts, styles and tables.
     """
     reached: set[str] = set()
     waiting = [name for name in _modules() if _is_in(name, roots)]
@@ -71,31 +71,39 @@ def _modules() -> dict[str, Path]:
     return found
 
 
-class _Effective(ast.NodeTransformer):
-    """Leaves out texts alone, such as docstrings, and what is there only to check types."""
+def _statements(body: Iterable[Any], place: str = "") -> Iterator[tuple[str, Any]]:
+    """Give statements with their places, but texts alone, such as docstrings, and what is there only to check types."""
+    for node in body:
+        is_text = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and type(node.value.value) is str
+        is_for_types = isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
+        if not is_text and not is_for_types:
+            yield place, node
+        for part in ("orelse",) if is_for_types else ("body", "handlers", "cases", "orelse", "finalbody"):
+            yield from _statements(getattr(node, part, ()), f"{place} {part}")
 
-    def visit_Expr(self, node: ast.Expr) -> Any:
-        is_text = isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
-        return None if is_text else node
 
-    def visit_If(self, node: ast.If) -> Any:
-        self.generic_visit(node)
-        return node.orelse if ast.unparse(node.test) == "TYPE_CHECKING" else node
+def _written(node: Any, lines: Sequence[str]) -> str:
+    """Text of a statement; of one that has others in it, what is above these, without lines that are comments."""
+    first = min(each.lineno for each in (getattr(node, "pattern", node), *getattr(node, "decorator_list", ())))
+    if not hasattr(node, "body"):
+        return "\n".join(lines[first - 1 : node.end_lineno])
+    above = lines[first - 1 : max(first, node.body[0].lineno - 1)]
+    return "\n".join(line for line in above if not line.lstrip().startswith("#"))
 
 
 @cache
 def _module(name: str) -> tuple[str, frozenset[str]]:
     """Hash of what a module does, and the modules of this package that it names, with the rooms around them."""
     path = _modules()[name]
-    tree = _Effective().visit(ast.parse(path.read_bytes()))
-    digest = hashlib.sha256(ast.dump(tree).encode())
-    if path.name == "__init__.py" and path.parent.parent == PACKAGE:
-        for data in sorted(each for each in path.parent.rglob("*") if each.suffix in _DATA):
-            digest.update(f"{data.name}\n".encode() + data.read_bytes())
-    named: set[str] = set()
-    for node in ast.walk(tree):
+    text = path.read_text(encoding="utf-8")
+    lines, digest, named = text.split("\n"), hashlib.sha256(), set()
+    for place, node in _statements(ast.parse(text).body):
+        digest.update(f"{place}: {_written(node, lines)}\n".encode())
         if isinstance(node, (ast.Import, ast.ImportFrom)):
             start = f"{node.module}." if isinstance(node, ast.ImportFrom) else ""
             named |= {f"{start}{alias.name}" for alias in node.names}
+    if path.name == "__init__.py" and path.parent.parent == PACKAGE:
+        for data in sorted(each for each in path.parent.rglob("*") if each.suffix in _DATA):
+            digest.update(f"{data.name}\n".encode() + data.read_bytes())
     around = {each.rsplit(".", up)[0] for each in named for up in range(each.count(".") + 1)}
     return digest.hexdigest(), frozenset(around & _modules().keys() - {name})
