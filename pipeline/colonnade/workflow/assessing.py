@@ -189,7 +189,7 @@ def _given(asked: Assessment, catalogue: Catalogue) -> dict[str, str | None]:
 
 
 def _digest(catalogue: Catalogue, path: Path) -> str | None:
-    found = catalogue.lookup("raw", path, sha256_of, "ground motion")
+    found = catalogue.lookup(path, sha256_of, "ground motion")
     return None if found is None else found[1]
 
 

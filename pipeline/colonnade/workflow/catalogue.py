@@ -61,14 +61,12 @@ class Catalogue:
             pass
         self._seen: dict[str, dict[str, Any]] = {kind: {} for kind in _KINDS}
 
-    def lookup(self, kind: str, path: Path, ask: Callable[[Path], Any], *more: Any) -> tuple[Mark, Any] | None:
+    def lookup(self, path: Path, ask: Callable[[Path], Any], *more: Any) -> tuple[Mark, Any] | None:
         """
-        Return what a file holds; it is opened only if it changed.
+        Return what a raw file holds; it is opened only if it changed.
 
         Parameters
         ----------
-        kind : str
-            raw, results or pages.
         path : Path
         ask : callable
             Opens the file and returns what it holds, as JSON can hold it.
@@ -80,7 +78,7 @@ class Catalogue:
         found : (Mark, answer) or None
             None if there is no such file.
         """
-        entry = self._entry(kind, path, ask, *more)
+        entry = self._entry("raw", path, ask, *more)
         return None if entry is None else (tuple(entry[0]), entry[1])
 
     def _entry(self, kind: str, path: Path, ask: Callable[[Path], Any], *more: Any) -> list[Any] | None:
@@ -103,14 +101,14 @@ class Catalogue:
 
     def attributes(self, path: Path) -> Mapping[str, Any]:
         """Attributes `KEPT` of a result and its findings; empty if it is missing or damaged."""
-        found = self.lookup("results", path, _kept)
-        kept = found[1] if found else {}
+        entry = self._entry("results", path, _kept)
+        kept = entry[1] if entry else {}
         return {**kept, "warnings": from_text(kept["warnings"])} if "warnings" in kept else kept
 
     def stamp(self, page: Path) -> str:
         """Key of what a page shows; empty if it is missing or was altered."""
-        found = self.lookup("pages", page, key_of)
-        return str(found[1]) if found else ""
+        entry = self._entry("pages", page, key_of)
+        return str(entry[1]) if entry else ""
 
     def code(self, made_by: Sequence[str], model: str | None = None) -> str:
         """
@@ -138,8 +136,8 @@ class Catalogue:
         notices = []
         for path in self._layout.results_there():
             expect_none()
-            found = self.lookup("results", path, _whole)
-            if found is not None and not found[1]:
+            entry = self._entry("results", path, _whole)
+            if entry is not None and not entry[1]:
                 files.remove(path)
                 name = path.relative_to(self._layout.home).as_posix()
                 notices.append(f"{name}: it was altered or damaged, so it is recomputed.")

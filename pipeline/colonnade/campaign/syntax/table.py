@@ -32,14 +32,18 @@ class Form(NamedTuple):
     is_list: bool
 
 
-class Table(BaseModel):
+class _Described(BaseModel):
+    """Fixed once it is made, without unknown fields; each field's sentence is the text below it."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True, defer_build=True)
+
+
+class Table(_Described):
     """
     A table of the campaign file.
 
     Every problem in it becomes a "problem" error: the key's place in `loc`, and a finished sentence as its message.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True, defer_build=True)
 
     @model_validator(mode="wrap")
     @classmethod
@@ -209,14 +213,7 @@ Known = Annotated[float | None, BeforeValidator(_known)]
 """A number, or null if it is not known; NaN becomes null, as JSON has no NaN."""
 
 
-class Record(BaseModel):
+class Record(_Described):
     """Base of all records that are written as JSON: no unknown field, no NaN."""
 
-    model_config = ConfigDict(
-        frozen=True,
-        extra="forbid",
-        allow_inf_nan=False,
-        populate_by_name=True,
-        use_attribute_docstrings=True,
-        defer_build=True,
-    )
+    model_config = ConfigDict(allow_inf_nan=False, populate_by_name=True)
