@@ -85,7 +85,7 @@ def test_a_displacement_on_the_specimen_is_asked_for_what_no_file_contains():
 def test_an_acceleration_is_taken_to_be_the_tables():
     (lines,) = lines_of(("ACC_Y", "g"))
     assert (lines["on"].value, lines["on"].question) == ('"table"', 'or "specimen", "ground"')
-    assert (lines["direction"].value, lines["direction"].reason) == ("[0, 1, 0]", 'from "y" in its name')
+    assert (lines["direction"].value, lines["direction"].reason) == ("[0, 1, 0]", "from its name")
     assert lines["direction"].question == "of a positive reading; [0, -1, 0] if it is reversed"
 
 

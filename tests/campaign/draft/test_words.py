@@ -59,7 +59,17 @@ def test_a_files_name_tells_the_kind_of_test(name, kind):
 
 
 @pytest.mark.parametrize(
-    ("name", "expected"), [("ACC_X", "x"), ("AccZ 2", "z"), ("ay", "y"), ("LVDT 1", None), ("max", None)]
+    ("name", "expected"),
+    [
+        ("ACC_X", "x"),
+        ("AccZ 2", "z"),
+        ("ay", "y"),
+        ("LVDT 1", None),
+        ("max", None),
+        ("Besch. vertikal", "z"),
+        ("BO.AOM001..UD", "z"),
+        ("cloud", None),
+    ],
 )
 def test_a_name_tells_the_axis(name, expected):
     assert axis(name) == expected

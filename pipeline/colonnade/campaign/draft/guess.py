@@ -206,7 +206,7 @@ def channel_lines(each: Meaning, others: Sequence[Column]) -> Iterator[Line | st
         yield comment(f'at = ["43 mm", "0 mm", "440 mm"]      {where}')
     direction = AXES[each.axis or ("y" if quantity in ("angle", "angular_velocity") else "x")]
     reverse = toml_value([-part or 0 for part in direction])
-    reason = f'from "{each.axis}" in its name' if each.axis else ""
+    reason = "from its name" if each.axis else ""
     yield Line("direction", toml_value(direction), reason, f"of a positive reading; {reverse} if it is reversed")
     if follows:
         yield from _sensing(column.name)

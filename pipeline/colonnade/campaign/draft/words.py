@@ -124,11 +124,12 @@ def axis(name: str) -> str | None:
 
     Examples
     --------
-    >>> axis("ACC_X"), axis("AccZ 2"), axis("LVDT 1")
-    ('x', 'z', None)
+    >>> axis("ACC_X"), axis("AccZ 2"), axis("Table vertical"), axis("LVDT 1")
+    ('x', 'z', 'z', None)
     """
     before = {"", "a", "u", *" ".join(WORDS["quantities"].values()).split()}
-    return next((part[-1] for part in words(name) if part[-1] in AXES and part[:-1] in before), None)
+    meant = find(name, "axes")
+    return next((part[-1] for part in words(name) if part[-1] in AXES and part[:-1] in before), meant and meant[0])
 
 
 def unique(names: Iterable[str], otherwise: str, *, as_variables: bool = False) -> list[str]:
