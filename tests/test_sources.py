@@ -72,8 +72,9 @@ def test_code_is_what_is_stated_and_where(package, text, is_same):
     assert (of_text(package, text) == of_text(package, "if 1:\n    a = 1\n    b = 2\n")) is is_same
 
 
-def test_a_line_of_a_text_is_no_comment(package):
-    assert of_text(package, "a = '''\n# one\n'''\n") != of_text(package, "a = '''\n# two\n'''\n")
+@pytest.mark.parametrize("text", ["a = '''\n# {}\n'''\n", "def a(b='''\n# {}\n'''):\n    return b\n"])
+def test_a_line_of_a_text_is_no_comment(package, text):
+    assert of_text(package, text.format("one")) != of_text(package, text.format("two"))
 
 
 def test_a_statement_changes_the_code_of_those_who_import_it_and_of_no_others(package):

@@ -41,8 +41,8 @@ def code_hash(roots: Collection[str], *, alone: Collection[str] = (), without: C
     Returns
     -------
     code : str
-        SHA-256 of their statements as written: a docstring, or a line that is blank or a comment, changes nothing. With
-        a room count its templates, scripts, styles and tables.
+        SHA-256 of their statements as written: a docstring, or a blank line or a comment between statements, changes
+        nothing. With a room count its templates, scripts, styles and tables.
     """
     reached: set[str] = set()
     waiting = [name for name in _modules() if _is_in(name, roots)]
@@ -83,12 +83,14 @@ def _statements(body: Iterable[Any], place: str = "") -> Iterator[tuple[str, Any
 
 
 def _written(node: Any, lines: Sequence[str]) -> str:
-    """Text of a statement; of one that has others in it, what is above these, without lines that are comments."""
+    """Text of a statement; of one that has others in it, what is above these, without a comment on them."""
     first = min(each.lineno for each in (getattr(node, "pattern", node), *getattr(node, "decorator_list", ())))
     if not hasattr(node, "body"):
         return "\n".join(lines[first - 1 : node.end_lineno])
-    above = lines[first - 1 : max(first, node.body[0].lineno - 1)]
-    return "\n".join(line for line in above if not line.lstrip().startswith("#"))
+    above = list(lines[first - 1 : max(first, node.body[0].lineno - 1)])
+    while above[-1].lstrip()[:1] in ("", "#"):
+        above.pop()
+    return "\n".join(above)
 
 
 @cache

@@ -150,13 +150,13 @@ class Heyoka:
         """Largest |θ|/α at the samples; inf once it lies."""
         integrator, self.e, self.rests, largest = self.integrator, e, True, 0.0
         threshold = math.tan(alpha)
-        for now, then in zip(base[:-1].tolist(), base[1:].tolist(), strict=True):
-            slope, start = (then - now) / dt, 0.0
+        for here, there in zip(base[:-1].tolist(), base[1:].tolist(), strict=True):
+            slope, start = (there - here) / dt, 0.0
             if self.rests:
-                if abs(then) <= threshold:
+                if abs(there) <= threshold:
                     continue
-                sign = math.copysign(1.0, then)
-                start = max(0.0, (sign * threshold - now) / slope) if abs(now) <= threshold else 0.0
+                sign = math.copysign(1.0, there)
+                start = max(0.0, (sign * threshold - here) / slope) if abs(here) <= threshold else 0.0
                 # It needs to be off θ = 0: just after uplift θ = −p² b' t³/6, b' the rate of the moment.
                 later = min(1e-6, 0.5 * (dt - start))
                 rate = slope * math.cos(alpha) * p * p
@@ -164,7 +164,7 @@ class Heyoka:
                 integrator.pars[1] = -sign
                 start, self.rests = start + later, False
                 integrator.reset_cooldowns()
-            integrator.pars[0], integrator.pars[2], integrator.pars[3], integrator.pars[4] = alpha, now, slope, p
+            integrator.pars[0], integrator.pars[2], integrator.pars[3], integrator.pars[4] = alpha, here, slope, p
             integrator.time = start
             while not self.rests and integrator.time < dt:
                 integrator.propagate_until(dt)

@@ -74,8 +74,13 @@ def test_all_that_a_recording_holds_comes_through():
     for field in fields(Recording):
         if field.name != "channels":
             assert getattr(back, field.name) == getattr(whole, field.name)
-    for now, then in zip(back.channels[:3], channels[:3], strict=True):
-        np.testing.assert_array_equal(now.values, then.values)
-        assert (now.name, now.unit, now.heading, now.is_clock) == (then.name, then.unit, then.heading, then.is_clock)
+    for read, sent in zip(back.channels[:3], channels[:3], strict=True):
+        np.testing.assert_array_equal(read.values, sent.values)
+        assert (read.name, read.unit, read.heading, read.is_clock) == (
+            sent.name,
+            sent.unit,
+            sent.heading,
+            sent.is_clock,
+        )
     assert back.channels[0].time is back.channels[1].time  # sent once
     assert back.channels[3].name == "?"

@@ -52,7 +52,7 @@ def test_a_file_that_went_away_is_new_when_it_comes_back(knowing):
 
 
 def test_a_file_that_is_away_for_a_moment_is_as_it_was(knowing):
-    looks = [knowing.look(marks, now) for now, marks in enumerate([{}, {FILE: mark(1)}, {FILE: mark(1)}])]
+    looks = [knowing.look(marks, second) for second, marks in enumerate([{}, {FILE: mark(1)}, {FILE: mark(1)}])]
     assert looks == [set()] * 3
 
 

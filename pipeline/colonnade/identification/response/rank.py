@@ -74,10 +74,10 @@ def distances(measured: ArrayLike, members: ArrayLike) -> tuple[float, Array] | 
         return None
     everyone = np.vstack((seen[known], runs[:, known])).T
     largest = np.zeros(runs.shape[0] + 1)
-    for now in np.array_split(everyone, len(everyone) // AT_A_TIME + 1):
-        low, middle, high = _without_each(now)
-        half = np.where(now > middle, high - middle, middle - low)
-        largest = np.maximum(largest, (np.abs(now - middle) / np.maximum(half, _LEAST)).max(axis=0))
+    for taken in np.array_split(everyone, len(everyone) // AT_A_TIME + 1):
+        low, middle, high = _without_each(taken)
+        half = np.where(taken > middle, high - middle, middle - low)
+        largest = np.maximum(largest, (np.abs(taken - middle) / np.maximum(half, _LEAST)).max(axis=0))
     return float(largest[0]), largest[1:]
 
 
