@@ -12,7 +12,7 @@ from colonnade.assessment.criteria import CRITERIA, Criterion
 from colonnade.assessment.measures import measure_of
 from colonnade.assessment.study import counted_draws
 from colonnade.campaign import Campaign
-from colonnade.campaign.forms.assessed import AssessmentSummary, JudgedCriterion, RecordUsed
+from colonnade.campaign.forms.assessed import AssessmentSummary, Estimate, JudgedCriterion, RecordUsed
 from colonnade.campaign.forms.summary import Summary, Warned
 from colonnade.errors import StoreError
 from colonnade.figures import fragility as figures
@@ -51,10 +51,9 @@ class AssessmentShown(NamedTuple):
         """Write a value of its measure."""
         return level(self.record.measure, value)
 
-    def median(self, place: int) -> tuple[str, str]:
-        """Write median and 5 % of a variant."""
-        variant = self.record.variants[place]
-        return estimated(self.record.measure, variant.median), estimated(self.record.measure, variant.five_percent)
+    def estimated(self, value: Estimate) -> str:
+        """Write a value of its measure with its interval."""
+        return estimated(self.record.measure, value)
 
     def criteria(self) -> list[tuple[Criterion, JudgedCriterion]]:
         """Give the criteria of practice with what was counted."""
@@ -67,8 +66,8 @@ class AssessmentShown(NamedTuple):
         return [Warned.of(each, explained=False) for each in at_stage(found, "assessment")]
 
     def heads(self) -> list[str]:
-        """Heads of the measures in the table of records."""
-        return [_label(name) for name in self._measures()]
+        """Heads of the measures in the table of records, marked as those of numbers."""
+        return [f"#{_label(name)}" for name in self._measures()]
 
     def row(self, used: RecordUsed) -> list[str]:
         """Measures of a record."""

@@ -75,7 +75,10 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
         "groups": groups.by_specimen(campaign, rows),
         "maps": groups.measured_maps(campaign, layout, rows),
         "forecasts": foreseen,
-        "advice": {"heads": advising.HEADS, "rows": [each.row() for each in advice]},
+        "advice": {
+            "heads": [f"#{head}" if head in ("risk", "tests left") else head for head in advising.HEADS],
+            "rows": [each.row() for each in advice],
+        },
         "assessments": assessed,
         "symbol": symbol,
         "not_computed": NOT_COMPUTED,

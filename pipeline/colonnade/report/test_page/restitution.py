@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import count
 from typing import NamedTuple
 
 from colonnade.campaign.forms.summary import IdentifiedSummary
@@ -75,7 +76,7 @@ class Decay:
     """
     A free vibration; without facts the section is left out.
 
-    `peaks` are time, angle, standard error, fitted angle and whether it was used.
+    `peaks` are number, time, angle, standard error, fitted angle and whether it was used.
     """
 
     facts: list[Fact]
@@ -91,5 +92,5 @@ def decay_of(subject: OfTest) -> Decay:
         facts=facts_of(stored, subject.row.record.restitution),
         estimates=estimates_of(stored),
         departures=stored.texts(STAGE, "departures"),
-        peaks=list(zip(*(stored.array(STAGE, name).tolist() for name in PEAK), strict=True)),
+        peaks=list(zip(count(1), *(stored.array(STAGE, name).tolist() for name in PEAK))),
     )
