@@ -168,7 +168,8 @@ def arcs_between(impacts: Array, time: Array, angle: Array, p: float, *, critica
     the variance of a mean grows by the sum of the correlations, which is that of the residuals of all arcs.
     """
     bounds = np.searchsorted(time, impacts)
-    sums = _summed(time, angle, impacts, bounds, p, np.nan if critical is None else critical)
+    # A copy: the kernel is compiled for arrays that may be written, and once more for that of a file.
+    sums = _summed(time.copy(), angle, impacts, bounds, p, np.nan if critical is None else critical)
     middle, own_p, count, normal = sums.middle, sums.p, sums.last - sums.first, sums.normal
     # With a clock in the wrong unit the hyperbolic functions exceed all numbers.
     fitted = (count >= FEWEST_SAMPLES) & np.isfinite(normal).all(axis=(1, 2))

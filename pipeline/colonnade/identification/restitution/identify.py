@@ -414,4 +414,5 @@ def _check_records(time: Any, angle: Any, **others: Any) -> tuple[Array, Array]:
             )
     if times.size and not (np.diff(times) > 0).all():
         raise ValueError(f"time does not increase after sample {int(np.argmin(np.diff(times) > 0))}")
-    return times, angles
+    # Copies: kernels are compiled for arrays that may be written, and once more for those of a file.
+    return times.copy(), angles.copy()
