@@ -15,6 +15,8 @@ from matplotlib import pyplot
 import colonnade
 from every import every
 
+pytestmark = pytest.mark.whole
+
 FOLDER = Path(__file__).parents[1] / "examples"
 EXAMPLES = {path.stem.removeprefix("plot_"): path for path in sorted(FOLDER.glob("*.py"))}
 
@@ -203,7 +205,6 @@ def test_18_fragility__rises_and_is_read_from_the_curve_that_fits(example):
     assert found.reaches(0.05).value < found.reaches(0.5).value == pytest.approx(found.lognormal.median.value)
 
 
-@pytest.mark.whole
 def test_19_animation__shows_each_frame(example, tmp_path):
     example.names["animation"].save(tmp_path / "rocking.gif", writer="pillow", dpi=20)
     assert (tmp_path / "rocking.gif").stat().st_size > 10_000
@@ -222,7 +223,6 @@ def test_21_frame__is_harder_to_overturn_than_its_column(example):
     assert gate.p < column.p
 
 
-@pytest.mark.whole
 def test_22_drums_and_frames__rock_and_stay_with_residuals(example):
     history, moved = example.names["history"], example.names["moved"]
     assert (history.outcome, moved.outcome) == ("rocking", "rocking")

@@ -65,6 +65,7 @@ def test_a_wrong_level_is_a_wrong_use(foreseen_copy, capsys):
     assert "--level strong" in capsys.readouterr().err
 
 
+@pytest.mark.whole
 def test_the_campaigns_assessments_are_shown(assessed_copy, capsys):
     assert invoke(["fragility", str(assessed_copy)]) == 0
     told = capsys.readouterr()

@@ -23,6 +23,8 @@ from colonnade.workflow import executors
 from prism import PRISM
 from written_files import assert_sound, columns
 
+pytestmark = pytest.mark.whole
+
 TOP = Transducer("top", "Top", "displacement", "specimen", 0.15, "mm", at=(0.043, 0.0, 0.44))
 TABLE = Transducer("table", "Table", "acceleration", "table", 20.0, "m/s^2")
 LATE = 0.3
@@ -303,21 +305,18 @@ def test_a_folder_that_is_not_free_is_refused_and_left_alone(there, error, said,
     assert tree(tmp_path) == before
 
 
-@pytest.mark.whole
 def test_several_processes_write_what_one_writes(tmp_path):
     for folder, workers in (("one", 1), ("two", 2)):
         write(statue_plan(), tmp_path / folder, seed=1, workers=workers)
     assert tree(tmp_path / "one") == tree(tmp_path / "two")
 
 
-@pytest.mark.whole
 def test_it_writes_after_a_run_has_left_its_processes_waiting(tmp_path):
     spread = executors._processes(2)  # of another kind than those of joblib.Parallel
     assert list(spread.pool.map(abs, [-1, -2])) == [1, 2]
     write(statue_plan(), tmp_path, seed=1, workers=2)
 
 
-@pytest.mark.whole
 def test_a_relative_folder_is_the_callers_whatever_processes_are_waiting(tmp_path, monkeypatch):
     write(statue_plan(), tmp_path / "first", seed=1, workers=2)
     monkeypatch.chdir(tmp_path)

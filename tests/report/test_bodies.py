@@ -15,6 +15,8 @@ from colonnade.store.records.stored import read_specimen, read_test
 from colonnade.units.text import acceleration
 from read_pages import words_of
 
+pytestmark = pytest.mark.whole
+
 
 @pytest.fixture(scope="module")
 def shaken(shaken_drums):

@@ -77,6 +77,7 @@ def test_outdated_results_are_pending_and_not_shown(two_tests):
     assert "<svg" in texts["tests/span-2.5.html"]
 
 
+@pytest.mark.whole
 def test_pages_of_what_is_no_longer_there_are_removed(empty_campaign, tmp_path):
     campaign, layout = empty_campaign[0], Layout(tmp_path)
     built(campaign, layout)

@@ -8,6 +8,8 @@ from colonnade.dynamics.rock import rock
 from paper_schemes import rock_by_steps
 from prism import PRISM
 
+pytestmark = pytest.mark.whole
+
 ALPHA = PRISM.critical_angle
 SCHEMES = ("runge-kutta", "hamming")
 RELEASED = {"restitution": 0.976, "theta0": 0.5 * ALPHA}

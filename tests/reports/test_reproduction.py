@@ -216,6 +216,7 @@ def test_what_was_put_in_is_never_called_agreement(kept):
         assert kept["answers"][name]["verdict"] == "undecided"
 
 
+@pytest.mark.whole
 def test_the_schemes_of_the_paper_follow_a_sine():
     block = printed.TABLE_1["prism"].block
     time = np.arange(301) * 0.01

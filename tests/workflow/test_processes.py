@@ -105,6 +105,7 @@ def test_an_interrupt_in_this_process_frees_the_lock_and_leaves_whole_files(unto
     resumes()
 
 
+@pytest.mark.whole
 def test_an_interrupt_whose_exception_was_dropped_ends_the_run_before_its_next_stage(untouched, monkeypatch):
     monkeypatch.setattr(interruption, "_noted", [])
 

@@ -226,7 +226,7 @@ def test_a_stack_of_two_opens_the_joints_that_mujoco_opens_with_its_impacts():
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize("seed", [0, 1, 5])
+@pytest.mark.parametrize("seed", [pytest.param(0, marks=pytest.mark.slow), 1, pytest.param(5, marks=pytest.mark.slow)])
 def test_drums_that_stand_off_their_places_keep_their_energy_as_they_slide_over_edges(seed):
     """Edges that are off the other face at rest bear once they have slid there; nothing bursts apart."""
     random = np.random.default_rng(seed)

@@ -34,7 +34,6 @@ def widths(page, screen):
     return [*page.evaluate(OUTSIDE), *(["the page scrolls sideways"] if wider else [])]
 
 
-@pytest.mark.smoke
 def test_only_boxes_that_scroll_are_wider_than_a_telephone(report_folder, visit):
     page = visit("index.html", screen=TELEPHONE)
     for address in KINDS:

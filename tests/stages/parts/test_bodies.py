@@ -9,6 +9,8 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow import run
 
+pytestmark = pytest.mark.whole
+
 
 @pytest.fixture(scope="module")
 def column(shaken_drums):
@@ -84,7 +86,6 @@ def test_a_body_without_markers_is_named_and_the_others_are_measured(tmp_path, c
     assert any("2: no transducer on it" in each.text for every in done.findings.values() for each, _ in every)
 
 
-@pytest.mark.whole
 def test_what_stands_on_a_body_that_fell_has_fallen(tmp_path):
     history = drums.write_campaign(tmp_path, strength=4.5)
     assert history.overturned_bodies == ("1", "2", "3")
@@ -95,7 +96,6 @@ def test_what_stands_on_a_body_that_fell_has_fallen(tmp_path):
     assert measured.attrs["outcome"] == "overturned"
 
 
-@pytest.mark.whole
 def test_runs_of_the_contact_model_say_how_probably_a_body_falls_and_how_far_it_moves(tmp_path):
     history = drums.write_campaign(tmp_path, strength=6.0)
     path = tmp_path / "campaign.toml"

@@ -28,7 +28,6 @@ def told(tmp_path, shaken_drums):
     return run_with
 
 
-@pytest.mark.smoke
 def test_a_sound_recording_has_nothing_to_tell(told):
     assert told() == []
 
