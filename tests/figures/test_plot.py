@@ -6,7 +6,7 @@ from matplotlib import pyplot
 from matplotlib.axes import Axes
 
 import colonnade
-from colonnade.figures.files.table import table_of
+from figure_tables import table_of
 from prism import PRISM
 
 

@@ -7,7 +7,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.pulses import overturning_spectrum
 from colonnade.dynamics.spectra import rocking_spectrum
 from colonnade.figures import spectra
-from colonnade.figures.files.table import table_of
+from figure_tables import table_of
 from prism import PRISM
 
 

@@ -11,12 +11,12 @@ from hypothesis.extra import numpy as arrays
 from matplotlib.figure import Figure
 
 from colonnade.figures.files.output import to_csv
-from colonnade.figures.files.table import table_of
 from colonnade.figures.histories import Spread
 from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
 from colonnade.figures.record import Peak, Quantity, whole_record
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
+from figure_tables import table_of
 
 TIME = np.linspace(0.0, 20.0, 20_001)
 NUMBERS = st.floats(-1e6, 1e6, width=32)
@@ -106,7 +106,7 @@ def test_a_gap_is_an_empty_cell_and_a_shorter_column_ends():
 def test_error_bars_give_the_value_and_both_ends():
     axes = panel()
     axes.errorbar([1.0, 2.0], [5.0, 6.0], yerr=[[1.0, 2.0], [3.0, 4.0]], xerr=0.5, fmt="o", label="peaks", capsize=2)
-    table = {heading: list(column) for heading, column in table_of(axes.figure).items()}
+    table = table_of(axes.figure)
     assert table == {
         "time (s)": [1.0, 2.0],
         "time (s), low": [0.5, 1.5],

@@ -7,8 +7,8 @@ import pytest
 
 from colonnade.figures import base_motion
 from colonnade.figures.base_motion import BaseMotion, base_of, base_picture
-from colonnade.figures.files.table import table_of
 from colonnade.signals.named_motion import Laid, Series
+from figure_tables import table_of
 
 STEP = 0.01
 TIME = STEP * np.arange(1000)

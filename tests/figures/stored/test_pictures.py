@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from colonnade.figures.files.table import table_of
 from colonnade.figures.maps import response_orders
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.record import SpanPanel
@@ -14,6 +13,7 @@ from colonnade.figures.stored.record import angle, measured_ratio, misfits, moti
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.stages.parts.beginning import AT_REST, RECORDED
 from colonnade.store.records.test import driven_by
+from figure_tables import table_of
 
 
 def test_a_test_is_drawn_and_described(known):

@@ -6,10 +6,10 @@ from dataclasses import replace
 import pytest
 
 from colonnade.figures.files.output import Movie
-from colonnade.figures.files.table import table_of
 from colonnade.figures.style import COLUMNS, journal
 from colonnade.report.pictures import subjects
 from colonnade.report.pictures.registry import FIGURES, picture
+from figure_tables import table_of
 
 SUBJECTS = {"test": ("free-01", "span-2.0"), "specimen": ("prism",), "campaign": ("",)}
 

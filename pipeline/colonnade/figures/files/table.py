@@ -22,11 +22,8 @@ from matplotlib.patches import Patch
 from colonnade.arrays import Array
 from colonnade.figures.panels.curve import LongBand
 
-Table = dict[str, Sequence[float] | Sequence[str]]
-"""Columns by their headings; they need not have one length."""
-
 Columns = dict[str, Array | list[str]]
-"""The same with numbers as arrays."""
+"""By their headings; they need not have one length."""
 
 LOW, HIGH = "low", "high"
 """Endings of the headings of the ends of bars and bands."""
@@ -54,7 +51,7 @@ class _Labels(NamedTuple):
     up: str | None
 
 
-def table_of(figure: Figure) -> Table:
+def columns_of(figure: Figure) -> Columns:
     """
     Read from a figure what it shows.
 
@@ -64,7 +61,7 @@ def table_of(figure: Figure) -> Table:
 
     Returns
     -------
-    table : dict of str to sequence
+    table : dict of str to ndarray or list of str
         Columns by heading: title of the panel if there are several, label of the axis with its unit, and name of the
         series. Series at the same places share the column of these. Named series of one point each, as the estimates
         of a quantity, are rows with their names in a column.
@@ -75,15 +72,9 @@ def table_of(figure: Figure) -> Table:
     >>> axes = figure.subplots()
     >>> _ = axes.plot([0.0, 1.0], [2.0, 3.0], label="measured")
     >>> _ = axes.set_xlabel("time (s)"), axes.set_ylabel("slide (mm)")
-    >>> table_of(figure)
-    {'time (s)': [0.0, 1.0], 'slide (mm), measured': [2.0, 3.0]}
+    >>> columns_of(figure)
+    {'time (s)': array([0., 1.]), 'slide (mm), measured': array([2., 3.])}
     """
-    columns = columns_of(figure)
-    return {heading: each if isinstance(each, list) else each.tolist() for heading, each in columns.items()}
-
-
-def columns_of(figure: Figure) -> Columns:
-    """Read from a figure what it shows, as `table_of`, with numbers as arrays."""
     table: Columns = {}
     titles = {_title(axes) for axes in figure.axes}
     for axes in figure.axes:

@@ -8,23 +8,23 @@ wrote stays text in it.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from html import unescape
-from html.parser import HTMLParser
+from itertools import chain
 from typing import Any
 
-Node = dict[str, Any]
-"""An element: `tag`, `attributes`, and `children`, each an element or text."""
+from lxml.html import HtmlElement, document_fromstring
+
 Block = dict[str, Any]
 """A part of a page as data: what it `is`, and what belongs to that."""
 
-VOID = frozenset(("br", "hr", "img", "input", "link", "meta", "source", "wbr", "col"))
 NOT_ON_PAPER = frozenset(
     ("script", "style", "nav", "form", "button", "input", "select", "label", "details", "template", "canvas", "video")
 )
 """Elements that only a screen can use; `data-paper="no"` marks others."""
 INLINE = {"strong": "strong", "b": "strong", "em": "emphasis", "i": "emphasis", "code": "code", "sub": "below"}
 INLINE |= {"sup": "above"}
-TRANSPARENT = frozenset(("a", "span", "abbr", "small", "time", "data", "img", "br", *INLINE))
+TRANSPARENT = frozenset(("a", "span", "abbr", "small", "time", "data", "br", *INLINE))
 """Elements within a line."""
 HEADINGS = {"h2": 1, "h3": 2, "h4": 3, "h5": 3}
 """Elements and how deep they are in their page."""
@@ -51,10 +51,7 @@ class Page:
 
     def __init__(self, text: str) -> None:
         self.pictures: list[str] = []
-        parser = _Tree()
-        parser.feed(_SVG.sub(self._put_aside, text))
-        parser.close()
-        self._root = parser.root
+        self._root = document_fromstring(_SVG.sub(self._put_aside, text))
 
     def _put_aside(self, found: re.Match[str]) -> str:
         self.pictures.append(found[0])
@@ -62,176 +59,139 @@ class Page:
 
     def below_title(self) -> list[Block]:
         """Paragraphs of the page's head, without its way to other pages."""
-        head = _first(self._root, "header")
-        lines = [] if head is None else [node for node in head["children"] if _tag(node) == "p"]
-        return self._blocks([node for node in lines if not _classes(node) & {"above", "steps"}])
+        lines = self._root.iterfind("body/header/p")
+        return self._blocks(node for node in lines if not _classes(node) & {"above", "steps"})
 
     def sections(self) -> dict[str, list[Block]]:
         """Blocks of each section by its id; what is before the first section has an empty one."""
-        main, found = _first(self._root, "main"), dict[str, list[Block]]()
-        for node in [] if main is None else main["children"]:
-            name = node["attributes"].get("id", "") if _tag(node) == "section" else ""
+        found = dict[str, list[Block]]()
+        for node in self._root.iterfind(".//main/*"):
+            name = node.get("id", "") if node.tag == "section" else ""
             found.setdefault(name, []).extend(self._blocks([node]))
         return {name: blocks for name, blocks in found.items() if blocks}
 
-    def _blocks(self, nodes: list[Node | str]) -> list[Block]:
+    def _blocks(self, nodes: Iterable[HtmlElement | str]) -> list[Block]:
         """Turn elements into blocks; a run of text and of elements within a line is a paragraph."""
         blocks: list[Block] = []
-        line: list[Node | str] = []
+        line: list[HtmlElement | str] = []
         for node in [*nodes, None]:
-            if node is not None and (isinstance(node, str) or node["tag"] in TRANSPARENT) and not _picture(node):
+            if isinstance(node, str) or (node is not None and node.tag in TRANSPARENT):
                 line.append(node)
                 continue
             if said := _trimmed(self._inline(line)):
                 blocks.append({"is": "paragraph", "in": said})
             line = []
-            if node is not None and not isinstance(node, str):
+            if node is not None:
                 blocks += self._block(node)
         return blocks
 
-    def _block(self, node: Node) -> list[Block]:
-        tag, classes, children = node["tag"], _classes(node), node["children"]
+    def _block(self, node: HtmlElement) -> list[Block]:
+        tag, classes = node.tag, _classes(node)
         if _is_left_out(node):
             return []
         if tag in HEADINGS:
-            return [{"is": "heading", "depth": HEADINGS[tag], "in": _trimmed(self._inline(children))}]
+            return [{"is": "heading", "depth": HEADINGS[tag], "in": self._line(node)}]
         if tag == "p" and not classes & {"note", "failure"}:
-            said = _trimmed(self._inline(children))
+            said = self._line(node)
             return [{"is": "paragraph", "soft": "soft" in classes, "in": said}] if said else []
         if tag in ("ul", "ol"):
-            items = [self._blocks(item["children"]) for item in _all(children, "li")]
-            return [{"is": "list", "numbered": tag == "ol", "items": items}]
+            return [{"is": "list", "numbered": tag == "ol", "items": [self._inside(item) for item in node]}]
         if tag == "dl":
-            terms = [_trimmed(self._inline(item["children"])) for item in _all(children, "dt")]
-            said = [self._blocks(item["children"]) for item in _all(children, "dd")]
-            return [{"is": "facts", "items": [list(pair) for pair in zip(terms, said, strict=True)]}]
+            terms, values = map(self._line, node.iterfind("dt")), map(self._inside, node.iterfind("dd"))
+            return [{"is": "facts", "items": [list(pair) for pair in zip(terms, values, strict=True)]}]
         if tag == "table":
             return [self._table(node)]
-        if tag == "figure" or _picture(node):
+        if tag in ("figure", "img"):
             return self._figure(node)
-        inside = self._blocks(children)
+        inside = self._inside(node)
         kind = next((kind for kind in ("failure", "note") if kind in classes), None)
         return [{"is": "box", "kind": kind, "in": inside}] if kind else inside
 
-    def _table(self, table: Node) -> Block:
+    def _table(self, table: HtmlElement) -> Block:
         rows: dict[bool, list[list[Block]]] = {True: [], False: []}
-        for part in [node for node in table["children"] if _tag(node) in ("thead", "tbody", "tfoot", "tr")]:
-            for row in [part] if part["tag"] == "tr" else _all(part["children"], "tr"):
-                shown = [node for node in row["children"] if not isinstance(node, str) and not _is_left_out(node)]
-                rows[part["tag"] == "thead"].append([self._cell(node) for node in shown if node["tag"] in ("th", "td")])
+        for row in table.iter("tr"):
+            is_head = row.getparent().tag == "thead"
+            rows[is_head].append([self._cell(node) for node in row if not _is_left_out(node)])
         columns = max((sum(cell["columns"] for cell in row) for row in (*rows[True], *rows[False])), default=1)
-        captions = [_trimmed(self._inline(each["children"])) for each in _all(table["children"], "caption")]
-        caption = captions[0] if captions else []
+        caption = next(map(self._line, table.iterfind("caption")), [])
         return {"is": "table", "caption": caption, "columns": columns, "head": rows[True], "body": rows[False]}
 
-    def _cell(self, node: Node) -> Block:
-        attributes, classes = node["attributes"], _classes(node)
+    def _cell(self, node: HtmlElement) -> Block:
+        classes = _classes(node)
         return {
             "is": "cell",
-            "in": self._blocks(node["children"]),
-            "columns": int(attributes.get("colspan", 1)),
-            "rows": int(attributes.get("rowspan", 1)),
+            "in": self._inside(node),
+            "columns": int(node.get("colspan", 1)),
+            "rows": int(node.get("rowspan", 1)),
             "number": "number" in classes,
             "wide": "wide" in classes,
-            "head": node["tag"] == "th",
+            "head": node.tag == "th",
         }
 
-    def _figure(self, node: Node) -> list[Block]:
-        images = [node] if _picture(node) else _every(node, "img")
+    def _figure(self, node: HtmlElement) -> list[Block]:
+        images = [node] if node.tag == "img" else _every(node, "img")
         pictures = [found for each in images if (found := self._picture_of(each))]
-        caption = [_trimmed(self._inline(each["children"])) for each in _every(node, "figcaption")]
-        if not pictures:
-            return []
-        return [{"is": "figure", "pictures": pictures, "caption": caption[0] if caption else []}]
+        caption = next(map(self._line, _every(node, "figcaption")), [])
+        return [{"is": "figure", "pictures": pictures, "caption": caption}] if pictures else []
 
-    def _picture_of(self, node: Node) -> Block | None:
-        attributes = node["attributes"]
-        if "data-picture" in attributes:
-            number = int(attributes["data-picture"])
+    def _picture_of(self, node: HtmlElement) -> Block | None:
+        if "data-picture" in node.attrib:
+            number = int(node.attrib["data-picture"])
             described = _DESCRIPTION.search(self.pictures[number])
             return {"is": "picture", "number": number, "alt": unescape(described[1]) if described else ""}
-        source = attributes.get("src", "")
+        source = node.get("src", "")
         return (
             None
             if not source or source.startswith("data:")
-            else {"is": "picture", "file": source, "alt": attributes.get("alt", "")}
+            else {"is": "picture", "file": source, "alt": node.get("alt", "")}
         )
 
-    def _inline(self, nodes: list[Node | str]) -> list[Any]:
+    def _inside(self, node: HtmlElement) -> list[Block]:
+        return self._blocks(_children(node))
+
+    def _line(self, node: HtmlElement) -> list[Any]:
+        return _trimmed(self._inline(_children(node)))
+
+    def _inline(self, nodes: Iterable[HtmlElement | str]) -> list[Any]:
         said: list[Any] = []
         for node in nodes:
             if isinstance(node, str):
                 said.append(_BLANKS.sub(" ", node))
-            elif node["tag"] == "br":
+            elif node.tag == "br":
                 said.append({"is": "break"})
             elif not _is_left_out(node):
-                inside = self._inline(node["children"])
-                if node["tag"] in INLINE:
-                    said.append({"is": INLINE[node["tag"]], "in": inside})
-                elif node["tag"] == "a":
-                    said.append({"is": "link", "to": node["attributes"].get("href", ""), "in": inside})
+                inside = self._inline(_children(node))
+                if node.tag in INLINE:
+                    said.append({"is": INLINE[node.tag], "in": inside})
+                elif node.tag == "a":
+                    said.append({"is": "link", "to": node.get("href", ""), "in": inside})
                 else:
                     said += inside
         return said
 
 
-class _Tree(HTMLParser):
-    """Builds the tree of a page."""
-
-    def __init__(self) -> None:
-        super().__init__(convert_charrefs=True)
-        self.root: Node = {"tag": "", "attributes": {}, "children": []}
-        self._open = [self.root]
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        node = {"tag": tag, "attributes": {name: value or "" for name, value in attrs}, "children": []}
-        self._open[-1]["children"].append(node)
-        if tag not in VOID:
-            self._open.append(node)
-
-    def handle_endtag(self, tag: str) -> None:
-        if any(node["tag"] == tag for node in self._open[1:]):
-            while self._open.pop()["tag"] != tag:
-                pass
-
-    def handle_data(self, data: str) -> None:
-        self._open[-1]["children"].append(data)
+def _children(node: HtmlElement) -> Iterator[HtmlElement | str]:
+    """Give the texts and elements of an element in their order."""
+    parts = chain([node.text], *([child, child.tail] for child in node))
+    return (part for part in parts if part is not None and part != "")
 
 
-def _tag(node: Node | str) -> str:
-    return "" if isinstance(node, str) else node["tag"]
+def _classes(node: HtmlElement) -> set[str]:
+    return set(node.get("class", "").split())
 
 
-def _classes(node: Node | str) -> set[str]:
-    return set() if isinstance(node, str) else set(node["attributes"].get("class", "").split())
+def _is_left_out(node: HtmlElement) -> bool:
+    is_marked = node.get("data-paper") == "no" or "hidden" in node.attrib
+    return node.tag in NOT_ON_PAPER or is_marked or "steps" in _classes(node)
 
 
-def _picture(node: Node | str) -> bool:
-    return _tag(node) == "img"
-
-
-def _is_left_out(node: Node) -> bool:
-    attributes = node["attributes"]
-    is_marked = attributes.get("data-paper") == "no" or "hidden" in attributes
-    return node["tag"] in NOT_ON_PAPER or is_marked or "steps" in _classes(node)
-
-
-def _all(nodes: list[Node | str], tag: str) -> list[Node]:
-    return [node for node in nodes if not isinstance(node, str) and node["tag"] == tag]
-
-
-def _every(node: Node, tag: str) -> list[Node]:
+def _every(node: HtmlElement, tag: str) -> list[HtmlElement]:
     """Find the elements of a kind in another one, at any depth, in their order."""
-    found: list[Node] = []
-    for child in node["children"]:
-        if isinstance(child, str) or _is_left_out(child):
-            continue
-        found += [child] if child["tag"] == tag else _every(child, tag)
+    found: list[HtmlElement] = []
+    for child in node:
+        if not _is_left_out(child):
+            found += [child] if child.tag == tag else _every(child, tag)
     return found
-
-
-def _first(node: Node, tag: str) -> Node | None:
-    return next(iter(_every(node, tag)), None)
 
 
 def _trimmed(said: list[Any]) -> list[Any]:
