@@ -89,9 +89,9 @@ def place(system: System, state: State, near: Near, flutter: float, step: float)
     """List the points that may touch within `step`, interface by interface."""
     listed, twist, carrier, target, stands = near.listed, near.twist, system.carrier, system.target, state.stands
     first, radii, reach = system.first, system.radii, system.reach
-    count = 0
+    listed[0] = 0
     for side in range(target.size):
-        listed[side] = count
+        count = listed[side]
         if stands[carrier[side]] == 1 and (target[side] < 0 or stands[target[side]] == 1):
             # A node that is higher than the fastest one moves in a step neither touched before nor does now.
             fastest = reach[side] * (abs(twist[side, 3]) + abs(twist[side, 4]) + abs(twist[side, 5]))
@@ -100,7 +100,7 @@ def place(system: System, state: State, near: Near, flutter: float, step: float)
             for node in range(first[side], first[side + 1]):
                 if radii[node] > 0.0:
                     count = _place_ring(system, state, near, side, node, count, step)
-    listed[target.size] = count
+        listed[side + 1] = count
 
 
 @kernel_in_place

@@ -29,8 +29,12 @@ SHORTEST_STEP = 1e-7
 FRESH = 1e-4
 """In x: the beginning of an arc after uplift, where rounding could feign a landing; it rises 1e-9 α."""
 
-LANDING, SUMMIT, PASSING = 0, 1, -1
-"""What is searched on an arc: where h falls to 0, where it is largest, where it passes α outwards."""
+LANDING, SUMMIT, PASSING = np.int64(0), np.int64(1), np.int64(-1)
+"""
+What is searched on an arc: where h falls to 0, where it is largest, where it passes α outwards.
+
+Of Python's own numbers numba would compile the search once for each.
+"""
 
 LARGEST_SINE = 1.6
 """What multiplies the weight is at most sin u ≤ 1, or |u| ≤ π/2 in the linearised equation up to where a block lies."""
@@ -157,7 +161,7 @@ def _to_landing(
 
 @kernel
 def _root(
-    low: float, high: float, first: Jet, last: Jet, kind: int, target: float, arc: Arc, work: Series | None
+    low: float, high: float, first: Jet, last: Jet, kind: np.int64, target: float, arc: Arc, work: Series | None
 ) -> tuple[float, Jet]:
     """
     Find the one x in [low, high] where what is searched is, and the state there.
@@ -194,7 +198,7 @@ def _root(
 
 
 @kernel
-def _searched(jet: Jet, kind: int, target: float) -> tuple[float, float, float, float]:
+def _searched(jet: Jet, kind: np.int64, target: float) -> tuple[float, float, float, float]:
     """Give what falls through 0 where something is, and its derivatives as far as they are known."""
     if kind == SUMMIT:
         return jet[1], jet[2], jet[3], 0.0
