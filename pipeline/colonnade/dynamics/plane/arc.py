@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from colonnade.dynamics.kernel import kernel
+from colonnade.dynamics.kernel import kernel_in_place
 from colonnade.dynamics.plane.series import (
     Jet,
     Push,
@@ -45,7 +45,7 @@ Arc = tuple[Wave, int]
 NO_WAVE = Wave(*[0.0] * len(Wave._fields))
 
 
-@kernel
+@kernel_in_place
 def verdict(width: float, start: Jet, end: Jet, fourth: float, fifth: float) -> int:
     """
     Tell what happens between two points, the first at h ≥ 0; the bounds are those of |h''''| and |h'''''| in between.
@@ -69,7 +69,7 @@ def verdict(width: float, start: Jet, end: Jet, fourth: float, fifth: float) -> 
     return 1 if start[1] + 0.5 * start[2] * width + min(least, 0.0) * width * width / 6.0 > 0.0 else 0
 
 
-@kernel
+@kernel_in_place
 def follow(
     height: float, rate: float, critical: float, push: Push, remaining: float, is_top_wanted: bool, work: Series | None
 ) -> tuple[bool, float, float, float, float, float, float, float]:
@@ -113,21 +113,21 @@ def follow(
     return landed, x, last[0], last[1], top, passing, last[6], last[7]
 
 
-@kernel
+@kernel_in_place
 def _jet(x: float, arc: Arc, work: Series | None) -> Jet:
     if work is None:
         return closed_jet(x, arc[0])
     return series_jet(x, arc[1], work.height)
 
 
-@kernel
+@kernel_in_place
 def _bounds(end: float, arc: Arc, work: Series | None) -> tuple[float, float]:
     if work is None:
         return closed_bounds(end, arc[0])
     return series_bounds(end, arc[1], work.height)
 
 
-@kernel
+@kernel_in_place
 def _to_landing(
     start: Jet, end: float, whole: Jet, is_top_wanted: bool, arc: Arc, work: Series | None
 ) -> tuple[bool, float, Jet, float]:
@@ -159,7 +159,7 @@ def _to_landing(
     return False, end, start, top
 
 
-@kernel
+@kernel_in_place
 def _root(
     low: float, high: float, first: Jet, last: Jet, kind: np.int64, target: float, arc: Arc, work: Series | None
 ) -> tuple[float, Jet]:
@@ -197,7 +197,7 @@ def _root(
         jet = _jet(x, arc, work)
 
 
-@kernel
+@kernel_in_place
 def _searched(jet: Jet, kind: np.int64, target: float) -> tuple[float, float, float, float]:
     """Give what falls through 0 where something is, and its derivatives as far as they are known."""
     if kind == SUMMIT:

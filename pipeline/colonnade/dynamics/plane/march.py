@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from colonnade.arrays import Array, Codes
-from colonnade.dynamics.kernel import kernel
+from colonnade.dynamics.kernel import kernel, kernel_in_place
 from colonnade.dynamics.plane.arc import follow
 from colonnade.dynamics.plane.series import Push, Series, empty_series
 from colonnade.dynamics.plane.sides import (
@@ -94,7 +94,7 @@ class End(NamedTuple):
     impacts: int
 
 
-@kernel
+@kernel_in_place
 def march(
     forcing: Forcing, sides: Sides, angle: float, velocity: float, watch: Watch, work: Series | None
 ) -> tuple[float, float, int]:
@@ -184,7 +184,7 @@ def march(
     return passed if height > of_side(sides.critical, here) else end, peak, count
 
 
-@kernel
+@kernel_in_place
 def _largest(values: Array) -> float:
     """Largest magnitude, in one pass."""
     largest = 0.0
@@ -193,7 +193,7 @@ def _largest(values: Array) -> float:
     return largest
 
 
-@kernel
+@kernel_in_place
 def _part(
     knot: int, omega: float, phase: float, interval: float, times: Array, levels: Array, weights: Array
 ) -> tuple[float, Part]:
@@ -208,7 +208,7 @@ def _part(
     return begin, Part(length, levels[knot], slope, weight, lift, omega, omega * begin + phase)
 
 
-@kernel
+@kernel_in_place
 def _turned(part: Part, now: float) -> tuple[float, float]:
     """Sine and cosine of the motion's phase."""
     if part.omega == 0.0:

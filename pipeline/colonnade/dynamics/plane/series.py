@@ -30,7 +30,7 @@ from typing import NamedTuple
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.dynamics.kernel import kernel, kernel_fused
+from colonnade.dynamics.kernel import kernel_fused, kernel_in_place
 
 ODD = tuple(1.0 / factorial(2 * k + 1) for k in range(10))
 EVEN = tuple(1.0 / factorial(2 * k + 2) for k in range(10))
@@ -73,7 +73,7 @@ class Wave(NamedTuple):
     forced_rate: float
 
 
-@kernel
+@kernel_in_place
 def closed_arc(height: float, rate: float, critical: float, push: Push, wanted: float) -> tuple[Wave, Jet, float]:
     """Begin an arc; return it, its state at the beginning, and how far it is followed."""
     q, change, _weight, _lift, ratio, sine, cosine = push
@@ -87,7 +87,7 @@ def closed_arc(height: float, rate: float, critical: float, push: Push, wanted: 
     return wave, start, min(wanted, LONGEST_STEP / max(1.0, ratio))
 
 
-@kernel
+@kernel_in_place
 def closed_bounds(end: float, wave: Wave) -> tuple[float, float]:
     """Bounds of |h''''| and |h'''''| on [0, end] but for what w adds, which a jet has."""
     gain, growth, ratio = wave.gain, wave.growth, wave.ratio
@@ -170,7 +170,7 @@ def empty_series(is_linearised: bool = False) -> Series:
     return Series(height, rising, sine, cosine, forcing, is_linearised)
 
 
-@kernel
+@kernel_in_place
 def series_arc(
     start: float, rate: float, critical: float, push: Push, wanted: float, work: Series
 ) -> tuple[int, Jet, float]:
@@ -182,7 +182,7 @@ def series_arc(
     return terms, (start, rate, 2.0 * height[2], 6.0 * height[3], 0.0, 0.0, 0.0, 0.0), end
 
 
-@kernel
+@kernel_in_place
 def _expand(start: float, rate: float, critical: float, push: Push, wanted: float, work: Series) -> int:
     """Fill in the coefficients, as many as `wanted` needs, and return how many."""
     height, rising, sine, cosine, forcing, linearised = work

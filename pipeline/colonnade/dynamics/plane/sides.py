@@ -9,7 +9,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.kernel import kernel
+from colonnade.dynamics.kernel import kernel_in_place
 from colonnade.dynamics.restitution_law import RestitutionLaw, restitution_table
 
 Pair = tuple[float, float]
@@ -39,19 +39,19 @@ def sides_of(block: Block, restitution: Pair | RestitutionLaw, rest_angle: float
     return Sides(critical, p, values, speeds, rest_angle)
 
 
-@kernel
+@kernel_in_place
 def of_side(pair: Pair, here: int) -> float:
     """Choose by side; compiled, an index that is not constant branches and may raise."""
     return pair[1] if here else pair[0]
 
 
-@kernel
+@kernel_in_place
 def uplift_threshold(critical: float, linearised: bool) -> float:
     """Return |a/g| above which a block at rest uplifts."""
     return critical if linearised else tan(critical)
 
 
-@kernel
+@kernel_in_place
 def restitution_of(restitution: Array, speeds: Array, here: int, velocity: float) -> float:
     """
     Give e of an impact that ends an arc on side `here` (0 for θ < 0, 1 for θ > 0).
@@ -70,7 +70,7 @@ def restitution_of(restitution: Array, speeds: Array, here: int, velocity: float
     return float(lower + share * (upper - lower))
 
 
-@kernel
+@kernel_in_place
 def rebound(rate: float, here: int, weight: float, pull: float, sides: Sides, linearised: bool) -> tuple[float, bool]:
     """
     Give dh/dx after an impact that ends an arc on side `here` with dh/dx = `rate`, and whether the block then rests.
@@ -89,13 +89,13 @@ def rebound(rate: float, here: int, weight: float, pull: float, sides: Sides, li
     return leaving, False
 
 
-@kernel
+@kernel_in_place
 def _hill(lean: float) -> float:
     """Potential over m g R at lean = α − |θ|; 0 where the centre of mass is above the pole."""
     return -2.0 * sin(0.5 * lean) ** 2
 
 
-@kernel
+@kernel_in_place
 def survives_free_rocking(height: float, rate: float, here: int, sides: Sides, linearised: bool) -> bool:
     """
     Tell whether a block that rocks on side `here`, left on a base at rest, comes back to stand.
@@ -147,7 +147,7 @@ class Part(NamedTuple):
     phase: float
 
 
-@kernel
+@kernel_in_place
 def uplift(start: float, part: Part, thresholds: Pair) -> tuple[float, int]:
     """
     Find when from `start` on a block at rest uplifts in a part, and on which side; (inf, 0) where it stays.
@@ -183,7 +183,7 @@ def uplift(start: float, part: Part, thresholds: Pair) -> tuple[float, int]:
     return np.inf, 0
 
 
-@kernel
+@kernel_in_place
 def _first_above(low: float, high: float, part: Part, threshold: float) -> float:
     """Find where on a ramp l |sin φ| first passes a threshold within half a wave; inf where it does not."""
     _, level, slope, _, _, omega, phase = part
@@ -230,7 +230,7 @@ class WholeSample(NamedTuple):
     bounds: tuple[float, float, float]
 
 
-@kernel
+@kernel_in_place
 def whole_sample(side: float, critical: float, p: float, dt: float, largest: float) -> WholeSample:
     """Prepare one side for samples of the length `dt` under a motion of at most `largest` a/g."""
     step = p * dt
@@ -245,7 +245,7 @@ def whole_sample(side: float, critical: float, p: float, dt: float, largest: flo
     return WholeSample(side, p, step, critical, factors, (limit, limit * most, 0.5 * step * most))
 
 
-@kernel
+@kernel_in_place
 def undisturbed(
     angles: Array,
     velocities: Array,
@@ -263,7 +263,7 @@ def undisturbed(
     return _march(angles, velocities, base, sample, whole)
 
 
-@kernel
+@kernel_in_place
 def _march(angles: Array, velocities: Array, base: Array, sample: int, whole: WholeSample) -> int:
     """
     Propagate sample by sample for as long as no impact can hide inside one and |θ| ≤ α; return where that ends.
@@ -290,7 +290,7 @@ def _march(angles: Array, velocities: Array, base: Array, sample: int, whole: Wh
     return sample
 
 
-@kernel
+@kernel_in_place
 def _still(base: Array, sample: int, thresholds: Pair) -> int:
     """Last sample up to which a block at rest at `sample` stays so."""
     negative, positive = thresholds
