@@ -6,7 +6,9 @@ from posixpath import dirname, join, normpath
 import pytest
 
 from colonnade.report import addresses
+from colonnade.report.specimens_page import of_specimen
 from colonnade.store.layout import Layout
+from colonnade.store.records.stored import Stored
 from read_pages import Page, dead_links, words_of, written
 
 STRONG = "sine-3hz-too-strong-for-the-block-1"
@@ -196,6 +198,15 @@ def test_a_specimen_gives_its_properties_at_both_scales(texts):
     measured = words_of(texts["specimens/statue.html"])
     assert "critical angle α 0.21 rad and 0.23 rad – 0.21 rad" in measured
     assert "prototype" not in measured
+
+
+def test_a_block_too_wide_to_rock_on_has_a_page(filled_campaign):
+    campaign = filled_campaign[0]
+    wide = campaign.specimens["prism"].model_copy(update={"width": 0.8})
+    wide = campaign.model_copy(update={"specimens": campaign.specimens | {"prism": wide}})
+    known = dict(of_specimen(wide, "prism", Stored(), []).restitution)
+    assert known["rigid-body e, without bounce"] == "0"
+    assert "e over rigid-body e" not in known
 
 
 def test_a_specimen_gives_each_restitution_and_why_one_was_refused(texts):

@@ -20,6 +20,7 @@ from colonnade.findings import in_order
 from colonnade.report import addresses
 from colonnade.report.pictures.subjects import Decaying, OfSpecimen, OfTest
 from colonnade.report.test_page import restitution
+from colonnade.report.test_page.facts import Fact, known
 from colonnade.report.test_page.restitution import EstimateText
 from colonnade.store.records.stored import Failure, Stored
 from colonnade.units.text import NOTHING, acceleration, interval, listed, number, percent, quantity
@@ -73,8 +74,8 @@ class SpecimenPage:
     """
     What the page of a specimen shows; its pictures are of `subject`.
 
-    `e` is the value that predictions use, with its interval; `contact` the law of the contact model, name and value;
-    `bodies` those of an assembly, from the bottom to the top.
+    `e` is the value that predictions use, with its interval, and `restitution` what is known of it; `contact` the law
+    of the contact model, name and value; `bodies` those of an assembly, from the bottom to the top.
     """
 
     id: str
@@ -88,10 +89,7 @@ class SpecimenPage:
     e: str
     source: str
     rigid: str
-    ratio: str
-    method: str
-    reason: str
-    between: str
+    restitution: list[Fact]
     contact: list[tuple[str, str]]
     warnings: list[Warned]
     failures: list[Failure]
@@ -119,7 +117,7 @@ def of_specimen(
     specimen, block = campaign.specimens[name], campaign.block(name)
     value, low, high, level = (pooled.value("specimen", each) for each in ("restitution", *BOUNDS))
     unknown = "failed" if pooled.failures else "not yet known"
-    e = interval(value, low, high, level)
+    e, rigid = interval(value, low, high, level), number(block.restitution, 4)
     source = SOURCES.get(pooled.text("specimen", "restitution_source"), unknown)
     page = SpecimenPage(
         id=name,
@@ -132,11 +130,17 @@ def of_specimen(
         deviations=list(specimen.deviations(campaign.gravity)),
         e=e,
         source=source,
-        rigid=number(block.restitution, 4),
-        ratio=number(value / block.restitution, 4),
-        method=pooled.text("specimen", "method"),
-        reason=pooled.text("specimen", "reason"),
-        between=_between(pooled),
+        rigid=rigid,
+        restitution=known(
+            [
+                ("e", f"{e}, {source}"),
+                ("rigid-body e, without bounce", rigid),
+                ("e over rigid-body e", number(value / block.restitution, 4) if block.restitution else NOTHING),
+                ("scatter between tests", _between(pooled)),
+                ("method", pooled.text("specimen", "method")),
+                ("remark", pooled.text("specimen", "reason")),
+            ]
+        ),
         contact=_contact(pooled),
         warnings=[Warned.of(found, explained=explained) for found, explained in in_order(pooled.findings)],
         failures=pooled.failures,
@@ -151,7 +155,7 @@ def of_specimen(
     page = replace(page, bodies=bodies, deviations=deviations)
     if specimen.is_in_plane:
         return page
-    return replace(page, answer=first, e=NOTHING, source=f"as {APART}", rigid="", ratio=NOTHING, method="", reason="")
+    return replace(page, answer=first, e=NOTHING, source=f"as {APART}", rigid="")
 
 
 def _bodies(whole: Whole, gravity: float) -> tuple[str, list[tuple[str, ...]]]:
