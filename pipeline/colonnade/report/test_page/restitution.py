@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import count
 from typing import NamedTuple
 
 from colonnade.campaign.forms.summary import IdentifiedSummary
@@ -88,9 +87,10 @@ class Decay:
 def decay_of(subject: OfTest) -> Decay:
     """Put what is stored of a test's restitution into words."""
     stored = subject.stored
+    columns = (stored.array(STAGE, name).tolist() for name in PEAK)
     return Decay(
         facts=facts_of(stored, subject.row.record.restitution),
         estimates=estimates_of(stored),
         departures=stored.texts(STAGE, "departures"),
-        peaks=list(zip(count(1), *(stored.array(STAGE, name).tolist() for name in PEAK))),
+        peaks=[(number, *peak) for number, peak in enumerate(zip(*columns, strict=True), 1)],
     )
