@@ -92,3 +92,9 @@ def test_a_column_for_the_screen_is_left_out_of_a_table():
 )
 def test_what_only_a_screen_can_use_is_left_out(screen):
     assert blocks_of(f"<p>before</p>{screen}<p>after</p>") == blocks_of("<p>before</p><p>after</p>")
+
+
+def test_nothing_is_lost_of_a_page_with_a_very_long_text():
+    said, after = blocks_of(f"<p>{'x' * 11_000_000}</p><p>after</p>")
+    assert len(said["in"][0]) == 11_000_000
+    assert after["in"] == ["after"]

@@ -13,7 +13,7 @@ from html import unescape
 from itertools import chain
 from typing import Any
 
-from lxml.html import HtmlElement, document_fromstring
+from lxml.html import HtmlElement, HTMLParser, document_fromstring
 
 Block = dict[str, Any]
 """A part of a page as data: what it `is`, and what belongs to that."""
@@ -51,7 +51,8 @@ class Page:
 
     def __init__(self, text: str) -> None:
         self.pictures: list[str] = []
-        self._root = document_fromstring(_SVG.sub(self._put_aside, text))
+        # By default a text above 10 MB would empty the page, without a word.
+        self._root = document_fromstring(_SVG.sub(self._put_aside, text), parser=HTMLParser(huge_tree=True))
 
     def _put_aside(self, found: re.Match[str]) -> str:
         self.pictures.append(found[0])
