@@ -6,8 +6,8 @@ import json
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
+from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.forms.foreseen import ForecastsSummary
@@ -20,9 +20,6 @@ from colonnade.store.records.advice import Advice
 from colonnade.store.results import ResultId, models_shown, results_of
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.product import Contents, Made, Product, brought_up_to_date
-
-if TYPE_CHECKING:
-    from colonnade.report.parts import Part
 
 MADE_BY = ("colonnade.report", "colonnade.store")
 """Packages whose code makes the pages; what they import counts too."""
@@ -75,8 +72,9 @@ def update_report(
     if not layout.state.is_file():
         files.write_text(layout.state, UNWATCHED)
     there: set[Path] = set()
-    for products in (report.drawings, report.tests, report.specimens, partial(report.whole, forecasts)):
-        for made in brought_up_to_date(products(), catalogue, workers=workers if products == report.tests else 1):
+    alone, of_several = chain(report.drawings(), report.tests()), chain(report.specimens(), report.whole(forecasts))
+    for products in (alone, of_several):
+        for made in brought_up_to_date(products, catalogue, workers=workers):
             report.made[str(made.product.id)] = made
             there |= set(made.product.paths)
     for stale in {path for pattern in OWN for path in layout.report.parent.glob(pattern)} - there:
@@ -122,8 +120,8 @@ class _Report:
             tests = {test: key for test, key in self._keys.items() if campaign.tests[test].specimen == name}
             setups = {pair: tests for pair, tests in campaign.combinations.items() if pair[0] == name}
             shows = repr((around, campaign.specimens[name], setups, [campaign.setups[setup] for _, setup in setups]))
-            page, make = addresses.of_specimen(name), partial(self._specimen, name)
-            places = [addresses.of_data(page), page]
+            page, own = addresses.of_specimen(name), self._parts(tests)
+            places, make = [addresses.of_data(page), page], partial(_specimen, campaign, self.layout, name, own)
             yield self._product(f"specimen-page {name}", shows, self._contents(results) | tests, make, places)
 
     def whole(self, forecasts: ForecastsSummary | None) -> Iterator[Product]:
@@ -134,7 +132,8 @@ class _Report:
         shows = [repr(self.campaign.with_relative_paths()), sorted(self.outdated), *foreseen, *map(repr, self.advice)]
         there = {str(path.relative_to(self.layout.processed)): path for path in self.layout.results_there()}
         contents = {name: self.catalogue.content(path) for name, path in there.items()}
-        yield self._product("pages", json.dumps(shows), contents | self._keys, partial(self._whole, places), places)
+        make = partial(_whole, self.campaign, self.layout, self._parts(self._asked), self.advice, places)
+        yield self._product("pages", json.dumps(shows), contents | self._keys, make, places)
 
     def _product(
         self,
@@ -158,26 +157,9 @@ class _Report:
     def _keys(self) -> dict[str, str]:
         return {name: self.made[f"page {name}"].key for name in self.campaign.tests}
 
-    @cached_property
-    def _parts(self) -> list[Part]:
-        from colonnade.report.parts import Part
-
-        return [Part.of(asked, self.made[f"page {name}"].text) for name, asked in self._asked.items()]
-
-    def _specimen(self, name: str) -> Contents:
-        from colonnade.report.build import specimen_page
-        from colonnade.report.parts import seldom_collected
-
-        with seldom_collected():
-            return [text for _, text in specimen_page(self.campaign, self.layout, name, self._parts)], ""
-
-    def _whole(self, places: Sequence[str]) -> Contents:
-        from colonnade.report.build import whole_pages
-        from colonnade.report.parts import seldom_collected
-
-        with seldom_collected():
-            texts = dict(whole_pages(self.campaign, self.layout, self._parts, self.advice))
-        return [texts[place] for place in places], ""
+    def _parts(self, tests: Iterable[str]) -> list[tuple[Asked, str]]:
+        """What is asked for and what was kept of each test, from which its part of other pages is read."""
+        return [(self._asked[name], self.made[f"page {name}"].text) for name in tests]
 
 
 def _drawing(campaign: Campaign, specimen: str, setup: str) -> Contents:
@@ -190,3 +172,26 @@ def _page(layout: Layout, asked: Asked) -> Contents:
     from colonnade.report.parts import drawn
 
     return drawn(layout, asked)
+
+
+def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[tuple[Asked, str]]) -> Contents:
+    from colonnade.report.build import specimen_page
+    from colonnade.report.parts import Part, seldom_collected
+
+    with seldom_collected():
+        return [text for _, text in specimen_page(campaign, layout, name, [Part.of(*each) for each in parts])], ""
+
+
+def _whole(
+    campaign: Campaign,
+    layout: Layout,
+    parts: Sequence[tuple[Asked, str]],
+    advice: Sequence[Advice],
+    places: Sequence[str],
+) -> Contents:
+    from colonnade.report.build import whole_pages
+    from colonnade.report.parts import Part, seldom_collected
+
+    with seldom_collected():
+        texts = dict(whole_pages(campaign, layout, [Part.of(*each) for each in parts], advice))
+    return [texts[place] for place in places], ""

@@ -142,7 +142,6 @@ class _Rules(Artist):
 def leave_scale_to_last(panels: Sequence[Axes]) -> None:
     """Show the horizontal axis below the last panel alone: ticks that nobody sees were a sixth of a page's calls."""
     for one in panels[:-1]:
-        one.tick_params(bottom=False, labelbottom=False)
         one.xaxis.set_visible(False)
         one.add_artist(_Rules(grid_style()))
 
@@ -176,6 +175,7 @@ def add_panel(
     across, total = (float(size) for size in figure.get_size_inches())
     place = (left / across, 1 - (top + height) / total, width / across, height / total)
     panel = figure.add_axes(place, sharex=sharex, sharey=sharey)
+    panel.xaxis.minorTicks, panel.yaxis.minorTicks = [], []
     panel.yaxis.set_label_coords(-(0.8 if is_narrow() else 1.0) * LABEL / width, 0.5)
     return panel
 
