@@ -175,7 +175,7 @@ def add_panel(
     across, total = (float(size) for size in figure.get_size_inches())
     place = (left / across, 1 - (top + height) / total, width / across, height / total)
     panel = figure.add_axes(place, sharex=sharex, sharey=sharey)
-    panel.xaxis.minorTicks, panel.yaxis.minorTicks = [], []
+    panel.xaxis.minorTicks, panel.yaxis.minorTicks = [], []  # unasked, matplotlib makes one of each
     panel.yaxis.set_label_coords(-(0.8 if is_narrow() else 1.0) * LABEL / width, 0.5)
     return panel
 
