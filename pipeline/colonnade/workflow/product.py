@@ -24,6 +24,9 @@ from colonnade.workflow.executors import spread
 Look = Callable[[Path], Mapping[str, Any]]
 """Returns the stored attributes of a result, given its path."""
 
+WORTH_A_PROCESS = 4
+"""Products from which on other processes are used: one takes as long to start as two pages to draw."""
+
 Contents = tuple[Sequence[str | bytes], str]
 """What the files of a product hold, in their order, and the text that is kept of it."""
 
@@ -121,7 +124,8 @@ def brought_up_to_date(products: Iterable[Product], catalogue: Catalogue, *, wor
             yield there
         else:
             waiting.append(product)
-    for number, (contents, text), reason, is_lasting in spread(_make, list(enumerate(waiting)), workers=workers):
+    processes = workers if len(waiting) >= WORTH_A_PROCESS else 1
+    for number, (contents, text), reason, is_lasting in spread(_make, list(enumerate(waiting)), workers=processes):
         product, key = waiting[number], waiting[number].recipe().key
         for path, data in zip(product.paths, contents, strict=False):
             files.write_changed(path, stamped(data.encode() if isinstance(data, str) else data, key, path.suffix))
