@@ -15,7 +15,7 @@ from colonnade.figures.style import blank_figure, styled
 from colonnade.identification.calibration import coverage, randomised_pit, reliability
 from colonnade.identification.forecasts import Forecast, base_rates, score, skill
 from forecast_trial import FORECASTS, HEIGHTS, MODEL, PILOTS, RESTITUTION, SCATTER, WRONG, Campaign, run_campaign
-from study import Study, table
+from study import Cells, Study, columns, table
 
 FEWEST_CAMPAIGNS = 6
 """Of an interval: of fewer no resampling shows how much campaigns differ."""
@@ -150,7 +150,7 @@ TEXT = """# Study of forecasts whose truth is known
 
 Made by `make study NAME=forecast` (`python reports/forecast_study.py --campaigns {campaigns} --seed {seed}`).
 
-{campaigns} virtual campaigns with {each} tests each: prisms of {heights} m with a true e of {lowest} to {highest}.
+{campaigns} virtual campaigns with {each} tests each: prisms of {heights} m with a true e of {restitution}.
 In each test e differs from it by {scatter} (standard deviation). Each campaign identifies e from three free vibrations
 of its own, with an interval. Its tests are synthetic earthquakes, El Centro 1940 and sines, at levels that its own
 forecasts leave undecided if there are any (some of {pilots} pilot runs overturn, some stand); one test in five is about
@@ -210,20 +210,16 @@ NAMES = {
 def page(found: dict[str, Any], figure: str) -> str:
     """Write the page."""
     tests, judged = found["tests"], found["judged"]
-    standing, rocking, overturned = judged["tests"]["outcomes"]
+    outcomes = zip(("standing", "rocking", "overturned"), judged["tests"]["outcomes"], strict=True)
     return TEXT.format(
         **{name: found[name] for name in ("campaigns", "seed", "members", "pilots")},
         each=tests,
         heights=", ".join(f"{height:g}" for height in HEIGHTS),
-        lowest=f"{RESTITUTION[0]:.2f}",
-        highest=f"{RESTITUTION[1]:.2f}",
+        restitution="{:.2f} to {:.2f}".format(*RESTITUTION),
         scatter=SCATTER,
         model=MODEL,
-        count=judged["tests"]["count"],
-        undecided=judged["tests"]["undecided"],
-        standing=standing,
-        rocking=rocking,
-        overturned=overturned,
+        **{name: judged["tests"][name] for name in ("count", "undecided")},
+        **dict(outcomes),
         wrong=WRONG,
         high_found=_interval(judged["difference"]["too high"][MAIN]),
         low_found=_interval(judged["difference"]["too low"][MAIN]),
@@ -252,21 +248,22 @@ def _table(first: str, rows: dict[str, dict[str, str]]) -> str:
 
 
 def _reliability(found: dict[str, list[float]]) -> str:
-    columns = (found[name] for name in ("tests", "probability", "frequency", "low", "high"))
-    return table(
-        ("tests", "mean probability", "overturned", "consistency bar"),
-        (
-            (tests, f"{mean:.3f}", f"{frequency:.3f}", f"{low:.3f} to {high:.3f}")
-            for tests, mean, frequency, low, high in zip(*columns, strict=True)
-        ),
-    )
+    cells: Cells = {
+        "tests": "{tests}",
+        "mean probability": "{probability:.3f}",
+        "overturned": "{frequency:.3f}",
+        "consistency bar": "{low:.3f} to {high:.3f}",
+    }
+    names = ("tests", "probability", "frequency", "low", "high")
+    rows = zip(*(found[name] for name in names), strict=True)
+    return columns(cells, [dict(zip(names, row, strict=True)) for row in rows])
 
 
 def _coverage(found: dict[str, dict[str, list[float]]]) -> str:
     rows = []
     for name, row in found.items():
-        columns = zip(row["share"], row["low"], row["high"], strict=True)
-        rows.append((NAMES[name], *(f"{share:.1%} ({low:.1%} to {high:.1%})" for share, low, high in columns)))
+        held = zip(row["share"], row["low"], row["high"], strict=True)
+        rows.append((NAMES[name], *(f"{share:.1%} ({low:.1%} to {high:.1%})" for share, low, high in held)))
     return table(("forecast", *(f"{band:.0%}" for band in found["identified"]["band"])), rows)
 
 
@@ -284,26 +281,16 @@ def draw(found: dict[str, Any]) -> Any:
         left.vlines(mean, low, high, color="0.75", linewidth=5, label="consistency bar, 95 %")
         for name, colour in COLOURS.items():
             each = judged["reliability"][name]
-            left.plot(
-                each["probability"],
-                each["frequency"],
-                "o-",
-                color=colour,
-                markersize=3,
-                linewidth=0.8,
-                label=NAMES[name],
-            )
+            look = {"color": colour, "markersize": 3, "linewidth": 0.8, "label": NAMES[name]}
+            left.plot(each["probability"], each["frequency"], "o-", **look)
             values = np.sort(judged["pit"][name])
             right.step(values, np.arange(1, values.size + 1) / values.size, where="post", color=colour, linewidth=1.0)
         for axes in (left, right):
             axes.plot([0, 1], [0, 1], color="0.6", linewidth=0.8, linestyle="--")
-            axes.set_xlim(0, 1)
-            axes.set_ylim(0, 1)
-        left.set_xlabel("forecast probability of overturning")
-        left.set_ylabel("share that overturned")
+            axes.set(xlim=(0, 1), ylim=(0, 1))
+        left.set(xlabel="forecast probability of overturning", ylabel="share that overturned")
         left.legend(fontsize=6, loc="upper left", frameon=False)
-        right.set_xlabel("PIT of the amplitude")
-        right.set_ylabel("share of the tests")
+        right.set(xlabel="PIT of the amplitude", ylabel="share of the tests")
     return figure
 
 
@@ -314,14 +301,8 @@ def study(campaigns: int, seed: int, workers: int, *, tests: int = TESTS, member
     """Run everything, and gather what the page gives."""
     pool = Parallel(n_jobs=workers)
     ran = list(pool(delayed(run_campaign)(seed, number, tests, members) for number in range(campaigns)))
-    return {
-        "campaigns": campaigns,
-        "tests": tests,
-        "members": members,
-        "pilots": PILOTS,
-        "seed": seed,
-        "judged": judge(ran),
-    }
+    counts = {"campaigns": campaigns, "tests": tests, "members": members, "pilots": PILOTS}
+    return {**counts, "seed": seed, "judged": judge(ran)}
 
 
 STUDY = Study(

@@ -77,17 +77,8 @@ class Specimen:
 
 def uncertainty(restitution: float, freedom: int | None = None) -> Uncertainty:
     """Errors of the default settings, with a standard deviation of e and its degrees of freedom."""
-    settings = PlaneEnsembleSettings()
-    return Uncertainty(
-        restitution=restitution,
-        restitution_freedom=freedom,
-        critical_angle=settings.critical_angle,
-        p=settings.p,
-        gain=settings.gain,
-        clock=settings.clock,
-        noise=NOISE,
-        cutoff=CUTOFF,
-    )
+    known = {name: getattr(PlaneEnsembleSettings(), name) for name in ("critical_angle", "p", "gain", "clock")}
+    return Uncertainty(restitution=restitution, restitution_freedom=freedom, noise=NOISE, cutoff=CUTOFF, **known)
 
 
 def draw_specimen(random: np.random.Generator) -> Specimen:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import asdict
 from typing import Any
 
@@ -11,7 +12,7 @@ from joblib import Parallel, delayed
 from colonnade.assessment.curves import ENOUGH_RECORDS, LEAST_MIXED
 from colonnade.assessment.intervals import FEWEST_RECORDS, MOST_WITHOUT
 from fragility_trial import APART, MEDIAN, PROBABILITIES, RESAMPLES, SIGNIFICANT, WITHIN, Population, run
-from study import Study, table
+from study import Cells, Study, columns
 
 TEXT = """# Study of fragility curves whose truth is known
 
@@ -59,10 +60,13 @@ BETAS = ("beta of records", "beta of parameters")
 
 def page(found: dict[str, Any], _figure: str = "") -> str:
     """Write the page."""
-    repetitions = found["repetitions"]
-    designs = {name: (Population(**each["population"]), each["shares"]) for name, each in found["designs"].items()}
-    lognormal = {name: each for name, each in designs.items() if not each[0].two_kinds}
-    two_kinds = {name: each for name, each in designs.items() if each[0].two_kinds}
+    repetitions, designs = found["repetitions"], found["designs"]
+    rows = [{"population": name, **each["shares"]} for name, each in designs.items()]
+    lognormal = [row for row, each in zip(rows, designs.values(), strict=True) if not each["population"]["two_kinds"]]
+    levels = max(each["population"]["levels"] for each in designs.values())
+    first: Cells = {"population": "{population}"}
+    of_lognormal = {key: _share(key) for key in COLUMNS} | {"rejected": _share("misfit")}
+    of_two_kinds = {"rejected": _share("misfit"), "isotonic, mean over levels": _mean_isotonic}
     return TEXT.format(
         repetitions=repetitions,
         seed=found["seed"],
@@ -77,41 +81,22 @@ def page(found: dict[str, Any], _figure: str = "") -> str:
         mixed=LEAST_MIXED,
         apart=APART,
         within=WITHIN,
-        lognormal=table(
-            ("population", *COLUMNS, "rejected"),
-            [
-                [name, *(_percent(shares[key]) for key in (*COLUMNS, "misfit"))]
-                for name, (_, shares) in lognormal.items()
-            ],
+        lognormal=columns({**first, **of_lognormal}, lognormal),
+        betas=columns(
+            {**first, **{key: f"{{{key}:.3f}}" for key in BETAS}},
+            [row for row in lognormal if row[BETAS[0]] is not None],
         ),
-        betas=table(
-            ("population", *BETAS),
-            [
-                [name, *(f"{shares[key]:.3f}" for key in BETAS)]
-                for name, (_, shares) in lognormal.items()
-                if shares[BETAS[0]] is not None
-            ],
-        ),
-        two_kinds=table(
-            ("population", "rejected", "isotonic, mean over levels"),
-            [
-                [name, _percent(shares["misfit"]), _percent(float(np.mean(_isotonic(shares))))]
-                for name, (_, shares) in two_kinds.items()
-            ],
-        ),
-        isotonic=table(
-            ("population", *(str(1 + place) for place in range(max(each.levels for each, _ in designs.values())))),
-            [[name, *map(_percent, _isotonic(shares))] for name, (_, shares) in designs.items()],
-        ),
+        two_kinds=columns({**first, **of_two_kinds}, [row for row in rows if row not in lognormal]),
+        isotonic=columns({**first, **{str(1 + at): _share(f"isotonic {at}") for at in range(levels)}}, rows),
     )
 
 
-def _isotonic(shares: dict[str, float]) -> list[float]:
-    return [share for key, share in shares.items() if key.startswith("isotonic")]
+def _share(key: str) -> Callable[[dict[str, Any]], str]:
+    return lambda row: "" if row.get(key) is None else f"{100 * row[key]:.1f} %"
 
 
-def _percent(share: float | None) -> str:
-    return "" if share is None else f"{100 * share:.1f} %"
+def _mean_isotonic(row: dict[str, Any]) -> str:
+    return f"{100 * float(np.mean([share for key, share in row.items() if key.startswith('isotonic')])):.1f} %"
 
 
 REPETITIONS, SEED, WORKERS = 500, 2015, 2

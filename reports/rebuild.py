@@ -29,6 +29,8 @@ MOVING, COARSE = "span-3.0", 80
 """The test that the picture of the README shows; its dots an inch."""
 
 COLUMNS = ("true", "measured", "linear", "nonlinear")
+OTHERS = COLUMNS[1:]
+HEADS = ("test", "outcome: true", *OTHERS, "max: true", *OTHERS, "nrmse: linear", "nonlinear", "order")
 
 TITLES = {
     "short": "The ten tests of `colonnade demo --short`",
@@ -63,20 +65,15 @@ def demo_numbers(truth: dict[str, Any], summary: dict[str, Any]) -> dict[str, An
     tests = {}
     for name, true in truth["tests"].items():
         test = summary["tests"][name]
-        models = test["predicted"]
+        both, models = {"true": true, "measured": test}, test["predicted"]
         tests[name] = {
-            "outcome": {"true": true["outcome"], "measured": test["outcome"]}
-            | {model: predicted["outcome"] for model, predicted in models.items()},
-            "peak_ratio": {"true": _rounded(true["peak_ratio"]), "measured": _rounded(test["peak_ratio"])}
-            | {model: _rounded(predicted["peak_ratio"]) for model, predicted in models.items()},
+            "outcome": {whose: each["outcome"] for whose, each in (both | models).items()},
+            "peak_ratio": {whose: _rounded(each["peak_ratio"]) for whose, each in (both | models).items()},
             "nrmse": {model: _rounded(predicted["nrmse"]) for model, predicted in models.items()},
             "order": test["order"],
         }
         if true["release_ratio"] is not None:
-            tests[name]["release_ratio"] = {
-                "true": _rounded(true["release_ratio"]),
-                "measured": _rounded(test["release_ratio"]),
-            }
+            tests[name]["release_ratio"] = {whose: _rounded(each["release_ratio"]) for whose, each in both.items()}
     restitution = {}
     for specimen, true in truth["specimens"].items():
         found = summary["specimens"][specimen]["restitution"]
@@ -105,19 +102,21 @@ def demo_table(numbers: dict[str, Any], title: str, drawn: Mapping[str, str]) ->
         "predicted on the recorded base motion; nrmse of predicted against measured. A free vibration is predicted,",
         "and its peak measured, from the first peak after an impact on.",
         "",
-        "| test | outcome: true | measured | linear | nonlinear | max: true | measured | linear | nonlinear "
-        "| nrmse: linear | nonlinear | order |",
-        "|---" * 12 + "|",
+        table(HEADS, [_row(name, test) for name, test in numbers["tests"].items()]),
+        "",
+        *(f"- {told}" for told in numbers["agreement"]),
+        f"- {KEPT_AWAY}",
     ]
-    for name, test in numbers["tests"].items():
-        cells = [test["outcome"].get(key) or "–" for key in COLUMNS]
-        cells += [_shown(test["peak_ratio"].get(key)) for key in COLUMNS]
-        cells += [_shown(test["nrmse"].get(model), 3) for model in COLUMNS[2:]]
-        lines.append(f"| {name} | " + " | ".join(cells) + f" | {test['order'] or '–'} |")
-    lines += ["", *(f"- {told}" for told in numbers["agreement"]), f"- {KEPT_AWAY}"]
     for caption, file in drawn.items():
         lines += ["", f"![{caption}]({file})"]
     return "\n".join(lines) + "\n"
+
+
+def _row(name: str, test: dict[str, Any]) -> list[str]:
+    outcomes = [test["outcome"].get(key) or "–" for key in COLUMNS]
+    peaks = [_shown(test["peak_ratio"].get(key)) for key in COLUMNS]
+    misfits = [_shown(test["nrmse"].get(model), 3) for model in COLUMNS[2:]]
+    return [name, *outcomes, *peaks, *misfits, str(test["order"] or "–")]
 
 
 def draw(campaign: Campaign, summary: dict[str, Any], folder: Path, name: str, picture: Path | None) -> dict[str, str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -15,8 +16,8 @@ from threadpoolctl import threadpool_limits
 import colonnade
 from monte_carlo.bound import cramer_rao_error
 from monte_carlo.design import SPREAD, Kind, draw, kinds
-from monte_carlo.new_test import NewTest, judge_new_tests
-from study import HERE, Study, rounded, table
+from monte_carlo.new_test import judge_new_tests
+from study import HERE, Cells, Study, columns, rounded
 
 NAME = "restitution-study"
 RECORDS, CAMPAIGNS, SEED, WORKERS = 400, 500, 2026, 2
@@ -159,41 +160,34 @@ def study(records: int, campaigns: int, seed: int, workers: int) -> Any:
 
 def page(found: dict[str, Any], figure: str = f"{NAME}.svg") -> str:
     """Write the page of the study."""
-    judged = [Judged(**each) for each in found["kinds"]]
     before = found["before"]
 
-    def row(one: Judged) -> list[str]:
-        old = before.get(one.name)
-        was = ["–", "–", "–"]
-        if old:
-            was = [f"{100 * old['coverage']:.1f} %", f"{old['width']:.2f}", f"{100 * old['refused']:.1f} %"]
-        return [
-            one.name,
-            f"{100 * one.coverage:.1f} % ({100 * one.least:.1f} to {100 * one.most:.1f})",
-            f"{one.width:.2f}",
-            f"{one.half_width:.1g}",
-            f"{one.bias:+.2f}",
-            f"{100 * one.refused:.1f} %",
-            *was,
-            one.complaint or "as it should be",
-        ]
+    def was(name: str, form: str, factor: float = 1.0) -> Callable[[Any], str]:
+        return lambda row: form.format(factor * before[row["name"]][name]) if row["name"] in before else "–"
 
-    heads = [
-        "kind", "intervals that hold e", "width / best", "± of e", "bias / width", "refused",
-        "0.1: hold e", "0.1: width / best", "0.1: refused", "verdict",
-    ]  # fmt: skip
+    of_kinds: Cells = {
+        "kind": "{name}",
+        "intervals that hold e": lambda row: "{:.1f} % ({:.1f} to {:.1f})".format(
+            *(100 * row[name] for name in ("coverage", "least", "most"))
+        ),
+        "width / best": "{width:.2f}",
+        "± of e": "{half_width:.1g}",
+        "bias / width": "{bias:+.2f}",
+        "refused": lambda row: f"{100 * row['refused']:.1f} %",
+        "0.1: hold e": was("coverage", "{:.1f} %", 100),
+        "0.1: width / best": was("width", "{:.2f}"),
+        "0.1: refused": was("refused", "{:.1f} %", 100),
+        "verdict": lambda row: row["complaint"] or "as it should be",
+    }
+    of_tests: Cells = {
+        "free vibrations": "{tests}",
+        "scatter between tests": "{between:g}",
+        "content of the range": lambda row: f"{100 * row['content']:.1f} %",
+        "± of the range": "{half_width:.2g}",
+        "mean held": lambda row: f"{100 * row['coverage']:.1f} %",
+    }
+    a_row = found["new_test"][0]["campaigns"]
     limits = "; ".join(f"{name} {low:g} to {high:g}" for name, (low, high) in SPREAD.items())
-    tests = [NewTest(**each) for each in found["new_test"]]
-    of_tests = [
-        [
-            one.tests,
-            f"{one.between:g}",
-            f"{100 * one.content:.1f} %",
-            f"{one.half_width:.2g}",
-            f"{100 * one.coverage:.1f} %",
-        ]
-        for one in tests
-    ]
     return f"""# The identified restitution, held against known truth
 
 Made by `make study NAME=restitution`; {found["records"]} records of each kind, seed {found["seed"]}.
@@ -214,7 +208,7 @@ it took the block and the gain as exact, and chose between six estimators.
 
 ## Each kind
 
-{table(heads, [row(one) for one in judged])}
+{columns(of_kinds, found["kinds"])}
 
 ![Coverage and width of each kind]({figure})
 
@@ -222,10 +216,10 @@ it took the block and the gain as exact, and chose between six estimators.
 
 Campaigns of 2, 3, 10 and 20 free vibrations of a block whose α and p are wrong by 0.5 %, with gains of their own and
 an e of each test that scatters about one mean. The content is the probability that a new test's e is in the 95 %
-range, averaged over {tests[0].campaigns} campaigns a row; 93 to 97 % was expected. Coverage is that of the
+range, averaged over {a_row} campaigns a row; 93 to 97 % was expected. Coverage is that of the
 interval of the mean.
 
-{table(["free vibrations", "scatter between tests", "content of the range", "± of the range", "mean held"], of_tests)}
+{columns(of_tests, found["new_test"])}
 """
 
 
@@ -248,10 +242,9 @@ def draw_kinds(found: dict[str, Any]) -> Figure:
         axes.plot(old, places, "x", ms=5, color="0.5", label="version 0.1")
     left.axvspan(100 * COVERAGE[0], 100 * COVERAGE[1], color="0.9", zorder=0)
     left.set_yticks(places, [each.name for each in judged], fontsize=7)
-    left.set_xlabel("intervals that hold e (%)")
-    right.set_xlabel("median width over the best")
+    left.set(xlabel="intervals that hold e (%)")
     right.axvline(1.0, color="0.6", lw=0.8)
-    right.set_xscale("log")
+    right.set(xlabel="median width over the best", xscale="log")
     right.set_xticks(WIDTHS, map(str, WIDTHS))
     right.minorticks_off()
     right.legend(fontsize=7, frameon=False)

@@ -6,7 +6,7 @@ import argparse
 import json
 import math
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -99,6 +99,16 @@ def table(heads: Iterable[str], rows: Iterable[Sequence[object]]) -> str:
         cells = [str(cell).replace("|", "\\|") for cell in row]
         lines.append("| " + " | ".join(cells + [""] * (len(heads) - len(cells))) + " |")
     return "\n".join(lines)
+
+
+Cells = Mapping[str, str | Callable[[Any], object]]
+"""Of a row below each head: its fields in a format, or a function of it."""
+
+
+def columns(cells: Cells, rows: Iterable[Any]) -> str:
+    """Write a table by its columns."""
+    made = ([cell.format_map(row) if isinstance(cell, str) else cell(row) for cell in cells.values()] for row in rows)
+    return table(cells, made)
 
 
 def renewed(document: str, marks: tuple[str, str], inside: str) -> str:

@@ -12,7 +12,7 @@ from scipy import stats
 from colonnade.campaign.settings import EnsembleSettings
 from colonnade.figures.style import blank_figure, styled
 from colonnade.identification.response.rank import WITHIN, is_within
-from study import Study, table
+from study import Cells, Study, columns
 from verdict_trial import DURATION, HEIGHTS, RATE, RESTITUTION_ERROR, Trial, run
 
 
@@ -86,7 +86,15 @@ The first {part} of these tests, with other numbers of runs.
 ![Ranks of the measured angle]({figure})
 """
 
-HEADS = ("tests", "within, true model", "nominal", "95 % of such shares", "outside, wrong e", "horizon", "overturned")
+CELLS: Cells = {
+    "tests": "{judged}",
+    "within, true model": "{within:.1%}",
+    "nominal": "{nominal:.1%}",
+    "95 % of such shares": "{low:.1%} to {high:.1%}",
+    "outside, wrong e": "{found:.1%}",
+    "horizon": "{horizon:.0%}",
+    "overturned": "{overturned}",
+}
 
 
 def page(found: dict[str, Any], figure: str) -> str:
@@ -99,9 +107,9 @@ def page(found: dict[str, Any], figure: str) -> str:
         rate=RATE,
         heights=", ".join(f"{height:g}" for height in HEIGHTS.values()),
         deviation=RESTITUTION_ERROR,
-        kinds=_table("motion", [(each["kind"], each) for each in (*found["kinds"], {"kind": "all", **found["all"]})]),
+        kinds=columns({"motion": "{kind}", **CELLS}, [*found["kinds"], {"kind": "all", **found["all"]}]),
         part=found["counts"][0]["judged"],
-        counts=_table("runs", [(str(each["members"]), each) for each in found["counts"]]),
+        counts=columns({"runs": "{members}", **CELLS}, found["counts"]),
         missed=_missed(found["kinds"]),
         figure=figure,
     )
@@ -114,25 +122,6 @@ def _missed(kinds: Sequence[dict[str, Any]]) -> str:
         return "No kind of motion is outside the interval of its share."
     told = ", ".join(f"{each['kind']} ({each['within']:.1%}, nominal {each['nominal']:.1%})" for each in missed)
     return f"**Outside the interval of its share: {told}.**"
-
-
-def _table(first: str, rows: Sequence[tuple[str, dict[str, Any]]]) -> str:
-    return table(
-        (first, *HEADS),
-        (
-            (
-                name,
-                row["judged"],
-                f"{row['within']:.1%}",
-                f"{row['nominal']:.1%}",
-                f"{row['low']:.1%} to {row['high']:.1%}",
-                f"{row['found']:.1%}",
-                f"{row['horizon']:.0%}",
-                row["overturned"],
-            )
-            for name, row in rows
-        ),
-    )
 
 
 def draw_ranks(found: dict[str, Any]) -> Any:
@@ -148,10 +137,7 @@ def draw_ranks(found: dict[str, Any]) -> Any:
             axes.step(ranks, np.arange(1, ranks.size + 1) / ranks.size, where="post", color=colour, label=label)
         axes.plot([0, 1], [0, 1], color="0.6", linewidth=0.8, linestyle="--", label="exact")
         axes.axvline(WITHIN, color="0.6", linewidth=0.8)
-        axes.set_xlabel("rank of the measured angle")
-        axes.set_ylabel("share of the tests")
-        axes.set_xlim(0, 1)
-        axes.set_ylim(0, 1)
+        axes.set(xlabel="rank of the measured angle", ylabel="share of the tests", xlim=(0, 1), ylim=(0, 1))
         axes.legend(fontsize=7, loc="upper left", frameon=False)
     return figure
 

@@ -212,13 +212,8 @@ def run(seed: int, number: int, wrong: float, members: int) -> Trial:
     """
     campaign = _campaign()
     settings = campaign.processing.predict.ensemble
-    uncertainty = Uncertainty(
-        restitution=RESTITUTION_ERROR,
-        critical_angle=settings.critical_angle,
-        p=settings.p,
-        gain=settings.gain,
-        clock=settings.clock,
-    )
+    known = {name: getattr(settings, name) for name in ("critical_angle", "p", "gain", "clock")}
+    uncertainty = Uncertainty(restitution=RESTITUTION_ERROR, **known)
     drawn = draw(seed, number, uncertainty, angle_gain=settings.angle_gain, angle_zero=settings.angle_zero)
     test = campaign.tests[f"{drawn.specimen}-{drawn.kind}"]
     recorded = ingesting.ingest({"main": drawn.recording}, ingesting.IngestInputs.of(campaign, test))

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from colonnade.units.text import format_percent, with_minus
+from colonnade.units.text import format_percent
 from fault_atlas import FAULTS
 from faults.unseen import UNSEEN
 from study import HERE, renewed, table
@@ -29,11 +29,10 @@ class Row(NamedTuple):
 
 
 class Study(NamedTuple):
-    """A study: its title, its JSON file and its page, what makes it, and its rows."""
+    """A study: its title, the name of its JSON file and page, what makes it, and its rows."""
 
     title: str
-    numbers: str
-    page: str
+    name: str
     maker: str
     rows: Callable[[Found], list[Row]]
 
@@ -82,15 +81,16 @@ def _verdict(found: Found) -> list[Row]:
     ]
 
 
+FORECASTS = ("identified", "too high", "too low", "rigid")
+
+
 def _forecasts(found: Found) -> list[Row]:
     judged = found["judged"]
     return [
         Row(
             f"CRPS of {judged['tests']['count']} forecasts, in α: e identified, too high and too low by 0.01, "
             "rigid body's",
-            ", ".join(
-                f"{judged['scores'][name]['crps']:.3f}" for name in ("identified", "too high", "too low", "rigid")
-            ),
+            ", ".join(f"{judged['scores'][name]['crps']:.3f}" for name in FORECASTS),
             "Forecast and truth are the same model with other numbers.",
         )
     ]
@@ -141,11 +141,11 @@ def _demo(found: Found) -> list[Row]:
 
 
 STUDIES = (
-    Study("Restitution", "restitution-study", "restitution-study", "`make study NAME=restitution`", _restitution),
-    Study("Verdict on a prediction", "verdict-study", "verdict-study", "`make study NAME=verdict`", _verdict),
-    Study("Forecasts", "forecast-study", "forecast-study", "`make study NAME=forecast`", _forecasts),
-    Study("Fragility", "fragility-study", "fragility-study", "`make study NAME=fragility`", _fragilities),
-    Study("The whole programme", "demo", "demo", "`python reports/rebuild.py`", _demo),
+    Study("Restitution", "restitution-study", "`make study NAME=restitution`", _restitution),
+    Study("Verdict on a prediction", "verdict-study", "`make study NAME=verdict`", _verdict),
+    Study("Forecasts", "forecast-study", "`make study NAME=forecast`", _forecasts),
+    Study("Fragility", "fragility-study", "`make study NAME=fragility`", _fragilities),
+    Study("The whole programme", "demo", "`python reports/rebuild.py`", _demo),
 )
 
 
@@ -153,10 +153,10 @@ def measured(folder: Path = HERE) -> str:
     """Write the tables of all studies from their numbers, and how many faults are planted."""
     parts = []
     for study in STUDIES:
-        found = json.loads((folder / f"{study.numbers}.json").read_text(encoding="utf-8"))
+        found = json.loads((folder / f"{study.name}.json").read_text(encoding="utf-8"))
         parts += [
             f"### {study.title}",
-            f"[The study](../../reports/{study.page}.md), made by {study.maker}.",
+            f"[The study](../../reports/{study.name}.md), made by {study.maker}.",
             table(("check", "figure", "what it does not show"), study.rows(found)),
         ]
     parts += [
@@ -165,10 +165,6 @@ def measured(folder: Path = HERE) -> str:
         "[The atlas](../faults/index.md), made by `python reports/fault_atlas.py`; `make test-all` plants each again.",
     ]
     return "\n\n".join(parts)
-
-
-def _power(value: float) -> str:
-    return with_minus(f"{value:.1e}")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 from colonnade.arrays import Array
@@ -133,12 +134,8 @@ def _stopped(samples: Array) -> Array:
     return samples[int(1.9 * RATE) : int(8.0 * RATE)]
 
 
-def _turned(folder: Path) -> None:
-    write_motion(folder / "valley.csv", Motion(-earthquake(1).acceleration, earthquake(1).dt))
-
-
-def _turned_back(folder: Path) -> None:
-    write_motion(folder / "valley.csv", earthquake(1))
+def _valley(folder: Path, sign: int) -> None:
+    write_motion(folder / "valley.csv", Motion(sign * earthquake(1).acceleration, earthquake(1).dt))
 
 
 COURSE = Group(
@@ -216,12 +213,12 @@ COURSE = Group(
             name="Other polarity",
             test="quake",
             happens="The reference record has the other sign than the motion that the table was given.",
-            plant=_turned,
+            plant=partial(_valley, sign=-1),
             message='moved as "Valley" with the other polarity',
             picture=motions("With the fault, the two are mirror images."),
             mend="If the table was driven with the other sign on purpose, give that record as the reference. If not, "
             "the sign of the table's acceleration is wrong.",
-            mending=_turned_back,
+            mending=partial(_valley, sign=1),
         ),
         Fault(
             name="Other time scale",

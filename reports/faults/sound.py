@@ -55,6 +55,7 @@ def plan() -> Plan:
     shaken = recorded(Motion(0.45 * earthquake(1).acceleration, TIME_SCALE * earthquake(1).dt), start=RELEASE)
     sine = ramped_sine(5.0, 1.5 * PRISM.uplift_acceleration, start=RELEASE, cycles=25, ramp=3)
     disturbance = Motion(0.06 * earthquake(2).acceleration[:1400], TIME_SCALE * earthquake(2).dt)
+    quake = {"motion": "Valley", "time_scale": TIME_SCALE}
     held = {"theta0": 0.55 * PRISM.critical_angle, "release": RELEASE}
     return Plan(
         campaign="sound",
@@ -68,14 +69,7 @@ def plan() -> Plan:
             Trial("free", "free-vibration", "frame", 22.0, **held),
             Trial("shaken", "free-vibration", "rig", 16.0, table=recorded(disturbance, start=RELEASE), **held),
             Trial("sine", "sine", "rig", sine.stop + 4.0, table=sine, entry={"frequency": "5 Hz"}),
-            Trial(
-                "quake",
-                "earthquake",
-                "rig",
-                shaken.stop + 5.0,
-                table=shaken,
-                entry={"motion": "Valley", "time_scale": TIME_SCALE},
-            ),
+            Trial("quake", "earthquake", "rig", shaken.stop + 5.0, table=shaken, entry=quake),
         ),
     )
 

@@ -14,7 +14,7 @@ from reproduction.statements import STATEMENTS, answers
 from reproduction.statements.computation import modulus_for
 from reproduction.statements.sines import shown as test_shown
 from reproduction.statements.specimens import QUANTITIES, UNITS, percent_off
-from study import table
+from study import Cells, columns, table
 
 
 def _tables(numbers: Numbers) -> list[str]:
@@ -46,31 +46,25 @@ def _table_1(numbers: Numbers) -> list[str]:
 
 
 def _table_2(numbers: Numbers) -> list[str]:
-    cells = [
-        [
-            row["mesh"],
-            f"{1e6 * row['step']:g}",
-            f"{row['printed_fraction']:.2f}",
-            fixed(row["fraction"]),
-            "–" if row["multiple"] is None else f"{row['multiple']:g}",
-            fixed(row["restitution_with_printed"], 4),
-            row["printed_cost"],
-            shown(row["cost"], 2),
-        ]
-        for row in numbers["table_2"]
-    ]
-    steps = [
-        [
-            row["mesh"],
-            row["printed_degrees_of_freedom"],
-            row["description"],
-            f"{1e3 * row['edge']:.1f}",
-            f"{1e6 * row['step']:.2f}",
-            shown(modulus_for(1e-5, row["step"]) / 1e9, 2),
-            shown(modulus_for(1e-4, row["step"]) / 1e9, 2),
-        ]
-        for row in numbers["stable_steps"]
-    ]
+    cells: Cells = {
+        "mesh": "{mesh}",
+        "step, µs": lambda row: f"{1e6 * row['step']:g}",
+        "CDF, paper": "{printed_fraction:.2f}",
+        "CDF, ours": lambda row: fixed(row["fraction"]),
+        "stiffness": lambda row: "–" if row["multiple"] is None else f"{row['multiple']:g}",
+        "e with the paper's CDF": lambda row: fixed(row["restitution_with_printed"], 4),
+        "cost, paper": "{printed_cost}",
+        "cost, ours": lambda row: shown(row["cost"], 2),
+    }
+    steps: Cells = {
+        "mesh": "{mesh}",
+        "DOF, paper": "{printed_degrees_of_freedom}",
+        "ours": "{description}",
+        "edge, mm": lambda row: f"{1e3 * row['edge']:.1f}",
+        "longest step, µs": lambda row: f"{1e6 * row['step']:.2f}",
+        "GPa for 10 µs": lambda row: shown(modulus_for(1e-5, row["step"]) / 1e9, 2),
+        "GPa for 100 µs": lambda row: shown(modulus_for(1e-4, row["step"]) / 1e9, 2),
+    }
     speed = numbers["stable_steps"][0]["speed"]
     stable = next(run for run in numbers["unreduced"] if run["mesh"] == "coarse" and run["modulus"] > 1e11)
     return [
@@ -80,22 +74,10 @@ def _table_2(numbers: Numbers) -> list[str]:
         "which says how they were found; the stiffness of the contact is a multiple of its default. The paper does "
         "not say on which computer it ran, how long its free vibration was, or which stiffness its contact had, so "
         "the columns compare in their trends only.",
-        table(
-            (
-                "mesh",
-                "step, µs",
-                "CDF, paper",
-                "CDF, ours",
-                "stiffness",
-                "e with the paper's CDF",
-                "cost, paper",
-                "cost, ours",
-            ),
-            cells,
-        ),
+        columns(cells, numbers["table_2"]),
         "An explicit scheme is stable up to about the shortest edge over the speed of pressure waves, here "
         f"{speed:.0f} m/s in steel of 200 GPa. The modulus that a longer step would allow falls with its square.",
-        table(("mesh", "DOF, paper", "ours", "edge, mm", "longest step, µs", "GPa for 10 µs", "GPa for 100 µs"), steps),
+        columns(steps, numbers["stable_steps"]),
         f"Measured with the contact (the same study), the coarse mesh of steel is stable up to "
         f"{1e6 * stable['stable']:.2f} µs.",
     ]
@@ -151,23 +133,21 @@ def _free(numbers: Numbers) -> list[str]:
         [test, *(fixed(each[model][when], 3) for model, when in spans)]
         for test, each in numbers["free_vibrations"].items()
     ]
-    found = numbers["restitution"]
-    values = [
-        [
-            specimen,
-            f"{each['true']:g}",
-            f"{each['value']:.5f}",
-            f"± {(each['high'] - each['low']) / 2:.0e}",
-            ", ".join(fixed(value, 4) for value in each["by_whole_histories"]),
-        ]
-        for specimen, each in found.items()
-    ]
+    values: Cells = {
+        "specimen": "{specimen}",
+        "true e": "{true:g}",
+        "identified": "{value:.5f}",
+        "95 % interval": lambda each: f"± {(each['high'] - each['low']) / 2:.0e}",
+        "by the whole history, each record": lambda each: ", ".join(
+            fixed(value, 4) for value in each["by_whole_histories"]
+        ),
+    }
     return [
         *_figures(numbers, "3", "10"),
         "## Coefficient of restitution",
         "Pooled over the free vibrations, and of each record: the e with which the nonlinear model follows its whole "
         "history best.",
-        table(("specimen", "true e", "identified", "95 % interval", "by the whole history, each record"), values),
+        columns(values, [{"specimen": name, **each} for name, each in numbers["restitution"].items()]),
         "## Misfit, large and small amplitudes",
         "RMS of predicted less measured θ over α, in the first four predicted arcs (early) and in the twelve after "
         "them (late). The virtual prism cannot leave its plane: what the linear model misses here is the equation's "
@@ -202,46 +182,34 @@ def _sines(numbers: Numbers) -> list[str]:
         "The contact model on recorded motions of four tests, from a rotation about x of 1 mrad: largest slide of the "
         "base and rotations about x and about the vertical, up to the angle of 0.28 rad at which the frame catches "
         "the prism. The last column is what the balance of energy misses.",
-        table(
-            ("test", "friction", "outcome", "slide, mm", "out of plane, % of α", "turn, °", "energy missing, %"),
-            _in_space(numbers),
-        ),
+        columns(IN_SPACE, numbers["in_space"]),
     ]
 
 
-def _in_space(numbers: Numbers) -> list[list[str]]:
-    return [
-        [
-            each["test"],
-            f"{each['friction']:g}",
-            each["outcome"],
-            f"{1e3 * each['slide']:.2g}",
-            f"{100 * each['out_of_plane']:.1f}",
-            f"{57.29578 * each['yaw']:.2g}",
-            f"{100 * each['energy_residual']:.2g}",
-        ]
-        for each in numbers["in_space"]
-    ]
+IN_SPACE: Cells = {
+    "test": "{test}",
+    "friction": "{friction:g}",
+    "outcome": "{outcome}",
+    "slide, mm": lambda each: f"{1e3 * each['slide']:.2g}",
+    "out of plane, % of α": lambda each: f"{100 * each['out_of_plane']:.1f}",
+    "turn, °": lambda each: f"{57.29578 * each['yaw']:.2g}",
+    "energy missing, %": lambda each: f"{100 * each['energy_residual']:.2g}",
+}
 
 
 def _maps(numbers: Numbers) -> list[str]:
     charts = numbers["maps"]
-    rows = []
-    for place, each in enumerate(numbers["boundaries"]):
-        rows.append(
-            [
-                f"{FREQUENCIES[place]:g}",
-                f"{each['frequency_ratio']:.3f}",
-                _bracket(each["rocking"]),
-                _bracket(each["overturning"]),
-                ", ".join(f"{level:.2f}" for level in each["stood_above"]) or "–",
-                *(
-                    fixed(charts[model][limit][place])
-                    for model in ("linear", "contact")
-                    for limit in ("lower", "upper")
-                ),
-            ]
-        )
+    limits = [charts[model][limit] for model in ("linear", "contact") for limit in ("lower", "upper")]
+    rows = [
+        [
+            f"{frequency:g}",
+            f"{each['frequency_ratio']:.3f}",
+            *map(_bracket, (each["rocking"], each["overturning"])),
+            ", ".join(f"{level:.2f}" for level in each["stood_above"]) or "–",
+            *map(fixed, computed),
+        ]
+        for frequency, each, *computed in zip(FREQUENCIES, numbers["boundaries"], *limits, strict=True)
+    ]
     width, levels = charts["contact"]["width"], charts["contact"]["levels"]
     off = [
         [model, *(_off(each[f"{name}_off"]) for name in ("no_rocking", "lower", "upper"))]
@@ -260,18 +228,14 @@ def _maps(numbers: Numbers) -> list[str]:
         "last level that stands and the next. A dash: nothing overturns, or the largest level stands.",
         "## Measured brackets and computed limits",
         "A bracket is the largest A short of a boundary and the smallest beyond it.",
-        table(
-            (
-                "Hz",
-                *("Ω", "onset of rocking", "overturning", "stands again at", "linear: lower", "upper"),
-                *("contact: lower", "upper"),
-            ),
-            rows,
-        ),
+        table(("Hz", "Ω", "onset of rocking", "overturning", "stands again at", *LIMITS), rows),
         "Computed limit over the middle of the measured bracket, less one: mean and RMS over the frequencies that "
         "have both.",
         table(("model", "onset of rocking", "lower limit", "upper limit"), off),
     ]
+
+
+LIMITS = ("linear: lower", "upper", "contact: lower", "upper")
 
 
 def _bracket(bracket: list[float | None]) -> str:
@@ -298,16 +262,13 @@ def _earthquakes(numbers: Numbers) -> list[str]:
                 fixed(each["numerical_to_analytical"], 3),
             ]
         )
-    steps = [
-        [
-            row["span"],
-            {"runge-kutta": "Runge–Kutta", "hamming": "Hamming"}[row["scheme"]],
-            f"{row['step']:.0e}",
-            f"{100 * row['rms_error']:.2f} %",
-            f"{100 * row['largest_error']:.2f} %",
-        ]
-        for row in numbers["schemes"]
-    ]
+    steps: Cells = {
+        "Span": "{span}",
+        "scheme": lambda row: {"runge-kutta": "Runge–Kutta", "hamming": "Hamming"}[row["scheme"]],
+        "DT, s": "{step:.0e}",
+        "RMS error": lambda row: f"{100 * row['rms_error']:.2f} %",
+        "largest error": lambda row: f"{100 * row['largest_error']:.2f} %",
+    }
     return [
         *_figures(numbers, "8", "14", "15"),
         "## In numbers",
@@ -321,7 +282,7 @@ def _earthquakes(numbers: Numbers) -> list[str]:
         "the responses to these motions by up to "
         f"{100 * max(row['largest_error'] for row in numbers['schemes']):.0f} % of α: a cause of misfit besides "
         "those of the study of Span 2.5.",
-        table(("Span", "scheme", "DT, s", "RMS error", "largest error"), steps),
+        columns(steps, numbers["schemes"]),
         "How often a prediction misbehaves as at the paper's Span 2.5, and of which cause, is [a study of its "
         "own](span-2.5.md).",
     ]

@@ -24,6 +24,7 @@ from colonnade.identification.response.order import response_order
 from colonnade.signals.metrics import nrmse
 from colonnade.store.records.stored import Stored
 from reproduction.campaign import ANALYTICAL, NUMERICAL
+from reproduction.computed import Numbers
 from reproduction.printed import SPANS
 
 
@@ -133,13 +134,14 @@ def place_of_growth(quiet: Response, growing: Response, criterion: Criterion) ->
     return float((first + np.argmax(growing.ratio[first:until])) * growing.dt)
 
 
-Numbers = dict[str, Any]
-
 LARGE_ARCS = 4
 """Arcs after the start of a prediction whose amplitudes are the initial large ones."""
 
 FITTED, TRIED = (0.9, 0.9995), 200
 """Values of e with which the linearised solution is held against a free vibration."""
+
+RECORDED = ("rocking_angle", "base_acceleration", "base_displacement")
+"""What an earthquake test records."""
 
 STAGE = 10
 """Periods of the table at the beginning of a steady sine whose response has an order of its own."""
@@ -204,16 +206,11 @@ def free_vibration(stored: Stored, block: Block) -> Numbers:
 def _best_linear(time: Array, measured: Array, predicted: Array, block: Block) -> Numbers:
     """Give the e with which the linearised solution follows θ/α best from the peak where `predicted` begins."""
     begin = int(np.argmax(np.isfinite(predicted)))
+    start = float(predicted[begin]) * block.critical_angle
     still = Motion(np.zeros(time.size - begin), float(time[1] - time[0]))
 
     def misfit(restitution: float) -> float:
-        moved = rock(
-            block,
-            still,
-            restitution=restitution,
-            model=ANALYTICAL,
-            theta0=float(predicted[begin]) * block.critical_angle,
-        )
+        moved = rock(block, still, restitution=restitution, model=ANALYTICAL, theta0=start)
         return nrmse(measured[begin:], moved.angle / block.critical_angle, 1.0)
 
     # A misfit over e has several dips: arcs of another e fall in and out of step. The deepest is refined.
@@ -274,9 +271,7 @@ def earthquake(stored: Stored, block: Block) -> Numbers:
     one, other = predicted[ANALYTICAL], predicted[NUMERICAL]
     return {
         "pattern": {model: _pattern(stored, block, model) for model in (ANALYTICAL, NUMERICAL)},
-        "recorded": [
-            name for name in ("rocking_angle", "base_acceleration", "base_displacement") if _has(stored, name)
-        ],
+        "recorded": [name for name in RECORDED if np.isfinite(stored.array("rocking", name)).any()],
         "numerical_to_analytical": nrmse(one.values, other.values, 1.0),
         "restitution_source": stored.text("predict", "restitution_source", ANALYTICAL),
         "driven_by": stored.text("predict", "driven_by", ANALYTICAL),
@@ -285,28 +280,18 @@ def earthquake(stored: Stored, block: Block) -> Numbers:
 
 def _pattern(stored: Stored, block: Block, model: str) -> Numbers:
     """Look for the paper's misfit: the computed response is large where the measured one has died down."""
-    criterion = Criterion()
-    time = stored.array("rocking", "elapsed")
-    dt = float(time[1] - time[0])
-    measured, computed = (
-        Response(
-            np.nan_to_num(stored.array(stage, "rocking_angle", which)),
-            dt,
-            stored.value(stage, "overturning_time", which),
-            block,
-        )
-        for stage, which in (("rocking", None), ("predict", model))
-    )
+    criterion, first, second = Criterion(), *stored.array("rocking", "elapsed")[:2]
+
+    def response(stage: str, which: str | None) -> Response:
+        angle, fall = stored.array(stage, "rocking_angle", which), stored.value(stage, "overturning_time", which)
+        return Response(np.nan_to_num(angle), float(second - first), fall, block)
+
+    measured, computed = response("rocking", None), response("predict", model)
     place = place_of_growth(measured, computed, criterion)
     calm = measured.largest_before(criterion.before) < criterion.quiet
     calm &= measured.largest_so_far >= criterion.quiet
     later = computed.largest_after(criterion.after)[calm]
     return {"is_there": bool(np.isfinite(place)), "place": place, "largest_after_calm": later.max(initial=0.0)}
-
-
-def _has(stored: Stored, name: str) -> bool:
-    values: Array = stored.array("rocking", name)
-    return bool(np.isfinite(values).any())
 
 
 def span_tests(campaign: Campaign, specimen: str) -> dict[str, str]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from colonnade.campaign import Campaign, load
 from colonnade.campaign.forms.summary import Summary
@@ -18,10 +17,9 @@ from colonnade.store.records.stored import Stored, as_map, read_test
 from colonnade.store.records.summary import map_points, read_summary
 from reproduction import computed, responses
 from reproduction.campaign import CYCLES, MAP_RAMP, NUMERICAL, SEED, SPECIMEN
+from reproduction.computed import Numbers
 from reproduction.printed import specimens
 from study import rounded
-
-Numbers = dict[str, Any]
 
 DIGITS = 7
 """Significant digits that are kept: more than any page shows, fewer than machines differ by."""
@@ -129,9 +127,7 @@ def _made(found: Found) -> Numbers:
         "contact": {
             "body": str(law.attrs["body"]),
             "step": found.campaign.processing.predict.contact.step,
-            "friction": float(law["friction"]),
-            "damping_fraction": float(law["damping_fraction"]),
-            "restitution": float(law["restitution"]),
+            **{name: float(law[name]) for name in ("friction", "damping_fraction", "restitution")},
         },
         "map": {"cycles": CYCLES, "ramp": MAP_RAMP, "model": NUMERICAL},
     }

@@ -64,6 +64,11 @@ class Statement:
         return found if isinstance(found, Answer) else Answer("undecided", found)
 
 
+def sine_tests(numbers: Numbers) -> list[tuple[Numbers, Numbers]]:
+    """Give each sine test of the prism: what was measured and predicted, and what its history shows."""
+    return [(numbers["tests"][name], each) for name, each in numbers["sines"].items()]
+
+
 def judged(agrees: bool, ours: str) -> Answer:
     """Answer by a condition."""
     return Answer("agrees" if agrees else "differs", ours)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import combinations
 
-from reproduction.statement import BOUNDARIES, Answer, Numbers, Statements, judged
+from reproduction.statement import BOUNDARIES, Answer, Numbers, Statements, judged, sine_tests
 
 stated = Statements("maps")
 
@@ -21,11 +21,24 @@ STEEP = 2.0
 """From the lowest to the highest frequency a boundary that rises rapidly grows by this factor at least."""
 
 
+NAMES = {"fine_map": "analytical", "contact": "numerical"}
+SECTIONS = {"fine_map": "3.1, fig. 7", "contact": "4.1, fig. 12"}
+"""The paper's name of a model, and where it shows its map."""
+
+ASKED = {"fine_map": "fairly good", "contact": "very good"}
+"""How well the paper says that it agrees with the tests."""
+
+
+def _chart(numbers: Numbers, which: str) -> Numbers:
+    chart: Numbers = numbers["fine_map"] if which == "fine_map" else numbers["maps"][which]
+    return chart
+
+
 def _two_limits(which: str) -> None:
-    name = {"fine_map": "analytical", "contact": "numerical"}[which]
+    name = NAMES[which]
 
     @stated(
-        {"analytical": "3.1, fig. 7", "numerical": "4.1, fig. 12"}[name],
+        SECTIONS[which],
         f"The {name} model does not give one boundary of overturning but two lines: a lower and an upper limit.",
         "limits of the computed map of the prism",
         "at more than half of the Ω that have overturning an upper limit is apart from the lower one, or beyond the "
@@ -33,7 +46,7 @@ def _two_limits(which: str) -> None:
         name=f"two-limits-{name}",
     )
     def answer(numbers: Numbers) -> Answer:
-        chart = numbers["fine_map"] if which == "fine_map" else numbers["maps"][which]
+        chart = _chart(numbers, which)
         pairs = [
             (lower, upper) for lower, upper in zip(chart["lower"], chart["upper"], strict=True) if lower is not None
         ]
@@ -47,21 +60,21 @@ def _two_limits(which: str) -> None:
         )
 
 
-def _agreement(which: str, limit: str, asked: str, identity: str, section: str, says: str) -> None:
+def _agreement(which: str, limit: str, of: str, says: str) -> None:
     """Hold a computed limit against the measured boundary."""
+    largest = BOUNDARIES[ASKED[which]]
 
     @stated(
-        section,
+        SECTIONS[which],
         says,
         "computed limit over the middle of the bracket between measured tests, at each frequency that has both",
-        f"RMS at most {100 * BOUNDARIES[asked]:g} % of the boundary's A",
-        name=identity,
+        f"RMS at most {100 * largest:g} % of the boundary's A",
+        name=f"{NAMES[which]}-{of}",
     )
     def answer(numbers: Numbers) -> Answer:
-        found = numbers["fine_map" if which == "fine_map" else "maps"]
-        off = (found if which == "fine_map" else found[which])[f"{limit}_off"]
+        off = _chart(numbers, which)[f"{limit}_off"]
         return judged(
-            off["rms"] is not None and off["rms"] <= BOUNDARIES[asked],
+            off["rms"] is not None and off["rms"] <= largest,
             f"computed over measured: mean {100 * off['mean']:+.1f} %, RMS {100 * off['rms']:.1f} %, at "
             f"{off['frequencies']} frequencies",
         )
@@ -142,9 +155,7 @@ def _one_line_measured(numbers: Numbers) -> Answer:
 _agreement(
     "fine_map",
     "lower",
-    "fairly good",
-    "analytical-overturning",
-    "3.1, fig. 7",
+    "overturning",
     "The analytical boundary of overturning agrees fairly well with the measured one.",
 )
 
@@ -152,9 +163,7 @@ _agreement(
 _agreement(
     "fine_map",
     "no_rocking",
-    "fairly good",
-    "analytical-onset",
-    "3.1, fig. 7",
+    "onset",
     "The analytical boundary of the onset of rocking agrees fairly well with the measured one.",
 )
 
@@ -180,21 +189,12 @@ def _numerical_onset_flat(numbers: Numbers) -> Answer:
 _agreement(
     "contact",
     "lower",
-    "very good",
-    "numerical-overturning",
-    "4.1, fig. 12",
+    "overturning",
     "The numerical lower limit agrees very well with the measured boundary of overturning.",
 )
 
 
-_agreement(
-    "contact",
-    "no_rocking",
-    "very good",
-    "numerical-onset",
-    "4.1, fig. 12",
-    "The numerical onset of rocking agrees very well with the measured one.",
-)
+_agreement("contact", "no_rocking", "onset", "The numerical onset of rocking agrees very well with the measured one.")
 
 
 @stated(
@@ -222,13 +222,9 @@ def _numerical_is_better(numbers: Numbers) -> Answer:
     "each predicts 90 % of the measured outcomes at least",
 )
 def _same_trends(numbers: Numbers) -> Answer:
-    rows = [
-        (test["outcome"], {model: each["outcome"] for model, each in test["predicted"].items()})
-        for name, test in numbers["tests"].items()
-        if name in numbers["sines"]
-    ]
+    tests = [test for test, _ in sine_tests(numbers)]
     shares = {
-        model: sum(predicted[model] == measured for measured, predicted in rows) / len(rows)
+        model: sum(test["predicted"][model]["outcome"] == test["outcome"] for test in tests) / len(tests)
         for model in ("linear", "contact")
     }
     words = ", ".join(f"{model} {100 * share:.0f} %" for model, share in shares.items())

@@ -6,7 +6,7 @@ from math import pi, sqrt
 
 from colonnade.stages.parts.beginning import RECORDED
 from reproduction.printed import FREQUENCIES, SHOWN_FREQUENCY, SHOWN_RATIO, TABLE_1
-from reproduction.statement import Answer, Numbers, Statements, judged
+from reproduction.statement import Answer, Numbers, Statements, judged, sine_tests
 
 stated = Statements("setting")
 
@@ -48,11 +48,7 @@ stated.undecided(
     "the base slides less than 5 % of the way of the top, in tests that stand",
 )
 def _rocking_governs(numbers: Numbers) -> Answer:
-    rows = [
-        each
-        for name, each in numbers["sines"].items()
-        if numbers["tests"][name]["predicted"]["contact"]["outcome"] == "rocking"
-    ]
+    rows = [each for test, each in sine_tests(numbers) if test["predicted"]["contact"]["outcome"] == "rocking"]
     slide = max(each["computed_slide"] for each in rows)
     top = max(each["computed_top"] for each in rows)
     friction = numbers["made"]["contact"]["friction"]
@@ -70,13 +66,7 @@ def _rocking_governs(numbers: Numbers) -> Answer:
     "seven frequencies, each within 0.2 %",
 )
 def _frequencies(numbers: Numbers) -> Answer:
-    found = sorted(
-        {
-            round(test["frequency"], 2)
-            for test in numbers["tests"].values()
-            if test["kind"] == "sine" and test["specimen"] == "prism"
-        }
-    )
+    found = sorted({round(test["frequency"], 2) for test, _ in sine_tests(numbers)})
     same = len(found) == len(FREQUENCIES) and all(
         abs(one / other - 1) < 2e-3 for one, other in zip(found, FREQUENCIES, strict=True)
     )

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from statistics import median
 
 from reproduction.printed import SHOWN
-from reproduction.statement import Answer, Numbers, Statements, judged
+from reproduction.statement import Answer, Numbers, Statements, judged, sine_tests
 
 stated = Statements("sines")
 
@@ -41,8 +41,8 @@ def _history(level: float) -> None:
         return judged(test["outcome"] != "no-rocking", f"measured: {test['outcome']}{peak}; linear model: {analytical}")
 
 
-def _standing(numbers: Numbers) -> dict[str, Numbers]:
-    return {name: each for name, each in numbers["sines"].items() if numbers["tests"][name]["outcome"] == "rocking"}
+def _standing(numbers: Numbers) -> list[tuple[Numbers, Numbers]]:
+    return [(test, each) for test, each in sine_tests(numbers) if test["outcome"] == "rocking"]
 
 
 def _in_space(numbers: Numbers, name: str, least: float, written: Callable[[float], str]) -> Answer:
@@ -81,7 +81,7 @@ def _levels_to_335(numbers: Numbers) -> Answer:
     "none of them rocks",
 )
 def _small_amplitudes(numbers: Numbers) -> Answer:
-    rows = [test for name, test in numbers["tests"].items() if name in numbers["sines"] and test["amplitude_ratio"] < 1]
+    rows = [test for test, _ in sine_tests(numbers) if test["amplitude_ratio"] < 1]
     still = sum(test["outcome"] == "no-rocking" for test in rows)
     return judged(still == len(rows), f"{still} of {len(rows)} tests with A < 1 do not rock")
 
@@ -93,11 +93,7 @@ def _small_amplitudes(numbers: Numbers) -> Answer:
     "less than 0.1 mm",
 )
 def _follows_the_base(numbers: Numbers) -> Answer:
-    slides = [
-        each["computed_slide"]
-        for name, each in numbers["sines"].items()
-        if numbers["tests"][name]["outcome"] == "no-rocking"
-    ]
+    slides = [each["computed_slide"] for test, each in sine_tests(numbers) if test["outcome"] == "no-rocking"]
     return judged(
         max(slides) < 1e-4, f"contact model, friction 0.6 (ours): it slides by at most {1e6 * max(slides):.1f} µm"
     )
@@ -110,9 +106,7 @@ def _follows_the_base(numbers: Numbers) -> Answer:
     "all of them rock or overturn",
 )
 def _rocking_initiated(numbers: Numbers) -> Answer:
-    rows = [
-        test for name, test in numbers["tests"].items() if name in numbers["sines"] and test["amplitude_ratio"] > 1.02
-    ]
+    rows = [test for test, _ in sine_tests(numbers) if test["amplitude_ratio"] > 1.02]
     moved = sum(test["outcome"] != "no-rocking" for test in rows)
     return judged(moved == len(rows), f"{moved} of {len(rows)} tests with A > 1.02 rock or overturn")
 
@@ -124,13 +118,11 @@ def _rocking_initiated(numbers: Numbers) -> Answer:
     "more than half of the tests that stand are not harmonic at first and harmonic at last",
 )
 def _sub_harmonic_then_harmonic_in_time(numbers: Numbers) -> Answer:
-    rows = {
-        name: (each["first_order"], numbers["tests"][name]["order"])
-        for name, each in _standing(numbers).items()
-        if each["first_order"] is not None
-    }
-    settling = sum(first != 1 and last == 1 for first, last in rows.values())
-    never = sum(last != 1 for _, last in rows.values())
+    rows = [
+        (each["first_order"], test["order"]) for test, each in _standing(numbers) if each["first_order"] is not None
+    ]
+    settling = sum(first != 1 and last == 1 for first, last in rows)
+    never = sum(last != 1 for _, last in rows)
     return judged(
         settling > len(rows) / 2,
         f"{settling} of {len(rows)} tests are sub-harmonic or irregular in the first ten periods and harmonic in the "
@@ -147,8 +139,7 @@ def _sub_harmonic_then_harmonic_in_time(numbers: Numbers) -> Answer:
 def _sub_harmonic_then_harmonic_in_amplitude(numbers: Numbers) -> Answer:
     """Going up in A at one frequency: the first test that rocks sub-harmonic, the last one harmonic."""
     groups: dict[float, list[tuple[float, object]]] = {}
-    for name in _standing(numbers):
-        test = numbers["tests"][name]
+    for test, _ in _standing(numbers):
         groups.setdefault(round(test["frequency"]), []).append((test["amplitude_ratio"], test["order"]))
     first = [min(group)[1] for group in groups.values()]
     orders = [order for group in groups.values() for _, order in sorted(group)]
@@ -168,11 +159,7 @@ def _sub_harmonic_then_harmonic_in_amplitude(numbers: Numbers) -> Answer:
     f"at least {AT_ONCE} in every test that overturns",
 )
 def _builds_up_to_overturning(numbers: Numbers) -> Answer:
-    rows = [
-        each["impacts_before_overturning"]
-        for name, each in numbers["sines"].items()
-        if numbers["tests"][name]["outcome"] == "overturned"
-    ]
+    rows = [each["impacts_before_overturning"] for test, each in sine_tests(numbers) if test["outcome"] == "overturned"]
     slow = sum(each >= AT_ONCE for each in rows)
     return judged(
         slow == len(rows),
@@ -209,6 +196,6 @@ def _out_of_plane_at_overturning(numbers: Numbers) -> Answer:
     "each has one of the three",
 )
 def _one_of_three(numbers: Numbers) -> Answer:
-    outcomes = [numbers["tests"][name]["outcome"] for name in numbers["sines"]]
+    outcomes = [test["outcome"] for test, _ in sine_tests(numbers)]
     words = ", ".join(f"{outcomes.count(each)} {each}" for each in ("no-rocking", "rocking", "overturned"))
     return judged(None not in outcomes, f"{len(outcomes)} tests: {words}")
