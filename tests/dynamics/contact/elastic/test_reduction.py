@@ -6,10 +6,9 @@ from scipy.linalg import eigh
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.elastic.assembly import assemble, rigid_modes
-from colonnade.dynamics.contact.elastic.mesh import prism_mesh, round_mesh
+from colonnade.dynamics.contact.elastic.mesh import mesh_of, prism_mesh, round_mesh
 from colonnade.dynamics.contact.elastic.reduction import (
     elastic_body,
-    mesh_of,
     modal_damping,
     reduce_body,
 )

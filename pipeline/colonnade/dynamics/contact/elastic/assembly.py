@@ -38,16 +38,8 @@ class Material:
     @property
     def lame(self) -> tuple[float, float]:
         """Lamé's λ and µ, Pa."""
-        return (
-            self.modulus * self.poisson_ratio / ((1 + self.poisson_ratio) * (1 - 2 * self.poisson_ratio)),
-            self.modulus / (2 * (1 + self.poisson_ratio)),
-        )
-
-    @property
-    def dilatational_speed(self) -> float:
-        """Speed of a dilatational wave, sqrt((λ + 2µ)/ρ), m/s."""
-        first, shear = self.lame
-        return float(np.sqrt((first + 2 * shear) / self.density))
+        shear = self.modulus / (2 * (1 + self.poisson_ratio))
+        return 2 * shear * self.poisson_ratio / (1 - 2 * self.poisson_ratio), shear
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,18 +83,9 @@ class ElasticBody:
     inertia: Array
     description: str
 
-    @property
-    def mass(self) -> float:
-        """kg."""
-        return float(self.node_mass.sum())
-
 
 def assemble(
-    mesh: Mesh,
-    mass: float,
-    *,
-    modulus: float = STEELS_MODULUS,
-    poisson_ratio: float = STEELS_POISSON_RATIO,
+    mesh: Mesh, mass: float, *, modulus: float = STEELS_MODULUS, poisson_ratio: float = STEELS_POISSON_RATIO
 ) -> ElasticBody:
     """
     Assemble the finite elements of a body of uniform density.
@@ -194,9 +177,7 @@ def rigid_modes(points: Array, node_mass: Array) -> Array:
     modes : ndarray, shape (3n, 6)
         kg^-½: along x, y, z, then about x, y, z.
     """
-    x, y, z = points.T
-    zero = np.zeros_like(x)
-    turns = [np.stack(turn, axis=1) for turn in ((zero, -z, y), (z, zero, -x), (-y, x, zero))]
-    shapes = [np.broadcast_to(axis, points.shape) for axis in np.eye(3)] + turns
+    axes = np.eye(3)
+    shapes = [np.broadcast_to(axis, points.shape) for axis in axes] + [np.cross(axis, points) for axis in axes]
     modes = np.stack([shape.ravel() for shape in shapes], axis=1)
     return np.asarray(modes / np.sqrt(np.repeat(node_mass, 3) @ modes**2))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from math import ceil, floor, pi
 
@@ -60,13 +61,10 @@ def prism_mesh(width: float, depth: float, height: float, divisions: tuple[int, 
         Bricks along x, y, z.
     """
     along_x, along_y, layers = divisions
-    x, y = np.meshgrid(
-        np.linspace(-width / 2, width / 2, along_x + 1), np.linspace(-depth / 2, depth / 2, along_y + 1), indexing="ij"
-    )
-    section = np.column_stack((x.ravel(), y.ravel()))
-    quadrilaterals = _grid_quadrilaterals(along_x, along_y)
-    description = f"prism of {along_x} × {along_y} × {layers} bricks"
-    return _raise(section, quadrilaterals, np.linspace(0.0, height, layers + 1), np.ones(layers + 1), description)
+    edges = (np.linspace(-size / 2, size / 2, bricks + 1) for size, bricks in ((width, along_x), (depth, along_y)))
+    section = np.stack(np.meshgrid(*edges, indexing="ij"), axis=-1).reshape(-1, 2)
+    levels, description = np.linspace(0.0, height, layers + 1), f"prism of {along_x} × {along_y} × {layers} bricks"
+    return _raise(section, _grid_quadrilaterals(along_x, along_y), levels, np.ones(layers + 1), description)
 
 
 def round_mesh(base_diameter: float, top_diameter: float, height: float, divisions: tuple[int, int, int]) -> Mesh:
@@ -112,15 +110,12 @@ def prism_divisions(width: float, depth: float, height: float, degrees_of_freedo
     [(5, 3, 16), (8, 6, 28), (10, 10, 55)]
     """
     nodes = degrees_of_freedom / 3
-    found = []
-    for along_x in range(1, ceil(nodes / 4)):
-        for along_y in range(1, ceil(nodes / (2 * (along_x + 1)))):
-            section = (along_x + 1) * (along_y + 1)
-            for layers in _layers(nodes, section):
-                edges = (width / along_x, depth / along_y, height / layers)
-                missing = abs(section * (layers + 1) - nodes)
-                found.append((_rank(edges, missing, PRISM_ASPECT), -along_x, (along_x, along_y, layers)))
-    return min(found)[-1] if found else (1, 1, 1)
+    grids = (
+        ((x + 1) * (y + 1), (width / x, depth / y), (x, y))
+        for x in range(1, ceil(nodes / 4))
+        for y in range(1, ceil(nodes / (2 * (x + 1))))
+    )
+    return _nearest(grids, nodes, height, PRISM_ASPECT)
 
 
 def round_divisions(
@@ -141,28 +136,32 @@ def round_divisions(
     >>> [round_divisions(0.097, 0.097, 0.455, number) for number in (1224, 5478, 20322)]
     [(2, 1, 23), (4, 2, 31), (6, 3, 55)]
     """
-    radius = (base_diameter + top_diameter) / 4
-    nodes = degrees_of_freedom / 3
+    radius, nodes = (base_diameter + top_diameter) / 4, degrees_of_freedom / 3
+    discs = (
+        (
+            (core + 1) ** 2 + 4 * core * rings,
+            (2 * CORE_SHARE * radius / core, pi * radius / (2 * core), (1 - CORE_SHARE) * radius / rings),
+            (core, rings),
+        )
+        for core in range(1, ceil(nodes**0.5))
+        for rings in range(1, core + 1)
+    )
+    return _nearest(discs, nodes, height, ROUND_ASPECT)
+
+
+def _nearest(
+    sections: Iterable[tuple[int, tuple[float, ...], tuple[int, int]]], nodes: float, height: float, allowed: float
+) -> tuple[int, int, int]:
+    """Find the best of sections, each with its nodes, edges (m) and divisions, and its number of layers."""
     found = []
-    for core in range(1, ceil(nodes**0.5)):
-        for rings in range(1, core + 1):
-            section = (core + 1) ** 2 + 4 * core * rings
-            for layers in _layers(nodes, section):
-                ring = (1 - CORE_SHARE) * radius / rings
-                edges = (2 * CORE_SHARE * radius / core, pi * radius / (2 * core), ring, height / layers)
-                missing = abs(section * (layers + 1) - nodes)
-                found.append((_rank(edges, missing, ROUND_ASPECT), -core, (core, rings, layers)))
+    for section, edges, (first, second) in sections:
+        around = nodes / section - 1
+        for layers in {floor(around), ceil(around)} - {-1, 0}:
+            every = (*edges, height / layers)
+            aspect, missing = max(every) / min(every), abs(section * (layers + 1) - nodes)
+            rank = max(aspect, allowed), round(missing, 9), round(aspect, 9)
+            found.append((rank, -first, (first, second, layers)))
     return min(found)[-1] if found else (1, 1, 1)
-
-
-def _layers(nodes: float, section: int) -> list[int]:
-    around = nodes / section - 1
-    return [layers for layers in {floor(around), ceil(around)} if layers >= 1]
-
-
-def _rank(edges: tuple[float, ...], missing: float, allowed: float) -> tuple[float, float, float]:
-    aspect = max(edges) / min(edges)
-    return (max(aspect, allowed), round(missing, 9), round(aspect, 9))
 
 
 def _grid_quadrilaterals(along_x: int, along_y: int) -> Whole:
@@ -199,8 +198,7 @@ def _raise(section: Array, quadrilaterals: Whole, levels: Array, scales: Array, 
     points = np.concatenate((plane, heights), axis=2).reshape(-1, 3)
     lower = (quadrilaterals[None] + count * np.arange(levels.size - 1)[:, None, None]).reshape(-1, 4)
     near, right, left, far = lower.T
-    up = count
-    cells = np.column_stack((far + up, far, right + up, left + up, right, left, near + up, near))
+    cells = np.column_stack((far + count, far, right + count, left + count, right, left, near + count, near))
     return Mesh(points, cells, np.arange(count), f"{description}, {3 * len(points)} degrees of freedom")
 
 
@@ -246,18 +244,48 @@ def refine_rim(body: ContactBody, around: int = RIM_NODES) -> ContactBody:
     height = (1.0 - share) * body.nodes[first, 2] + share * body.nodes[second, 2]
     points = np.column_stack((radii.max() * np.cos(turned), radii.max() * np.sin(turned), height))
 
+    inner = np.setdiff1d(np.arange(len(radii)), rim)
+
     def spread(values: Array) -> Array:
-        return np.asarray(((1.0 - share) * values[first] + share * values[second]) / parts)
+        return np.concatenate((values[inner], ((1.0 - share) * values[first] + share * values[second]) / parts))
 
     along = share[:, None, None]
     modes = (1.0 - along) * body.modes[first] + along * body.modes[second]
-    inner = np.setdiff1d(np.arange(len(radii)), rim)
     return replace(
         body,
         nodes=np.vstack((body.nodes[inner], points)),
-        node_mass=np.concatenate((body.node_mass[inner], spread(body.node_mass))),
-        node_area=np.concatenate((body.node_area[inner], spread(body.node_area))),
-        ring_radii=np.zeros(inner.size + points.shape[0]),
+        node_mass=spread(body.node_mass),
+        node_area=spread(body.node_area),
+        ring_radii=np.zeros(inner.size + len(points)),
         modes=np.concatenate((body.modes[inner], modes)),
         description=f"{body.description}; {points.shape[0]} nodes on the rim",
     )
+
+
+def mesh_of(sizes: Mapping[str, float], degrees_of_freedom: int) -> Mesh:
+    """
+    Mesh a body by its outer dimensions.
+
+    Parameters
+    ----------
+    sizes : mapping of str to float
+        m; "width", "depth", "height" of a prism, "diameter", "height" of a cylinder, "base_diameter", "top_diameter",
+        "height" of a truncated cone.
+    degrees_of_freedom : int
+        About how many, three a node.
+
+    Raises
+    ------
+    ValueError
+        If the dimensions are those of no known shape.
+    """
+    if sizes.keys() == {"width", "depth", "height"}:
+        edges = sizes["width"], sizes["depth"], sizes["height"]
+        return prism_mesh(*edges, prism_divisions(*edges, degrees_of_freedom))
+    if sizes.keys() == {"diameter", "height"}:
+        lengths = sizes["diameter"], sizes["diameter"], sizes["height"]
+    elif sizes.keys() == {"base_diameter", "top_diameter", "height"}:
+        lengths = sizes["base_diameter"], sizes["top_diameter"], sizes["height"]
+    else:
+        raise ValueError(f"The dimensions are {', '.join(sizes)}; those of a prism, a cylinder or a cone were expected")
+    return round_mesh(*lengths, round_divisions(*lengths, degrees_of_freedom))

@@ -10,21 +10,8 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.contact.body import ContactBody
-from colonnade.dynamics.contact.elastic.assembly import (
-    STEELS_MODULUS,
-    STEELS_POISSON_RATIO,
-    ElasticBody,
-    assemble,
-    rigid_modes,
-)
-from colonnade.dynamics.contact.elastic.mesh import (
-    Mesh,
-    prism_divisions,
-    prism_mesh,
-    refine_rim,
-    round_divisions,
-    round_mesh,
-)
+from colonnade.dynamics.contact.elastic.assembly import ElasticBody, assemble, rigid_modes
+from colonnade.dynamics.contact.elastic.mesh import mesh_of, refine_rim
 
 VIBRATION_MODES = 40
 """Free vibration modes kept by default."""
@@ -65,19 +52,18 @@ def reduce_body(body: ElasticBody, *, vibration_modes: int = VIBRATION_MODES) ->
     made orthogonal to each other through the small eigenproblem of their flexibility, so that stiffness and mass are
     both diagonal. Inertia forces of the rotation on the deformation are left out (strains are small).
     """
-    from scipy.sparse import eye_array
+    from scipy.sparse import diags_array, eye_array
     from scipy.sparse.linalg import splu
 
     elastic_modes = 3 * len(body.points) - 6
     if not 0 <= vibration_modes < elastic_modes:
-        raise ValueError(
-            f"{vibration_modes} vibration modes were asked for; the mesh has {elastic_modes}, so a number from 0 to "
-            f"{elastic_modes - 1} was expected"
-        )
+        raise ValueError(f"{vibration_modes} vibration modes were asked for; 0 to {elastic_modes - 1} were expected")
     roots = np.sqrt(np.repeat(body.node_mass, 3))
-    scaled = _scale(body.stiffness, 1 / roots)
+    weights = diags_array(1 / roots)
+    scaled = (weights @ body.stiffness @ weights).tocsr()
     rigid = roots[:, None] * rigid_modes(body.points, body.node_mass)
-    shifted = (scaled + _shift(body) * eye_array(roots.size)).tocsc()
+    shift = SHIFT * body.material.modulus / body.material.density / float(np.ptp(body.points, axis=0).max()) ** 2
+    shifted = (scaled + shift * eye_array(roots.size)).tocsc()
     factors = splu(shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
     def flexibility(loads: Array) -> Array:
@@ -102,14 +88,13 @@ def reduce_body(body: ElasticBody, *, vibration_modes: int = VIBRATION_MODES) ->
 
 def rigid_on_nodes(body: ElasticBody) -> ContactBody:
     """Give the rigid block that stands on the same nodes, with the same weights."""
-    count = len(body.base)
     return ContactBody(
-        mass=body.mass,
+        mass=float(body.node_mass.sum()),
         inertia=body.inertia,
         nodes=body.points[body.base],
         node_mass=body.node_mass[body.base],
         node_area=body.base_area,
-        modes=np.empty((count, 3, 0)),
+        modes=np.empty((len(body.base), 3, 0)),
         frequencies=np.empty(0),
         modal_damping=np.empty(0),
         description=f"{body.description}, rigid",
@@ -133,8 +118,7 @@ def _vibration(scaled: Any, flexibility: Callable[[Array], Array], rigid: Array,
 
 def _attachment(scaled: Any, shapes: Array) -> tuple[Array, Array]:
     """Mix shapes into orthonormal modes that the stiffness does not couple, and give their frequencies."""
-    stiffness = shapes.T @ (scaled @ shapes)
-    shapes = shapes / np.sqrt(np.diagonal(stiffness))
+    shapes = shapes / np.sqrt(np.diagonal(shapes.T @ (scaled @ shapes)))
     shares, mixture = np.linalg.eigh(shapes.T @ (scaled @ shapes))
     kept = shares > DEPENDENCE * shares[-1]
     shapes = shapes @ (mixture[:, kept] / np.sqrt(shares[kept]))
@@ -146,18 +130,6 @@ def _attachment(scaled: Any, shapes: Array) -> tuple[Array, Array]:
 def _without(basis: Array, vectors: Array) -> Array:
     """Take the components along an orthonormal basis out of vectors."""
     return np.asarray(vectors - basis @ (basis.T @ vectors))
-
-
-def _scale(matrix: Any, factors: Array) -> Any:
-    from scipy.sparse import diags_array
-
-    weights = diags_array(factors)
-    return (weights @ matrix @ weights).tocsr()
-
-
-def _shift(body: ElasticBody) -> float:
-    longest = float(np.ptp(body.points, axis=0).max())
-    return SHIFT * body.material.modulus / body.material.density / longest**2
 
 
 LINEAR_VISCOSITY = 0.06
@@ -188,47 +160,13 @@ def modal_damping(body: ElasticBody, modes: Array, frequencies: Array) -> Array:
     b₁ L ω / 2c; a mode of pure shear or torsion has none. What C couples between modes is left out. It is damping of
     the material and has a share of its own in the balance of energy, apart from that of the contact.
     """
-    material = body.material
-    pressures = LINEAR_VISCOSITY * material.density * material.dilatational_speed * body.element_lengths
+    first, shear = body.material.lame
+    pressures = LINEAR_VISCOSITY * np.sqrt((first + 2 * shear) * body.material.density) * body.element_lengths
     return np.asarray((body.volumes * pressures) @ (body.volume_rate @ modes) ** 2 / (2 * frequencies))
 
 
-def mesh_of(sizes: Mapping[str, float], degrees_of_freedom: int) -> Mesh:
-    """
-    Mesh a body by its outer dimensions.
-
-    Parameters
-    ----------
-    sizes : mapping of str to float
-        m; "width", "depth", "height" of a prism, "diameter", "height" of a cylinder, "base_diameter", "top_diameter",
-        "height" of a truncated cone.
-    degrees_of_freedom : int
-        About how many, three a node.
-
-    Raises
-    ------
-    ValueError
-        If the dimensions are those of no known shape.
-    """
-    if sizes.keys() == {"width", "depth", "height"}:
-        edges = sizes["width"], sizes["depth"], sizes["height"]
-        return prism_mesh(*edges, prism_divisions(*edges, degrees_of_freedom))
-    if sizes.keys() == {"diameter", "height"}:
-        lengths = sizes["diameter"], sizes["diameter"], sizes["height"]
-    elif sizes.keys() == {"base_diameter", "top_diameter", "height"}:
-        lengths = sizes["base_diameter"], sizes["top_diameter"], sizes["height"]
-    else:
-        raise ValueError(f"The dimensions are {', '.join(sizes)}; those of a prism, a cylinder or a cone were expected")
-    return round_mesh(*lengths, round_divisions(*lengths, degrees_of_freedom))
-
-
 def elastic_body(
-    sizes: Mapping[str, float],
-    mass: float,
-    *,
-    degrees_of_freedom: int,
-    modulus: float = STEELS_MODULUS,
-    poisson_ratio: float = STEELS_POISSON_RATIO,
+    sizes: Mapping[str, float], mass: float, *, degrees_of_freedom: int, **elasticity: float
 ) -> ContactBody:
     """
     Build the reduced elastic body of given dimensions and mass.
@@ -239,9 +177,8 @@ def elastic_body(
         As of `mesh_of`.
     mass : float
         kg.
-    modulus : float, optional
-        Young's modulus, Pa.
-    poisson_ratio : float, optional
+    **elasticity : float, optional
+        `modulus` and `poisson_ratio`, as of `assemble`.
 
     Returns
     -------
@@ -253,6 +190,5 @@ def elastic_body(
     ValueError
         If the dimensions are those of no known shape.
     """
-    mesh = mesh_of(sizes, degrees_of_freedom)
-    body = reduce_body(assemble(mesh, mass, modulus=modulus, poisson_ratio=poisson_ratio))
+    body = reduce_body(assemble(mesh_of(sizes, degrees_of_freedom), mass, **elasticity))
     return body if "width" in sizes else refine_rim(body)
