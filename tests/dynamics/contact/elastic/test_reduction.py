@@ -72,7 +72,7 @@ def test_the_same_mesh_gives_the_same_modes():
 
 @pytest.mark.parametrize("count", [-1, 3 * len(CONE.points) - 6])
 def test_an_impossible_number_of_modes_is_refused(count):
-    with pytest.raises(ValueError, match="a number from 0 to"):
+    with pytest.raises(ValueError, match="0 to 248 were expected"):
         reduce_body(CONE, vibration_modes=count)
 
 

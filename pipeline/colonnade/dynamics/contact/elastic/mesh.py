@@ -237,8 +237,7 @@ def refine_rim(body: ContactBody, around: int = RIM_NODES) -> ContactBody:
     rim, angle = rim[np.argsort(angle)], np.sort(angle)
     parts = max(1, ceil(around / rim.size))
     share = np.tile(np.arange(parts) / parts, rim.size)
-    first = np.repeat(rim, parts)
-    second = np.repeat(np.roll(rim, -1), parts)
+    first, second = np.repeat(rim, parts), np.repeat(np.roll(rim, -1), parts)
     width = np.repeat(np.diff(angle, append=angle[0] + 2.0 * np.pi), parts)
     turned = np.repeat(angle, parts) + share * width
     height = (1.0 - share) * body.nodes[first, 2] + share * body.nodes[second, 2]
