@@ -23,10 +23,7 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx_click",
     "sphinx_gallery.gen_gallery",
-    "mathml",
-    "front_page",
-    "external_links",
-    "reachable",
+    "pages",
     "reference",
 ]
 
@@ -68,7 +65,7 @@ sphinx_gallery_conf = {
     "examples_dirs": "examples",
     "gallery_dirs": "docs/gallery",
     "within_subsection_order": "FileNameSortKey",
-    "image_scrapers": ("moving_pictures.animations", "matplotlib"),
+    "image_scrapers": ("pages.animations", "matplotlib"),
     "filename_pattern": r"\.py$",
     "parallel": 2,
     "show_memory": False,

@@ -34,3 +34,9 @@ peaks = (-1.0) ** number * (1 - np.sqrt(1 - energy))
 axes = colonnade.plot(history)
 axes.plot((impacts[:-1] + impacts[1:]) / 2, peaks, "o", color="black", fillstyle="none", label="Housner 1963")
 _ = axes.legend()
+
+# %%
+# See it move. ``pyplot.show()`` plays the animation in a script, ``HTML(animation.to_jshtml())`` of ``IPython.display``
+# in a notebook, and ``animation.save("rocking.gif", writer="pillow")`` writes it.
+
+animation = colonnade.animate(history)

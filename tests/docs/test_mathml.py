@@ -16,9 +16,9 @@ SPACE = "{http://www.w3.org/1998/Math/MathML}"
 def markup():
     from docutils import nodes
 
-    import mathml
+    import pages
 
-    return lambda latex: mathml.markup(nodes.math(latex, latex), "inline")
+    return lambda latex: pages.markup(nodes.math(latex, latex), "inline")
 
 
 def test_greek_letters_and_signs_are_characters(markup):

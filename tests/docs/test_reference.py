@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+import contract
 import reference
 from colonnade.campaign import test
 from colonnade.campaign.review import ReviewFile
@@ -12,9 +13,8 @@ from colonnade.campaign.settings import NextSettings, Processing, settings
 from colonnade.campaign.specimen import Measured, Prism
 from colonnade.cli.app import app
 from colonnade.store.results import STAGES
+from myst import table
 from page_blocks import PROJECT
-from reference import files, keys, library, schemas
-from reference.markdown import table
 
 
 @pytest.fixture(scope="module")
@@ -33,8 +33,8 @@ def test_every_link_of_a_page_leads_to_a_page_or_a_place(pages):
 def test_every_setting_has_its_place_default_and_unit(pages):
     for setting in settings(Processing(), NextSettings()):
         table_of, _, key = setting.key.rpartition(".")
-        page = pages[f"campaign/{keys.page_of(table_of)}.md"]
-        section = page.partition(f"({keys.place('campaign', setting.key)})=\n## `{key}`")[2].partition("\n(")[0]
+        page = pages[f"campaign/{contract.page_of(table_of)}.md"]
+        section = page.partition(f"({contract.place('campaign', setting.key)})=\n## `{key}`")[2].partition("\n(")[0]
         assert setting.description in section, setting.key
         assert setting.unit in section, setting.key
         assert "| default |" in section, setting.key
@@ -46,7 +46,7 @@ def test_every_setting_has_its_place_default_and_unit(pages):
 )
 def test_every_key_of_a_model_has_its_place(pages, page, path, model):
     for key, purpose in model.purposes().items():
-        assert f"({keys.place('campaign', f'{path}.{key}')})=" in pages[f"campaign/{page}.md"], key
+        assert f"({contract.place('campaign', f'{path}.{key}')})=" in pages[f"campaign/{page}.md"], key
         assert " ".join(purpose.split()) in pages[f"campaign/{page}.md"]
 
 
@@ -57,7 +57,7 @@ def test_every_entry_of_a_review_has_its_page(pages):
 
 def test_a_key_without_a_description_is_refused():
     with pytest.raises(ValueError, match=r"top\.key has no description"):
-        schemas._key("top.key", {"type": "string"}, {}, False, "")
+        contract._key("top.key", {"type": "string"}, {}, False, "")
 
 
 @pytest.mark.parametrize(
@@ -70,13 +70,13 @@ def test_a_key_without_a_description_is_refused():
     ],
 )
 def test_a_schema_is_put_into_words(node, form, bounds):
-    assert schemas.form(node, {}) == form
-    assert schemas.bounds(node) == bounds
+    assert contract.form(node, {}) == form
+    assert contract.bounds(node) == bounds
 
 
 def test_every_stage_has_its_file(pages):
     assert [name for name in STAGES if f"(file-{name})=" not in pages["files.md"]] == []
-    assert "| `rocking_angle` | `rad` |" in files.pages()["files.md"]
+    assert "| `rocking_angle` | `rad` |" in reference.result_files()["files.md"]
 
 
 def test_every_kind_of_finding_has_advice():
@@ -105,14 +105,14 @@ def walk(command, name):
 
 
 def test_every_public_name_has_its_group(monkeypatch):
-    monkeypatch.setitem(library.GROUPS, "Pictures", ("plot",))
+    monkeypatch.setitem(reference.GROUPS, "Pictures", ("plot",))
     with pytest.raises(ValueError, match="animate"):
-        library.pages()
+        reference.library()
 
 
 def test_a_docstrings_bars_are_escaped_outside_of_examples():
     lines = ["Largest |θ|/α.", ">>> a | b", "1 | 2", "", "Of |ω| too."]
-    library.keep_bars(None, None, None, None, None, lines)
+    reference.keep_bars(None, None, None, None, None, lines)
     assert lines == [r"Largest \|θ\|/α.", ">>> a | b", "1 | 2", "", r"Of \|ω\| too."]
 
 

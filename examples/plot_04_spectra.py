@@ -1,6 +1,6 @@
 """
-Overturning spectrum of a pulse
-===============================
+Spectra: of a pulse, of a record
+================================
 
 Which sine pulses overturn a block? From the lower limit on it falls after an impact. Then comes a band of stronger
 pulses that it survives, up to the upper limit; beyond that it falls without an impact. A stronger pulse may be safer.
@@ -9,6 +9,7 @@ pulses that it survives, up to the upper limit; beyond that it falls without an 
 import numpy as np
 
 import colonnade
+from colonnade.laboratory.site import synthetic_records
 
 block = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 spectrum = colonnade.overturning_spectrum(
@@ -28,3 +29,23 @@ axes = colonnade.plot(spectrum)
 at_three = np.isclose(spectrum.interval_frequency_ratio, 3.0)
 for start, end in zip(spectrum.interval_start[at_three], spectrum.interval_end[at_three], strict=True):
     print(f"Ω = 3: overturns from A = {start:.6f} to {end:.6f}")
+
+# %%
+# What does one ground motion do to columns of any size? The period 2π/p is their size: 4 s is a column of about 6 m.
+
+record = synthetic_records(12)[11]  # a synthetic ground motion with a long pulse
+motion = record.motion
+print(f"{record.name}: a pulse of {record.pulse_period:.1f} s, PGA {motion.peak:.1f} m/s²")
+
+# %%
+# One curve is one slenderness. A cross is a size that overturns.
+
+spectrum = colonnade.rocking_spectrum(motion, critical_angle=[0.14, 0.2, 0.28], period=np.arange(1.0, 8.01, 0.25))
+axes = colonnade.plot(spectrum)
+
+# %%
+# Sizes are pole distances: R = (3/4) g / p² for a rectangular block.
+
+slender = spectrum.overturned[0]
+distance = 0.75 * 9.81 * (spectrum.period / (2 * np.pi)) ** 2
+print(f"α = 0.14 rad: blocks overturn up to a height of {2 * np.cos(0.14) * distance[slender].max():.1f} m")
