@@ -91,8 +91,7 @@ def predicted_over_measured(points: Mapping[str, Sequence[PeakPoint]]) -> Figure
     for axes, (model, own) in zip(panels, drawn.items(), strict=False):
         _scale(axes, limits)
         _draw(axes, model, own, limits, 72 * PANEL * side)
-        axes.set_title(f"{model} model")
-        axes.set_xlabel("measured max |θ|/α")
+        axes.set(title=f"{model} model", xlabel="measured max |θ|/α")
     panels[0].set_ylabel("predicted max |θ|/α")
     return figure
 
@@ -106,10 +105,7 @@ def _limits(points: Sequence[PeakPoint]) -> tuple[float, float]:
 
 
 def _scale(axes: Axes, limits: tuple[float, float]) -> None:
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlim(*limits)
-    axes.set_ylim(*limits)
+    axes.set(xscale="log", yscale="log", xlim=limits, ylim=limits)
     axes.set_box_aspect(1)
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if limits[1] < 100 * limits[0] else (1.0,)))

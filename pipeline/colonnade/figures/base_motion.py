@@ -86,9 +86,7 @@ def base_motion(achieved: Curve, target: Curve | None, spectra: BaseSpectra, *, 
     scale_symmetric(history, largest)
     if uplift is not None and uplift < 1.12 * largest:
         draw_limit(history, uplift, "g tan α")
-    history.set_xlim(*time_limits([achieved]))
-    history.set_xlabel("time (s)")
-    history.set_ylabel("acceleration\n(m/s²)")
+    history.set(xlim=time_limits([achieved]), xlabel="time (s)", ylabel="acceleration\n(m/s²)")
     _draw_spectra(lower[0], spectra)
     if spectra.target is not None:
         _draw_ratio(lower[1], spectra.period, spectra.achieved / spectra.target)
@@ -110,14 +108,12 @@ def _draw_ratio(axes: Axes, period: Array, ratio: Array) -> None:
     axes.plot(period, np.clip(ratio, 1.0 - reach, 1.0 + reach), color=MEASURED["color"], linewidth=1.0)
     axes.axhline(1.0, **LIMIT)
     axes.axhspan(0.9, 1.1, color=FAINT, alpha=0.15, linewidth=0)
-    axes.set_ylim(1.0 - reach, 1.0 + reach)
-    axes.set_ylabel("achieved / target")
+    axes.set(ylim=(1.0 - reach, 1.0 + reach), ylabel="achieved / target")
     _scale_periods(axes, period)
 
 
 def _scale_periods(axes: Axes, period: Array) -> None:
-    axes.set_xscale("log")
-    axes.set_xlim(float(period[0]), float(period[-1]))
+    axes.set(xscale="log", xlim=(float(period[0]), float(period[-1])))
     axes.xaxis.set_major_locator(FixedLocator([each for each in DECADES if period[0] <= each <= period[-1]]))
     axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))

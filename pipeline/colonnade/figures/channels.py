@@ -205,8 +205,7 @@ def _draw_spectrum(axes: Axes, channel: Channel) -> None:
         axes.text(0.5, 0.5, "no spectrum", transform=axes.transAxes, ha="center", va="center", fontsize=8)
         axes.set_yticks([])
         return
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     highest = max(float(each.amplitude.max()) for each in known)
     # Far above its cut-off a filtered channel is rounding alone.
     first = known[0].amplitude

@@ -112,8 +112,7 @@ def _draw_portrait(
     axes.set_xlim(-1.12 * largest, 1.12 * largest)
     axes.xaxis.set_major_locator(MaxNLocator(5))  # the panel is narrow, and its numbers may be long
     scale_symmetric(axes, fastest)
-    axes.set_xlabel(ANGLE_LABEL)
-    axes.set_ylabel("θ′ / (p α)")
+    axes.set(xlabel=ANGLE_LABEL, ylabel="θ′ / (p α)")
 
 
 def _draw_enlarged(axes: Axes, enlarged: Enlarged) -> None:
@@ -131,8 +130,7 @@ def _draw_enlarged(axes: Axes, enlarged: Enlarged) -> None:
             )
     largest = _largest(np.concatenate(every), LARGEST_RATIO) if every else 1.0
     scale_symmetric(axes, largest)
-    axes.set_xlabel(enlarged.label)
-    axes.set_ylabel(ANGLE_LABEL)
+    axes.set(xlabel=enlarged.label, ylabel=ANGLE_LABEL)
     if enlarged.remark:
         axes.text(
             0.995, 1.01, enlarged.remark, transform=axes.transAxes, ha="right", va="bottom", fontsize=8, color=SOFT

@@ -96,8 +96,7 @@ def draw_angle(
             draw_curve(axes, curve, label=label, **style)
     if limit > 1.0:
         draw_limit(axes, 1.0, limit_name)
-    axes.set_ylim(-limit, limit)
-    axes.set_ylabel(ANGLE_LABEL)
+    axes.set(ylim=(-limit, limit), ylabel=ANGLE_LABEL)
     if measured is None and not predicted:
         axes.text(
             0.5, 0.5, "no rocking angle, measured or predicted", transform=axes.transAxes, ha="center", va="center"
@@ -228,6 +227,5 @@ def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Fi
         if spread.overturning_probability > 0:
             said += f"; {format_percent(spread.overturning_probability)} overturn"
         panel.set_title(said, loc="right", fontsize=7 if is_narrow() else 8, color=INK, pad=1.5)
-    axes[-1].set_xlim(*time_limits(curves))
-    axes[-1].set_xlabel("time (s)")
+    axes[-1].set(xlim=time_limits(curves), xlabel="time (s)")
     return figure

@@ -140,8 +140,7 @@ def moving_bodies(
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set_axis_off()
     axes.set_aspect("equal")
-    axes.set_xlim(lowest[0] - margin, highest[0] + margin)
-    axes.set_ylim(min(0.0, lowest[1]) - margin, highest[1] + margin)
+    axes.set(xlim=(lowest[0] - margin, highest[0] + margin), ylim=(min(0.0, lowest[1]) - margin, highest[1] + margin))
     axes.plot([lowest[0] - margin, highest[0] + margin], [0.0, 0.0], color=INK, linewidth=2.0)
     drawn = {name: Polygon(outline[0], edgecolor=INK, facecolor=FACE) for name, outline in outlines.items()}
     for block in drawn.values():

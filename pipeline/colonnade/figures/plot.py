@@ -90,8 +90,7 @@ def _(result: AssemblyHistory, ax: Axes | None = None) -> Axes:
     axes = _axes(ax)
     for name, body in result.bodies.items():
         axes.plot(result.time, body.relative.angle / result.assembly.critical_angles[name], label=name)
-    axes.set_xlabel("time (s)")
-    axes.set_ylabel("rocking angle at the joint / α")
+    axes.set(xlabel="time (s)", ylabel="rocking angle at the joint / α")
     axes.legend()
     return axes
 
@@ -126,8 +125,7 @@ def _(result: Ensemble, ax: Axes | None = None) -> Axes:
         shade = SHADES[min(index, len(SHADES) - 1)]
         draw_band(axes, result.time, low, high, color=colour, alpha=shade, label=share)
     draw_curve(axes, Curve(result.time, result.central), label="nothing varied", **MEASURED)
-    axes.set_xlabel("time (s)")
-    axes.set_ylabel("θ (rad)")
+    axes.set(xlabel="time (s)", ylabel="θ (rad)")
     axes.legend()
     return axes
 

@@ -14,8 +14,7 @@ def picture(label="time (s)"):
     figure = Figure(figsize=(3, 2))
     axes = figure.subplots()
     axes.plot([0.0, 1.0], [1.0, 2.0], label="measured")
-    axes.set_xlabel(label)
-    axes.set_ylabel("θ / α")
+    axes.set(xlabel=label, ylabel="θ / α")
     return Picture(figure, "one", "a < b", "two points")
 
 

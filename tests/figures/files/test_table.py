@@ -24,8 +24,7 @@ NUMBERS = st.floats(-1e6, 1e6, width=32)
 
 def panel():
     axes = Figure().subplots()
-    axes.set_xlabel("time (s)")
-    axes.set_ylabel("slide\n(mm)")
+    axes.set(xlabel="time (s)", ylabel="slide\n(mm)")
     return axes
 
 

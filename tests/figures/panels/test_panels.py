@@ -176,8 +176,7 @@ def test_a_part_of_a_long_curve_is_drawn_with_its_own_samples():
     zoomed = to_png(figure)
     figure, axes = panel()
     axes.plot(TIME[19_980:20_021], values[19_980:20_021])
-    axes.set_xlim(19.99, 20.01)
-    axes.set_ylim(-0.05, 1.05)
+    axes.set(xlim=(19.99, 20.01), ylim=(-0.05, 1.05))
     assert zoomed == to_png(figure)
 
 

@@ -69,8 +69,7 @@ def picture(count):
     axes = figure.subplots()
     time = 0.01 * np.arange(count)
     axes.plot(time, np.sin(time), label="measured")
-    axes.set_xlabel("time (s)")
-    axes.set_ylabel("slide (mm)")
+    axes.set(xlabel="time (s)", ylabel="slide (mm)")
     return Picture(figure, f"p-{count}", "", "")
 
 

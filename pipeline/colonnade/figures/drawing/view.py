@@ -177,8 +177,7 @@ class View:
         left, bottom, width, height = box
         axes = parent.add_axes((left / size[0], bottom / size[1], width / size[0], height / size[1]))
         axes.set_axis_off()
-        axes.set_xlim(-base[0] * inch, (width - base[0]) * inch)
-        axes.set_ylim(-base[1] * inch, (height - base[1]) * inch)
+        axes.set(xlim=(-base[0] * inch, (width - base[0]) * inch), ylim=(-base[1] * inch, (height - base[1]) * inch))
         return cls(axes, *orientation, inch)
 
     def spot(self, point: Point) -> Spot:

@@ -141,8 +141,7 @@ def label_logarithmic(axes: Axes) -> None:
 
 def name_axes(axes: Axes) -> None:
     """Label the axes of a map."""
-    axes.set_xlabel("Ω = ω / p")
-    axes.set_ylabel("A = a / (g tan α)")
+    axes.set(xlabel="Ω = ω / p", ylabel="A = a / (g tan α)")
 
 
 def _draw_boundary(axes: Axes, boundaries: Sequence[Boundaries], name: str, label: str, style: LineStyle) -> None:

@@ -117,8 +117,7 @@ def response_orders(response: SteadyResponse, points: Sequence[MapPoint], option
         response.amplitude_ratio,
         "A",
     )
-    over_frequency.set_xlabel("Ω = ω / p")
-    over_frequency.set_ylabel("largest |θ| / α")
+    over_frequency.set(xlabel="Ω = ω / p", ylabel="largest |θ| / α")
     _draw_curves(
         over_amplitude, response.amplitude_ratio, response.amplitude, response.order, response.frequency_ratio, "Ω"
     )
@@ -164,8 +163,7 @@ def _draw_curves(
         named = f"{name} = {others[row]:.2f}, sub-harmonic or irregular"
         axes.plot(ratios[unlike], amplitudes[row][unlike], ".", color=colour, markersize=4.0, gid=named)
     largest = float(np.nanmax(amplitudes[chosen], initial=SMALLEST_RATIO)) if chosen else SMALLEST_RATIO
-    axes.set_ylim(0.0, 1.3 * largest)
-    axes.set_xlim(float(ratios[0]), float(ratios[-1]))
+    axes.set(ylim=(0.0, 1.3 * largest), xlim=(float(ratios[0]), float(ratios[-1])))
     if chosen:
         axes.legend(loc="upper left", ncols=CURVES // 2, fontsize=7.5, handlelength=1.4, columnspacing=1.0)
 

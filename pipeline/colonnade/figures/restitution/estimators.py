@@ -76,8 +76,7 @@ def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float | N
     figure = Figure(figsize=(width(), height))
     axes = figure.add_axes((LEFT / width(), BOTTOM / height, (width() - LEFT - RIGHT) / width(), body / height))
     low, high = _limits([row for group in groups for row in group.rows])
-    axes.set_xlim(low, high)
-    axes.set_ylim(body, 0)
+    axes.set(xlim=(low, high), ylim=(body, 0))
     axes.tick_params(axis="y", left=False, labelleft=False)
     axes.grid(visible=False, axis="y")
     place = 0.05

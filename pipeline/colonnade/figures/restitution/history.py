@@ -151,8 +151,7 @@ def joint_region(regions: Sequence[Region], *, fixed: tuple[float, float, float]
         )
     axes.xaxis.set_major_locator(MaxNLocator(nbins=6))
     axes.yaxis.set_major_locator(MaxNLocator(nbins=6))
-    axes.set_xlabel("coefficient of restitution e")
-    axes.set_ylabel("α fitted / α given")
+    axes.set(xlabel="coefficient of restitution e", ylabel="α fitted / α given")
     legend_outside(figure, [axes])
     return figure
 

@@ -74,12 +74,10 @@ def peaks_of_many(series: Sequence[PeakSeries], block: Block) -> Figure:
     _draw_middle(axes, middle_of(number, energy, np.arange(0.5, number.max(initial=1.0) + 1.0)))
     axes.set_yscale("log")
     if energy.size:
-        axes.set_xlim(0, number.max() + 1)
-        axes.set_ylim(0.8 * energy.min(), 1.2 * energy.max())
+        axes.set(xlim=(0, number.max() + 1), ylim=(0.8 * energy.min(), 1.2 * energy.max()))
         label_energies(axes)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
-    axes.set_xlabel("impact number n")
-    axes.set_ylabel("energy / barrier")
+    axes.set(xlabel="impact number n", ylabel="energy / barrier")
     legend_above(figure, [axes])
     return figure
 
@@ -129,8 +127,7 @@ def impacts_of_many(series: Sequence[ImpactSeries], *, level: Level | None, rigi
     if rigid is not None:
         draw_rigid(axes, rigid)
     axes.yaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
-    axes.set_xlabel("angular velocity before the impact (rad/s)")
-    axes.set_ylabel("e of each impact")
+    axes.set(xlabel="angular velocity before the impact (rad/s)", ylabel="e of each impact")
     legend_above(figure, [axes])
     return figure
 

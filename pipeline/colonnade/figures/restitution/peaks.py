@@ -170,9 +170,7 @@ def _draw_peaks(axes: Axes, peaks: PeakSeries, block: Block) -> None:
                 alpha=0.18,
                 label=f"95{PERCENT} band",
             )
-    axes.set_yscale("log")
-    axes.set_xlim(0, max(peaks.angle.size + 1, axes.get_xlim()[1]))
-    axes.set_title(peaks.title)
+    axes.set(yscale="log", xlim=(0, max(peaks.angle.size + 1, axes.get_xlim()[1])), title=peaks.title)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=5, integer=True))
     if not shown.any():
         axes.text(0.5, 0.5, "no peaks", transform=axes.transAxes, ha="center", va="center")

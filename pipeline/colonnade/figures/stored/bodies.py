@@ -128,8 +128,7 @@ def _plan(shown: dict[str, dict[str, BodyPrediction]], assembly: Assembly) -> Fi
         panel.margins(0.12)
         panel.set_title(f"{name}: {number(1e3 * float(np.hypot(*_place(every))))} mm", fontsize=8)
         panel.tick_params(labelsize=7)
-    axes[0].set_ylabel("y (mm)")
-    axes[0].set_xlabel("x (mm)")
+    axes[0].set(ylabel="y (mm)", xlabel="x (mm)")
     handles = {each.get_label(): each for panel in axes for each in panel.patches}
     figure.legend(handles.values(), handles.keys(), loc="outside upper left", ncols=3, fontsize=8)
     return figure

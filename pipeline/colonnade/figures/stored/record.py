@@ -242,9 +242,7 @@ def rocking_angle(measured: Curve | None, predicted: Mapping[str, Curve], *, tit
     figure, ((axes,),) = side_by_side(1, [LOWER if is_narrow() else HEIGHT])
     curves = [curve for curve in (measured, *predicted.values()) if curve is not None]
     draw_angle(axes, measured, predicted, limit_of(curves), thinness=0.8)
-    axes.set_title(title)
-    axes.set_xlim(*time_limits(curves))
-    axes.set_xlabel("time (s)")
+    axes.set(title=title, xlim=time_limits(curves), xlabel="time (s)")
     legend_above(figure, [axes])
     return figure
 
