@@ -125,7 +125,7 @@ class _Report:
             yield self._product(f"specimen-page {name}", shows, self._contents(results) | tests, make, places)
 
     def whole(self, forecasts: ForecastsSummary | None) -> Iterator[Product]:
-        """The pages of the whole campaign, the overview last, so that what it links to is there."""
+        """The pages of the whole campaign, the overview last of them."""
         optional = {addresses.ASSESSMENTS: bool(self.campaign.assessments), addresses.FORECASTS: forecasts is not None}
         places = addresses.of_campaign([page for page, is_there in optional.items() if is_there])
         foreseen = [] if forecasts is None else [forecasts.model_dump_json()]
