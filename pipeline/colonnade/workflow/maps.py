@@ -347,13 +347,9 @@ def as_response(stored: xr.Dataset) -> SteadyResponse:
     """Return stored responses as the library gives them."""
     from colonnade.dynamics.steady import SteadyResponse
 
-    return SteadyResponse(
-        stored["frequency_ratio"].to_numpy(),
-        stored["amplitude_ratio"].to_numpy(),
-        stored["steady_order"].to_numpy().astype(np.int8),
-        stored["steady_period"].to_numpy(),
-        stored["steady_peak_ratio"].to_numpy(),
-    )
+    names = ("frequency_ratio", "amplitude_ratio", "steady_order", "steady_period", "steady_peak_ratio")
+    omega, amplitude, order, period, peak = (stored[name].to_numpy() for name in names)
+    return SteadyResponse(omega, amplitude, order.astype(np.int8), period, peak)
 
 
 def _settings(plan: MapPlan) -> dict[str, Any]:

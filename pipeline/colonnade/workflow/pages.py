@@ -82,6 +82,10 @@ def update_report(
     return layout.report
 
 
+Drawn = tuple[Asked, str]
+"""A test whose page was asked for, and what was kept of it: its part of other pages is read from that."""
+
+
 @dataclass
 class _Report:
     """The products of a report; those that are up to date are in `made`, by their ids."""
@@ -157,8 +161,7 @@ class _Report:
     def _keys(self) -> dict[str, str]:
         return {name: self.made[f"page {name}"].key for name in self.campaign.tests}
 
-    def _parts(self, tests: Iterable[str]) -> list[tuple[Asked, str]]:
-        """What is asked for and what was kept of each test, from which its part of other pages is read."""
+    def _parts(self, tests: Iterable[str]) -> list[Drawn]:
         return [(self._asked[name], self.made[f"page {name}"].text) for name in tests]
 
 
@@ -174,7 +177,7 @@ def _page(layout: Layout, asked: Asked) -> Contents:
     return drawn(layout, asked)
 
 
-def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[tuple[Asked, str]]) -> Contents:
+def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[Drawn]) -> Contents:
     from colonnade.report.build import specimen_page
     from colonnade.report.parts import Part, seldom_collected
 
@@ -183,11 +186,7 @@ def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[tup
 
 
 def _whole(
-    campaign: Campaign,
-    layout: Layout,
-    parts: Sequence[tuple[Asked, str]],
-    advice: Sequence[Advice],
-    places: Sequence[str],
+    campaign: Campaign, layout: Layout, parts: Sequence[Drawn], advice: Sequence[Advice], places: Sequence[str]
 ) -> Contents:
     from colonnade.report.build import whole_pages
     from colonnade.report.parts import Part, seldom_collected
