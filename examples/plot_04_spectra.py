@@ -40,12 +40,12 @@ print(f"{record.name}: a pulse of {record.pulse_period:.1f} s, PGA {motion.peak:
 # %%
 # One curve is one slenderness. A cross is a size that overturns.
 
-spectrum = colonnade.rocking_spectrum(motion, critical_angle=[0.14, 0.2, 0.28], period=np.arange(1.0, 8.01, 0.25))
-axes = colonnade.plot(spectrum)
+sizes = colonnade.rocking_spectrum(motion, critical_angle=[0.14, 0.2, 0.28], period=np.arange(1.0, 8.01, 0.25))
+axes = colonnade.plot(sizes)
 
 # %%
 # Sizes are pole distances: R = (3/4) g / p² for a rectangular block.
 
-slender = spectrum.overturned[0]
-distance = 0.75 * 9.81 * (spectrum.period / (2 * np.pi)) ** 2
+slender = sizes.overturned[0]
+distance = 0.75 * 9.81 * (sizes.period / (2 * np.pi)) ** 2
 print(f"α = 0.14 rad: blocks overturn up to a height of {2 * np.cos(0.14) * distance[slender].max():.1f} m")
