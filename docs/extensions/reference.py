@@ -61,7 +61,7 @@ def setup(app):
 
 def all_pages():
     """Every page of the reference, by its path."""
-    return library() | contract.pages() | result_files()
+    return pages_of_library() | contract.pages() | pages_of_results()
 
 
 def write(folder):
@@ -75,7 +75,7 @@ def write(folder):
         path.unlink()
 
 
-def library():
+def pages_of_library():
     """Make a page for each public name, from its docstring, and the list of all."""
     listed = {name for names in GROUPS.values() for name in names}
     if listed != (public := set(colonnade.__all__) - {"__version__"}):
@@ -111,7 +111,7 @@ def keep_bars(app, what, name, found, options, lines):
             lines[place] = re.sub(r"\|(?=\S[^|]*\|)|(?<=\S)\|(?![|`])", r"\\|", line)
 
 
-def result_files():
+def pages_of_results():
     """Make the page of all result files, each with its variables, from the tables that describe them when written."""
     parts = [RESULTS]
     for name, stage in STAGES.items():

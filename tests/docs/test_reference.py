@@ -76,7 +76,7 @@ def test_a_schema_is_put_into_words(node, form, bounds):
 
 def test_every_stage_has_its_file(pages):
     assert [name for name in STAGES if f"(file-{name})=" not in pages["files.md"]] == []
-    assert "| `rocking_angle` | `rad` |" in reference.result_files()["files.md"]
+    assert "| `rocking_angle` | `rad` |" in reference.pages_of_results()["files.md"]
 
 
 def test_every_kind_of_finding_has_advice():
@@ -107,7 +107,7 @@ def walk(command, name):
 def test_every_public_name_has_its_group(monkeypatch):
     monkeypatch.setitem(reference.GROUPS, "Pictures", ("plot",))
     with pytest.raises(ValueError, match="animate"):
-        reference.library()
+        reference.pages_of_library()
 
 
 def test_a_docstrings_bars_are_escaped_outside_of_examples():

@@ -154,8 +154,8 @@ def rocking_spectrum(
         axes.axvline(period, label=f"the column, 2π/p = {period:.3g} s", zorder=1, **LIMIT)
     axes.axhline(1.0, color=SOFT, linewidth=0.6, zorder=1, gid="critical angle")
     axes.set_xlim(float(spectrum.period.min()), float(spectrum.period.max()))
-    axes.set(ylim=(0.0, top + max(1, len(spectrum.critical_angle)) * STEP), xlabel="size 2π/p (s)")
-    axes.set_ylabel("largest |θ|/α")
+    axes.set_ylim(0.0, top + max(1, len(spectrum.critical_angle)) * STEP)
+    axes.set(xlabel="size 2π/p (s)", ylabel="largest |θ|/α")
     figure = cast(Figure, axes.get_figure(root=True))
     if own:
         small = SMALL_TEXT["legend.fontsize"] if is_narrow() else 8
