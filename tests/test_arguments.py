@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import colonnade
-from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.body import ContactLaw
 from prism import PRISM
 
 TIME = np.arange(0.0, 4.0, 0.01)

@@ -10,7 +10,7 @@ from colonnade.assessment.measures import intensity_measures
 from colonnade.assessment.study import fragility
 from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.body import ContactLaw
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.run import OVERTURNS, ROCKS
 from colonnade.dynamics.rock import rock

@@ -3,8 +3,7 @@
 from colonnade.campaign import load
 from colonnade.stages.compare import CompareInputs, compare
 from colonnade.stages.condition import ConditionInputs, condition
-from colonnade.stages.ingest import IngestInputs, ingest
-from colonnade.stages.ingesting.columns import ChannelInputs
+from colonnade.stages.ingest import ChannelInputs, IngestInputs, ingest
 from colonnade.stages.predict import PredictInputs, predict
 from colonnade.stages.restitution import RestitutionInputs, restitution
 from colonnade.stages.rocking import RockingInputs, rocking

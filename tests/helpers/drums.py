@@ -5,7 +5,7 @@ from scipy.spatial.transform import Rotation
 
 from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.body import ContactLaw
 from colonnade.dynamics.contact.simulate import simulate_assembly
 from colonnade.dynamics.motion import Motion
 

@@ -6,8 +6,8 @@ from html.parser import HTMLParser
 from posixpath import dirname, join, normpath
 
 from colonnade.store.layout import Layout
-from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.pages import update_report
+from colonnade.workflow.product import Catalogue
 from colonnade.workflow.summary import write_summary
 
 VOID = {"meta", "img", "br", "hr", "input", "link", "col", "wbr"}

@@ -13,7 +13,7 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
 from colonnade.workflow import run
-from colonnade.workflow.catalogue import mark_of
+from colonnade.workflow.product import mark_of
 from prism import PRISM, SPECIMEN
 
 CAMPAIGN = f"""\

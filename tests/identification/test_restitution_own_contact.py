@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from colonnade.dynamics.contact.body import rigid_body
-from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.body import ContactLaw, rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.motion import Motion
 from colonnade.identification.restitution.identify import identify_restitution

@@ -9,7 +9,7 @@ from colonnade.report import addresses, pages
 from colonnade.report.pages import Renderer
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.product import Catalogue
 from read_pages import Page, built, words_of, written
 
 

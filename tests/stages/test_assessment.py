@@ -18,8 +18,8 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import StageError
 from colonnade.readers.ground_motions.record_set import GroundMotion, RecordSet
-from colonnade.stages.assessing.plan import AssessmentInputs, ColumnInputs, plan_assessment, real_column
 from colonnade.stages.assessment import assessment
+from colonnade.stages.assessment_plan import AssessmentInputs, ColumnInputs, plan_assessment, real_column
 from colonnade.stages.specimen import SpecimenInputs, taken
 from colonnade.store import files
 from colonnade.store.layout import Layout

@@ -9,7 +9,7 @@ from colonnade.errors import StageError
 from colonnade.signals.quality import Flag
 from colonnade.stages import condition as conditioning
 from colonnade.stages.condition import condition
-from colonnade.stages.ingesting.clocks import ChannelOnClock
+from colonnade.stages.parts.clocks import ChannelOnClock
 
 OFFSET = 0.02
 """s, by which the second recorder is late."""

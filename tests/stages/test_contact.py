@@ -9,9 +9,8 @@ import xarray as xr
 import chain
 from colonnade.campaign.settings import ContactSettings
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.body import rigid_body
+from colonnade.dynamics.contact.body import ContactLaw, rigid_body
 from colonnade.dynamics.contact.calibration import TOLERANCE, VELOCITY_RATIO, free_restitution
-from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.errors import StageError
 from colonnade.identification.restitution.identify import identify_restitution

@@ -10,7 +10,7 @@ from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow.assessing import Where, _given, assess_campaign, assess_own
-from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.product import Catalogue
 from colonnade.workflow.real_column import AskedColumn
 from colonnade.workflow.run import run
 from every import every

@@ -15,11 +15,10 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin
 from colonnade.store.results import ResultId
-from colonnade.workflow.catalogue import stored_attributes
 from colonnade.workflow.chain import Chain, bring_up_to_date, if_up_to_date, why_pending, worker_lost
 from colonnade.workflow.executors import WorkersEndedError
 from colonnade.workflow.lock import only_run
-from colonnade.workflow.product import Product
+from colonnade.workflow.product import Product, stored_attributes
 
 STAGES = ("ingest", "condition", "rocking")
 

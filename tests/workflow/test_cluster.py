@@ -14,13 +14,13 @@ import pytest
 from colonnade.campaign import load
 from colonnade.errors import ColonnadeError, RunEndedError
 from colonnade.store import files
-from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.chain import bring_up_to_date, on_a_cluster
 from colonnade.workflow.executors import spread
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import expect_run, only_run
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import make_maps
+from colonnade.workflow.product import Catalogue
 from colonnade.workflow.raw_files import raw_files
 from colonnade.workflow.walk import Walk
 

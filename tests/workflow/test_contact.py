@@ -10,7 +10,7 @@ from colonnade.dynamics.contact.body import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError
-from colonnade.stages.assessing.plan import AssessmentInputs
+from colonnade.stages.assessment_plan import AssessmentInputs
 from colonnade.stages.contact import law_of
 from colonnade.store import files
 from colonnade.store.records.assessment import sentences

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from colonnade.report.test_page import page
-from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.product import Catalogue
 
 pytestmark = pytest.mark.whole
 

@@ -9,9 +9,9 @@ from colonnade.campaign import load
 from colonnade.findings import note, serious, warning
 from colonnade.store import files
 from colonnade.store.results import results_of
-from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.chain import RunResult, StageRun
 from colonnade.workflow.graph import Graph
-from colonnade.workflow.outcome import RunResult, StageRun
+from colonnade.workflow.product import Catalogue
 from colonnade.workflow.raw_files import raw_files
 
 
@@ -47,10 +47,10 @@ def test_the_code_is_hashed_again_only_if_a_source_changed(graph, monkeypatch):
     test = graph.campaign.tests["pulse-01"]
     before = [step.code for step in graph.predicting(test)]
     graph.catalogue.save()
-    monkeypatch.setattr("colonnade.workflow.catalogue.code_hash", lambda *given, **more: "parsed again")
+    monkeypatch.setattr("colonnade.workflow.product.code_hash", lambda *given, **more: "parsed again")
     again = Graph(graph.campaign, graph.layout, Catalogue(graph.layout), graph.raw)
     assert [step.code for step in again.predicting(test)] == before
-    monkeypatch.setattr("colonnade.workflow.catalogue.package_hash", lambda: "other sources")
+    monkeypatch.setattr("colonnade.workflow.product.package_hash", lambda: "other sources")
     again = Graph(graph.campaign, graph.layout, Catalogue(graph.layout), graph.raw)
     assert {step.code for step in again.predicting(test)} == {"parsed again"}
 

@@ -7,11 +7,11 @@ from colonnade.campaign import load
 from colonnade.campaign.forms.summary import Summary
 from colonnade.store import files
 from colonnade.workflow import map_plans as plans
-from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import kept_maps, make_maps
+from colonnade.workflow.product import Catalogue
 from colonnade.workflow.walk import Walk
 
 pytestmark = pytest.mark.whole

@@ -6,8 +6,8 @@ from PIL import Image
 from colonnade.campaign import load
 from colonnade.store.layout import Layout
 from colonnade.workflow import photos
-from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.photos import unshown_photos, with_photos
+from colonnade.workflow.product import Catalogue
 
 PLACE = b"48.8584 N 2.2945 E"
 

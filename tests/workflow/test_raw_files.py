@@ -11,7 +11,7 @@ from colonnade.campaign import load
 from colonnade.store import files
 from colonnade.workflow import graph
 from colonnade.workflow import raw_files as module
-from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.product import Catalogue
 from colonnade.workflow.raw_files import digests_of_equal_sizes, raw_files, with_copies
 from every import every
 

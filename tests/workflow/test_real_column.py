@@ -7,7 +7,7 @@ import pytest
 from colonnade.campaign import load
 from colonnade.campaign.assessment import Prototype
 from colonnade.errors import CampaignError
-from colonnade.stages.assessing.plan import real_column
+from colonnade.stages.assessment_plan import real_column
 from colonnade.store.layout import Layout
 from colonnade.workflow.real_column import AskedColumn, find_column
 from every import every

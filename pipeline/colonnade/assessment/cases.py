@@ -13,7 +13,7 @@ import numpy as np
 from colonnade.arrays import Array, Codes, Mask
 from colonnade.assessment.prototype import UNCERTAIN, Prototype, draw, drawn_column
 from colonnade.dynamics.assembly import Assembly
-from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.body import ContactLaw
 from colonnade.dynamics.models import NONLINEAR, model_of, plane_model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.reactions import reactions

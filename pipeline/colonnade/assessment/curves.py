@@ -150,7 +150,7 @@ def fit_lognormal(outcomes: Outcomes, resampling: Resampling, *, event: Mask | N
     resampled = Parameters(*(each[usable] for each in resampled))
     median, beta = _intervals(all_records, resampled, level, len(outcomes.records))
     return LognormalFit(
-        cast(Reason, str(reasons[0])),
+        cast("Reason", str(reasons[0])),
         _rises(cells),
         median,
         beta,

@@ -20,7 +20,7 @@ from colonnade.assessment.outcomes import gather
 from colonnade.assessment.prototype import MOST_DRAWS, Limits, Prototype, draw
 from colonnade.dynamics.assembly import Assembly, as_one
 from colonnade.dynamics.block import Block, Sided
-from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.body import ContactLaw
 from colonnade.dynamics.models import NONLINEAR
 from colonnade.dynamics.motion import Motion
 from colonnade.validation import described, instance, number, samples, text, whole

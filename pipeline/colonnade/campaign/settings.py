@@ -27,7 +27,7 @@ from colonnade.campaign.syntax.fields import (
     shown,
 )
 from colonnade.campaign.syntax.table import Table
-from colonnade.dynamics.contact.law import DEFAULT_STEP, STATIC_PENETRATION
+from colonnade.dynamics.contact.body import DEFAULT_STEP, STATIC_PENETRATION
 from colonnade.dynamics.models import MODELS, model_of
 from colonnade.errors import nearest
 
@@ -52,7 +52,7 @@ Models = Annotated[tuple[str, ...], BeforeValidator(_models), WithJsonSchema(_MO
 
 def setting(default: Any, unit: str = "", **bounds: float) -> Any:
     """Give the field of a setting, with its default in SI, its unit, and bounds as of `Field`."""
-    return Field(default=default, json_schema_extra={"unit": unit} if unit else None, **cast(Any, bounds))
+    return Field(default=default, json_schema_extra={"unit": unit} if unit else None, **cast("Any", bounds))
 
 
 class QualitySettings(Table):

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 import rich_click as click
 
 from colonnade.cli.common.console import say, show_fields, show_json, show_table, work_progress
-from colonnade.cli.common.keys import WithKeys, options_of
 from colonnade.cli.common.options import (
     CAMPAIGN,
+    WithKeys,
     campaign_argument,
     json_option,
+    options_of,
     results_option,
     scheduler_option,
     specimen_option,

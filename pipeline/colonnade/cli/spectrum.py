@@ -11,13 +11,14 @@ from click import get_current_context
 from click.core import ParameterSource
 
 from colonnade.cli.common.console import complain, say, show_fields, show_json, show_table, work_progress
-from colonnade.cli.common.keys import WithKeys, options_of
 from colonnade.cli.common.options import (
     CAMPAIGN,
+    WithKeys,
     campaign_argument,
     column_keys,
     json_option,
     one_specimen_option,
+    options_of,
     results_option,
     scheduler_option,
     workers_option,
@@ -111,23 +112,22 @@ def _campaign(path: Path, results: Path | None) -> tuple[Campaign | None, Layout
 
 
 def _show(found: Rocking | Overturning, out: Path | None, data: Path | None, as_json: bool) -> int:
-    from colonnade.workflow import spectrum_shown as shown
-    from colonnade.workflow.spectrum import Rocking, picture_of
+    from colonnade.workflow import spectrum as shown
 
     written: list[Path] = []
     if out is not None or data is not None:
         from colonnade.figures.files.saving import save
 
-        picture = picture_of(found)
+        picture = shown.picture_of(found)
         written = [save(picture, place) for place in (out, data) if place is not None]
     if as_json:
         show_json(shown.record_of(found) | {"figure": out, "data": data})
         return 0
-    more = shown.motion_fields(found) if isinstance(found, Rocking) else shown.pulse_fields(found)
+    more = shown.motion_fields(found) if isinstance(found, shown.Rocking) else shown.pulse_fields(found)
     say(shown.verdict(found))
     show_fields([*shown.column_fields(found.column), *more])
     say()
-    if isinstance(found, Rocking):
+    if isinstance(found, shown.Rocking):
         show_table(shown.MEASURE_HEADS, shown.measure_rows(found))
         say()
         show_table(shown.ROCKING_HEADS, shown.rocking_rows(found))

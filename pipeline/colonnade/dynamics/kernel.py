@@ -74,14 +74,14 @@ def kernel_fused(function: Function) -> Function:
 def _compiled(function: Function, options: Any) -> Function:
     folder = _cache_folder()
     if folder is None:
-        return cast(Function, numba.njit(**options)(function))
+        return cast("Function", numba.njit(**options)(function))
     with _DECORATING:
         # numba reads its setting when a function is decorated; kernels of other packages keep theirs.
         theirs, _SETTINGS.CACHE_DIR = _SETTINGS.CACHE_DIR, str(folder)
         try:
-            return cast(Function, numba.njit(cache=True, **options)(function))
+            return cast("Function", numba.njit(cache=True, **options)(function))
         except RuntimeError:  # no source file, as in a frozen program
-            return cast(Function, numba.njit(**options)(function))
+            return cast("Function", numba.njit(**options)(function))
         finally:
             _SETTINGS.CACHE_DIR = theirs
 

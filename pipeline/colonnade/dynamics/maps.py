@@ -39,8 +39,7 @@ from colonnade.dynamics.search import (
 from colonnade.validation import instance, number, samples
 
 if TYPE_CHECKING:
-    from colonnade.dynamics.contact.body import ContactBody
-    from colonnade.dynamics.contact.law import ContactLaw
+    from colonnade.dynamics.contact.body import ContactBody, ContactLaw
 
 EDGE = 1e-4
 """In A: how closely the edges of intervals are found."""

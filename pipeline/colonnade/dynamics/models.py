@@ -13,8 +13,8 @@ from colonnade.validation import text
 
 if TYPE_CHECKING:
     from colonnade.dynamics.block import Block, Sided
+    from colonnade.dynamics.contact.body import ContactLaw
     from colonnade.dynamics.contact.history import ContactHistory
-    from colonnade.dynamics.contact.law import ContactLaw
     from colonnade.dynamics.history import History
     from colonnade.dynamics.motion import Motion
     from colonnade.dynamics.restitution_law import RestitutionLaw
@@ -138,8 +138,7 @@ class ContactModel(Model):
     def run(self, case: Case) -> ContactHistory:
         """Run a rigid body on the law of contact, that of a stiff table unless one is given; see `simulate`."""
         # Its engine is compiled on import.
-        from colonnade.dynamics.contact.body import rigid_body
-        from colonnade.dynamics.contact.law import ContactLaw
+        from colonnade.dynamics.contact.body import ContactLaw, rigid_body
         from colonnade.dynamics.contact.simulate import simulate
 
         if case.restitution is not None:

@@ -17,7 +17,7 @@ from colonnade.validation import described, instance, number
 
 if TYPE_CHECKING:
     from colonnade.dynamics.contact.bodies import AssemblyHistory
-    from colonnade.dynamics.contact.law import ContactLaw
+    from colonnade.dynamics.contact.body import ContactLaw
 
 
 DEFAULT_REST_ANGLE = 1e-6
@@ -159,6 +159,6 @@ def _fastest_p(block: Block | Assembly) -> float:
 
 
 def _expect_law(contact: object) -> None:
-    from colonnade.dynamics.contact.law import ContactLaw
+    from colonnade.dynamics.contact.body import ContactLaw
 
     instance("contact", contact, ContactLaw)

@@ -3,22 +3,47 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.assessment.cases import AXES, COMPONENTS, FrictionNeeded, Outcomes, friction_needed, holds, in_plane
-from colonnade.assessment.fragility import Fragility
-from colonnade.assessment.intervals import Resampling
+from colonnade.assessment.cases import (
+    AXES,
+    COMPONENTS,
+    FALLS_AWAY,
+    NOT_RUN,
+    FrictionNeeded,
+    Outcomes,
+    friction_needed,
+    holds,
+    in_plane,
+)
+from colonnade.assessment.criteria import CRITERIA, Demands, agreement, spectral_velocity
+from colonnade.assessment.curves import LognormalFit
+from colonnade.assessment.fragility import MISFITS, Fragility
+from colonnade.assessment.ground import Ground
+from colonnade.assessment.intervals import Interval, Resampling
 from colonnade.assessment.measures import measure_of
-from colonnade.assessment.prototype import UNCERTAIN
+from colonnade.assessment.prototype import UNCERTAIN, Prototype
 from colonnade.assessment.study import Study, counted_draws, judge
+from colonnade.campaign.forms.assessed import (
+    UNCORRECTED,
+    AssessmentSummary,
+    DecidingRecord,
+    Estimate,
+    JudgedCriterion,
+    JudgedMeasure,
+    RecordLeftOut,
+    RecordUsed,
+    Variant,
+)
+from colonnade.dynamics.block import pair
 from colonnade.dynamics.spectra import response_spectrum
 from colonnade.errors import StageError
 from colonnade.findings import warning
-from colonnade.stages.assessing.answer import answer
-from colonnade.stages.assessing.plan import ASSUMED, Plan
+from colonnade.stages.assessment_plan import ASSUMED, Plan
+from colonnade.units.text import format_percent, with_minus
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -157,3 +182,301 @@ def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded | None, frag
             "measure_unit": ("measure", np.array(units, dtype=object)),
         },
     )
+
+
+MOST_DECIDING = 5
+"""Records that are named as those that decide."""
+
+NO_CURVE = {
+    "separated": "no record overturns at a level at which another stands, so that the levels show a step and no spread",
+    "falling": "fewer histories overturn at higher levels",
+    "never": "nothing overturns at any level",
+    "always": "everything overturns at every level",
+    "one intensity": "there is one level only",
+}
+"""Why there is no lognormal curve, by the fit's own reason."""
+
+
+def answer(
+    plan: Plan, outcomes: Outcomes, fragilities: Mapping[str, Fragility], sliding: float | None
+) -> AssessmentSummary:
+    """
+    Gather the answer.
+
+    Parameters
+    ----------
+    plan : Plan
+    outcomes : Outcomes
+        Of the study as assumed.
+    fragilities : mapping of str to Fragility
+        Of each study.
+    sliding : float or None
+        Share of the histories that need more friction than there is.
+
+    Returns
+    -------
+    answer : AssessmentSummary
+    """
+    study, found = plan.studies[ASSUMED], fragilities[ASSUMED]
+    lognormal = found.lognormal
+    five, fifty = (_estimate(found.reaches(share)) for share in (0.05, 0.5))
+    rate = found.rate
+    variants = [_variant(plan, name, each) for name, each in fragilities.items() if name != ASSUMED]
+    return AssessmentSummary(
+        status="done",
+        warnings=tuple(_doubts(plan, outcomes, found, sliding)),
+        specimen=plan.inputs.specimen,
+        measure=study.measure.id,
+        unit=study.measure.unit,
+        **_assumed(plan, study.cases.prototype),
+        baseline=plan.inputs.asked.baseline,
+        uplift=Estimate() if found.uplift.curve is None else _estimate(found.uplift.curve.median),
+        median=_estimate(lognormal.median),
+        dispersion=_estimate(lognormal.beta),
+        dispersion_records=found.betas.records,
+        dispersion_parameters=found.betas.parameters,
+        five_percent=five,
+        fifty_percent=fifty,
+        curve=found.taken,
+        curve_reason=None if found.taken == "lognormal" else _why_not(found),
+        misfit=found.misfit.p_value,
+        resurrected=found.resurrection.lost,
+        sliding=sliding,
+        annual_rate=Estimate() if rate is None else _estimate(rate.rate),
+        probability_50_years=Estimate() if rate is None else _estimate(rate.in_50_years),
+        annual_rate_isotonic=None if rate is None else rate.isotonic,
+        rate_outside=None if rate is None else rate.below_hazard + rate.above_hazard,
+        variants=(*variants, *_without_correction(plan)),
+        measures=_measures(found),
+        criteria=_judged_criteria(
+            study, outcomes, drift=plan.inputs.asked.drift, overturned=plan.inputs.asked.overturned
+        ),
+        deciding=_deciding(found),
+        records_used=_used(plan),
+        records_left_out=_left_out(plan),
+        notes=(*plan.records.notes, *_not_compared(plan, found)),
+    )
+
+
+def _assumed(plan: Plan, column: Prototype) -> dict[str, Any]:
+    """Give what was assumed of the column."""
+    low, high = column.restitution_range or (None, None)
+    one = plan.inputs.several is None
+    return {
+        "critical_angle": column.block.critical_angle,
+        "critical_angle_range": column.critical_angle_range,
+        "p": column.block.p,
+        "p_range": column.p_range,
+        "restitution": Estimate(value=float(np.mean(pair(column.restitution))), low=low, high=high)
+        if one
+        else Estimate(),
+        "restitution_source": plan.restitution_source if one else None,
+        "displaced": plan.inputs.asked.displaced,
+        "friction": column.friction,
+        "friction_range": column.friction_range,
+        "uplift_acceleration": column.block.uplift_acceleration,
+    }
+
+
+def _estimate(interval: Interval) -> Estimate:
+    # 0 and infinity stand for what lies beyond the levels.
+    value, low, high = (float(each) if 0.0 < each < np.inf else None for each in interval)
+    beyond: Literal["below", "above"] | None = None
+    if value is None and not np.isnan(interval.value):
+        beyond = "below" if interval.value == 0.0 else "above"
+    return Estimate(value=value, low=low, high=high, beyond=beyond)
+
+
+def _why_not(found: Fragility) -> str:
+    """Say why the lognormal curve is not taken."""
+    if found.lognormal.reason:
+        return NO_CURVE[found.lognormal.reason]
+    return f"the lognormal curve does not fit (p = {found.misfit.p_value:.2g})"
+
+
+def _at_lognormal(fit: LognormalFit, share: float) -> Estimate:
+    """Intensity at which the lognormal curve reaches a share."""
+    return _estimate(Interval(*(float(each[0]) for each in fit.intensity([share]))))
+
+
+def _variant(plan: Plan, name: str, found: Fragility) -> Variant:
+    fit = found.lognormal
+    return Variant(
+        name=name,
+        restitution=float(np.mean(pair(plan.studies[name].cases.prototype.restitution))),
+        median=Estimate() if fit.reason else _estimate(fit.median),
+        five_percent=Estimate() if fit.reason else _at_lognormal(fit, 0.05),
+        records=len(found.outcomes.records),
+        reason=NO_CURVE[fit.reason] if fit.reason else None,
+    )
+
+
+def _without_correction(plan: Plan) -> list[Variant]:
+    """Say why there is no answer without the correction, if there is none."""
+    if not plan.without_correction:
+        return []
+    e = float(np.mean(pair(plan.studies[ASSUMED].cases.prototype.restitution)))
+    return [Variant(name=UNCORRECTED, restitution=e, reason=plan.without_correction)]
+
+
+def _not_compared(plan: Plan, found: Fragility) -> list[str]:
+    """Say which measures are not compared; nobody asked for those that are compared by default."""
+    compared = () if found.measures is None else {each.name for each in found.measures.scores}
+    missing = [name for name in plan.studies[ASSUMED].values if name not in compared]
+    return [f"Not compared, as not all records have it: {measure_of(name).name}." for name in missing]
+
+
+def _measures(found: Fragility) -> tuple[JudgedMeasure, ...]:
+    if found.measures is None:
+        return ()
+    return tuple(
+        JudgedMeasure(
+            measure=each.name,
+            deviance=each.deviance,
+            auc=each.auc,
+            scatter=each.scatter,
+            best=each.best,
+            magnitude=each.on_magnitude,
+            distance=each.on_log_distance,
+        )
+        for each in found.measures.scores
+    )
+
+
+def _deciding(found: Fragility) -> tuple[DecidingRecord, ...]:
+    if found.lognormal.reason:
+        return ()
+    without = found.influence
+    rates = [None] * len(without.records) if without.rate is None else without.rate.tolist()
+    rows = zip(without.records, without.median.tolist(), rates, strict=True)
+    return tuple(DecidingRecord(record=name, median=median, annual_rate=rate) for name, median, rate in rows)[
+        :MOST_DECIDING
+    ]
+
+
+def _used(plan: Plan) -> tuple[RecordUsed, ...]:
+    study, known = plan.studies[ASSUMED], {each.name: each for each in plan.records.records}
+    return tuple(
+        RecordUsed(
+            record=name,
+            files=dict(known[name].files),
+            components=known[name].components,
+            drift=float(study.drift[row]),
+            measures={each: float(values[row, 0]) for each, values in study.values.items()},
+        )
+        for row, name in enumerate(study.names)
+    )
+
+
+def _doubts(plan: Plan, outcomes: Outcomes, found: Fragility, sliding: float | None) -> list[str]:
+    """Say what is doubtful, the gravest first; arguments as of `answer`, with the study as assumed."""
+    said = [*_of_the_column(plan), *_of_the_histories(outcomes, sliding), *_of_the_records(plan, found)]
+    return said + _of_the_rate(plan, found)
+
+
+def _left_out(plan: Plan) -> tuple[RecordLeftOut, ...]:
+    """Name the files, records and components that are not used, with the reason."""
+    named = [(each.name, each.reason.removeprefix(f"{each.name}: ")) for each in plan.records.left_out]
+    return tuple(
+        RecordLeftOut(record=name, reason=reason) for name, reason in (*named, *plan.studies[ASSUMED].left_out.items())
+    )
+
+
+def _of_the_column(plan: Plan) -> list[str]:
+    column, said = plan.studies[ASSUMED].cases.prototype, []
+    if plan.inputs.prototype.restitution == "identified" and plan.restitution_source == "rigid-body":
+        said.append("No e is identified on the model. That of a rigid body is assumed.")
+    rows = zip(("e", "α (rad)", "p (rad/s)"), column.central, column.ranges, strict=False)
+    return said + [
+        f"{name} is {value:.4g}, outside the limits {limits[0]:.4g} and {limits[1]:.4g} between which it is drawn."
+        for name, value, limits in rows
+        if limits is not None and not limits[0] <= value <= limits[1]
+    ]
+
+
+def _of_the_histories(outcomes: Outcomes, sliding: float | None) -> list[str]:
+    said = []
+    if sliding:
+        said.append(
+            f"In {format_percent(sliding)} of the histories the column would slide: it needs more friction than there "
+            "is. There the answer does not hold."
+        )
+    if (falling := float((outcomes.outcome == FALLS_AWAY).sum() / (outcomes.outcome != NOT_RUN).sum())) > 0.0:
+        said.append(
+            f"{format_percent(falling)} of the histories are not run, and do not count: their base falls faster than "
+            "the column. Their levels are too high."
+        )
+    return said
+
+
+def _of_the_records(plan: Plan, found: Fragility) -> list[str]:
+    said, missing = [], _left_out(plan)
+    if missing:
+        first = missing[0]
+        others = "" if len(missing) == 1 else f" and {len(missing) - 1} more"
+        said.append(f"Left out: {first.record}{others}. {first.record}: {first.reason.splitlines()[0]}")
+    return [*said, found.lognormal.no_interval] if found.lognormal.no_interval else said
+
+
+def _of_the_rate(plan: Plan, found: Fragility) -> list[str]:
+    rate, said = found.rate, []
+    if rate is not None and rate.is_extrapolated:
+        said.append(
+            f"{format_percent(rate.below_hazard + rate.above_hazard)} of the annual rate is from outside the hazard "
+            f"curve, and {format_percent(rate.below_levels + rate.above_levels)} from outside the levels."
+        )
+    if rate is not None and found.misfit.p_value < MISFITS:
+        said.append(
+            "The annual rate is by the lognormal curve, which does not fit. By the curve that only rises it is "
+            f"{with_minus(f'{rate.isotonic:.2g}')} a year."
+        )
+    if plan.hazard is not None and rate is None:
+        said.append("There is a hazard, and no annual rate: that needs a lognormal curve.")
+    return said
+
+
+def _judged_criteria(
+    study: Study, outcomes: Outcomes, *, drift: float, overturned: float
+) -> tuple[JudgedCriterion, ...]:
+    """
+    Compare what each criterion says of every scaled motion with what the column does, nothing varied.
+
+    Parameters
+    ----------
+    study : Study
+    outcomes : Outcomes
+        Of its cases; the first draw has nothing varied.
+    drift : float
+        Up to which a record has a velocity.
+    overturned : float
+        As of `judge`.
+    """
+    run = np.asarray(outcomes.is_run[:, :, 0].any(axis=2))
+    happened = {
+        # However little: what is called rocking elsewhere begins at a thousandth of α.
+        "rocking": np.asarray(outcomes.exceeds(np.finfo(np.float64).tiny)[:, :, 0].any(axis=2))[run],
+        "overturning": np.asarray(outcomes.exceeds(overturned)[:, :, 0].any(axis=2))[run],
+    }
+    recorded = _recorded(study, drift)
+    demands = Demands(*((each[:, None, :] * study.cases.factors)[run] for each in recorded))
+    block = study.cases.prototype.block
+    return tuple(
+        JudgedCriterion(
+            criterion=criterion.id, **agreement(criterion.ratio(block, demands), happened[criterion.predicts])
+        )
+        for criterion in CRITERIA
+    )
+
+
+def _recorded(study: Study, drift: float) -> tuple[Array, Array, Array]:
+    """Peak acceleration, peak velocity and level of the velocity spectrum of each record and component."""
+    found = np.full((3, *study.cases.factors.shape[::2]), np.nan)
+    for record, motion in enumerate(study.cases.motions):
+        for place in range(found.shape[2]):
+            along = in_plane(motion, place, 1.0)
+            if along is None:
+                continue
+            ground = Ground(along.acceleration, along.dt)
+            velocity = float(np.abs(ground.velocity).max()) if ground.drift <= drift else np.nan
+            found[:, record, place] = along.peak, velocity, spectral_velocity(along.acceleration, along.dt)
+    return found[0], found[1], found[2]

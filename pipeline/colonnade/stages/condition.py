@@ -14,7 +14,7 @@ from colonnade.findings import Finding
 from colonnade.signals.alignment import Offset
 from colonnade.signals.filters import default_lowpass
 from colonnade.signals.record import on_clock, smoothed
-from colonnade.stages.ingesting.clocks import (
+from colonnade.stages.parts.clocks import (
     TOGETHER,
     ChannelOnClock,
     common_clock,
@@ -23,10 +23,10 @@ from colonnade.stages.ingesting.clocks import (
     own_records,
     recorder_offsets,
 )
-from colonnade.stages.ingesting.plausibility import PlausibilityInputs, doubts, zero_effects
-from colonnade.stages.ingesting.zeroing import rest_window, zeroed
-from colonnade.stages.parts.inputs import Inputs
+from colonnade.stages.parts.plausibility import PlausibilityInputs, doubts, zero_effects
+from colonnade.stages.parts.zeroing import rest_window, zeroed
 from colonnade.store.description import variable_name
+from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr

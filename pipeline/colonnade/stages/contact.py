@@ -11,15 +11,14 @@ import numpy as np
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import ContactSettings
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.body import ContactBody, ContactLaw
 from colonnade.dynamics.contact.calibration import VELOCITY_RATIO, Calibration, calibrate, free_restitution
 from colonnade.dynamics.contact.history import ContactHistory
-from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.stability import keep_modes_for_step
 from colonnade.errors import StageError
 from colonnade.findings import warning
 from colonnade.identification.restitution.identify import identify_restitution
-from colonnade.stages.parts.inputs import Inputs
+from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -22,11 +22,11 @@ from colonnade.errors import StageError
 from colonnade.identification.response.rank import Measurement
 from colonnade.stages.contact import ContactInputs, assembly_law, body_of, law_of
 from colonnade.stages.parts.beginning import RECORDED, begin
-from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.rank import MeasurementInputs, describe_bands, measurement_errors, rank_measured
 from colonnade.stages.parts.transducers import transducers
 from colonnade.stages.predict import PredictInputs, sides
 from colonnade.stages.specimen import centre, spread_of
+from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr

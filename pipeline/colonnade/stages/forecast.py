@@ -13,7 +13,7 @@ from colonnade.errors import StageError
 from colonnade.identification.calibration import randomised_pit
 from colonnade.identification.forecasts import Response, forecast_of, forecast_of_peaks, score
 from colonnade.stages.parts.beginning import base_acceleration
-from colonnade.stages.parts.inputs import Inputs
+from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -4,36 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from datetime import date
+from datetime import date, datetime, timedelta
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from colonnade.arrays import Array
+from colonnade import units
+from colonnade.arrays import Array, Vector
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.review import Review
 from colonnade.campaign.settings import QualitySettings
-from colonnade.errors import StageError
-from colonnade.findings import Finding, Severity
+from colonnade.errors import StageError, count
+from colonnade.findings import Finding, Severity, note, serious, warning
+from colonnade.readers.clock import moment_after
 from colonnade.readers.recording import RecordedChannel, Recording, Window
+from colonnade.readers.text.heading import LETTERED
 from colonnade.signals import quality, timing
+from colonnade.signals.quality import check_rails
 from colonnade.signals.samples import side_by_side
-from colonnade.stages.ingesting import columns
-from colonnade.stages.ingesting.columns import (
-    ChannelInputs,
-    channel_verdicts,
-    clock_verdicts,
-    dimension_of,
-    find_column,
-    flag_dead_on_specimen,
-    reviewed,
-    rounding,
-    too_short,
-    unit_findings,
-    within,
-)
-from colonnade.stages.parts.inputs import Inputs
 from colonnade.store.description import variable_name
+from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -122,7 +112,7 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
 
     warnings = [Finding.of(each, RAW_FILE) for recording in recordings.values() for each in recording.warnings]
     begin = inputs.window[0] if inputs.window else 0.0
-    warnings += columns.contradictions(recordings, inputs.day, begin)
+    warnings += contradictions(recordings, inputs.day, begin)
     stamps: dict[str, Array] = {}
     timed: dict[str, list[quality.Verdict]] = {}
     tracks: list[_Track] = []
@@ -141,7 +131,7 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
             clock = timing.read_clock(time)
             if not np.isfinite(clock.interval):
                 raise too_short(name, time.size, inputs.window)
-            stamps[dimension], timed[dimension] = time, clock_verdicts(time, clock, inputs.settings)
+            stamps[dimension], timed[dimension] = time, _clock_verdicts(time, clock, inputs.settings)
             findings += rounding(recording, clock, inputs.settings.jitter)
         tracks.append(_Track(name, channel, column, dimension, values, findings))
     judged = side_by_side(lambda track: _judged(track, stamps[track.dimension], timed[track.dimension], inputs), tracks)
@@ -153,9 +143,9 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
     dataset = xr.Dataset(
         variables,
         coords={dimension: (dimension, time) for dimension, time in stamps.items()},
-        attrs={"notes": "; ".join(_notes(recordings)), "recorded_at": columns.recorded_at(recordings, begin)},
+        attrs={"notes": "; ".join(_notes(recordings)), "recorded_at": recorded_at(recordings, begin)},
     )
-    dataset = flag_dead_on_specimen(dataset, inputs.channels, warnings)
+    dataset = _flag_dead_on_specimen(dataset, inputs.channels, warnings)
     dataset.attrs["warnings"] = warnings
     if inputs.review.sentences:
         dataset.attrs["review"] = list(inputs.review.sentences)
@@ -224,3 +214,288 @@ def _of_clocks(tracks: list[_Track], timed: Mapping[str, list[quality.Verdict]])
 
 def _notes(recordings: Mapping[str, Recording]) -> list[str]:
     return [f"{recording.path.name}: {note}" for recording in recordings.values() for note in recording.notes]
+
+
+DEAD_SHARE = 0.08
+"""An accelerometer on the specimen that moves less than this share of the table's is practically dead."""
+
+SAME_AXIS = 0.9
+"""Smallest product of two directions with which they are compared."""
+
+
+class ChannelInputs(Inputs):
+    """One channel: where it is in the file, how it becomes SI, its range, what it is on and its direction."""
+
+    column: str | int
+    recorder: str
+    time: str | int | None
+    quantity: str
+    unit: str | None
+    gain: str | None
+    factor: float
+    offset: float
+    full_scale: float | None
+    range_recorded: float | None
+    on: str | None
+    direction: Vector | None
+
+
+def _clock_verdicts(stamps: Array, clock: timing.Clock, settings: QualitySettings) -> list[quality.Verdict]:
+    """Check the times of a file, of shape (n,), s; `clock` is read from them."""
+    if clock.is_exact and settings.jitter > 4 * timing.EXACT:
+        return []
+    return [
+        timing.check_order(stamps, clock),
+        timing.check_gaps(clock, factor=settings.gap),
+        timing.check_jitter(clock, share=settings.jitter, factor=settings.gap),
+    ]
+
+
+def channel_verdicts(
+    stamps: Array, values: Array, physical: Array, channel: ChannelInputs, settings: QualitySettings
+) -> list[quality.Verdict]:
+    """
+    Check one channel alone.
+
+    Parameters
+    ----------
+    stamps, values, physical : ndarray, shape (n,)
+        Times as in the file, s; values as in the file and in SI.
+    channel : ChannelInputs
+    settings : QualitySettings
+    """
+    found = [
+        quality.check_missing(stamps, values),
+        quality.check_flat(stamps, values, duration=settings.flat_duration),
+        quality.check_spikes(stamps, values, threshold=settings.spike_threshold),
+    ]
+    if channel.range_recorded is not None:
+        found.append(quality.check_clipping(stamps, values, full_scale=channel.range_recorded))
+    elif channel.full_scale is not None:
+        found.append(quality.check_clipping(stamps, physical, full_scale=channel.full_scale))
+    # A table and a specimen hold a place, and nothing but a saturated channel an acceleration.
+    is_acceleration = channel.on == "table" and channel.quantity == "acceleration"
+    if is_acceleration and not any(verdict.kind == "end of the range" for verdict in found):
+        found.append(check_rails(stamps, values))
+    return found
+
+
+def reviewed(name: str, time: Array, review: Review) -> list[quality.Verdict]:
+    """Verdicts of the people who reviewed a channel."""
+    found = []
+    for flagged in review.flags:
+        if flagged.channel == name:
+            low, high = flagged.window or (-np.inf, np.inf)
+            inside = np.ones(time.shape, bool) if flagged.window is None else (time >= low) & (time <= high)
+            found.append(quality.Verdict(quality.Flag[flagged.flag.upper()], inside, flagged.reason))
+    return found
+
+
+def _flag_dead_on_specimen(
+    dataset: xr.Dataset, channels: Mapping[str, ChannelInputs], warnings: list[Finding]
+) -> xr.Dataset:
+    """Flag accelerometers on the specimen that are practically dead compared with the table along their axis."""
+    accelerometers = {name: channel for name, channel in channels.items() if channel.quantity == "acceleration"}
+    for name, channel in accelerometers.items():
+        references = [
+            dataset[variable_name(other)].to_numpy()
+            for other, table in accelerometers.items()
+            if table.on == "table" and _same_axis(channel, table)
+        ]
+        if channel.on != "specimen" or not references:
+            continue
+        variable = variable_name(name)
+        reference = max(references, key=np.nanstd)
+        verdict = quality.check_dead(dataset[variable].to_numpy(), reference, share=DEAD_SHARE)
+        if verdict.reason:
+            flags = dataset[f"{variable}_quality"]
+            dataset[f"{variable}_quality"] = (flags.dims, np.maximum(flags.to_numpy(), np.int8(verdict.flag)))
+            warnings.append(replace(verdict.finding, text=f"channel {name}: {verdict.reason}."))
+            report = dataset[variable].attrs.get("quality_report", "")
+            dataset[variable].attrs["quality_report"] = "; ".join(filter(None, (report, verdict.reason)))
+    return dataset
+
+
+def _same_axis(first: ChannelInputs, second: ChannelInputs) -> bool:
+    if first.direction is None or second.direction is None:
+        return False
+    return bool(abs(np.dot(first.direction, second.direction)) > SAME_AXIS)
+
+
+def find_column(recording: Recording, name: str, channel: ChannelInputs, rate: float | None) -> RecordedChannel:
+    """
+    Find the column of a channel, with its times.
+
+    Parameters
+    ----------
+    recording : Recording
+    name : str
+        Of the channel.
+    channel : ChannelInputs
+    rate : float or None
+        Sampling rate of the recorder, Hz, if its file has no time column.
+
+    Raises
+    ------
+    StageError
+        If it has no clock.
+    ReadError
+        If the column is not in the file.
+    """
+    if channel.time is not None:
+        return recording.on_clock(channel.column, channel.time)
+    column = recording.channel(channel.column)
+    if column.time is not None and rate is None:
+        return column
+    if rate is None:
+        raise StageError(
+            f"channel {name}: {recording.path.name} has no recognised time column, and the set-up "
+            'gives no sampling rate. Add `sampling_rate = "200 Hz"` to the recorder, or name the '
+            "column (`time`) in its `file`."
+        )
+    return RecordedChannel(
+        column.name, column.unit, column.values, np.arange(column.values.size) / rate, column.heading
+    )
+
+
+def unit_findings(recording: Recording, column: RecordedChannel, name: str, channel: ChannelInputs) -> list[Finding]:
+    """
+    Report a unit of the file that is not the one of the campaign file.
+
+    A recorder's own unit, such as counts, only names what the campaign file explains by its unit and gain.
+    """
+    if column.unit is None or channel.unit is None or units.same_unit(column.unit, channel.unit):
+        return []
+    if LETTERED.fullmatch(column.heading) and column.unit in ("V", "A") and channel.gain is None:
+        return []  # a label
+    if channel.gain is not None and not units.is_physical(column.unit):
+        return [
+            note(
+                "unit",
+                f'channel {name}: {recording.path.name} says "{column.unit}" for column "{column.heading}", which '
+                f"is not the unit of a physical quantity. The campaign file's unit ({channel.unit}) and gain "
+                f"({channel.gain}) were used.",
+            )
+        ]
+    return [
+        serious(
+            "unit",
+            f'channel {name}: {recording.path.name} says "{column.unit}" for column "{column.heading}", the campaign '
+            f'file says "{channel.unit}", which was used. One of them is wrong.',
+        )
+    ]
+
+
+def within(column: RecordedChannel, window: tuple[float, float] | None) -> tuple[Array, Array]:
+    """Times and values of a channel that belong to the test."""
+    time = column.time if column.time is not None else np.empty(0)
+    if window is None:
+        return time, column.values
+    inside = (time >= window[0]) & (time <= window[1])
+    return time[inside], column.values[inside]
+
+
+def too_short(name: str, size: int, window: tuple[float, float] | None) -> StageError:
+    """Say that a channel has too few samples for a clock."""
+    part = "" if window is None else f" between {window[0]:g} and {window[1]:g} s"
+    return StageError(
+        f"channel {name} has {count(size, 'sample')}{part}; at least two at increasing times were expected. "
+        "Check the file's time column and the test's `window`."
+    )
+
+
+def rounding(recording: Recording, clock: timing.Clock, jitter: float) -> list[Finding]:
+    """Note that the times of a file are rounded by more than `jitter`, in sampling intervals."""
+    if not clock.resolution > jitter * clock.interval:
+        return []
+    return [
+        note(
+            "rounded times",
+            f"{recording.path.name}: the times are rounded to {1e3 * clock.resolution:g} ms; an even clock of "
+            f"{1 / clock.interval:.5g} Hz matches them all and is used.",
+        )
+    ]
+
+
+def dimension_of(known: Mapping[str, Array], time: Array, name: str, channel: ChannelInputs) -> str:
+    """Name of the channel's dimension: two channels share one only if their times are the same."""
+    own = f"elapsed_{variable_name(name)}"
+    wanted = "elapsed" if channel.recorder == "main" else f"elapsed_{variable_name(channel.recorder)}"
+    for candidate in (own,) if channel.time is not None else (wanted, own):
+        taken = known.get(candidate)
+        if taken is None or (taken.size == time.size and np.array_equal(taken, time, equal_nan=True)):
+            return candidate
+    return f"{own}_{len(known)}"
+
+
+KIND = "date"
+"""Kind of the finding that two dates contradict each other."""
+
+ZONES = (timedelta(hours=-12), timedelta(0), timedelta(hours=14))
+"""From UTC to the clocks on the wall anywhere: a file in UTC does not say in which of them the laboratory is."""
+
+NO_ZONE = "no time zone recorded"
+
+
+def recorded_at(recordings: Mapping[str, Recording], begin: float = 0.0) -> str:
+    """
+    Write when a test was recorded, by the first recorder whose file says so; empty if none does.
+
+    Parameters
+    ----------
+    recordings : mapping of str to Recording
+    begin : float, optional
+        Of the test in its files, s.
+
+    Returns
+    -------
+    text : str
+        ``2013-04-26 10:15:00+02:00``, in the zone of the file; without one, that is said.
+    """
+    starts = (moment_after(recording.start, begin) for recording in recordings.values())
+    return next((_written(start) for start in starts if start is not None), "")
+
+
+def contradictions(recordings: Mapping[str, Recording], day: date | None, begin: float = 0.0) -> list[Finding]:
+    """
+    Compare the day of each file with that of the campaign file.
+
+    Parameters
+    ----------
+    recordings : mapping of str to Recording
+    day : date or None
+        As campaign.toml gives it; None if it does not.
+    begin : float, optional
+        Of the test in its files, s.
+
+    Returns
+    -------
+    findings : list of Finding
+        A warning for each file of another day.
+    """
+    if day is None:
+        return []
+    found = []
+    for recording in recordings.values():
+        start = moment_after(recording.start, begin)
+        if start is not None and day not in _days(start):
+            text = (
+                f"{recording.path.name} was recorded on {start.date()} by its own clock ({_written(start)}), but the "
+                f"campaign file gives the date {day}. Correct the date, or check that this is the file of the test and "
+                "that the recorder's clock was right."
+            )
+            found.append(warning(KIND, text))
+    return found
+
+
+def _days(start: datetime) -> set[date]:
+    """Days that it may have been on the wall."""
+    if start.utcoffset() is None or start.utcoffset() != timedelta(0):
+        return {start.date()}
+    shifted = (moment_after(start, zone.total_seconds()) for zone in ZONES)
+    return {moment.date() for moment in shifted if moment is not None}
+
+
+def _written(start: datetime) -> str:
+    text = start.isoformat(" ", "milliseconds" if start.microsecond else "seconds")
+    return text if start.tzinfo is not None else f"{text}, {NO_ZONE}"

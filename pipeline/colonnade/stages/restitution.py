@@ -17,7 +17,7 @@ from colonnade.findings import MEASUREMENT, Finding, warning
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.identification.restitution.noise import ORDER
 from colonnade.identification.restitution.result import Restitution
-from colonnade.stages.parts.inputs import Inputs
+from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr

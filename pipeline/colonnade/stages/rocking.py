@@ -22,7 +22,6 @@ from colonnade.signals.rest import single_shock
 from colonnade.signals.samples import stretches
 from colonnade.signals.timing import STRONG
 from colonnade.stages.parts.bodies import AssemblyInputs, measure, measured_variables, together
-from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.transducers import (
     LEAST_NOISE,
     Transducers,
@@ -33,6 +32,7 @@ from colonnade.stages.parts.transducers import (
     outline,
     transducers,
 )
+from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr

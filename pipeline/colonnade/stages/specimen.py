@@ -18,7 +18,7 @@ from colonnade.errors import count
 from colonnade.findings import Finding, note, warning
 from colonnade.identification.restitution.pooling import Pooled, pool
 from colonnade.identification.restitution.result import Joint
-from colonnade.stages.parts.inputs import Inputs
+from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr

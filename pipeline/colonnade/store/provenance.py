@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict
 
 import colonnade
 from colonnade.signals.samples import side_by_side
@@ -277,3 +278,14 @@ def plain(value: Any) -> Any:
 
 def _canonical(value: Any) -> bytes:
     return json.dumps(value, sort_keys=True, ensure_ascii=False, separators=(",", ":")).encode()
+
+
+class Inputs(BaseModel):
+    """
+    What a stage reads of the campaign: parts of specimen, set-up and test, and the models of its settings.
+
+    It is stored with the result as JSON and enters the result's key, so that it holds nothing else. A field holds of a
+    larger model only what its own type declares: `settings: QualitySettings` keeps four keys of `campaign.processing`.
+    """
+
+    model_config = ConfigDict(frozen=True)

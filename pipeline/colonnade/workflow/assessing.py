@@ -21,11 +21,10 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
 from colonnade.store.results import ResultId
-from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.executors import MOST_BLOCKS, Arrays, Where, in_blocks
 from colonnade.workflow.graph import FORMATS, Graph
 from colonnade.workflow.lock import only_run
-from colonnade.workflow.product import Product
+from colonnade.workflow.product import Catalogue, Product
 from colonnade.workflow.real_column import AskedColumn, checked, find_column
 from colonnade.workflow.walk import Walk
 
@@ -129,7 +128,7 @@ def assess_own(
     CampaignError
         If an option or a name is not usable, or something is missing.
     """
-    from colonnade.stages.assessing.plan import AssessmentInputs
+    from colonnade.stages.assessment_plan import AssessmentInputs
 
     written = {} if campaign is None or base is None else _known(campaign, base).model_dump(exclude_none=True)
     meant = replace(
@@ -169,7 +168,7 @@ def _failed(specimen: str, measure: str, reason: str) -> AssessmentSummary:
 
 def assessing(graph: Graph, name: str, asked: Assessment, where: Where) -> Product:
     """Return an assessment of a campaign; `asked` has the whole paths of its files."""
-    from colonnade.stages.assessing.plan import AssessmentInputs
+    from colonnade.stages.assessment_plan import AssessmentInputs
 
     result, code = ResultId(name, "assessment"), graph.catalogue.code((*MADE_BY, FORMATS))
     upstream = {"specimen": ResultId(asked.specimen, "specimen"), **_given(asked, graph.catalogue)}
@@ -199,8 +198,8 @@ def _made(
     """Make an assessment; finished blocks of its histories are known again by the code, and kept in `blocks`."""
     from colonnade.readers.ground_motions.hazard import read_hazard_of
     from colonnade.readers.ground_motions.record_set import read_record_set
-    from colonnade.stages.assessing.plan import plan_assessment
     from colonnade.stages.assessment import assessment
+    from colonnade.stages.assessment_plan import plan_assessment
 
     hazard = None if asked.hazard is None else read_hazard_of(asked.hazard, asked.measure)
     plan = plan_assessment(upstream["specimen"], read_record_set(asked.records), hazard, inputs)

@@ -11,10 +11,10 @@ from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.units.text import listed
-from colonnade.workflow.catalogue import Catalogue, stored_attributes
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import expect_specimens
+from colonnade.workflow.product import Catalogue, stored_attributes
 from colonnade.workflow.walk import Walk
 
 NUMBERS = {

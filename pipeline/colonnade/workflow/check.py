@@ -238,8 +238,7 @@ def _measure(campaign: Campaign, test: Test, recordings: dict[str, Recording], f
     ReadError, StageError
         As the stages do.
     """
-    from colonnade.stages import condition, ingest, predict, restitution, rocking
-    from colonnade.stages.parts import sine
+    from colonnade.stages import compare, condition, ingest, predict, restitution, rocking
     from colonnade.stages.parts.beginning import begin
 
     recorded = ingest.ingest(recordings, ingest.IngestInputs.of(campaign, test))
@@ -251,7 +250,7 @@ def _measure(campaign: Campaign, test: Test, recordings: dict[str, Recording], f
     if test.kind == "free-vibration":
         restitution.expect_angle(measured)
     elif test.kind == "sine":
-        findings += at_stage(sine.contradictions(measured, test.frequency, test.amplitude), "compare")
+        findings += at_stage(compare.contradictions(measured, test.frequency, test.amplitude), "compare")
     for model in models_of(campaign, test)[:1]:  # the base motion and the start are the same for all
         beginning = begin(measured, predict.PredictInputs.of(campaign, test, model))
         findings += at_stage(beginning.warnings, "predict")

@@ -15,9 +15,8 @@ from colonnade.report.test_page import facts
 from colonnade.store import bundle
 from colonnade.store.layout import STATE, Layout
 from colonnade.store.provenance import key_of
-from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.lock import only_run
-from colonnade.workflow.product import Contents, Product, brought_up_to_date, known
+from colonnade.workflow.product import Catalogue, Contents, Product, brought_up_to_date, known
 
 if TYPE_CHECKING:
     from colonnade.figures.files.output import Movie, Picture

@@ -33,9 +33,9 @@ from colonnade.interruption import expect_none
 from colonnade.store.forecasts import write_forecast
 from colonnade.store.layout import Layout
 from colonnade.store.results import WITHOUT_PREDICTION
-from colonnade.workflow.catalogue import Catalogue, stored_attributes
 from colonnade.workflow.motions import Asked, level_of, motion_asked_for
 from colonnade.workflow.pooling import one_specimen, restitution_taken
+from colonnade.workflow.product import Catalogue, stored_attributes
 from colonnade.workflow.raw_files import raw_files
 
 if TYPE_CHECKING:

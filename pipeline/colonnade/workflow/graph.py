@@ -15,9 +15,8 @@ from colonnade.sources import code_hash
 from colonnade.store.forecasts import Known
 from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId, models_of
-from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.executors import Arrays, Where, blocks_of, in_blocks
-from colonnade.workflow.product import Product
+from colonnade.workflow.product import Catalogue, Product
 from colonnade.workflow.raw_files import RawFiles, expect_unchanged
 
 if TYPE_CHECKING:

@@ -25,13 +25,12 @@ from colonnade.store.provenance import hash_of
 from colonnade.store.records.stored import as_dataset, as_map
 from colonnade.store.records.summary import map_points
 from colonnade.store.results import ResultId, models_moving
-from colonnade.workflow.catalogue import Catalogue, stored_attributes
 from colonnade.workflow.executors import Arrays, Counted, Where, blocks_of, forget, in_blocks
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.map_plans import Wanted, measured_points, plan_of, restitution_of
 from colonnade.workflow.pooling import expect_specimens
-from colonnade.workflow.product import Product
+from colonnade.workflow.product import Catalogue, Product, stored_attributes
 from colonnade.workflow.walk import Walk
 
 if TYPE_CHECKING:

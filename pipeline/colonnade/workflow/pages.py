@@ -18,8 +18,7 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.store.results import ResultId, models_shown, results_of
-from colonnade.workflow.catalogue import Catalogue
-from colonnade.workflow.product import Contents, Made, Product, brought_up_to_date
+from colonnade.workflow.product import Catalogue, Contents, Made, Product, brought_up_to_date
 
 MADE_BY = ("colonnade.report", "colonnade.store")
 """Packages whose code makes the pages; what they import counts too."""

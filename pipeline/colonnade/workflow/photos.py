@@ -18,8 +18,7 @@ from colonnade.readers.photo import Pixels, read_photo
 from colonnade.report.asked import KIND, Photo, Photos, address_of
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.workflow.catalogue import Catalogue
-from colonnade.workflow.product import Contents, Product, brought_up_to_date
+from colonnade.workflow.product import Catalogue, Contents, Product, brought_up_to_date
 
 QUALITY = 85
 """Of the JPEG files that are written."""

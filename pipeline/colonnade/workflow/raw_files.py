@@ -14,7 +14,7 @@ from colonnade.findings import Finding, serious
 from colonnade.readers.files import sha256_of
 from colonnade.readers.registry import companions
 from colonnade.units import text
-from colonnade.workflow.catalogue import Catalogue, Mark, mark_of
+from colonnade.workflow.product import Catalogue, Mark, mark_of
 
 
 @dataclass(frozen=True)

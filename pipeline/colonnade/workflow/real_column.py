@@ -19,7 +19,7 @@ from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
 from colonnade.dynamics.spectra import rectangular
 from colonnade.errors import CampaignError
-from colonnade.stages.assessing.plan import ColumnInputs, real_column
+from colonnade.stages.assessment_plan import ColumnInputs, real_column
 from colonnade.store.layout import Layout
 from colonnade.workflow.pooling import one_specimen, restitution_taken
 

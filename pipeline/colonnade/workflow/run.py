@@ -15,15 +15,14 @@ from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.store.results import RUN_STAGES, results_of
 from colonnade.validation import described, text, whole
-from colonnade.workflow.catalogue import Catalogue
-from colonnade.workflow.chain import remove_later
+from colonnade.workflow.chain import RunResult, remove_later
 from colonnade.workflow.forecasts import choose, finding_of, foreseen_of
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
-from colonnade.workflow.outcome import RunResult
 from colonnade.workflow.pages import update_report
 from colonnade.workflow.photos import with_photos
 from colonnade.workflow.pooling import with_contradictions
+from colonnade.workflow.product import Catalogue
 from colonnade.workflow.raw_files import Digests, RawFiles, raw_files, with_copies
 from colonnade.workflow.summary import write_summary
 from colonnade.workflow.walk import Progress, Walk

@@ -16,10 +16,9 @@ from colonnade.store.records.stored import read_test
 from colonnade.store.records.summary import as_csv
 from colonnade.store.records.test import record_of_specimen, record_of_test
 from colonnade.store.results import results_of
-from colonnade.workflow.catalogue import Catalogue, stored_attributes
 from colonnade.workflow.forecasts import NOTHING_FORESEEN, Foreseen
 from colonnade.workflow.pooling import restitution_taken
-from colonnade.workflow.product import Contents, Product, brought_up_to_date
+from colonnade.workflow.product import Catalogue, Contents, Product, brought_up_to_date, stored_attributes
 
 MADE_BY = ("colonnade.store", "colonnade.identification", "colonnade.stages.specimen")
 """Packages whose code makes the records; what they import counts too."""

@@ -19,6 +19,7 @@ from colonnade.store.provenance import Origin
 from colonnade.store.results import RUN_STAGES, ResultId, Subject, models_of, results_of
 from colonnade.workflow.chain import (
     Chain,
+    StageRun,
     bring_up_to_date,
     if_up_to_date,
     on_a_cluster,
@@ -28,7 +29,6 @@ from colonnade.workflow.chain import (
 )
 from colonnade.workflow.executors import Counted, Tell, Where, forget, spread
 from colonnade.workflow.graph import Graph
-from colonnade.workflow.outcome import StageRun
 from colonnade.workflow.product import Product
 
 Progress = Callable[[StageRun, int, int], None]

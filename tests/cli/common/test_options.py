@@ -32,3 +32,28 @@ def test_an_option_has_the_same_help_everywhere():
 def test_names_are_read_only_when_they_are_needed():
     code = "import sys, colonnade.cli.app; sys.exit('numpy' in sys.modules or 'pydantic' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def declared(name):
+    return {each.name: each for each in app.commands[name].params}
+
+
+def test_options_of_a_table_are_those_of_its_keys():
+    from colonnade.campaign.assessment import Assessment
+    from colonnade.workflow.spectrum import Asked
+
+    made = declared("spectrum")
+    assert Asked.model_fields.keys() <= made.keys()
+    assert all(made[key].help.startswith(field.description) for key, field in Asked.model_fields.items())
+    assert (made["omega"].nargs, made["slenderness"].multiple, made["slenderness"].opts) == (2, True, ["--slenderness"])
+    assert made["points"].help.endswith("Default: 24.")
+    assert [made[key].type.name for key in ("points", "cycles", "peak", "model")] == [
+        "integer",
+        "float",
+        "text",
+        "choice",
+    ]
+    left_out = {"specimen", "scale", "measures", "displaced"}
+    assess = declared("fragility")
+    assert Assessment.model_fields.keys() - left_out <= assess.keys()
+    assert assess["levels"].opts == ["--level"]

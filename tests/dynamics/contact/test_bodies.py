@@ -10,7 +10,7 @@ import colonnade
 from colonnade.dynamics.assembly import Assembly, Placed
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact import simulate as simulation
-from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.body import ContactLaw
 from colonnade.dynamics.contact.simulate import simulate_assembly
 from colonnade.dynamics.contact.start import Start, rotation_matrices
 from colonnade.dynamics.contact.structure import Structure

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.contact.body import rigid_body
+from colonnade.dynamics.contact.body import ContactLaw, rigid_body
 from colonnade.dynamics.contact.calibration import TOLERANCE, calibrate, free_restitution
-from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.simulate import simulate
 from prism import PRISM
 

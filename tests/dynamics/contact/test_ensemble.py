@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from scipy.stats import spearmanr
 
-from colonnade.dynamics.contact.body import rigid_body
+from colonnade.dynamics.contact.body import ContactLaw, rigid_body
 from colonnade.dynamics.contact.calibration import free_restitution
 from colonnade.dynamics.contact.ensemble import ContactPlan
-from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.simulate import plane_block, simulate
 from colonnade.dynamics.motion import at_rest
 from prism import PRISM

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.contact.body import rigid_body
+from colonnade.dynamics.contact.body import ContactLaw, rigid_body
 from colonnade.dynamics.contact.history import EnergyBalance, impacts_of, tilt
-from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock

@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.body import rigid_body
-from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.body import ContactLaw, rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
 from colonnade.dynamics.motion import Motion

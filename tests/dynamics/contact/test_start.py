@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.body import rigid_body
-from colonnade.dynamics.contact.law import STATIC_PENETRATION, ContactLaw
+from colonnade.dynamics.contact.body import STATIC_PENETRATION, ContactLaw, rigid_body
 from colonnade.dynamics.contact.start import rotation_matrices, standing
 
 GRAVITY = 9.81

@@ -10,8 +10,8 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.assembly import Assembly, standing_on
+from colonnade.dynamics.contact.body import ContactLaw
 from colonnade.dynamics.contact.history import EnergyBalance
-from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.start import rotation_matrices
 from colonnade.dynamics.history import NO_ROCKING_RATIO, Outcome
 from colonnade.units.text import Digested, written

@@ -14,9 +14,8 @@ import scipy
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import STANDARD_GRAVITY
-from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.body import ContactBody, ContactLaw
 from colonnade.dynamics.contact.history import ContactHistory
-from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.simulate import plane_block, simulate
 from colonnade.dynamics.contact.stability import keep_modes_for_step, longest_with
 

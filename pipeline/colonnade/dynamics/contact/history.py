@@ -8,8 +8,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.body import ContactBody
-from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.body import ContactBody, ContactLaw
 from colonnade.dynamics.history import NO_ROCKING_RATIO, History
 from colonnade.dynamics.models import CONTACT
 from colonnade.units.text import PERCENT

@@ -12,9 +12,8 @@ from colonnade.arrays import Array, Mask
 from colonnade.dynamics.assembly import Assembly, standing_on
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
 from colonnade.dynamics.contact.bodies import AssemblyHistory, BodyHistory, Pose
-from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.body import DEFAULT_STEP, ContactBody, ContactLaw
 from colonnade.dynamics.contact.history import ContactHistory, EnergyBalance, impacts_of, tilt
-from colonnade.dynamics.contact.law import DEFAULT_STEP, ContactLaw
 from colonnade.dynamics.contact.march import march
 from colonnade.dynamics.contact.stability import longest_step
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing, standing_assembly

@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import STANDARD_GRAVITY
-from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.body import ContactBody, ContactLaw
 from colonnade.dynamics.contact.kick import PASSES
-from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.structure import Interface, Structure
 
 AROUND = 4

@@ -10,8 +10,7 @@ import scipy
 
 from colonnade.arrays import Array
 from colonnade.dynamics.assembly import Assembly, Placed
-from colonnade.dynamics.contact.body import ContactBody
-from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.body import ContactBody, ContactLaw
 from colonnade.dynamics.contact.structure import Structure, on_face
 
 

@@ -14,13 +14,13 @@ from colonnade.dynamics.contact.body import (
     GRID,
     RINGS,
     ContactBody,
+    ContactLaw,
     Nodes,
     grid_nodes,
     propagators,
     rigid_body,
     round_nodes,
 )
-from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.state import POINTS, TABLE, System
 from colonnade.dynamics.contact.touch import inside
 

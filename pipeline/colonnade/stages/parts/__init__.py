@@ -1,1 +1,1 @@
-"""Parts that several stages share."""
+"""What several stages share, and the steps of conditioning: clocks, zeros, plausibility."""

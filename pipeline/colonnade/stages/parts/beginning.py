@@ -15,8 +15,8 @@ from colonnade.errors import StageError
 from colonnade.findings import MEASUREMENT, Finding, serious, warning
 from colonnade.identification.response.base_motion import LEAST_MOTION, table_moves
 from colonnade.identification.restitution.arcs import find_arcs
-from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.transducers import DERIVED
+from colonnade.store.provenance import Inputs
 from colonnade.units.text import format_percent
 
 if TYPE_CHECKING:

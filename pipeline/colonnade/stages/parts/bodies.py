@@ -22,9 +22,9 @@ from colonnade.identification.fusion.motion import Circumstances, specimen_motio
 from colonnade.identification.fusion.pose import SpecimenMotion
 from colonnade.identification.fusion.sensors import Readings, Transducer, UnseenRotationError
 from colonnade.identification.response.outcome import angle_features
-from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.transducers import MarkerInputs, Transducers, group, markers_of, outline, transducers
 from colonnade.store.description import variable_name
+from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr

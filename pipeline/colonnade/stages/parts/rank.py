@@ -15,8 +15,8 @@ from colonnade.dynamics.ensemble import Ensemble
 from colonnade.dynamics.history import amplitude, capped
 from colonnade.identification.response.rank import Measurement, as_measured, distances, rank
 from colonnade.stages.parts.beginning import Beginning
-from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.transducers import transducers
+from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr

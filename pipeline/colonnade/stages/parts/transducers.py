@@ -20,8 +20,8 @@ from colonnade.dynamics.kinematics import Outline, pole_position
 from colonnade.findings import MEASUREMENT, Finding, note, serious, warning
 from colonnade.identification.fusion.sensors import Accelerometer, Gyroscope, Readings, Transducer
 from colonnade.signals.filters import second_derivative
-from colonnade.stages.parts.inputs import Inputs
 from colonnade.store.description import variable_name
+from colonnade.store.provenance import Inputs
 from colonnade.units.text import format_percent, listed, with_minus
 
 if TYPE_CHECKING:

@@ -25,9 +25,8 @@ from colonnade.store.records.advice import Advice, ranked
 from colonnade.store.records.summary import map_points, read_summary, records_of_tests
 from colonnade.units.text import format_uncertain, interval, number
 from colonnade.workflow.advising.sine import Known, advise_earthquakes, advise_sines
-from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.pooling import expect_specimens, restitution_taken
-from colonnade.workflow.product import Contents, Product, brought_up_to_date
+from colonnade.workflow.product import Catalogue, Contents, Product, brought_up_to_date
 
 if TYPE_CHECKING:
     import xarray as xr

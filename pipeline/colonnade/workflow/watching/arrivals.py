@@ -18,7 +18,7 @@ from pathlib import Path
 
 from colonnade.campaign.found import files_in
 from colonnade.readers.files import sha256_of
-from colonnade.workflow.catalogue import Mark, mark_of
+from colonnade.workflow.product import Mark, mark_of
 
 POLL = 1.0
 """Seconds between two looks at a folder without events."""

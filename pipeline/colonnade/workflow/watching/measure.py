@@ -24,10 +24,10 @@ from colonnade.store.records.stored import Failure, Stored, as_map
 from colonnade.store.records.test import record_of_specimen, record_of_test
 from colonnade.store.results import ResultId
 from colonnade.units.text import interval, listed, number
-from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import restitution_taken
+from colonnade.workflow.product import Catalogue
 from colonnade.workflow.raw_files import raw_files
 from colonnade.workflow.walk import Walk
 from colonnade.workflow.watching.arrivals import last_change

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.body import rigid_body
+from colonnade.dynamics.contact.body import ContactLaw, rigid_body
 from colonnade.dynamics.contact.elastic.assembly import assemble
 from colonnade.dynamics.contact.elastic.mesh import mesh_of, refine_rim
 from colonnade.dynamics.contact.elastic.reduction import reduce_body
-from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.stability import keep_modes
 

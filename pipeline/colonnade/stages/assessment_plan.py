@@ -31,8 +31,8 @@ from colonnade.dynamics.uncertainty import member_block
 from colonnade.errors import StageError, count
 from colonnade.readers.ground_motions.record_set import RecordSet
 from colonnade.stages.contact import assembly_law
-from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.specimen import restitution_spread
+from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -15,8 +15,8 @@ from colonnade.findings import Finding, note, serious, warning
 from colonnade.signals.alignment import Offset, link
 from colonnade.signals.record import Record, even_record
 from colonnade.signals.timing import uniform_clock
-from colonnade.stages.parts.inputs import Inputs
 from colonnade.store.description import variable_name
+from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -24,11 +24,11 @@ from colonnade.identification.plausibility.transducers import Judged, base_scale
 from colonnade.signals.named_motion import Series, check_motion
 from colonnade.signals.quality import Flag
 from colonnade.signals.samples import filled_in
-from colonnade.stages.ingesting.zeroing import COUPLED, Effect, on_angle, on_base
-from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load, reference_files
 from colonnade.stages.parts.transducers import outline, transducers
+from colonnade.stages.parts.zeroing import COUPLED, Effect, on_angle, on_base
 from colonnade.store.description import variable_name
+from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr

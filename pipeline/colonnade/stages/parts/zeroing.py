@@ -13,7 +13,7 @@ from colonnade.dynamics.block import Block
 from colonnade.errors import StageError
 from colonnade.findings import MEASUREMENT, Finding, serious, warning
 from colonnade.signals.rest import RestWindow, find_rest
-from colonnade.stages.ingesting.clocks import ChannelOnClock
+from colonnade.stages.parts.clocks import ChannelOnClock
 
 COUPLED = 0.08
 """Of gravity; an accelerometer that shows less than this of its part at rest does not sense what does not change."""

@@ -11,8 +11,8 @@ from colonnade.findings import Severity
 from colonnade.signals.alignment import ClockRate, Offset
 from colonnade.signals.quality import Flag
 from colonnade.signals.record import Record
-from colonnade.stages.ingesting import clocks
-from colonnade.stages.ingesting.clocks import ChannelOnClock, common_clock, cut_short, find_links, own_records
+from colonnade.stages.parts import clocks
+from colonnade.stages.parts.clocks import ChannelOnClock, common_clock, cut_short, find_links, own_records
 from every import every
 
 TOGETHER = Offset(0.0, np.nan, 0.0)

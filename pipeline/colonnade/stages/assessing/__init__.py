@@ -1,1 +1,0 @@
-"""The real column of an assessment, and the answer about it."""

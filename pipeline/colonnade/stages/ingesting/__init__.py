@@ -1,1 +1,0 @@
-"""From columns to channels that can be used: clocks, quality, zeros, plausibility."""
