@@ -42,3 +42,17 @@ def test_a_motion_that_is_stronger_by_a_thousandth_does_not_overturn_the_block(c
     motion = earthquake(1)
     shaken = colonnade.Motion(STRENGTH * (1 + change) * motion.acceleration, 0.25 * motion.dt)
     assert colonnade.rock(PRISM, shaken, restitution=0.976).outcome == outcome
+
+
+ASSESSMENT = PROJECT / "docs" / "explanation" / "assessment.md"
+
+
+def test_the_example_of_an_assessment_runs(capsys):
+    [block] = re.findall(r"```python\n(.*?)```", ASSESSMENT.read_text(encoding="utf-8"), re.DOTALL)
+    names = {}
+    exec(compile(block, str(ASSESSMENT), "exec"), names)
+    assert names["measured"].values["pga"] < 2.5
+    assert 0.1 < names["found"].isotonic.reaches(0.5).value < 10.0
+    assert names["spectrum"].overturned.shape == (1, 2)
+    assert names["limits"].lower[0] < names["limits"].upper[0]
+    assert capsys.readouterr().out.count("\n") == 4

@@ -1,5 +1,7 @@
 """What the pages of the documentation tell readers to type runs as it is printed; `page_blocks` says how."""
 
+import re
+
 import pytest
 
 from page_blocks import PROJECT, Block, Reader, assert_shown, assert_valid, blocks_of
@@ -75,3 +77,23 @@ def test_a_file_next_to_the_page_is_saved_by_the_reader(tmp_path):
     )
     (tmp_path / "reader").mkdir()
     Reader(tmp_path / "reader").follow(page)
+
+
+DECISIONS = PROJECT / "docs" / "decisions"
+DECIDED = {path.name: path.read_text(encoding="utf-8") for path in DECISIONS.glob("0*.md")}
+
+
+def test_each_number_is_given_once_and_a_missing_one_is_accounted_for():
+    numbers = sorted(int(name[:4]) for name in DECIDED)
+    assert len(numbers) == len(set(numbers))
+    missing = [number for number in range(1, numbers[-1]) if number not in numbers]
+    said = re.findall(r"no decision (\d+)", (DECISIONS / "README.md").read_text(encoding="utf-8"))
+    assert missing == [int(number) for number in said]
+    assert [name for name, text in DECIDED.items() if not text.startswith(f"# {int(name[:4])} · ")] == []
+
+
+def test_a_reversed_decision_and_the_page_that_reverses_it_lead_to_each_other():
+    pattern = r"[Rr]everses \[decision \d+\]\(([^)]+)\)"
+    reversals = [(name, old) for name, text in DECIDED.items() for old in re.findall(pattern, text)]
+    assert reversals
+    assert [(new, old) for new, old in reversals if f"({new})" not in DECIDED[old]] == []

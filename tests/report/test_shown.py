@@ -6,6 +6,8 @@ from posixpath import dirname, join, normpath
 import pytest
 
 from colonnade.report import addresses
+from colonnade.report.asked import Photo, Photos
+from colonnade.report.pages import renderer_of
 from colonnade.report.specimens_page import of_specimen
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import Stored
@@ -257,3 +259,16 @@ def test_methods_tell_what_was_really_used_and_where_tests_differ(texts):
     assert "Housner, G. W. (1963)" in words
     assert re.search(r"made with colonnade \d\S*, Python 3\.\d+", words)
     assert "(free-refused)" not in words  # it has no e, so no method gave one
+
+
+HOSTILE = '"><script>alert(1)</script>.jpg'
+
+
+def test_the_section_shows_paths_and_reasons_as_text(empty_campaign):
+    campaign, _ = empty_campaign
+    photos = Photos((Photo("photos/a-1.jpg", "Photo 1 of test a", HOSTILE),), ("it is <damaged>",))
+    text = renderer_of(campaign).page("sections/photos", "tests/a.html", test={"photos": photos})
+    assert '<img src="../photos/a-1.jpg" alt="Photo 1 of test a">' in text
+    assert "<script>" not in text
+    assert "it is &lt;damaged&gt;" in text
+    assert renderer_of(campaign).page("sections/photos", "tests/a.html", test={"photos": Photos()}).strip() == ""

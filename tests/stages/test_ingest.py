@@ -1,5 +1,6 @@
 """Ingest: which column a channel is, its unit and times, its SI values and flags, and what is left as recorded."""
 
+from dataclasses import replace
 from datetime import UTC, date, datetime, timedelta, timezone
 from pathlib import Path
 

@@ -1,7 +1,10 @@
 """The table of stages: their order, their names, and which results a test has."""
 
+from pathlib import Path
+
 import pytest
 
+from colonnade.store.layout import Layout
 from colonnade.store.results import RUN_STAGES, STAGES, ResultId, models_of, results_of
 
 TEST = '[[tests]]\nid = "{kind}"\nkind = "{kind}"\nspecimen = "prism"\nsetup = "frame"\nfile = "raw.csv"\n'
@@ -48,3 +51,26 @@ def test_a_test_has_the_results_of_its_kind_and_of_the_models_in_their_order(cam
 def test_without_base_motion_nothing_is_predicted(campaign):
     assert models_of(campaign, campaign.tests["pulse"]) == ("linear", "contact")
     assert models_of(campaign, campaign.tests["tilt"]) == ()
+
+
+def test_each_stage_has_its_file_in_the_tests_folder():
+    stages = ("ingest", "condition", "rocking", "restitution", "compare")
+    found = [Layout(Path("c")).stage("free-01", stage) for stage in stages]
+    names = ("recorded", "conditioned", "rocking", "restitution", "compared")
+    assert found == [Path(f"c/processed/tests/free-01/{name}.nc") for name in names]
+
+
+def test_each_model_has_a_file():
+    layout = Layout(Path("c"))
+    assert layout.stage("free-01", "predict", "linear").name == "predicted-linear.nc"
+    assert layout.stage("free-01", "ensemble", "linear").name == "ensemble-linear.nc"
+    assert layout.stage("prism", "contact") == Path("c/processed/contact/prism.nc")
+    assert layout.stage("prism", "responses", "linear") == Path("c/processed/maps/prism-linear-response.nc")
+
+
+def test_specimens_summary_and_report_lie_where_the_contract_says():
+    layout = Layout(Path("c"))
+    assert layout.stage("prism", "specimen") == Path("c/processed/specimens/prism.nc")
+    assert layout.summary_json == Path("c/processed/summary.json")
+    assert layout.report == Path("c/report/index.html")
+    assert layout.stage("prism", "map", "linear") == Path("c/processed/maps/prism-linear.nc")

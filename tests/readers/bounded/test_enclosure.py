@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from colonnade.readers.bounded import enclosure as bounds
+from colonnade.readers.bounded import landlock
 from colonnade.readers.bounded.enclosure import OUT_OF_MEMORY, own_folders
 
 
@@ -112,3 +113,37 @@ def test_where_a_system_has_no_such_limit_a_process_ends_itself_with_a_code_of_i
     by_shell = ["sh", "-c", '"$0" -c "$1" "$2"; exit $?', sys.executable, WATCHED]
     codes = [subprocess.run([*by_shell, str(bound)]).returncode for bound in (300_000_000, 50_000_000)]
     assert codes == [0, OUT_OF_MEMORY]
+
+
+with_landlock = pytest.mark.skipif(not landlock.version(), reason="this kernel has no Landlock")
+
+RESTRICT = """
+import ctypes, os, sys
+from pathlib import Path
+from colonnade.readers.bounded import landlock
+folder = sys.argv[1].encode()
+system = ctypes.CDLL(None)
+assert landlock.restrict([Path(sys.argv[1]), Path(sys.argv[1]) / "missing"])
+for path, flags in ((b"/inside", os.O_RDONLY), (b"/../outside", os.O_RDONLY), (b"/inside", os.O_WRONLY),
+                    (b"/new", os.O_WRONLY | os.O_CREAT)):
+    print(system.open(folder + path, flags, 0o600) >= 0)
+print(system.open(os.devnull.encode(), os.O_WRONLY) >= 0)
+"""
+
+
+@with_landlock
+def test_native_code_reads_inside_and_nothing_else(tmp_path):
+    (tmp_path / "campaign").mkdir()
+    (tmp_path / "campaign" / "inside").write_text("inside")
+    (tmp_path / "outside").write_text("outside")
+    told = subprocess.run(
+        [sys.executable, "-c", RESTRICT, str(tmp_path / "campaign")], capture_output=True, text=True, check=True
+    )
+    assert told.stdout.split() == ["True", "False", "False", "False", "True"]
+    assert not (tmp_path / "campaign" / "new").exists()
+
+
+def test_a_kernel_without_it_restricts_nothing_and_says_so(monkeypatch, tmp_path):
+    monkeypatch.setattr(sys, "platform", "darwin")
+    assert landlock.version() == 0
+    assert not landlock.restrict([tmp_path])
