@@ -15,7 +15,7 @@ from colonnade.assessment.cases import (
     joined,
     run_cases,
 )
-from colonnade.assessment.prototype import Prototype, draw, drawn_column
+from colonnade.assessment.real_column import RealColumn, draw, drawn_column
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.run import OUTCOMES
@@ -36,8 +36,8 @@ def shaken(seed, samples=400, **others):
 MOTIONS = (shaken(1), shaken(2, transverse="y"), shaken(3, transverse="y", vertical="z"))
 INTENSITY = np.array([[1.0, np.nan], [1.1, 0.9], [1.2, 0.8]])
 CASES = Cases(
-    Prototype(UNEVEN, 0.95, **RANGES),
-    np.stack([draw(Prototype(UNEVEN, 0.95, **RANGES), 3, record=record) for record in range(len(MOTIONS))]),
+    RealColumn(UNEVEN, 0.95, **RANGES),
+    np.stack([draw(RealColumn(UNEVEN, 0.95, **RANGES), 3, record=record) for record in range(len(MOTIONS))]),
     MOTIONS,
     factors_at(np.array([1.0, 2.0, 4.0, 40.0]), INTENSITY),
 )
@@ -59,7 +59,7 @@ def test_every_case_ends_as_its_history_does():
         if vertical is not None and vertical.min() <= -BLOCK.gravity:
             assert outcomes.outcome[index] == FALLS_AWAY
             continue
-        block, e = drawn_column(CASES.prototype, CASES.draws[record, which])
+        block, e = drawn_column(CASES.column, CASES.draws[record, which])
         plane = Motion((1, -1)[side] * factor * along, motion.dt, vertical)
         history = rock(block, plane, restitution=e, model="nonlinear")
         assert OUTCOMES[outcomes.outcome[index]] == history.outcome
@@ -78,7 +78,7 @@ def test_blocks_of_records_give_what_the_whole_gives(most, count):
 
 
 def test_of_a_symmetric_column_the_opposite_motion_is_not_run_as_it_does_the_same():
-    column = Prototype(BLOCK, 0.95)
+    column = RealColumn(BLOCK, 0.95)
     cases = Cases(column, np.stack([draw(column, 0)] * 3), MOTIONS, CASES.factors)
     assert cases.signs == (1,)
     turned = tuple(
@@ -126,7 +126,7 @@ def test_what_cannot_be_run_is_refused_before_anything_runs(changed, message):
         replace(CASES, **changed)
 
 
-COLUMN = Prototype(BLOCK, 0.95)
+COLUMN = RealColumn(BLOCK, 0.95)
 TIME = np.arange(0.0, 6.0, 0.01)
 WAVES = tuple(Motion(np.sin(2 * np.pi * hertz * TIME) * np.hanning(TIME.size), 0.01) for hertz in (0.5, 0.8, 1.2))
 PEAKS = np.array([[wave.peak, np.nan] for wave in WAVES])

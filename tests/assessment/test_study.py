@@ -9,12 +9,12 @@ from colonnade.assessment.cases import in_plane, run_cases
 from colonnade.assessment.hazard import hazard_curve
 from colonnade.assessment.intervals import Resampling
 from colonnade.assessment.measures import intensity_measures
-from colonnade.assessment.prototype import Prototype
+from colonnade.assessment.real_column import RealColumn
 from colonnade.assessment.study import judge, plan_study
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 
-COLUMN = Prototype(Block.prism(width=1.7, depth=1.7, height=9.1, mass=1000.0), 0.9, restitution_range=(0.85, 0.95))
+COLUMN = RealColumn(Block.prism(width=1.7, depth=1.7, height=9.1, mass=1000.0), 0.9, restitution_range=(0.85, 0.95))
 MOTIONS = {f"r{seed}": Motion(ground_motion(seed), 1 / RATE) for seed in range(6)}
 LEVELS = {"pgv": [0.8, 1.5, 3.0], "pga": [3.0, 6.0, 12.0], "arias": [0.5, 2.0, 8.0], "sa(0.5 s)": [2.0, 5.0]}
 

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from colonnade.assessment.cases import Cases, factors_at, in_plane, run_cases
-from colonnade.assessment.prototype import Prototype, draw, drawn_column
+from colonnade.assessment.real_column import RealColumn, draw, drawn_column
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.march import propagate
@@ -24,7 +24,7 @@ from colonnade.workflow.assessing import outcomes_of
 from colonnade.workflow.executors import Where
 
 BLOCK = Block.measured(mass=1000.0, pole_distance=4.0, critical_angle=0.18, inertia=4 / 3 * 1000.0 * 16.0)
-COLUMN = Prototype(BLOCK, 0.95, restitution_range=(0.93, 0.97), critical_angle_range=(0.16, 0.2), p_range=(1.2, 1.5))
+COLUMN = RealColumn(BLOCK, 0.95, restitution_range=(0.93, 0.97), critical_angle_range=(0.16, 0.2), p_range=(1.2, 1.5))
 INTERVAL, SAMPLES = 0.005, 4000
 REST = 1e-6
 
@@ -68,7 +68,7 @@ def _inputs(cases, chosen):
         record, level, which, _sign, place = _place(cases, case)
         motion = in_plane(cases.motions[record], place, float(cases.factors[record, level, place]))
         base = motion.acceleration / BLOCK.gravity
-        inputs.append((base, *drawn_column(cases.prototype, cases.draws[record, which])))
+        inputs.append((base, *drawn_column(cases.column, cases.draws[record, which])))
     return inputs
 
 

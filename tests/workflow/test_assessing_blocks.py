@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 
 from colonnade.assessment.cases import Cases, run_cases
-from colonnade.assessment.prototype import Prototype, draw
+from colonnade.assessment.real_column import RealColumn, draw
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.workflow.assessing import given, outcomes_of
 from colonnade.workflow.executors import Where
 
 BLOCK = Block.measured(mass=1000.0, pole_distance=4.0, critical_angle=0.18, inertia=4 / 3 * 1000.0 * 16.0)
-COLUMN = Prototype(BLOCK, 0.95, p_range=(1.2, 1.5))
+COLUMN = RealColumn(BLOCK, 0.95, p_range=(1.2, 1.5))
 WAVES = tuple(Motion(np.sin(0.1 * hertz * np.arange(200)), 0.01, transverse=np.ones(200)) for hertz in (1, 2, 3))
 DRAWS = np.stack([draw(COLUMN, 20, record=record) for record in range(3)])
 CASES = Cases(COLUMN, DRAWS, WAVES, np.tile([[1.0, np.nan], [3.0, 1.0]], (3, 1, 1)))
@@ -33,7 +33,7 @@ def test_blocks_give_what_the_whole_gives(tmp_path):
 @pytest.mark.parametrize(
     ("changed", "what"),
     [
-        ({"prototype": replace(COLUMN, restitution=0.94)}, "column"),
+        ({"column": replace(COLUMN, restitution=0.94)}, "column"),
         ({"draws": np.stack([draw(COLUMN, 20, seed=1)] * 3)}, "column"),
         ({"model": "linear"}, "column"),
         ({"motions": (*WAVES[:2], Motion(WAVES[2].acceleration, 0.011, transverse=np.ones(200)))}, "motions"),

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from colonnade.arrays import Array, Codes, Mask
-from colonnade.assessment.prototype import UNCERTAIN, Prototype, draw, drawn_column
+from colonnade.assessment.real_column import UNCERTAIN, RealColumn, draw, drawn_column
 from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.contact.body import ContactLaw
 from colonnade.dynamics.models import NONLINEAR, model_of, plane_model_of
@@ -82,7 +82,7 @@ class Cases:
 
     Attributes
     ----------
-    prototype : Prototype
+    column : RealColumn
     draws : ndarray, shape (records, draws, 4)
         Made by `draw` for each record; the same at all its levels. Draws of their own make the draws nested in the
         records: what few draws miss shows from record to record.
@@ -93,7 +93,7 @@ class Cases:
     model : str
         A plane one.
     several : OnContact, optional
-        What is run in place of the prototype's block, of which only the drawn friction then counts.
+        What is run in place of the column's block, of which only the drawn friction then counts.
 
     Raises
     ------
@@ -105,7 +105,7 @@ class Cases:
     A motion and its opposite do the same to a symmetric column: it is run with the sign +1 only.
     """
 
-    prototype: Prototype
+    column: RealColumn
     draws: Array
     motions: tuple[Motion, ...]
     factors: Array
@@ -115,7 +115,7 @@ class Cases:
     def __post_init__(self) -> None:
         plane_model_of(self.model)
         p = self.drawn("p")
-        fastest, _ = drawn_column(self.prototype, self.draws[np.unravel_index(p.argmax(), p.shape)])
+        fastest, _ = drawn_column(self.column, self.draws[np.unravel_index(p.argmax(), p.shape)])
         for record, place in np.argwhere(np.isfinite(self.factors).any(axis=1)).tolist():
             largest = float(np.nanmax(self.factors[record, :, place]))
             plane = in_plane(self.motions[record], place, largest)
@@ -129,7 +129,7 @@ class Cases:
     @property
     def signs(self) -> tuple[int, ...]:
         """What each case is multiplied by in turn: +1 and −1, or +1 alone."""
-        return (1,) if (self.several or self.prototype).is_symmetric else (1, -1)
+        return (1,) if (self.several or self.column).is_symmetric else (1, -1)
 
     @property
     def shape(self) -> tuple[int, int, int, int, int]:
@@ -217,9 +217,9 @@ def run_cases(cases: Cases) -> Outcomes:
     """Run all cases in this process."""
     _records, levels, _draws, _signs, components = shape = cases.shape
     found = Outcomes(np.full(shape, NOT_RUN, dtype=np.int8), np.full(shape, np.nan))
-    gravity = cases.prototype.block.gravity
+    gravity = cases.column.block.gravity
     for record, motion in enumerate(cases.motions):
-        columns = [prepared(*drawn_column(cases.prototype, values)) for values in cases.draws[record]]
+        columns = [prepared(*drawn_column(cases.column, values)) for values in cases.draws[record]]
         for level, (side, sign), place in product(range(levels), enumerate(cases.signs), range(components)):
             plane = in_plane(motion, place, sign * float(cases.factors[record, level, place]))
             if plane is None:
@@ -260,7 +260,7 @@ TRIALS = 24
 
 
 def default_levels(
-    prototype: Prototype,
+    column: RealColumn,
     motions: Sequence[Motion],
     intensity: Array,
     *,
@@ -273,7 +273,7 @@ def default_levels(
 
     Parameters
     ----------
-    prototype : Prototype
+    column : RealColumn
     motions : sequence of Motion
     intensity : ndarray, shape (records, components)
         The measure of each as recorded; NaN for a component that is not run.
@@ -293,10 +293,10 @@ def default_levels(
     ValueError
         If no record has the component and a positive measure.
     """
-    lowest = _first_uplift(prototype, motions, intensity, power)
+    lowest = _first_uplift(column, motions, intensity, power)
     trials = np.geomspace(lowest, REACH**power * lowest, TRIALS)
-    draws = np.stack([draw(prototype, 0)] * len(motions))
-    outcomes = run_cases(Cases(prototype, draws, tuple(motions), factors_at(trials, intensity, power), model))
+    draws = np.stack([draw(column, 0)] * len(motions))
+    outcomes = run_cases(Cases(column, draws, tuple(motions), factors_at(trials, intensity, power), model))
     run, fell = outcomes.is_run, outcomes.exceeds()
     aside = (0, 2, 3, 4)
     some, every = fell.any(axis=aside), (fell | ~run).all(axis=aside)
@@ -307,10 +307,10 @@ def default_levels(
     return np.array([float(f"{level:.3g}") for level in np.geomspace(*ends, count)])
 
 
-def _first_uplift(prototype: Prototype, motions: Sequence[Motion], intensity: Array, power: int) -> float:
+def _first_uplift(column: RealColumn, motions: Sequence[Motion], intensity: Array, power: int) -> float:
     """Give the level from which the first of the records uplifts the column, vertical motion left out."""
     found = [
-        float(intensity[record, place]) * (prototype.block.uplift_acceleration / plane.peak) ** power
+        float(intensity[record, place]) * (column.block.uplift_acceleration / plane.peak) ** power
         for record, motion in enumerate(motions)
         for place in range(len(COMPONENTS))
         if (plane := in_plane(motion, place, 1.0)) is not None and plane.peak > 0.0 and intensity[record, place] > 0.0
@@ -382,10 +382,10 @@ def holds(needed: FrictionNeeded, friction: Array) -> Mask:
 
 
 def _needed(cases: Cases, motion: Motion) -> tuple[float, float, float]:
-    block = cases.prototype.block
+    block = cases.column.block
     if _falls_away(motion, block.gravity):
         return 0.0, np.inf, 0.0
-    history = rock(block, motion, restitution=cases.prototype.restitution, model=cases.model)
+    history = rock(block, motion, restitution=cases.column.restitution, model=cases.model)
     forces = reactions(history, motion)
     until = history.overturning_time if np.isfinite(history.overturning_time) else np.inf
     widest = max(side.critical_angle for side in block.sides)

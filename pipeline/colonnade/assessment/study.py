@@ -17,7 +17,7 @@ from colonnade.assessment.hazard import Hazard, hazard_curve
 from colonnade.assessment.intervals import LEVEL, RESAMPLES, Resampling
 from colonnade.assessment.measures import MEASURES, Measure, measure_of, measured, measures_of
 from colonnade.assessment.outcomes import gather
-from colonnade.assessment.prototype import MOST_DRAWS, Limits, Prototype, draw
+from colonnade.assessment.real_column import MOST_DRAWS, Limits, RealColumn, draw
 from colonnade.dynamics.assembly import Assembly, as_one
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.contact.body import ContactLaw
@@ -68,14 +68,14 @@ class Study:
     drift: Array
     left_out: dict[str, str]
 
-    def of(self, prototype: Prototype) -> Study:
+    def of(self, column: RealColumn) -> Study:
         """Return the study of another column with nothing varied, on the same records at the same levels."""
-        draws = np.stack([draw(prototype, 0)] * len(self.names))
-        return replace(self, cases=replace(self.cases, prototype=prototype, draws=draws))
+        draws = np.stack([draw(column, 0)] * len(self.names))
+        return replace(self, cases=replace(self.cases, column=column, draws=draws))
 
 
 def plan_study(
-    prototype: Prototype,
+    column: RealColumn,
     motions: Mapping[str, Motion],
     *,
     measure: str = "pgv",
@@ -93,7 +93,7 @@ def plan_study(
 
     Parameters
     ----------
-    prototype : Prototype
+    column : RealColumn
     motions : mapping of str to Motion
         Records by name; `transverse` is their second horizontal component.
     measure : str, optional
@@ -121,7 +121,7 @@ def plan_study(
     ValueError
         If an argument is out of its range, or no record has the measure.
     """
-    scaled_over, block = measure_of(measure), prototype.block
+    scaled_over, block = measure_of(measure), column.block
     if not scaled_over.power:
         raise ValueError(f"{scaled_over.id} does not grow with a motion; a measure that does was expected")
     drift = number("drift", drift, "a positive share of the peak velocity", above=0.0)
@@ -136,7 +136,7 @@ def plan_study(
     if levels is None and several is not None:
         raise ValueError(f"levels are needed for several bodies: levels of the {scaled_over.name} were expected")
     if levels is None:
-        found = default_levels(prototype, [recorded[row] for row in usable], intensity, power=power, model=model)
+        found = default_levels(column, [recorded[row] for row in usable], intensity, power=power, model=model)
     else:
         found = _checked_levels(levels, scaled_over)
     factors = factors_at(found, intensity, power)
@@ -147,8 +147,8 @@ def plan_study(
         raise ValueError(f"No record can be run: {FALLS}")
     reasons |= {(names[row], "z"): FALLS for row in usable[~runs]}
     rows = usable[runs]
-    drawn = np.stack([draw(prototype, draws, seed, record=number) for number in range(rows.size)])
-    cases = Cases(prototype, drawn, tuple(recorded[row] for row in rows), factors[runs], model, several)
+    drawn = np.stack([draw(column, draws, seed, record=number) for number in range(rows.size)])
+    cases = Cases(column, drawn, tuple(recorded[row] for row in rows), factors[runs], model, several)
     kept = tuple(names[row] for row in rows)
     values = {name: each[rows] for name, each in values.items()}
     return Study(kept, cases, scaled_over, found, values, drifts[rows], _left_out(kept, reasons))
@@ -277,7 +277,7 @@ def _threshold(study: Study) -> tuple[float, float] | None:
     """Peak accelerations at which the drawn columns uplift, where these alone decide it."""
     if study.measure.id != "pga" or any(motion.vertical is not None for motion in study.cases.motions):
         return None
-    uplifting = study.cases.prototype.block.gravity * np.tan(study.cases.drawn("critical_angle"))
+    uplifting = study.cases.column.block.gravity * np.tan(study.cases.drawn("critical_angle"))
     return float(uplifting.min()), float(uplifting.max())
 
 
@@ -382,7 +382,7 @@ def fragility(
     number("overturned", overturned, "a positive share of the critical angle", above=0.0)
     resampling = Resampling(resamples, seed, level)
     curve = _curve(hazard)
-    prototype = Prototype(
+    column = RealColumn(
         block,
         block.restitution if restitution is None else restitution,
         None if several is None else several.law.friction,
@@ -392,7 +392,7 @@ def fragility(
         friction_range=friction_range,
     )
     study = plan_study(
-        prototype,
+        column,
         named,
         measure=measure,
         levels=levels,

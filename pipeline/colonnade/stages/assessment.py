@@ -25,7 +25,7 @@ from colonnade.assessment.fragility import MISFITS, Fragility
 from colonnade.assessment.ground import Ground
 from colonnade.assessment.intervals import Interval, Resampling
 from colonnade.assessment.measures import measure_of
-from colonnade.assessment.prototype import UNCERTAIN, Prototype
+from colonnade.assessment.real_column import UNCERTAIN, RealColumn
 from colonnade.assessment.study import Study, counted_draws, judge
 from colonnade.campaign.forms.assessed import (
     UNCORRECTED,
@@ -119,7 +119,7 @@ def _known(values: list[float | None]) -> Array | None:
 def _sliding(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded | None) -> float | None:
     """Share of the histories that need more friction than there is; None if none is given, or bodies do slide."""
     cases = plan.studies[ASSUMED].cases
-    if cases.prototype.friction is None or needed is None:
+    if cases.column.friction is None or needed is None:
         return None
     drawn = counted_draws(cases.shape[2])
     run = outcomes.is_run[:, :, drawn]
@@ -228,7 +228,7 @@ def answer(
         specimen=plan.inputs.specimen,
         measure=study.measure.id,
         unit=study.measure.unit,
-        **_assumed(plan, study.cases.prototype),
+        **_assumed(plan, study.cases.column),
         baseline=plan.inputs.asked.baseline,
         uplift=Estimate() if found.uplift.curve is None else _estimate(found.uplift.curve.median),
         median=_estimate(lognormal.median),
@@ -258,7 +258,7 @@ def answer(
     )
 
 
-def _assumed(plan: Plan, column: Prototype) -> dict[str, Any]:
+def _assumed(plan: Plan, column: RealColumn) -> dict[str, Any]:
     """Give what was assumed of the column."""
     low, high = column.restitution_range or (None, None)
     one = plan.inputs.several is None
@@ -303,7 +303,7 @@ def _variant(plan: Plan, name: str, found: Fragility) -> Variant:
     fit = found.lognormal
     return Variant(
         name=name,
-        restitution=float(np.mean(pair(plan.studies[name].cases.prototype.restitution))),
+        restitution=float(np.mean(pair(plan.studies[name].cases.column.restitution))),
         median=Estimate() if fit.reason else _estimate(fit.median),
         five_percent=Estimate() if fit.reason else _at_lognormal(fit, 0.05),
         records=len(found.outcomes.records),
@@ -315,7 +315,7 @@ def _without_correction(plan: Plan) -> list[Variant]:
     """Say why there is no answer without the correction, if there is none."""
     if not plan.without_correction:
         return []
-    e = float(np.mean(pair(plan.studies[ASSUMED].cases.prototype.restitution)))
+    e = float(np.mean(pair(plan.studies[ASSUMED].cases.column.restitution)))
     return [Variant(name=UNCORRECTED, restitution=e, reason=plan.without_correction)]
 
 
@@ -383,7 +383,7 @@ def _left_out(plan: Plan) -> tuple[RecordLeftOut, ...]:
 
 
 def _of_the_column(plan: Plan) -> list[str]:
-    column, said = plan.studies[ASSUMED].cases.prototype, []
+    column, said = plan.studies[ASSUMED].cases.column, []
     if plan.inputs.prototype.restitution == "identified" and plan.restitution_source == "rigid-body":
         said.append("No e is identified on the model. That of a rigid body is assumed.")
     rows = zip(("e", "α (rad)", "p (rad/s)"), column.central, column.ranges, strict=False)
@@ -459,7 +459,7 @@ def _judged_criteria(
     }
     recorded = _recorded(study, drift)
     demands = Demands(*((each[:, None, :] * study.cases.factors)[run] for each in recorded))
-    block = study.cases.prototype.block
+    block = study.cases.column.block
     return tuple(
         JudgedCriterion(
             criterion=criterion.id, **agreement(criterion.ratio(block, demands), happened[criterion.predicts])

@@ -16,7 +16,7 @@ from colonnade.assessment.cases import OnContact
 from colonnade.assessment.ground import NONE
 from colonnade.assessment.hazard import Hazard
 from colonnade.assessment.outcomes import FEWEST
-from colonnade.assessment.prototype import Prototype
+from colonnade.assessment.real_column import RealColumn
 from colonnade.assessment.study import Study, plan_study
 from colonnade.campaign import Campaign
 from colonnade.campaign import assessment as written
@@ -53,7 +53,7 @@ class ColumnInputs(Inputs):
     usual_scatter: float = PlaneEnsembleSettings().restitution
 
 
-def real_column(inputs: ColumnInputs, pooled: xr.Dataset) -> tuple[Prototype, str]:
+def real_column(inputs: ColumnInputs, pooled: xr.Dataset) -> tuple[RealColumn, str]:
     """
     Put together the real column.
 
@@ -65,7 +65,7 @@ def real_column(inputs: ColumnInputs, pooled: xr.Dataset) -> tuple[Prototype, st
 
     Returns
     -------
-    column : Prototype
+    column : RealColumn
     source : str
         Of its e: "given", "identified" or "rigid-body".
     """
@@ -78,7 +78,7 @@ def real_column(inputs: ColumnInputs, pooled: xr.Dataset) -> tuple[Prototype, st
     if factors != (1.0, 1.0):
         block = member_block(block, *factors)
     restitution, limits, source = _restitution(inputs, block, pooled)
-    column = Prototype(
+    column = RealColumn(
         block,
         restitution,
         given.friction,
@@ -289,7 +289,7 @@ def _expect_enough(names: Sequence[str], what: str, left_out: Mapping[str, str],
     )
 
 
-def _variants(column: Prototype) -> dict[str, Prototype]:
+def _variants(column: RealColumn) -> dict[str, RealColumn]:
     """Give the column as assumed, with the e of a rigid body, and with a smaller and a larger e."""
     e = np.array(pair(column.restitution))
     changed = {

@@ -238,7 +238,7 @@ def _arrays(block: Cases) -> Arrays:
 
 def given(cases: Cases) -> dict[str, str | None]:
     """Hash what the outcomes are made from: column, draws, motions, factors and model."""
-    column = [repr(cases.prototype), cases.draws.tolist(), cases.model]
+    column = [repr(cases.column), cases.draws.tolist(), cases.model]
     if cases.several is not None:
         bodies = [(name, vars(body), vars(body.block)) for name, body in cases.several.assembly.bodies.items()]
         column += [repr(each) for each in (bodies, cases.several.law, cases.several.displaced)]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 from pydantic import ValidationError
 
-from colonnade.assessment.prototype import Prototype as RealColumn
+from colonnade.assessment.real_column import RealColumn
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessment import Prototype
 from colonnade.campaign.specimen import OUTER_DIMENSIONS, SIZED

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from colonnade.assessment.cases import Cases, FrictionNeeded, friction_needed, holds
-from colonnade.assessment.prototype import UNCERTAIN, Prototype, draw, drawn_column
+from colonnade.assessment.real_column import UNCERTAIN, RealColumn, draw, drawn_column
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 
 BLOCK = Block.measured(mass=1000.0, pole_distance=4.0, critical_angle=0.18, inertia=4 / 3 * 1000.0 * 16.0)
-COLUMN = Prototype(
+COLUMN = RealColumn(
     BLOCK,
     0.95,
     0.6,
@@ -53,7 +53,7 @@ def test_a_range_that_goes_leaves_the_other_draws_as_they_are():
 
 
 def test_nothing_is_drawn_of_what_is_exactly_known():
-    exact = Prototype(BLOCK, 0.95)
+    exact = RealColumn(BLOCK, 0.95)
     draws = draw(exact, 100)
     assert len(draws) == 1
     assert np.isnan(draws[:, UNCERTAIN.index("friction")]).all()
@@ -100,7 +100,7 @@ WAVE = np.where(TIME < 1.0, np.sin(2 * np.pi * TIME), 0.0)
 
 
 def needed(*factors, vertical=None):
-    column = Prototype(BLOCK, 0.9)
+    column = RealColumn(BLOCK, 0.9)
     factor = np.array([[[each, np.nan] for each in factors]])
     return friction_needed(Cases(column, draw(column, 0)[None], (Motion(WAVE, 0.01, vertical),), factor))
 
@@ -126,7 +126,7 @@ def test_a_column_that_rocks_needs_tan_alpha_at_rest_and_the_ratio_of_impulses_a
 
 
 def test_a_record_that_begins_with_a_jump_uplifts_the_column_before_it_needs_friction_at_rest():
-    column = Prototype(BLOCK, 0.9)
+    column = RealColumn(BLOCK, 0.9)
     jump = Motion(np.where(TIME < 0.1, 5.0, 0.0), 0.01)
     found = friction_needed(Cases(column, draw(column, 0)[None], (jump,), np.array([[[1.0, np.nan]]])))
     assert found.standing[0, 0, 0, 0] <= tan(0.18)

@@ -22,7 +22,7 @@ MOST_DRAWS = 1_000_000
 
 
 @dataclass(frozen=True)
-class Prototype:
+class RealColumn:
     """
     A real column and the ranges of what is not exactly known.
 
@@ -83,13 +83,13 @@ class Prototype:
         return self.restitution_range, self.critical_angle_range, self.p_range, self.friction_range
 
 
-def draw(prototype: Prototype, count: int, seed: int = 0, *, record: int = 0) -> Array:
+def draw(column: RealColumn, count: int, seed: int = 0, *, record: int = 0) -> Array:
     """
     Draw columns within the ranges of a real one.
 
     Parameters
     ----------
-    prototype : Prototype
+    column : RealColumn
     count : int
         Columns besides that with nothing varied; none are drawn if nothing has a range.
     seed : int, optional
@@ -111,21 +111,21 @@ def draw(prototype: Prototype, count: int, seed: int = 0, *, record: int = 0) ->
     """
     whole("count", count, 0, MOST_DRAWS)
     whole("seed", seed, 0, LARGEST_SEED)
-    values = np.tile(prototype.central, (1 + (count if any(prototype.ranges) else 0), 1))
+    values = np.tile(column.central, (1 + (count if any(column.ranges) else 0), 1))
     for number_ in range(1, len(values)):
         shares = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(record, number_))).random(len(UNCERTAIN))
-        for column, limits in enumerate(prototype.ranges):
+        for place, limits in enumerate(column.ranges):
             if limits is not None:
-                values[number_, column] = limits[0] + shares[column] * (limits[1] - limits[0])
+                values[number_, place] = limits[0] + shares[place] * (limits[1] - limits[0])
     return values
 
 
-def drawn_column(prototype: Prototype, values: Array) -> tuple[Block, tuple[float, float]]:
+def drawn_column(column: RealColumn, values: Array) -> tuple[Block, tuple[float, float]]:
     """Return the block of one draw, shape (4,), and its e on both sides."""
     e, critical_angle, p, _friction = values.tolist()
-    usual_e, usual_angle, usual_p, _friction = prototype.central
-    block = member_block(prototype.block, critical_angle / usual_angle, p / usual_p)
-    return block, member_restitution(prototype.restitution, e - usual_e)
+    usual_e, usual_angle, usual_p, _friction = column.central
+    block = member_block(column.block, critical_angle / usual_angle, p / usual_p)
+    return block, member_restitution(column.restitution, e - usual_e)
 
 
 def _limits(name: str, limits: Limits | None, expected: str, **bounds: float) -> None:
