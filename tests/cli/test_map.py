@@ -21,9 +21,9 @@ def test_a_map_is_written_with_its_picture(colonnade, campaign):
 def test_commands_have_one_default_model():
     from colonnade.campaign.assessment import Assessment
     from colonnade.workflow.map_plans import Wanted
-    from colonnade.workflow.spectrum import Asked
+    from colonnade.workflow.spectrum import AskedSpectrum
 
-    asked = (table.model_fields["model"].default for table in (Asked, Assessment))
+    asked = (table.model_fields["model"].default for table in (AskedSpectrum, Assessment))
     assert {*asked, *Wanted().models} == {"nonlinear"}
 
 

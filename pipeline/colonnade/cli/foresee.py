@@ -20,7 +20,7 @@ from colonnade.cli.common.options import (
 
 if TYPE_CHECKING:
     from colonnade.store.records.advice import Advice
-    from colonnade.workflow.foresee import Foreseen
+    from colonnade.workflow.foresee import Forecast
 
 
 @click.command(
@@ -71,7 +71,7 @@ def foresee(campaign: Path, level: tuple[str, ...], as_json: bool, **options: An
     return 0
 
 
-def _show(made: Foreseen) -> None:
+def _show(made: Forecast) -> None:
     """Write what the table must do, and under it what each model foresees, side by side."""
     from colonnade.store.records.forecast import FORESEEN, shown_model, shown_table
 

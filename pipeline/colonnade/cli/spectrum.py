@@ -40,9 +40,9 @@ SHAPE = ("cycles", "phase")
 
 
 def _spectrum_keys() -> list[click.Option]:
-    from colonnade.workflow.spectrum import Asked
+    from colonnade.workflow.spectrum import AskedSpectrum
 
-    return [*column_keys(), *options_of(Asked.model_fields, with_defaults=True)]
+    return [*column_keys(), *options_of(AskedSpectrum.model_fields, with_defaults=True)]
 
 
 @click.command(
@@ -78,7 +78,7 @@ def spectrum(campaign: Path, motion: str | None, results: Path | None, **options
     if pulse != "mavroeidis-papageorgiou":
         _refuse(SHAPE, "--pulse mavroeidis-papageorgiou")
     from colonnade.workflow.real_column import AskedColumn, picked
-    from colonnade.workflow.spectrum import Asked, overturning_of, rocking_of
+    from colonnade.workflow.spectrum import AskedSpectrum, overturning_of, rocking_of
 
     out, data, as_json = (options.pop(name) for name in ("out", "data", "as_json"))
     if out is not None or data is not None:
@@ -86,7 +86,7 @@ def spectrum(campaign: Path, motion: str | None, results: Path | None, **options
 
         expect_places(out, data)
     known, layout = _campaign(campaign, results)
-    column, asked = AskedColumn.of(options), picked(Asked, options)
+    column, asked = AskedColumn.of(options), picked(AskedSpectrum, options)
     if motion is not None:
         return _show(rocking_of(known, layout, column, motion, asked), out, data, as_json)
     return _show(overturning_of(known, layout, column, asked), out, data, as_json)

@@ -33,7 +33,7 @@ from colonnade.interruption import expect_none
 from colonnade.store.forecasts import write_forecast
 from colonnade.store.layout import Layout
 from colonnade.store.results import WITHOUT_PREDICTION
-from colonnade.workflow.motions import Asked, level_of, motion_asked_for
+from colonnade.workflow.motions import AskedMotion, level_of, motion_asked_for
 from colonnade.workflow.pooling import one_specimen, restitution_taken
 from colonnade.workflow.product import Catalogue, stored_attributes
 from colonnade.workflow.raw_files import raw_files
@@ -55,7 +55,7 @@ SPREAD = ("restitution", "restitution_freedom", "critical_angle", "p", "correlat
 
 
 @dataclass(frozen=True)
-class Foreseen:
+class Forecast:
     """A forecast, and its file."""
 
     path: Path
@@ -72,7 +72,7 @@ def foresee(
     time_scale: float | None = None,
     results: Path | str | None = None,
     progress: Callable[[int, int], None] | None = None,
-) -> list[Foreseen]:
+) -> list[Forecast]:
     """
     Forecast what a specimen does on a base motion, with what is known so far.
 
@@ -97,7 +97,7 @@ def foresee(
 
     Returns
     -------
-    forecasts : list of Foreseen
+    forecasts : list of Forecast
         One a level, in their order. Nothing is written before all levels are found valid.
 
     Raises
@@ -142,13 +142,13 @@ def foresee(
             models={model: _by_model(inputs, model, moved) for model in models},
             raw_files=there,
         )
-        found.append(Foreseen(write_forecast(layout, forecast), forecast))
+        found.append(Forecast(write_forecast(layout, forecast), forecast))
         if progress is not None:
             progress(number, len(wanted))
     return found
 
 
-def _described(asked: Asked, moved: Motion) -> ForecastMotion:
+def _described(asked: AskedMotion, moved: Motion) -> ForecastMotion:
     return ForecastMotion(
         name=asked.name,
         source=asked.source,

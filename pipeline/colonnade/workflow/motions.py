@@ -24,7 +24,7 @@ _FACTOR = re.compile(r"\s*([0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?)\s*[x×]\s*", re.
 
 
 @dataclass(frozen=True)
-class Asked:
+class AskedMotion:
     """
     A base motion before it is brought to a level.
 
@@ -58,7 +58,7 @@ class Level(NamedTuple):
 
 def motion_asked_for(
     campaign: Campaign, layout: Layout, name: str, test: Test | None, time_scale: float | None
-) -> Asked:
+) -> AskedMotion:
     """
     Find a base motion by its name.
 
@@ -84,13 +84,13 @@ def motion_asked_for(
         own, motion = recorded
         scale = time_scale or _ratio(test, own)
         source = f"recorded in {own.id}, peak {motion.peak / units.factor_to_si('g', 'acceleration'):.3g} g"
-        return Asked(name, source, Motion(motion.acceleration, motion.dt * scale), scale, own)
+        return AskedMotion(name, source, Motion(motion.acceleration, motion.dt * scale), scale, own)
     scale = time_scale or (test.time_scale if test is not None else None) or 1.0
     source, motion = _reference(campaign, name) or _in_file(campaign, name)
-    return Asked(name, source, Motion(motion.acceleration, motion.dt * scale), scale, None)
+    return AskedMotion(name, source, Motion(motion.acceleration, motion.dt * scale), scale, None)
 
 
-def level_of(text: str, asked: Asked) -> Level:
+def level_of(text: str, asked: AskedMotion) -> Level:
     """
     Read a level.
 
@@ -98,7 +98,7 @@ def level_of(text: str, asked: Asked) -> Level:
     ----------
     text : str
         A peak acceleration with its unit, "0.3 g", or a factor on a recorded motion, "1.5x".
-    asked : Asked
+    asked : AskedMotion
 
     Raises
     ------

@@ -37,7 +37,7 @@ FREQUENCIES = (0.5, 8.0)
 """Ω of an overturning spectrum."""
 
 
-class Asked(Table):
+class AskedSpectrum(Table):
     """What a spectrum is asked for with, besides its column; quantities as in a campaign file."""
 
     pulse: Annotated[str, OneOf(tuple(PULSES))] | None = None
@@ -109,7 +109,7 @@ class Overturning:
 
 
 def rocking_of(
-    campaign: Campaign | None, layout: Layout | None, column: AskedColumn, motion: str, asked: Asked
+    campaign: Campaign | None, layout: Layout | None, column: AskedColumn, motion: str, asked: AskedSpectrum
 ) -> Rocking:
     """
     Compute the rocking spectrum of a motion around a column.
@@ -122,7 +122,7 @@ def rocking_of(
         A specimen stands for itself unless options make it another column.
     motion : str
         A file, a test that recorded it, a motion that tests name or one of [motions].
-    asked : Asked
+    asked : AskedSpectrum
 
     Raises
     ------
@@ -150,7 +150,9 @@ def rocking_of(
     return Rocking(known, base, source, history, spectrum, measures)
 
 
-def overturning_of(campaign: Campaign | None, layout: Layout | None, column: AskedColumn, asked: Asked) -> Overturning:
+def overturning_of(
+    campaign: Campaign | None, layout: Layout | None, column: AskedColumn, asked: AskedSpectrum
+) -> Overturning:
     """Compute the overturning spectrum of the pulse that is asked for; as of `rocking_of`."""
     known = find_column(column, campaign, layout)
     try:
@@ -171,7 +173,7 @@ def overturning_of(campaign: Campaign | None, layout: Layout | None, column: Ask
 
 
 def _motion(
-    name: str, asked: Asked, campaign: Campaign | None, layout: Layout | None, column: FoundColumn
+    name: str, asked: AskedSpectrum, campaign: Campaign | None, layout: Layout | None, column: FoundColumn
 ) -> tuple[Motion, str, bool]:
     """Find the base motion that is asked for, where it comes from, and whether it was recorded on a table."""
     motion, source, kind = _found(name, asked, campaign, layout, column.scale)
@@ -193,7 +195,7 @@ def _motion(
 
 
 def _found(
-    name: str, asked: Asked, campaign: Campaign | None, layout: Layout | None, scale: float | None
+    name: str, asked: AskedSpectrum, campaign: Campaign | None, layout: Layout | None, scale: float | None
 ) -> tuple[Motion, str, Literal["file", "shape", "table"]]:
     """
     Return the motion in the time of the column, its source, and what is known of it: its shape alone or all.

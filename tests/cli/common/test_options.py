@@ -40,11 +40,11 @@ def declared(name):
 
 def test_options_of_a_table_are_those_of_its_keys():
     from colonnade.campaign.assessment import Assessment
-    from colonnade.workflow.spectrum import Asked
+    from colonnade.workflow.spectrum import AskedSpectrum
 
     made = declared("spectrum")
-    assert Asked.model_fields.keys() <= made.keys()
-    assert all(made[key].help.startswith(field.description) for key, field in Asked.model_fields.items())
+    assert AskedSpectrum.model_fields.keys() <= made.keys()
+    assert all(made[key].help.startswith(field.description) for key, field in AskedSpectrum.model_fields.items())
     assert (made["omega"].nargs, made["slenderness"].multiple, made["slenderness"].opts) == (2, True, ["--slenderness"])
     assert made["points"].help.endswith("Default: 24.")
     assert [made[key].type.name for key in ("points", "cycles", "peak", "model")] == [
