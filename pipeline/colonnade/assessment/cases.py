@@ -29,7 +29,7 @@ COMPONENTS = ("x", "y")
 
 NOT_RUN, FALLS_AWAY = -1, -2
 """
-Outcomes of a case without a history: its record has no such component, or is not wanted at this level; its base falls
+CaseOutcomes of a case without a history: its record has no such component, or is not wanted at this level; its base falls
 faster than the column, so that no plane model holds.
 """
 
@@ -152,7 +152,7 @@ class Cases:
 
 
 @dataclass(frozen=True)
-class Outcomes:
+class CaseOutcomes:
     """
     How the histories of an assessment end; all arrays have the axes `AXES`.
 
@@ -213,10 +213,10 @@ def in_plane(motion: Motion, place: int, factor: float) -> Motion | None:
     return Motion(factor * along, motion.dt, None if motion.vertical is None else abs(factor) * motion.vertical)
 
 
-def run_cases(cases: Cases) -> Outcomes:
+def run_cases(cases: Cases) -> CaseOutcomes:
     """Run all cases in this process."""
     _records, levels, _draws, _signs, components = shape = cases.shape
-    found = Outcomes(np.full(shape, NOT_RUN, dtype=np.int8), np.full(shape, np.nan))
+    found = CaseOutcomes(np.full(shape, NOT_RUN, dtype=np.int8), np.full(shape, np.nan))
     gravity = cases.column.block.gravity
     for record, motion in enumerate(cases.motions):
         columns = [prepared(*drawn_column(cases.column, values)) for values in cases.draws[record]]
@@ -240,9 +240,9 @@ def run_cases(cases: Cases) -> Outcomes:
     return found
 
 
-def joined(parts: Sequence[Outcomes]) -> Outcomes:
+def joined(parts: Sequence[CaseOutcomes]) -> CaseOutcomes:
     """Put the outcomes of blocks of records one behind the other."""
-    return Outcomes(*(np.concatenate(each) for each in zip(*(vars(part).values() for part in parts), strict=True)))
+    return CaseOutcomes(*(np.concatenate(each) for each in zip(*(vars(part).values() for part in parts), strict=True)))
 
 
 def _falls_away(motion: Motion, gravity: float) -> bool:

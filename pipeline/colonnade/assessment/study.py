@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
-from colonnade.assessment.cases import COMPONENTS, Cases, OnContact, Outcomes, default_levels, factors_at, run_cases
+from colonnade.assessment.cases import COMPONENTS, CaseOutcomes, Cases, OnContact, default_levels, factors_at, run_cases
 from colonnade.assessment.fragility import Fragility, summarise
 from colonnade.assessment.ground import LARGEST_DRIFT, NONE, Ground, correction_of
 from colonnade.assessment.hazard import Hazard, hazard_curve
@@ -189,7 +189,7 @@ def _checked_levels(levels: ArrayLike, measure: Measure) -> Array:
 
 def judge(
     study: Study,
-    outcomes: Outcomes,
+    outcomes: CaseOutcomes,
     resampling: Resampling,
     *,
     overturned: float = 1.0,
@@ -203,7 +203,7 @@ def judge(
     Parameters
     ----------
     study : Study
-    outcomes : Outcomes
+    outcomes : CaseOutcomes
         Of its cases.
     resampling : Resampling
     overturned : float, optional

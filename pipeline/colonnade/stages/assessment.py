@@ -13,8 +13,8 @@ from colonnade.assessment.cases import (
     COMPONENTS,
     FALLS_AWAY,
     NOT_RUN,
+    CaseOutcomes,
     FrictionNeeded,
-    Outcomes,
     friction_needed,
     holds,
     in_plane,
@@ -56,20 +56,20 @@ PERIODS = np.geomspace(0.05, 5.0, 41)
 """s, of the response spectra of the records."""
 
 
-def assessment(plan: Plan, outcomes: Mapping[str, Outcomes]) -> xr.Dataset:
+def assessment(plan: Plan, outcomes: Mapping[str, CaseOutcomes]) -> xr.Dataset:
     """
     Judge the histories of an assessment.
 
     Parameters
     ----------
     plan : Plan
-    outcomes : mapping of str to Outcomes
+    outcomes : mapping of str to CaseOutcomes
         Of each of its studies.
 
     Returns
     -------
     result : xr.Dataset
-        Outcomes over the axes `AXES`, the drawn columns, the friction needed, and the curves over the measure; the
+        CaseOutcomes over the axes `AXES`, the drawn columns, the friction needed, and the curves over the measure; the
         attribute `answer` is an `AssessmentSummary` as JSON.
 
     Raises
@@ -116,7 +116,7 @@ def _known(values: list[float | None]) -> Array | None:
     return None if np.isnan(found).all() else found
 
 
-def _sliding(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded | None) -> float | None:
+def _sliding(plan: Plan, outcomes: CaseOutcomes, needed: FrictionNeeded | None) -> float | None:
     """Share of the histories that need more friction than there is; None if none is given, or bodies do slide."""
     cases = plan.studies[ASSUMED].cases
     if cases.column.friction is None or needed is None:
@@ -136,7 +136,7 @@ def _spectra(study: Study) -> Array:
     return found
 
 
-def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded | None, fragility: Fragility) -> xr.Dataset:
+def _dataset(plan: Plan, outcomes: CaseOutcomes, needed: FrictionNeeded | None, fragility: Fragility) -> xr.Dataset:
     import xarray as xr
 
     study = plan.studies[ASSUMED]
@@ -198,7 +198,7 @@ NO_CURVE = {
 
 
 def answer(
-    plan: Plan, outcomes: Outcomes, fragilities: Mapping[str, Fragility], sliding: float | None
+    plan: Plan, outcomes: CaseOutcomes, fragilities: Mapping[str, Fragility], sliding: float | None
 ) -> AssessmentSummary:
     """
     Gather the answer.
@@ -206,7 +206,7 @@ def answer(
     Parameters
     ----------
     plan : Plan
-    outcomes : Outcomes
+    outcomes : CaseOutcomes
         Of the study as assumed.
     fragilities : mapping of str to Fragility
         Of each study.
@@ -368,7 +368,7 @@ def _used(plan: Plan) -> tuple[RecordUsed, ...]:
     )
 
 
-def _doubts(plan: Plan, outcomes: Outcomes, found: Fragility, sliding: float | None) -> list[str]:
+def _doubts(plan: Plan, outcomes: CaseOutcomes, found: Fragility, sliding: float | None) -> list[str]:
     """Say what is doubtful, the gravest first; arguments as of `answer`, with the study as assumed."""
     said = [*_of_the_column(plan), *_of_the_histories(outcomes, sliding), *_of_the_records(plan, found)]
     return said + _of_the_rate(plan, found)
@@ -394,7 +394,7 @@ def _of_the_column(plan: Plan) -> list[str]:
     ]
 
 
-def _of_the_histories(outcomes: Outcomes, sliding: float | None) -> list[str]:
+def _of_the_histories(outcomes: CaseOutcomes, sliding: float | None) -> list[str]:
     said = []
     if sliding:
         said.append(
@@ -436,7 +436,7 @@ def _of_the_rate(plan: Plan, found: Fragility) -> list[str]:
 
 
 def _judged_criteria(
-    study: Study, outcomes: Outcomes, *, drift: float, overturned: float
+    study: Study, outcomes: CaseOutcomes, *, drift: float, overturned: float
 ) -> tuple[JudgedCriterion, ...]:
     """
     Compare what each criterion says of every scaled motion with what the column does, nothing varied.
@@ -444,7 +444,7 @@ def _judged_criteria(
     Parameters
     ----------
     study : Study
-    outcomes : Outcomes
+    outcomes : CaseOutcomes
         Of its cases; the first draw has nothing varied.
     drift : float
         Up to which a record has a velocity.

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from colonnade.assessment.cases import Cases, Outcomes, joined, run_cases
+from colonnade.assessment.cases import CaseOutcomes, Cases, joined, run_cases
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessment import Assessment
 from colonnade.campaign.forms.assessed import AssessmentSummary
@@ -210,7 +210,7 @@ def _made(
     return assessment(plan, outcomes)
 
 
-def outcomes_of(cases: Cases, where: Where, folder: Path, key: str) -> Outcomes:
+def outcomes_of(cases: Cases, where: Where, folder: Path, key: str) -> CaseOutcomes:
     """
     Run all cases of an assessment.
 
@@ -225,11 +225,11 @@ def outcomes_of(cases: Cases, where: Where, folder: Path, key: str) -> Outcomes:
 
     Returns
     -------
-    outcomes : Outcomes
+    outcomes : CaseOutcomes
         The same to the last bit, whatever the processes and interruptions.
     """
     blocks = in_blocks(_arrays, cases.blocks(MOST_BLOCKS), folder, key, **where._asdict())
-    return joined([Outcomes(**each) for each in blocks])
+    return joined([CaseOutcomes(**each) for each in blocks])
 
 
 def _arrays(block: Cases) -> Arrays:
