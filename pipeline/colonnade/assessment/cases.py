@@ -29,7 +29,7 @@ COMPONENTS = ("x", "y")
 
 NOT_RUN, FALLS_AWAY = -1, -2
 """
-CaseOutcomes of a case without a history: its record has no such component, or is not wanted at this level; its base falls
+Outcomes of a case without a history: its record has no such component, or is not wanted at this level; its base falls
 faster than the column, so that no plane model holds.
 """
 
