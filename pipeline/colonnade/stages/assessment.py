@@ -69,7 +69,7 @@ def assessment(plan: Plan, outcomes: Mapping[str, CaseOutcomes]) -> xr.Dataset:
     Returns
     -------
     result : xr.Dataset
-        CaseOutcomes over the axes `AXES`, the drawn columns, the friction needed, and the curves over the measure; the
+        Outcomes over the axes `AXES`, the drawn columns, the friction needed, and the curves over the measure; the
         attribute `answer` is an `AssessmentSummary` as JSON.
 
     Raises
