@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -44,9 +43,6 @@ RELEASE = 0.5
 IMPACTS = 16
 """Number of impacts that give the restitution."""
 
-SMALLEST_RELEASE = 0.01
-"""|θ|/α: smaller ones are lost in the contact's own depth."""
-
 
 @dataclass(frozen=True)
 class Calibration:
@@ -70,8 +66,6 @@ class Calibration:
         ξ_eff of law and body.
     step : float
         s, that the runs were made with.
-    cost : float
-        Seconds of computing for a second of motion, of the runs after the first, which may have compiled.
     residual : float
         Of the energy balance in the run with the law, over the largest energy.
     body : ContactBody
@@ -88,7 +82,6 @@ class Calibration:
     restitutions: Array
     effective_damping: float
     step: float
-    cost: float
     residual: float
     body: ContactBody
 
@@ -138,7 +131,6 @@ def calibrate(
     *,
     gravity: float = STANDARD_GRAVITY,
     step: float | None = None,
-    release: float = RELEASE,
     impacts: int = IMPACTS,
     fractions: Sequence[float] | None = None,
     vary_stiffness: bool = True,
@@ -159,8 +151,6 @@ def calibrate(
         m/s².
     step : float, optional
         s; default as for `simulate`.
-    release : float, optional
-        |θ|/α at the start.
     impacts : int, optional
         Number of impacts that give the restitution.
     fractions : sequence of float, optional
@@ -183,17 +173,11 @@ def calibrate(
     """
     if not 0.0 < restitution < 1.0:
         raise ValueError(f"restitution is {restitution}; a number between 0 and 1 was expected")
-    if not SMALLEST_RELEASE <= release < 1.0 or impacts < 1:
-        raise ValueError(
-            f"release is {release} of the critical angle and impacts {impacts}; a release from {SMALLEST_RELEASE:g} "
-            "to 1 and at least one impact were expected"
-        )
-    theta0 = release * plane_block(body, gravity).critical_angle
-    duration = _duration(release, restitution, impacts) / plane_block(body, gravity).p
+    block = plane_block(body, gravity)
+    theta0, duration = RELEASE * block.critical_angle, _duration(restitution, impacts) / block.p
     law = law.under(body.mass * gravity / float(body.node_area.sum()), body.height)
     identify = identify or (lambda history: (free_restitution(history, impacts=impacts), VELOCITY_RATIO))
     found: dict[tuple[float, float], tuple[float, str, ContactHistory]] = {}
-    costs: list[float] = []
 
     def run(stiffness: float, fraction: float) -> float:
         """Give e at a multiple of the stiffness and a damping fraction, each pair computed once; NaN if unstable."""
@@ -203,9 +187,7 @@ def calibrate(
                 kept = body if step is None else keep_modes_for_step(body, own, step)
             except ValueError:
                 return nan
-            began = time.process_time()
             history = simulate(kept, law=own, gravity=gravity, theta0=theta0, duration=duration, step=step)
-            costs.append((time.process_time() - began) / duration)
             found[stiffness, fraction] = *identify(history), history
         return found[stiffness, fraction][0]
 
@@ -238,7 +220,6 @@ def calibrate(
         restitutions=values,
         effective_damping=history.effective_damping,
         step=history.step,
-        cost=float(np.median(costs[1:] or costs)),
         residual=history.energies.relative_residual,
         body=history.body,
     )
@@ -271,9 +252,9 @@ def _misfit(run: Callable[[float], float], target: float, fraction: float) -> fl
     return 0.0 if abs(missing) <= TOLERANCE else missing
 
 
-def _duration(release: float, restitution: float, impacts: int) -> float:
+def _duration(restitution: float, impacts: int) -> float:
     """Time that so many impacts take with a restitution, and half an arc more, in 1/p (Housner 1963, eq. 3)."""
-    kept, total = 1.0 - (1.0 - release) ** 2, acosh(1.0 / (1.0 - release))
+    kept, total = 1.0 - (1.0 - RELEASE) ** 2, acosh(1.0 / (1.0 - RELEASE))
     for _ in range(impacts):
         kept = exp(log(kept) + 2.0 * log(restitution))
         total += 2.0 * acosh(1.0 / (1.0 - kept) ** 0.5)

@@ -390,30 +390,31 @@ def _assembly_history(
             dissipated_friction=joints[:, own, 3].sum(axis=1),
             overturning_time=fell if fallen[number] else float("nan"),
         )
-    masses, inertias = (
-        np.array([one.mass for one in structure.bodies]),
-        np.array([one.inertia for one in structure.bodies]),
-    )
-    speeds, turning = (samples[:, :, 3:6] ** 2).sum(axis=2), (samples[:, :, 10:13] ** 2 * inertias).sum(axis=2)
-    nothing = np.zeros(len(samples))
-    energies = EnergyBalance(
-        kinetic=0.5 * (speeds @ masses + turning.sum(axis=1)),
-        potential=assembly.gravity * samples[:, :, 2] @ masses,
-        strain=nothing,
-        contact=joints[:, :, 1].sum(axis=1),
-        work=sums[:, 0],
-        dissipated_contact=joints[:, :, 2].sum(axis=1),
-        dissipated_friction=joints[:, :, 3].sum(axis=1),
-        dissipated_bulk=nothing,
-    )
     return AssemblyHistory(
         assembly=assembly,
         law=law,
         time=motion.time,
         bodies=bodies,
-        energies=energies,
+        energies=_energies(assembly.gravity, structure, samples, joints, sums[:, 0]),
         base_force=base_force,
         step=run.interval / run.parts,
+    )
+
+
+def _energies(gravity: float, structure: Structure, samples: Array, joints: Array, work: Array) -> EnergyBalance:
+    """Add up the energies of rigid bodies and of the joints between them."""
+    masses, inertias = (np.array([getattr(one, name) for one in structure.bodies]) for name in ("mass", "inertia"))
+    speeds, turning = (samples[:, :, 3:6] ** 2).sum(axis=2), (samples[:, :, 10:13] ** 2 * inertias).sum(axis=2)
+    nothing = np.zeros(len(samples))
+    return EnergyBalance(
+        kinetic=0.5 * (speeds @ masses + turning.sum(axis=1)),
+        potential=gravity * samples[:, :, 2] @ masses,
+        strain=nothing,
+        contact=joints[:, :, 1].sum(axis=1),
+        work=work,
+        dissipated_contact=joints[:, :, 2].sum(axis=1),
+        dissipated_friction=joints[:, :, 3].sum(axis=1),
+        dissipated_bulk=nothing,
     )
 
 
