@@ -265,13 +265,12 @@ def _history(
     matrices = rotation_matrices(samples[:, 6:10])
     axis = matrices[:, :, 2]
     turning = np.einsum("nij,nj->ni", matrices, samples[:, 10:13])
-    angle, speed = _rocking(axis, turning)
+    rate = np.cross(turning, axis)
+    speed = (rate[:, 0] * axis[:, 2] - axis[:, 0] * rate[:, 2]) / (axis[:, 0] ** 2 + axis[:, 2] ** 2)
+    pose = _pose(block, body, matrices, samples[:, :3] - [0.0, 0.0, body.height])
     missing = motion.acceleration.size - len(samples)
     if missing:
-        angle[-1], speed[-1] = np.copysign(0.5 * np.pi, axis[-1, 0]), 0.0
-    side = np.where(angle < 0.0, -1.0, 1.0)
-    pole = np.column_stack((side * body.half_width, np.zeros(len(side)), np.full(len(side), -body.height)))
-    slide = (samples[:, :3] + np.einsum("nij,nj->ni", matrices, pole) - pole)[:, :2]
+        pose["angle"][-1], speed[-1] = np.copysign(0.5 * np.pi, axis[-1, 0]), 0.0
     times, speeds, rebounds = impacts_of(run.impacts, block)
     kinetic = 0.5 * body.mass * (samples[:, 3:6] ** 2).sum(axis=1) + 0.5 * samples[:, 10:13] ** 2 @ body.inertia
 
@@ -281,7 +280,7 @@ def _history(
     return ContactHistory(
         block,
         motion.time,
-        whole(angle),
+        whole(pose["angle"]),
         whole(speed),
         times,
         speeds,
@@ -294,9 +293,9 @@ def _history(
         velocity=whole(samples[:, 3:6]),
         orientation=whole(samples[:, 6:10]),
         turning=whole(turning),
-        out_of_plane=whole(np.arctan2(-axis[:, 1], axis[:, 2])),
-        yaw=whole(np.unwrap(2.0 * np.arctan2(samples[:, 9], samples[:, 6]))),
-        slide=whole(slide),
+        out_of_plane=whole(pose["out_of_plane_angle"]),
+        yaw=whole(pose["yaw"]),
+        slide=whole(pose["slide"]),
         uplift=whole(joint[:, 0]),
         base_force=whole(joint[:, 4:7]),
         energies=EnergyBalance(
@@ -311,13 +310,6 @@ def _history(
         ),
         airborne=float(joint[-1, 7]),
     )
-
-
-def _rocking(axis: Array, turning: Array) -> tuple[Array, Array]:
-    """Give the rocking angle and its rate, of the body's axis and its angular velocity, shape (n, 3) each."""
-    rate = np.cross(turning, axis)
-    speed = (rate[:, 0] * axis[:, 2] - axis[:, 0] * rate[:, 2]) / (axis[:, 0] ** 2 + axis[:, 2] ** 2)
-    return np.arctan2(axis[:, 0], axis[:, 2]), speed
 
 
 def _passed(time: Array, over: Mask) -> float:
