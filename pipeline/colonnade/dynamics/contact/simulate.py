@@ -95,10 +95,10 @@ def simulate(
     if start is None:
         start = standing(body, law, gravity, theta0=theta0, omega0=omega0, out_of_plane=out_of_plane, yaw=yaw)
     run = _run(structure, [start], _table(motion), interval, parts)
-    overturned = len(run.samples) < motion.acceleration.size or (
-        run.tilt()[-1, 0] > block.critical_angle and not run.afterwards(structure, block.p).stands[0]
-    )
-    return _history(body, law, block, motion, interval / parts, run, overturned)
+    over = tilt(run.samples[:, 0, 6:10]) > block.critical_angle
+    lies = len(run.samples) < motion.acceleration.size
+    fell = lies or (over[-1] and not run.afterwards(structure, block.p).stands[0])
+    return _history(law, block, motion, structure, run, _passed(motion.time, over) if fell else float("nan"))
 
 
 def simulate_assembly(
@@ -217,10 +217,6 @@ class _Run(NamedTuple):
     interval: float
     parts: int
 
-    def tilt(self) -> Array:
-        """Give the angle of each body's axis with the vertical, rad, shape (n, b)."""
-        return np.stack([tilt(one[:, 6:10]) for one in np.moveaxis(self.samples, 1, 0)], axis=1)
-
     def afterwards(self, structure: Structure, p: float, lowest: Array | None = None) -> _Run:
         """Go on from the last sample with the table at rest."""
         last = self.samples[-1]
@@ -258,58 +254,49 @@ def _run(
 
 
 def _history(
-    body: ContactBody, law: ContactLaw, block: Block, motion: Motion, step: float, run: _Run, overturned: bool
+    law: ContactLaw, block: Block, motion: Motion, structure: Structure, run: _Run, overturning_time: float
 ) -> ContactHistory:
-    """Name the columns; hold the last state of a body that lies."""
-    samples, joint = run.samples[:, 0], run.joints[:, 0]
-    matrices = rotation_matrices(samples[:, 6:10])
-    axis = matrices[:, :, 2]
-    turning = np.einsum("nij,nj->ni", matrices, samples[:, 10:13])
+    """Name the columns of a single body; one that lies has its angle there."""
+    samples, joints, sums = _held(motion, run.samples, run.joints, run.sums)
+    body, own, first = structure.bodies[0], samples[:, 0], len(run.samples) - 1
+    matrices = rotation_matrices(own[:, 6:10])
+    axis, turning = matrices[:, :, 2], np.einsum("nij,nj->ni", matrices, own[:, 10:13])
     rate = np.cross(turning, axis)
     speed = (rate[:, 0] * axis[:, 2] - axis[:, 0] * rate[:, 2]) / (axis[:, 0] ** 2 + axis[:, 2] ** 2)
-    pose = _pose(block, body, matrices, samples[:, :3] - [0.0, 0.0, body.height])
-    missing = motion.acceleration.size - len(samples)
-    if missing:
-        pose["angle"][-1], speed[-1] = np.copysign(0.5 * np.pi, axis[-1, 0]), 0.0
+    pose = _pose(block, body, matrices, own[:, :3] - [0.0, 0.0, body.height])
+    if first + 1 < len(own):
+        pose["angle"][first:], speed[first:] = np.copysign(0.5 * np.pi, axis[first, 0]), 0.0
     times, speeds, rebounds = impacts_of(run.impacts, block)
-    kinetic = 0.5 * body.mass * (samples[:, 3:6] ** 2).sum(axis=1) + 0.5 * samples[:, 10:13] ** 2 @ body.inertia
-
-    def whole(values: Array) -> Array:
-        return np.concatenate((values, np.repeat(values[-1:], missing, axis=0))) if missing else values
-
     return ContactHistory(
         block,
         motion.time,
-        whole(pose["angle"]),
-        whole(speed),
+        pose["angle"],
+        speed,
         times,
         speeds,
         rebounds,
-        _passed(motion.time, run.tilt()[:, 0] > block.critical_angle) if overturned else float("nan"),
+        overturning_time,
         body=body,
         law=law,
-        step=step,
-        position=whole(samples[:, :3]),
-        velocity=whole(samples[:, 3:6]),
-        orientation=whole(samples[:, 6:10]),
-        turning=whole(turning),
-        out_of_plane=whole(pose["out_of_plane_angle"]),
-        yaw=whole(pose["yaw"]),
-        slide=whole(pose["slide"]),
-        uplift=whole(joint[:, 0]),
-        base_force=whole(joint[:, 4:7]),
-        energies=EnergyBalance(
-            kinetic=whole(kinetic + run.sums[:, 2]),
-            potential=whole(body.mass * block.gravity * samples[:, 2]),
-            strain=whole(run.sums[:, 3]),
-            contact=whole(joint[:, 1]),
-            work=whole(run.sums[:, 0]),
-            dissipated_contact=whole(joint[:, 2]),
-            dissipated_friction=whole(joint[:, 3]),
-            dissipated_bulk=whole(run.sums[:, 1]),
-        ),
-        airborne=float(joint[-1, 7]),
+        step=run.interval / run.parts,
+        position=own[:, :3],
+        velocity=own[:, 3:6],
+        orientation=own[:, 6:10],
+        turning=turning,
+        out_of_plane=pose["out_of_plane_angle"],
+        yaw=pose["yaw"],
+        slide=pose["slide"],
+        uplift=joints[:, 0, 0],
+        base_force=joints[:, 0, 4:7],
+        energies=_energies(block.gravity, structure, samples, joints, sums),
+        airborne=float(joints[-1, 0, 7]),
     )
+
+
+def _held(motion: Motion, *values: Array) -> tuple[Array, ...]:
+    """Hold the last of some values to the end of a motion."""
+    missing = motion.acceleration.size - len(values[0])
+    return tuple(np.concatenate((each, np.repeat(each[-1:], missing, axis=0))) for each in values)
 
 
 def _passed(time: Array, over: Mask) -> float:
@@ -341,11 +328,7 @@ def _assembly_history(
     fallen: Mask,
 ) -> AssemblyHistory:
     """Name the columns body by body."""
-    missing = motion.acceleration.size - len(run.samples)
-    samples, joints, sums, leans = (
-        np.concatenate((values, np.repeat(values[-1:], missing, axis=0)))
-        for values in (run.samples, run.joints, run.sums, leans)
-    )
+    samples, joints, sums, leans = _held(motion, run.samples, run.joints, run.sums, leans)
     matrices = np.array([rotation_matrices(samples[:, number, 6:10]) for number in range(samples.shape[1])])
     numbers = {name: number for number, name in enumerate(assembly.bodies)}
     bodies: dict[str, BodyHistory] = {}
@@ -387,26 +370,25 @@ def _assembly_history(
         law=law,
         time=motion.time,
         bodies=bodies,
-        energies=_energies(assembly.gravity, structure, samples, joints, sums[:, 0]),
+        energies=_energies(assembly.gravity, structure, samples, joints, sums),
         base_force=base_force,
         step=run.interval / run.parts,
     )
 
 
-def _energies(gravity: float, structure: Structure, samples: Array, joints: Array, work: Array) -> EnergyBalance:
-    """Add up the energies of rigid bodies and of the joints between them."""
+def _energies(gravity: float, structure: Structure, samples: Array, joints: Array, sums: Array) -> EnergyBalance:
+    """Add up the energies of bodies, of their modes and of the joints between them."""
     masses, inertias = (np.array([getattr(one, name) for one in structure.bodies]) for name in ("mass", "inertia"))
     speeds, turning = (samples[:, :, 3:6] ** 2).sum(axis=2), (samples[:, :, 10:13] ** 2 * inertias).sum(axis=2)
-    nothing = np.zeros(len(samples))
     return EnergyBalance(
-        kinetic=0.5 * (speeds @ masses + turning.sum(axis=1)),
+        kinetic=0.5 * (speeds @ masses + turning.sum(axis=1)) + sums[:, 2],
         potential=gravity * samples[:, :, 2] @ masses,
-        strain=nothing,
+        strain=sums[:, 3],
         contact=joints[:, :, 1].sum(axis=1),
-        work=work,
+        work=sums[:, 0],
         dissipated_contact=joints[:, :, 2].sum(axis=1),
         dissipated_friction=joints[:, :, 3].sum(axis=1),
-        dissipated_bulk=nothing,
+        dissipated_bulk=sums[:, 1],
     )
 
 
