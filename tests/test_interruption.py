@@ -55,6 +55,28 @@ def test_a_signal_is_held_back_whichever_thread_it_is_sent_to():
     assert done == [threading.main_thread(), other]
 
 
+@pytest.mark.skipif(not hasattr(signal, "pthread_kill"), reason="signals of this kind are POSIX's")
+def test_the_trackers_of_a_pool_outlive_a_closed_terminal():
+    done = subprocess.run(
+        [sys.executable, "-c", CLOSED], capture_output=True, text=True, timeout=60, check=False, start_new_session=True
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+CLOSED = """
+import os, signal, time
+from joblib.externals.loky.backend import resource_tracker
+from colonnade.interruption import held_back
+
+with held_back():  # as a pool is started
+    pass
+signal.signal(signal.SIGHUP, signal.SIG_IGN)
+os.killpg(0, signal.SIGHUP)
+time.sleep(0.2)
+resource_tracker.ensure_running()  # starts a dead one again, with a warning
+"""
+
+
 def dropped(kind):
     """As Python reports an exception that it cannot raise."""
     return SimpleNamespace(exc_type=kind, exc_value=None, exc_traceback=None, err_msg=None, object=None)

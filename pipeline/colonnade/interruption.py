@@ -111,9 +111,11 @@ def _masked() -> set[signal.Signals | int] | None:
 
     from joblib.externals.loky.backend import resource_tracker as of_loky
 
-    for tracker in (resource_tracker, of_loky):  # whose own start would let Ctrl-C through again
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, FROM_TERMINAL)
+    for tracker in (resource_tracker, of_loky):  # which must outlive a closed terminal: it does not ignore SIGHUP
         tracker.ensure_running()
-    return signal.pthread_sigmask(signal.SIG_BLOCK, FROM_TERMINAL)
+    signal.pthread_sigmask(signal.SIG_BLOCK, FROM_TERMINAL)  # again: a tracker's start lets Ctrl-C through
+    return before
 
 
 def _dropped(failure: sys.UnraisableHookArgs) -> None:
