@@ -7,18 +7,25 @@ from functools import partial
 import numpy as np
 import pytest
 
+from colonnade.campaign import load
+from colonnade.campaign.forms.summary import Summary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps import MapPlan, stability_map
 from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.steady import steady_response
 from colonnade.errors import CampaignError, StoreError
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId
+from colonnade.workflow import map_plans as plans
 from colonnade.workflow import run
+from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.map_plans import Wanted, measured_points
-from colonnade.workflow.maps import as_map, given, make_maps
+from colonnade.workflow.maps import SETTLING, as_map, as_response, given, kept_maps, make_maps
+from colonnade.workflow.product import Catalogue
+from colonnade.workflow.walk import Walk
 from every import every
 from prism import PRISM, SPECIMEN, entry
 
@@ -214,3 +221,127 @@ def test_a_map_that_is_killed_goes_on_where_it_was_and_leaves_nothing_behind(sta
     assert not small.layout.blocks(ResultId("prism", "map", "linear")).exists()
     result.path.unlink()
     assert files.read(made(small, wanted).path).attrs["content"] == again
+
+
+WITH_RESPONSES = Wanted(
+    models=("linear",), omega=(2.0, 5.0), amplitude=(0.8, 2.0), points=(6, 10), cycles=5.0, responses=True
+)
+
+
+def responses_made(small, **changes):
+    (only,) = make_maps(small.folder, Wanted(**(WITH_RESPONSES.model_dump() | changes)), workers=1)
+    return only
+
+
+def test_they_are_those_of_the_library_and_made_once(small):
+    result = responses_made(small)
+    stored = as_response(files.read(result.responses))
+    e = tuple(float(value) for value in files.read(small.layout.stage("prism", "specimen"))["side_restitution"])
+    expected = steady_response(PRISM, restitution=e, frequency_ratio=np.linspace(2.0, 5.0, 6),
+                               amplitude_ratio=np.linspace(0.8, 2.0, 10))  # fmt: skip
+    assert set(np.unique(expected.order)) >= {-2, 0, 1}
+    for name in ("order", "period", "amplitude"):
+        np.testing.assert_array_equal(getattr(stored, name), getattr(expected, name), err_msg=name)
+    assert "every cycle" in result.responses_figure.read_text(encoding="utf-8")
+    assert responses_made(small).action == "up-to-date"
+    assert responses_made(small, phase=1.0).action == "done"
+    result.responses.unlink()
+    assert responses_made(small, phase=1.0).action == "done"
+
+
+def test_they_depend_on_the_sine_and_on_their_own_settling_and_not_on_the_cycles_of_the_map(small):
+    few = {"points": (2, 3)}
+    settings = json.loads(files.read(responses_made(small, **few).responses).attrs["settings"])
+    assert settings["settling"] == SETTLING
+    assert settings["model"] == "linear"
+    assert settings.keys().isdisjoint({"cycles", "width", "edge"})
+    before = responses_made(small, **few).responses.stat().st_mtime_ns
+    longer = responses_made(small, cycles=6.0, **few)
+    assert longer.because == "settings changed"
+    assert longer.responses.stat().st_mtime_ns == before
+
+
+LINEAR = Wanted(models=("linear",))
+RARE = Wanted(models=("linear",), points=(3, 4), cycles=2.0)
+
+
+@pytest.fixture(autouse=True)
+def low(monkeypatch):
+    """Maps up to A = 1.5, which take a second."""
+    monkeypatch.setattr(plans, "USUAL_AMPLITUDE", 1.5)
+
+
+def with_sines(small, *frequency_ratios):
+    """Let the summary take the pulses for sines of these Ω; return it."""
+    summary = small.summary()
+    for name, ratio in zip(("pulse-01", "pulse-02"), frequency_ratios, strict=False):
+        summary["tests"][name] |= {"frequency_ratio": ratio, "amplitude_ratio": 1.2, "outcome": "rocking"}
+    read = Summary.model_validate(summary)
+    small.layout.summary_json.write_text(read.text(), encoding="utf-8")
+    return read
+
+
+def kept(small, summary, **options):
+    """Bring the maps up to date as a run does; return model, action and reason of each."""
+    campaign = load(small.folder)
+    with only_run(small.layout) as run_id:
+        walk = Walk(Graph(campaign, small.layout, Catalogue(small.layout)), run_id, workers=1, **options)
+        walk.map(summary)
+    return [(stage.model, stage.action, stage.because) for stage in walk.stages]
+
+
+def test_sines_at_two_frequencies_make_a_map_by_each_model_in_the_plane(small):
+    summary = with_sines(small, 2.0, 3.0)
+    done = [("linear", "done", "never run"), ("nonlinear", "done", "never run")]
+    assert kept(small, summary) == done
+    assert kept(small, summary) == [("linear", "up-to-date", ""), ("nonlinear", "up-to-date", "")]
+    stored = files.read(small.layout.stage("prism", "map", "linear"))
+    assert stored["frequency_ratio"].to_numpy()[[0, -1]] == pytest.approx([1.8, 3.3])
+    assert stored.attrs["restitution_source"] == "identified"
+
+
+def test_one_frequency_makes_no_map(small):
+    assert kept(small, with_sines(small, 2.0, 2.01)) == []
+    assert kept(small, with_sines(small)) == []
+
+
+@pytest.mark.smoke
+def test_a_run_and_the_command_give_and_reuse_the_same_map(small):
+    summary = with_sines(small, 2.0, 3.0)
+    kept(small, summary)
+    by_run = files.read(small.layout.stage("prism", "map", "linear"))
+    (made,) = make_maps(small.folder, LINEAR, workers=1)
+    assert made.action == "up-to-date"
+    made.path.unlink()
+    (made,) = make_maps(small.folder, LINEAR, workers=1)
+    assert made.because == "never run"
+    by_command = files.read(made.path)
+    assert by_command.attrs["content"] == by_run.attrs["content"]
+    assert np.array_equal(by_command["lower_limit"], by_run["lower_limit"], equal_nan=True)
+    assert kept(small, summary)[0] == ("linear", "up-to-date", "")
+
+
+def test_a_map_that_was_asked_for_stays_until_its_specimen_changes(small):
+    summary = with_sines(small, 2.0, 3.0)
+    (made,) = make_maps(small.folder, RARE, workers=1)
+    assert kept(small, summary)[0] == ("linear", "up-to-date", "")
+    assert files.read(made.path).sizes["frequency_ratio"] == 3
+    small.edit('height = "456 mm"', 'height = "460 mm"')
+    assert kept(small, summary)[0] == ("linear", "done", "upstream changed")
+    assert files.read(made.path).sizes["frequency_ratio"] > 3
+
+
+def test_a_specimen_without_e_has_no_map(small):
+    summary = with_sines(small, 2.0, 3.0)
+    graph = Graph(load(small.folder), small.layout, Catalogue(small.layout))
+    assert list(kept_maps(graph, summary, ["prism"]))
+    assert list(kept_maps(graph, summary, [])) == []
+    record = summary.specimens["prism"]
+    refused = record.model_copy(update={"restitution": record.restitution.model_copy(update={"value": None})})
+    assert list(kept_maps(graph, summary.model_copy(update={"specimens": {"prism": refused}}), ["prism"])) == []
+
+
+def test_a_run_that_starts_again_from_the_report_makes_its_maps_again(small):
+    summary = with_sines(small, 2.0, 3.0)
+    kept(small, summary)
+    assert kept(small, summary, start_from="report")[0] == ("linear", "done", "asked for")

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from colonnade.dynamics.plane import arc, series
+from colonnade.dynamics.plane import arc, series, sides
 from colonnade.dynamics.plane.arc import follow, verdict
 from colonnade.dynamics.plane.series import LONGEST_STEP, Push, empty_series
 from every import every
+from prism import PRISM
 
 ALPHA, RATIO = 0.2, 2.75
 STEADY, RISING = (0.3, 0.0), (0.1, 0.2)
@@ -19,7 +20,7 @@ MODELS = {"linear": None, "nonlinear": empty_series(), "linearised": empty_serie
 
 @pytest.fixture(autouse=True)
 def as_python(interpreted):
-    interpreted(arc, series)
+    interpreted(arc, series, sides)
 
 
 def followed(model, height, rate, *, angle=0.4, level=STEADY, ratio=RATIO, weight=(1.0, 0.0), remaining=2.0, top=False):
@@ -142,3 +143,34 @@ def test_ten_terms_are_the_functions_to_rounding_up_to_the_longest_step(x):
 )
 def test_a_verdict_on_a_piece(start, end, told):
     assert verdict(1.0, start, end, 0.1, 0.1) == told
+
+
+LEAN, P = PRISM.critical_angle, PRISM.p
+
+
+@pytest.mark.parametrize("step", [0.05, 0.4])
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_samples_in_which_nothing_happens_are_passed_over_to_the_same_state(side, step):
+    base = LEAN * 0.3 * np.sin(np.arange(60.0))
+    angles, velocities = np.zeros(60), np.zeros(60)
+    angles[0] = side * 0.6 * LEAN
+    whole = sides.whole_sample(side, LEAN, P, step / P, float(np.abs(base).max()))
+    reached = sides.undisturbed(angles, velocities, base, 0, False, (LEAN, LEAN), whole)
+    height, rate = 0.6 * LEAN, 0.0
+    for sample in range(reached):
+        push = Push(side * base[sample], side * (base[sample + 1] - base[sample]) / step, 1.0, 0.0, 0.0, 1.0, 0.0)
+        landed, x, height, rate, *_ = follow(height, rate, LEAN, push, step, False, None)
+        assert (landed, x) == (False, step)
+        found = side * angles[sample + 1], side * velocities[sample + 1] / P
+        assert found == pytest.approx((height, rate), abs=1e-13)
+    assert reached >= 2
+    if step < 0.1:  # where it stops, the block is about to land
+        assert height < 0.1 * LEAN
+
+
+def test_at_rest_it_stays_until_the_base_pulls_harder_than_alpha():
+    base = LEAN * np.array([0.0, 0.9, -0.9, 1.0, 1.1, 0.0])
+    whole = sides.whole_sample(1.0, LEAN, P, 0.01, float(base.max()))
+    rest = np.zeros(6), np.zeros(6)
+    assert sides.undisturbed(*rest, base, 0, True, (LEAN, LEAN), whole) == 3
+    assert sides.undisturbed(*rest, base, 4, True, (LEAN, LEAN), whole) == 4
