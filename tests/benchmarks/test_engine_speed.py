@@ -15,9 +15,8 @@ from scipy.integrate import solve_ivp
 import paper_schemes as schemes
 from colonnade.dynamics.plane.march import NONE, Forcing, propagate
 from colonnade.dynamics.plane.sides import sides_of
-from heyoka_rocking import integrator
+from peers import integrator, least_seconds
 from prism import PRISM
-from processor_time import least_seconds
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
 RESTITUTION, REST = 0.976, 1e-6

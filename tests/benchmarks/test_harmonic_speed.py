@@ -18,9 +18,8 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_outcomes, harmonic_run
-from heyoka_rocking import integrator
+from peers import integrator, least_seconds
 from prism import PRISM
-from processor_time import least_seconds
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
 CYCLES, RESTITUTION = 30, 0.976

@@ -6,7 +6,7 @@ from matplotlib import pyplot
 from matplotlib.axes import Axes
 
 import colonnade
-from figure_tables import table_of
+from colonnade.figures.files.table import columns_of
 from prism import PRISM
 
 
@@ -67,7 +67,7 @@ def test_a_result_is_drawn_into_the_axes_that_are_given(result):
     _, axes = pyplot.subplots()
     assert colonnade.plot(result, axes) is axes
     assert axes.get_xlabel()
-    assert table_of(axes.figure)
+    assert columns_of(axes.figure)
 
 
 def test_without_axes_a_figure_is_made(result):
@@ -75,7 +75,7 @@ def test_without_axes_a_figure_is_made(result):
 
 
 def test_what_is_drawn_is_the_history(history):
-    table = table_of(colonnade.plot(history).figure)
+    table = columns_of(colonnade.plot(history).figure)
     np.testing.assert_array_equal(table["time (s)"], history.time)
     np.testing.assert_allclose(table["θ / α, linear model"], history.angle / PRISM.critical_angle)
 

@@ -11,15 +11,20 @@ from hypothesis.extra import numpy as arrays
 from matplotlib.figure import Figure
 
 from colonnade.figures.files.output import to_csv
+from colonnade.figures.files.table import columns_of
 from colonnade.figures.histories import Spread
 from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
 from colonnade.figures.record import Peak, Quantity, whole_record
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
-from figure_tables import table_of
 
 TIME = np.linspace(0.0, 20.0, 20_001)
 NUMBERS = st.floats(-1e6, 1e6, width=32)
+
+
+def table_of(figure):
+    """What a figure shows, as lists that compare equal."""
+    return {heading: list(column) for heading, column in columns_of(figure).items()}
 
 
 def panel():

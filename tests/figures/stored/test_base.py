@@ -7,8 +7,8 @@ import pytest
 
 from colonnade.figures import base_motion
 from colonnade.figures.base_motion import BaseMotion, base_of, base_picture
+from colonnade.figures.files.table import columns_of
 from colonnade.signals.named_motion import Laid, Series
-from figure_tables import table_of
 
 STEP = 0.01
 TIME = STEP * np.arange(1000)
@@ -75,7 +75,7 @@ def test_a_target_half_as_strong_has_half_the_spectrum(known):
     alone = base_picture(test, ALONE, block)
     assert "target" not in alone.description
     assert alone.description.startswith("Largest achieved response")
-    assert table_of(alone.figure)
+    assert columns_of(alone.figure)
 
 
 def test_no_period_is_shorter_than_eight_samples_or_longer_than_a_quarter_of_the_record():

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from colonnade.figures.files.table import columns_of
 from colonnade.figures.maps import response_orders
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.record import SpanPanel
@@ -13,7 +14,6 @@ from colonnade.figures.stored.record import angle, measured_ratio, misfits, moti
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.stages.parts.beginning import AT_REST, RECORDED
 from colonnade.store.records.test import driven_by
-from figure_tables import table_of
 
 
 def test_a_test_is_drawn_and_described(known):
@@ -70,7 +70,7 @@ def test_measured_and_predicted_are_drawn_and_said(known):
     picture = angle(*known("span-2.0"))
     assert (picture.identity, picture.title) == ("angle-span-2.0", "span-2.0: rocking angle over time")
     assert picture.description.startswith("Measured: rocking, largest |θ|/α 0.19")
-    columns = table_of(picture.figure)
+    columns = columns_of(picture.figure)
     assert {"θ / α, measured", "θ / α, linear model", "θ / α, nonlinear model"} <= columns.keys()
     _, record, *_ = known("span-2.0")
     measured = np.array([value for value in columns["θ / α, measured"] if value is not None], dtype=float)

@@ -6,10 +6,10 @@ from dataclasses import replace
 import pytest
 
 from colonnade.figures.files.output import Movie
+from colonnade.figures.files.table import columns_of
 from colonnade.figures.style import COLUMNS, journal
 from colonnade.report.pictures import subjects
 from colonnade.report.pictures.registry import FIGURES, picture
-from figure_tables import table_of
 
 SUBJECTS = {"test": ("free-01", "span-2.0"), "specimen": ("prism",), "campaign": ("",)}
 
@@ -39,7 +39,7 @@ def test_every_figure_is_drawn_of_what_is_stored(read, entry):
     if drawn is None:
         pytest.skip(f"the small campaign has no data for {entry.name}")
     if not isinstance(drawn, Movie) and entry.name != "setup":
-        assert any(len(column) for column in table_of(drawn.figure).values())
+        assert any(len(column) for column in columns_of(drawn.figure).values())
 
 
 @pytest.mark.parametrize("column", COLUMNS)
