@@ -57,7 +57,7 @@ def invoke(arguments: Sequence[str] | None = None) -> int:
     arguments : sequence of str, optional
         Arguments after `colonnade`; by default those of this process.
     """
-    import click
+    import rich_click as click
 
     from colonnade.cli.app import app
     from colonnade.cli.common.console import close_output, complain

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import rich_click as click
-from click import get_current_context
-from click.core import ParameterSource
 
 from colonnade.cli.common.console import complain, say, show_fields, show_json, show_table, work_progress
 from colonnade.cli.common.options import (
@@ -74,9 +72,9 @@ def spectrum(campaign: Path, motion: str | None, results: Path | None, **options
     pulse = options["pulse"]
     if (motion is None) == (pulse is None):
         raise click.UsageError("Give either --motion or --pulse.")
-    _refuse(OF_MOTION if pulse else OF_PULSE, "--motion" if pulse else "--pulse")
+    _refuse(options, OF_MOTION if pulse else OF_PULSE, "--motion" if pulse else "--pulse")
     if pulse != "mavroeidis-papageorgiou":
-        _refuse(SHAPE, "--pulse mavroeidis-papageorgiou")
+        _refuse(options, SHAPE, "--pulse mavroeidis-papageorgiou")
     from colonnade.workflow.real_column import AskedColumn, picked
     from colonnade.workflow.spectrum import AskedSpectrum, overturning_of, rocking_of
 
@@ -92,11 +90,10 @@ def spectrum(campaign: Path, motion: str | None, results: Path | None, **options
     return _show(overturning_of(known, layout, column, asked), out, data, as_json)
 
 
-def _refuse(names: Iterable[str], only: str) -> None:
+def _refuse(options: Mapping[str, Any], names: Iterable[str], only: str) -> None:
     """Refuse options that are given but say nothing."""
-    context = get_current_context()
     for name in names:
-        if context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
+        if options[name] not in (None, ()):
             raise click.UsageError(f"--{name.replace('_', '-')} is only for {only}.")
 
 
