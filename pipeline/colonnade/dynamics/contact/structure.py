@@ -110,19 +110,17 @@ class Structure:
         law: ContactLaw,
         *,
         grid: tuple[int, int] = GRID,
-        rings: tuple[int, int | None] = RINGS,
-        points: int = POINTS,
     ) -> Structure:
         """Let the bodies of an assembly stand on each other, with nodes as `rigid_body` places them."""
         numbers = {name: number for number, name in enumerate(assembly.bodies)}
-        bodies = [rigid_body(placed.block, grid=grid, rings=rings) for placed in assembly.bodies.values()]
+        bodies = [rigid_body(placed.block, grid=grid) for placed in assembly.bodies.values()]
         joints, poles, loads = [], [], []
         for (name, placed), body in zip(assembly.bodies.items(), bodies, strict=True):
             mass, height = carried(assembly, name)
             for below, share in (supports(assembly, name) or {"": 1.0}).items():
                 loads.append(mass * share * assembly.gravity)
                 if below:
-                    patch = _Patch(placed, assembly.bodies[below], grid, rings)
+                    patch = _Patch(placed, assembly.bodies[below], grid)
                     sides, area = patch.sides(numbers[name], numbers[below], share * body.mass, law)
                     middle, half = patch.across
                 else:
@@ -130,7 +128,7 @@ class Structure:
                     middle, half = 0.0, body.half_width
                 poles.append((middle, half, body.height))
                 joints.append([replace(side, law=law.under(loads[-1] / area, height)) for side in sides])
-        return cls(gravity=assembly.gravity, bodies=bodies, joints=joints, poles=poles, loads=loads, points=points)
+        return cls(gravity=assembly.gravity, bodies=bodies, joints=joints, poles=poles, loads=loads)
 
     def system(self, step: float, lowest: Array) -> System:
         """Give the engine's arrays for a step, s, and the heights below which bodies have fallen, m."""
@@ -169,11 +167,11 @@ class Structure:
 class _Patch:
     """Where a block stands on another: nodes of each on the face of the other, in the upper one's axes."""
 
-    def __init__(self, upper: Placed, lower: Placed, grid: tuple[int, int], rings: tuple[int, int | None]) -> None:
+    def __init__(self, upper: Placed, lower: Placed, grid: tuple[int, int]) -> None:
         above, below = upper.block.solid, lower.block.solid
         if above is None or below is None:
             raise ValueError("A block of unknown depth stands on another; one from its dimensions was expected")
-        self._rings, self._grid = rings, grid
+        self._grid = grid
         self._offset = np.subtract(lower.position, upper.position)
         self._sizes = np.array([[upper.block.governing.half_width, above.half_depth], below.top])
         self._round = above.base == "circle", below.base == "circle"
@@ -202,8 +200,8 @@ class _Patch:
             origin = which * self._offset
             nodes, areas, radii = places[own[which]] - origin, area[own[which]], np.zeros(int(own[which].sum()))
             if self._round[which]:
-                nodes, areas = round_nodes(float(self._sizes[which, 0]), *self._rings)
-                radii = nodes[:, 0] if self._rings[1] is None else np.zeros(len(nodes))
+                nodes, areas = round_nodes(float(self._sizes[which, 0]), *RINGS)
+                radii = nodes[:, 0]
                 if not fits or (which == 1 and upper_fits):
                     rim = np.hypot(*nodes.T) > (1.0 - 1e-9) * self._sizes[which, 0]
                     nodes, areas, radii = nodes[rim], areas[rim], radii[rim]
