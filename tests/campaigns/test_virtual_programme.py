@@ -78,7 +78,7 @@ def test_sixty_pooled_restitutions_of_three_specimens_are_right(tmp_path, run_ca
 
 
 def _outcome_is_right(true, found, result, critical_angle):
-    """A peak below three standard errors cannot be told from rest."""
+    """The outcome is the true one; a peak below three standard errors may also be called rest."""
     if found == true["outcome"]:
         return True
     threshold = 3 * float(result["rocking_angle_standard_error"])

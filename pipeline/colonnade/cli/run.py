@@ -68,8 +68,7 @@ def _up_to(stage: str, name: str, what: str, writes: str) -> click.Command:
     """Make the command that runs as far as one stage."""
 
     def command(campaign: Path, **choices: Any) -> Any:
-        assert run.callback is not None
-        return run.callback(campaign, until=stage, **choices)
+        return _run_and_show(campaign, {}, until=stage, **choices)
 
     text, example = f"{what}\n\n{CAMPAIGN}\n\nWrites {writes}", f"Example: colonnade {name} demo --only free-01"
     made: click.Command = click.command(name, help=text, epilog=example)(campaign_argument(work_options(command)))

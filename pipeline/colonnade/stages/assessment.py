@@ -312,7 +312,7 @@ def _variant(plan: Plan, name: str, found: Fragility) -> Variant:
 
 
 def _without_correction(plan: Plan) -> list[Variant]:
-    """Say why there is no answer without the correction, if there is none."""
+    """Give the reason if the records have no answer without the correction."""
     if not plan.without_correction:
         return []
     e = float(np.mean(pair(plan.studies[ASSUMED].cases.column.restitution)))

@@ -22,8 +22,6 @@ from colonnade.store.provenance import Inputs
 if TYPE_CHECKING:
     import xarray as xr
 
-    from colonnade.dynamics.block import Block
-
 
 class CompareInputs(Inputs):
     """What `compare` reads of the campaign: block, kind, outcome as seen; of a sine its frequency (Hz), amplitude."""

@@ -450,7 +450,7 @@ def recorded_at(recordings: Mapping[str, Recording], begin: float = 0.0) -> str:
     Returns
     -------
     text : str
-        ``2013-04-26 10:15:00+02:00``, in the zone of the file; without one, that is said.
+        ``2013-04-26 10:15:00+02:00``, in the zone of the file, or a note that it records none.
     """
     starts = (moment_after(recording.start, begin) for recording in recordings.values())
     return next((_written(start) for start in starts if start is not None), "")

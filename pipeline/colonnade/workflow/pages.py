@@ -71,8 +71,8 @@ def update_report(
     if not layout.state.is_file():
         files.write_text(layout.state, UNWATCHED)
     there: set[Path] = set()
-    # The pages of the whole campaign take longest: they are begun before those of specimens.
-    alone, of_several = chain(report.drawings(), report.tests()), chain(report.whole(forecasts), report.specimens())
+    # The overview is written last: its change tells open pages that all are there.
+    alone, of_several = chain(report.drawings(), report.tests()), chain(report.specimens(), report.whole(forecasts))
     for products in (alone, of_several):
         for made in brought_up_to_date(products, catalogue, workers=workers):
             report.made[str(made.product.id)] = made

@@ -160,7 +160,7 @@ class Catalogue:
         return None if entry is None else str(entry[2])
 
     def kept(self, product: str, key: str) -> tuple[str, str] | None:
-        """Text that was kept of a product under this key, and why it could not be made; None if there is none."""
+        """Return the text that is kept of a product under this key, and why it could not be made; None without one."""
         for known in (self._seen["kept"].get(product), self._known["kept"].get(product)):
             if known is not None and known[0] == key:
                 self._seen["kept"][product] = known
@@ -283,7 +283,7 @@ def known(product: Product, catalogue: Catalogue) -> Made | None:
 
 def brought_up_to_date(products: Iterable[Product], catalogue: Catalogue, *, workers: int | None = 1) -> Iterator[Made]:
     """
-    Make those of some products that are out of date, in any order; none is a result.
+    Make those of some products that are out of date, and write them in their order; none is a result.
 
     Parameters
     ----------
@@ -311,7 +311,8 @@ def brought_up_to_date(products: Iterable[Product], catalogue: Catalogue, *, wor
         else:
             waiting.append(product)
     processes = workers if len(waiting) >= WORTH_A_PROCESS else 1
-    for number, (contents, text), reason, is_lasting in spread(_make, list(enumerate(waiting)), workers=processes):
+    made = spread(_make, list(enumerate(waiting)), workers=processes)
+    for number, (contents, text), reason, is_lasting in _in_order(made):
         product, key = waiting[number], waiting[number].recipe().key
         for path, data in zip(product.paths, contents, strict=False):
             files.write_changed(path, stamped(data.encode() if isinstance(data, str) else data, key, path.suffix))
@@ -319,6 +320,17 @@ def brought_up_to_date(products: Iterable[Product], catalogue: Catalogue, *, wor
         if is_lasting:
             catalogue.keep(str(product.id), key, text, reason)
         yield Made(product, key, text, reason)
+
+
+def _in_order(made: Iterable[tuple[int, Contents, str, bool]]) -> Iterator[tuple[int, Contents, str, bool]]:
+    """Give what workers made by its numbers: what is named last is written when all else is there."""
+    early: dict[int, tuple[int, Contents, str, bool]] = {}
+    following = 0
+    for each in made:
+        early[each[0]] = each
+        while following in early:
+            yield early.pop(following)
+            following += 1
 
 
 def _make(numbered: tuple[int, Product]) -> tuple[int, Contents, str, bool]:

@@ -63,3 +63,8 @@ def test_a_step_that_no_fraction_allows_is_refused():
 def test_a_restitution_out_of_range_is_refused(restitution):
     with pytest.raises(ValueError, match=r"a number between 0 and 1 was expected"):
         calibrate(BODY, LAW, restitution)
+
+
+def test_no_impact_at_all_is_refused():
+    with pytest.raises(ValueError, match="impacts is 0; at least one was expected"):
+        calibrate(BODY, LAW, 0.976, impacts=0)

@@ -173,6 +173,8 @@ def calibrate(
     """
     if not 0.0 < restitution < 1.0:
         raise ValueError(f"restitution is {restitution}; a number between 0 and 1 was expected")
+    if impacts < 1:
+        raise ValueError(f"impacts is {impacts}; at least one was expected")
     block = plane_block(body, gravity)
     theta0, duration = RELEASE * block.critical_angle, _duration(restitution, impacts) / block.p
     law = law.under(body.mass * gravity / float(body.node_area.sum()), body.height)
