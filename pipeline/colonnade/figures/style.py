@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
@@ -10,7 +10,10 @@ from pathlib import Path
 from typing import Any, TypedDict
 
 import matplotlib
+import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import text_to_path
 
 from colonnade.dynamics.models import model_of
 
@@ -151,3 +154,26 @@ def fitting(labels: Sequence[str], *, inches: float, points: float, most: int) -
     longest = max(map(len, labels), default=0)
     entry = points / 72 * (0.48 * longest + 3.2)  # letters of mean width, handle and gaps
     return max(min(most, len(labels), int(inches / entry)), 1)
+
+
+def legend_columns(labels: Sequence[str], spacing: Mapping[str, float], room: float) -> int:
+    """
+    Return into how many columns a legend's entries go beside each other, by the width of each.
+
+    Parameters
+    ----------
+    labels : sequence of str
+    spacing : mapping of str to float
+        Its `columnspacing`, and what else is other than in the style sheet, in sizes of its text.
+    room : float
+        For them, inches.
+    """
+    style = matplotlib.rcParams
+    usual = {"handlelength": style["legend.handlelength"], "handletextpad": style["legend.handletextpad"]}
+    font, gaps = FontProperties(size=style["legend.fontsize"]), sum((usual | dict(spacing)).values())
+    text = np.array([text_to_path.get_text_width_height_descent(each, font, "$" in each)[0] for each in labels])
+    size = font.get_size_in_points() / 72
+    entries, room = text / 72 + gaps * size, room + spacing["columnspacing"] * size
+    # A legend fills its columns one after the other, the first ones with one more.
+    wide = (sum(float(each.max()) for each in np.array_split(entries, count)) for count in range(len(labels), 0, -1))
+    return next((len(labels) - less for less, each in enumerate(wide) if each <= room), 1)

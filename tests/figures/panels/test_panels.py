@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from colonnade.figures.files.output import to_png, to_svg
 from colonnade.figures.panels.curve import Curve, between, draw_band, draw_curve, envelope
 from colonnade.figures.panels.layout import COLUMNS, add_panel, legend_above, side_by_side, stacked_panels
-from colonnade.figures.style import styled
+from colonnade.figures.style import styled, width
 
 
 def test_stacked_panels_share_their_time_and_only_the_lowest_has_its_numbers():
@@ -222,3 +222,16 @@ def test_axes_scale_themselves_to_a_curve_as_to_a_line_of_matplotlib(values):
     draw_curve(ours, Curve(TIME[:100], values))
     theirs.plot(TIME[:100], values)
     assert (ours.get_xlim(), ours.get_ylim()) == (theirs.get_xlim(), theirs.get_ylim())
+
+
+@pytest.mark.parametrize("name", ["free", "cylinder-free", "a-long-name-of-a-free-vibration"])
+@styled()
+def test_a_legend_is_within_the_figure_however_long_its_names(name):
+    figure = Figure(figsize=(width(), 3.0))
+    axes = figure.add_axes((0.1, 0.2, 0.8, 0.6))
+    for number in range(5):
+        axes.plot([0, 1], [number, 1], label=f"{name}-{number}")
+    legend_above(figure, [axes])
+    box, whole = figure.legends[0].get_window_extent(), figure.bbox
+    assert whole.x0 <= box.x0 < box.x1 <= whole.x1
+    assert axes.get_window_extent().y1 < box.y0

@@ -12,7 +12,7 @@ from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from colonnade.figures.style import fitting, grid_style, is_narrow, width
+from colonnade.figures.style import fitting, grid_style, is_narrow, legend_columns, width
 
 LEFT, RIGHT, TOP, BOTTOM, GAP = 0.92, 0.5, 0.34, 0.44, 0.14
 """Room for labels left and right, the legend above, the time axis below, and between panels; inches."""
@@ -25,6 +25,9 @@ ROOMY = 4
 
 ROW = 0.15
 """Height of a further row of a legend, inches."""
+
+EDGE = 0.15
+"""Room between a legend and the right edge of a figure, inches."""
 
 PAGE, LEAST_HEIGHT = 9.3, 0.5
 """Height of a journal's page, inches, and the share of their heights that panels of a single column keep at least."""
@@ -185,13 +188,12 @@ def legend_above(figure: Figure, axes: Sequence[Axes]) -> None:
     named = _named(axes)
     if not named:
         return
-    left, right = margins()
-    if is_narrow():
-        ncols = fitting(list(named), inches=width() - left - right, points=7.0, most=len(named))
-        _raise(figure, (-(-len(named) // ncols) - 1) * ROW)
-    else:
-        ncols = len(named)
+    left, _right = margins()
     closer = {"columnspacing": 0.7, "handlelength": 1.4, "handletextpad": 0.3} if len(named) > ROOMY else {}
+    spacing = {"columnspacing": 1.4, **closer}
+    ncols = legend_columns(list(named), spacing, width() - left - EDGE)
+    if ncols < len(named):
+        _raise(figure, (-(-len(named) // ncols) - 1) * ROW)
     figure.legend(
         list(named.values()),
         list(named),
@@ -200,7 +202,7 @@ def legend_above(figure: Figure, axes: Sequence[Axes]) -> None:
         ncols=ncols,
         borderaxespad=0.0,
         borderpad=0.0,
-        **{"columnspacing": 1.4, **closer},
+        **spacing,
     )
 
 
