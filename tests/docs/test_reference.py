@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+import click
 import pytest
 
 import contract
@@ -93,7 +94,8 @@ def test_every_kind_of_finding_has_advice():
 def test_every_option_of_every_command_says_what_it_does():
     commands = dict(walk(app, "colonnade"))
     assert len(commands) > 15
-    options = [(name, each) for name, command in commands.items() for each in command.params if "--" in each.opts[0]]
+    params = [(name, each) for name, of in commands.items() for each in of.get_params(click.Context(of))]
+    options = [(name, each) for name, each in params if "--" in each.opts[0]]
     assert [(name, each.opts) for name, each in options if not each.help] == []
 
 

@@ -10,7 +10,7 @@ import rich_click as click
 
 from colonnade.cli.common.console import say_marked, show_json, work_progress
 from colonnade.cli.common.findings import STYLES, alike, probable_cause, records_of, show_by_kind
-from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_option, strict_option
+from colonnade.cli.common.options import FILE, campaign_argument, json_option, strict_option
 from colonnade.errors import count
 from colonnade.findings import Severity
 
@@ -19,9 +19,18 @@ if TYPE_CHECKING:
     from colonnade.workflow.check import CampaignCheck
 
 
-@click.command(
-    epilog="Example: colonnade check demo",
-    help=f"""
+@click.command(epilog="Example: colonnade check demo")
+@campaign_argument
+@click.option(
+    "--drawing",
+    type=FILE,
+    metavar="FILE",
+    help="Draw specimens and transducers to this file: .svg, .pdf or .png.",
+)
+@strict_option
+@json_option
+def check(campaign: Path, drawing: Path | None, strict: bool, as_json: bool) -> int:
+    """
     Check a campaign and its raw files; write nothing.
 
     {CAMPAIGN} Every raw file is read as `run` would read it, and each test is taken to the point where its prediction
@@ -31,19 +40,7 @@ if TYPE_CHECKING:
 
     With --drawing, specimens and transducers are drawn to scale as the campaign file places them: that is the one file
     that is written.
-    """,
-)
-@campaign_argument
-@click.option(
-    "--drawing",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Draw specimens and transducers to this file: .svg, .pdf or .png.",
-)
-@strict_option
-@json_option
-def check(campaign: Path, drawing: Path | None, strict: bool, as_json: bool) -> int:
-    """Check a campaign, show the findings, and return the exit code."""
+    """
     from colonnade.campaign import load
     from colonnade.workflow.check import check as check_campaign
 

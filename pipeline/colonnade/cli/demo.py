@@ -11,13 +11,12 @@ from typing import TYPE_CHECKING, Any
 import rich_click as click
 
 from colonnade.cli.common.console import complain, say, show_json, show_table, shown, work_progress
-from colonnade.cli.common.options import json_option, workers_option
+from colonnade.cli.common.options import FILE, json_option, workers_option
 from colonnade.cli.run import failed_rows, run_with_progress
 from colonnade.errors import count
 
 if TYPE_CHECKING:
     from colonnade.campaign.draft.write import CampaignDraft
-    from colonnade.laboratory.runs import WrittenCampaign
 
 
 @click.command(epilog="Example: colonnade demo demo --seed 3")
@@ -41,14 +40,7 @@ if TYPE_CHECKING:
 @workers_option
 @json_option
 def demo(
-    folder: Path,
-    seed: int,
-    motion: Path | None,
-    short: bool,
-    full: bool,
-    assemblies: bool,
-    workers: int | None,
-    as_json: bool,
+    folder: Path, motion: Path | None, short: bool, full: bool, assemblies: bool, as_json: bool, **choices: Any
 ) -> int:
     """
     Write a virtual campaign with known truth, run all of it, and compare with the known truth.
@@ -60,6 +52,8 @@ def demo(
     """
     from colonnade.errors import ReadError
     from colonnade.laboratory import paper_programme, prism_programme, write_campaign
+    from colonnade.laboratory.assemblies import with_truth as with_several
+    from colonnade.laboratory.assemblies import write_assemblies
     from colonnade.laboratory.campaign_file import FILE_NAME
     from colonnade.laboratory.runs import with_truth
 
@@ -71,31 +65,15 @@ def demo(
         raise click.UsageError("--assemblies needs the package `mujoco`: pip install colonnade[demo]")
     complain(f"Shaking the virtual table into {folder}")
     if assemblies:
-        return _several(folder, seed, workers, as_json)
-    try:
+        written = write_assemblies(folder, **choices)
+    else:
         programme = prism_programme if short else paper_programme
-        written = write_campaign(folder, seed=seed, motion=motion, programme=programme, workers=workers, site=full)
-    except ReadError as error:
-        raise click.UsageError(str(error)) from error
-    return _run(written, with_truth, _show, workers, as_json)
-
-
-def _several(folder: Path, seed: int, workers: int | None, as_json: bool) -> int:
-    """Write, run and compare the campaign of several bodies."""
-    from colonnade.laboratory.assemblies import with_truth, write_assemblies
-
-    return _run(write_assemblies(folder, seed=seed, workers=workers), with_truth, _show_bodies, workers, as_json)
-
-
-def _run(
-    written: WrittenCampaign,
-    compare: Callable[[dict[str, Any], Path], dict[str, Any]],
-    show: Callable[[dict[str, Any]], None],
-    workers: int | None,
-    as_json: bool,
-) -> int:
-    """Run what the laboratory wrote, and show what came out beside the truth."""
-    result = run_with_progress(written.path.parent, workers=workers)
+        try:
+            written = write_campaign(folder, motion=motion, programme=programme, site=full, **choices)
+        except ReadError as error:
+            raise click.UsageError(str(error)) from error
+    result = run_with_progress(folder, workers=choices["workers"])
+    compare, show = (with_several, _show_bodies) if assemblies else (with_truth, _show)
     comparison = compare(written.truth, result.summary) | {"report": result.report}
     if as_json:
         show_json(comparison)
@@ -107,26 +85,33 @@ def _run(
     return int(result.failed)
 
 
-def _show_bodies(comparison: dict[str, Any]) -> None:
+def _show_tests(
+    tests: dict[str, dict[str, Any]], heads: tuple[str, ...], cells: Callable[[dict[str, Any]], tuple[str, ...]]
+) -> None:
+    """Write the outcome of each test beside the truth, and `cells` of its own; then how often they agree."""
     from colonnade.store.records.wording import agreement
 
     rows = []
-    for name, test in comparison["tests"].items():
+    for name, test in tests.items():
         right = "right" if test["outcome"] == test["true_outcome"] else "wrong"
-        model = test["predicted"].get("contact", {}).get("outcome")
-        moved = [f"{1e3 * test[key]:.2f} mm" if "body" in test else "" for key in ("moved", "true_moved")]
-        rows.append(
-            (name, shown(test["outcome"]), test["true_outcome"], right, shown(model), test.get("body", ""), *moved)
-        )
-    show_table(("test", "outcome", "true", "", "contact model", "moved farthest", "by", "true"), rows)
+        rows.append((name, shown(test["outcome"]), test["true_outcome"], right, *cells(test)))
+    show_table(("test", "outcome", "true", "", *heads), rows)
     say(f"{sum(row[3] == 'right' for row in rows)} of {len(rows)} measured outcomes are right")
-    for sentence in agreement(comparison["tests"]):
+    for sentence in agreement(tests):
         say(sentence)
+
+
+def _show_bodies(comparison: dict[str, Any]) -> None:
+    def moved(test: dict[str, Any]) -> tuple[str, ...]:
+        model = test["predicted"].get("contact", {}).get("outcome")
+        farthest = [f"{1e3 * test[key]:.2f} mm" if "body" in test else "" for key in ("moved", "true_moved")]
+        return shown(model), test.get("body", ""), *farthest
+
+    _show_tests(comparison["tests"], ("contact model", "moved farthest", "by", "true"), moved)
 
 
 def _show(comparison: dict[str, Any]) -> None:
     from colonnade.laboratory.programme import KEPT_AWAY
-    from colonnade.store.records.wording import agreement
     from colonnade.units.text import interval, ratio
 
     for specimen, restitution in comparison["restitution"].items():
@@ -138,15 +123,11 @@ def _show(comparison: dict[str, Any]) -> None:
             found = interval(value, low, high, restitution["level"])
             say(f"{specimen}: e {found}; true is {true:g}, {held} the interval")
     say()
-    rows = []
-    for name, test in comparison["tests"].items():
-        right = "right" if test["outcome"] == test["true_outcome"] else "wrong"
-        ratios = (ratio(test["peak_ratio"], 4), ratio(test["true_peak_ratio"], 4))
-        rows.append((name, shown(test["outcome"]), test["true_outcome"], right, *ratios))
-    show_table(("test", "outcome", "true", "", "|θ|/α", "true"), rows)
-    say(f"{sum(row[3] == 'right' for row in rows)} of {len(rows)} measured outcomes are right")
-    for sentence in agreement(comparison["tests"]):
-        say(sentence)
+
+    def peaks(test: dict[str, Any]) -> tuple[str, ...]:
+        return ratio(test["peak_ratio"], 4), ratio(test["true_peak_ratio"], 4)
+
+    _show_tests(comparison["tests"], ("|θ|/α", "true"), peaks)
     say(KEPT_AWAY)
 
 
@@ -158,7 +139,7 @@ MOST_SHOWN = 12
 
 
 @click.command(epilog="Example: colonnade init measurements")
-@click.argument("folder", type=click.Path(path_type=Path), default=Path(), metavar="[DIR]")
+@click.argument("folder", type=FILE, default=Path(), metavar="[DIR]")
 @json_option
 def init(folder: Path, as_json: bool) -> int:
     """
@@ -184,15 +165,9 @@ def init(folder: Path, as_json: bool) -> int:
         save(of_draft(drafted.text), drawing)
     if as_json:
         show_json(
-            {
-                "campaign": drafted.path,
-                "drawing": drawing,
-                "tests": drafted.tests,
-                "setups": drafted.setups,
-                "open": drafted.open,
-                "doubts": drafted.doubts,
-                "refused": dict(drafted.refused),
-            }
+            {"campaign": drafted.path, "drawing": drawing}
+            | {key: getattr(drafted, key) for key in ("tests", "setups", "open", "doubts")}
+            | {"refused": dict(drafted.refused)}
         )
     else:
         _tell(drafted, drawing)

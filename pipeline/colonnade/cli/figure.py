@@ -6,22 +6,22 @@ from pathlib import Path
 
 import rich_click as click
 
-from colonnade.cli.common.console import say, show_json, show_table
-from colonnade.cli.common.options import campaign_and_id, campaign_and_id_argument, json_option, results_option
+from colonnade.cli.common.console import say, say_drawn, show_json, show_table
+from colonnade.cli.common.options import FILE, campaign_and_id, campaign_and_id_argument, result_options
 
 
 @click.command(
-    epilog="Example: colonnade figure angle demo span-2.5 --width single --out span-2.5.pdf --data span-2.5.csv",
+    epilog="Example: colonnade figure angle demo span-2.5 --width single --out span-2.5.pdf --data span-2.5.csv"
 )
 @click.argument("name", required=False)
 @campaign_and_id_argument
 @click.option(
     "--out",
-    type=click.Path(path_type=Path),
+    type=FILE,
     metavar="FILE",
     help="Where to write it: .svg, .pdf, .png, or .csv for its data. By default NAME-ID.svg in the current folder.",
 )
-@click.option("--data", type=click.Path(path_type=Path), metavar="FILE", help="Also write its data, as a .csv table.")
+@click.option("--data", type=FILE, metavar="FILE", help="Also write its data, as a .csv table.")
 @click.option(
     "--width",
     type=click.Choice(("single", "double")),
@@ -30,17 +30,9 @@ from colonnade.cli.common.options import campaign_and_id, campaign_and_id_argume
     help="Of a journal's column, 90 mm, or of its page, 190 mm.",
 )
 @click.option("--list", "listed", is_flag=True, help="List the figures.")
-@results_option
-@json_option
+@result_options
 def figure(
-    name: str | None,
-    arguments: tuple[str, ...],
-    out: Path | None,
-    data: Path | None,
-    width: str,
-    listed: bool,
-    results: Path | None,
-    as_json: bool,
+    name: str | None, arguments: tuple[str, ...], width: str, listed: bool, as_json: bool, **places: Path | None
 ) -> int:
     """
     Draw one figure at the size of a journal, with its data.
@@ -59,7 +51,7 @@ def figure(
     from colonnade.workflow.documents import chosen, draw
 
     path, identifier = campaign_and_id(arguments)
-    campaign = load(path)
+    campaign, out, data = load(path), places["out"], places["data"]
     entry, subject = chosen(campaign, name, identifier)
     moves = name == "animation"
     target = out or (None if data else Path(f"{'-'.join(filter(None, (name, subject)))}{MOVIE if moves else '.svg'}"))
@@ -71,15 +63,14 @@ def figure(
     if width == "single" and not entry.is_narrow:
         raise click.UsageError(f'"{name}" is not legible in a single column. Use --width double.')
     with journal(width):
-        picture = draw(campaign, entry, subject, results)
+        picture = draw(campaign, entry, subject, places["results"])
         written = [save(picture, place) for place in (target, data) if place is not None]
     note = getattr(picture, "note", "")
     if as_json:
         told = {"title": picture.title, "description": picture.description, "note": note}
         show_json({"figure": target, "data": data, **told})
     else:
-        for place in written:
-            say(f"{'data' if place.suffix.lower() == TABLE else 'figure'}: {place}")
+        say_drawn(written)
         if note:
             say(note)
     return 0

@@ -10,11 +10,9 @@ import rich_click as click
 
 from colonnade.cli.common.console import say, show_json, show_paragraph, show_table, work_progress
 from colonnade.cli.common.options import (
-    CAMPAIGN,
     campaign_argument,
-    json_option,
     one_specimen_option,
-    results_option,
+    result_options,
     specimen_option,
 )
 
@@ -24,15 +22,7 @@ if TYPE_CHECKING:
 
 
 @click.command(
-    epilog='Example: colonnade foresee demo --specimen prism --motion "El Centro 1940 NS" --level "0.3 g" --level 1.5x',
-    help=f"""
-    Forecast what a specimen does on a base motion.
-
-    {CAMPAIGN} Run it first: a forecast takes the e that is identified so far.
-
-    Writes a file for each level into forecasts/, which is never changed. After the test `run` scores the last one with
-    --test that was made before the raw file of that test was there.
-    """,
+    epilog='Example: colonnade foresee demo --specimen prism --motion "El Centro 1940 NS" --level "0.3 g" --level 1.5x'
 )
 @campaign_argument
 @click.option(
@@ -54,10 +44,16 @@ if TYPE_CHECKING:
 @click.option(
     "--time-scale", type=float, metavar="FACTOR", help="On the motion's own time; by default that of the test, else 1."
 )
-@results_option
-@json_option
+@result_options
 def foresee(campaign: Path, level: tuple[str, ...], as_json: bool, **options: Any) -> int:
-    """Make forecasts, show them, and return the exit code."""
+    """
+    Forecast what a specimen does on a base motion.
+
+    {CAMPAIGN} Run it first: a forecast takes the e that is identified so far.
+
+    Writes a file for each level into forecasts/, which is never changed. After the test `run` scores the last one with
+    --test that was made before the raw file of that test was there.
+    """
     from colonnade.workflow.foresee import foresee as make
 
     with work_progress("Foreseeing") as progress:
@@ -85,20 +81,18 @@ def _show(made: Forecast) -> None:
 @click.command(
     "next",
     epilog="Example: colonnade next demo --specimen prism",
-    help=f"""
+)
+@campaign_argument
+@specimen_option
+@result_options
+def next_command(campaign: Path, specimen: tuple[str, ...], results: Path | None, as_json: bool) -> int:
+    """
     Say which test tells most: the next one, and the others of all specimens by what they tell.
 
     {CAMPAIGN} It uses the results of the last run. Each advice has its reason, its risk of overturning and what the
     table must do; "enough" means that no test of this kind is needed. A Span is advised at most a fifth above the
     largest that was tested. The settings are in [next], the limits of the table in [table]. Nothing is written.
-    """,
-)
-@campaign_argument
-@specimen_option
-@results_option
-@json_option
-def next_command(campaign: Path, specimen: tuple[str, ...], results: Path | None, as_json: bool) -> int:
-    """Show the advice; return the exit code."""
+    """
     with work_progress("Looking for the test that tells most") as progress:
         from colonnade.workflow.advising.next import advise
 

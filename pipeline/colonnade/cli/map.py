@@ -9,12 +9,10 @@ import rich_click as click
 
 from colonnade.cli.common.console import say, show_fields, show_json, show_table, work_progress
 from colonnade.cli.common.options import (
-    CAMPAIGN,
     WithKeys,
     campaign_argument,
-    json_option,
     options_of,
-    results_option,
+    result_options,
     scheduler_option,
     specimen_option,
     workers_option,
@@ -37,7 +35,14 @@ def _keys() -> list[click.Option]:
     cls=WithKeys,
     keys=_keys,
     epilog="Example: colonnade map demo --specimen prism --omega 1.1 7.8 --ramp 3",
-    help=f"""
+)
+@campaign_argument
+@specimen_option
+@workers_option
+@scheduler_option
+@result_options
+def map_command(campaign: Path, specimen: tuple[str, ...], results: Path | None, as_json: bool, **options: Any) -> int:
+    """
     Compute stability maps over frequency and amplitude, with the measured points on them.
 
     {CAMPAIGN} Run it first: the map uses the identified restitution, and shows the sine tests by their measured
@@ -47,16 +52,7 @@ def _keys() -> list[click.Option]:
 
     Writes processed/maps/<SPECIMEN>-<MODEL>.nc and a picture of it; with --responses also
     <SPECIMEN>-<MODEL>-response.nc and its picture.
-    """,
-)
-@campaign_argument
-@specimen_option
-@workers_option
-@scheduler_option
-@results_option
-@json_option
-def map_command(campaign: Path, specimen: tuple[str, ...], results: Path | None, as_json: bool, **options: Any) -> int:
-    """Make maps, show their limits and misfits, and return the exit code."""
+    """
     from colonnade.workflow.map_plans import Wanted
     from colonnade.workflow.maps import make_maps
     from colonnade.workflow.real_column import picked
@@ -100,9 +96,15 @@ HEADS = (
 )
 
 
-@click.command(
-    epilog="Example: colonnade calibrate demo --specimen prism",
-    help=f"""
+@click.command(epilog="Example: colonnade calibrate demo --specimen prism")
+@campaign_argument
+@specimen_option
+@workers_option
+@result_options
+def calibrate(
+    campaign: Path, specimen: tuple[str, ...], workers: int | None, results: Path | None, as_json: bool
+) -> int:
+    """
     Find the contact damping with which the contact model gives each specimen's restitution.
 
     {CAMPAIGN} Identify its free vibrations first.
@@ -113,17 +115,7 @@ HEADS = (
 
     Mesh and step are those of the settings (processing.predict.contact). Writes processed/contact/<SPECIMEN>.nc, as a
     run does.
-    """,
-)
-@campaign_argument
-@specimen_option
-@workers_option
-@results_option
-@json_option
-def calibrate(
-    campaign: Path, specimen: tuple[str, ...], workers: int | None, results: Path | None, as_json: bool
-) -> int:
-    """Calibrate, show the laws, and return the exit code."""
+    """
     from colonnade.units.text import NOTHING, number, quantity, written
     from colonnade.workflow.calibration import calibrate as calibrated
 

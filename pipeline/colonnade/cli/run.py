@@ -20,18 +20,7 @@ if TYPE_CHECKING:
     from colonnade.workflow import RunResult, StageRun
 
 
-@click.command(
-    epilog="Example: colonnade run demo --from predict --only span-2.0",
-    help=f"""
-    Run all stages and the report; redo only what is out of date.
-
-    {CAMPAIGN} Each redone test is a line: what was measured, and what each model predicts. ✓ is inside the 95 % band
-    of the model's runs, ≠ outside or another outcome. A test that fails does not stop the others; the exit code is
-    then 1.
-
-    Stages are ingest, condition, rocking, restitution, predict, ensemble, compare and report.
-    """,
-)
+@click.command(epilog="Example: colonnade run demo --from predict --only span-2.0")
 @campaign_argument
 @click.option("--until", type=click.Choice(RUN_STAGES), metavar="STAGE", help="Stop after this stage.")
 @click.option(
@@ -39,7 +28,15 @@ if TYPE_CHECKING:
 )
 @work_options
 def run(campaign: Path, **choices: Any) -> int:
-    """Run a campaign, with the choices of `colonnade.workflow.run`, and show what was done; return the exit code."""
+    """
+    Run all stages and the report; redo only what is out of date.
+
+    {CAMPAIGN} Each redone test is a line: what was measured, and what each model predicts. ✓ is inside the 95 % band
+    of the model's runs, ≠ outside or another outcome. A test that fails does not stop the others; the exit code is
+    then 1.
+
+    Stages are ingest, condition, rocking, restitution, predict, ensemble, compare and report.
+    """
     return _run_and_show(campaign, {}, **choices)
 
 
@@ -92,16 +89,7 @@ predict = _up_to(
 )
 
 
-@click.command(
-    epilog="Example: colonnade report demo --pdf --bundle demo-report.zip",
-    help=f"""
-    Make the report, after the stages that it needs.
-
-    {CAMPAIGN}
-
-    Writes report/index.html next to campaign.toml, with a page for each test and specimen, even if tests failed.
-    """,
-)
+@click.command(epilog="Example: colonnade report demo --pdf --bundle demo-report.zip")
 @campaign_argument
 @click.option("--pdf", "with_pdf", is_flag=True, help="Also typeset the report as report/report.pdf.")
 @click.option("--no-appendix", "appendix", flag_value=False, default=True, help="Leave the tests' own pages out of it.")
@@ -115,7 +103,13 @@ predict = _up_to(
 def report(
     campaign: Path, *, with_pdf: bool, appendix: bool, bundle: Path | None, results: Path | None, **choices: Any
 ) -> int:
-    """Run a campaign as far as the report, and write its PDF and its bundle if they are asked for."""
+    """
+    Make the report, after the stages that it needs.
+
+    {CAMPAIGN}
+
+    Writes report/index.html next to campaign.toml, with a page for each test and specimen, even if tests failed.
+    """
     from colonnade.workflow.documents import write_bundle, write_pdf
 
     documents: dict[str, Callable[[], Path]] = {}

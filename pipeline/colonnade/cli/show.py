@@ -12,7 +12,7 @@ import rich_click as click
 
 from colonnade.cli.common.console import say, show_fields, show_json, show_table, shown
 from colonnade.cli.common.findings import counted, line_of
-from colonnade.cli.common.options import campaign_and_id, campaign_and_id_argument, json_option, results_option
+from colonnade.cli.common.options import FILE, campaign_and_id, campaign_and_id_argument, json_option, result_options
 from colonnade.findings import Severity
 
 if TYPE_CHECKING:
@@ -29,8 +29,7 @@ def show() -> None:
 
 @show.command(epilog="Example: colonnade show tests demo span-2.0")
 @campaign_and_id_argument
-@results_option
-@json_option
+@result_options
 def tests(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> int:
     """
     Show the tests, measured and predicted, from the last run; with an ID, all that is known of one test.
@@ -64,8 +63,7 @@ def tests(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> in
 
 @show.command(epilog="Example: colonnade show specimens demo")
 @campaign_and_id_argument
-@results_option
-@json_option
+@result_options
 def specimens(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> int:
     """
     Show the specimens: geometry, and restitution with its interval, from the last run; with an ID, one specimen.
@@ -82,7 +80,7 @@ def specimens(arguments: tuple[str, ...], results: Path | None, as_json: bool) -
 
 
 @show.command(epilog="Example: colonnade show settings demo")
-@click.argument("campaign", required=False, type=click.Path(path_type=Path), metavar="[CAMPAIGN]")
+@click.argument("campaign", required=False, type=FILE, metavar="[CAMPAIGN]")
 @json_option
 def settings(campaign: Path | None, as_json: bool) -> int:
     """Show every setting: its value in the campaign, its default, and what it does."""

@@ -2,32 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import complain, say, show_fields, show_json, show_table, work_progress
+from colonnade.cli.common.console import complain, say, say_drawn, show_fields, show_json, show_table, work_progress
 from colonnade.cli.common.options import (
-    CAMPAIGN,
+    FILE,
     WithKeys,
     campaign_argument,
     column_keys,
-    json_option,
+    data_option,
     one_specimen_option,
     options_of,
-    results_option,
+    result_options,
     scheduler_option,
     workers_option,
 )
 
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign
+    from colonnade.figures.files.output import Picture
     from colonnade.store.layout import Layout
     from colonnade.workflow.assessing import Assessed
     from colonnade.workflow.executors import Where
-    from colonnade.workflow.spectrum import Overturning, Rocking
 
 OF_MOTION = ("unit", "interval", "column", "peak", "baseline", "drift", "slenderness", "periods")
 OF_PULSE = ("omega", "cycles", "phase", "largest", "least_width")
@@ -47,7 +47,17 @@ def _spectrum_keys() -> list[click.Option]:
     cls=WithKeys,
     keys=_spectrum_keys,
     epilog='Example: colonnade spectrum --motion record.AT2 --shape prism --width "1 m" --height "5 m"',
-    help=f"""
+)
+@campaign_argument
+@click.option("--motion", metavar="FILE|NAME", help="A file, a test that recorded it, or one of [motions].")
+@one_specimen_option
+@click.option("--out", type=FILE, metavar="FILE", help="Draw it: .svg, .pdf or .png.")
+@data_option
+@result_options
+def spectrum(
+    campaign: Path, motion: str | None, results: Path | None, out: Path | None, data: Path | None, **options: Any
+) -> int:
+    """
     Show what a base motion or a pulse does to a column.
 
     --motion gives the rocking spectrum of a motion: the largest angle over the size of blocks as slender as the column,
@@ -58,17 +68,7 @@ def _spectrum_keys() -> list[click.Option]:
     campaign is needed. A specimen has the e that its predictions use. Of the real column, or with another α or p, say
     it: by --restitution or [prototype.ID].
     {CAMPAIGN}
-    """,
-)
-@campaign_argument
-@click.option("--motion", metavar="FILE|NAME", help="A file, a test that recorded it, or one of [motions].")
-@one_specimen_option
-@click.option("--out", type=click.Path(path_type=Path), metavar="FILE", help="Draw it: .svg, .pdf or .png.")
-@click.option("--data", type=click.Path(path_type=Path), metavar="FILE", help="Write what is drawn as a .csv table.")
-@results_option
-@json_option
-def spectrum(campaign: Path, motion: str | None, results: Path | None, **options: Any) -> int:
-    """Compute a spectrum, show and draw it, and return the exit code."""
+    """
     pulse = options["pulse"]
     if (motion is None) == (pulse is None):
         raise click.UsageError("Give either --motion or --pulse.")
@@ -76,18 +76,45 @@ def spectrum(campaign: Path, motion: str | None, results: Path | None, **options
     if pulse != "mavroeidis-papageorgiou":
         _refuse(options, SHAPE, "--pulse mavroeidis-papageorgiou")
     from colonnade.workflow.real_column import AskedColumn, picked
-    from colonnade.workflow.spectrum import AskedSpectrum, overturning_of, rocking_of
+    from colonnade.workflow.spectrum import AskedSpectrum, Overturning, Rocking, overturning_of, rocking_of
 
-    out, data, as_json = (options.pop(name) for name in ("out", "data", "as_json"))
-    if out is not None or data is not None:
-        from colonnade.figures.files.saving import expect_places
-
-        expect_places(out, data)
+    _expect_places(out, data)
     known, layout = _campaign(campaign, results)
     column, asked = AskedColumn.of(options), picked(AskedSpectrum, options)
+    found: Rocking | Overturning
     if motion is not None:
-        return _show(rocking_of(known, layout, column, motion, asked), out, data, as_json)
-    return _show(overturning_of(known, layout, column, asked), out, data, as_json)
+        found = rocking_of(known, layout, column, motion, asked)
+    else:
+        found = overturning_of(known, layout, column, asked)
+    written = _saved(found.picture, out, data)
+    if options["as_json"]:
+        show_json(found.record() | {"figure": out, "data": data})
+        return 0
+    say(found.verdict())
+    show_fields(found.fields())
+    for heads, rows in found.tables():
+        say()
+        show_table(heads, rows)
+    say_drawn(written)
+    return 0
+
+
+def _expect_places(*places: Path | None) -> None:
+    """Refuse places for a picture and its table before the work is done; the module of figures loads matplotlib."""
+    if any(places):
+        from colonnade.figures.files.saving import expect_places
+
+        expect_places(*places)
+
+
+def _saved(draw: Callable[[], Picture], *places: Path | None) -> list[Path]:
+    """Write a picture and its table where they are asked for."""
+    if not any(places):
+        return []
+    from colonnade.figures.files.saving import save
+
+    picture = draw()
+    return [save(picture, place) for place in places if place is not None]
 
 
 def _refuse(options: Mapping[str, Any], names: Iterable[str], only: str) -> None:
@@ -108,33 +135,6 @@ def _campaign(path: Path, results: Path | None) -> tuple[Campaign | None, Layout
     return campaign, Layout.of(campaign.path, results)
 
 
-def _show(found: Rocking | Overturning, out: Path | None, data: Path | None, as_json: bool) -> int:
-    from colonnade.workflow import spectrum as shown
-
-    written: list[Path] = []
-    if out is not None or data is not None:
-        from colonnade.figures.files.saving import save
-
-        picture = shown.picture_of(found)
-        written = [save(picture, place) for place in (out, data) if place is not None]
-    if as_json:
-        show_json(shown.record_of(found) | {"figure": out, "data": data})
-        return 0
-    more = shown.motion_fields(found) if isinstance(found, shown.Rocking) else shown.pulse_fields(found)
-    say(shown.verdict(found))
-    show_fields([*shown.column_fields(found.column), *more])
-    say()
-    if isinstance(found, shown.Rocking):
-        show_table(shown.MEASURE_HEADS, shown.measure_rows(found))
-        say()
-        show_table(shown.ROCKING_HEADS, shown.rocking_rows(found))
-    else:
-        show_table(shown.OVERTURNING_HEADS, shown.overturning_rows(found))
-    for place in written:
-        say(f"{'data' if place.suffix.lower() == '.csv' else 'figure'}: {place}")
-    return 0
-
-
 def _fragility_keys() -> list[click.Option]:
     from colonnade.campaign.assessment import Assessment
 
@@ -147,7 +147,17 @@ def _fragility_keys() -> list[click.Option]:
     cls=WithKeys,
     keys=_fragility_keys,
     epilog="Example: colonnade fragility demo --name prism",
-    help=f"""
+)
+@campaign_argument
+@click.option("--name", multiple=True, metavar="NAME", help="Only this assessment of the campaign; may be repeated.")
+@one_specimen_option
+@click.option("--out", type=FILE, metavar="FILE", help="Draw the curve: .svg, .pdf or .png.")
+@data_option
+@workers_option
+@scheduler_option
+@result_options
+def fragility(campaign: Path, name: tuple[str, ...], results: Path | None, as_json: bool, **options: Any) -> int:
+    """
     Say how probably a real column overturns on a set of ground motions.
 
     {CAMPAIGN} Without options it brings the campaign's [assessments] up to date, as `run` does. With --specimen and
@@ -156,38 +166,24 @@ def _fragility_keys() -> list[click.Option]:
     and --p, with --restitution; then no campaign is needed.
 
     An interrupted assessment of the campaign is continued.
-    """,
-)
-@campaign_argument
-@click.option("--name", multiple=True, metavar="NAME", help="Only this assessment of the campaign; may be repeated.")
-@one_specimen_option
-@click.option("--out", type=click.Path(path_type=Path), metavar="FILE", help="Draw the curve: .svg, .pdf or .png.")
-@click.option("--data", type=click.Path(path_type=Path), metavar="FILE", help="Write what is drawn as a .csv table.")
-@workers_option
-@scheduler_option
-@results_option
-@json_option
-def fragility(campaign: Path, name: tuple[str, ...], results: Path | None, as_json: bool, **options: Any) -> int:
-    """Assess, show the answers, and return the exit code."""
+    """
+    from colonnade.report.assessments_page import curves
     from colonnade.workflow.executors import Where
 
     out, data, workers, scheduler = (options.pop(key) for key in ("out", "data", "workers", "scheduler"))
-    if out is not None or data is not None:
-        from colonnade.figures.files.saving import expect_places
-
-        expect_places(out, data)
+    _expect_places(out, data)
     with work_progress("Assessing") as progress:
         found = _assessed(campaign, name, options, results, Where(workers, scheduler, progress))
     if (out or data) and len(found) > 1:
         raise click.UsageError(f"{len(found)} assessments were found. Name one with --name to draw it.")
-    written = _drawn(found[0], out, data) if out or data else []
+    first, result = found[0], found[0].result
+    written = [] if result is None else _saved(lambda: curves(first.name, first.record, result), out, data)
     if as_json:
         show_json([{"name": each.name, "file": each.path, **each.record.model_dump(mode="json")} for each in found])
     else:
         for each in found:
             _show_assessed(each)
-        for place in written:
-            say(f"{'data' if place.suffix.lower() == '.csv' else 'figure'}: {place}")
+        say_drawn(written)
     return int(any(each.record.status == "failed" for each in found))
 
 
@@ -212,16 +208,6 @@ def _assessed(
         raise click.UsageError("Options are for one assessment. Name one.")
     base = names[0] if names else next(iter(loaded.assessments)) if len(loaded.assessments) == 1 else None
     return [assess_own(loaded, layout, base, column, asked, where)]
-
-
-def _drawn(assessed: Assessed, out: Path | None, data: Path | None) -> list[Path]:
-    from colonnade.figures.files.saving import save
-    from colonnade.report.assessments_page import curves
-
-    if assessed.result is None:
-        return []
-    picture = curves(assessed.name, assessed.record, assessed.result)
-    return [save(picture, place) for place in (out, data) if place is not None]
 
 
 def _show_assessed(assessed: Assessed) -> None:

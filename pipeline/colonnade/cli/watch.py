@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
 from colonnade.cli.common.console import complain, say
-from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_option, results_option, workers_option
+from colonnade.cli.common.options import campaign_argument, result_options, workers_option
 from colonnade.interruption import answered, noted
 
 if TYPE_CHECKING:
@@ -18,18 +18,7 @@ if TYPE_CHECKING:
     from colonnade.workflow.watching.measure import Line
 
 
-@click.command(
-    epilog='Example: colonnade watch --from /media/recorder --notify "notify-send colonnade"',
-    help=f"""
-    Watch the raw folder: a line on each test as soon as its file is finished.
-
-    {CAMPAIGN} The line says what happened, what the models predict, and what is wrong. Ensembles, the contact
-    model, earlier tests and the report follow at lower priority. An open page of the report keeps itself up to date.
-
-    Tests come from [[tests]], the test log, or the `pattern` in [watch]. Ctrl-C ends the watch with
-    exit code 0; nothing is lost.
-    """,
-)
+@click.command(epilog='Example: colonnade watch --from /media/recorder --notify "notify-send colonnade"')
 @campaign_argument
 @click.option(
     "--from",
@@ -45,33 +34,24 @@ if TYPE_CHECKING:
 )
 @click.option("--once", is_flag=True, help="Handle what is there, then end with the exit code of `run`.")
 @workers_option
-@results_option
-@json_option
-def watch(
-    campaign: Path,
-    *,
-    share: Path | None,
-    notify: str | None,
-    once: bool,
-    workers: int | None,
-    results: Path | None,
-    as_json: bool,
-) -> int:
-    """Watch a campaign; return the exit code."""
+@result_options
+def watch(campaign: Path, notify: str | None, once: bool, as_json: bool, **options: Any) -> int:
+    """
+    Watch the raw folder: a line on each test as soon as its file is finished.
+
+    {CAMPAIGN} The line says what happened, what the models predict, and what is wrong. Ensembles, the contact
+    model, earlier tests and the report follow at lower priority. An open page of the report keeps itself up to date.
+
+    Tests come from [[tests]], the test log, or the `pattern` in [watch]. Ctrl-C ends the watch with
+    exit code 0; nothing is lost.
+    """
     from colonnade.workflow.watching.measure import command_of
     from colonnade.workflow.watching.watch import watch as watch_campaign
 
     try:
-        return watch_campaign(
-            campaign,
-            share=share,
-            command=command_of(notify) if notify is not None else (),
-            once=once,
-            workers=workers,
-            results=results,
-            show=partial(_show, as_json=as_json),
-            say=complain,
-        )
+        command = command_of(notify) if notify is not None else ()
+        show = partial(_show, as_json=as_json)
+        return watch_campaign(campaign, command=command, once=once, show=show, say=complain, **options)
     except (KeyboardInterrupt, Exception) as error:  # the import of a compiled module makes an ImportError of it
         if once or not (noted() or isinstance(error, KeyboardInterrupt)):
             raise

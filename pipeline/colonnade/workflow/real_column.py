@@ -21,6 +21,7 @@ from colonnade.dynamics.spectra import rectangular
 from colonnade.errors import CampaignError
 from colonnade.stages.assessment_plan import ColumnInputs, real_column
 from colonnade.store.layout import Layout
+from colonnade.units.text import acceleration, quantity
 from colonnade.workflow.pooling import one_specimen, restitution_taken
 
 if TYPE_CHECKING:
@@ -132,6 +133,27 @@ class FoundColumn:
         if self.specimen is None:
             return f"α = {self.block.critical_angle:.4g} rad, p = {self.block.p:.4g} rad/s"
         return self.specimen if scale == 1.0 else f"{self.specimen}, {scale:g} times larger"
+
+    def fields(self) -> list[tuple[str, str]]:
+        """Write what it is."""
+        negative, positive = self.restitution
+        e = f"{negative:.4g}" if negative == positive else f"{negative:.4g} | {positive:.4g}"
+        return [
+            ("column", self.name),
+            ("critical angle α", quantity(self.block.critical_angle, "rad", 4)),
+            ("p", quantity(self.block.p, "rad/s", 4)),
+            ("uplift from", acceleration(self.block.uplift_acceleration)),
+            ("restitution e", f"{e} ({self.real[1]})"),
+        ]
+
+    def record(self) -> dict[str, Any]:
+        """Give it for programs, SI."""
+        return {
+            "name": self.name,
+            **{key: getattr(self.block, key) for key in ("critical_angle", "p", "uplift_acceleration")},
+            "restitution": list(self.restitution),
+            "restitution_source": self.real[1],
+        }
 
 
 def find_column(

@@ -74,6 +74,12 @@ class AskedSpectrum(Table):
     """In A: narrower intervals are islands, not limits."""
 
 
+Row = tuple[str, ...]
+Fields = list[tuple[str, str]]
+Tables = list[tuple[Row, list[Row]]]
+"""Heads and rows of each."""
+
+
 @dataclass(frozen=True)
 class Rocking:
     """
@@ -99,6 +105,87 @@ class Rocking:
     spectrum: RockingSpectrum
     measures: IntensityMeasures
 
+    def picture(self) -> Picture:
+        """Draw the spectrum."""
+        from colonnade.figures import spectra
+        from colonnade.figures.files.output import Picture
+
+        figure = spectra.rocking_spectrum(self.spectrum, period=2 * pi / self.column.block.p, title=self.source)
+        angles = ", ".join(f"{angle:.4g}" for angle in self.spectrum.critical_angle)
+        seen = f"Largest angle over the size of blocks with α = {angles} rad."
+        return Picture(figure, "rocking-spectrum", f"Rocking spectrum: {self.source}", seen)
+
+    def verdict(self) -> str:
+        """Say in a sentence what the motion does to the column."""
+        peak, model = self.history.peak_ratio, self.history.model
+        rocks = "does not rock" if not peak else f"rocks to |θ|/α = {ratio(peak)} and stands"
+        return f"The column {'overturns' if self.history.outcome == 'overturned' else rocks} ({model} model)."
+
+    def fields(self) -> Fields:
+        """Write what column and motion are."""
+        motion, drift = self.motion, self.measures.drift
+        allowed = f"{self.measures.largest_drift:g} is allowed"
+        return [
+            *self.column.fields(),
+            ("motion", f"{self.source}; {motion.duration:.4g} s in steps of {motion.dt:.4g} s"),
+            ("drift", f"the velocity drifts by {drift:.2g} of its peak; {allowed}"),
+        ]
+
+    def tables(self) -> Tables:
+        """Write the measures of the motion, and the spectrum, a row for each slenderness and size."""
+        return [
+            (("measure", "symbol", "value", "why not"), [self._measured(name) for name in self.measures.values]),
+            (
+                ("α", "2π/p", "p", "outcome", "largest |θ|/α", "largest |θ'|"),
+                [self._row(*place) for place in np.ndindex(self.spectrum.overturned.shape)],
+            ),
+        ]
+
+    def _measured(self, name: str) -> Row:
+        each, value = measure_of(name), self.measures.values[name]
+        shown = f"{number(value)} {each.unit}".rstrip() if isfinite(value) else NOTHING
+        why_not = self.measures.reasons.get(name, "").partition(":")[0]
+        return each.name, each.symbol, acceleration(value) if each.dimension == "acceleration" else shown, why_not
+
+    def _row(self, *place: int) -> Row:
+        spectrum, p = self.spectrum, 2 * pi / float(self.spectrum.period[place[1]])
+        peak = float(spectrum.peak_ratio[place])
+        return (
+            quantity(float(spectrum.critical_angle[place[0]]), "rad", 4),
+            quantity(2 * pi / p, "s"),
+            quantity(p, "rad/s"),
+            "overturned" if spectrum.overturned[place] else "rocking" if peak > 0.0 else "no-rocking",
+            ratio(peak),
+            quantity(float(spectrum.peak_velocity_ratio[place]) * p, "rad/s"),
+        )
+
+    def record(self) -> dict[str, Any]:
+        """Give it for programs: SI, null for what there is not."""
+        measures, of = self.measures, ("unit", "definition", "source", "filter")
+        return {
+            "column": self.column.record(),
+            "motion": self.source,
+            "interval": self.motion.dt,
+            "duration": self.motion.duration,
+            "model": self.spectrum.model,
+            "outcome": self.history.outcome,
+            "peak_ratio": self.history.peak_ratio,
+            "period": _plain(self.spectrum.period),
+            "critical_angle": _plain(self.spectrum.critical_angle),
+            "spectrum_peak_ratio": [_plain(row) for row in self.spectrum.peak_ratio],
+            "spectrum_overturned": self.spectrum.overturned.tolist(),
+            "drift": measures.drift,
+            "largest_drift": measures.largest_drift,
+            "measures": {
+                name: {
+                    "value": value if isfinite(value) else None,
+                    **{key: getattr(measure_of(name), key) for key in of},
+                    "reason": measures.reasons.get(name, ""),
+                }
+                for name, value in measures.values.items()
+            },
+        }
+
 
 @dataclass(frozen=True)
 class Overturning:
@@ -106,6 +193,75 @@ class Overturning:
 
     column: FoundColumn
     spectrum: OverturningSpectrum
+
+    def picture(self) -> Picture:
+        """Draw the spectrum."""
+        from colonnade.figures import spectra
+        from colonnade.figures.files.output import Picture
+
+        title, seen = f"Overturning spectrum: {self.spectrum.pulse}", "lower and upper limit over frequency."
+        figure = spectra.overturning_spectrum(self.spectrum)
+        return Picture(figure, "overturning-spectrum", title, f"{self.column.name}: {seen}")
+
+    def verdict(self) -> str:
+        """Say in a sentence what the least of the pulses does to the column."""
+        spectrum, by = self.spectrum, f"({self.spectrum.model} model)"
+        if not np.isfinite(spectrum.lower).any():
+            return f"No {spectrum.pulse} pulse up to A = {spectrum.options['largest']:g} overturns the column {by}."
+        least = int(np.nanargmin(spectrum.lower))
+        level = float(spectrum.lower[least])
+        return (
+            f"The least {spectrum.pulse} pulse that overturns the column has A = {number(level)}, "
+            f"{acceleration(level * self.column.block.uplift_acceleration)}, at Ω = "
+            f"{number(float(spectrum.frequency_ratio[least]))} {by}."
+        )
+
+    def fields(self) -> Fields:
+        """Write what column and pulse are, and what the limits are."""
+        kind, options = pulse_of(self.spectrum.pulse), self.spectrum.options
+        shape = f"; γ = {options['cycles']:g}, ν = {options['phase']:.3g} rad" if "cycles" in options else ""
+        return [
+            *self.column.fields(),
+            ("pulse", f"{kind.name}: {kind.definition}, φ = ω t{shape} ({kind.source})"),
+            ("limits", f"of intervals at least {options['width']:g} wide in A, up to A = {options['largest']:g}"),
+        ]
+
+    def tables(self) -> Tables:
+        """Write the spectrum, a row for each frequency."""
+        heads = ("Ω", "frequency", "lower limit A", "acceleration", "upper limit A", "acceleration", "islands")
+        return [(heads, [self._row(place) for place in range(self.spectrum.lower.size)])]
+
+    def _row(self, place: int) -> Row:
+        spectrum, block = self.spectrum, self.column.block
+        omega, lower, upper = (
+            float(each[place]) for each in (spectrum.frequency_ratio, spectrum.lower, spectrum.upper)
+        )
+        return (
+            number(omega),
+            quantity(omega * block.p / (2 * pi), "Hz"),
+            number(lower, 5),
+            acceleration(lower * block.uplift_acceleration),
+            number(upper, 5),
+            acceleration(upper * block.uplift_acceleration),
+            str(int((spectrum.islands[:, 0] == omega).sum())),
+        )
+
+    def record(self) -> dict[str, Any]:
+        """Give it for programs: SI, null for what there is not."""
+        spectrum = self.spectrum
+        edges = np.column_stack([spectrum.interval_frequency_ratio, spectrum.interval_start, spectrum.interval_end])
+        return {
+            "column": self.column.record(),
+            "pulse": spectrum.pulse,
+            "model": spectrum.model,
+            "options": spectrum.options,
+            **{key: _plain(getattr(spectrum, key)) for key in ("frequency_ratio", "lower", "upper")},
+            "intervals": edges.tolist(),
+        }
+
+
+def _plain(values: Array) -> list[float | None]:
+    return [value if isfinite(value) else None for value in values.tolist()]
 
 
 def rocking_of(
@@ -229,189 +385,3 @@ def _found(
     slower = sqrt(scale)
     source = f"{found.source}, {number(slower)} times slower for a column {scale:g} times larger"
     return Motion(found.motion.acceleration, found.motion.dt * slower), source, "table"
-
-
-def picture_of(found: Rocking | Overturning) -> Picture:
-    """Draw a spectrum."""
-    from colonnade.figures import spectra
-    from colonnade.figures.files.output import Picture
-
-    if isinstance(found, Rocking):
-        title = f"Rocking spectrum: {found.source}"
-        figure = spectra.rocking_spectrum(found.spectrum, period=2 * pi / found.column.block.p, title=found.source)
-        angles = ", ".join(f"{angle:.4g}" for angle in found.spectrum.critical_angle)
-        seen = f"Largest angle over the size of blocks with α = {angles} rad."
-        return Picture(figure, "rocking-spectrum", title, seen)
-    figure = spectra.overturning_spectrum(found.spectrum)
-    title = f"Overturning spectrum: {found.spectrum.pulse}"
-    return Picture(figure, "overturning-spectrum", title, f"{found.column.name}: lower and upper limit over frequency.")
-
-
-ROCKING_HEADS = ("α", "2π/p", "p", "outcome", "largest |θ|/α", "largest |θ'|")
-OVERTURNING_HEADS = ("Ω", "frequency", "lower limit A", "acceleration", "upper limit A", "acceleration", "islands")
-MEASURE_HEADS = ("measure", "symbol", "value", "why not")
-
-Row = tuple[str, ...]
-
-
-def verdict(found: Rocking | Overturning) -> str:
-    """Say in a sentence what the motion, or the least of the pulses, does to the column."""
-    if isinstance(found, Rocking):
-        peak, model = found.history.peak_ratio, found.history.model
-        rocks = "does not rock" if not peak else f"rocks to |θ|/α = {ratio(peak)} and stands"
-        return f"The column {'overturns' if found.history.outcome == 'overturned' else rocks} ({model} model)."
-    spectrum = found.spectrum
-    by = f"({spectrum.model} model)"
-    if not np.isfinite(spectrum.lower).any():
-        return f"No {spectrum.pulse} pulse up to A = {spectrum.options['largest']:g} overturns the column {by}."
-    least = int(np.nanargmin(spectrum.lower))
-    level = float(spectrum.lower[least])
-    return (
-        f"The least {spectrum.pulse} pulse that overturns the column has A = {number(level)}, "
-        f"{acceleration(level * found.column.block.uplift_acceleration)}, at Ω = "
-        f"{number(float(spectrum.frequency_ratio[least]))} {by}."
-    )
-
-
-def column_fields(column: FoundColumn) -> list[tuple[str, str]]:
-    """Write what the column is."""
-    negative, positive = column.restitution
-    e = f"{negative:.4g}" if negative == positive else f"{negative:.4g} | {positive:.4g}"
-    return [
-        ("column", column.name),
-        ("critical angle α", quantity(column.block.critical_angle, "rad", 4)),
-        ("p", quantity(column.block.p, "rad/s", 4)),
-        ("uplift from", acceleration(column.block.uplift_acceleration)),
-        ("restitution e", f"{e} ({column.real[1]})"),
-    ]
-
-
-def rocking_rows(found: Rocking) -> list[Row]:
-    """Write the spectrum, a row for each slenderness and size."""
-    spectrum = found.spectrum
-    return [
-        (
-            quantity(angle, "rad", 4),
-            quantity(period, "s"),
-            quantity(2 * pi / period, "rad/s"),
-            *_ended(
-                float(spectrum.peak_ratio[row, column]),
-                bool(spectrum.overturned[row, column]),
-                float(spectrum.peak_velocity_ratio[row, column]) * 2 * pi / period,
-            ),
-        )
-        for row, angle in enumerate(spectrum.critical_angle.tolist())
-        for column, period in enumerate(spectrum.period.tolist())
-    ]
-
-
-def _ended(peak: float, fell: bool, fastest: float) -> Row:
-    outcome = "overturned" if fell else "rocking" if peak > 0.0 else "no-rocking"
-    return outcome, ratio(peak), quantity(fastest, "rad/s")
-
-
-def motion_fields(found: Rocking) -> list[tuple[str, str]]:
-    """Write what the motion is."""
-    measures = found.measures
-    return [
-        ("motion", f"{found.source}; {found.motion.duration:.4g} s in steps of {found.motion.dt:.4g} s"),
-        ("drift", f"the velocity drifts by {measures.drift:.2g} of its peak; {measures.largest_drift:g} is allowed"),
-    ]
-
-
-def measure_rows(found: Rocking) -> list[Row]:
-    """Write the measures of the motion."""
-    rows: list[Row] = []
-    for name, value in found.measures.values.items():
-        each = measure_of(name)
-        shown = acceleration(value) if each.dimension == "acceleration" else _value(value, each.unit)
-        rows.append((each.name, each.symbol, shown, found.measures.reasons.get(name, "").partition(":")[0]))
-    return rows
-
-
-def _value(value: float, unit: str) -> str:
-    return f"{number(value)} {unit}".rstrip() if isfinite(value) else NOTHING
-
-
-def pulse_fields(found: Overturning) -> list[tuple[str, str]]:
-    """Write what the pulse is, and what its limits are."""
-    spectrum, kind = found.spectrum, pulse_of(found.spectrum.pulse)
-    options = spectrum.options
-    shape = f"; γ = {options['cycles']:g}, ν = {options['phase']:.3g} rad" if "cycles" in options else ""
-    return [
-        ("pulse", f"{kind.name}: {kind.definition}, φ = ω t{shape} ({kind.source})"),
-        ("limits", f"of intervals at least {options['width']:g} wide in A, up to A = {options['largest']:g}"),
-    ]
-
-
-def overturning_rows(found: Overturning) -> list[Row]:
-    """Write the spectrum, a row for each frequency."""
-    spectrum, block = found.spectrum, found.column.block
-    islands = spectrum.islands
-    rows: list[Row] = []
-    for omega, lower, upper in zip(spectrum.frequency_ratio, spectrum.lower, spectrum.upper, strict=True):
-        here = int((islands[:, 0] == omega).sum())
-        limits = [
-            text
-            for limit in (float(lower), float(upper))
-            for text in (number(limit, 5), acceleration(limit * block.uplift_acceleration))
-        ]
-        rows.append((number(float(omega)), quantity(float(omega) * block.p / (2 * pi), "Hz"), *limits, str(here)))
-    return rows
-
-
-def record_of(found: Rocking | Overturning) -> dict[str, Any]:
-    """Give a spectrum for programs: SI, null for what there is not."""
-    block = found.column.block
-    column = {
-        "name": found.column.name,
-        "critical_angle": block.critical_angle,
-        "p": block.p,
-        "uplift_acceleration": block.uplift_acceleration,
-        "restitution": list(found.column.restitution),
-        "restitution_source": found.column.real[1],
-    }
-    if isinstance(found, Overturning):
-        spectrum = found.spectrum
-        edges = np.column_stack([spectrum.interval_frequency_ratio, spectrum.interval_start, spectrum.interval_end])
-        return {
-            "column": column,
-            "pulse": spectrum.pulse,
-            "model": spectrum.model,
-            "options": spectrum.options,
-            "frequency_ratio": _plain(spectrum.frequency_ratio),
-            "lower": _plain(spectrum.lower),
-            "upper": _plain(spectrum.upper),
-            "intervals": edges.tolist(),
-        }
-    history, measures = found.history, found.measures
-    return {
-        "column": column,
-        "motion": found.source,
-        "interval": found.motion.dt,
-        "duration": found.motion.duration,
-        "model": found.spectrum.model,
-        "outcome": history.outcome,
-        "peak_ratio": history.peak_ratio,
-        "period": _plain(found.spectrum.period),
-        "critical_angle": _plain(found.spectrum.critical_angle),
-        "spectrum_peak_ratio": [_plain(row) for row in found.spectrum.peak_ratio],
-        "spectrum_overturned": found.spectrum.overturned.tolist(),
-        "drift": measures.drift,
-        "largest_drift": measures.largest_drift,
-        "measures": {
-            name: {
-                "value": value if isfinite(value) else None,
-                "unit": measure_of(name).unit,
-                "definition": measure_of(name).definition,
-                "source": measure_of(name).source,
-                "filter": measure_of(name).filter,
-                "reason": measures.reasons.get(name, ""),
-            }
-            for name, value in measures.values.items()
-        },
-    }
-
-
-def _plain(values: Array) -> list[float | None]:
-    return [value if isfinite(value) else None for value in values.tolist()]

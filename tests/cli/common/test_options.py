@@ -3,13 +3,18 @@
 import subprocess
 import sys
 
+import click
 import pytest
 
 from colonnade.cli.app import app
 
 
+def params(command):
+    return command.get_params(click.Context(command))
+
+
 def options(command):
-    return {option for each in app.commands[command].params for option in each.opts}
+    return {option for each in params(app.commands[command]) for option in each.opts}
 
 
 @pytest.mark.parametrize("command", ["run", "ingest", "identify", "predict", "report"])
@@ -21,7 +26,7 @@ def test_commands_that_run_stages_have_the_same_options(command):
 def test_an_option_has_the_same_help_everywhere():
     said = {}
     for command in app.commands.values():
-        for each in command.params:
+        for each in params(command):
             if each.opts[0] in ("--json", "--workers", "--scheduler", "--results", "--specimen"):
                 # Some commands take one specimen, others several.
                 said.setdefault((each.opts[0], each.multiple), set()).add(each.help)
@@ -35,7 +40,7 @@ def test_names_are_read_only_when_they_are_needed():
 
 
 def declared(name):
-    return {each.name: each for each in app.commands[name].params}
+    return {each.name: each for each in params(app.commands[name])}
 
 
 def test_options_of_a_table_are_those_of_its_keys():

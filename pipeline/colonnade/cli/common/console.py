@@ -50,6 +50,12 @@ def say_marked(mark: str, style: str, text: str) -> None:
     say(Text.assemble((mark, style), text))
 
 
+def say_drawn(places: Iterable[Path]) -> None:
+    """Write where figures and their tables are."""
+    for place in places:
+        say(f"{'data' if place.suffix.lower() == '.csv' else 'figure'}: {place}")
+
+
 def complain(text: str) -> None:
     """Write what went wrong."""
     messages().print(text)

@@ -16,20 +16,15 @@ class WithKeys(click.RichCommand):
     """A command with options that `keys` gives, made only when it is used: a table loads pydantic."""
 
     def __init__(self, *given: Any, keys: Callable[[], list[click.Option]], **more: Any) -> None:
-        self._keys: Callable[[], list[click.Option]] | None = keys
         super().__init__(*given, **more)
+        self._keys: Callable[[], list[click.Option]] | None = keys
 
-    @property
-    def params(self) -> list[click.Parameter]:
-        """Its own arguments and options, and those of the tables ahead of where results go."""
+    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
+        """Give its own arguments and options, and those of the tables ahead of where results go."""
         if self._keys is not None:
-            place = next(number for number, each in enumerate(self._params) if each.name in ("out", "workers"))
-            self._params[place:place], self._keys = self._keys(), None
-        return self._params
-
-    @params.setter
-    def params(self, own: list[click.Parameter]) -> None:
-        self._params = own
+            place = next(number for number, each in enumerate(self.params) if each.name in ("out", "workers"))
+            self.params[place:place], self._keys = self._keys(), None
+        return super().get_params(ctx)
 
 
 def options_of(keys: Mapping[str, FieldInfo], *, with_defaults: bool = False) -> list[click.Option]:
@@ -61,7 +56,7 @@ def options_of(keys: Mapping[str, FieldInfo], *, with_defaults: bool = False) ->
         made.append(
             click.Option(
                 ["--" + flag.replace("_", "-"), key],
-                type=words[0] if words else click.Path(path_type=Path) if plain is Path else plain,
+                type=words[0] if words else FILE if plain is Path else plain,
                 is_flag=plain is bool or None,
                 nargs=2 if is_pair else 1,
                 multiple=is_many,
@@ -83,11 +78,16 @@ def _parts(annotation: Any) -> Iterator[Any]:
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-campaign_argument = click.argument("campaign", type=click.Path(path_type=Path), default=Path(), metavar="[CAMPAIGN]")
-"""The argument of most commands."""
+FILE = click.Path(path_type=Path)
 
 CAMPAIGN = "CAMPAIGN is a campaign.toml or its folder, by default the current folder."
-"""What their help says of it."""
+
+
+def campaign_argument(command: Command) -> Command:
+    """Add the argument of most commands; their help says what it is, in place of {CAMPAIGN}."""
+    command.__doc__ = (command.__doc__ or "").replace("{CAMPAIGN}", CAMPAIGN)
+    return click.argument("campaign", type=FILE, default=Path(), metavar="[CAMPAIGN]")(command)
+
 
 campaign_and_id_argument = click.argument("arguments", nargs=-1, metavar="[CAMPAIGN] [ID]")
 """The arguments of commands that show one test or specimen; `campaign_and_id` reads them."""
@@ -127,6 +127,8 @@ def column_keys(*more: str) -> list[click.Option]:
     return options_of(Size.model_fields | sizes | prototype)
 
 
+data_option = click.option("--data", type=FILE, metavar="FILE", help="Write what is drawn as a .csv table.")
+
 json_option = click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
 
 workers_option = click.option(
@@ -145,6 +147,12 @@ results_option = click.option(
     metavar="DIR",
     help="Folder for processed/ and report/, such as one on another disk; by default that of campaign.toml.",
 )
+
+
+def result_options(command: Command) -> Command:
+    """Add the options of commands that show results."""
+    return results_option(json_option(command))
+
 
 strict_option = click.option(
     "--strict", is_flag=True, help="Exit with 1 also for a serious finding or a warning, but not for a note."
