@@ -19,7 +19,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.workflow.assessing import _given, assess_campaign, assess_own, given, outcomes_of
+from colonnade.workflow.assessing import _given, assess_campaign, assess_own, outcomes_of
 from colonnade.workflow.executors import Where
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.real_column import AskedColumn
@@ -211,28 +211,10 @@ def test_blocks_give_what_the_whole_gives(tmp_path):
         np.testing.assert_array_equal(getattr(outcomes, name), getattr(whole, name))
 
 
-@pytest.mark.parametrize(
-    ("changed", "what"),
-    [
-        ({"column": replace(COLUMN, restitution=0.94)}, "column"),
-        ({"draws": np.stack([draw(COLUMN, 20, seed=1)] * 3)}, "column"),
-        ({"model": "linear"}, "column"),
-        ({"motions": (*WAVES[:2], Motion(WAVES[2].acceleration, 0.011, transverse=np.ones(200)))}, "motions"),
-        ({"motions": (*WAVES[:2], Motion(WAVES[2].acceleration, 0.01, vertical=np.ones(200)))}, "motions"),
-        ({"factors": 2.0 * CASES.factors}, "factors"),
-    ],
-    ids=["e", "draws", "model", "interval", "component", "factors"],
-)
-def test_the_hash_of_what_is_given_changes_with_it(changed, what):
-    before, after = given(CASES), given(replace(CASES, **changed))
-    assert [name for name in before if before[name] != after[name]] == [what]
-    assert given(replace(CASES)) == before
-
-
 KILLED = """
 import sys
 from pathlib import Path
-import test_assessing_blocks as tested
+import test_assessing as tested
 print("going", flush=True)
 where = tested.Where(workers=2, progress=lambda done, total: print(done, total, flush=True))
 tested.outcomes_of(tested.MANY, where, Path(sys.argv[1]), "key")

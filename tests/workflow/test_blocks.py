@@ -5,7 +5,7 @@ import os
 import numpy as np
 import pytest
 
-from colonnade.workflow.executors import forget, in_blocks
+from colonnade.workflow.executors import Where, forget, in_blocks
 
 pytestmark = pytest.mark.whole
 
@@ -33,24 +33,24 @@ def values(results):
 
 @pytest.mark.parametrize("workers", [1, 2])
 def test_results_come_in_the_order_of_the_blocks_whatever_the_workers(tmp_path, workers):
-    results = in_blocks(squares, BLOCKS, tmp_path / "kept", "key", workers=workers)
+    results = in_blocks(squares, BLOCKS, tmp_path / "kept", "key", Where(workers))
     assert values(results) == [[float(k**2), float((k + 1) ** 2), float((k + 2) ** 2)] for k in BLOCKS]
     assert (os.getpid() in {int(result["process"]) for result in results}) == (workers == 1)
 
 
 def test_what_was_finished_before_an_interrupt_is_not_done_again(tmp_path):
     with pytest.raises(KeyboardInterrupt):
-        in_blocks(failing_at_four, BLOCKS, tmp_path, "key", workers=1)
+        in_blocks(failing_at_four, BLOCKS, tmp_path, "key", Where(1))
     done = []
-    results = in_blocks(squares, BLOCKS, tmp_path, "key", workers=1, progress=lambda *state: done.append(state))
+    results = in_blocks(squares, BLOCKS, tmp_path, "key", Where(1, progress=lambda *state: done.append(state)))
     assert done == [(4, 6), (5, 6), (6, 6)]
-    assert values(results) == values(in_blocks(never, BLOCKS, tmp_path, "key", workers=1))
+    assert values(results) == values(in_blocks(never, BLOCKS, tmp_path, "key", Where(1)))
 
 
 def test_blocks_of_another_plan_are_not_taken_and_go(tmp_path):
-    in_blocks(squares, BLOCKS, tmp_path, "one", workers=1)
+    in_blocks(squares, BLOCKS, tmp_path, "one", Where(1))
     with pytest.raises(AssertionError, match="block 0"):
-        in_blocks(never, BLOCKS, tmp_path, "other", workers=1)
+        in_blocks(never, BLOCKS, tmp_path, "other", Where(1))
     assert [path.name for path in tmp_path.iterdir() if any(path.iterdir())] == []
 
 
@@ -64,15 +64,15 @@ def test_blocks_of_another_plan_are_not_taken_and_go(tmp_path):
     ids=["cut off", "empty", "one bit"],
 )
 def test_a_damaged_block_is_done_again(tmp_path, damage):
-    first = in_blocks(squares, BLOCKS, tmp_path, "key", workers=1)
+    first = in_blocks(squares, BLOCKS, tmp_path, "key", Where(1))
     path = sorted(tmp_path.rglob("*.npz"))[2]
     path.write_bytes(damage(path.read_bytes()))
-    again = in_blocks(squares, BLOCKS, tmp_path, "key", workers=1)
+    again = in_blocks(squares, BLOCKS, tmp_path, "key", Where(1))
     assert values(again) == values(first)
 
 
 def test_nothing_is_left_when_it_is_forgotten(tmp_path):
-    in_blocks(squares, BLOCKS, tmp_path / "kept", "key", workers=1)
+    in_blocks(squares, BLOCKS, tmp_path / "kept", "key", Where(1))
     forget(tmp_path / "kept")
     assert list(tmp_path.iterdir()) == []
 
@@ -81,12 +81,12 @@ KILLED = """
 import sys, time
 from pathlib import Path
 import numpy as np
-from colonnade.workflow.executors import in_blocks
+from colonnade.workflow.executors import Where, in_blocks
 def slow(block):
     time.sleep(0.05)
     return {"value": np.array(block)}
 told = lambda done, total: print(done, flush=True)
-in_blocks(slow, range(200), Path(sys.argv[1]), "key", workers=1, progress=told)
+in_blocks(slow, range(200), Path(sys.argv[1]), "key", Where(1, progress=told))
 """
 
 
@@ -101,6 +101,6 @@ def test_a_kill_at_any_instant_leaves_whole_blocks_only(start, tmp_path):
     kept = len(list(tmp_path.rglob("*.npz")))
     assert 5 <= kept < 200
     started = []
-    results = in_blocks(value, range(200), tmp_path, "key", workers=1, progress=lambda *state: started.append(state))
+    results = in_blocks(value, range(200), tmp_path, "key", Where(1, progress=lambda *state: started.append(state)))
     assert started[0] == (kept, 200)
     assert [int(result["value"]) for result in results] == list(range(200))

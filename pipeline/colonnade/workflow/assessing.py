@@ -13,7 +13,6 @@ from colonnade.assessment.cases import CaseOutcomes, Cases, joined, run_cases
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessment import Assessment
 from colonnade.campaign.forms.assessed import AssessmentSummary
-from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError, ColonnadeError, ReadError, nearest
 from colonnade.readers.files import sha256_of
 from colonnade.readers.ground_motions.record_set import files_of
@@ -196,6 +195,8 @@ def _made(
     asked: Assessment, where: Where, blocks: Path, code: str, upstream: Mapping[str, Any], inputs: Any
 ) -> xr.Dataset:
     """Make an assessment; finished blocks of its histories are known again by the code, and kept in `blocks`."""
+    import joblib
+
     from colonnade.readers.ground_motions.hazard import read_hazard_of
     from colonnade.readers.ground_motions.record_set import read_record_set
     from colonnade.stages.assessment import assessment
@@ -203,10 +204,11 @@ def _made(
 
     hazard = None if asked.hazard is None else read_hazard_of(asked.hazard, asked.measure)
     plan = plan_assessment(upstream["specimen"], read_record_set(asked.records), hazard, inputs)
-    outcomes = {}
-    for number, (name, study) in enumerate(plan.studies.items()):
-        key = hash_of([code, given(study.cases)])
-        outcomes[name] = outcomes_of(study.cases, where, blocks / str(number), key)
+    key = joblib.hash((code, [study.cases for study in plan.studies.values()]))
+    outcomes = {
+        name: outcomes_of(study.cases, where, blocks / str(number), key)
+        for number, (name, study) in enumerate(plan.studies.items())
+    }
     return assessment(plan, outcomes)
 
 
@@ -221,31 +223,16 @@ def outcomes_of(cases: Cases, where: Where, folder: Path, key: str) -> CaseOutco
     folder : Path
         Where finished blocks are kept, see `in_blocks`; the caller removes it (`forget`) once the result is stored.
     key : str
-        Hash of all that the result depends on, `given` among it.
+        Hash of all that the result depends on.
 
     Returns
     -------
     outcomes : CaseOutcomes
         The same to the last bit, whatever the processes and interruptions.
     """
-    blocks = in_blocks(_arrays, cases.blocks(MOST_BLOCKS), folder, key, **where._asdict())
+    blocks = in_blocks(_arrays, cases.blocks(MOST_BLOCKS), folder, key, where)
     return joined([CaseOutcomes(**each) for each in blocks])
 
 
 def _arrays(block: Cases) -> Arrays:
     return vars(run_cases(block))
-
-
-def given(cases: Cases) -> dict[str, str | None]:
-    """Hash what the outcomes are made from: column, draws, motions, factors and model."""
-    column = [repr(cases.column), cases.draws.tolist(), cases.model]
-    if cases.several is not None:
-        bodies = [(name, vars(body), vars(body.block)) for name, body in cases.several.assembly.bodies.items()]
-        column += [repr(each) for each in (bodies, cases.several.law, cases.several.displaced)]
-    motions = [_hash(motion) for motion in cases.motions]
-    return {"column": hash_of(column), "motions": hash_of(motions), "factors": hash_of(cases.factors.tolist())}
-
-
-def _hash(motion: Motion) -> str:
-    parts = (motion.acceleration, motion.vertical, motion.transverse)
-    return hash_of([motion.dt, *(None if part is None else part.tolist() for part in parts)])

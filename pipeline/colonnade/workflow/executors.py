@@ -251,7 +251,10 @@ class Where(NamedTuple):
 
     workers: int | None = None
     scheduler: str | None = None
-    progress: Counted | None = None
+    progress: Counted = lambda done, total: None
+
+
+HERE = Where()
 
 
 def blocks_of(number: int) -> list[range]:
@@ -265,10 +268,7 @@ def in_blocks(
     blocks: Sequence[Item],
     folder: Path,
     key: str,
-    *,
-    workers: int | None = None,
-    scheduler: str | None = None,
-    progress: Counted | None = None,
+    where: Where = HERE,
 ) -> list[Arrays]:
     """
     Work on each block, or take the blocks that an interrupted earlier call finished.
@@ -282,8 +282,7 @@ def in_blocks(
         Where finished blocks are kept; for this work only. The caller removes it (`forget`) when their sum is stored.
     key : str
         Hash of all that the result depends on; blocks under another key are removed.
-    workers, scheduler, progress : optional
-        As of `Where`.
+    where : Where, optional
 
     Returns
     -------
@@ -303,14 +302,14 @@ def in_blocks(
             shutil.rmtree(other, ignore_errors=True)
     found = {number: kept for number in range(len(blocks)) if (kept := _kept(here, number)) is not None}
     missing = [(number, block) for number, block in enumerate(blocks) if number not in found]
-    tell = progress or (lambda done, total: None)
-    tell(len(found), len(blocks))
-    for number, arrays in spread(partial(_numbered, work), missing, workers=workers, scheduler=scheduler):
+    where.progress(len(found), len(blocks))
+    ended = spread(partial(_numbered, work), missing, workers=where.workers, scheduler=where.scheduler)
+    for number, arrays in ended:
         stream = io.BytesIO()
         np.savez(stream, allow_pickle=False, **arrays)
         files.write_bytes(_path(here, number), stream.getbuffer())
         found[number] = arrays
-        tell(len(found), len(blocks))
+        where.progress(len(found), len(blocks))
     return [found[number] for number in range(len(blocks))]
 
 

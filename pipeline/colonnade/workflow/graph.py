@@ -191,7 +191,7 @@ def _members(folder: Path, where: Where, plan: Plan, central: Array) -> list[Arr
     import joblib
 
     key = joblib.hash((code_hash(["colonnade.dynamics"]), plan, central))
-    return in_blocks(partial(plan.members, central), blocks_of(plan.count), folder, key, **where._asdict())
+    return in_blocks(partial(plan.members, central), blocks_of(plan.count), folder, key, where)
 
 
 def _made(work: Callable[..., xr.Dataset], inputs: Any, upstream: Mapping[str, Any]) -> xr.Dataset:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import RootModel
 
 from colonnade.campaign import load
@@ -103,7 +103,7 @@ def make_maps(
     workers: int | None = None,
     scheduler: str | None = None,
     results: Path | str | None = None,
-    progress: Counted | None = None,
+    progress: Counted = lambda done, total: None,
 ) -> list[MapMade]:
     """
     Make the stability maps of a campaign's specimens, with its measured points on them.
@@ -296,7 +296,7 @@ def _in_blocks(
     if where is None:
         return make([columns(plan, range(size))])
     key = hash_of([code, given(plan), inputs.model_dump_json()])
-    return make(in_blocks(partial(columns, plan), blocks_of(size), folder, key, **where._asdict()))
+    return make(in_blocks(partial(columns, plan), blocks_of(size), folder, key, where))
 
 
 def given(plan: MapPlan) -> dict[str, str | None]:
@@ -306,34 +306,25 @@ def given(plan: MapPlan) -> dict[str, str | None]:
     return {"block": hash_of(repr(plan.block)), "axes": hash_of(axes), "motion": hash_of(motion)}
 
 
-def _columns(plan: MapPlan, indices: range) -> dict[str, NDArray[Any]]:
-    """Work of a block: some columns of a map, as arrays."""
-    from colonnade.dynamics.maps import map_column
+def _columns(plan: MapPlan, indices: range) -> Arrays:
+    """Work of a block: some columns of a map, as arrays over Ω."""
+    from colonnade.dynamics.maps import assemble, map_column
 
-    columns = [map_column(plan, index) for index in indices]
-    return {
-        "outcome": np.stack([column.outcome for column in columns]),
-        "fraction": np.stack([column.overturning_fraction for column in columns]),
-        "limits": np.array([(column.no_rocking, column.lower, column.upper) for column in columns]),
-        "intervals": np.concatenate([column.intervals for column in columns]),
-        "intervals_of_column": np.array([len(column.intervals) for column in columns]),
-    }
+    part = copy(plan)
+    part.frequency_ratio = plan.frequency_ratio[indices.start : indices.stop]
+    chart = assemble(part, [map_column(plan, index) for index in indices])
+    return {name: each for name, each in vars(chart).items() if name not in ("amplitude_ratio", "options")}
 
 
-def _chart(plan: MapPlan, attributes: Mapping[str, str], blocks: Iterable[Arrays]) -> xr.Dataset:
-    from colonnade.dynamics.maps import MapColumn, assemble
+def _chart(plan: MapPlan, attributes: Mapping[str, str], blocks: Sequence[Arrays]) -> xr.Dataset:
+    from colonnade.dynamics.maps import StabilityMap
 
-    columns = []
-    for arrays in blocks:
-        ends = np.cumsum(arrays["intervals_of_column"])
-        intervals = np.split(arrays["intervals"], ends[:-1])
-        columns += [
-            MapColumn(outcome, fraction, onset, lower, upper, own)
-            for outcome, fraction, (onset, lower, upper), own in zip(
-                arrays["outcome"], arrays["fraction"], arrays["limits"].tolist(), intervals, strict=True
-            )
-        ]
-    return as_dataset(assemble(plan, columns)).assign_attrs(attributes)
+    whole = StabilityMap(amplitude_ratio=plan.amplitude_ratio, options=plan.options, **_joined(blocks))
+    return as_dataset(whole).assign_attrs(attributes)
+
+
+def _joined(blocks: Sequence[Arrays]) -> Arrays:
+    return {name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]}
 
 
 def _draw(stored: Sequence[xr.Dataset], points: Sequence[MapPoint], path: Path, specimen: str) -> None:
@@ -358,7 +349,7 @@ def _settings(plan: MapPlan) -> dict[str, Any]:
     return own | {"settling": SETTLING}
 
 
-def _steady_columns(plan: MapPlan, indices: range) -> dict[str, NDArray[Any]]:
+def _steady_columns(plan: MapPlan, indices: range) -> Arrays:
     """Work of a block: the responses at some Ω, as arrays."""
     from colonnade.dynamics.steady import steady_response
 
@@ -372,23 +363,19 @@ def _steady_columns(plan: MapPlan, indices: range) -> dict[str, NDArray[Any]]:
         amplitude_ratio=plan.amplitude_ratio,
         restitution=plan.restitution,
     )
-    return {"order": response.order, "period": response.period, "amplitude": response.amplitude}
+    return {
+        "steady_order": response.order.astype(np.int32),
+        "steady_period": response.period,
+        "steady_peak_ratio": response.amplitude,
+    }
 
 
 def _steady(plan: MapPlan, attributes: Mapping[str, str], blocks: Sequence[Arrays]) -> xr.Dataset:
     import xarray as xr
 
-    cells = ("frequency_ratio", "amplitude_ratio")
-    order, period, amplitude = (np.concatenate([part[name] for part in blocks]) for name in blocks[0])
-    return xr.Dataset(
-        {
-            "steady_order": (cells, order.astype(np.int32)),
-            "steady_period": (cells, period),
-            "steady_peak_ratio": (cells, amplitude),
-        },
-        coords={"frequency_ratio": plan.frequency_ratio, "amplitude_ratio": plan.amplitude_ratio},
-        attrs=_settings(plan) | dict(attributes),
-    )
+    coordinates = {"frequency_ratio": plan.frequency_ratio, "amplitude_ratio": plan.amplitude_ratio}
+    variables = {name: (tuple(coordinates), each) for name, each in _joined(blocks).items()}
+    return xr.Dataset(variables, coordinates, _settings(plan) | dict(attributes))
 
 
 def _draw_responses(

@@ -142,7 +142,7 @@ class Walk:
         known = [name for name in self._campaign.specimens if name not in self.failed["specimen"]]
         self.follow([product] for product in kept_maps(self.graph, summary, known))
 
-    def assess(self, assessments: Mapping[str, Assessment], tell: Counted | None = None) -> None:
+    def assess(self, assessments: Mapping[str, Assessment], tell: Counted = lambda done, total: None) -> None:
         """Bring assessments up to date, their histories in blocks on all processes."""
         for name, asked in assessments.items():
             product = self._assessing(name, asked, tell)
@@ -265,10 +265,10 @@ class Walk:
             self.failed["test"].setdefault(name, f"specimen {test.specimen}: {reason}")
         return name not in self.failed["test"]
 
-    def _assessing(self, name: str, asked: Assessment, tell: Counted | None = None) -> Product:
+    def _assessing(self, name: str, asked: Assessment, *tell: Counted) -> Product:
         from colonnade.workflow.assessing import assessing
 
-        return assessing(self.graph, name, asked, Where(self.workers, self.scheduler, tell))
+        return assessing(self.graph, name, asked, Where(self.workers, self.scheduler, *tell))
 
     @property
     def _campaign(self) -> Campaign:
