@@ -3,6 +3,7 @@
 import os
 import random
 import signal
+import sys
 from dataclasses import replace
 from html import unescape
 from pathlib import Path
@@ -227,8 +228,9 @@ MANY = replace(
 @pytest.mark.slow
 def test_ten_kills_and_a_resumption_give_the_undisturbed_values(start, tmp_path):
     chance, done = random.Random(1), [0]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
     for _ in range(10):
-        process = start(KILLED, tmp_path, said="going", cwd=Path(__file__).parent)
+        process = start(KILLED, tmp_path, said="going", cwd=Path(__file__).parent, env=environment)
         found, total = map(int, process.stdout.readline().split())
         assert found >= done[-1]
         until = found + chance.randint(0, 8)

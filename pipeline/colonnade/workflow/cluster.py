@@ -45,19 +45,17 @@ def on_cluster(scheduler: str, tell: Tell) -> Iterator[Workers]:
     except OSError as error:
         raise ColonnadeError(_no_scheduler(scheduler, str(error))) from error
     with client:
-        watch = _Watch(client, scheduler, _expect_workers(client, scheduler, distributed), tell, distributed)
-        pool = client.get_executor(pure=False)
-        yield Workers(pool, lambda: watch.count, watch.look, watch.failed, watch.stop)
+        yield _Cluster(client, scheduler, _expect_workers(client, scheduler, distributed), tell, distributed)
 
 
-class _Watch:
-    """Watches which workers a cluster has; `workers` describes the process of each, by address."""
+class _Cluster(Workers):
+    """The workers that a cluster has; `known` describes the process of each, by address."""
 
-    def __init__(self, client: Any, scheduler: str, workers: dict[str, str], tell: Tell, distributed: Any) -> None:
+    def __init__(self, client: Any, scheduler: str, known: dict[str, str], tell: Tell, distributed: Any) -> None:
+        super().__init__(client.get_executor(pure=False), len(known))
         self._client, self._scheduler, self._distributed = client, scheduler, distributed
-        self._known, self._tell = dict(workers), tell
+        self._known, self._tell = known, tell
         self._looked = self._seen = time.monotonic()
-        self.count = len(workers)
 
     def look(self) -> None:
         """
@@ -107,8 +105,7 @@ class _Watch:
     def stop(self, pending: Sequence[Future[Any]]) -> None:
         """Cancel what is not done; the scheduler may be gone."""
         with suppress(Exception):
-            for future in pending:
-                future.cancel()
+            super().stop(pending)
 
     def _gone(self) -> ColonnadeError:
         return WorkersEndedError(

@@ -52,28 +52,23 @@ class WorkersEndedError(ColonnadeError):
     """Workers were stopped, or their scheduler ended, before the work was done: it may succeed later."""
 
 
-class Workers(NamedTuple):
-    """
-    Workers to hand items to.
+class Workers:
+    """Workers to hand items to: an executor, and how many there are now."""
 
-    Attributes
-    ----------
-    pool : Executor
-    number : callable
-        How many there are now.
-    look : callable
-        Called about once a second; raises ColonnadeError if nobody works any more.
-    failed : callable
-        The error to raise in place of one that a call ended with.
-    stop : callable
-        Ends calls that have not ended.
-    """
+    def __init__(self, pool: Executor, count: int) -> None:
+        self.pool, self.count = pool, count
 
-    pool: Executor
-    number: Callable[[], int]
-    look: Callable[[], None]
-    failed: Callable[[BaseException], BaseException]
-    stop: Callable[[Sequence[Future[Any]]], None]
+    def look(self) -> None:
+        """Look about once a second whether anybody works; raises ColonnadeError if nobody does any more."""
+
+    def failed(self, error: BaseException) -> BaseException:
+        """Give the error to raise in place of one that a call ended with."""
+        return error
+
+    def stop(self, pending: Sequence[Future[Any]]) -> None:
+        """End calls that have not ended."""
+        for future in pending:
+            future.cancel()
 
 
 def spread(
@@ -136,7 +131,7 @@ def spread(
     waiting = dict(enumerate(items))
     while waiting:
         try:
-            for number, result in _handed_out(_processes(count), work, waiting):
+            for number, result in _handed_out(_Processes(count), work, waiting):
                 del waiting[number]
                 yield result
         except BrokenProcessPool as error:
@@ -149,7 +144,7 @@ def spread(
             for number in suspects:
                 item = waiting.pop(number)
                 try:
-                    yield from (result for _, result in _handed_out(_processes(count), work, {number: item}))
+                    yield from (result for _, result in _handed_out(_Processes(count), work, {number: item}))
                 except BrokenProcessPool as again:
                     if lost is None:
                         raise WorkersEndedError(
@@ -176,7 +171,7 @@ def _handed_out(
         while True:
             expect_none()
             with held_back():
-                while len(pending) < AHEAD * workers.number() and (given := next(waiting, None)) is not None:
+                while len(pending) < AHEAD * workers.count and (given := next(waiting, None)) is not None:
                     handed = workers.pool.submit(work, given[1])
                     pending[handed] = given[0]
                     handed.add_done_callback(ended.put)
@@ -202,32 +197,33 @@ def _handed_out(
                 workers.stop(list(pending))
 
 
-def _processes(count: int) -> Workers:
-    """Start processes of this machine, or take those of the last call; none outlives this process."""
-    from joblib.executor import get_memmapping_executor
+class _Processes(Workers):
+    """Processes of this machine, started or those of the last call; none outlives this process."""
 
-    # Joblib's own kind, which a later `joblib.Parallel` of the caller can follow. Each settles in as it starts, not
-    # with its first item: one that never gets any has to notice its parent's end too.
-    with held_back():
-        settled = {"initializer": _settle_in, "initargs": (os.getpid(),), "env": _ONE_THREAD}
-        pool = get_memmapping_executor(count, max_nbytes=None, **settled)
-    return Workers(pool, lambda: count, lambda: None, lambda error: error, partial(_stop_quietly, pool))
+    def __init__(self, count: int) -> None:
+        from joblib.executor import get_memmapping_executor
 
+        # Joblib's own kind, which a later `joblib.Parallel` of the caller can follow. Each settles in as it starts, not
+        # with its first item: one that never gets any has to notice its parent's end too.
+        with held_back():
+            settled = {"initializer": _settle_in, "initargs": (os.getpid(),), "env": _ONE_THREAD}
+            super().__init__(get_memmapping_executor(count, max_nbytes=None, **settled), count)
 
-def _stop_quietly(pool: Any, pending: Sequence[Future[Any]]) -> None:
-    """Stop the processes, on Ctrl-C before the lock is given back. Loky's thread breaks at a call that is cancelled."""
-    original = threading.excepthook
+    def stop(self, pending: Sequence[Future[Any]]) -> None:
+        """Stop them, on Ctrl-C before the lock is given back. Loky's thread breaks at a call that is cancelled."""
+        original = threading.excepthook
 
-    def tell(failure: threading.ExceptHookArgs) -> None:
-        # Stopped before its first items were sent, loky looks for them in vain once its workers are gone.
-        if failure.exc_type is not KeyError:
-            original(failure)
+        def tell(failure: threading.ExceptHookArgs) -> None:
+            # Stopped before its first items were sent, loky looks for them in vain once its workers are gone.
+            if failure.exc_type is not KeyError:
+                original(failure)
 
-    threading.excepthook = tell
-    try:
-        pool.shutdown(wait=True, kill_workers=True)
-    finally:
-        threading.excepthook = original
+        threading.excepthook = tell
+        pool: Any = self.pool
+        try:
+            pool.shutdown(wait=True, kill_workers=True)
+        finally:
+            threading.excepthook = original
 
 
 def _settle_in(parent: int) -> None:

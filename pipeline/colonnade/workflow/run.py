@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
+from types import NoneType
 from typing import Any
 
 from colonnade.campaign import Campaign, load
@@ -14,7 +15,7 @@ from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.store.results import RUN_STAGES, results_of
-from colonnade.validation import described, text, whole
+from colonnade.validation import described, whole
 from colonnade.workflow.chain import RunResult, remove_later
 from colonnade.workflow.forecasts import choose, finding_of, foreseen_of
 from colonnade.workflow.graph import Graph
@@ -90,14 +91,7 @@ def run(
     ...     print(str(error)[:25])
     no-such-folder: not found
     """
-    _check(
-        paths={"campaign": campaign, "results": results},
-        texts={"until": until, "start_from": start_from, "scheduler": scheduler},
-        flags={"verify": verify, "awaiting": awaiting},
-        only=only,
-        workers=workers,
-        progress=progress,
-    )
+    _check(locals())
     loaded = load(Path(campaign)).awaiting() if awaiting else load(Path(campaign))
     last = _last_stage(start_from, until)
     tests = _chosen(loaded, (only,) if isinstance(only, str) else only)
@@ -204,30 +198,27 @@ def _digests(campaign: Campaign, raw: dict[str, RawFiles]) -> Digests:
     }
 
 
-def _check(
-    *,
-    paths: Mapping[str, Any],
-    texts: Mapping[str, Any],
-    flags: Mapping[str, Any],
-    only: Any,
-    workers: Any,
-    progress: Any,
-) -> None:
+_PATH, _STAGE, _FLAG = ("a path", str, Path), ("the name of a stage", str, NoneType), ("True or False", bool)
+
+_TAKEN: Mapping[str, Any] = {
+    "campaign": _PATH,
+    "results": (*_PATH, NoneType),
+    "until": _STAGE,
+    "start_from": _STAGE,
+    "scheduler": ("an address", str, NoneType),
+    "verify": _FLAG,
+    "awaiting": _FLAG,
+    "only": ("the id of a test, or a list of ids", str, list, tuple, set, frozenset),
+    "progress": ("a function", Callable, NoneType),
+}
+"""What each argument of `run` may be, in words and as types; the number of workers apart."""
+
+
+def _check(given: Mapping[str, Any]) -> None:
     """Check the type of each argument of `run`, as it comes from a notebook."""
-    for name, value in paths.items():
-        if not (isinstance(value, (str, Path)) or (name == "results" and value is None)):
-            raise ValueError(f"{name} is {described(value)}; a path was expected")
-    for name, value in texts.items():
-        if value is not None:
-            text(name, value, "an address" if name == "scheduler" else "the name of a stage")
-    if not isinstance(only, str) and not (
-        isinstance(only, (list, tuple, set, frozenset)) and all(isinstance(each, str) for each in only)
-    ):
-        raise ValueError(f"only is {described(only)}; the id of a test, or a list of ids, was expected")
-    if workers is not None:
-        whole("workers", workers, 1, MOST_WORKERS)
-    for name, value in flags.items():
-        if not isinstance(value, bool):
-            raise ValueError(f"{name} is {described(value)}; True or False was expected")
-    if progress is not None and not callable(progress):
-        raise ValueError(f"progress is {described(progress)}; a function was expected")
+    for name, (expected, *kinds) in _TAKEN.items():
+        is_taken = isinstance(given[name], tuple(kinds))
+        if not is_taken or (name == "only" and not all(isinstance(each, str) for each in given[name])):
+            raise ValueError(f"{name} is {described(given[name])}; {expected} was expected")
+    if given["workers"] is not None:
+        whole("workers", given["workers"], 1, MOST_WORKERS)
