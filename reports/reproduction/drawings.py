@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -12,9 +12,9 @@ from colonnade.dynamics.maps import StabilityMap
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import ANGLE_LABEL, draw_angle, limit_of, scale_symmetric, time_limits
 from colonnade.figures.maps import response_orders
-from colonnade.figures.panels.curve import Curve, draw_curve
+from colonnade.figures.panels.curve import draw_curve
 from colonnade.figures.panels.layout import legend_above, side_by_side
-from colonnade.figures.stored.record import measured_ratio, motion, predicted_ratios
+from colonnade.figures.stored.record import SpanPanel, motion, ratios
 from colonnade.figures.style import BASE, styled
 from reproduction.campaign import ANALYTICAL, NUMERICAL, SPECIMEN
 from reproduction.printed import SHOWN, SHOWN_FREQUENCY, SPANS
@@ -31,17 +31,8 @@ FREE = "free-01"
 """The free vibration that is drawn."""
 
 
-class Panel(NamedTuple):
-    """A history: its title, θ/α as measured (None if it is not shown) and by model; the base motion, m/s²."""
-
-    title: str
-    measured: Curve | None
-    predicted: Mapping[str, Curve]
-    base: Curve | None = None
-
-
 @styled()
-def overlays(panels: Sequence[Panel], *, until: float | None = None) -> Figure:
+def overlays(panels: Sequence[SpanPanel], *, until: float | None = None) -> Figure:
     """
     Draw histories side by side on common scales, measured and computed on each other, above the base motions.
 
@@ -56,11 +47,11 @@ def overlays(panels: Sequence[Panel], *, until: float | None = None) -> Figure:
     figure : Figure
     """
     bases = [panel.base for panel in panels if panel.base is not None]
-    curves = [curve for panel in panels for curve in (panel.measured, *panel.predicted.values()) if curve is not None]
+    curves = [curve for panel in panels for curve in panel.curves.values()]
     limit = limit_of(curves)
     figure, grid = side_by_side(len(panels), [ANGLE_HEIGHT] + [BASE_HEIGHT] * bool(bases))
     for column, panel in zip(grid, panels, strict=True):
-        draw_angle(column[0], panel.measured, panel.predicted, limit, thinness=0.8, limit_name="")
+        draw_angle(column[0], panel.curves, limit, thinness=0.8, limit_name="")
         column[0].set_title(panel.title)
         column[0].set_ylabel("")
         if bases:
@@ -77,16 +68,12 @@ def overlays(panels: Sequence[Panel], *, until: float | None = None) -> Figure:
     return figure
 
 
-def _panel(found: Found, test: str, title: str, shown: Sequence[str], *, based: bool = True) -> Panel:
+def _panel(found: Found, test: str, title: str, shown: Sequence[str], *, based: bool = True) -> SpanPanel:
     """Gather a panel; `shown` are "measured" and models."""
     stored = found.stored[test]
-    predicted = predicted_ratios(stored, found.block)
-    return Panel(
-        title,
-        measured_ratio(stored, found.block) if "measured" in shown else None,
-        {model: predicted[model] for model in shown if model in predicted},
-        motion(stored, "base_acceleration", "m/s²") if based else None,
-    )
+    curves = ratios(stored, found.block)
+    chosen = {who: curves[who] for who in shown if who in curves}
+    return SpanPanel(title, chosen, motion(stored, "base_acceleration", "m/s²") if based else None)
 
 
 def _free(found: Found, shown: Sequence[str]) -> Figure:

@@ -23,13 +23,13 @@ def test_the_ratio_of_the_spectra_is_drawn_about_one():
 
 
 def test_without_a_target_there_is_no_ratio():
-    figure = base_motion(ACHIEVED, None, BaseSpectra(PERIOD, np.sqrt(PERIOD), None))
+    figure = base_motion(ACHIEVED, None, BaseSpectra(PERIOD, np.sqrt(PERIOD), None), uplift=9.0)
     assert len(figure.axes) == 2
 
 
 @pytest.mark.parametrize(("ratio", "reach"), [(1.02, 0.2), (0.6, 0.44), (4.0, 1.0)])
 def test_the_axis_of_the_ratio_fits_what_it_shows(ratio, reach):
     spectra = BaseSpectra(PERIOD, ratio * np.sqrt(PERIOD), np.sqrt(PERIOD))
-    axes = base_motion(ACHIEVED, ACHIEVED, spectra).axes[2]
+    axes = base_motion(ACHIEVED, ACHIEVED, spectra, uplift=9.0).axes[2]
     assert axes.get_ylim() == pytest.approx((1 - reach, 1 + reach))
     assert axes.lines[0].get_ydata() == pytest.approx(min(ratio, 1 + reach))

@@ -22,7 +22,7 @@ def test_curves_and_shares_are_where_they_belong():
 
 
 def test_without_a_lognormal_curve_only_the_other_is_drawn():
-    [axes] = fragility(None, CURVE, label="PGA (g)", taken="isotonic").axes
+    [axes] = fragility(None, CURVE, label="PGA (g)", taken="isotonic", shares=None).axes
     assert "lognormal curve" not in {line.get_label() for line in axes.lines}
 
 

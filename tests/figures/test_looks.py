@@ -10,11 +10,11 @@ import pytest
 from colonnade.figures.base_motion import BaseSpectra, base_motion
 from colonnade.figures.channels import Channel, Scale, Spike, channels_as_recorded
 from colonnade.figures.closer import Enlarged, Phase, closer_look, separatrix
-from colonnade.figures.histories import Spread, bands_over_time
+from colonnade.figures.histories import Panel, Spread, bands_over_time
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.record import Peak, Quantity, whole_record
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
 from colonnade.figures.restitution.peaks import PeakSeries, peak_decay
+from colonnade.figures.stored.record import whole_record
 from colonnade.figures.style import STYLE_FILE
 from colonnade.identification.restitution.peaks import angle_of_energy
 from colonnade.signals.metrics import Density
@@ -42,19 +42,20 @@ looks = pytest.mark.mpl_image_compare(
 @looks
 def test_record():
     return whole_record(
-        SWING,
-        {"linear": MODEL},
-        misfits={"linear": Curve(TIME, MODEL.values - SWING.values)},
-        base=[Quantity("base\n(m/s²)", SHAKING, 1.85, "g tan α")],
+        {"measured": SWING, "linear": MODEL},
+        [
+            Panel("predicted −\nmeasured, / α", {"linear": Curve(TIME, MODEL.values - SWING.values)}),
+            Panel("base\n(m/s²)", {"": SHAKING}, 1.85, "g tan α"),
+        ],
         impacts=np.arange(0.5, 8, 0.5),
-        peak=Peak(0.25, 0.56),
+        peak=(0.25, 0.56),
         spreads={"linear": SPREAD},
     )
 
 
 @looks
 def test_bands():
-    return bands_over_time(SWING, {"linear": SPREAD})
+    return bands_over_time({"measured": SWING}, {"linear": SPREAD})
 
 
 @looks
@@ -87,13 +88,17 @@ def test_base_motion():
 @looks
 def test_closer_look():
     turn = np.linspace(0, 2 * np.pi, 100)
-    cycles = [Curve(turn / 2 / np.pi, size * np.sin(turn)) for size in (0.4, 0.42)]
-    return closer_look(
-        Phase(0.41 * np.sin(turn), 0.5 * np.cos(turn)),
-        {"nonlinear": Phase(0.44 * np.sin(turn), 0.52 * np.cos(turn))},
-        separatrix(PRISM),
-        Enlarged("phase of the base (periods)", cycles, {"nonlinear": cycles[:1]}, "last 2 periods of the steady part"),
+    once = Curve(turn / 2 / np.pi, 0.4 * np.sin(turn))
+    cycles = Curve(
+        np.append(np.append(once.time, np.nan), once.time), np.append(once.values, [np.nan, *1.05 * once.values])
     )
+    phases = {
+        "measured": Phase(0.41 * np.sin(turn), 0.5 * np.cos(turn)),
+        "nonlinear": Phase(0.44 * np.sin(turn), 0.52 * np.cos(turn)),
+    }
+    curves = {"measured": cycles, "nonlinear": once}
+    enlarged = Enlarged("phase of the base (periods)", curves, "last 2 periods of the steady part")
+    return closer_look(phases, separatrix(PRISM), enlarged)
 
 
 @looks

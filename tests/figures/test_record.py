@@ -3,10 +3,10 @@ import pytest
 from matplotlib.colors import to_hex
 
 from colonnade.dynamics.models import MODELS
-from colonnade.figures.histories import Spread
+from colonnade.figures.histories import Panel, Spread
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.panels.layout import PAGE
-from colonnade.figures.record import Peak, Quantity, SpanPanel, spans_side_by_side, whole_record
+from colonnade.figures.stored.record import SpanPanel, spans_side_by_side, whole_record
 from colonnade.figures.style import journal, model_style, styled
 
 TIME = np.linspace(0.0, 10.0, 2001)
@@ -20,16 +20,16 @@ def labels(figure):
     return [axes.get_ylabel().replace("\n", " ") for axes in figure.axes]
 
 
-def whole(**options):
-    return whole_record(swing(0.4), {"linear": swing(0.3)}, **options)
+def whole(*panels, **options):
+    return whole_record({"measured": swing(0.4), "linear": swing(0.3)}, panels, **options)
+
+
+MISFIT = Panel("predicted −\nmeasured, / α", {"linear": swing(0.1)})
+BASE = Panel("base\n(m/s²)", {"": swing(12.0)}, 2.0, "g tan α")
 
 
 def test_each_quantity_has_a_panel_below_the_angle_in_the_order_given():
-    figure = whole(
-        misfits={"linear": swing(0.1)},
-        motions=[Quantity("slide (mm)", swing(2.0))],
-        base=[Quantity("base (m/s²)", swing(3.0))],
-    )
+    figure = whole(MISFIT, Panel("slide (mm)", {"": swing(2.0)}), BASE)
     assert labels(figure) == ["θ / α", "predicted − measured, / α", "slide (mm)", "base (m/s²)"]
     tops = [axes.get_position().y1 for axes in figure.axes]
     assert tops == sorted(tops, reverse=True)
@@ -41,13 +41,9 @@ def test_a_free_vibration_without_misfit_is_one_panel():
     assert labels(whole()) == ["θ / α"]
 
 
-def test_a_misfit_without_any_value_has_no_panel():
-    assert labels(whole(misfits={"linear": Curve(TIME, np.full(TIME.size, np.nan))})) == ["θ / α"]
-
-
 @pytest.mark.parametrize(("level", "lines"), [(1.5, 3), (5.0, 1), (None, 1)], ids=["within", "beyond", "not known"])
 def test_the_uplift_acceleration_is_drawn_where_the_motion_reaches_it(level, lines):
-    figure = whole(base=[Quantity("base", swing(2.0), level, "g tan α")])
+    figure = whole(Panel("base", {"": swing(2.0)}, level, "g tan α"))
     assert len(figure.axes[1].lines) == lines
 
 
@@ -57,21 +53,22 @@ def test_impacts_stand_at_their_times():
 
 
 def test_the_largest_angle_is_ringed_but_not_where_it_leaves_the_axis():
-    assert len(whole(peak=Peak(1.25, 0.4)).axes[0].lines) == 3
-    assert len(whole(peak=Peak(1.25, 40.0)).axes[0].lines) == 2
+    assert len(whole(peak=(1.25, 0.4)).axes[0].lines) == 3
+    assert len(whole(peak=(1.25, 40.0)).axes[0].lines) == 2
 
 
 def test_the_legend_names_measured_and_models_once():
-    figure = whole(misfits={"linear": swing(0.1)}, impacts=np.array([1.0]), peak=Peak(1.25, 0.4))
+    figure = whole(MISFIT, impacts=np.array([1.0]), peak=(1.25, 0.4))
     names = [text.get_text() for box in figure.legends for text in box.get_texts()]
     assert names == ["measured", "linear model"]
 
 
 def test_no_label_leaves_the_figure_or_meets_another():
     figure = whole(
-        misfits={"linear": swing(0.123)},
-        motions=[Quantity("out of plane\n(mrad)", swing(-0.0123)), Quantity("slide, y\n(mm)", swing(1234.0))],
-        base=[Quantity("base\n(m/s²)", swing(12.0), 2.0, "g tan α")],
+        MISFIT,
+        Panel("out of plane\n(mrad)", {"": swing(-0.0123)}),
+        Panel("slide, y\n(mm)", {"": swing(1234.0)}),
+        BASE,
     )
     figure.draw_without_rendering()
     page = figure.bbox
@@ -89,7 +86,7 @@ def test_no_label_leaves_the_figure_or_meets_another():
 def test_the_legend_of_all_models_and_a_band_stays_within_the_figure():
     band = Spread(TIME, np.array([0.05, 0.95]), np.array([swing(0.2).values, swing(0.5).values]), 0.0, 3.0)
     models = {name: swing(0.3) for name in MODELS}
-    figure = whole_record(swing(0.4), models, spreads={"nonlinear": band})
+    figure = whole_record({"measured": swing(0.4)} | models, spreads={"nonlinear": band})
     (legend,) = figure.legends
     assert len(legend.get_texts()) == len(MODELS) + 2
     figure.canvas.draw()
@@ -98,7 +95,11 @@ def test_the_legend_of_all_models_and_a_band_stays_within_the_figure():
 
 def panels(count=3, models=("linear", "nonlinear"), base=True):
     return [
-        SpanPanel(f"Span {k}", swing(0.1 * k), {model: swing(0.12 * k) for model in models}, swing(k) if base else None)
+        SpanPanel(
+            f"Span {k}",
+            {"measured": swing(0.1 * k)} | {model: swing(0.12 * k) for model in models},
+            swing(k) if base else None,
+        )
         for k in range(1, count + 1)
     ]
 

@@ -14,7 +14,7 @@ from prism import PRISM
 def test_a_rocking_spectrum_shows_peaks_and_which_blocks_overturn():
     motion = Motion(4.0 * np.sin(4 * np.pi * np.linspace(0, 1, 201)), 0.005)
     spectrum = rocking_spectrum(motion, critical_angle=[0.15, 0.25], period=[0.5, 0.8, 9.0])
-    table = columns_of(spectra.rocking_spectrum(spectrum, period=4.0))
+    table = columns_of(spectra.rocking_spectrum(spectrum, period=4.0, title=""))
     shown = table["largest |θ|/α, α = 0.25 rad"]
     np.testing.assert_allclose(shown, spectrum.peak_ratio[1])
     fallen = table["size 2π/p (s), α = 0.15 rad: overturned"]
@@ -37,4 +37,4 @@ def test_the_title_of_mavroeidis_and_papageorgious_pulse_has_its_parameters():
     spectrum = overturning_spectrum(
         PRISM, "mavroeidis-papageorgiou", frequency_ratio=[2.0, 3.0], cycles=1.5, phase=1.0, largest=1.5
     )
-    assert "γ = 1.5, ν = 1 rad" in spectra.words_of(spectrum)
+    assert "γ = 1.5, ν = 1 rad" in spectra._words_of(spectrum)

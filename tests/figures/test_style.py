@@ -2,28 +2,10 @@ import re
 from pathlib import Path
 
 import matplotlib
-import numpy as np
 import pytest
 
 from colonnade.dynamics.models import MODELS
-from colonnade.figures.agreement import predicted_over_measured
-from colonnade.figures.channels import channels_as_recorded
-from colonnade.figures.closer import closer_look
-from colonnade.figures.forecasts import reliability_and_pit
-from colonnade.figures.maps.measured_map import measured_map
-from colonnade.figures.maps.stability_map import stability_map
-from colonnade.figures.moving import rocking_block
-from colonnade.figures.panels.curve import Curve
-from colonnade.figures.panels.layout import side_by_side, stacked_panels
-from colonnade.figures.record import spans_side_by_side
-from colonnade.figures.restitution.estimators import estimators_side_by_side
-from colonnade.figures.restitution.history import fitted_history
-from colonnade.figures.restitution.impacts import impact_restitution
-from colonnade.figures.restitution.many import impacts_of_many, peaks_of_many
-from colonnade.figures.restitution.peaks import peak_decay
 from colonnade.figures.style import WIDTH, blank_figure, journal, model_style, styled
-from every import every
-from prism import PRISM
 
 PROJECT = Path(__file__).resolve().parents[2]
 OUTPUT = {"savefig": "figures/files/output.py", "rcParams": "figures/style.py", "rc_context": "figures/style.py"}
@@ -77,32 +59,3 @@ def test_the_style_is_applied_again_after_an_error():
 
 def test_every_figure_has_the_common_width():
     assert blank_figure(2.5).get_size_inches().tolist() == [WIDTH, 2.5]
-
-
-NOTHING = Curve(np.empty(0), np.empty(0))
-
-
-@every(
-    ("draw", "said"),
-    [
-        (lambda: estimators_side_by_side([]), "no estimate"),
-        (lambda: impact_restitution([]), "no free vibration"),
-        (lambda: peak_decay([], PRISM), "no free vibration was given"),
-        (lambda: peaks_of_many([], PRISM), "no free vibration was given"),
-        (lambda: impacts_of_many([], level=None, rigid=None), "no free vibration was given"),
-        (lambda: fitted_history(NOTHING, NOTHING, NOTHING, model="nonlinear"), "no sample"),
-        (lambda: predicted_over_measured({"linear": []}), "at least one point"),
-        (lambda: channels_as_recorded([]), "no channel was given"),
-        (lambda: closer_look(None, {}, None, None), "no motion was given"),
-        (lambda: reliability_and_pit({}), "no model"),
-        (lambda: rocking_block({}, None, None, title="", description=""), "no history"),
-        (lambda: spans_side_by_side([]), "no test was given"),
-        (lambda: measured_map([]), "no sine test"),
-        (lambda: stability_map([]), "no map"),
-        (lambda: stacked_panels([]), "at least one"),
-        (lambda: side_by_side(0, [1.0]), "at least one"),
-    ],
-)
-def test_a_figure_of_nothing_is_refused_with_what_is_missing(draw, said):
-    with pytest.raises(ValueError, match=said):
-        draw()

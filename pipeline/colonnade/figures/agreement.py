@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
 
 from colonnade.arrays import Array
 from colonnade.figures.files.output import link_to
-from colonnade.figures.style import INK, LIMIT, model_style, styled, width
+from colonnade.figures.panels.layout import note, plain_decades
+from colonnade.figures.style import LIMIT, model_style, styled, width
 
 LEAST_SPAN = 0.1, 1.0
 """Of both axes, at least."""
@@ -79,8 +79,6 @@ def predicted_over_measured(points: Mapping[str, Sequence[PeakPoint]]) -> Figure
     lower edge a prediction too small for the axis.
     """
     drawn = {model: own for model, own in points.items() if own}
-    if not drawn:
-        raise ValueError("no prediction was given; at least one point was expected")
     limits = _limits([point for own in drawn.values() for point in own])
     # Square panels, with room for titles and labels.
     side = width() / max(len(drawn), 2)
@@ -108,9 +106,7 @@ def _scale(axes: Axes, limits: tuple[float, float]) -> None:
     axes.set(xscale="log", yscale="log", xlim=limits, ylim=limits)
     axes.set_box_aspect(1)
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if limits[1] < 100 * limits[0] else (1.0,)))
-        axis.set_minor_locator(NullLocator())
-        axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        plain_decades(axis, subs=(1.0, 2.0, 5.0) if limits[1] < 100 * limits[0] else (1.0,))
     axes.plot(limits, limits, **LIMIT)
 
 
@@ -154,16 +150,8 @@ def _draw(axes: Axes, model: str, points: Sequence[PeakPoint], limits: tuple[flo
             continue
         shift = _free_place(place, np.array(taken), side)
         taken.append(place + shift)
-        axes.annotate(
-            str(point.number),
-            (point.measured, height),
-            xytext=tuple(shift),
-            textcoords="offset points",
-            ha="center",
-            va="center",
-            fontsize=7,
-            color=INK,
-        )
+        aside = (float(shift[0]), float(shift[1]))
+        note(axes, str(point.number), (point.measured, height), aside, ha="center", va="center", fontsize=7)
 
 
 def _free_place(place: Array, taken: Array, side: float) -> Array:

@@ -18,7 +18,7 @@ from colonnade.dynamics.spectra import DAMPING, response_spectrum
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import draw_limit, largest_of, scale_symmetric, time_limits
 from colonnade.figures.panels.curve import Curve, draw_curve
-from colonnade.figures.panels.layout import BOTTOM, TOP, add_panel, legend_above, margins
+from colonnade.figures.panels.layout import BOTTOM, TOP, add_row, legend_above
 from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, is_narrow, styled, width
 from colonnade.signals.named_motion import Laid, Series, laid_on
 from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load, reference_files
@@ -50,41 +50,24 @@ class BaseSpectra(NamedTuple):
 
 
 @styled()
-def base_motion(achieved: Curve, target: Curve | None, spectra: BaseSpectra, *, uplift: float | None = None) -> Figure:
+def base_motion(achieved: Curve, target: Curve | None, spectra: BaseSpectra, *, uplift: float) -> Figure:
     """
-    Draw the acceleration of a table over time, and below the response spectra and, with a target, their ratio.
+    Draw the acceleration of a table (m/s²) over time (s), and below response spectra and, with a target, their ratio.
 
-    Parameters
-    ----------
-    achieved, target : Curve
-        m/s² over time (s); the target on the same clock, None if it is not known.
-    spectra : BaseSpectra
-    uplift : float, optional
-        Base acceleration from which the block rocks, m/s².
-
-    Returns
-    -------
-    figure : Figure
+    The target is on the same clock; `uplift` is the base acceleration from which the block rocks.
     """
-    left, right = margins()
-    room = width() - left - right
-    columns = 1 if spectra.target is None else 2
-    beside = 1 if is_narrow() else columns
-    panel = (room - APART * (beside - 1)) / beside
-    below = SPECTRUM_HEIGHT + BETWEEN
-    figure = Figure(figsize=(width(), TOP + HISTORY_HEIGHT + columns // beside * below + BOTTOM))
-    history = add_panel(figure, left, TOP, room, HISTORY_HEIGHT)
-    lower = []
-    for column in range(columns):
-        row, place = divmod(column, beside)
-        top = TOP + HISTORY_HEIGHT + BETWEEN + row * below
-        lower.append(add_panel(figure, left + place * (panel + APART), top, panel, SPECTRUM_HEIGHT))
+    panels = 1 if spectra.target is None else 2
+    rows = panels if is_narrow() else 1
+    lowest = TOP + HISTORY_HEIGHT + BETWEEN
+    figure = Figure(figsize=(width(), lowest + rows * (SPECTRUM_HEIGHT + BETWEEN) - BETWEEN + BOTTOM))
+    (history,) = add_row(figure, 1, TOP, HISTORY_HEIGHT, apart=0.0, below=0.0)
+    lower = add_row(figure, panels, lowest, SPECTRUM_HEIGHT, apart=APART, below=BETWEEN)
     if target is not None:
         draw_curve(history, target, label="target", **TARGET)
     draw_curve(history, achieved, label="achieved", color=MEASURED["color"], linewidth=0.8)
     largest = largest_of([curve for curve in (achieved, target) if curve is not None]) or 1.0
     scale_symmetric(history, largest)
-    if uplift is not None and uplift < 1.12 * largest:
+    if uplift < 1.12 * largest:
         draw_limit(history, uplift, "g tan α")
     history.set(xlim=time_limits([achieved]), xlabel="time (s)", ylabel="acceleration\n(m/s²)")
     _draw_spectra(lower[0], spectra)

@@ -121,8 +121,6 @@ def channels_as_recorded(channels: Sequence[Channel], spikes: Sequence[Spike] = 
     ValueError
         If there is no channel.
     """
-    if not channels:
-        raise ValueError("no channel was given; at least one was expected")
     rows = len(channels) * (HEIGHT + GAP) - GAP
     strip = SPIKE_TITLE + SPIKE_HEIGHT if spikes else 0.0
     across, (left, _) = width(), margins()

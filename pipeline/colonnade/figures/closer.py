@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -17,15 +17,18 @@ from colonnade.dynamics.block import Block
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import ANGLE_LABEL, LARGEST_RATIO, scale_symmetric
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.panels.layout import BOTTOM, TOP, add_panel, legend_above, margins
-from colonnade.figures.stored.record import measured_ratio, predicted_ratios
-from colonnade.figures.style import LIMIT, MEASURED, SOFT, LineStyle, is_narrow, model_style, styled, width
+from colonnade.figures.panels.layout import BOTTOM, TOP, add_row, legend_above, note
+from colonnade.figures.stored.record import ratios
+from colonnade.figures.style import LIMIT, SOFT, LineStyle, is_narrow, name_of, style_of, styled, width
 from colonnade.store.records.stored import Stored
 
 HEIGHT, APART = 2.5, 0.75
 """Of both panels, and the room between them; inches."""
 
 SEPARATRIX: LineStyle = {**LIMIT, "color": SOFT}
+
+Stretch = tuple[float, float]
+"""Of time: from, to; s."""
 
 THINNESS = 0.7
 """Of the models' lines beside their usual width."""
@@ -42,70 +45,39 @@ class Enlarged(NamedTuple):
     """
     A part of the motion, enlarged.
 
-    `measured` and `predicted` are stretches (cycles on each other, or one stretch of time) of θ/α over what `label`
-    says; `remark` is written into the panel.
+    `curves` are θ/α as "measured" and by model over what `label` says, cycles on each other with gaps between them:
+    one path, however many they are. `remark` is written into the panel.
     """
 
     label: str
-    measured: Sequence[Curve]
-    predicted: Mapping[str, Sequence[Curve]]
-    remark: str = ""
+    curves: Mapping[str, Curve]
+    remark: str
 
 
 @styled()
-def closer_look(
-    measured: Phase | None, predicted: Mapping[str, Phase], separatrix: Phase, enlarged: Enlarged | None
-) -> Figure:
+def closer_look(phases: Mapping[str, Phase], separatrix: Phase, enlarged: Enlarged | None) -> Figure:
     """
-    Draw the phase portrait and, if there is one, an enlarged part of the motion.
+    Draw the phase portrait, "measured" and by model, and, if there is one, an enlarged part of the motion.
 
-    Parameters
-    ----------
-    measured : Phase or None
-    predicted : mapping of str to Phase
-        By model.
-    separatrix : Phase
-        Upper branch of the free motion that just reaches the critical angle, from θ = −α to α.
-    enlarged : Enlarged or None
-
-    Returns
-    -------
-    figure : Figure
-
-    Raises
-    ------
-    ValueError
-        If there is no motion.
+    `separatrix` is the upper branch of the free motion that just reaches the critical angle, from θ = −α to α.
     """
-    phases = [phase for phase in (measured, *predicted.values()) if phase is not None]
-    if not phases:
-        raise ValueError("no motion was given; a measured or a predicted one was expected")
-    left, right = margins()
-    columns = 1 if enlarged is None else 2
-    beside = 1 if is_narrow() else columns
-    panel = (width() - left - right - APART * (beside - 1)) / beside
-    figure = Figure(figsize=(width(), TOP + columns // beside * (HEIGHT + BOTTOM)))
-    portrait, *others = (
-        add_panel(figure, left + place * (panel + APART), TOP + row * (HEIGHT + BOTTOM), panel, HEIGHT)
-        for row, place in (divmod(column, beside) for column in range(columns))
-    )
-    _draw_portrait(portrait, measured, predicted, separatrix, phases)
+    panels = 1 if enlarged is None else 2
+    rows = panels if is_narrow() else 1
+    figure = Figure(figsize=(width(), TOP + rows * (HEIGHT + BOTTOM)))
+    portrait, *others = add_row(figure, panels, TOP, HEIGHT, apart=APART, below=BOTTOM)
+    _draw_portrait(portrait, phases, separatrix)
     if enlarged is not None:
         _draw_enlarged(others[0], enlarged)
     legend_above(figure, [portrait])
     return figure
 
 
-def _draw_portrait(
-    axes: Axes, measured: Phase | None, predicted: Mapping[str, Phase], separatrix: Phase, phases: Sequence[Phase]
-) -> None:
-    largest = _largest(np.concatenate([phase.ratio for phase in phases]), LARGEST_RATIO)
-    fastest = _largest(np.concatenate([phase.velocity for phase in phases]), np.inf)
-    lines: list[tuple[Phase | None, str, LineStyle]] = [(measured, "measured", MEASURED)]
-    lines += [(phase, f"{model} model", model_style(model, THINNESS)) for model, phase in predicted.items()]
-    for phase, label, style in lines:
-        if phase is not None:
-            axes.plot(np.clip(phase.ratio, -2 * largest, 2 * largest), phase.velocity, label=label, **style)
+def _draw_portrait(axes: Axes, phases: Mapping[str, Phase], separatrix: Phase) -> None:
+    largest = _largest([phase.ratio for phase in phases.values()], LARGEST_RATIO)
+    fastest = _largest([phase.velocity for phase in phases.values()], np.inf)
+    for who, phase in phases.items():
+        shown = np.clip(phase.ratio, -2 * largest, 2 * largest)
+        axes.plot(shown, phase.velocity, label=name_of(who), **style_of(who, THINNESS))
     for sign in (1.0, -1.0):
         name = "separatrix" if sign > 0 else None
         axes.plot(separatrix.ratio, sign * separatrix.velocity, label=name, **SEPARATRIX)
@@ -116,30 +88,16 @@ def _draw_portrait(
 
 
 def _draw_enlarged(axes: Axes, enlarged: Enlarged) -> None:
-    drawn: list[tuple[Sequence[Curve], LineStyle]] = [(enlarged.measured, MEASURED)]
-    drawn += [(curves, model_style(model, THINNESS)) for model, curves in enlarged.predicted.items()]
-    every = [curve.values for curves, _ in drawn for curve in curves]
-    for curves, style in drawn:
-        # Cycles on each other are one line with gaps: one path, however many they are.
-        gap = np.array([np.nan])
-        if curves:
-            axes.plot(
-                np.concatenate([part for curve in curves for part in (curve.time, gap)]),
-                np.concatenate([part for curve in curves for part in (curve.values, gap)]),
-                **style,
-            )
-    largest = _largest(np.concatenate(every), LARGEST_RATIO) if every else 1.0
-    scale_symmetric(axes, largest)
+    for who, curve in enlarged.curves.items():
+        axes.plot(*curve, **style_of(who, THINNESS))
+    scale_symmetric(axes, _largest([curve.values for curve in enlarged.curves.values()], LARGEST_RATIO))
     axes.set(xlabel=enlarged.label, ylabel=ANGLE_LABEL)
-    if enlarged.remark:
-        axes.text(
-            0.995, 1.01, enlarged.remark, transform=axes.transAxes, ha="right", va="bottom", fontsize=8, color=SOFT
-        )
+    note(axes, enlarged.remark, (0.995, 1.01), xycoords="axes fraction", ha="right", va="bottom", color=SOFT)
 
 
-def _largest(values: Array, most: float) -> float:
-    finite = np.abs(values[np.isfinite(values)])
-    return min(float(finite.max(initial=0.0)) or 1.0, most)
+def _largest(parts: Iterable[Array], most: float) -> float:
+    finite = [np.abs(values[np.isfinite(values)]).max(initial=0.0) for values in parts]
+    return min(float(max(finite, default=0.0)) or 1.0, most)
 
 
 POINTS = 900
@@ -154,22 +112,20 @@ AROUND = 2.5
 
 def picture(test: Test, record: TestSummary, stored: Stored, block: Block) -> Picture | None:
     """Draw a test that rocked more closely; None if nothing rocked."""
-    measured = measured_ratio(stored, block)
-    predicted = predicted_ratios(stored, block)
-    if record.outcome == "no-rocking" or (measured is None and not predicted):
+    curves = ratios(stored, block)
+    if record.outcome == "no-rocking" or not curves:
         return None
-    enlarged, stretch = _steady(record, stored, measured, predicted), _steady_stretch(record, stored)
-    if enlarged is None:
-        stretch = _about_peak(record, measured, block)
-        enlarged = None if stretch is None else _in_time(record, stretch, measured, predicted)
-    phases = {
-        name: _phase(curve, block, stretch) for name, curve in {"": measured, **predicted}.items() if curve is not None
-    }
-    phases = {name: phase for name, phase in phases.items() if phase.ratio.size > 2}
+    enlarged: Enlarged | None = None
+    if stretch := _steady_stretch(record, stored):
+        enlarged = _steady(record, stored, stretch, curves)
+    elif stretch := _about_peak(record, curves, block):
+        enlarged = _in_time(record, stretch, curves)
+    phases = {who: _phase(curve, block, stretch) for who, curve in curves.items()}
+    phases = {who: phase for who, phase in phases.items() if phase.ratio.size > 2}
     if not phases:
         return None
     return Picture(
-        closer_look(phases.pop("", None), phases, separatrix(block), enlarged),
+        closer_look(phases, separatrix(block), enlarged),
         f"closer-{test.id}",
         f"{test.id}: phase portrait" + ("" if enlarged is None else f", and the rocking angle over {enlarged.label}"),
         "Angular velocity over p α against θ/α, measured and by model, with the separatrix of the free motion.",
@@ -188,7 +144,7 @@ def separatrix(block: Block) -> Phase:
     return Phase(ratio, np.sqrt(2 * (1 - np.cos(critical * (1 - np.abs(ratio))))) / critical)
 
 
-def _phase(curve: Curve, block: Block, stretch: tuple[float, float] | None) -> Phase:
+def _phase(curve: Curve, block: Block, stretch: Stretch | None) -> Phase:
     """Return angle and angular velocity over p and α within a stretch of time, thinned."""
     first, last = stretch or (-np.inf, np.inf)
     known = np.flatnonzero(np.isfinite(curve.values) & (curve.time >= first) & (curve.time <= last))
@@ -200,7 +156,7 @@ def _phase(curve: Curve, block: Block, stretch: tuple[float, float] | None) -> P
     return Phase(ratio[::step], (np.gradient(ratio, time) / block.p)[::step])
 
 
-def _steady_stretch(record: TestSummary, stored: Stored) -> tuple[float, float] | None:
+def _steady_stretch(record: TestSummary, stored: Stored) -> Stretch | None:
     """Return the last periods of the steady part of a sine, s."""
     frequency, start, stop = (
         stored.value("compare", name) for name in ("forcing_frequency", "steady_start", "steady_stop")
@@ -216,32 +172,22 @@ def _order(record: TestSummary) -> int:
     return record.order if isinstance(record.order, int) else 1
 
 
-def _steady(
-    record: TestSummary, stored: Stored, measured: Curve | None, predicted: Mapping[str, Curve]
-) -> Enlarged | None:
+def _steady(record: TestSummary, stored: Stored, stretch: Stretch, curves: Mapping[str, Curve]) -> Enlarged:
     """Return the last responses of the steady part of a sine on each other, over the phase of the base."""
-    stretch = _steady_stretch(record, stored)
-    if stretch is None:
-        return None
     (first, stop), order, frequency = stretch, _order(record), stored.value("compare", "forcing_frequency")
-    zero = _rising(
-        stored.array("rocking", "elapsed"), stored.array("rocking", "base_acceleration"), frequency, first, stop
-    )
+    time, base = (stored.array("rocking", name) for name in ("elapsed", "base_acceleration"))
+    zero = _rising(time, base, frequency, first, stop)
 
-    def cycles(curve: Curve) -> list[Curve]:
-        phase = (curve.time - zero) * frequency
+    def cycles(curve: Curve) -> Curve:
         inside = (curve.time >= first) & (curve.time <= stop)
+        phase, values = (curve.time[inside] - zero) * frequency, curve.values[inside]
         turn = np.floor(phase / order)
-        return [
-            Curve(phase[chosen] - order * each, curve.values[chosen])
-            for each in np.unique(turn[inside])
-            if (chosen := inside & (turn == each)).any()
-        ]
+        begins = np.flatnonzero(np.diff(turn)) + 1
+        return Curve(np.insert(phase - order * turn, begins, np.nan), np.insert(values, begins, np.nan))
 
     return Enlarged(
         "phase of the base (periods)",
-        [] if measured is None else cycles(measured),
-        {model: cycles(curve) for model, curve in predicted.items()},
+        {who: cycles(curve) for who, curve in curves.items()},
         f"last {round((stop - first) * frequency)} periods of the steady part",
     )
 
@@ -253,21 +199,17 @@ def _rising(time: Array, base: Array, frequency: float, first: float, stop: floa
     return float(first - (np.angle(amplitude) + np.pi / 2) / (2 * np.pi * frequency))
 
 
-def _about_peak(record: TestSummary, measured: Curve | None, block: Block) -> tuple[float, float] | None:
+def _about_peak(record: TestSummary, curves: Mapping[str, Curve], block: Block) -> Stretch | None:
     """Return the time about the largest measured angle, s."""
-    if record.peak_time is None or measured is None:
+    if record.peak_time is None or "measured" not in curves:
         return None
     reach = AROUND * 2 * np.pi / block.p
     return record.peak_time - reach, record.peak_time + reach
 
 
-def _in_time(
-    record: TestSummary, stretch: tuple[float, float], measured: Curve | None, predicted: Mapping[str, Curve]
-) -> Enlarged:
-    def near(curve: Curve) -> list[Curve]:
-        inside = (curve.time >= stretch[0]) & (curve.time <= stretch[1])
-        return [Curve(curve.time[inside], curve.values[inside])]
-
+def _in_time(record: TestSummary, stretch: Stretch, curves: Mapping[str, Curve]) -> Enlarged:
+    first, last = stretch
+    inside = {who: (curve.time >= first) & (curve.time <= last) for who, curve in curves.items()}
+    near = {who: Curve(curve.time[inside[who]], curve.values[inside[who]]) for who, curve in curves.items()}
     name = "overturning" if record.outcome == "overturned" else "the largest angle"
-    curves = {model: near(curve) for model, curve in predicted.items()}
-    return Enlarged("time (s)", [] if measured is None else near(measured), curves, f"about {name}")
+    return Enlarged("time (s)", near, f"about {name}")

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from colonnade.arrays import Array
+from colonnade.figures.panels.layout import legend_outside, note
 from colonnade.figures.style import LIMIT, SOFT, blank_figure, is_narrow, model_style, styled
 from colonnade.identification.calibration import FEW, Reliability
 
@@ -47,13 +48,11 @@ def reliability_and_pit(models: Mapping[str, Calibration]) -> Figure:
     -----
     Grey in the histogram: 95 % of the shares if the forecasts are right and the tests share no error.
     """
-    if not models:
-        raise ValueError("no model was given; at least one was expected")
     figure = blank_figure(6.0 if is_narrow() else 3.3)
     left, right = figure.subplots(2, 1) if is_narrow() else figure.subplots(1, 2)
     left.plot([0, 1], [0, 1], **LIMIT)
     for place, (model, each) in enumerate(models.items()):
-        _draw_reliability(left, model, each.reliability, shift=0.012 * (place - (len(models) - 1) / 2))
+        _draw_reliability(left, model, each.reliability, aside=0.012 * (place - (len(models) - 1) / 2))
     left.set(
         xlim=(-0.03, 1.03),
         ylim=(-0.03, 1.03),
@@ -61,12 +60,12 @@ def reliability_and_pit(models: Mapping[str, Calibration]) -> Figure:
         ylabel="share of the tests that overturned",
     )
     _draw_pit(right, models)
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper left", ncols=len(models))
+    legend_outside(figure, [left])
     return figure
 
 
-def _draw_reliability(axes: Axes, model: str, diagram: Reliability, *, shift: float) -> None:
-    style, across = model_style(model), diagram.probability + shift
+def _draw_reliability(axes: Axes, model: str, diagram: Reliability, *, aside: float) -> None:
+    style, across = model_style(model), diagram.probability + aside
     bars = axes.vlines(across, diagram.low, diagram.high, color=style["color"], linewidth=4.0, alpha=0.3)
     bars.set_gid(f"{model}, consistency bar")
     axes.plot(
@@ -79,17 +78,9 @@ def _draw_reliability(axes: Axes, model: str, diagram: Reliability, *, shift: fl
         markerfacecolor="white",
         label=f"{model} model",
     )
+    shift, side = ((5.0, 2.0), "left") if aside >= 0 else ((-5.0, 2.0), "right")
     for place, frequency, tests in zip(across, diagram.frequency, diagram.tests, strict=True):
-        side = (5, 2) if shift >= 0 else (-5, 2)
-        axes.annotate(
-            str(tests),
-            (place, frequency),
-            xytext=side,
-            textcoords="offset points",
-            ha="left" if shift >= 0 else "right",
-            fontsize=7,
-            color=SOFT,
-        )
+        note(axes, str(tests), (place, frequency), shift, ha=side, fontsize=7, color=SOFT)
 
 
 def _draw_pit(axes: Axes, models: Mapping[str, Calibration]) -> None:

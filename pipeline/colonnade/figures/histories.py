@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -12,8 +12,8 @@ from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array
 from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
-from colonnade.figures.panels.layout import stacked_panels
-from colonnade.figures.style import INK, LIMIT, MEASURED, LineStyle, is_narrow, model_style, styled
+from colonnade.figures.panels.layout import note, stacked_panels
+from colonnade.figures.style import INK, LIMIT, is_narrow, model_style, name_of, style_of, styled
 from colonnade.units.text import format_percent
 
 SMALLEST_RATIO = 0.02
@@ -23,6 +23,9 @@ LARGEST_RATIO = 1.35
 """Nor wider than ± this: an overturning leaves the axis."""
 
 ANGLE_LABEL = "θ / α"
+
+SMALLEST = 1e-3
+"""Nor the axis of any other panel than ± this, in its unit."""
 
 SHADES = (0.18, 0.3)
 """Opacity of the widest band and of those inside it."""
@@ -56,10 +59,39 @@ class Spread(NamedTuple):
         return float(1.0 - 2.0 * self.levels[index])
 
 
+class Panel(NamedTuple):
+    """
+    Curves over time in a panel of their own.
+
+    `label` is that of the axis with its unit; `curves` are those that were "measured" and by each model, or without a
+    name what was recorded beside; `level` is marked at ± with its name, where the curves reach it.
+    """
+
+    label: str
+    curves: Mapping[str, Curve]
+    level: float | None = None
+    level_name: str = ""
+
+
+def draw_panel(axes: Axes, panel: Panel) -> None:
+    """Draw a panel, scaled to its curves."""
+    draw_curves(axes, panel.curves)
+    largest = max(largest_of(panel.curves.values()), SMALLEST)
+    scale_symmetric(axes, largest)
+    if panel.level is not None and panel.level < 1.12 * largest:
+        draw_limit(axes, panel.level, panel.level_name)
+    axes.set_ylabel(panel.label)
+
+
+def draw_curves(axes: Axes, curves: Mapping[str, Curve], thinness: float = 1.0) -> None:
+    """Draw what was measured, and by each model with lines of this thinness."""
+    for who, curve in curves.items():
+        draw_curve(axes, curve, label=name_of(who), **style_of(who, thinness))
+
+
 def draw_angle(
     axes: Axes,
-    measured: Curve | None,
-    predicted: Mapping[str, Curve],
+    curves: Mapping[str, Curve],
     limit: float,
     *,
     spreads: Mapping[str, Spread] | None = None,
@@ -72,10 +104,8 @@ def draw_angle(
     Parameters
     ----------
     axes : Axes
-    measured : Curve or None
-        θ/α over time (s); None if the angle was not measured.
-    predicted : mapping of str to Curve
-        θ/α by model.
+    curves : mapping of str to Curve
+        θ/α over time (s): "measured", and by model.
     limit : float
         Half range of the θ/α axis (see `limit_of`).
     spreads : mapping of str to Spread, optional
@@ -86,62 +116,49 @@ def draw_angle(
         Written beside the line of the critical angle, which is drawn where the axis reaches it.
     """
     for model, spread in (spreads or {}).items():
-        label = f"{model} {format_percent(spread.share(0))} band"
-        shade(axes, spread, 0, model_style(model)["color"], label=label)
-        mark_horizon(axes, spread, model_style(model)["color"])
-    lines: list[tuple[Curve | None, str, LineStyle]] = [(measured, "measured", MEASURED)]
-    lines += [(curve, f"{model} model", model_style(model, thinness)) for model, curve in predicted.items()]
-    for curve, label, style in lines:
-        if curve is not None:
-            draw_curve(axes, curve, label=label, **style)
+        _shade(axes, model, spread, 1)
+    draw_curves(axes, curves, thinness)
     if limit > 1.0:
         draw_limit(axes, 1.0, limit_name)
     axes.set(ylim=(-limit, limit), ylabel=ANGLE_LABEL)
-    if measured is None and not predicted:
-        axes.text(
-            0.5, 0.5, "no rocking angle, measured or predicted", transform=axes.transAxes, ha="center", va="center"
-        )
+    if not curves:
+        said = "no rocking angle, measured or predicted"
+        axes.text(0.5, 0.5, said, transform=axes.transAxes, ha="center", va="center")
 
 
-def shade(axes: Axes, spread: Spread, index: int, colour: str, *, label: str) -> None:
-    """Shade one band of an ensemble, the widest being number 0."""
-    draw_band(
-        axes,
-        spread.time,
-        spread.bands[index],
-        spread.bands[-1 - index],
-        color=colour,
-        alpha=SHADES[min(index, len(SHADES) - 1)],
-        label=label,
-        zorder=0.5,
-    )
-
-
-def mark_horizon(axes: Axes, spread: Spread, colour: str) -> None:
-    """Mark the horizon of a model with an upright line and its name, unless it is the end of the record."""
+def _shade(axes: Axes, model: str, spread: Spread, count: int) -> None:
+    """Shade the widest bands of an ensemble; mark the model's horizon, unless it is the end of the record."""
+    colour = model_style(model)["color"]
+    for index in range(count):
+        label = f"{model} {format_percent(spread.share(index))} band"
+        shade = SHADES[min(index, len(SHADES) - 1)]
+        low, high = spread.bands[index], spread.bands[-1 - index]
+        draw_band(axes, spread.time, low, high, color=colour, alpha=shade, label=label, zorder=0.5)
     if spread.horizon < spread.time[-1]:
         axes.axvline(spread.horizon, color=colour, linewidth=0.9, linestyle=(0, (1, 1.5)))
         is_late = spread.horizon > 0.5 * (spread.time[0] + spread.time[-1])
-        axes.annotate(
+        aside, side = (-3.0, "right") if is_late else (3.0, "left")
+        place = axes.get_xaxis_transform()
+        note(
+            axes,
             "horizon",
             (spread.horizon, 0.98),
-            xycoords=axes.get_xaxis_transform(),
-            xytext=(-3 if is_late else 3, 0),
-            textcoords="offset points",
-            ha="right" if is_late else "left",
+            (aside, 0.0),
+            xycoords=place,
+            ha=side,
             va="top",
             fontsize=7,
             color=colour,
         )
 
 
-def limit_of(curves: Sequence[Curve]) -> float:
+def limit_of(curves: Iterable[Curve]) -> float:
     """Return the half range of a θ/α axis that shows these curves up to, and a little beyond, overturning."""
     largest = largest_of(curves)
     return LARGEST_RATIO if largest > 1.0 else min(max(1.12 * largest, SMALLEST_RATIO), LARGEST_RATIO)
 
 
-def time_limits(curves: Sequence[Curve]) -> tuple[float, float]:
+def time_limits(curves: Iterable[Curve]) -> tuple[float, float]:
     """Return the first and last time (s) of all curves; 0 and 1 without curves."""
     spans = [(float(curve.time[0]), float(curve.time[-1])) for curve in curves if curve.time.size > 1]
     if not spans:
@@ -159,20 +176,10 @@ def draw_limit(axes: Axes, level: float, name: str) -> None:
     """Draw lines at ± a limit and name the upper one beside the axis."""
     for value in (-level, level):
         axes.axhline(value, **LIMIT)
-    axes.annotate(
-        name,
-        (1.0, level),
-        xycoords=axes.get_yaxis_transform(),
-        xytext=(3, 0),
-        textcoords="offset points",
-        va="center",
-        fontsize=8,
-        color=INK,
-        annotation_clip=False,
-    )
+    note(axes, name, (1.0, level), (3, 0), xycoords=axes.get_yaxis_transform(), va="center", annotation_clip=False)
 
 
-def largest_of(curves: Sequence[Curve]) -> float:
+def largest_of(curves: Iterable[Curve]) -> float:
     """Return the largest finite magnitude, 0 if it has none."""
     return max(
         (float(np.abs(curve.values[np.isfinite(curve.values)]).max(initial=0.0)) for curve in curves), default=0.0
@@ -184,43 +191,20 @@ HEIGHT = 1.9
 
 
 @styled()
-def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Figure:
-    """
-    Draw the measured angle over the bands of each model, one panel a model; the panel says whose bands they are.
-
-    Parameters
-    ----------
-    measured : Curve or None
-        θ/α over time (s); None if it was not measured.
-    spreads : mapping of str to Spread
-        By model.
-
-    Returns
-    -------
-    figure : Figure
-
-    Raises
-    ------
-    ValueError
-        If there is no model, or levels are not paired about the median.
-    """
-    if not spreads:
-        raise ValueError("no ensemble was given; that of at least one model was expected")
+def bands_over_time(measured: Mapping[str, Curve], spreads: Mapping[str, Spread]) -> Figure:
+    """Draw the "measured" θ/α, if there is any, over the bands of each model, one panel a model, which says whose."""
     for model, spread in spreads.items():
         if not np.allclose(spread.levels + spread.levels[::-1], 1.0):
             raise ValueError(f"{model}: the levels {spread.levels.tolist()} are not paired about 0.5")
     figure, axes = stacked_panels([HEIGHT] * len(spreads))
     curves = [Curve(spread.time, band) for spread in spreads.values() for band in spread.bands]
-    curves += [measured] if measured is not None else []
+    curves += measured.values()
     limit = limit_of(curves)
     for panel, (model, spread) in zip(axes, spreads.items(), strict=True):
-        colour = model_style(model)["color"]
-        for index in range(int((spread.levels < 0.5).sum())):
-            shade(panel, spread, index, colour, label=f"{model} {format_percent(spread.share(index))} band")
-        mark_horizon(panel, spread, colour)
-        draw_angle(panel, measured, {}, limit)
-        panel.set_ylabel(ANGLE_LABEL)
-        shares = " and ".join(format_percent(spread.share(index)) for index in range(int((spread.levels < 0.5).sum())))
+        count = int((spread.levels < 0.5).sum())
+        _shade(panel, model, spread, count)
+        draw_angle(panel, measured, limit)
+        shares = " and ".join(format_percent(spread.share(index)) for index in range(count))
         said = f"measured, and bands of {shares} of the {model} model's runs"
         if is_narrow():
             said = f"{model} model: {shares} of its runs"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import singledispatch
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -23,12 +23,12 @@ from colonnade.figures import fragility
 from colonnade.figures.drawing.view import Body, Rocking
 from colonnade.figures.files.output import Movie
 from colonnade.figures.histories import SHADES, draw_angle, limit_of
-from colonnade.figures.maps.stability_map import stability_map
+from colonnade.figures.maps.stability_map import draw_map
 from colonnade.figures.moving import SIZE, moving_bodies, rocking_block
 from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
-from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
-from colonnade.figures.spectra import overturning_spectrum, rocking_spectrum
-from colonnade.figures.style import MEASURED, model_style
+from colonnade.figures.restitution.impacts import ImpactSeries, Level, draw_impacts
+from colonnade.figures.spectra import draw_overturning, draw_rocking
+from colonnade.figures.style import MEASURED, model_style, styled
 from colonnade.identification.restitution.result import Restitution
 from colonnade.units.text import format_percent
 from colonnade.validation import described, instance
@@ -39,7 +39,6 @@ FINE = 200
 """Points of a fragility curve."""
 
 
-@singledispatch
 def plot(result: Any, ax: Axes | None = None) -> Axes:
     """
     Draw a result.
@@ -72,52 +71,42 @@ def plot(result: Any, ax: Axes | None = None) -> Axes:
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('time (s)', 'θ / α')
     """
-    raise ValueError(f"result is {described(result)}; {KINDS} was expected")
+    draw = DRAWN.get(type(result))
+    if draw is None:
+        raise ValueError(f"result is {described(result)}; {KINDS} was expected")
+    if ax is None:
+        # A figure of pyplot is shown by a notebook, and by pyplot.show() in a script.
+        ax = pyplot.subplots(layout="constrained")[1]
+    instance("ax", ax, Axes)
+    with styled():
+        draw(ax, result)
+    ax.legend()
+    return ax
 
 
-@plot.register
-def _(result: History, ax: Axes | None = None) -> Axes:
-    axes = _axes(ax)
+def _draw_history(axes: Axes, result: History) -> None:
     drawn = Curve(result.time, result.angle / result.block.critical_angle_at(result.angle))
-    draw_angle(axes, None, {result.model: drawn}, max(limit_of([drawn]), _reach(axes)))
+    reach = axes.get_ylim()[1] if axes.lines else 0.0  # of a history that is there already
+    draw_angle(axes, {result.model: drawn}, max(limit_of([drawn]), reach))
     axes.set_xlabel("time (s)")
-    axes.legend()
-    return axes
 
 
-@plot.register
-def _(result: AssemblyHistory, ax: Axes | None = None) -> Axes:
-    axes = _axes(ax)
+def _draw_joints(axes: Axes, result: AssemblyHistory) -> None:
     for name, body in result.bodies.items():
         axes.plot(result.time, body.relative.angle / result.assembly.critical_angles[name], label=name)
     axes.set(xlabel="time (s)", ylabel="rocking angle at the joint / α")
-    axes.legend()
-    return axes
 
 
-@plot.register
-def _(result: Restitution, ax: Axes | None = None) -> Axes:
-    axes, impacts = _axes(ax), result.impacts
+def _draw_restitution(axes: Axes, result: Restitution) -> None:
+    impacts = result.impacts
     series = ImpactSeries(
         "impacts", impacts.velocity, impacts.restitution, impacts.restitution_standard_error, impacts.used
     )
     value, low, high = (np.nan if each is None else each for each in (result.value, result.low, result.high))
-    impact_restitution([series], level=Level(value, low, high, "e identified"), axes=axes)
-    axes.legend()
-    return axes
+    draw_impacts([axes], [series], level=Level(value, low, high, "e identified"))
 
 
-@plot.register
-def _(result: StabilityMap, ax: Axes | None = None) -> Axes:
-    axes = _axes(ax)
-    stability_map(result, axes=axes)
-    axes.legend()
-    return axes
-
-
-@plot.register
-def _(result: Ensemble, ax: Axes | None = None) -> Axes:
-    axes = _axes(ax)
+def _draw_ensemble(axes: Axes, result: Ensemble) -> None:
     colour = model_style("nonlinear")["color"]
     for index in range(int((result.levels < 0.5).sum())):
         low, high = result.bands[index], result.bands[-1 - index]
@@ -126,29 +115,10 @@ def _(result: Ensemble, ax: Axes | None = None) -> Axes:
         draw_band(axes, result.time, low, high, color=colour, alpha=shade, label=share)
     draw_curve(axes, Curve(result.time, result.central), label="nothing varied", **MEASURED)
     axes.set(xlabel="time (s)", ylabel="θ (rad)")
-    axes.legend()
-    return axes
 
 
-@plot.register
-def _(result: OverturningSpectrum, ax: Axes | None = None) -> Axes:
-    axes = _axes(ax)
-    overturning_spectrum(result, axes=axes)
-    axes.legend()
-    return axes
-
-
-@plot.register
-def _(result: RockingSpectrum, ax: Axes | None = None) -> Axes:
-    axes = _axes(ax)
-    rocking_spectrum(result, axes=axes)
-    axes.legend()
-    return axes
-
-
-@plot.register
-def _(result: Fragility, ax: Axes | None = None) -> Axes:
-    axes, fitted, rising = _axes(ax), result.lognormal, result.isotonic
+def _draw_fragility(axes: Axes, result: Fragility) -> None:
+    fitted, rising = result.lognormal, result.isotonic
     fine = np.geomspace(rising.intensity[0], rising.intensity[-1], FINE)
     curve = None if fitted.reason else fragility.Curve(fine, *fitted.probability(fine))
     label = "measure of intensity (SI)"
@@ -156,9 +126,19 @@ def _(result: Fragility, ax: Axes | None = None) -> Axes:
         measure = measure_of(result.measure)
         label = f"{measure.symbol} ({measure.unit})" if measure.unit else measure.symbol
     steps = fragility.Curve(rising.intensity, *rising.probability)
-    fragility.fragility(curve, steps, label=label, taken=result.taken, axes=axes)
-    axes.legend()
-    return axes
+    fragility.draw_fragility(axes, curve, steps, label=label, taken=result.taken)
+
+
+DRAWN: dict[type, Callable[[Axes, Any], None]] = {
+    History: _draw_history,
+    AssemblyHistory: _draw_joints,
+    Restitution: _draw_restitution,
+    StabilityMap: draw_map,
+    Ensemble: _draw_ensemble,
+    OverturningSpectrum: draw_overturning,
+    RockingSpectrum: draw_rocking,
+    Fragility: _draw_fragility,
+}
 
 
 def animate(history: History) -> FuncAnimation:
@@ -216,16 +196,3 @@ def _animation(movie: Movie) -> FuncAnimation:
         return movie.figure.axes[0].get_children()
 
     return FuncAnimation(movie.figure, show, frames=movie.frames, interval=1000 / movie.rate)
-
-
-def _axes(ax: Axes | None) -> Axes:
-    if ax is None:
-        # A figure of pyplot is shown by a notebook, and by pyplot.show() in a script.
-        return pyplot.subplots(layout="constrained")[1]
-    instance("ax", ax, Axes)
-    return ax
-
-
-def _reach(axes: Axes) -> float:
-    """Return how far an axis of θ/α reaches that has a history already."""
-    return max(map(abs, axes.get_ylim())) if axes.lines else 0.0

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import cast
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -11,36 +9,24 @@ from matplotlib.figure import Figure
 from colonnade.dynamics.pulses import OverturningSpectrum
 from colonnade.dynamics.spectra import RockingSpectrum
 from colonnade.figures.maps.measured_map import LOGARITHMIC, label_logarithmic, name_axes
-from colonnade.figures.maps.stability_map import OVERTURNED_COLOUR, words_of_restitution
-from colonnade.figures.style import LIMIT, SMALL_TEXT, SOFT, LineStyle, blank_figure, is_narrow, model_style, styled
+from colonnade.figures.maps.stability_map import OVERTURNED_COLOUR, draw_limits, words_of_restitution
+from colonnade.figures.panels.layout import caption, legend_outside
+from colonnade.figures.style import LIMIT, SOFT, LineStyle, blank_figure, styled
 
 
 @styled()
-def overturning_spectrum(spectrum: OverturningSpectrum, *, title: str = "", axes: Axes | None = None) -> Figure:
-    """
-    Draw an overturning spectrum.
+def overturning_spectrum(spectrum: OverturningSpectrum) -> Figure:
+    """Draw an overturning spectrum with its legend, and what the limits depend on."""
+    figure = blank_figure(3.8)
+    axes = figure.subplots()
+    draw_overturning(axes, spectrum)
+    caption(axes, _words_of(spectrum))
+    legend_outside(figure, [axes], below=True)
+    return figure
 
-    Parameters
-    ----------
-    spectrum : OverturningSpectrum
-        Of two frequencies at least.
-    title : str, optional
-        By default the pulse and what the limits depend on.
-    axes : Axes, optional
-        To draw into; a new figure with its title and legend otherwise.
 
-    Returns
-    -------
-    figure : Figure
-
-    Notes
-    -----
-    Every amplitude that overturns is shaded, islands too. The lower limit is the full line, the upper one the thin
-    one; where a limit is absent up to the largest A its line breaks.
-    """
-    own = axes is None
-    if axes is None:
-        axes = blank_figure(3.8).subplots()
+def draw_overturning(axes: Axes, spectrum: OverturningSpectrum) -> None:
+    """Shade every amplitude that overturns, islands too, and draw both limits; an absent limit breaks its line."""
     ratios, largest = spectrum.frequency_ratio, spectrum.options["largest"]
     half = 0.5 * np.diff(ratios, prepend=ratios[:1], append=ratios[-1:])
     left, right = dict(zip(ratios, half[:-1], strict=True)), dict(zip(ratios, half[1:], strict=True))
@@ -66,9 +52,7 @@ def overturning_spectrum(spectrum: OverturningSpectrum, *, title: str = "", axes
         zorder=1,
         gid="edges of the intervals that overturn",
     )
-    style = model_style(spectrum.model)
-    axes.plot(ratios, spectrum.lower, label="lower limit", zorder=3, **style | {"linewidth": 1.6})
-    axes.plot(ratios, spectrum.upper, label="upper limit", zorder=3, **style | {"linewidth": 0.8})
+    draw_limits(axes, spectrum, spectrum.model)
     axes.grid(False)
     axes.set_xlim(float(ratios.min()), float(ratios.max()))
     lowest = float(starts.min(initial=1.0))
@@ -76,16 +60,9 @@ def overturning_spectrum(spectrum: OverturningSpectrum, *, title: str = "", axes
         label_logarithmic(axes)
     axes.set_ylim(0.8 * lowest, largest)
     name_axes(axes)
-    figure = cast(Figure, axes.get_figure(root=True))
-    if own:
-        small = SMALL_TEXT["legend.fontsize"] if is_narrow() else 8
-        axes.set_title(title or words_of(spectrum), fontsize=small, color=SOFT)
-        figure.legend(loc="outside lower center", ncols=3, fontsize=small)
-    return figure
 
 
-def words_of(spectrum: OverturningSpectrum) -> str:
-    """Return in words what the limits depend on."""
+def _words_of(spectrum: OverturningSpectrum) -> str:
     options = spectrum.options
     shape = f", γ = {options['cycles']:g}, ν = {options['phase']:.3g} rad" if "cycles" in options else ""
     wide = f"limits at least {options['width']:.2g} wide"
@@ -105,32 +82,19 @@ STEP = 0.045
 
 
 @styled()
-def rocking_spectrum(
-    spectrum: RockingSpectrum, *, period: float | None = None, title: str = "", axes: Axes | None = None
-) -> Figure:
-    """
-    Draw a rocking spectrum.
+def rocking_spectrum(spectrum: RockingSpectrum, *, period: float, title: str) -> Figure:
+    """Draw a rocking spectrum with its title and legend; `period` is the 2π/p (s) of a column that is marked."""
+    figure = blank_figure(3.4)
+    axes = figure.subplots()
+    draw_rocking(axes, spectrum)
+    axes.axvline(period, label=f"the column, 2π/p = {period:.3g} s", zorder=1, **LIMIT)
+    caption(axes, title)
+    legend_outside(figure, [axes], below=True)
+    return figure
 
-    Parameters
-    ----------
-    spectrum : RockingSpectrum
-    period : float, optional
-        2π/p of a column, s, that is marked.
-    title : str, optional
-    axes : Axes, optional
-        To draw into; a new figure with its title and legend otherwise.
 
-    Returns
-    -------
-    figure : Figure
-
-    Notes
-    -----
-    Blocks that overturn have no largest angle: the curve breaks there, and crosses above show them.
-    """
-    own = axes is None
-    if axes is None:
-        axes = blank_figure(3.4).subplots()
+def draw_rocking(axes: Axes, spectrum: RockingSpectrum) -> None:
+    """Draw largest angles over size; blocks that overturn have none: the curve breaks, and crosses above show them."""
     highest = float(np.nanmax(spectrum.peak_ratio, initial=0.0))
     top = max(1.0, 1.05 * highest) + 2 * STEP
     for number, (angle, peak, fell) in enumerate(
@@ -150,15 +114,7 @@ def rocking_spectrum(
                 label=f"{name}: overturned",
                 zorder=3,
             )
-    if period is not None:
-        axes.axvline(period, label=f"the column, 2π/p = {period:.3g} s", zorder=1, **LIMIT)
     axes.axhline(1.0, color=SOFT, linewidth=0.6, zorder=1, gid="critical angle")
     axes.set_xlim(float(spectrum.period.min()), float(spectrum.period.max()))
     axes.set_ylim(0.0, top + max(1, len(spectrum.critical_angle)) * STEP)
     axes.set(xlabel="size 2π/p (s)", ylabel="largest |θ|/α")
-    figure = cast(Figure, axes.get_figure(root=True))
-    if own:
-        small = SMALL_TEXT["legend.fontsize"] if is_narrow() else 8
-        axes.set_title(title, fontsize=small, color=SOFT)
-        figure.legend(loc="outside lower center", ncols=2 if is_narrow() else 3, fontsize=small)
-    return figure

@@ -63,16 +63,21 @@ LIMIT: LineStyle = {"color": FAINT, "linestyle": (0, (1.0, 2.5)), "linewidth": 1
 
 
 def model_style(model: str, thinness: float = 1.0) -> LineStyle:
-    """
-    Colour and dash of a model, the same in every figure; in small panels the line may be thinner.
-
-    Raises
-    ------
-    ValueError
-        If the model is unknown.
-    """
+    """Return colour and dash of a model, the same in every figure; in small panels the line may be thinner."""
     line = model_of(model).line
     return {"color": line.color, "linestyle": (0, line.dash), "linewidth": thinness * line.width}
+
+
+def style_of(who: str, thinness: float = 1.0) -> LineStyle:
+    """Return the look of what was "measured", or of a model; without a name that of what was recorded beside."""
+    if who in ("", "measured"):
+        return MEASURED if who else BASE
+    return model_style(who, thinness)
+
+
+def name_of(who: str) -> str:
+    """Return the name of what was "measured", or of a model, as legends give it."""
+    return who if who in ("", "measured") else f"{who} model"
 
 
 def grid_style() -> dict[str, Any]:
@@ -137,43 +142,16 @@ def blank_figure(height: float) -> Figure:
     return Figure(figsize=(width(), height), layout="constrained")
 
 
-def fitting(labels: Sequence[str], *, inches: float, points: float, most: int) -> int:
-    """
-    Return into how many columns a legend's entries go beside each other.
-
-    Parameters
-    ----------
-    labels : sequence of str
-    inches : float
-        Room for them.
-    points : float
-        Size of the text.
-    most : int
-        Largest number of columns.
-    """
-    longest = max(map(len, labels), default=0)
-    entry = points / 72 * (0.48 * longest + 3.2)  # letters of mean width, handle and gaps
-    return max(min(most, len(labels), int(inches / entry)), 1)
-
-
 def legend_columns(labels: Sequence[str], spacing: Mapping[str, float], room: float) -> int:
-    """
-    Return into how many columns a legend's entries go beside each other, by the width of each.
-
-    Parameters
-    ----------
-    labels : sequence of str
-    spacing : mapping of str to float
-        Its `columnspacing`, and what else is other than in the style sheet, in sizes of its text.
-    room : float
-        For them, inches.
-    """
+    """Return how many columns of a legend, by the widths of its entries, go into the room for it (inches)."""
     style = matplotlib.rcParams
     usual = {"handlelength": style["legend.handlelength"], "handletextpad": style["legend.handletextpad"]}
     font, gaps = FontProperties(size=style["legend.fontsize"]), sum((usual | dict(spacing)).values())
     text = np.array([text_to_path.get_text_width_height_descent(each, font, "$" in each)[0] for each in labels])
     size = font.get_size_in_points() / 72
     entries, room = text / 72 + gaps * size, room + spacing["columnspacing"] * size
-    # A legend fills its columns one after the other, the first ones with one more.
-    wide = (sum(float(each.max()) for each in np.array_split(entries, count)) for count in range(len(labels), 0, -1))
-    return next((len(labels) - less for less, each in enumerate(wide) if each <= room), 1)
+    for columns in range(len(labels), 1, -1):
+        # A legend fills its columns one after the other, the first ones with one more.
+        if sum(float(each.max()) for each in np.array_split(entries, columns)) <= room:
+            return columns
+    return 1

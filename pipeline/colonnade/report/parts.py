@@ -12,8 +12,7 @@ from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from colonnade.figures.record import SpanPanel
-from colonnade.figures.stored.record import measured_ratio
+from colonnade.figures.stored.record import SpanPanel, measured_ratio
 from colonnade.figures.style import styled
 from colonnade.report import addresses, pages, rows, specimens_page
 from colonnade.report.asked import Asked

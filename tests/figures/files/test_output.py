@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 
 from colonnade.figures.files.output import shorter, to_svg
+from colonnade.figures.histories import Panel
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.record import Quantity, SpanPanel, spans_side_by_side, whole_record
+from colonnade.figures.stored.record import SpanPanel, spans_side_by_side, whole_record
 
 TEXT = 'Test <a> & "b"'
 
@@ -20,7 +21,8 @@ def long_figure(samples=60_000):
     noise = np.random.default_rng(5)
     measured, linear, base = (Curve(time, noise.normal(size=samples)) for _ in range(3))
     return whole_record(
-        measured, {"linear": linear, "nonlinear": measured, "contact": linear}, base=[Quantity("base\n(m/s²)", base)]
+        {"measured": measured, "linear": linear, "nonlinear": measured, "contact": linear},
+        [Panel("base\n(m/s²)", {"": base})],
     )
 
 
@@ -78,7 +80,7 @@ def test_it_holds_no_date_no_script_no_style_sheet_and_no_outside_link():
 
 
 def test_text_stays_text_and_dollar_signs_are_no_formula():
-    panels = [SpanPanel("costs $2 and $3", Curve(np.arange(3.0), np.arange(3.0)), {})]
+    panels = [SpanPanel("costs $2 and $3", {"measured": Curve(np.arange(3.0), np.arange(3.0))})]
     assert "costs $2 and $3" in to_svg(spans_side_by_side(panels), identity="one", title="", description="")
 
 

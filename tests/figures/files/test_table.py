@@ -12,11 +12,11 @@ from matplotlib.figure import Figure
 
 from colonnade.figures.files.output import to_csv
 from colonnade.figures.files.table import columns_of
-from colonnade.figures.histories import Spread
+from colonnade.figures.histories import Panel, Spread
 from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
-from colonnade.figures.record import Peak, Quantity, whole_record
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
+from colonnade.figures.stored.record import whole_record
 
 TIME = np.linspace(0.0, 20.0, 20_001)
 NUMBERS = st.floats(-1e6, 1e6, width=32)
@@ -62,16 +62,15 @@ def test_every_drawn_line_is_in_the_table_with_all_its_samples(curves, names):
 
 def test_a_record_gives_one_time_and_a_column_a_curve_at_full_length():
     measured, linear = Curve(TIME, np.sin(TIME)), Curve(TIME, np.cos(TIME))
-    base = Quantity("base\n(m/s²)", Curve(TIME, np.tan(TIME)))
+    misfit = Panel("predicted −\nmeasured, / α", {"linear": Curve(TIME, linear.values - measured.values)})
+    base = Panel("base\n(m/s²)", {"": Curve(TIME, np.tan(TIME))})
     spread = Spread(TIME, np.array([0.05, 0.5, 0.95]), np.sin(TIME) + np.array([[-0.1], [0.0], [0.1]]), 0.0, 5.0)
     impacts = np.array([1.0, 2.5])
     figure = whole_record(
-        measured,
-        {"linear": linear},
-        misfits={"linear": Curve(TIME, linear.values - measured.values)},
-        base=[base],
+        {"measured": measured, "linear": linear},
+        [misfit, base],
         impacts=impacts,
-        peak=Peak(1.0, 0.5),
+        peak=(1.0, 0.5),
         spreads={"linear": spread},
     )
     before = to_csv(figure)
@@ -91,7 +90,7 @@ def test_a_record_gives_one_time_and_a_column_a_curve_at_full_length():
     for heading, values in {
         "time (s)": TIME,
         "θ / α, measured": measured.values,
-        "base (m/s²)": base.curve.values,
+        "base (m/s²)": base.curves[""].values,
         "θ / α, linear 90 % band, high": spread.bands[-1],
         "time (s), measured impact": impacts,
     }.items():

@@ -10,14 +10,14 @@ from colonnade.dynamics.block import Block
 from colonnade.figures.files.table import columns_of
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
-from colonnade.figures.restitution.history import Region, fitted_history, joint_region
+from colonnade.figures.restitution.history import fitted_history, joint_region
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
 from colonnade.figures.restitution.peaks import PeakSeries, draw_marks, peak_decay
 from colonnade.figures.style import MEASURED, model_style
 from colonnade.identification.restitution.peaks import angle_of_energy
 from prism import PRISM
 
-NOTHING = EstimateRow("impact by impact", np.nan, np.nan, np.nan, remark="too few impacts")
+NOTHING = EstimateRow("impact by impact", np.nan, np.nan, np.nan)
 
 
 def test_estimates_stand_side_by_side_with_their_intervals():
@@ -29,7 +29,7 @@ def test_estimates_stand_side_by_side_with_their_intervals():
     colours = {text.get_text(): text.get_color() for text in axes.texts}
     assert colours["whole history"] != colours["peaks"]
     assert told["0.9505 ± 0.0002"] == "bold"
-    assert "too few impacts" in told
+    assert "none" in told
     assert " rigid body 0.9496 " in told
 
 
@@ -42,7 +42,7 @@ def test_a_rigid_body_value_far_away_does_not_squeeze_the_estimates(rigid, told)
 
 def test_one_estimate_far_off_is_an_arrow_at_the_edge():
     rows = [EstimateRow(str(n), 0.95, 0.949, 0.951) for n in range(4)] + [EstimateRow("off", 0.7, 0.699, 0.701)]
-    axes = estimators_side_by_side([EstimateGroup("", rows)]).axes[0]
+    axes = estimators_side_by_side([EstimateGroup("", rows)], rigid=0.95).axes[0]
     mark = next(line for line in axes.lines if line.get_marker() == "<")
     assert mark.get_transform() == axes.get_yaxis_transform()
     assert mark.get_xdata()[0] == 0.0
@@ -52,7 +52,10 @@ def test_one_estimate_far_off_is_an_arrow_at_the_edge():
 def test_a_refusal_by_all_estimators_has_no_scale():
     axes = estimators_side_by_side([EstimateGroup("", [NOTHING])], rigid=0.95).axes[0]
     assert axes.get_xticks().size == 0
-    assert [text.get_text() for text in axes.texts] == ["impact by impact", "too few impacts"]
+    assert [text.get_text() for text in axes.texts] == ["impact by impact", "none"]
+
+
+UNKNOWN = Level(np.nan, np.nan, np.nan, "")
 
 
 def impacts(title="free-01", *, count=20, error=1e-3, used=True):
@@ -74,13 +77,13 @@ def test_each_impact_has_its_bar_and_the_constant_its_band():
 
 
 def test_a_rigid_body_value_off_the_axis_is_told_at_its_edge():
-    axes = impact_restitution([impacts()], rigid=0.8).axes[0]
+    axes = impact_restitution([impacts()], level=UNKNOWN, rigid=0.8).axes[0]
     assert axes.get_ylim()[0] > 0.8
     assert [text.get_text() for text in axes.texts] == ["rigid body 0.8000 ↓"]
 
 
 def test_impacts_left_out_are_hollow_and_several_tests_have_marks_of_their_own():
-    figure = impact_restitution([impacts(), impacts("free-02", used=False)])
+    figure = impact_restitution([impacts(), impacts("free-02", used=False)], level=UNKNOWN, rigid=0.8)
     first, second = figure.axes[0].containers
     assert first.lines[0].get_markerfacecolor() != second.lines[0].get_markerfacecolor()
     assert first.lines[0].get_marker() != second.lines[0].get_marker()
@@ -91,7 +94,7 @@ def test_impacts_left_out_are_hollow_and_several_tests_have_marks_of_their_own()
 def test_the_axis_of_e_shows_the_bars_of_the_surest_impacts_and_not_what_scatters_at_the_end(count):
     series = impacts(count=count)
     series.restitution[-1], series.standard_error[-1] = (0.2, 0.5) if count > 2 else (0.95, 1e-3)
-    low, high = impact_restitution([series]).axes[0].get_ylim()
+    low, high = impact_restitution([series], level=UNKNOWN, rigid=0.8).axes[0].get_ylim()
     assert low < 0.948
     assert high > 0.952
     assert high - low < 0.1
@@ -99,7 +102,7 @@ def test_the_axis_of_e_shows_the_bars_of_the_surest_impacts_and_not_what_scatter
 
 def test_impacts_without_a_value_are_said():
     series = impacts()._replace(restitution=np.full(20, np.nan))
-    assert impact_restitution([series]).axes[0].texts[-1].get_text() == "no impacts"
+    assert impact_restitution([series], level=UNKNOWN, rigid=0.8).axes[0].texts[-1].get_text() == "no impacts"
 
 
 def decay(title="free-01", *, count=20, restitution=0.95, used=None):
@@ -112,7 +115,7 @@ def decay(title="free-01", *, count=20, restitution=0.95, used=None):
 def test_bars_that_would_merge_are_a_band_about_e_and_stay_in_the_table():
     speed = np.geomspace(1.0, 0.1, 80)
     series = ImpactSeries("free-01", speed, np.full(80, 0.95), 2e-3 / speed, np.full(80, True))
-    figure = impact_restitution([series], level=Level(0.95, 0.948, 0.952, "e identified"))
+    figure = impact_restitution([series], level=Level(0.95, 0.948, 0.952, "e identified"), rigid=0.8)
     axes = figure.axes[0]
     (band,) = (each for each in axes.collections if each.get_label() == "± two standard errors of an impact")
     outline = band.get_paths()[0].vertices
@@ -205,22 +208,12 @@ def test_a_fitted_history_shows_measured_fit_and_what_is_left_over():
 def test_the_joint_region_holds_its_share_of_a_normal_distribution():
     centre = np.array([0.95, 1.01])
     covariance = np.array([[4e-6, 3e-6], [3e-6, 9e-6]])
-    axes = joint_region([Region("free-01", centre, covariance)], fixed=(0.949, 0.948, 0.95)).axes[0]
+    axes = joint_region("free-01", centre, covariance, fixed=Level(0.949, 0.948, 0.95, "")).axes[0]
     for line, level in zip(axes.lines[:2], (0.5, 0.95), strict=True):
         away = np.column_stack(line.get_data()) - centre
         distance = np.einsum("ij,jk,ik->i", away, np.linalg.inv(covariance), away)
         assert distance == pytest.approx(np.full(away.shape[0], stats.chi2.ppf(level, 2)))
     assert "e with α as given" in axes.get_legend_handles_labels()[1]
-
-
-@pytest.mark.parametrize(
-    ("regions", "said"),
-    [([], "no fit"), ([Region("one", np.ones(2), np.zeros((2, 2)))], "one: .* not positive definite")],
-    ids=["none", "a covariance of nothing"],
-)
-def test_a_region_that_cannot_be_drawn_is_refused(regions, said):
-    with pytest.raises(ValueError, match=said):
-        joint_region(regions)
 
 
 X, Y = np.arange(4.0), np.arange(4.0) + 10.0

@@ -8,9 +8,8 @@ import pytest
 from colonnade.figures.files.table import columns_of
 from colonnade.figures.maps import response_orders
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.record import SpanPanel
 from colonnade.figures.stored import record, restitution
-from colonnade.figures.stored.record import angle, measured_ratio, misfits, motion, predicted_ratios, spreads
+from colonnade.figures.stored.record import angle, measured_ratio, misfits, motion, ratios, spreads
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.stages.parts.beginning import AT_REST, RECORDED
 from colonnade.store.records.test import driven_by
@@ -54,7 +53,7 @@ def test_each_model_has_a_panel_of_its_spread(known):
 
 def test_of_many_spans_some_are_drawn_and_the_caption_says_so():
     curve = Curve(np.array([0.0, 1.0]), np.array([0.0, 0.1]))
-    panels = [SpanPanel(f"Span {k}", curve, {"linear": curve}, curve) for k in range(40)]
+    panels = [record.SpanPanel(f"Span {k}", {"measured": curve, "linear": curve}, curve) for k in range(40)]
     picture = record.spans("spans", "Spans", "", panels)
     titles = [title for axes in picture.figure.axes if (title := axes.get_title(loc="left"))]
     assert len(titles) == record.MOST_SPANS
@@ -141,14 +140,14 @@ def test_measured_and_predicted_are_over_the_critical_angle(known):
     _, record, stored, block = known("span-2.0")
     measured = measured_ratio(stored, block)
     assert np.nanmax(np.abs(measured.values)) == pytest.approx(record.peak_ratio, rel=1e-6)
-    assert set(predicted_ratios(stored, block)) == {"linear", "nonlinear"}
+    assert set(ratios(stored, block)) == {"measured", "linear", "nonlinear"}
 
 
 def test_misfits_end_where_the_comparison_ends(known):
     _, _, stored, block = known("span-3.0")
-    measured, predicted = measured_ratio(stored, block), predicted_ratios(stored, block)
-    for model, misfit in misfits(stored, measured, predicted).items():
-        assert misfit.time[-1] <= stored.compared("compared_until", model) < measured.time[-1]
+    curves = ratios(stored, block)
+    for model, misfit in misfits(stored, curves).items():
+        assert misfit.time[-1] <= stored.compared("compared_until", model) < curves["measured"].time[-1]
 
 
 def test_each_model_has_the_bands_of_its_ensemble(known):

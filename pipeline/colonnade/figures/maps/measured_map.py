@@ -9,21 +9,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from colonnade.figures.files.output import link_to
-from colonnade.figures.style import (
-    FIT,
-    LIMIT,
-    MEASURED,
-    SOFT,
-    LineStyle,
-    blank_figure,
-    fitting,
-    is_narrow,
-    styled,
-    width,
-)
+from colonnade.figures.panels.layout import legend_outside, note, plain_decades
+from colonnade.figures.style import FIT, LIMIT, MEASURED, SOFT, LineStyle, blank_figure, is_narrow, styled
 from colonnade.identification.response.boundaries import Boundaries, Bracket, MapPoint, bracket_boundaries
 
 MARKERS: dict[str, dict[str, Any]] = {
@@ -47,40 +36,18 @@ LOGARITHMIC = 6.0
 @styled()
 def measured_map(points: Sequence[MapPoint], *, linked: bool = False) -> Figure:
     """
-    Draw the measured map of a specimen.
+    Draw the sine tests of a specimen by outcome, each as a link to its page if `linked`.
 
-    Parameters
-    ----------
-    points : sequence of MapPoint
-        Its sine tests.
-    linked : bool, optional
-        Whether each mark leads to its test, see `output.link_to`.
-
-    Returns
-    -------
-    figure : Figure
-
-    Raises
-    ------
-    ValueError
-        If there is no point.
-
-    Notes
-    -----
     A bar spans the tests between which a boundary, met going up in A, lies; a line joins the middles of the bars of
     neighbouring frequencies. A sub-harmonic response is labelled by its order.
     """
-    if not points:
-        raise ValueError("no sine test was given; at least one point of the map was expected")
     figure = blank_figure(3.6)
     axes = figure.subplots()
     _draw_scale(axes, points)
     for name, label, style in BOUNDARIES:
         _draw_boundary(axes, bracket_boundaries(points), name, label, style)
     draw_points(axes, points, linked=linked)
-    labels = axes.get_legend_handles_labels()[1]
-    ncols = fitting(labels, inches=width(), points=7.0, most=5) if is_narrow() else 5
-    figure.legend(loc="outside upper left", ncols=ncols, columnspacing=1.2, handletextpad=0.5, borderaxespad=0.2)
+    legend_outside(figure, [axes])
     return figure
 
 
@@ -106,15 +73,8 @@ def draw_points(axes: Axes, points: Sequence[MapPoint], *, prefix: str = "", lin
                 places.set_urls([link_to(point.test) for point in chosen])
     for point in points:
         if isinstance(point.order, int) and point.order > 1:
-            axes.annotate(
-                f"1/{point.order}",
-                (point.frequency_ratio, point.amplitude_ratio),
-                xytext=(6, 0),
-                textcoords="offset points",
-                va="center",
-                fontsize=7,
-                path_effects=[withStroke(linewidth=2.5, foreground="white")],
-            )
+            at, clear = (point.frequency_ratio, point.amplitude_ratio), [withStroke(linewidth=2.5, foreground="white")]
+            note(axes, f"1/{point.order}", at, (6, 0), va="center", fontsize=7, path_effects=clear)
 
 
 def _draw_scale(axes: Axes, points: Sequence[MapPoint]) -> None:
@@ -134,9 +94,7 @@ def _draw_scale(axes: Axes, points: Sequence[MapPoint]) -> None:
 def label_logarithmic(axes: Axes) -> None:
     """Make the axis of A logarithmic, with plain numbers at several of each decade."""
     axes.set_yscale("log")
-    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 1.5, 2.0, 3.0, 5.0, 7.0), numticks=20))
-    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axes.yaxis.set_minor_formatter(NullFormatter())
+    plain_decades(axes.yaxis, subs=(1.0, 1.5, 2.0, 3.0, 5.0, 7.0))
 
 
 def name_axes(axes: Axes) -> None:

@@ -26,7 +26,8 @@ from colonnade.figures.maps.stability_map import (
     words_of_restitution,
     words_of_sine,
 )
-from colonnade.figures.style import FAINT, INK, SOFT, blank_figure, styled
+from colonnade.figures.panels.layout import caption, legend_outside
+from colonnade.figures.style import FAINT, INK, blank_figure, styled
 from colonnade.identification.response.boundaries import MapPoint
 
 
@@ -63,70 +64,33 @@ def response_orders(response: SteadyResponse, points: Sequence[MapPoint], option
     """
     Draw the orders of steady responses over Ω and A, and below them curves of the largest angle over each.
 
-    Parameters
-    ----------
-    response : SteadyResponse
-        At least two Ω and two A.
-    points : sequence of MapPoint
-        Measured sine tests; of a sub-harmonic response with its order.
-    options : mapping
-        What the responses depend on: `model`, `settling`, `ramp`, `phase`, and e as in the options of a
-        stability map.
-
-    Returns
-    -------
-    figure : Figure
-
-    Raises
-    ------
-    ValueError
-        If there are fewer than two Ω or A.
-
-    Notes
-    -----
-    A response of order k repeats every k cycles of the base. A curve breaks where the block overturns and where the
-    order changes; dots mark responses that are sub-harmonic or irregular.
+    `points` are measured sine tests; `options` say what the responses depend on: `model`, `settling`, `ramp`, `phase`,
+    and e as in the options of a stability map. A response of order k repeats every k cycles of the base. A curve breaks
+    where the block overturns and where the order changes; dots mark responses that are sub-harmonic or irregular.
     """
     if min(response.order.shape) < 2:
         raise ValueError(f"orders of {response.order.shape} Ω and A were given; at least two of each were expected")
     figure = blank_figure(6.6)
     grid = figure.add_gridspec(2, 2, height_ratios=(1.7, 1.0))
     axes = figure.add_subplot(grid[0, :])
-    present = _draw_regions(axes, response)
+    patches = _draw_regions(axes, response)
     scale_axes(axes, response.frequency_ratio, response.amplitude_ratio, points)
     draw_points(axes, points, prefix="measured: ")
     settled = f"{options['model']} model; {words_of_restitution(options)}; {words_of_sine(options)}"
-    axes.set_title(f"{settled}, {options['settling']} cycles to settle", fontsize=8, color=SOFT)
-    patches = [Patch(facecolor=region.colour, edgecolor=FAINT, linewidth=0.5) for region in present]
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(
-        [*patches, *handles],
-        [*(region.name for region in present), *labels],
-        loc="outside lower center",
-        ncols=4,
-        fontsize=8,
-        columnspacing=1.2,
-        handletextpad=0.6,
-    )
-    over_frequency, over_amplitude = figure.add_subplot(grid[1, 0]), figure.add_subplot(grid[1, 1])
-    _draw_curves(
-        over_frequency,
-        response.frequency_ratio,
-        response.amplitude.T,
-        response.order.T,
-        response.amplitude_ratio,
-        "A",
-    )
-    over_frequency.set(xlabel="Ω = ω / p", ylabel="largest |θ| / α")
-    _draw_curves(
-        over_amplitude, response.amplitude_ratio, response.amplitude, response.order, response.frequency_ratio, "Ω"
-    )
-    over_amplitude.set_xlabel("A = a / (g tan α)")
+    caption(axes, f"{settled}, {options['settling']} cycles to settle")
+    legend_outside(figure, [axes], below=True, patches=patches)
+    frequencies, amplitudes = response.frequency_ratio, response.amplitude_ratio
+    below = figure.add_subplot(grid[1, 0])
+    _draw_curves(below, frequencies, response.amplitude.T, response.order.T, amplitudes, "A")
+    below.set(xlabel="Ω = ω / p", ylabel="largest |θ| / α")
+    beside = figure.add_subplot(grid[1, 1])
+    _draw_curves(beside, amplitudes, response.amplitude, response.order, frequencies, "Ω")
+    beside.set_xlabel("A = a / (g tan α)")
     return figure
 
 
-def _draw_regions(axes: Axes, response: SteadyResponse) -> list[Orders]:
-    """Draw the cells in the colours of their regions; return the regions there are."""
+def _draw_regions(axes: Axes, response: SteadyResponse) -> list[Patch]:
+    """Draw the cells in the colours of their regions; return a patch for each region there is."""
     colours = {order: region.colour for region in REGIONS for order in region.orders}
     orders = sorted(colours)
     axes.grid(False)
@@ -141,7 +105,8 @@ def _draw_regions(axes: Axes, response: SteadyResponse) -> list[Orders]:
         zorder=0,
         gid=f"order ({AT_REST} at rest, {IRREGULAR} irregular, {OVERTURNED} overturned)",
     )
-    return [region for region in REGIONS if np.isin(response.order, region.orders).any()]
+    present = [region for region in REGIONS if np.isin(response.order, region.orders).any()]
+    return [Patch(facecolor=each.colour, edgecolor=FAINT, linewidth=0.5, label=each.name) for each in present]
 
 
 def _draw_curves(

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from textwrap import fill
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,24 +13,12 @@ from matplotlib.patches import Patch
 
 from colonnade.arrays import Array
 from colonnade.dynamics.maps import StabilityMap
+from colonnade.dynamics.pulses import OverturningSpectrum
 from colonnade.figures.maps.measured_map import LOGARITHMIC, draw_points, label_logarithmic, name_axes
-from colonnade.figures.style import (
-    BASE,
-    SMALL_TEXT,
-    SOFT,
-    LineStyle,
-    blank_figure,
-    fitting,
-    is_narrow,
-    model_style,
-    styled,
-    width,
-)
+from colonnade.figures.panels.layout import caption, legend_outside
+from colonnade.figures.style import BASE, LineStyle, blank_figure, model_style, styled
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.units import from_si
-
-NARROW_LINE = 62
-"""Letters of a line above the map in a single column."""
 
 OVERTURNED_COLOUR = "#eec9b4"
 SHADE = LinearSegmentedColormap.from_list("overturning", ["#ffffff", OVERTURNED_COLOUR])
@@ -39,55 +26,32 @@ SHADE = LinearSegmentedColormap.from_list("overturning", ["#ffffff", OVERTURNED_
 
 
 @styled()
-def stability_map(
-    charts: StabilityMap | Sequence[StabilityMap],
-    points: Sequence[MapPoint] = (),
-    *,
-    linked: bool = False,
-    axes: Axes | None = None,
-) -> Figure:
+def stability_map(charts: Sequence[StabilityMap], points: Sequence[MapPoint] = (), *, linked: bool = False) -> Figure:
     """
-    Draw a stability map.
+    Draw stability maps of one block, one for each model, with its sine tests, as links if `linked`.
 
-    Parameters
-    ----------
-    charts : StabilityMap or sequence of StabilityMap
-        Maps of one block, one for each model. The first is shaded by the share of each cell that overturns; of each
-        the limits are drawn.
-    points : sequence of MapPoint, optional
-        Measured sine tests.
-    linked : bool, optional
-        Whether each of them leads to its test, see `output.link_to`.
-    axes : Axes, optional
-        To draw into; a new figure with its legend and with the options of the first map otherwise.
-
-    Returns
-    -------
-    figure : Figure
-
-    Raises
-    ------
-    ValueError
-        If there is no map.
-
-    Notes
-    -----
-    The lower limit is the full line, the upper one the thin one; where a limit is absent up to the largest A its line
-    breaks. Each model has the colour and dash that it has in every figure.
+    The first is shaded by the share of each cell that overturns; of each the limits are drawn.
     """
-    charts = [charts] if isinstance(charts, StabilityMap) else list(charts)
-    if not charts:
-        raise ValueError("no map was given; at least one was expected")
-    own = axes is None
-    if axes is None:
-        axes = blank_figure(4.4).subplots()
-    first = charts[0]
-    scale_axes(axes, first.frequency_ratio, first.amplitude_ratio, points)
+    figure, first = blank_figure(4.4), charts[0]
+    axes = figure.subplots()
+    draw_map(axes, first, points)
+    for chart in charts[1:]:
+        _draw_model(axes, chart)
+    draw_points(axes, points, prefix="measured: ", linked=linked)
+    caption(axes, _words(charts))
+    shade = Patch(facecolor=SHADE(1.0), label=f"overturned, share of cell ({first.options['model']})")
+    legend_outside(figure, [axes], below=True, patches=[shade])
+    return figure
+
+
+def draw_map(axes: Axes, chart: StabilityMap, points: Sequence[MapPoint] = ()) -> None:
+    """Draw regions and limits of a map on axes that hold the points; an absent limit breaks its line."""
+    scale_axes(axes, chart.frequency_ratio, chart.amplitude_ratio, points)
     axes.grid(False)
     axes.pcolormesh(
-        first.frequency_ratio,
-        first.amplitude_ratio,
-        first.overturning_fraction.T,
+        chart.frequency_ratio,
+        chart.amplitude_ratio,
+        chart.overturning_fraction.T,
         cmap=SHADE,
         vmin=0.0,
         vmax=1.0,
@@ -96,40 +60,22 @@ def stability_map(
         zorder=0,
         gid="share of the cell that overturns",
     )
-    for chart in charts:
-        _limits(axes, chart)
-    draw_points(axes, points, prefix="measured: ", linked=linked)
-    figure = cast(Figure, axes.get_figure(root=True))
-    if own:
-        words, most = _words(charts), 3
-        handles, labels = axes.get_legend_handles_labels()
-        shade = Patch(facecolor=SHADE(1.0), label=f"overturned, share of cell ({first.options['model']})")
-        labels = [str(shade.get_label()), *labels]
-        if is_narrow():
-            words, most = fill(words, NARROW_LINE), fitting(labels, inches=width(), points=7.0, most=3)
-        axes.set_title(words, fontsize=SMALL_TEXT["legend.fontsize"] if is_narrow() else 8, color=SOFT)
-        figure.legend(
-            handles=[shade, *handles],
-            labels=labels,
-            loc="outside lower center",
-            ncols=most,
-            fontsize=SMALL_TEXT["legend.fontsize"] if is_narrow() else 8,
-            columnspacing=1.4,
-            handletextpad=0.6,
-        )
-    return figure
+    _draw_model(axes, chart)
 
 
-def _limits(axes: Axes, chart: StabilityMap) -> None:
+def _draw_model(axes: Axes, chart: StabilityMap) -> None:
     model = str(chart.options["model"])
-    style = model_style(model)
-    onset: LineStyle = {**BASE, "linestyle": style["linestyle"]}
-    lower: LineStyle = {**style, "linewidth": 1.6}
-    upper: LineStyle = {**style, "linewidth": 0.8}
+    onset: LineStyle = {**BASE, "linestyle": model_style(model)["linestyle"]}
     begins = f"{model}: rocking begins, A = {_range(chart.no_rocking)}"
     axes.plot(chart.frequency_ratio, chart.no_rocking, label=begins, zorder=2, **onset)
-    axes.plot(chart.frequency_ratio, chart.lower, label=f"{model}: lower limit", zorder=3, **lower)
-    axes.plot(chart.frequency_ratio, chart.upper, label=f"{model}: upper limit", zorder=3, **upper)
+    draw_limits(axes, chart, model, prefix=f"{model}: ")
+
+
+def draw_limits(axes: Axes, found: StabilityMap | OverturningSpectrum, model: str, *, prefix: str = "") -> None:
+    """Draw the lower limit as the full line, the upper one as the thin one, in the look of the model."""
+    for name, limit, wide in (("lower", found.lower, 1.6), ("upper", found.upper, 0.8)):
+        look: LineStyle = {**model_style(model), "linewidth": wide}
+        axes.plot(found.frequency_ratio, limit, label=f"{prefix}{name} limit", zorder=3, **look)
 
 
 def _range(limit: Array) -> str:

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from textwrap import fill
 from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
 
-from colonnade.figures.style import fitting, grid_style, is_narrow, legend_columns, width
+from colonnade.figures.style import INK, SOFT, grid_style, is_narrow, legend_columns, width
 
 LEFT, RIGHT, TOP, BOTTOM, GAP = 0.92, 0.5, 0.34, 0.44, 0.14
 """Room for labels left and right, the legend above, the time axis below, and between panels; inches."""
@@ -37,27 +41,7 @@ COLUMNS = 3
 
 
 def stacked_panels(heights: Sequence[float]) -> tuple[Figure, list[Axes]]:
-    """
-    Return a figure with one panel below the other, all on one horizontal axis.
-
-    Parameters
-    ----------
-    heights : sequence of float
-        Of the panels from the top, inches.
-
-    Returns
-    -------
-    figure : Figure
-    axes : list of Axes
-        Only the lowest carries the numbers of the horizontal axis.
-
-    Raises
-    ------
-    ValueError
-        If there is no panel.
-    """
-    if not heights:
-        raise ValueError("no height was given; at least one panel was expected")
+    """Return a figure with panels of these heights (inches) below each other, all on one horizontal axis."""
     figure, (panels,) = side_by_side(1, heights, title=0.0)
     return figure, panels
 
@@ -66,25 +50,8 @@ def side_by_side(columns: int, heights: Sequence[float], *, title: float = 0.2) 
     """
     Return a figure with columns of panels: one horizontal axis for all, one vertical axis a row of panels.
 
-    Parameters
-    ----------
-    columns : int
-        More than `COLUMNS` are continued below, in bands.
-    heights : sequence of float
-        Of the panels of a column from the top, inches.
-    title : float, optional
-        Room above each column, inches.
-
-    Returns
-    -------
-    figure : Figure
-    axes : list of list of Axes
-        Of each column from the top.
-
-    Raises
-    ------
-    ValueError
-        If there is no column or no height.
+    More than `COLUMNS` are continued below, in bands. `heights` are those of the panels of a column from the top,
+    `title` is the room above each column; inches.
     """
     if columns < 1 or not heights:
         raise ValueError(f"{columns} columns of {len(heights)} panels; at least one column with one panel was expected")
@@ -95,29 +62,22 @@ def side_by_side(columns: int, heights: Sequence[float], *, title: float = 0.2) 
         share = ((PAGE - TOP) / bands - room) / sum(heights)
         heights = [height * min(1.0, max(share, LEAST_HEIGHT)) for height in heights]
     band = room + sum(heights)
-    total = TOP + bands * band
     left, right = margins()
     panel = (width() - left - right - (across - 1) * GAP) / across
-    figure = Figure(figsize=(width(), total))
+    figure = Figure(figsize=(width(), TOP + bands * band))
     grid: list[list[Axes]] = []
     for column in range(columns):
         row, place = divmod(column, across)
-        top = total - TOP - row * band - title
+        top = TOP + row * band + title
         panels: list[Axes] = []
         for index, height in enumerate(heights):
-            one = add_panel(
-                figure,
-                left + place * (panel + GAP),
-                total - top,
-                panel,
-                height,
-                sharex=grid[0][0] if grid else panels[0] if panels else None,
-                sharey=grid[0][index] if grid else None,
-            )
+            sharex = grid[0][0] if grid else panels[0] if panels else None
+            sharey = grid[0][index] if grid else None
+            one = add_panel(figure, left + place * (panel + GAP), top, panel, height, sharex=sharex, sharey=sharey)
             if place > 0:
                 one.tick_params(labelleft=False)
             panels.append(one)
-            top -= height + GAP
+            top += height + GAP
         leave_scale_to_last(panels)
         grid.append(panels)
     return figure, grid
@@ -164,17 +124,7 @@ def add_panel(
     sharex: Axes | None = None,
     sharey: Axes | None = None,
 ) -> Axes:
-    """
-    Add a panel to a figure.
-
-    Parameters
-    ----------
-    figure : Figure
-    left, top, width, height : float
-        Inches, from the left and upper edge of the figure.
-    sharex, sharey : Axes, optional
-        Panels whose axes it shares.
-    """
+    """Add a panel; inches from the left and upper edge of the figure."""
     across, total = (float(size) for size in figure.get_size_inches())
     place = (left / across, 1 - (top + height) / total, width / across, height / total)
     panel = figure.add_axes(place, sharex=sharex, sharey=sharey)
@@ -183,44 +133,54 @@ def add_panel(
     return panel
 
 
+def add_row(figure: Figure, count: int, top: float, height: float, *, apart: float, below: float) -> list[Axes]:
+    """Add panels `apart` beside each other, or in a single column with room `below` each; inches."""
+    left, right = margins()
+    beside = 1 if is_narrow() else count
+    wide = (width() - left - right - apart * (beside - 1)) / beside
+    places = [divmod(index, beside) for index in range(count)]
+    return [
+        add_panel(figure, left + place * (wide + apart), top + row * (height + below), wide, height)
+        for row, place in places
+    ]
+
+
 def legend_above(figure: Figure, axes: Sequence[Axes]) -> None:
     """Name each line once, in the room that `stacked_panels` and `side_by_side` leave above all panels."""
-    named = _named(axes)
+    named, (left, _right) = _named(axes), margins()
     if not named:
         return
-    left, _right = margins()
+    look = _columns(named, width() - left - EDGE)
+    _raise(figure, (-(-len(named) // look["ncols"]) - 1) * ROW)
+    corner = (left / width(), 1 - 0.03 / float(figure.get_size_inches()[1]))
+    look |= {"bbox_to_anchor": corner, "borderaxespad": 0.0, "borderpad": 0.0}
+    figure.legend(list(named.values()), list(named), loc="upper left", **look)
+
+
+def legend_outside(figure: Figure, axes: Sequence[Axes], *, below: bool = False, patches: Sequence[Patch] = ()) -> None:
+    """Name each line once, after the patches, above or below all panels of a figure that is laid out automatically."""
+    named = {str(patch.get_label()): patch for patch in patches} | _named(axes)
+    if named:
+        look = _columns(named, width() - EDGE) | {"borderaxespad": 0.2}
+        handles, labels = list(named.values()), list(named)
+        figure.legend(handles, labels, loc="outside lower center" if below else "outside upper left", **look)
+
+
+def _columns(named: Mapping[str, Artist], room: float) -> dict[str, Any]:
+    """Return spacing of a legend's entries, and the number of columns that find room (inches)."""
     closer = {"columnspacing": 0.7, "handlelength": 1.4, "handletextpad": 0.3} if len(named) > ROOMY else {}
     spacing = {"columnspacing": 1.4, **closer}
-    ncols = legend_columns(list(named), spacing, width() - left - EDGE)
-    if ncols < len(named):
-        _raise(figure, (-(-len(named) // ncols) - 1) * ROW)
-    figure.legend(
-        list(named.values()),
-        list(named),
-        loc="upper left",
-        bbox_to_anchor=(left / width(), 1 - 0.03 / float(figure.get_size_inches()[1])),
-        ncols=ncols,
-        borderaxespad=0.0,
-        borderpad=0.0,
-        **spacing,
-    )
+    return {"ncols": legend_columns(list(named), spacing, room), **spacing}
 
 
 def _raise(figure: Figure, more: float) -> None:
     """Make a figure higher by so many inches at the top; its panels stay as they are."""
     wide, high = (float(size) for size in figure.get_size_inches())
+    share = high / (high + more)
     for axes in figure.axes:
         box = axes.get_position()
-        axes.set_position((box.x0, box.y0 * high / (high + more), box.width, box.height * high / (high + more)))
+        axes.set_position((box.x0, box.y0 * share, box.width, box.height * share))
     figure.set_size_inches(wide, high + more)
-
-
-def legend_outside(figure: Figure, axes: Sequence[Axes]) -> None:
-    """Name each line once, above all panels of a figure that is laid out automatically."""
-    named = _named(axes)
-    if named:
-        ncols = fitting(list(named), inches=width(), points=7.0, most=len(named)) if is_narrow() else len(named)
-        figure.legend(list(named.values()), list(named), loc="outside upper left", ncols=ncols, borderaxespad=0.2)
 
 
 def _named(axes: Sequence[Axes]) -> dict[str, Artist]:
@@ -229,3 +189,21 @@ def _named(axes: Sequence[Axes]) -> dict[str, Artist]:
         for handle, label in zip(*one.get_legend_handles_labels(), strict=True):
             named.setdefault(str(label), handle)
     return named
+
+
+def note(axes: Axes, text: str, at: tuple[float, float], shift: tuple[float, float] = (0.0, 0.0), **look: Any) -> None:
+    """Write a remark at a place, in data or in the `xycoords` that are given, shifted by printer's points."""
+    axes.annotate(text, at, shift, textcoords="offset points", **{"fontsize": 8, "color": INK, **look})
+
+
+def caption(axes: Axes, text: str) -> None:
+    """Write above a panel, in small letters, what it depends on."""
+    narrow = is_narrow()
+    axes.set_title(fill(text, 56 if narrow else 130), fontsize=7.0 if narrow else 8.0, color=SOFT)
+
+
+def plain_decades(axis: Axis, subs: Sequence[float] = (1.0, 2.0, 5.0)) -> None:
+    """Label a logarithmic axis with plain numbers, at these of each decade."""
+    axis.set_major_locator(LogLocator(subs=subs, numticks=20))
+    axis.set_minor_locator(NullLocator())
+    axis.set_major_formatter(StrMethodFormatter("{x:g}"))

@@ -10,14 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from colonnade.figures.panels.layout import add_panel, note
+from colonnade.figures.restitution.impacts import Level
 from colonnade.figures.style import FIT, INK, LIMIT, MEASURED, SOFT, styled, width
 from colonnade.units.text import interval
 
 ROW, GROUP = 0.21, 0.26
-"""Heights of an estimate's row and of a group's title, inches."""
-
-MARGIN = 0.1
-"""Below the last row, inches; the rigid-body value is written in a row of its own."""
+"""Heights of an estimate's row, and of a group's title or the rigid-body value; inches."""
 
 LEFT, RIGHT, TOP, BOTTOM = 2.05, 1.6, 0.12, 0.46
 """Room for names, for values in figures, and for the axis; inches."""
@@ -30,14 +29,13 @@ BEYOND = 8.0
 
 
 class EstimateRow(NamedTuple):
-    """One estimator's e and interval, or (with NaN) the reason in few words; whether it is the recommended one."""
+    """One estimator's e and interval, NaN if it gives none; whether it is the recommended one."""
 
     name: str
     value: float
     low: float
     high: float
     recommended: bool = False
-    remark: str = ""
 
 
 class EstimateGroup(NamedTuple):
@@ -48,35 +46,15 @@ class EstimateGroup(NamedTuple):
 
 
 @styled()
-def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float | None = None) -> Figure:
-    """
-    Draw points with intervals, a row an estimate, groups below each other.
-
-    Parameters
-    ----------
-    groups : sequence of EstimateGroup
-    rigid : float, optional
-        Rigid-body value: a line if the axis reaches it, else written at its edge.
-
-    Returns
-    -------
-    figure : Figure
-
-    Raises
-    ------
-    ValueError
-        If there is no row.
-    """
-    count = sum(len(group.rows) for group in groups)
-    if not count:
-        raise ValueError("no estimate was given; at least one was expected")
+def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float) -> Figure:
+    """Draw points with intervals, a row an estimate, groups below each other; `rigid` is the rigid-body value."""
+    rows = [row for group in groups for row in group.rows]
     titles = sum(bool(group.title) for group in groups)
-    body = count * ROW + titles * GROUP + (MARGIN if rigid is None else GROUP)
+    body = len(rows) * ROW + titles * GROUP + GROUP
     height = TOP + body + BOTTOM
     figure = Figure(figsize=(width(), height))
-    axes = figure.add_axes((LEFT / width(), BOTTOM / height, (width() - LEFT - RIGHT) / width(), body / height))
-    low, high = _limits([row for group in groups for row in group.rows])
-    axes.set(xlim=(low, high), ylim=(body, 0))
+    axes = add_panel(figure, LEFT, TOP, width() - LEFT - RIGHT, body)
+    axes.set(xlim=_limits(rows), ylim=(body, 0))
     axes.tick_params(axis="y", left=False, labelleft=False)
     axes.grid(visible=False, axis="y")
     place = 0.05
@@ -87,61 +65,60 @@ def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float | N
         for row in group.rows:
             _draw_row(axes, place + ROW / 2, row, group.title)
             place += ROW
-    if not any(np.isfinite(row.value) for group in groups for row in group.rows):
-        axes.set_xticks([])
-    else:
+    if any(np.isfinite(row.value) for row in rows):
         axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
-        if rigid is not None:
-            _draw_rigid(axes, rigid)
+        _draw_rigid(axes, rigid)
+    else:
+        axes.set_xticks([])
     axes.set_xlabel("coefficient of restitution e")
     return figure
 
 
 def _draw_row(axes: Axes, place: float, row: EstimateRow, title: str) -> None:
-    weight = "bold" if row.recommended else "normal"
+    mark, size, thickness, weight = ("D", 5.0, 2.0, "bold") if row.recommended else ("o", 4.0, 1.1, "normal")
     _write(axes, place, row.name, -LEFT + 0.15, colour=FIT["color"] if row.recommended else INK)
     if not np.isfinite(row.value):
-        _write(axes, place, row.remark or "none", None, colour=SOFT)
+        middle = axes.get_yaxis_transform()
+        note(axes, "none", (0.5, place), xycoords=middle, ha="center", va="center", color=SOFT)
         return
     colour = FIT["color"] if row.recommended else MEASURED["color"]
-    size = 5.0 if row.recommended else 4.0
-    axes.errorbar(
-        [row.value],
-        [place],
-        xerr=np.maximum([[row.value - row.low], [row.high - row.value]], 0.0),
-        fmt="D" if row.recommended else "o",
-        color=colour,
-        markersize=size,
-        elinewidth=2.0 if row.recommended else 1.1,
-        label=f"{title}, {row.name}" if title else row.name,
-    )
+    label = f"{title}, {row.name}" if title else row.name
+    draw_estimate(axes, row, place, label, mark=mark, size=size, thickness=thickness, colour=colour)
     low, high = axes.get_xlim()
     if not low <= row.value <= high:
-        edge, mark = (0.0, "<") if row.value < low else (1.0, ">")
+        edge, arrow = (0.0, "<") if row.value < low else (1.0, ">")
         beside = axes.get_yaxis_transform()
-        axes.plot([edge], [place], mark, color=colour, markersize=size, clip_on=False, transform=beside)
+        axes.plot([edge], [place], arrow, color=colour, markersize=size, clip_on=False, transform=beside)
     told = interval(row.value, row.low, row.high)
     _write(axes, place, told, width() - LEFT - RIGHT + 0.12, weight=weight)
 
 
-def _write(
-    axes: Axes, place: float, text: str, left: float | None, *, weight: str = "normal", colour: str = INK
+def draw_estimate(
+    axes: Axes,
+    known: EstimateRow | Level,
+    place: float,
+    label: str,
+    *,
+    mark: str,
+    size: float = 4.0,
+    thickness: float = 1.1,
+    colour: str = MEASURED["color"],
 ) -> None:
-    """Write at a height, `left` inches from the left edge of the panel, or in its middle."""
-    axes.text(
-        0.5 if left is None else left / (width() - LEFT - RIGHT),
-        place,
-        text,
-        transform=axes.get_yaxis_transform(),
-        ha="center" if left is None else "left",
-        va="center",
-        fontsize=8,
-        fontweight=weight,
-        color=colour,
+    """Draw a value with its interval along the axis of e, at a height."""
+    ends = np.maximum([[known.value - known.low], [known.high - known.value]], 0.0)
+    axes.errorbar(
+        [known.value], [place], xerr=ends, fmt=mark, color=colour, markersize=size, elinewidth=thickness, label=label
     )
 
 
+def _write(axes: Axes, place: float, text: str, left: float, *, weight: str = "normal", colour: str = INK) -> None:
+    """Write at a height, `left` inches from the left edge of the panel."""
+    at = (left / (width() - LEFT - RIGHT), place)
+    note(axes, text, at, xycoords=axes.get_yaxis_transform(), va="center", fontweight=weight, color=colour)
+
+
 def _draw_rigid(axes: Axes, rigid: float) -> None:
+    """Draw the rigid-body value if the axis reaches it, else write it at its edge."""
     low, high = axes.get_xlim()
     told = f"rigid body {rigid:.4f}"
     if rigid <= low:
@@ -149,20 +126,10 @@ def _draw_rigid(axes: Axes, rigid: float) -> None:
     elif rigid >= high:
         where, told = 1.0, f"{told} →"
     else:
-        where = (rigid - low) / (high - low)
+        where, told = (rigid - low) / (high - low), f" {told} "
         axes.axvline(rigid, label="rigid body", **LIMIT)
-        told = f" {told} "
-    axes.annotate(
-        told,
-        (where, 0.0),
-        xycoords="axes fraction",
-        xytext=(0, 3),
-        textcoords="offset points",
-        ha="left" if where < 0.5 else "right",
-        va="bottom",
-        fontsize=8,
-        color=SOFT,
-    )
+    side = "left" if where < 0.5 else "right"
+    note(axes, told, (where, 0.0), (0, 3), xycoords="axes fraction", ha=side, va="bottom", color=SOFT)
 
 
 def _limits(rows: Sequence[EstimateRow]) -> tuple[float, float]:

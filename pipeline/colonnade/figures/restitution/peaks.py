@@ -8,13 +8,12 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator, StrMethodFormatter
-from numpy.typing import NDArray
+from matplotlib.ticker import MaxNLocator
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.figures.panels.curve import draw_band
-from colonnade.figures.panels.layout import legend_outside
+from colonnade.figures.panels.layout import legend_outside, plain_decades
 from colonnade.figures.style import FAINT, FIT, MEASURED, blank_figure, styled
 from colonnade.identification.restitution.peaks import released_energy
 from colonnade.units.text import PERCENT
@@ -25,8 +24,8 @@ def draw_marks(
     x: Array,
     y: Array,
     bars: Array,
-    shown: NDArray[np.bool_],
-    used: NDArray[np.bool_],
+    shown: Mask,
+    used: Mask,
     labels: tuple[str, str],
     *,
     mark: str = "o",
@@ -34,22 +33,10 @@ def draw_marks(
     thickness: float = 0.8,
 ) -> None:
     """
-    Draw marks with their bars.
+    Draw marks with their bars, hollow those that were left out.
 
-    Parameters
-    ----------
-    axes : Axes
-    x, y : ndarray, shape (n,)
-    bars : ndarray, shape (n,) or (2, n)
-        Lengths of the bars below and above; none where NaN.
-    shown, used : ndarray of bool, shape (n,)
-    labels : tuple of str
-        Of those that were used, and of those that were left out.
-    mark : str, optional
-    size : float, optional
-        Points.
-    thickness : float, optional
-        Of the bars, points; with 0 they are in the figure's table alone.
+    `bars` are the lengths below and above, none where NaN; `labels` those of what was used and of what was left out.
+    With a `thickness` of 0 the bars are in the figure's table alone.
     """
     for chosen, face, label in zip((shown & used, shown & ~used), (MEASURED["color"], "white"), labels, strict=True):
         if chosen.any():
@@ -92,7 +79,7 @@ class PeakSeries(NamedTuple):
     angle: Array
     standard_error: Array
     fitted_angle: Array
-    used: NDArray[np.bool_]
+    used: Mask
     band: Array | None = None
 
 
@@ -101,28 +88,9 @@ def peak_decay(series: Sequence[PeakSeries], block: Block) -> Figure:
     """
     Draw the energy of successive peaks against the impact number, a panel a test, all on the same scales.
 
-    Parameters
-    ----------
-    series : sequence of PeakSeries
-    block : Block
-        Its critical angles scale the energy.
-
-    Returns
-    -------
-    figure : Figure
-
-    Raises
-    ------
-    ValueError
-        If there is no series.
-
-    Notes
-    -----
     The energy is the share of the overturning barrier that a peak holds (`released_energy`): each impact multiplies it
     by e², so that on a logarithmic axis a constant e is a straight line. Bars are ± two standard errors.
     """
-    if not series:
-        raise ValueError("no free vibration was given; at least one series of peaks was expected")
     columns = min(len(series), COLUMNS)
     rows = -(-len(series) // columns)
     figure = blank_figure(0.7 + 2.1 * rows)
@@ -161,15 +129,8 @@ def _draw_peaks(axes: Axes, peaks: PeakSeries, block: Block) -> None:
         axes.plot(number[fitted], line, label="fit", zorder=3, **FIT)
         if peaks.band is not None and np.isfinite(peaks.band[fitted]).any():
             wide = np.exp(peaks.band[fitted])
-            draw_band(
-                axes,
-                number[fitted],
-                line / wide,
-                line * wide,
-                color=FIT["color"],
-                alpha=0.18,
-                label=f"95{PERCENT} band",
-            )
+            name = f"95{PERCENT} band"
+            draw_band(axes, number[fitted], line / wide, line * wide, color=FIT["color"], alpha=0.18, label=name)
     axes.set(yscale="log", xlim=(0, max(peaks.angle.size + 1, axes.get_xlim()[1])), title=peaks.title)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=5, integer=True))
     if not shown.any():
@@ -187,6 +148,4 @@ def _lowest(peaks: PeakSeries, block: Block) -> float:
 def label_energies(axes: Axes) -> None:
     """Label 1, 2 and 5 of each decade where few decades are shown, so that at least two labels stand at any scale."""
     lowest, highest = axes.get_ylim()
-    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if highest < 1e3 * lowest else (1.0,), numticks=12))
-    axes.yaxis.set_minor_locator(NullLocator())
-    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    plain_decades(axes.yaxis, subs=(1.0, 2.0, 5.0) if highest < 1e3 * lowest else (1.0,))

@@ -13,10 +13,10 @@ from colonnade.campaign import Test
 from colonnade.campaign.forms.summary import BodyPrediction
 from colonnade.dynamics.assembly import Assembly
 from colonnade.figures.files.output import Picture
-from colonnade.figures.histories import largest_of, scale_symmetric
-from colonnade.figures.panels.curve import Curve, draw_curve
-from colonnade.figures.panels.layout import legend_above, stacked_panels
-from colonnade.figures.style import MEASURED, SOFT, model_style, styled, width
+from colonnade.figures.histories import Panel, draw_panel
+from colonnade.figures.panels.curve import Curve
+from colonnade.figures.panels.layout import legend_above, legend_outside, stacked_panels
+from colonnade.figures.style import SOFT, blank_figure, name_of, style_of, styled
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import bodies_of
 from colonnade.units.text import joined, number, quantity
@@ -61,13 +61,9 @@ def _said(outcome: str | None, opening: float | None) -> str:
 def _joints(stored: Stored, names: list[str]) -> Figure:
     figure, axes = stacked_panels([PANEL] * len(names))
     for panel, (place, name) in zip(axes, reversed(list(enumerate(names))), strict=True):
-        curves = histories(stored, place, "body_joint_angle")
-        scaled = {who: curve._replace(values=1e3 * curve.values) for who, curve in curves.items()}
-        for who, curve in scaled.items():
-            look = MEASURED if who == "measured" else model_style(who)
-            draw_curve(panel, curve, label=who if who == "measured" else f"{who} model", **look)
-        scale_symmetric(panel, largest_of(list(scaled.values())) or 1.0)
-        panel.set_ylabel(f"{name}\n(mrad)")
+        found = histories(stored, place, "body_joint_angle")
+        curves = {who: Curve(curve.time, 1e3 * curve.values) for who, curve in found.items()}
+        draw_panel(panel, Panel(f"{name}\n(mrad)", curves))
     axes[-1].set_xlabel("time (s)")
     legend_above(figure, axes)
     return figure
@@ -87,21 +83,22 @@ def plan(test: Test, stored: Stored, assembly: Assembly) -> Picture | None:
     shown = {name: every for name, every in moved.items() if every}
     if not shown:
         return None
-    said = [f"{name} {_moved(next(iter(every.values())))}" for name, every in shown.items()]
+    far = {name: quantity(1e-3 * _distance(next(iter(every.values()))), "mm") for name, every in shown.items()}
     title = f"{test.id}: where each body stands at the end, from above, to scale"
-    return Picture(_plan(shown, assembly), f"plan-{test.id}", title, f"{joined(said)} from where it stood.")
+    said = f"{joined([f'{name} {moved}' for name, moved in far.items()])} from where it stood."
+    return Picture(_plan(shown, assembly), f"plan-{test.id}", title, said)
 
 
-def _moved(record: BodyPrediction) -> str:
-    far = np.hypot(record.residual_x or 0.0, record.residual_y or 0.0)
-    return f"{quantity(float(far), 'mm')}"
+def _distance(record: BodyPrediction) -> float:
+    """Of the end from where the body stood, mm."""
+    return 1e3 * float(np.hypot(record.residual_x or 0.0, record.residual_y or 0.0))
 
 
 @styled()
 def _plan(shown: dict[str, dict[str, BodyPrediction]], assembly: Assembly) -> Figure:
     columns = min(len(shown), MOST_PLANS)
     rows = -(-len(shown) // columns)
-    figure = Figure(figsize=(width(), SQUARE * rows + 0.3), layout="constrained")
+    figure = blank_figure(SQUARE * rows + 0.3)
     axes = figure.subplots(rows, columns, squeeze=False).ravel()
     for panel in axes[len(shown) :]:
         panel.set_axis_off()
@@ -109,34 +106,19 @@ def _plan(shown: dict[str, dict[str, BodyPrediction]], assembly: Assembly) -> Fi
         outline = 1e3 * _base(assembly, name)
         panel.add_patch(Polygon(outline, fill=False, edgecolor=SOFT, linestyle=(0, (1, 2)), label="at rest"))
         for who, record in every.items():
-            look = MEASURED if who == "measured" else model_style(who)
             cosine, sine = cos(record.residual_yaw or 0.0), sin(record.residual_yaw or 0.0)
             place = 1e3 * np.array([record.residual_x or 0.0, record.residual_y or 0.0])
-            label = "at the end" if who == "measured" else f"at the end, {who} model"
-            panel.add_patch(
-                Polygon(
-                    outline @ np.array([[cosine, sine], [-sine, cosine]]) + place,
-                    fill=False,
-                    edgecolor=look["color"],
-                    linestyle=look["linestyle"],
-                    linewidth=look["linewidth"],
-                    label=label,
-                )
-            )
+            corners = outline @ np.array([[cosine, sine], [-sine, cosine]]) + place
+            label = "at the end" if who == "measured" else f"at the end, {name_of(who)}"
+            panel.add_patch(Polygon(corners, fill=False, label=label, **style_of(who)))
         panel.set_aspect("equal", adjustable="datalim")
         panel.autoscale_view()
         panel.margins(0.12)
-        panel.set_title(f"{name}: {number(1e3 * float(np.hypot(*_place(every))))} mm", fontsize=8)
+        panel.set_title(f"{name}: {number(_distance(next(iter(every.values()))))} mm", fontsize=8)
         panel.tick_params(labelsize=7)
     axes[0].set(ylabel="y (mm)", xlabel="x (mm)")
-    handles = {each.get_label(): each for panel in axes for each in panel.patches}
-    figure.legend(handles.values(), handles.keys(), loc="outside upper left", ncols=3, fontsize=8)
+    legend_outside(figure, list(axes))
     return figure
-
-
-def _place(every: dict[str, BodyPrediction]) -> tuple[float, float]:
-    first = next(iter(every.values()))
-    return first.residual_x or 0.0, first.residual_y or 0.0
 
 
 def _base(assembly: Assembly, name: str) -> Array:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from colonnade.arrays import Array
@@ -12,11 +14,22 @@ from colonnade.campaign import Test
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.figures.files.output import Picture
-from colonnade.figures.histories import Spread, bands_over_time, draw_angle, limit_of, time_limits
-from colonnade.figures.panels.curve import Curve
-from colonnade.figures.panels.layout import legend_above, side_by_side
-from colonnade.figures.record import Peak, Quantity, SpanPanel, spans_side_by_side, whole_record
-from colonnade.figures.style import is_narrow, styled
+from colonnade.figures.histories import (
+    ANGLE_LABEL,
+    Panel,
+    Spread,
+    bands_over_time,
+    draw_angle,
+    draw_curves,
+    draw_panel,
+    largest_of,
+    limit_of,
+    scale_symmetric,
+    time_limits,
+)
+from colonnade.figures.panels.curve import Curve, envelope
+from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side, stacked_panels
+from colonnade.figures.style import MEASURED, is_narrow, styled
 from colonnade.signals.filters import displacement
 from colonnade.stages.parts.beginning import RECORDED
 from colonnade.store.records.stored import Stored
@@ -42,6 +55,16 @@ def predicted_ratios(stored: Stored, block: Block) -> dict[str, Curve]:
     return {model: curve for model, curve in curves.items() if curve is not None}
 
 
+def ratios(stored: Stored, block: Block) -> dict[str, Curve]:
+    """Return θ/α as "measured" and by model."""
+    return _measured(stored, block) | predicted_ratios(stored, block)
+
+
+def _measured(stored: Stored, block: Block) -> dict[str, Curve]:
+    measured = measured_ratio(stored, block)
+    return {} if measured is None else {"measured": measured}
+
+
 def spreads(stored: Stored, block: Block) -> dict[str, Spread]:
     """Return the ensembles' bands of θ/α by model."""
     found = {}
@@ -56,10 +79,10 @@ def spreads(stored: Stored, block: Block) -> dict[str, Spread]:
     return found
 
 
-def misfits(stored: Stored, measured: Curve | None, predicted: Mapping[str, Curve]) -> dict[str, Curve]:
+def misfits(stored: Stored, curves: Mapping[str, Curve]) -> dict[str, Curve]:
     """Return predicted minus measured θ/α as far as the two are compared, by model."""
-    found = {}
-    for model, curve in predicted.items():
+    found, measured = {}, curves.get("measured")
+    for model, curve in curves.items():
         until = stored.compared("compared_until", model)
         if measured is not None and curve.values.shape == measured.values.shape and np.isfinite(until):
             within = curve.time <= until
@@ -67,14 +90,14 @@ def misfits(stored: Stored, measured: Curve | None, predicted: Mapping[str, Curv
     return found
 
 
-def quantities(stored: Stored, wanted: Sequence[tuple[str, str, str, str]], block: Block) -> list[Quantity]:
-    """Return those motions that were measured; wanted are variable, words, label and unit."""
+def quantities(stored: Stored, wanted: Sequence[tuple[str, str, str, str]], block: Block) -> list[Panel]:
+    """Return panels of those motions that were measured; wanted are variable, words, label and unit."""
     found = []
     for name, _, label, unit in wanted:
         curve = motion(stored, name, unit)
         if curve is not None and np.isfinite(curve.values).any():
             uplift = block.uplift_acceleration if name == "base_acceleration" else None
-            found.append(Quantity(f"{label}\n({unit})", curve, uplift, "g tan α"))
+            found.append(Panel(f"{label}\n({unit})", {"": curve}, uplift, "g tan α"))
     return found
 
 
@@ -134,26 +157,79 @@ SHADED = "nonlinear"
 """The model whose band is shaded on the overlay, if there are several."""
 
 
+ANGLE_HEIGHT, OTHER_HEIGHT = 2.0, 0.8
+"""Heights of the panels, inches."""
+
+AFTER = 0.05
+"""Share of the time up to an overturning that the axis shows after it."""
+
+
 def record(test: Test, record: TestSummary, stored: Stored, block: Block) -> Picture | None:
     """Draw a test over time: angle, misfit, other motions, and the base motion if it drives; None without anything."""
-    measured, predicted = measured_ratio(stored, block), predicted_ratios(stored, block)
+    curves = ratios(stored, block)
     base = quantities(stored, BASE, block) if test.kind != "free-vibration" or driven_by(stored) == RECORDED else []
-    if measured is None and not predicted and not base:
+    if not curves and not base:
         return None
+    apart = {model: curve for model, curve in misfits(stored, curves).items() if np.isfinite(curve.values).any()}
+    misfit = [Panel("predicted −\nmeasured, / α", apart)] if apart else []
+    # Shades of several models on each other cannot be distinguished: those of the others are in `bands` alone.
+    shaded = dict(sorted(spreads(stored, block).items(), key=lambda item: item[0] != SHADED)[:1])
     figure = whole_record(
-        measured,
-        predicted,
-        misfits=misfits(stored, measured, predicted),
-        motions=quantities(stored, MOTIONS, block),
-        base=base,
+        curves,
+        [*misfit, *quantities(stored, MOTIONS, block), *base],
         impacts=stored.array("rocking", "impact_time"),
-        peak=_peak(record, measured),
-        until=_end(stored, measured, predicted),
-        # Shades of several models on each other cannot be distinguished: those of the others are in `bands` alone.
-        spreads=dict(sorted(spreads(stored, block).items(), key=lambda item: item[0] != SHADED)[:1]),
+        peak=_peak(record, curves.get("measured")),
+        spreads=shaded,
+        until=_end(stored, curves),
     )
     title = f"{test.id}: rocking angle, measured and predicted"
     return Picture(figure, f"record-{test.id}", title, seen(record, stored))
+
+
+@styled()
+def whole_record(
+    curves: Mapping[str, Curve],
+    others: Sequence[Panel] = (),
+    *,
+    impacts: Array | None = None,
+    peak: tuple[float, float] | None = None,
+    spreads: Mapping[str, Spread] | None = None,
+    until: float | None = None,
+) -> Figure:
+    """
+    Draw one test: measured and predicted angle above, and other panels below.
+
+    `impacts` are times (s) of the measured impacts, marked along the foot of the angle's panel; `peak` is time and θ/α
+    of the largest measured angle, marked with a ring; of `spreads` the widest band of each is shaded. The time axis
+    ends shortly after all has overturned, at `until` (s).
+    """
+    figure, axes = stacked_panels([ANGLE_HEIGHT, *([OTHER_HEIGHT] * len(others))])
+    limit = limit_of(curves.values())
+    draw_angle(axes[0], curves, limit, spreads=spreads)
+    if impacts is not None and impacts.size:
+        _mark_impacts(axes[0], impacts)
+    if peak is not None and np.isfinite(peak).all() and abs(peak[1]) < limit:
+        colour, name = MEASURED["color"], "largest measured"
+        axes[0].plot(*peak, "o", color=colour, markersize=5, markerfacecolor="none", gid=name)
+    for one, panel in zip(axes[1:], others, strict=True):
+        draw_panel(one, panel)
+    first, last = time_limits([*curves.values(), *(curve for panel in others for curve in panel.curves.values())])
+    axes[0].set_xlim(first, last if until is None else min(last, until + AFTER * (until - first)))
+    axes[-1].set_xlabel("time (s)")
+    legend_above(figure, axes[:1])
+    return figure
+
+
+def _mark_impacts(axes: Axes, impacts: Array) -> None:
+    gaps = np.full(impacts.size, np.nan)
+    axes.plot(
+        np.column_stack((impacts, impacts, gaps)).ravel(),
+        np.column_stack((np.zeros_like(impacts), np.full_like(impacts, 0.035), gaps)).ravel(),
+        transform=axes.get_xaxis_transform(),
+        color=MEASURED["color"],
+        linewidth=0.6,
+        gid="measured impact",
+    )
 
 
 def bands(test: Test, stored: Stored, block: Block) -> Picture | None:
@@ -166,13 +242,32 @@ def bands(test: Test, stored: Stored, block: Block) -> Picture | None:
         for model, spread in found.items()
     ]
     title = f"{test.id}: measured rocking angle over the spread of each model"
-    return Picture(bands_over_time(measured_ratio(stored, block), found), f"bands-{test.id}", title, " ".join(said))
+    return Picture(bands_over_time(_measured(stored, block), found), f"bands-{test.id}", title, " ".join(said))
+
+
+MODEL_HEIGHT, BASE_HEIGHT = 1.35, 0.8
+"""Heights of the panels of a Span, inches."""
+
+THINNESS = 0.6
+"""Of the models' lines beside their usual width."""
+
+
+class SpanPanel(NamedTuple):
+    """One test: its title, θ/α over time (s) as "measured" and by each model; base in m/s²."""
+
+    title: str
+    curves: Mapping[str, Curve]
+    base: Curve | None = None
+
+    def thinned(self) -> SpanPanel:
+        """Return the same panel with curves of a few hundred points, so that many fit into memory."""
+        base = None if self.base is None else envelope(self.base)
+        return SpanPanel(self.title, {name: envelope(curve) for name, curve in self.curves.items()}, base)
 
 
 def span_panel(test: Test, stored: Stored, block: Block) -> SpanPanel:
     """Return what the figure of all Spans shows of one test."""
-    measured, base = measured_ratio(stored, block), motion(stored, "base_acceleration", "m/s²")
-    return SpanPanel(f"Span {test.span or 0.0}", measured, predicted_ratios(stored, block), base)
+    return SpanPanel(f"Span {test.span or 0.0}", ratios(stored, block), motion(stored, "base_acceleration", "m/s²"))
 
 
 def spans(identity: str, title: str, description: str, panels: Sequence[SpanPanel]) -> Picture:
@@ -182,6 +277,31 @@ def spans(identity: str, title: str, description: str, panels: Sequence[SpanPane
     chosen = [panels[index] for index in np.linspace(0, len(panels) - 1, MOST_SPANS).round().astype(int)]
     note = f"{MOST_SPANS} of {len(panels)} tests are drawn, spread evenly; each is drawn whole on its own page."
     return Picture(spans_side_by_side(chosen), identity, title, description, note)
+
+
+@styled()
+def spans_side_by_side(panels: Sequence[SpanPanel]) -> Figure:
+    """Draw earthquake tests side by side, a row of panels for each model, all with the same scales."""
+    models = list(dict.fromkeys(name for panel in panels for name in panel.curves if name != "measured")) or [""]
+    curves = [curve for panel in panels for curve in panel.curves.values()]
+    bases = [panel.base for panel in panels if panel.base is not None]
+    limit, largest, rows = limit_of(curves), largest_of(bases) or 1.0, len(models)
+    figure, grid = side_by_side(len(panels), [MODEL_HEIGHT] * rows + [BASE_HEIGHT] * bool(bases))
+    for index, (column, panel) in enumerate(zip(grid, panels, strict=True)):
+        is_first = is_narrow() or index % COLUMNS == 0
+        for one, model in zip(column, models, strict=False):
+            shown = {name: curve for name, curve in panel.curves.items() if name in ("measured", model)}
+            draw_angle(one, shown, limit, thinness=THINNESS, limit_name="")
+            one.set_ylabel(ANGLE_LABEL if is_first else "")
+        column[0].set_title(panel.title)
+        if bases:
+            draw_curves(column[-1], {} if panel.base is None else {"": panel.base})
+            scale_symmetric(column[-1], largest)
+            column[-1].set_ylabel("base\n(m/s²)" if is_first else "")
+        column[-1].set_xlabel("time (s)")
+        column[0].set_xlim(*time_limits([*curves, *bases]))
+    legend_above(figure, [one for column in grid for one in column[:rows]])
+    return figure
 
 
 def seen(record: TestSummary, stored: Stored) -> str:
@@ -202,18 +322,17 @@ def _said(name: str, outcome: str | None, ratio: float | None, time: float | Non
     return f"{name}: {outcome or 'no outcome'}{peak}."
 
 
-def _peak(record: TestSummary, measured: Curve | None) -> Peak | None:
+def _peak(record: TestSummary, measured: Curve | None) -> tuple[float, float] | None:
     if measured is None or record.peak_time is None:
         return None
     nearest = int(np.argmin(np.abs(measured.time - record.peak_time)))
-    return Peak(record.peak_time, float(measured.values[nearest]))
+    return record.peak_time, float(measured.values[nearest])
 
 
-def _end(stored: Stored, measured: Curve | None, predicted: Mapping[str, Curve]) -> float | None:
+def _end(stored: Stored, curves: Mapping[str, Curve]) -> float | None:
     """Return when all that rocks has overturned, s; None if something stands to the end."""
-    falls = [stored.value("predict", "overturning_time", model) for model in predicted]
-    if measured is not None:
-        falls.append(stored.value("rocking", "overturning_time"))
+    sources = [("rocking", None) if who == "measured" else ("predict", who) for who in curves]
+    falls = [stored.value(stage, "overturning_time", model) for stage, model in sources]
     return None if not falls or np.isnan(falls).any() else max(falls)
 
 
@@ -222,37 +341,21 @@ HEIGHT, LOWER = 2.4, 1.7
 
 
 @styled()
-def rocking_angle(measured: Curve | None, predicted: Mapping[str, Curve], *, title: str = "") -> Figure:
-    """
-    Draw the rocking angle over the critical angle, measured and by each model.
-
-    Parameters
-    ----------
-    measured : Curve or None
-        θ/α over time (s); None if it was not measured.
-    predicted : mapping of str to Curve
-        θ/α by model.
-    title : str, optional
-        Above the panel.
-
-    Returns
-    -------
-    figure : Figure
-    """
+def rocking_angle(curves: Mapping[str, Curve], *, title: str) -> Figure:
+    """Draw θ/α over time (s), measured and by each model, below a title."""
     figure, ((axes,),) = side_by_side(1, [LOWER if is_narrow() else HEIGHT])
-    curves = [curve for curve in (measured, *predicted.values()) if curve is not None]
-    draw_angle(axes, measured, predicted, limit_of(curves), thinness=0.8)
-    axes.set(title=title, xlim=time_limits(curves), xlabel="time (s)")
+    draw_angle(axes, curves, limit_of(curves.values()), thinness=0.8)
+    axes.set(title=title, xlim=time_limits(curves.values()), xlabel="time (s)")
     legend_above(figure, [axes])
     return figure
 
 
 def angle(test: Test, record: TestSummary, stored: Stored, block: Block) -> Picture | None:
     """Draw the measured and the predicted angle of a test; None without any."""
-    measured, predicted = measured_ratio(stored, block), predicted_ratios(stored, block)
-    if measured is None and not predicted:
+    curves = ratios(stored, block)
+    if not curves:
         return None
-    figure = rocking_angle(measured, predicted, title=_title(test, record))
+    figure = rocking_angle(curves, title=_title(test, record))
     return Picture(figure, f"angle-{test.id}", f"{test.id}: rocking angle over time", seen(record, stored))
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from colonnade.errors import count
 from colonnade.figures.files.output import Picture
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
-from colonnade.figures.restitution.history import Region, fitted_history, joint_region
+from colonnade.figures.restitution.history import fitted_history, joint_region
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
 from colonnade.figures.restitution.many import MIDDLE, MIDDLE_SHARE, impacts_of_many, peaks_of_many
 from colonnade.figures.restitution.peaks import PeakSeries, peak_decay
@@ -154,10 +153,8 @@ def region(test: Test, stored: Stored) -> Picture | None:
     covariance = np.array([[e_error**2, both], [both, ratio_error**2]])
     if not (np.isfinite(covariance).all() and np.linalg.eigvalsh(covariance).min() > 0):
         return None
-    level = level_of(stored, STAGE, "")
-    fixed = level[:3] if all(map(isfinite, level[:3])) else None
     return Picture(
-        joint_region([Region(test.id, np.array([e, ratio]), covariance)], fixed=fixed),
+        joint_region(test.id, np.array([e, ratio]), covariance, fixed=level_of(stored, STAGE, "")),
         f"region-{test.id}",
         f"{test.id}: joint region of e and the critical angle",
         f"Together: e = {e:.4f}, α {ratio:.4f} times that given.",

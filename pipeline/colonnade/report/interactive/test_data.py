@@ -20,10 +20,9 @@ from colonnade.figures.stored.record import (
     BASE,
     MOTIONS,
     SHADED,
-    measured_ratio,
     misfits,
     motion,
-    predicted_ratios,
+    ratios,
     spreads,
 )
 from colonnade.figures.style import model_style
@@ -114,8 +113,7 @@ def _compared(curves: Mapping[str, Curve], samples: Samples, factor: float = 1.0
 
 
 def _angles(stored: Stored, block: Block, samples: Samples) -> list[Panel]:
-    measured, predicted = measured_ratio(stored, block), predicted_ratios(stored, block)
-    curves = _compared(({} if measured is None else {"measured": measured}) | predicted, samples)
+    curves = _compared(ratios(stored, block), samples)
     if not curves:
         return []
     bands, marks = [], []
@@ -155,7 +153,7 @@ def _joints(stored: Stored, samples: Samples) -> list[Panel]:
 
 
 def _misfit(stored: Stored, block: Block, samples: Samples) -> list[Panel]:
-    found = misfits(stored, measured_ratio(stored, block), predicted_ratios(stored, block))
+    found = misfits(stored, ratios(stored, block))
     return _panel("Predicted minus measured, over critical angle", "misfit", "", _compared(found, samples))
 
 

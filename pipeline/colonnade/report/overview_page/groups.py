@@ -12,8 +12,8 @@ from colonnade.dynamics.models import MODELS
 from colonnade.errors import StoreError
 from colonnade.figures.files.output import Picture
 from colonnade.figures.maps import response_orders
-from colonnade.figures.record import SpanPanel
 from colonnade.figures.stored import record
+from colonnade.figures.stored.record import SpanPanel
 from colonnade.identification.response.boundaries import Boundaries, Bracket, MapPoint, bracket_boundaries, makes_map
 from colonnade.report.rows import KINDS, TestRow
 from colonnade.store import files
