@@ -9,10 +9,8 @@ import numpy as np
 import pytest
 
 import colonnade
-from colonnade.dynamics import models
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps import MapPlan, assemble, map_column, stability_map
-from colonnade.dynamics.models import LINEAR, Model
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_outcomes
 from colonnade.dynamics.restitution_law import RestitutionLaw
@@ -134,21 +132,6 @@ def test_a_recorded_sine_stretched_and_scaled_gives_the_map_of_the_sine(model):
 
 def test_the_library_offers_the_map():
     assert colonnade.stability_map is stability_map
-
-
-def test_a_model_without_kernels_is_run_under_a_sampled_sine(monkeypatch):
-    class OfAnotherMaker(Model):
-        def run(self, case):
-            return LINEAR.run(case)
-
-    other = OfAnotherMaker(**{**vars(LINEAR), "name": "other"})
-    monkeypatch.setitem(models.MODELS, "other", other)
-    axes = {"frequency_ratio": [2.0, 5.0], "amplitude_ratio": np.linspace(1.0, 8.0, 8)}
-    by_run, by_kernel = (
-        stability_map(PRISM, model=name, restitution=0.976, cycles=3, **axes) for name in ("other", "linear")
-    )
-    np.testing.assert_array_equal(by_run.outcome, by_kernel.outcome)
-    assert len(np.unique(by_run.outcome)) > 1
 
 
 @every(

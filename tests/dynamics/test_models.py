@@ -10,18 +10,7 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactLaw, rigid_body
-from colonnade.dynamics.models import (
-    CONTACT,
-    LINEAR,
-    MODELS,
-    NONLINEAR,
-    PLANE_MODELS,
-    Case,
-    Line,
-    Model,
-    model_of,
-    plane_model_of,
-)
+from colonnade.dynamics.models import LINEAR, MODELS, NONLINEAR, model_of, plane_model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from prism import PRISM
@@ -43,11 +32,6 @@ def test_every_model_runs(name):
     assert history.outcome == "rocking"
 
 
-@pytest.mark.parametrize("name", PLANE_MODELS)
-def test_a_plane_model_is_not_in_space(name):
-    assert not plane_model_of(name).in_space
-
-
 @pytest.mark.parametrize(("asked", "hint"), [("nonlinaer", 'Did you mean "nonlinear"'), ("x", '"contact"')])
 def test_an_unknown_model_is_refused_with_what_there_is(asked, hint):
     with pytest.raises(ValueError, match=f'Unknown model "{asked}".*{hint}'):
@@ -64,27 +48,9 @@ def test_the_registry_loads_no_library_of_numbers():
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "set()\n"
 
 
-class Still(Model):
-    """A model in which nothing moves."""
-
-    def run(self, case):
-        raise ValueError("nothing moves")
-
-
-def still(**given):
-    line = Line("#000000", (), 1.0)
-    named = {"name": "still", "line": line, "definition": "θ = 0", "engine": "", "in_space": False, "is_default": False}
-    return Still(**(named | {"map_points": (2, 2)} | given))
-
-
-@pytest.mark.parametrize(("is_linearised", "threshold"), [(True, 0.2), (False, tan(0.2))])
-def test_a_block_uplifts_where_its_equation_says(is_linearised, threshold):
-    assert still(is_linearised=is_linearised).uplift_threshold(0.2) == threshold
-
-
-def test_a_model_without_a_run_is_none():
-    with pytest.raises(TypeError, match="abstract"):
-        Model(name="x", line=None, definition="", engine="", in_space=False, is_default=False, map_points=(1, 1))
+@pytest.mark.parametrize(("model", "threshold"), [(LINEAR, 0.2), (NONLINEAR, tan(0.2))])
+def test_a_block_uplifts_where_its_equation_says(model, threshold):
+    assert model.uplift_threshold(0.2) == threshold
 
 
 STOCKY = Block.prism(width=0.2, depth=0.2, height=0.5, mass=50.0)
@@ -100,39 +66,32 @@ EQUATIONS = {
 
 @pytest.mark.parametrize("model", EQUATIONS, ids=lambda model: model.name)
 def test_its_run_solves_its_equation(model):
-    case = Case(STOCKY, Motion(PULL * STOCKY.gravity, STEP), 0.9, 0.8 * ALPHA, 0.0, None, 1e-6, None, 0.0)
-    angle = model.run(case).angle
+    motion = Motion(PULL * STOCKY.gravity, STEP)
+    angle = rock(STOCKY, motion, restitution=0.9, theta0=0.8 * ALPHA, model=model.name).angle
     assert (angle > 0.0).all()
     bend = (angle[2:] - 2 * angle[1:-1] + angle[:-2]) / STEP**2
     expected = EQUATIONS[model](angle)[1:-1]
     np.testing.assert_allclose(bend, expected, atol=1e-5 * np.abs(expected).max())
 
 
-CASE = Case(PRISM, None, None, 0.5 * PRISM.critical_angle, 0.0, 0.02, 1e-6, None, 0.0)
+FREE = {"model": "contact", "theta0": 0.5 * PRISM.critical_angle, "duration": 0.02}
 
 
 def test_without_a_law_the_table_is_stiff():
     law = ContactLaw.stiff(rigid_body(PRISM), PRISM.gravity)
-    plain, named = CONTACT.run(CASE), CONTACT.run(replace(CASE, contact=law))
-    assert plain.model == "contact"
+    plain, named = rock(PRISM, **FREE), rock(PRISM, **FREE, contact=law)
     np.testing.assert_array_equal(plain.angle, named.angle)
-    soft = CONTACT.run(replace(CASE, contact=replace(law, stiffness=law.stiffness / 100)))
+    soft = rock(PRISM, **FREE, contact=replace(law, stiffness=law.stiffness / 100))
     assert not np.array_equal(soft.angle, plain.angle)
 
 
 def test_it_starts_as_asked():
-    history = CONTACT.run(replace(CASE, omega0=-0.1, out_of_plane=0.01))
-    assert history.angle[0] == pytest.approx(CASE.theta0)
+    history = rock(PRISM, **FREE, omega0=-0.1, out_of_plane=0.01)
+    assert history.angle[0] == pytest.approx(FREE["theta0"])
     assert history.angular_velocity[0] == pytest.approx(-0.1)
     assert history.out_of_plane[0] == pytest.approx(0.01)
 
 
-def test_an_e_is_refused_because_it_follows():
-    with pytest.raises(ValueError, match="Do not give `restitution` to the contact model"):
-        CONTACT.run(replace(CASE, restitution=0.9))
-
-
 def test_a_frame_is_refused_as_it_is_several_bodies():
-    frame = Block.frame(PRISM, beam_mass=50.0)
     with pytest.raises(ValueError, match=r"block is a frame, .* build an `Assembly\.frame`"):
-        CONTACT.run(replace(CASE, block=frame))
+        rock(Block.frame(PRISM, beam_mass=50.0), **FREE)

@@ -15,11 +15,11 @@ from colonnade.arrays import Array, Codes
 from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.history import NO_ROCKING_RATIO, Outcome
-from colonnade.dynamics.models import DEFAULT, PLANE_MODELS, model_of
+from colonnade.dynamics.models import DEFAULT, model_of, plane_model_of
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic import SAMPLES_A_CYCLE, Harmonic, Restitution, restitution_up_to
-from colonnade.dynamics.restitution_law import RestitutionLaw
-from colonnade.dynamics.rock import DEFAULT_REST_ANGLE, rock
+from colonnade.dynamics.plane.harmonic import SAMPLES_A_CYCLE, Harmonic, restitution_up_to
+from colonnade.dynamics.restitution_law import Given, Restitution, RestitutionLaw
+from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.dynamics.search import (
     LARGEST_RATIO,
     MOST_STEPS,
@@ -112,7 +112,7 @@ class MapPlan:
         *,
         frequency_ratio: ArrayLike,
         amplitude_ratio: ArrayLike,
-        restitution: Sided | RestitutionLaw | Callable[[float], float] | None = None,
+        restitution: Given = None,
         cycles: float = 20,
         phase: float = 0.0,
         ramp: float = 0,
@@ -126,6 +126,8 @@ class MapPlan:
         instance("block", block, Block)
         if space is None and model_of(model).in_space:
             raise ValueError(f"The {model} model needs `space`; a model in the plane was expected without it")
+        if space is None:
+            plane_model_of(model)
         self.block, self.model, self.space, self.motion = block, model, space, motion
         self.frequency_ratio = _axis("frequency_ratio", frequency_ratio, 1)
         self.amplitude_ratio = amplitudes = _axis("amplitude_ratio", amplitude_ratio, 2)
@@ -266,13 +268,8 @@ def _runs(plan: MapPlan, frequency_ratio: float) -> Runs:
         unit = plan.motion.acceleration * (block.uplift_acceleration / plan.motion.peak)
         motion = unit, plan.motion.dt * plan.motion_frequency * 2 * pi / omega
 
-    def outcome(shaken: Motion) -> Outcome:
-        if plan.space is not None:
-            return plan.space.outcome(shaken, block.gravity)
-        return rock(block, shaken, restitution=plan.restitution, model=plan.model).outcome
-
-    by_run = None if plan.model in PLANE_MODELS else outcome
-    return runs_of(block, motion, plan.restitution, plan.model, by_run)
+    in_space = None if plan.space is None else partial(plan.space.outcome, gravity=block.gravity)
+    return runs_of(block, motion, plan.restitution, plan.model, in_space)
 
 
 def _fraction(amplitudes: Array, intervals: Array) -> Array:

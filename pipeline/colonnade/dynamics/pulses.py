@@ -13,6 +13,7 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.models import DEFAULT, plane_model_of
 from colonnade.dynamics.plane.harmonic import Harmonic
+from colonnade.dynamics.restitution_law import law_of
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.dynamics.search import (
     LARGEST_RATIO,
@@ -29,7 +30,7 @@ from colonnade.dynamics.search import (
     scan_over,
 )
 from colonnade.errors import nearest
-from colonnade.validation import instance, number, samples, sided, text
+from colonnade.validation import instance, number, samples, text
 
 SAMPLE = 0.0125
 """In ω t: step of the pulses that are sampled."""
@@ -296,8 +297,7 @@ def overturning_spectrum(
     phase = number("phase", phase, "a finite angle in rad")
     largest = number("largest", largest, "a positive A", above=0.0, high=LARGEST_RATIO)
     width, edge = checked_widths(width, edge, largest)
-    given = block.restitution if restitution is None else restitution
-    e = sided("restitution", given, "a number between 0 and 1", low=0.0, high=1.0)
+    e = law_of(block, restitution)
     scan = scan_over(np.array([0.0, largest]), width)[1:]
 
     def limits(ratio: float) -> Limits:

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
-from colonnade.validation import described, number, samples
+from colonnade.dynamics.block import Block, Sided
+from colonnade.validation import described, number, samples, sided
 
 POINTS = 1025
 """Of a table made from a function."""
@@ -143,7 +144,39 @@ class RestitutionLaw:
         return np.asarray(np.interp(speeds, self.speeds, self.values), dtype=np.float64)
 
 
-def restitution_table(restitution: tuple[float, float] | RestitutionLaw) -> tuple[Array, Array]:
+Given = Sided | RestitutionLaw | Callable[[float], float] | None
+"""e as it may be given: one value, a pair, a law or a function of the speed; None for the rigid-body value."""
+
+Restitution = tuple[float, float] | RestitutionLaw
+"""e of impacts that end an arc at θ < 0, and at θ > 0; or e over the speed of the impact."""
+
+
+def law_of(block: Block, restitution: Given, largest_speed: float | None = None) -> Restitution:
+    """
+    Put e into the form that the kernels take.
+
+    Parameters
+    ----------
+    block : Block
+    restitution : float, pair of float, RestitutionLaw or function, optional
+        As of `rock`.
+    largest_speed : float, optional
+        rad/s, up to which a function is sampled; default: a few times that of a fall from α.
+
+    Raises
+    ------
+    ValueError
+        If e is not between 0 and 1.
+    """
+    if isinstance(restitution, RestitutionLaw):
+        return restitution
+    if callable(restitution):
+        return RestitutionLaw.of(restitution, largest_speed=largest_speed or 4.0 * block.p * block.critical_angle)
+    given = block.restitution if restitution is None else restitution
+    return sided("restitution", given, "a number between 0 and 1", low=0.0, high=1.0)
+
+
+def restitution_table(restitution: Restitution) -> tuple[Array, Array]:
     """Give e as the kernels take it: speeds, shape (m,), and e there on the one side and then on the other, (2 m,)."""
     if isinstance(restitution, RestitutionLaw):
         return restitution.speeds, np.tile(restitution.values, 2)

@@ -10,8 +10,8 @@ import numpy as np
 from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.history import History
-from colonnade.dynamics.models import DEFAULT, Case, model_of
-from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.models import DEFAULT, model_of
+from colonnade.dynamics.motion import Motion, at_rest
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.validation import described, instance, number
 
@@ -139,26 +139,46 @@ def rock(
     out_of_plane = number("out_of_plane", out_of_plane, between, above=-HALF, below=HALF, unit="rad")
     expected = f"a fraction of the critical angle from {LEAST_REST_ANGLE:g} to 1"
     rest_angle = number("rest_angle", rest_angle, expected, low=LEAST_REST_ANGLE, below=1.0)
-    if contact is not None:
-        _expect_law(contact)
-    if isinstance(block, Assembly):
-        if not asked.in_space or restitution is not None or out_of_plane != 0.0:
-            raise ValueError(
-                f'model is "{model}", restitution {described(restitution)}, out_of_plane {out_of_plane:g} rad; of '
-                'bodies on each other only model="contact" was expected, which finds what an impact takes by itself'
-            )
-        from colonnade.dynamics.contact.simulate import simulate_assembly
+    if isinstance(block, Assembly) and (not asked.in_space or restitution is not None or out_of_plane != 0.0):
+        raise ValueError(
+            f'model is "{model}", restitution {described(restitution)}, out_of_plane {out_of_plane:g} rad; of '
+            'bodies on each other only model="contact" was expected, which finds what an impact takes by itself'
+        )
+    # The engines are compiled on import.
+    if isinstance(block, Block) and not asked.in_space:
+        if contact is not None or out_of_plane:
+            raise ValueError(f'contact and out_of_plane are for models in space; the model is "{model}"')
+        from colonnade.dynamics.plane.run import run
 
-        return simulate_assembly(block, motion, law=contact, duration=duration, theta0=theta0, omega0=omega0)
-    return asked.run(Case(block, motion, restitution, theta0, omega0, duration, rest_angle, contact, out_of_plane))
+        motion = at_rest(block, duration) if motion is None else motion
+        return run(asked, block, motion, restitution, theta0=theta0, omega0=omega0, rest_angle=rest_angle)
+    from colonnade.dynamics.contact.body import ContactLaw, rigid_body
+    from colonnade.dynamics.contact.simulate import simulate, simulate_assembly
+
+    law = ContactLaw() if contact is None else instance("contact", contact, ContactLaw)
+    if isinstance(block, Assembly):
+        return simulate_assembly(block, motion, law=law, duration=duration, theta0=theta0, omega0=omega0)
+    if restitution is not None:
+        raise ValueError(
+            f"Do not give `restitution` to the {model} model: it follows from `contact`, the law of contact"
+        )
+    if block.beam_ratio:
+        raise ValueError(
+            "block is a frame, which rocks as one block in the plane only; a single body was expected. On contact "
+            "its columns and its beam are bodies: build an `Assembly.frame`"
+        )
+    return simulate(
+        rigid_body(block),
+        motion,
+        law=law,
+        gravity=block.gravity,
+        duration=duration,
+        theta0=theta0,
+        omega0=omega0,
+        out_of_plane=out_of_plane,
+    )
 
 
 def _fastest_p(block: Block | Assembly) -> float:
     blocks = [body.block for body in block.bodies.values()] if isinstance(block, Assembly) else [block]
     return max(one.side_p(side) for one in blocks for side in one.sides)
-
-
-def _expect_law(contact: object) -> None:
-    from colonnade.dynamics.contact.body import ContactLaw
-
-    instance("contact", contact, ContactLaw)

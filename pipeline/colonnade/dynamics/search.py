@@ -19,9 +19,9 @@ from colonnade.arrays import Array, Codes, Mask
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import Outcome
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic import Harmonic, Restitution, harmonic_outcomes
+from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_outcomes
 from colonnade.dynamics.plane.run import OUTCOMES, OVERTURNS, ends_of, expect_usable
-from colonnade.dynamics.restitution_law import RestitutionLaw
+from colonnade.dynamics.restitution_law import Restitution, RestitutionLaw
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.units.text import Digested
 from colonnade.validation import number, whole

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi
 
@@ -10,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from colonnade.arrays import Array
-from colonnade.dynamics.block import Block, Sided
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.models import DEFAULT
 from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_run, restitution_up_to
-from colonnade.dynamics.restitution_law import RestitutionLaw
+from colonnade.dynamics.restitution_law import Given
 
 AT_REST, IRREGULAR, OVERTURNED = 0, -1, -2
 """Orders of responses that do not repeat as rocking."""
@@ -57,7 +56,7 @@ def steady_response(
     *,
     frequency_ratio: ArrayLike,
     amplitude_ratio: ArrayLike,
-    restitution: Sided | RestitutionLaw | Callable[[float], float] | None = None,
+    restitution: Given = None,
     settling: int = 400,
     phase: float = 0.0,
     ramp: float = 0.0,

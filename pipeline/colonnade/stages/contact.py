@@ -12,7 +12,13 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.settings import ContactSettings
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactBody, ContactLaw
-from colonnade.dynamics.contact.calibration import VELOCITY_RATIO, Calibration, calibrate, free_restitution
+from colonnade.dynamics.contact.calibration import (
+    FRACTIONS,
+    VELOCITY_RATIO,
+    Calibration,
+    calibrate,
+    free_restitution,
+)
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.stability import keep_modes_for_step
 from colonnade.errors import StageError
@@ -78,7 +84,7 @@ def contact(specimen: xr.Dataset, inputs: ContactInputs) -> xr.Dataset:
     """
     found = calibrate_specimen(inputs, float(specimen["restitution"]))
     reason = found.reason if inputs.settings.damping_fraction == "auto" else ""
-    return _described(found, reason).assign(law_variables(found.body, found.law, inputs.block.gravity))
+    return _described(found, reason).assign(law_variables(found.history.body, found.history.law, inputs.block.gravity))
 
 
 def calibrate_specimen(inputs: ContactInputs, restitution: float) -> Calibration:
@@ -118,8 +124,7 @@ def calibrate_specimen(inputs: ContactInputs, restitution: float) -> Calibration
             restitution,
             gravity=inputs.block.gravity,
             step=settings.step,
-            fractions=(law.damping_fraction,) if given else None,
-            vary_stiffness=not given,
+            fractions=(law.damping_fraction,) if given else FRACTIONS,
             identify=partial(identified, lowest_amplitude=inputs.lowest_amplitude),
         )
     except ValueError as error:
@@ -227,10 +232,10 @@ def _described(found: Calibration, reason: str) -> xr.Dataset:
 
     scalars = {
         "contact_restitution": found.restitution,
-        "contact_velocity_ratio": found.velocity_ratio,
+        "contact_velocity_ratio": free_restitution(found.history),
         "restitution": found.target,
-        "contact_step": found.step,
-        "energy_residual": found.residual,
+        "contact_step": found.history.step,
+        "energy_residual": found.history.energies.relative_residual,
     }
     tried = {
         "tried_damping_fraction": found.fractions,
@@ -241,7 +246,7 @@ def _described(found: Calibration, reason: str) -> xr.Dataset:
         {name: ((), value) for name, value in scalars.items()}
         | {name: ("trial", np.asarray(values)) for name, values in tried.items()},
         attrs={
-            "body": found.body.description,
+            "body": found.history.body.description,
             "contact_restitution_source": found.source,
             "warnings": [warning("contact law", reason)] if reason else [],
         },

@@ -57,8 +57,6 @@ def test_a_balance_that_does_not_close_is_told():
     law = ContactLaw.stiff(body, 9.81)
     history = simulate(body, Motion(np.zeros(11), 0.005), law=law, theta0=0.1 * ALPHA)
     assert history.warnings == ()
-    assert history.node_weights.sum() == pytest.approx(PRISM.mass * 9.81)
-    assert history.effective_damping == pytest.approx(0.4)
     part = {name: getattr(history.energies, name) for name in vars(history.energies)}
     leaking = EnergyBalance(**{**part, "kinetic": 0.9 * part["kinetic"]})
     assert not leaking.closes

@@ -10,6 +10,7 @@ from colonnade.dynamics.contact.body import ContactLaw, rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
 from colonnade.dynamics.motion import Motion
+from polygon import polygon
 from prism import PRISM
 
 GRAVITY = 9.81
@@ -83,7 +84,7 @@ def _measured_rate(history):
 @pytest.mark.parametrize("tilt", [0.1, 0.3])
 def test_a_cylinder_rolls_steadily_on_its_whole_rim(tilt):
     """Its centre of mass stays, so that no friction is needed: the closed form holds to the depth of the contact."""
-    body = rigid_body(CYLINDER, rings=(1, None))
+    body = rigid_body(CYLINDER, rings=1)
     law = _law(body, 1e9, 0.0, 0.0)
     rate, start = _rolling(body, tilt, law)
     history = simulate(body, _rest(0.5), law=law, step=1e-5, start=start)
@@ -94,7 +95,7 @@ def test_a_cylinder_rolls_steadily_on_its_whole_rim(tilt):
 
 def test_friction_on_the_arc_slows_rolling_less_the_harder_the_contact_is():
     """A rim that rolls tilted also turns about the vertical where it touches. A harder contact has a shorter arc."""
-    body = rigid_body(CYLINDER, rings=(1, None))
+    body = rigid_body(CYLINDER, rings=1)
     lost = []
     for stiffness, step in ((1e8, 1e-5), (1e9, 1e-5), (1e10, 5e-6)):
         law = _law(body, stiffness)
@@ -110,7 +111,7 @@ def test_friction_on_the_arc_slows_rolling_less_the_harder_the_contact_is():
 def test_rolling_on_a_ring_of_nodes_comes_nearer_to_the_rim_with_their_number():
     lost, deviations = [], []
     for around in (24, 48, 96, 192):
-        body = rigid_body(CYLINDER, rings=(1, around))
+        body = polygon(rigid_body(CYLINDER, rings=1), around)
         law = _law(body)
         rate, start = _rolling(body, 0.1, law)
         history = simulate(body, _rest(0.1), law=law, step=1e-5, start=start)
@@ -124,7 +125,7 @@ def test_rolling_on_a_ring_of_nodes_comes_nearer_to_the_rim_with_their_number():
 
 
 def test_without_friction_and_damping_energy_and_vertical_angular_momentum_are_kept():
-    body = rigid_body(CYLINDER, rings=(1, None))
+    body = rigid_body(CYLINDER, rings=1)
     law = _law(body, 1e6, 0.0, 0.0)
     upright = standing(body, law, GRAVITY, theta0=0.2)
     start = Start(upright.position, orientation=upright.orientation, angular_velocity=np.array([0.5, 3.0, 20.0]))

@@ -51,14 +51,10 @@ def test_it_leans_about_the_pole_on_that_side(body, theta0):
     np.testing.assert_allclose(start.angular_velocity, [0.0, 0.3, 0.0])
 
 
-def test_the_two_tilts_are_those_of_the_axis_and_yaw_turns_about_it():
-    tilts = {"theta0": 0.1, "out_of_plane": 0.05}
-    plain, turned = (standing(PRISM, law_of(PRISM), GRAVITY, yaw=yaw, **tilts) for yaw in (0.0, 0.4))
-    first, second = (rotation_matrices(start.orientation[None])[0] for start in (plain, turned))
-    np.testing.assert_allclose(first[:2, 2] / first[2, 2], np.tan([0.1, -0.05]))
-    np.testing.assert_allclose(second[:, 2], first[:, 2], atol=1e-15)
-    cosine, sine = np.cos(0.4), np.sin(0.4)
-    np.testing.assert_allclose(first.T @ second, [[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]], atol=1e-15)
+def test_the_two_tilts_are_those_of_the_axis():
+    start = standing(PRISM, law_of(PRISM), GRAVITY, theta0=0.1, out_of_plane=0.05)
+    axis = rotation_matrices(start.orientation[None])[0][:, 2]
+    np.testing.assert_allclose(axis[:2] / axis[2], np.tan([0.1, -0.05]))
 
 
 def test_rotation_matrices_are_those_of_their_quaternions():

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.dynamics.assembly import Assembly, standing_on
+from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.contact.body import ContactLaw
 from colonnade.dynamics.contact.history import EnergyBalance
 from colonnade.dynamics.contact.start import rotation_matrices
@@ -98,6 +97,9 @@ class AssemblyHistory(Digested):
     law : ContactLaw
     time : ndarray, shape (n,)
         s.
+    angle : ndarray, shape (n,)
+        rad, positive to +x: lean of the lowest body with all that stands on it alone, the angle with the vertical of
+        the line from its base to their common centre of mass.
     bodies : mapping of str to BodyHistory
         From the bottom to the top.
     energies : EnergyBalance
@@ -128,6 +130,7 @@ class AssemblyHistory(Digested):
     assembly: Assembly
     law: ContactLaw
     time: Array
+    angle: Array
     bodies: Mapping[str, BodyHistory]
     energies: EnergyBalance
     base_force: Array
@@ -148,23 +151,6 @@ class AssemblyHistory(Digested):
     def peak_ratio(self) -> float | None:
         """Largest lean of any body; None if one overturned."""
         return None if self.overturned_bodies else max(float(body.lean.max()) for body in self.bodies.values())
-
-    @cached_property
-    def angle(self) -> Array:
-        """
-        Lean of the lowest body with all that stands on it alone, rad, shape (n,): positive to +x.
-
-        That is the angle with the vertical of the line from its base to their common centre of mass.
-        """
-        lowest = next(iter(self.bodies))
-        together = standing_on(self.assembly, lowest)
-        masses = np.array([self.assembly.bodies[name].block.mass for name in together])
-        rests = np.array([self.assembly.bodies[name].position[0] for name in together])
-        places = np.array([self.bodies[name].position[:, 0] for name in together]) - rests[:, None]
-        up = rotation_matrices(self.bodies[lowest].orientation)[:, 0, 2]
-        aside = masses @ places / masses.sum() - (places[0] - self.assembly.bodies[lowest].centre_height * up)
-        lean = self.bodies[lowest].lean * self.assembly.critical_angles[lowest]
-        return np.asarray(np.copysign(lean, aside))
 
     @property
     def outcome(self) -> Outcome:

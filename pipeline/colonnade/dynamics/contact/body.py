@@ -14,8 +14,8 @@ from colonnade.validation import number
 GRID = (5, 5)
 """Nodes of a rectangular base along x and y."""
 
-RINGS = (4, None)
-"""Rings of a round base, and nodes on each; None for whole circles."""
+RINGS = 4
+"""Whole circles of a round base."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -87,13 +87,8 @@ class ContactBody(Nodes):
         """Distance of the outermost base node from the centre of mass along x, m: of the pole of plane rocking."""
         return float(np.abs(self.nodes[:, 0]).max())
 
-    @property
-    def has_rings(self) -> bool:
-        """Whether the base touches along whole circles."""
-        return bool(np.any(self.ring_radii > 0.0))
 
-
-def rigid_body(block: Block, *, grid: tuple[int, int] = GRID, rings: tuple[int, int | None] = RINGS) -> ContactBody:
+def rigid_body(block: Block, *, grid: tuple[int, int] = GRID, rings: int = RINGS) -> ContactBody:
     """
     Place nodes on the base of a rigid block.
 
@@ -106,9 +101,8 @@ def rigid_body(block: Block, *, grid: tuple[int, int] = GRID, rings: tuple[int, 
     grid : tuple of int, optional
         Nodes of a rectangular base along x and y, at least 2 along x. Equal spacing with nodes on the edges; corners
         stand for a quarter of the area of an inner node.
-    rings : tuple of int and (int or None), optional
-        Rings of a round base, outermost on the rim, equally spaced; and nodes on each. None, the default, takes them as
-        whole circles. A number makes them polygons, on which a body rolls with a resistance of its own: for comparison.
+    rings : int, optional
+        Whole circles of a round base, equally spaced, the outermost on the rim.
 
     Returns
     -------
@@ -121,45 +115,43 @@ def rigid_body(block: Block, *, grid: tuple[int, int] = GRID, rings: tuple[int, 
         If there are too few nodes.
     """
     solid = block.solid
-    sides = (block.negative, block.positive)
-    widths = [side.half_width for side in sides]
+    widths = [side.half_width for side in block.sides]
     half_width = 0.5 * sum(widths)
-    height = 0.5 * sum(side.pole_distance * cos(side.critical_angle) for side in sides)
-    about_y = 0.5 * sum(side.inertia - block.mass * side.pole_distance**2 for side in sides)
+    height = 0.5 * sum(side.pole_distance * cos(side.critical_angle) for side in block.sides)
+    about_y = 0.5 * sum(side.inertia - block.mass * side.pole_distance**2 for side in block.sides)
     if not about_y > 0.0:
         raise ValueError(
             f"I₀ − m R² is {about_y:.4g} kg m²; more than 0 was expected: the inertia about the pole "
             "has to exceed that of the mass at the pole distance"
         )
-    round_base = solid is not None and solid.base == "circle"
-    if solid is None:
-        half_depth = half_width
-        inertia = np.array([about_y, about_y, block.mass * (half_width**2 + half_depth**2) / 3.0])
+    if solid is not None and solid.base == "circle":
+        inertia = [about_y, about_y, solid.inertia_z]
+        nodes, area = round_nodes(half_width, rings)
+        radii, told = nodes[:, 0], f"round base, {rings} whole {'ring' if rings == 1 else 'rings'}"
     else:
-        half_depth = half_width if round_base else solid.half_depth
-        inertia = np.array([about_y if round_base else solid.inertia_x, about_y, solid.inertia_z])
-    if round_base:
-        nodes, area = round_nodes(half_width, *rings)
-    else:
+        about_z = 2.0 * block.mass * half_width**2 / 3.0
+        half_depth, inertia, told = (
+            half_width,
+            [about_y, about_y, about_z],
+            "rectangular base taken to be as deep as wide",
+        )
+        if solid is not None:
+            half_depth, inertia, told = (
+                solid.half_depth,
+                [solid.inertia_x, about_y, solid.inertia_z],
+                "rectangular base",
+            )
         nodes, area = grid_nodes(-widths[0], widths[1], half_depth, *grid)
-    whole = round_base and rings[1] is None
+        radii, told = np.zeros(len(nodes)), f"{told}, {len(nodes)} nodes"
     return ContactBody(
         nodes=np.column_stack((nodes, np.full(len(nodes), -height))),
         node_mass=block.mass * area / area.sum(),
         node_area=area,
-        ring_radii=nodes[:, 0] if whole else np.zeros(len(nodes)),
+        ring_radii=radii,
         mass=block.mass,
-        inertia=inertia,
-        description=_describe(block, len(nodes), whole),
+        inertia=np.array(inertia),
+        description=f"rigid, {told}",
     )
-
-
-def _describe(block: Block, count: int, whole: bool) -> str:
-    if whole:
-        return f"rigid, round base, {count} whole {'ring' if count == 1 else 'rings'}"
-    if block.solid is None:
-        return f"rigid, rectangular base taken to be as deep as wide, {count} nodes"
-    return f"rigid, {'round' if block.solid.base == 'circle' else 'rectangular'} base, {count} nodes"
 
 
 def grid_nodes(left: float, right: float, half_depth: float, along: int, across: int) -> tuple[Array, Array]:
@@ -180,18 +172,14 @@ def _shares(count: int) -> Array:
     return np.asarray(shares / shares.sum())
 
 
-def round_nodes(radius: float, rings: int, around: int | None) -> tuple[Array, Array]:
-    """Give the nodes of a disc on equally spaced rings, the outermost on its rim, and the area of each."""
-    if rings < 1 or (around is not None and around < 3):
-        raise ValueError(f"rings is ({rings}, {around}); at least 1 ring of 3 nodes, or of None, was expected")
-    count = around or 1
-    angle = 2.0 * pi * np.arange(count) / count
+def round_nodes(radius: float, rings: int) -> tuple[Array, Array]:
+    """Give the points at +x of a disc's equally spaced rings, the outermost on its rim, and the area of each."""
+    if rings < 1:
+        raise ValueError(f"rings is {rings}; at least 1 was expected")
     radii = radius * np.arange(1, rings + 1) / rings
     # A ring takes the area up to midway to its neighbours, the innermost all within, the outermost up to the rim.
     edges = np.concatenate(([0.0], 0.5 * (radii[:-1] + radii[1:]), [radius]))
-    area = pi * np.diff(edges**2) / count
-    nodes = np.column_stack((np.outer(radii, np.cos(angle)).ravel(), np.outer(radii, np.sin(angle)).ravel()))
-    return nodes, np.repeat(area, count)
+    return np.column_stack((radii, np.zeros(rings))), pi * np.diff(edges**2)
 
 
 def propagators(body: ContactBody, step: float) -> Array:
@@ -227,18 +215,14 @@ class ContactLaw:
         ξ, the critical damping fraction: 2 ξ sqrt(m k) v acts while the node is in contact, m the node's mass.
     friction : float
         Coulomb's coefficient µ; `math.inf` for no sliding.
-    tangential_ratio : float
-        Stiffness against elastic slip, over k.
-    tangential_damping : float
-        Damping of the elastic slip, over the normal one. A node that slides is not damped.
     penetration : float, optional
         Depth under what stands on an interface, over the height of its centre of mass.
 
     Notes
     -----
     The normal force is max(0, k δ + 2 ξ sqrt(m k) dδ/dt) for a depth δ > 0: the table never pulls. The tangential force
-    follows the elastic slip s, −k_t s − c_t ds/dt, and where k_t |s| would exceed µ N the node slides and s stays at
-    µ N / k_t.
+    follows the elastic slip s, −k s − 2 ξ sqrt(m k) ds/dt, and where k |s| would exceed µ N the node slides undamped
+    and s stays at µ N / k.
 
     A ring of radius r has its stiffness k and its mass m spread evenly around: by length k' = k / 2πr, m' = m / 2πr and
     the damping 2 ξ sqrt(m' k'), each the limit of more and more nodes; k is the stiffness times the area of the
@@ -248,38 +232,23 @@ class ContactLaw:
     stiffness: float | None = None
     damping_fraction: float = 0.4
     friction: float = 0.6
-    tangential_ratio: float = 1.0
-    tangential_damping: float = 1.0
     penetration: float = STATIC_PENETRATION
 
     def __post_init__(self) -> None:
-        for name in ("tangential_ratio", "penetration") + (() if self.stiffness is None else ("stiffness",)):
-            number(name, getattr(self, name), "a positive number", above=0.0)
-        for name in ("damping_fraction", "friction", "tangential_damping"):
-            number(name, getattr(self, name), "a number from 0 on", low=0.0, finite=name != "friction")
+        number("penetration", self.penetration, "a positive number", above=0.0)
+        if self.stiffness is not None:
+            number("stiffness", self.stiffness, "a positive number", above=0.0)
+        number("damping_fraction", self.damping_fraction, "a number from 0 on", low=0.0)
+        number("friction", self.friction, "a number from 0 on", low=0.0, finite=False)
 
     @classmethod
-    def stiff(
-        cls,
-        body: ContactBody,
-        gravity: float,
-        *,
-        damping_fraction: float = 0.4,
-        friction: float = 0.6,
-        penetration: float = STATIC_PENETRATION,
-    ) -> ContactLaw:
-        """
-        Choose the stiffness by how deep a standing body sinks.
+    def stiff(cls, body: ContactBody, gravity: float, **law: float) -> ContactLaw:
+        """Choose the stiffness by how deep a standing body sinks; `law`: the other attributes."""
+        return cls(**law).bearing(body, gravity)
 
-        Parameters
-        ----------
-        body : ContactBody
-        gravity : float
-            m/s².
-        damping_fraction, friction, penetration : float, optional
-        """
-        law = cls(damping_fraction=damping_fraction, friction=friction, penetration=penetration)
-        return law.under(body.mass * gravity / float(body.node_area.sum()), body.height)
+    def bearing(self, body: ContactBody, gravity: float) -> ContactLaw:
+        """Return the law with its stiffness under a body that stands on the table."""
+        return self.under(body.mass * gravity / float(body.node_area.sum()), body.height)
 
     def under(self, pressure: float, height: float) -> ContactLaw:
         """Return the law with its stiffness under a pressure (Pa) by what has its centre of mass at a height (m)."""

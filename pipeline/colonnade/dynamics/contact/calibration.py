@@ -51,39 +51,24 @@ class Calibration:
 
     Attributes
     ----------
-    law : ContactLaw
-        The one whose restitution is nearest to the one asked for.
+    history : ContactHistory
+        Of a free vibration with the law whose restitution is nearest to the one asked for, and the modes that it kept.
     restitution : float
-        Of a free vibration with it, by `identify`.
+        Of this, by `identify`.
     source : str
         What that restitution is: `VELOCITY_RATIO`, or as `identify` calls it.
-    velocity_ratio : float
-        Of the same free vibration: `free_restitution`.
     target : float
     fractions, stiffnesses, restitutions : ndarray, shape (k,)
         All that was tried, in its order (ξ; in multiples of the stiffness of the law asked for), and what it gave.
-    effective_damping : float
-        ξ_eff of law and body.
-    step : float
-        s, that the runs were made with.
-    residual : float
-        Of the energy balance in the run with the law, over the largest energy.
-    body : ContactBody
-        With the modes that the run with the law kept.
     """
 
-    law: ContactLaw
+    history: ContactHistory
     restitution: float
     source: str
-    velocity_ratio: float
     target: float
     fractions: Array
     stiffnesses: Array
     restitutions: Array
-    effective_damping: float
-    step: float
-    residual: float
-    body: ContactBody
 
     @property
     def agrees(self) -> bool:
@@ -96,11 +81,12 @@ class Calibration:
         if self.agrees:
             return ""
         return (
-            f"The contact of this body ({self.body.description}) gives e from {np.nanmin(self.restitutions):.4f} to "
-            f"{np.nanmax(self.restitutions):.4f} for critical damping fractions from {self.fractions.min():g} to "
-            f"{self.fractions.max():g} and {self.stiffnesses.min():g} to {self.stiffnesses.max():g} times its "
-            f"stiffness; {self.target:.4f} was asked for. The nearest is used: e = {self.restitution:.4f} at "
-            f"{self.law.damping_fraction:.4g}. More nodes give a larger e, fewer a smaller one."
+            f"The contact of this body ({self.history.body.description}) gives e from "
+            f"{np.nanmin(self.restitutions):.4f} to {np.nanmax(self.restitutions):.4f} for critical damping fractions "
+            f"from {self.fractions.min():g} to {self.fractions.max():g} and {self.stiffnesses.min():g} to "
+            f"{self.stiffnesses.max():g} times its stiffness; {self.target:.4f} was asked for. The nearest is used: "
+            f"e = {self.restitution:.4f} at "
+            f"{self.history.law.damping_fraction:.4g}. More nodes give a larger e, fewer a smaller one."
         )
 
 
@@ -129,11 +115,10 @@ def calibrate(
     law: ContactLaw,
     restitution: float,
     *,
+    step: float,
     gravity: float = STANDARD_GRAVITY,
-    step: float | None = None,
     impacts: int = IMPACTS,
-    fractions: Sequence[float] | None = None,
-    vary_stiffness: bool = True,
+    fractions: Sequence[float] = FRACTIONS,
     identify: Identify | None = None,
 ) -> Calibration:
     """
@@ -142,21 +127,19 @@ def calibrate(
     Parameters
     ----------
     body : ContactBody
-        With all its modes; with a step given, each run keeps those that the step follows with its own law.
+        With all its modes; each run keeps those that the step follows with its own law.
     law : ContactLaw
         Its damping fraction is varied; its stiffness is changed only if no fraction gives e.
     restitution : float
         e between 0 and 1, as identified from measured free rocking.
+    step : float
+        s.
     gravity : float, optional
         m/s².
-    step : float, optional
-        s; default as for `simulate`.
     impacts : int, optional
         Number of impacts that give the restitution.
     fractions : sequence of float, optional
-        Damping fractions that are tried first, rising; default `FRACTIONS`. With a single one its e is computed.
-    vary_stiffness : bool, optional
-        Whether the stiffness may be changed.
+        Damping fractions that are tried first, rising. With a single one its e is computed, and nothing is varied.
     identify : callable, optional
         Restitution of a free vibration, NaN if it gives none, and what it is; default `free_restitution`. A bouncing
         contact loses energy between impacts too, so velocities at impacts give another e than the decay of the angle.
@@ -173,11 +156,9 @@ def calibrate(
     """
     if not 0.0 < restitution < 1.0:
         raise ValueError(f"restitution is {restitution}; a number between 0 and 1 was expected")
-    if impacts < 1:
-        raise ValueError(f"impacts is {impacts}; at least one was expected")
     block = plane_block(body, gravity)
     theta0, duration = RELEASE * block.critical_angle, _duration(restitution, impacts) / block.p
-    law = law.under(body.mass * gravity / float(body.node_area.sum()), body.height)
+    law = law.bearing(body, gravity)
     identify = identify or (lambda history: (free_restitution(history, impacts=impacts), VELOCITY_RATIO))
     found: dict[tuple[float, float], tuple[float, str, ContactHistory]] = {}
 
@@ -186,22 +167,20 @@ def calibrate(
         if (stiffness, fraction) not in found:
             own = replace(law, stiffness=stiffness * (law.stiffness or nan), damping_fraction=fraction)
             try:
-                kept = body if step is None else keep_modes_for_step(body, own, step)
+                kept = keep_modes_for_step(body, own, step)
             except ValueError:
                 return nan
             history = simulate(kept, law=own, gravity=gravity, theta0=theta0, duration=duration, step=step)
             found[stiffness, fraction] = *identify(history), history
         return found[stiffness, fraction][0]
 
-    tried = FRACTIONS if fractions is None else fractions
-    reached = _reach(partial(run, 1.0), restitution, tried)
-    if not reached and vary_stiffness:
+    if not _reach(partial(run, 1.0), restitution, fractions) and len(fractions) > 1:
         lowest = min((value for value, _, _ in found.values() if not isnan(value)), default=nan)
         order = HARDER_FIRST if lowest > restitution else SOFTER_FIRST
         others = [partial(run, stiffness) for stiffness in order]
-        any(_may_reach(each, restitution, tried) and _reach(each, restitution, tried) for each in others)
+        any(_may_reach(each, restitution, fractions) and _reach(each, restitution, fractions) for each in others)
     values = np.array([value for value, _, _ in found.values()])
-    if step is not None and values.size == 0:
+    if values.size == 0:
         raise ValueError(
             f"step is {step:.4g} s; at most {longest_with(body, law, 0.0):.4g} s was expected: beyond it the contact "
             f"of this body ({body.description}) is unstable. Use a shorter step or a softer contact."
@@ -211,20 +190,8 @@ def calibrate(
             f"No free vibration of this body ({body.description}) gave a restitution; a block that rocks was expected"
         )
     value, source, history = list(found.values())[int(np.nanargmin(np.abs(values - restitution)))]
-    return Calibration(
-        law=history.law,
-        restitution=value,
-        source=source,
-        velocity_ratio=free_restitution(history, impacts=impacts),
-        target=restitution,
-        fractions=np.array([fraction for _, fraction in found]),
-        stiffnesses=np.array([stiffness for stiffness, _ in found]),
-        restitutions=values,
-        effective_damping=history.effective_damping,
-        step=history.step,
-        residual=history.energies.relative_residual,
-        body=history.body,
-    )
+    stiffnesses, tried = np.array(list(found)).T
+    return Calibration(history, value, source, restitution, tried, stiffnesses, values)
 
 
 def _may_reach(run: Callable[[float], float], target: float, fractions: Sequence[float]) -> bool:

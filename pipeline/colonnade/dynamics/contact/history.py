@@ -140,16 +140,6 @@ class ContactHistory(History):
         return np.asarray(np.divide(self.rebound_velocities, self.impact_velocities, out=unknown, where=moving))
 
     @property
-    def effective_damping(self) -> float:
-        """ξ_eff of law and body, see `ContactLaw.effective_damping`."""
-        return self.law.effective_damping(self.body)
-
-    @property
-    def node_weights(self) -> Array:
-        """What each base node bears of the standing body's weight, N, shape (n,); their masses are the body's."""
-        return self.law.node_weights(self.body, self.block.gravity)
-
-    @property
     def warnings(self) -> tuple[str, ...]:
         """What the reader of this history has to know, one sentence each."""
         alpha, weight = self.block.critical_angle, self.block.mass * self.block.gravity

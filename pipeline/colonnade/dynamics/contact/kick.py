@@ -92,7 +92,7 @@ def _fill_velocities(system: System, near: Near, side: int) -> None:
 @kernel_in_place
 def _fill_forces(system: System, state: State, near: Near, side: int, step: float) -> None:
     """Fill the forces of an interface's points by the law of contact, and what becomes of their slip."""
-    load, depths, contact, slip, listed = near.load, near.depth, system.contact, state.slip, near.listed
+    load, depths, slip, listed = near.load, near.depth, state.slip, near.listed
     nodes, slots, shares, friction = near.node, near.slot, near.share, system.friction[side]
     for index in range(listed[side], listed[side + 1]):
         node, slot, share, depth = nodes[index], slots[index], shares[index], depths[index]
@@ -104,11 +104,11 @@ def _fill_forces(system: System, state: State, near: Near, side: int, step: floa
         elif high < abs(sinking):
             part = high / abs(sinking)
             mean = 0.5 * part * high
-        elastic = share * contact[node, 0] * mean
-        normal = max(0.0, elastic - part * share * contact[node, 1] * load[index, 11])
+        stiffness, damping = share * system.stiffness[node], share * system.damping[node]
+        elastic = stiffness * mean
+        normal = max(0.0, elastic - part * damping * load[index, 11])
         limit = friction * normal if normal > 0.0 else 0.0
         # The slip of before, as far as this normal force still holds it.
-        stiffness, damping = share * contact[node, 2], share * contact[node, 3]
         load[index, 7], load[index, 8] = slip[slot, 0], slip[slot, 1]
         _shorten(load, index, 7, stiffness, limit)
         # The slip after the step; beyond the limit of friction the point slides.
@@ -192,10 +192,10 @@ def _add(total: Array, body: int, u: float, v: float, w: float, p: float, q: flo
 def _settle(system: System, state: State, near: Near, side: int, step: float) -> None:
     """Book what the contact of an interface took, and keep the slip."""
     slip, lost, load, slots, nodes = state.slip, state.lost, near.load, near.slot, near.node
-    contact, share, listed, touched = system.contact, near.share, near.listed, state.touched
+    share, listed, touched = near.share, near.listed, state.touched
     for index in range(listed[side], listed[side + 1]):
         slot = slots[index]
-        stiffness = share[index] * contact[nodes[index], 2]
+        stiffness = share[index] * system.stiffness[nodes[index]]
         half = 0.5 * stiffness
         # Normal damping; and the energy of the slip that the normal force held no longer, which friction took.
         lost[side, 0] += step * (load[index, 3] - load[index, 2]) * load[index, 11]

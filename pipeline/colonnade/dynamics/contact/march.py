@@ -21,7 +21,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.dynamics.contact.kick import kick
 from colonnade.dynamics.contact.state import Near, State, System
-from colonnade.dynamics.contact.touch import fill_poses, fill_twists, lowest_and_energy, place
+from colonnade.dynamics.contact.touch import fill_poses, fill_twists, place, spring_energy
 from colonnade.dynamics.kernel import kernel_in_place
 
 POLE = 0.75
@@ -46,8 +46,8 @@ def march(
     Fill the samples from `begin` on along a motion (shape (n, 3)), and the impacts; return how many were reached.
 
     `parts` steps an interval. samples, shape (n, b, 13): of the bodies, as `rigid`, but with the angular velocity.
-    joints, shape (n, j, 8): uplift, energy, lost to contact and to friction, force (mean since the sample before), time
-    without contact. sums, shape (n, 4): work of the table, lost by the modes, their kinetic and strain energy. A body
+    joints, shape (n, j, 7): energy, lost to contact and to friction, force (mean since the sample before), time without
+    contact. sums, shape (n, 4): work of the table, lost by the modes, their kinetic and strain energy. A body
     has fallen that lies at a tilt of π/2 or is too low. The run ends where all have, and pauses where the next interval
     might find more impacts than `found`, shape (k, IMPACT), has room for.
     """
@@ -84,7 +84,7 @@ def march(
             for axis in range(3):
                 pull[axis] = -_table(motion, sample, (part + 0.75) / parts, axis)
                 for joint in range(count):
-                    joints[sample, joint, 4 + axis] += force[joint, axis] / parts
+                    joints[sample, joint, 3 + axis] += force[joint, axis] / parts
             _drift(system, state, pull, 0.5 * step)
         _fill_sample(system, state, near, samples[sample], joints[sample], sums[sample])
         left = 0
@@ -93,7 +93,7 @@ def march(
                 stands[body] = 0
             left += stands[body]
         for joint in range(count):
-            joints[sample, joint, 7] = step * watch[joint, 3]
+            joints[sample, joint, 6] = step * watch[joint, 3]
         if left == 0:
             return sample + 1
     return len(motion)
@@ -238,13 +238,10 @@ def _fill_sample(system: System, state: State, near: Near, sample: Array, joints
         for axis in range(3):
             sample[body, 10 + axis] = state.rigid[body, 10 + axis] / system.inertia[body, axis]
     for joint in range(joints.shape[0]):
-        joints[joint, 0] = np.inf
         for side in range(system.sides[joint], system.sides[joint + 1]):
-            lowest, energy = lowest_and_energy(system, state, near, side)
-            joints[joint, 0] = min(joints[joint, 0], lowest)
-            joints[joint, 1] += energy
-            joints[joint, 2] += state.lost[side, 0]
-            joints[joint, 3] += state.lost[side, 1]
+            joints[joint, 0] += spring_energy(system, state, near, side)
+            joints[joint, 1] += state.lost[side, 0]
+            joints[joint, 2] += state.lost[side, 1]
     sums[0], sums[1] = state.work[0], state.work[1]
     for mode in range(state.strain.shape[1]):
         sums[2] += 0.5 * state.strain[1, mode] ** 2

@@ -9,15 +9,15 @@ from typing import NamedTuple
 import numpy as np
 
 from colonnade.arrays import Array, Mask
-from colonnade.dynamics.assembly import Assembly, standing_on
+from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
 from colonnade.dynamics.contact.bodies import AssemblyHistory, BodyHistory, Pose
 from colonnade.dynamics.contact.body import DEFAULT_STEP, ContactBody, ContactLaw
-from colonnade.dynamics.contact.history import ContactHistory, EnergyBalance, impacts_of, tilt
+from colonnade.dynamics.contact.history import ContactHistory, EnergyBalance, impacts_of
 from colonnade.dynamics.contact.march import march
 from colonnade.dynamics.contact.stability import longest_step
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing, standing_assembly
-from colonnade.dynamics.contact.state import IMPACT, Near, State, Whole
+from colonnade.dynamics.contact.state import IMPACT, Near, State
 from colonnade.dynamics.contact.structure import Structure
 from colonnade.dynamics.motion import Motion, at_rest
 from colonnade.validation import number
@@ -43,7 +43,6 @@ def simulate(
     theta0: float = 0.0,
     omega0: float = 0.0,
     out_of_plane: float = 0.0,
-    yaw: float = 0.0,
     start: Start | None = None,
 ) -> ContactHistory:
     """
@@ -62,8 +61,8 @@ def simulate(
     step : float, optional
         Largest step, s; each interval of the motion is divided into equal ones. Default: 5 µs, or a fifth of the
         longest stable step where that is shorter.
-    theta0, omega0, out_of_plane, yaw : float, optional
-        The body at the start, on the table: angle (rad) and angular velocity (rad/s) about y, rotation about x and z.
+    theta0, omega0, out_of_plane : float, optional
+        The body at the start, on the table: angle (rad) and angular velocity (rad/s) about y, rotation about x.
     start : Start, optional
         Instead of these, any other state.
 
@@ -90,15 +89,41 @@ def simulate(
     motion = at_rest(block, duration) if motion is None else motion
     structure = Structure.of_body(body, law, gravity)
     law = structure.interfaces[0].law
-    interval, parts = _division(structure, motion, step)
-    _check(motion, theta0, omega0, out_of_plane)
     if start is None:
-        start = standing(body, law, gravity, theta0=theta0, omega0=omega0, out_of_plane=out_of_plane, yaw=yaw)
-    run = _run(structure, [start], _table(motion), interval, parts)
-    over = tilt(run.samples[:, 0, 6:10]) > block.critical_angle
-    lies = len(run.samples) < motion.acceleration.size
-    fell = lies or (over[-1] and not run.afterwards(structure, block.p).stands[0])
-    return _history(law, block, motion, structure, run, _passed(motion.time, over) if fell else float("nan"))
+        start = standing(body, law, gravity, theta0=theta0, omega0=omega0, out_of_plane=out_of_plane)
+    run = _run(structure, [start], motion, step)
+    own = run.samples[:, 0]
+    matrices = rotation_matrices(own[:, 6:10])
+    axis, turning = matrices[:, :, 2], np.einsum("nij,nj->ni", matrices, own[:, 10:13])
+    rate = np.cross(turning, axis)
+    speed = (rate[:, 0] * axis[:, 2] - axis[:, 0] * rate[:, 2]) / (axis[:, 0] ** 2 + axis[:, 2] ** 2)
+    pose = _pose(body, matrices, own[:, :3] - [0.0, 0.0, body.height])
+    if run.reached < len(own):
+        # One that lies has its angle there.
+        last = run.reached - 1
+        pose["angle"][last:], speed[last:] = np.copysign(0.5 * np.pi, axis[last, 0]), 0.0
+    return ContactHistory(
+        block,
+        motion.time,
+        pose["angle"],
+        speed,
+        *impacts_of(run.impacts, block),
+        float(run.overturning_times[0]),
+        body=body,
+        law=law,
+        step=run.step,
+        position=own[:, :3],
+        velocity=own[:, 3:6],
+        orientation=own[:, 6:10],
+        turning=turning,
+        out_of_plane=pose["out_of_plane_angle"],
+        yaw=pose["yaw"],
+        slide=pose["slide"],
+        uplift=pose["uplift"],
+        base_force=run.joints[:, 0, 3:6],
+        energies=_energies(structure, run),
+        airborne=float(run.joints[-1, 0, 6]),
+    )
 
 
 def simulate_assembly(
@@ -145,16 +170,50 @@ def simulate_assembly(
     structure = Structure.of_assembly(assembly, law) if structure is None else structure
     block = next(iter(assembly.bodies.values())).block
     motion = at_rest(block, duration) if motion is None else motion
-    interval, parts = _division(structure, motion, step)
-    _check(motion, theta0, omega0, 0.0)
     begin = standing_assembly(assembly, structure, theta0=theta0, omega0=omega0) | dict(starts or {})
-    lowest = np.array([assembly.levels[name] if placed.on else -np.inf for name, placed in assembly.bodies.items()])
-    run = _run(structure, [begin[name] for name in assembly.bodies], _table(motion), interval, parts, lowest)
-    leans = _leans(assembly, run)
-    stands = run.stands > 0
-    if stands.any() and (leans[-1, stands] > 1.0).any():
-        stands = run.afterwards(structure, block.p, lowest).stands > 0
-    return _assembly_history(assembly, law, structure, motion, run, leans, ~stands)
+    run = _run(structure, list(begin.values()), motion, step)
+    matrices = np.array([rotation_matrices(run.samples[:, number, 6:10]) for number in range(len(begin))])
+    numbers = {name: number for number, name in enumerate(assembly.bodies)}
+    bodies: dict[str, BodyHistory] = {}
+    base_force, joint = np.zeros((len(run.samples), 3)), 0
+    for (name, placed), body in zip(assembly.bodies.items(), structure.bodies, strict=True):
+        number, own = numbers[name], slice(joint, joint + max(1, len(placed.on)))
+        place = run.samples[:, number, :3]
+        supports = {}
+        for below, sides in zip(placed.on, structure.joints[own], strict=False):
+            target, turned = run.samples[:, numbers[below], :3], np.swapaxes(matrices[numbers[below]], 1, 2)
+            apart = np.einsum("nij,nj->ni", turned, place - target) - sides[0].apart
+            supports[below] = Pose(**_pose(body, turned @ matrices[number], apart))
+        if not placed.on:
+            base_force += run.joints[:, joint, 3:6]
+        plane = plane_block(body, assembly.gravity)
+        impacts = [impacts_of(run.impacts[run.impacts[:, -1] == one], plane) for one in range(own.start, own.stop)]
+        times, before, after = np.hstack(impacts)
+        order = np.argsort(times, kind="stable")
+        bodies[name] = BodyHistory(
+            **_pose(body, matrices[number], place - [*placed.position, assembly.levels[name] + body.height]),
+            supports=supports,
+            lean=run.leans[:, number],
+            position=place,
+            orientation=run.samples[:, number, 6:10],
+            impact_times=times[order],
+            impact_velocities=before[order],
+            rebound_velocities=after[order],
+            dissipated_contact=run.joints[:, own, 1].sum(axis=1),
+            dissipated_friction=run.joints[:, own, 2].sum(axis=1),
+            overturning_time=float(run.overturning_times[number]),
+        )
+        joint = own.stop
+    return AssemblyHistory(
+        assembly=assembly,
+        law=law,
+        time=motion.time,
+        angle=np.copysign(run.leans[:, 0] * structure.critical_angles[0], run.arms[:, 0, 0]),
+        bodies=bodies,
+        energies=_energies(structure, run),
+        base_force=base_force,
+        step=run.step,
+    )
 
 
 def plane_block(body: ContactBody, gravity: float) -> Block:
@@ -169,7 +228,51 @@ def plane_block(body: ContactBody, gravity: float) -> Block:
     )
 
 
-def _division(structure: Structure, motion: Motion, step: float | None) -> tuple[float, int]:
+class _Run(NamedTuple):
+    """
+    What the engine gives at each sample; where all have fallen before the end, the last sample is held.
+
+    samples, joints, sums as of `march`; arms, from each body's base to the centre of all that turns with it, and their
+    leans over α; overturning_times (s); reached, the number of samples that were run.
+    """
+
+    samples: Array
+    joints: Array
+    sums: Array
+    impacts: Array
+    arms: Array
+    leans: Array
+    overturning_times: Array
+    reached: int
+    step: float
+
+
+def _run(structure: Structure, starts: list[Start], motion: Motion, step: float | None) -> _Run:
+    """Run bodies from their starts; those that are past α at the end until they fall or come back."""
+    parts, size = _parts(structure, motion, step), motion.acceleration.size
+    table = np.zeros((size, 3))
+    for axis, values in enumerate((motion.acceleration, motion.transverse, motion.vertical)):
+        if values is not None:
+            table[:, axis] = values
+    rows = np.array([start.row for start in starts])
+    samples, joints, sums, impacts, reached, stands = _march(structure, rows, table, motion.dt, parts)
+    for values in (samples, joints, sums):
+        values[reached:] = values[reached - 1]
+    arms = _arms(structure, samples)
+    leans = np.arctan2(np.hypot(arms[:, :, 0], arms[:, :, 1]), arms[:, :, 2]) / structure.critical_angles
+    if (stands & (leans[-1] > 1.0)).any():
+        p = plane_block(structure.bodies[0], structure.gravity).p
+        still = np.zeros((ceil(AFTERMATH / (p * motion.dt)) + 1, 3))
+        *_, stands = _march(structure, samples[-1], still, motion.dt, parts)
+    overturning_times = np.full(len(stands), np.nan)
+    for body in np.flatnonzero(~stands):
+        upright = np.flatnonzero(leans[:, body] <= 1.0)
+        overturning_times[body] = motion.time[min(upright.max(initial=-1) + 1, size - 1)]
+    return _Run(samples, joints, sums, impacts, arms, leans, overturning_times, reached, motion.dt / parts)
+
+
+def _parts(structure: Structure, motion: Motion, step: float | None) -> int:
+    """Give the number of steps in an interval of a motion."""
     longest = longest_step(structure)
     if step is None:
         step = min(DEFAULT_STEP, STEP_SHARE * longest)
@@ -186,227 +289,65 @@ def _division(structure: Structure, motion: Motion, step: float | None) -> tuple
             f"step is {motion.dt / parts:.4g} s; at most {longest:.4g} s was expected: beyond it the contact of this "
             "body and law is unstable. Use a shorter step or a smaller stiffness."
         )
-    return motion.dt, parts
+    return parts
 
 
-def _check(motion: Motion, theta0: float, omega0: float, out_of_plane: float) -> None:
-    for name, value in (("theta0", theta0), ("out_of_plane", out_of_plane)):
-        if not abs(value) < 0.5 * np.pi:
-            raise ValueError(f"{name} is {value} rad; an angle between −π/2 and π/2 was expected")
-    if not np.isfinite(omega0):
-        raise ValueError(f"omega0 is {omega0} rad/s; a finite number was expected")
+def _march(
+    structure: Structure, rows: Array, table: Array, interval: float, parts: int
+) -> tuple[Array, Array, Array, Array, int, Mask]:
+    """Call the engine from the bodies' rows, as of `Start`; give samples, joints, sums, impacts, reached, stands."""
+    system, joints = structure.system(interval / parts), len(structure.joints)
+    state, near = State.begin(system, rows), Near.room(system)
+    samples, sums = np.zeros((len(table), *rows.shape)), np.zeros((len(table), 4))
+    contact, found = np.zeros((len(table), joints, 7)), np.zeros((2 * joints * parts, IMPACT))
+    reached, stands = 0, state.stands > 0
+    while reached < len(table) and stands.any():
+        reached = march(system, state, near, table, interval, parts, samples, contact, sums, found, reached)
+        found, stands = np.concatenate((found, np.zeros_like(found))), state.stands > 0
+    return samples, contact, sums, found[: state.hits[0]], reached, stands
 
 
-def _table(motion: Motion) -> Array:
-    """Give the table's acceleration along x, y and z, shape (n, 3)."""
-    table = np.zeros((motion.acceleration.size, 3))
-    for axis, values in enumerate((motion.acceleration, motion.transverse, motion.vertical)):
-        if values is not None:
-            table[:, axis] = values
-    return table
+def _arms(structure: Structure, samples: Array) -> Array:
+    """Give what leads from each body's base to the common centre of mass of all that turns with it, shape (n, b, 3)."""
+    arms = np.zeros((*samples.shape[:2], 3))
+    for row, (body, together) in enumerate(zip(structure.bodies, structure.together, strict=True)):
+        masses = np.array([structure.bodies[other].mass for other in together])
+        base = samples[:, row, :3] - body.height * rotation_matrices(samples[:, row, 6:10])[:, :, 2]
+        arms[:, row] = np.einsum("nbi,b->ni", samples[:, together, :3], masses / masses.sum()) - base
+    return arms
 
 
-class _Run(NamedTuple):
-    """What the engine gives: samples as far as it came, with their interval and steps; which bodies still stand."""
-
-    samples: Array
-    joints: Array
-    sums: Array
-    impacts: Array
-    stands: Whole
-    interval: float
-    parts: int
-
-    def afterwards(self, structure: Structure, p: float, lowest: Array | None = None) -> _Run:
-        """Go on from the last sample with the table at rest."""
-        last = self.samples[-1]
-        matrices = rotation_matrices(last[:, 6:10])
-        starts = [
-            Start(one[:3], one[3:6], one[6:10], matrix @ one[10:13]) for one, matrix in zip(last, matrices, strict=True)
-        ]
-        table = np.zeros((ceil(AFTERMATH / (p * self.interval)) + 1, 3))
-        return _run(structure, starts, table, self.interval, self.parts, lowest)
-
-
-def _run(
-    structure: Structure, starts: list[Start], table: Array, interval: float, parts: int, lowest: Array | None = None
-) -> _Run:
-    """Call the engine from the bodies' starts; `lowest`: heights below which they have fallen, m."""
-    bodies, joints = len(structure.bodies), len(structure.joints)
-    system = structure.system(interval / parts, np.full(bodies, -np.inf) if lowest is None else lowest)
-    rigid = []
-    for body, start in zip(structure.bodies, starts, strict=True):
-        orientation = start.orientation / np.linalg.norm(start.orientation)
-        spin = body.inertia * (rotation_matrices(orientation[None])[0].T @ start.angular_velocity)
-        rigid.append(np.concatenate((start.position, start.velocity, orientation, spin)))
-    state, near = State.begin(system, np.array(rigid)), Near.room(system)
-    samples, sums, contact = (
-        np.zeros((len(table), bodies, 13)),
-        np.zeros((len(table), 4)),
-        np.zeros((len(table), joints, 8)),
-    )
-    found, count, stands = np.zeros((2 * joints * parts, IMPACT)), 0, True
-    while count < len(table) and stands:
-        count = march(system, state, near, table, interval, parts, samples, contact, sums, found, count)
-        found, stands = np.concatenate((found, np.zeros_like(found))), bool(state.stands.any())
-    impacts = found[: state.hits[0]]
-    return _Run(samples[:count], contact[:count], sums[:count], impacts, state.stands, interval, parts)
-
-
-def _history(
-    law: ContactLaw, block: Block, motion: Motion, structure: Structure, run: _Run, overturning_time: float
-) -> ContactHistory:
-    """Name the columns of a single body; one that lies has its angle there."""
-    samples, joints, sums = _held(motion, run.samples, run.joints, run.sums)
-    body, own, first = structure.bodies[0], samples[:, 0], len(run.samples) - 1
-    matrices = rotation_matrices(own[:, 6:10])
-    axis, turning = matrices[:, :, 2], np.einsum("nij,nj->ni", matrices, own[:, 10:13])
-    rate = np.cross(turning, axis)
-    speed = (rate[:, 0] * axis[:, 2] - axis[:, 0] * rate[:, 2]) / (axis[:, 0] ** 2 + axis[:, 2] ** 2)
-    pose = _pose(block, body, matrices, own[:, :3] - [0.0, 0.0, body.height])
-    if first + 1 < len(own):
-        pose["angle"][first:], speed[first:] = np.copysign(0.5 * np.pi, axis[first, 0]), 0.0
-    times, speeds, rebounds = impacts_of(run.impacts, block)
-    return ContactHistory(
-        block,
-        motion.time,
-        pose["angle"],
-        speed,
-        times,
-        speeds,
-        rebounds,
-        overturning_time,
-        body=body,
-        law=law,
-        step=run.interval / run.parts,
-        position=own[:, :3],
-        velocity=own[:, 3:6],
-        orientation=own[:, 6:10],
-        turning=turning,
-        out_of_plane=pose["out_of_plane_angle"],
-        yaw=pose["yaw"],
-        slide=pose["slide"],
-        uplift=joints[:, 0, 0],
-        base_force=joints[:, 0, 4:7],
-        energies=_energies(block.gravity, structure, samples, joints, sums),
-        airborne=float(joints[-1, 0, 7]),
-    )
-
-
-def _held(motion: Motion, *values: Array) -> tuple[Array, ...]:
-    """Hold the last of some values to the end of a motion."""
-    missing = motion.acceleration.size - len(values[0])
-    return tuple(np.concatenate((each, np.repeat(each[-1:], missing, axis=0))) for each in values)
-
-
-def _passed(time: Array, over: Mask) -> float:
-    """Give the time of the first sample of the last stretch that is `over` α, which lasts to the end."""
-    return float(time[int(len(over) - np.argmin(over[::-1])) if not over.all() else 0])
-
-
-def _leans(assembly: Assembly, run: _Run) -> Array:
-    """Give the lean of each body, shape (n, b), as `BodyHistory` has it."""
-    numbers = {name: number for number, name in enumerate(assembly.bodies)}
-    leans = np.zeros(run.samples.shape[:2])
-    for name, placed in assembly.bodies.items():
-        with_it, own = standing_on(assembly, name), run.samples[:, numbers[name]]
-        masses = np.array([assembly.bodies[other].block.mass for other in with_it])
-        places = run.samples[:, [numbers[other] for other in with_it], :3]
-        axis = rotation_matrices(own[:, 6:10])[:, :, 2]
-        arm = np.einsum("nbi,b->ni", places, masses / masses.sum()) - (own[:, :3] - placed.centre_height * axis)
-        leans[:, numbers[name]] = np.arctan2(np.hypot(arm[:, 0], arm[:, 1]), arm[:, 2]) / assembly.critical_angles[name]
-    return leans
-
-
-def _assembly_history(
-    assembly: Assembly,
-    law: ContactLaw,
-    structure: Structure,
-    motion: Motion,
-    run: _Run,
-    leans: Array,
-    fallen: Mask,
-) -> AssemblyHistory:
-    """Name the columns body by body."""
-    samples, joints, sums, leans = _held(motion, run.samples, run.joints, run.sums, leans)
-    matrices = np.array([rotation_matrices(samples[:, number, 6:10]) for number in range(samples.shape[1])])
-    numbers = {name: number for number, name in enumerate(assembly.bodies)}
-    bodies: dict[str, BodyHistory] = {}
-    base_force, joint = np.zeros((len(samples), 3)), 0
-    for (name, placed), body in zip(assembly.bodies.items(), structure.bodies, strict=True):
-        number, own = numbers[name], list(range(joint, joint + max(1, len(placed.on))))
-        joint = own[-1] + 1
-        place, level = samples[:, number, :3], assembly.levels[name]
-        supports = {}
-        for below, first in zip(placed.on, own, strict=False):
-            target, turned = samples[:, numbers[below], :3], np.swapaxes(matrices[numbers[below]], 1, 2)
-            apart = np.einsum("nij,nj->ni", turned, place - target) - structure.joints[first][0].apart
-            supports[below] = Pose(**_pose(placed.block, body, turned @ matrices[number], apart))
-        if not placed.on:
-            base_force += joints[:, own[0], 4:7]
-        impacts = [
-            impacts_of(run.impacts[run.impacts[:, -1] == one], plane_block(body, assembly.gravity)) for one in own
-        ]
-        order = np.argsort(np.concatenate([times for times, _, _ in impacts]), kind="stable")
-        times, before, after = (np.concatenate([found[i] for found in impacts])[order] for i in range(3))
-        rest = place - [*placed.position, level + body.height]
-        over = leans[:, number] > 1.0
-        fell = _passed(motion.time, over) if over[-1] else float(motion.time[-1])
-        bodies[name] = BodyHistory(
-            **_pose(placed.block, body, matrices[number], rest),
-            supports=supports,
-            lean=leans[:, number],
-            position=place,
-            orientation=samples[:, number, 6:10],
-            impact_times=times,
-            impact_velocities=before,
-            rebound_velocities=after,
-            dissipated_contact=joints[:, own, 2].sum(axis=1),
-            dissipated_friction=joints[:, own, 3].sum(axis=1),
-            overturning_time=fell if fallen[number] else float("nan"),
-        )
-    return AssemblyHistory(
-        assembly=assembly,
-        law=law,
-        time=motion.time,
-        bodies=bodies,
-        energies=_energies(assembly.gravity, structure, samples, joints, sums),
-        base_force=base_force,
-        step=run.interval / run.parts,
-    )
-
-
-def _energies(gravity: float, structure: Structure, samples: Array, joints: Array, sums: Array) -> EnergyBalance:
+def _energies(structure: Structure, run: _Run) -> EnergyBalance:
     """Add up the energies of bodies, of their modes and of the joints between them."""
     masses, inertias = (np.array([getattr(one, name) for one in structure.bodies]) for name in ("mass", "inertia"))
-    speeds, turning = (samples[:, :, 3:6] ** 2).sum(axis=2), (samples[:, :, 10:13] ** 2 * inertias).sum(axis=2)
+    speeds, turning = (run.samples[:, :, 3:6] ** 2).sum(axis=2), (run.samples[:, :, 10:13] ** 2 * inertias).sum(axis=2)
+    contact, lost_to_contact, lost_to_friction = run.joints[:, :, :3].sum(axis=1).T
     return EnergyBalance(
-        kinetic=0.5 * (speeds @ masses + turning.sum(axis=1)) + sums[:, 2],
-        potential=gravity * samples[:, :, 2] @ masses,
-        strain=sums[:, 3],
-        contact=joints[:, :, 1].sum(axis=1),
-        work=sums[:, 0],
-        dissipated_contact=joints[:, :, 2].sum(axis=1),
-        dissipated_friction=joints[:, :, 3].sum(axis=1),
-        dissipated_bulk=sums[:, 1],
+        kinetic=0.5 * (speeds @ masses + turning.sum(axis=1)) + run.sums[:, 2],
+        potential=structure.gravity * run.samples[:, :, 2] @ masses,
+        strain=run.sums[:, 3],
+        contact=contact,
+        work=run.sums[:, 0],
+        dissipated_contact=lost_to_contact,
+        dissipated_friction=lost_to_friction,
+        dissipated_bulk=run.sums[:, 1],
     )
 
 
-def _pose(block: Block, body: ContactBody, matrices: Array, moved: Array) -> dict[str, Array]:
+def _pose(body: ContactBody, matrices: Array, moved: Array) -> dict[str, Array]:
     """Give the pose of a body, turned by matrices and with its centre of mass `moved` from where it is at rest."""
-    axis, half = matrices[:, :, 2], np.array([body.half_width, float(np.abs(body.nodes[:, 1]).max()), 0.0])
+    axis, upward = matrices[:, :, 2], matrices[:, 2]
     angle = np.arctan2(axis[:, 0], axis[:, 2])
-    pole = np.column_stack(
-        (np.where(angle < 0.0, -1.0, 1.0) * body.half_width, np.zeros(len(angle)), np.full(len(angle), -body.height))
-    )
+    pole = np.zeros((len(angle), 3))
+    pole[:, 0], pole[:, 2] = np.where(angle < 0.0, -1.0, 1.0) * body.half_width, -body.height
     slide = moved + np.einsum("nij,nj->ni", matrices, pole) - pole
-    across = np.abs(matrices[:, 2, :2])
-    is_round = block.solid is not None and block.solid.base == "circle"
-    reach = body.half_width * np.hypot(*across.T) if is_round else across @ half[:2]
+    # Of a ring, whose point at +x is its node, the lowest point is where it goes down most.
+    rings = np.outer(upward[:, 2], body.nodes[:, 2]) - np.outer(np.hypot(*upward.T[:2]), body.ring_radii)
+    lowest = np.where(body.ring_radii > 0.0, rings, upward @ body.nodes.T).min(axis=1)
     return {
         "angle": angle,
         "out_of_plane_angle": np.arctan2(-axis[:, 1], axis[:, 2]),
         "yaw": np.unwrap(np.arctan2(matrices[:, 1, 0] - matrices[:, 0, 1], matrices[:, 0, 0] + matrices[:, 1, 1])),
         "slide": slide[:, :2],
-        "uplift": moved[:, 2] + body.height * (1.0 - axis[:, 2]) - reach,
+        "uplift": moved[:, 2] + body.height + lowest,
     }

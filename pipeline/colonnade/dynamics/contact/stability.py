@@ -36,7 +36,7 @@ def highest_frequency(structure: Structure) -> float:
             _add_rigid(
                 shapes, bodies[side.target].mass, bodies[side.target].inertia, side.target, places + side.apart, -1.0
             )
-        weighted = np.sqrt(stiffness)[:, :, None] * shapes
+        weighted = np.sqrt(stiffness)[:, None, None] * shapes
         flat = weighted.reshape(-1, len(matrix))
         matrix += flat.T @ flat
     return float(np.sqrt(np.linalg.eigvalsh(matrix)[-1]))
@@ -53,10 +53,8 @@ def longest_step(structure: Structure) -> float:
     """
     frequency, damping = highest_frequency(structure), 0.0
     for side in structure.interfaces:
-        law = side.law
-        ratio = max(1.0, law.tangential_damping / law.tangential_ratio)
-        slowness = law.node_damping(side) / law.node_stiffness(side)
-        damping = max(damping, 0.5 * frequency * ratio * float(slowness.max(initial=0.0)))
+        slowness = side.law.node_damping(side) / side.law.node_stiffness(side)
+        damping = max(damping, 0.5 * frequency * float(slowness.max(initial=0.0)))
     low, high = 0.0, 2.0
     for _ in range(40):
         middle = 0.5 * (low + high)
@@ -85,8 +83,7 @@ def _points(side: Interface) -> tuple[Array, Array, NDArray[np.int64]]:
     radii = side.ring_radii[owner]
     ring = np.column_stack((radii * np.cos(turned), radii * np.sin(turned), side.nodes[owner, 2]))
     places = np.where(whole[owner][:, None], ring, side.nodes[owner])
-    normal = side.law.node_stiffness(side)[owner] / count[owner]
-    return places, normal[:, None] * np.array([side.law.tangential_ratio, side.law.tangential_ratio, 1.0]), owner
+    return places, side.law.node_stiffness(side)[owner] / count[owner], owner
 
 
 def _add_rigid(shapes: Array, mass: float, inertia: Array, body: int, places: Array, sign: float) -> None:

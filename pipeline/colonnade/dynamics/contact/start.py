@@ -34,6 +34,13 @@ class Start:
     orientation: Array = field(default_factory=lambda: np.array([1.0, 0.0, 0.0, 0.0]))
     angular_velocity: Array = field(default_factory=lambda: np.zeros(3))
 
+    @property
+    def row(self) -> Array:
+        """Position, velocity, unit quaternion, and angular velocity in the body's axes, shape (13,)."""
+        orientation = self.orientation / np.linalg.norm(self.orientation)
+        turning = rotation_matrices(orientation[None])[0].T @ self.angular_velocity
+        return np.concatenate((self.position, self.velocity, orientation, turning))
+
 
 def standing(
     body: ContactBody,
@@ -43,7 +50,6 @@ def standing(
     theta0: float = 0.0,
     omega0: float = 0.0,
     out_of_plane: float = 0.0,
-    yaw: float = 0.0,
     weight: float | None = None,
 ) -> Start:
     """
@@ -55,10 +61,10 @@ def standing(
     law : ContactLaw
     gravity : float
         m/s².
-    theta0, out_of_plane, yaw : float, optional
+    theta0, out_of_plane : float, optional
         rad.
     omega0 : float, optional
-        rad/s, about the pole at ±x on the side of θ₀ (of ω₀ where θ₀ is 0).
+        rad/s, about the pole at ±x on the side of θ₀ (of ω₀ where θ₀ is 0), which is where the upright body has it.
     weight : float, optional
         N, what the contact bears; default: the body's own.
 
@@ -68,26 +74,15 @@ def standing(
     """
     axis = np.array([tan(theta0), -tan(out_of_plane), 1.0])
     axis /= np.linalg.norm(axis)
-    swing = np.array([1.0 + axis[2], -axis[1], axis[0], 0.0]) / np.sqrt(2.0 * (1.0 + axis[2]))
-    half = 0.5 * yaw
-    orientation = np.array(
-        [
-            swing[0] * np.cos(half),
-            swing[1] * np.cos(half) + swing[2] * np.sin(half),
-            swing[2] * np.cos(half) - swing[1] * np.sin(half),
-            swing[0] * np.sin(half),
-        ]
-    )
+    orientation = np.array([1.0 + axis[2], -axis[1], axis[0], 0.0]) / np.sqrt(2.0 * (1.0 + axis[2]))
     matrix = rotation_matrices(orientation[None])[0]
-    stiffness, weight = law.node_stiffness(body), body.mass * gravity if weight is None else weight
-    if body.has_rings:
-        height = _ring_height(body, matrix[2], stiffness, weight)
-    else:
-        height = _bearing_height(body.nodes @ matrix[2], stiffness, weight)
-    side = np.sign(theta0) if theta0 else np.sign(omega0)
-    arm = -matrix @ np.array([side * body.half_width, 0.0, -body.height])
-    angular = np.array([0.0, omega0, 0.0])
-    return Start(np.array([0.0, 0.0, height]) + _feet(body, matrix, side), np.cross(angular, arm), orientation, angular)
+    pole = np.array([np.sign(theta0 or omega0) * body.half_width, 0.0, -body.height])
+    arm, angular = matrix @ pole, np.array([0.0, omega0, 0.0])
+    position = pole - arm
+    position[2] = _bearing_height(
+        body, matrix[2], law.node_stiffness(body), body.mass * gravity if weight is None else weight
+    )
+    return Start(position, np.cross(angular, -arm), orientation, angular)
 
 
 def standing_assembly(
@@ -138,45 +133,22 @@ def _carried(below: Start, rest: Array, placed: Placed, turns: bool) -> Start:
     return Start(below.position + arm - corner + rest, velocity)
 
 
-def _feet(body: ContactBody, matrix: Array, side: float) -> Array:
-    """Displace the body along the table so that its pole stands where it stood when the body was upright."""
-    pole = np.array([side * body.half_width, 0.0, -body.height])
-    return np.asarray((pole - matrix @ pole) * np.array([1.0, 1.0, 0.0]))
-
-
-def _bearing_height(above: Array, stiffness: Array, weight: float) -> float:
-    """Find the height of the centre of mass at which springs at heights `above` relative to it bear the weight."""
-    # The force falls with the height, linear between the heights at which a node leaves: go from node to node.
-    order = np.argsort(above)
-    total = moment = 0.0
-    for position, node in enumerate(order):
-        total += stiffness[node]
-        moment += stiffness[node] * above[node]
-        height = -(weight + moment) / total
-        following = order[position + 1] if position + 1 < len(order) else None
-        if following is None or height + above[following] >= 0.0:
-            return float(height)
-    raise AssertionError("a body has at least one node")
-
-
-def _ring_height(body: ContactBody, upward: Array, stiffness: Array, weight: float) -> float:
+def _bearing_height(body: ContactBody, upward: Array, stiffness: Array, weight: float) -> float:
     """Find the height of the centre of mass at which rings, and points (rings without rise), bear the weight."""
     rise = body.ring_radii * hypot(upward[0], upward[1])
-    middle = np.where(body.ring_radii > 0.0, body.nodes[:, 2] * upward[2], body.nodes @ upward)
+    lowest = np.where(body.ring_radii > 0.0, body.nodes[:, 2] * upward[2], body.nodes @ upward) - rise
+    above = lowest - lowest.min()
 
-    def excess(height: float) -> float:
+    def excess(sunk: float) -> float:
         # The mean depth all around, (d − r σ) φ/π + r σ sin(φ)/π, of an arc of ± φ that is d deep at its lowest point.
-        depth = rise - middle - height
+        depth = sunk - above
         share = np.divide(depth, 2.0 * rise, out=(depth > 0.0).astype(float), where=rise > 0.0)
         half = 2.0 * np.arcsin(np.sqrt(np.clip(share, 0.0, 1.0)))
         return float(stiffness @ ((depth - rise) * half + rise * np.sin(half)) / np.pi) - weight
 
-    highest = float((rise - middle).max())
     # Twice as deep as an upright body, of which the bound would else be the root itself, missed by rounding.
-    deepest = 2.0 * (weight / float(stiffness.sum()) + float(rise.max()))
-    return float(
-        scipy.optimize.brentq(excess, highest - deepest - float(np.ptp(rise - middle)), highest, xtol=1e-15, rtol=1e-14)
-    )
+    deepest = 2.0 * (weight / float(stiffness.sum()) + float(rise.max())) + float(above.max())
+    return float(-lowest.min() - scipy.optimize.brentq(excess, 0.0, deepest, xtol=1e-20, rtol=1e-15))
 
 
 def rotation_matrices(orientation: Array) -> Array:

@@ -35,9 +35,8 @@ class System(NamedTuple):
     where its nodes begin; reach, of the farthest one.
 
     Of each node: place in the carrier's axes; radius, 0 of a point; slots, shape (n + 1,), where its points begin, one
-    of a point and as many as `arc` has of a ring; contact, shape (n, 4): normal stiffness and damping, tangential
-    stiffness and damping, of a ring all around. arc, shape (2, k): places of a ring's points along half an arc either
-    way, and their weights, which add up to 2.
+    of a point and as many as `arc` has of a ring; stiffness and damping, of a ring all around. arc, shape (2, k):
+    places of a ring's points along half an arc either way, and their weights, which add up to 2.
 
     Of each joint, which is one interface or two: sides, shape (j + 1,), where they begin; poles, shape (j, 3): middle
     along x, half width and depth below the centre of mass in the upper body's axes.
@@ -61,7 +60,8 @@ class System(NamedTuple):
     nodes: Array
     radii: Array
     slots: Whole
-    contact: Array
+    stiffness: Array
+    damping: Array
     arc: Array
     sides: Whole
     poles: Array
@@ -101,11 +101,13 @@ class State(NamedTuple):
     hits: Whole
 
     @classmethod
-    def begin(cls, system: System, rigid: Array) -> State:
-        """Give the state of bodies that touch nothing yet and are not strained."""
+    def begin(cls, system: System, rows: Array) -> State:
+        """Give the state of bodies, by `Start.row`, that touch nothing yet and are not strained."""
         bodies, points, joints = len(system.mass), int(system.slots[-1]), len(system.poles)
+        rigid = rows.copy()
+        rigid[:, 10:] *= system.inertia
         return cls(
-            np.array(rigid, dtype=np.float64),
+            rigid,
             np.zeros((bodies, 3, 3)),
             np.ones(bodies, np.int64),
             np.zeros((2, system.frequencies.size)),

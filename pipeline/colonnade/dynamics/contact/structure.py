@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from math import atan2, inf
 
 import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Mask
-from colonnade.dynamics.assembly import Assembly, Placed, carried, supports
+from colonnade.dynamics.assembly import Assembly, Placed, carried, standing_on, supports
 from colonnade.dynamics.contact.body import (
     GRID,
     RINGS,
@@ -80,8 +81,12 @@ class Structure:
         base is below the centre of mass.
     loads : list of float
         What each joint bears at rest, N.
-    points : int, optional
-        At which the arc of a ring is integrated.
+    together : list of list of int
+        The bodies that turn with each: itself and what stands on it alone.
+    critical_angles : list of float
+        α of each with these, rad.
+    lowest : list of float
+        Heights of the centres of mass below which bodies have fallen, m.
     """
 
     gravity: float
@@ -89,7 +94,9 @@ class Structure:
     joints: list[list[Interface]]
     poles: list[tuple[float, float, float]]
     loads: list[float]
-    points: int = POINTS
+    together: list[list[int]]
+    critical_angles: list[float]
+    lowest: list[float]
     interfaces: list[Interface] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -98,10 +105,17 @@ class Structure:
     @classmethod
     def of_body(cls, body: ContactBody, law: ContactLaw, gravity: float) -> Structure:
         """Let one body stand on the table."""
-        law = law.under(body.mass * gravity / float(body.node_area.sum()), body.height)
-        side = _on_table(body, 0, law)
-        poles = (0.0, body.half_width, body.height)
-        return cls(gravity=gravity, bodies=[body], joints=[[side]], poles=[poles], loads=[body.mass * gravity])
+        side = _on_table(body, 0, law.bearing(body, gravity))
+        return cls(
+            gravity=gravity,
+            bodies=[body],
+            joints=[[side]],
+            poles=[(0.0, body.half_width, body.height)],
+            loads=[body.mass * gravity],
+            together=[[0]],
+            critical_angles=[atan2(body.half_width, body.height)],
+            lowest=[-inf],
+        )
 
     @classmethod
     def of_assembly(
@@ -128,10 +142,19 @@ class Structure:
                     middle, half = 0.0, body.half_width
                 poles.append((middle, half, body.height))
                 joints.append([replace(side, law=law.under(loads[-1] / area, height)) for side in sides])
-        return cls(gravity=assembly.gravity, bodies=bodies, joints=joints, poles=poles, loads=loads)
+        return cls(
+            gravity=assembly.gravity,
+            bodies=bodies,
+            joints=joints,
+            poles=poles,
+            loads=loads,
+            together=[[numbers[other] for other in standing_on(assembly, name)] for name in assembly.bodies],
+            critical_angles=list(assembly.critical_angles.values()),
+            lowest=[assembly.levels[name] if placed.on else -inf for name, placed in assembly.bodies.items()],
+        )
 
-    def system(self, step: float, lowest: Array) -> System:
-        """Give the engine's arrays for a step, s, and the heights below which bodies have fallen, m."""
+    def system(self, step: float) -> System:
+        """Give the engine's arrays for a step, s."""
         sides = self.interfaces
         radii = np.concatenate([side.ring_radii for side in sides])
         nodes = np.concatenate([side.nodes for side in sides])
@@ -141,7 +164,7 @@ class Structure:
             float(self.gravity),
             np.array([body.mass for body in self.bodies]),
             np.array([body.inertia for body in self.bodies]),
-            lowest,
+            np.array(self.lowest),
             np.array([side.carrier for side in sides]),
             np.array([side.target for side in sides]),
             np.array([side.flip for side in sides]),
@@ -152,9 +175,10 @@ class Structure:
             np.array([np.sqrt((side.nodes**2).sum(axis=1)).max(initial=0.0) for side in sides]),
             np.ascontiguousarray(nodes),
             radii,
-            _begins(np.where(radii > 0.0, self.points, 1)),
-            np.concatenate([_contact(side) for side in sides]),
-            np.array(np.polynomial.legendre.leggauss(self.points)),
+            _begins(np.where(radii > 0.0, POINTS, 1)),
+            np.concatenate([side.law.node_stiffness(side) for side in sides]),
+            np.concatenate([side.law.node_damping(side) for side in sides]),
+            np.array(np.polynomial.legendre.leggauss(POINTS)),
             _begins([len(joint) for joint in self.joints]),
             np.array(self.poles),
             np.ascontiguousarray(modes),
@@ -200,10 +224,10 @@ class _Patch:
             origin = which * self._offset
             nodes, areas, radii = places[own[which]] - origin, area[own[which]], np.zeros(int(own[which].sum()))
             if self._round[which]:
-                nodes, areas = round_nodes(float(self._sizes[which, 0]), *RINGS)
+                nodes, areas = round_nodes(float(self._sizes[which, 0]), RINGS)
                 radii = nodes[:, 0]
                 if not fits or (which == 1 and upper_fits):
-                    rim = np.hypot(*nodes.T) > (1.0 - 1e-9) * self._sizes[which, 0]
+                    rim = radii > (1.0 - 1e-9) * self._sizes[which, 0]
                     nodes, areas, radii = nodes[rim], areas[rim], radii[rim]
             elif which == 1 and self._round[0] and upper_fits:
                 nodes, areas = grid_nodes(-self._sizes[1, 0], self._sizes[1, 0], self._sizes[1, 1], *self._grid)
@@ -274,8 +298,3 @@ def _on_table(body: ContactBody, carrier: int, law: ContactLaw) -> Interface:
 
 def _begins(counts: Sequence[int] | NDArray[np.int64]) -> NDArray[np.int64]:
     return np.concatenate(([0], np.cumsum(counts))).astype(np.int64)
-
-
-def _contact(side: Interface) -> Array:
-    normal, damping = side.law.node_stiffness(side), side.law.node_damping(side)
-    return np.column_stack((normal, damping, side.law.tangential_ratio * normal, side.law.tangential_damping * damping))

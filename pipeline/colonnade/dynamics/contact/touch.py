@@ -16,8 +16,6 @@ from __future__ import annotations
 
 from math import asin, atan2, cos, floor, pi, sin, sqrt
 
-import numpy as np
-
 from colonnade.arrays import Array
 from colonnade.dynamics.contact.state import Near, State, System
 from colonnade.dynamics.kernel import kernel_in_place
@@ -230,7 +228,7 @@ def _move_arc(system: System, state: State, near: Near, side: int, node: int, an
         held -= half * weights[point] * (carried[point, 0] ** 2 + carried[point, 1] ** 2)
         slip[first + point, 0], slip[first + point, 1] = carried[point, 0], carried[point, 1]
         touched[first + point] = any_touched if half > 0.0 else 0
-    state.lost[side, 1] += 0.5 * system.contact[node, 2] * held / (2.0 * pi)
+    state.lost[side, 1] += 0.5 * system.stiffness[node] * held / (2.0 * pi)
 
 
 @kernel_in_place
@@ -249,10 +247,9 @@ def _read_slip(slip: Array, first: int, places: Array, sought: float, around: bo
 
 
 @kernel_in_place
-def lowest_and_energy(system: System, state: State, near: Near, side: int) -> tuple[float, float]:
-    """Give the height of an interface's lowest node, and the energy in the springs of all, both at this instant."""
-    contact, slip, touched, weights = system.contact, state.slip, state.touched, system.arc[1]
-    lowest, energy = np.inf, 0.0
+def spring_energy(system: System, state: State, near: Near, side: int) -> float:
+    """Give the energy in the springs of an interface at this instant."""
+    slip, touched, weights, energy = state.slip, state.touched, system.arc[1], 0.0
     for node in range(system.first[side], system.first[side + 1]):
         x, y, z, radius = system.nodes[node, 0], system.nodes[node, 1], system.nodes[node, 2], system.radii[node]
         angle, half, points = 0.0, pi, 1
@@ -260,8 +257,6 @@ def lowest_and_energy(system: System, state: State, near: Near, side: int) -> tu
             depth, rise = _lowest(system, near, side, node)
             angle = atan2(-near.turned[side, 2, 1], -near.turned[side, 2, 0]) if rise > 0.0 else 0.0
             half, points = half_arc(depth, rise), weights.size
-            if _put(system, near, side, 0, radius * cos(angle), radius * sin(angle), z) > 0.0:
-                lowest = min(lowest, -depth)
         for mode in range(state.strain.shape[1]):
             x += system.modes[node, 0, mode] * state.strain[0, mode]
             y += system.modes[node, 1, mode] * state.strain[0, mode]
@@ -272,11 +267,7 @@ def lowest_and_energy(system: System, state: State, near: Near, side: int) -> tu
                 about, share = angle + half * system.arc[0, point], weights[point] / (2.0 * pi)
                 x, y, now, before = radius * cos(about), radius * sin(about), half * share, state.arcs[node, 1] * share
             on_face, slot = _put(system, near, side, 0, x, y, z), system.slots[node] + point
-            if radius == 0.0 and on_face > 0.0:
-                lowest = min(lowest, -near.depth[0])
-            deep = near.depth[0] - max(state.entry[slot], 0.0)
-            energy += 0.5 * now * on_face * contact[node, 0] * max(deep, 0.0) ** 2
-            if touched[slot] == 1:
-                slipped = slip[slot, 0] ** 2 + slip[slot, 1] ** 2
-                energy += 0.5 * before * on_face * contact[node, 2] * slipped
-    return lowest, energy
+            deep = max(near.depth[0] - max(state.entry[slot], 0.0), 0.0)
+            slipped = slip[slot, 0] ** 2 + slip[slot, 1] ** 2 if touched[slot] == 1 else 0.0
+            energy += 0.5 * on_face * system.stiffness[node] * (now * deep**2 + before * slipped)
+    return energy

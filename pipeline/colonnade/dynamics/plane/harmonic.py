@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import ceil, cos, hypot, inf, isfinite, pi, sin, tan
 from typing import TYPE_CHECKING
@@ -10,20 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from colonnade.arrays import Array, Codes
-from colonnade.dynamics.block import Block, Sided, pair
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.models import DEFAULT, plane_model_of
 from colonnade.dynamics.plane.run import OUTCOMES
-from colonnade.dynamics.restitution_law import RestitutionLaw
+from colonnade.dynamics.restitution_law import Given, Restitution, law_of
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
-from colonnade.validation import sided
 
 if TYPE_CHECKING:
     from colonnade.dynamics.plane.march import Forcing
-
-Restitution = tuple[float, float] | RestitutionLaw
-"""e of impacts that end an arc at θ < 0, and at θ > 0; or e over the speed of the impact."""
-
 
 SAMPLES_A_CYCLE = 100
 """Samples of a sine for models without harmonic kernels, linear between them: error at most 5e-4 of its amplitude."""
@@ -105,9 +99,7 @@ class HarmonicRun:
     impact_velocities: Array
 
 
-def restitution_up_to(
-    block: Block, restitution: Sided | RestitutionLaw | Callable[[float], float] | None, amplitude_ratio: float
-) -> Restitution:
+def restitution_up_to(block: Block, restitution: Given, amplitude_ratio: float) -> Restitution:
     """
     Put e into the form that the kernels take: a function is sampled as far as impacts can go.
 
@@ -130,26 +122,19 @@ def restitution_up_to(
     whose S = h' − (h − α) obeys S' = −S − q sin φ; nor, in the nonlinear one, than the fall from α + atan q inwards
     under −q throughout, ω²/p² = 2 (sqrt(1 + q²) − cos α + q sin α).
     """
-    if restitution is None:
-        return pair(block.restitution)
-    if isinstance(restitution, RestitutionLaw):
-        return restitution
-    if callable(restitution):
-        q = amplitude_ratio * tan(block.critical_angle)
-        speeds = []
-        for side in block.sides:
-            alpha = side.critical_angle
-            fall = 2.0 * (hypot(1.0, q) - cos(alpha) + q * sin(alpha))
-            speeds.append(block.side_p(side) * max(alpha + q, fall**0.5))
-        return RestitutionLaw.of(restitution, largest_speed=max(speeds))
-    return sided("restitution", restitution, "a number between 0 and 1", low=0.0, high=1.0)
+    q, speeds = amplitude_ratio * tan(block.critical_angle), []
+    for side in block.sides:
+        alpha = side.critical_angle
+        fall = 2.0 * (hypot(1.0, q) - cos(alpha) + q * sin(alpha))
+        speeds.append(block.side_p(side) * max(alpha + q, fall**0.5))
+    return law_of(block, restitution, max(speeds))
 
 
 def harmonic_run(
     block: Block,
     motion: Harmonic,
     amplitude_ratio: float,
-    restitution: Sided | RestitutionLaw | Callable[[float], float] | None,
+    restitution: Given,
     *,
     model: str = DEFAULT,
     samples: int = 0,

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import pi
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from colonnade.arrays import Array, Codes
-from colonnade.dynamics.block import Block, Sided
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import NO_ROCKING_RATIO, History
-from colonnade.dynamics.motion import Motion, at_rest
-from colonnade.dynamics.restitution_law import RestitutionLaw
-from colonnade.validation import sided
+from colonnade.dynamics.models import Model, plane_model_of
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.restitution_law import Given, RestitutionLaw, law_of
 
 if TYPE_CHECKING:
-    from colonnade.dynamics.models import Case, PlaneModel
     from colonnade.dynamics.plane.march import Forcing
     from colonnade.dynamics.plane.sides import Sides
 
@@ -33,30 +32,28 @@ STANDS, ROCKS, OVERTURNS = range(len(OUTCOMES))
 """Indices into `OUTCOMES`."""
 
 
-def run(model: PlaneModel, case: Case) -> History:
+def run(
+    model: Model, block: Block, motion: Motion, restitution: Given, *, theta0: float, omega0: float, rest_angle: float
+) -> History:
     """
-    Run a plane model.
+    Run a plane model; arguments as of `rock`.
 
     Raises
     ------
     ValueError
-        If the case asks for what only a model in space has, or an argument is out of its range.
+        If e is not between 0 and 1, or the motion is not usable.
     """
     # The kernels are decorated on import.
     from colonnade.dynamics.plane.march import propagate
     from colonnade.dynamics.plane.sides import sides_of
 
-    if case.contact is not None or case.out_of_plane:
-        raise ValueError(f'contact and out_of_plane are for models in space; the model is "{model.name}"')
-    block = case.block
-    motion = at_rest(block, case.duration) if case.motion is None else case.motion
-    law = _law(block, case.restitution)
+    law = law_of(block, restitution)
     expect_usable(block, motion)
     forcing = forcing_of(motion, block.gravity)
     while True:
-        sides = sides_of(block, law, case.rest_angle)
+        sides = sides_of(block, law, rest_angle)
         angle, velocity, times, before, end = propagate(
-            forcing, sides, is_linearised=model.is_linearised, angle=case.theta0, velocity=case.omega0
+            forcing, sides, is_linearised=model.is_linearised, angle=theta0, velocity=omega0
         )
         wider = law.reaching(before) if isinstance(law, RestitutionLaw) else law
         if wider is law:
@@ -64,19 +61,6 @@ def run(model: PlaneModel, case: Case) -> History:
         law = wider
     e = law(np.abs(before)) if isinstance(law, RestitutionLaw) else np.where(before > 0.0, *law)
     return History(block, motion.time, angle, velocity, times, before, e * before, end.time, model.name)
-
-
-def _law(
-    block: Block, restitution: Sided | RestitutionLaw | Callable[[float], float] | None
-) -> RestitutionLaw | tuple[float, float]:
-    """Give e as a pair, or as a law that begins with speeds up to a few times that of a fall from α."""
-    if restitution is None:
-        restitution = block.restitution
-    if isinstance(restitution, RestitutionLaw):
-        return restitution
-    if callable(restitution):
-        return RestitutionLaw.of(restitution, largest_speed=4.0 * block.p * block.critical_angle)
-    return sided("restitution", restitution, "a number between 0 and 1", low=0.0, high=1.0)
 
 
 def forcing_of(motion: Motion, gravity: float) -> Forcing:
@@ -136,7 +120,7 @@ class Ends(NamedTuple):
     peak_velocity: Array
 
 
-def prepared(block: Block, restitution: Sided | None = None) -> Sides:
+def prepared(block: Block, restitution: Given = None) -> Sides:
     """
     Put a block and its e, by default the rigid-body value, into the form that the kernels take.
 
@@ -148,10 +132,7 @@ def prepared(block: Block, restitution: Sided | None = None) -> Sides:
     from colonnade.dynamics.plane.sides import sides_of
     from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 
-    given = block.restitution if restitution is None else restitution
-    return sides_of(
-        block, sided("restitution", given, "a number between 0 and 1", low=0.0, high=1.0), DEFAULT_REST_ANGLE
-    )
+    return sides_of(block, law_of(block, restitution), DEFAULT_REST_ANGLE)
 
 
 def ends_of(motion: Motion, blocks: Sequence[Sides], *, gravity: float, model: str) -> Ends:
@@ -178,7 +159,6 @@ def ends_of(motion: Motion, blocks: Sequence[Sides], *, gravity: float, model: s
     -----
     A block that the motion cannot uplift is not run: with a vertical component none is left out.
     """
-    from colonnade.dynamics.models import plane_model_of
     from colonnade.dynamics.plane.march import propagate
 
     chosen, forcing = plane_model_of(model), forcing_of(motion, gravity)

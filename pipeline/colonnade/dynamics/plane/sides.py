@@ -10,7 +10,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kernel import kernel_in_place
-from colonnade.dynamics.restitution_law import RestitutionLaw, restitution_table
+from colonnade.dynamics.restitution_law import Restitution, restitution_table
 
 Pair = tuple[float, float]
 """Of the side θ < 0 and of θ > 0."""
@@ -31,7 +31,7 @@ class Sides(NamedTuple):
     rest_angle: float
 
 
-def sides_of(block: Block, restitution: Pair | RestitutionLaw, rest_angle: float) -> Sides:
+def sides_of(block: Block, restitution: Restitution, rest_angle: float) -> Sides:
     """Put a block, its restitution and its rule of rest into the form that the kernels take."""
     speeds, values = restitution_table(restitution)
     left, right = block.sides
