@@ -177,12 +177,14 @@ TDM = """<?xml version="1.0" encoding="UTF-8"?><usi:tdm xmlns:usi="http://www.ni
 
 
 def tdm(path: Path, *, packed: bool = False, **header: object) -> Path:
-    """Write a header of three channels, two of them stored, and its companion r.tdx, as DIAdem writes them."""
-    told = {"order": "littleEndian", "rows": 3, "url": "r.tdx", "kind": "raw_linear", "parameters": "10 0.5", **header}
+    """Write a header of three channels, two of them stored, and its values in a .tdx, as DIAdem writes them."""
+    values = path.with_suffix(".tdx")
+    told = {"order": "littleEndian", "rows": 3, "url": values.name, "kind": "raw_linear", "parameters": "10 0.5"}
+    told |= header
     sign = "<" if told["order"] == "littleEndian" else ">"
     numbers = np.array([0, 1, -2, 100]).astype(f"{sign}i2").tobytes()
     floats = np.array([0.5, 9, 1.5, 9, 2.5, 9]).astype(f"{sign}f8").tobytes()
-    path.with_name("r.tdx").write_bytes(numbers + floats)
+    values.write_bytes(numbers + floats)
     path.write_text(TDM.format(**told), encoding="utf-8")
     if packed:
         text = path.read_bytes()

@@ -108,7 +108,7 @@ def test_the_values_of_a_diadem_header_are_found_and_named_where_they_are_missin
     assert companions(path) == (path.with_suffix(".tdx"),)
     path.with_suffix(".tdx").unlink()
     assert companions(path) == (path.with_suffix(".tdx"),)
-    with pytest.raises(ReadError, match=r"its values are in the file \"record.tdx\", which is not in its folder"):
+    with pytest.raises(ReadError, match=r"its values are in the file \"record.tdx\"; they were expected next to it"):
         read(path)
 
 

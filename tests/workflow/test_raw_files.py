@@ -197,7 +197,7 @@ def test_missing_values_are_named_and_taken_up_once_they_are_there(in_two_parts)
     values = values_of(in_two_parts)
     away = values.rename(values.with_name("away"))
     (failed,) = in_two_parts.run(only="pulse-01", until="ingest").stages
-    assert 'its values are in the file "pulse-01.tdx", which is not in its folder' in failed.reason
+    assert 'its values are in the file "pulse-01.tdx"; they were expected next to it' in failed.reason
     away.rename(values)
     assert not in_two_parts.run(only="pulse-01", until="ingest").failed
 

@@ -60,7 +60,7 @@ class Format:
     modules : tuple of str
         Heavy packages that `read` imports; the bounded process imports them once for all files.
     companions : callable or None
-        (Path, options) -> names of the other files that hold a part of it, all in its folder; raises ReadError.
+        Path -> the other files that hold a part of it, by the names in its folder; missing ones too.
     in_process : bool
         Whether `read` runs in this process, as for text parsed by this package; others run in the bounded process.
     """
@@ -73,5 +73,5 @@ class Format:
     options: type[Options] = Options
     read_window: Callable[[Path, Any, Window], Recording] | None = None
     modules: tuple[str, ...] = ()
-    companions: Callable[[Path, Any], tuple[str, ...]] | None = None
+    companions: Callable[[Path], tuple[Path, ...]] | None = None
     in_process: bool = False

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, replace
 from functools import cache, partial
 from importlib import import_module
 from importlib.metadata import entry_points
-from pathlib import Path, PureWindowsPath
+from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, TypeAdapter, ValidationError
+from pydantic import BaseModel, ValidationError
 
 from colonnade.errors import ReadError, nearest, quoted
 from colonnade.readers.bounded.messages import Arrays, recording_of, told
-from colonnade.readers.bounded.process import Taken, run_bounded
+from colonnade.readers.bounded.process import run_bounded
 from colonnade.readers.files import in_one_line, irregular, refusing
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import Head, from_head, head_of
@@ -80,31 +80,19 @@ def read(
         raise ReadError(f"{path.name}: this is {kind}; a raw file was expected.")
     chosen, evidence = (_named(format), ()) if format is not None else _recognised(path)
     checked = check_options(chosen, options or {}, where=path.name)
-    if chosen.in_process:
-        recording = _read(chosen, path, checked, window)
-    else:
-        folder = _folder(path, within)
-        others = _companions(chosen, path, checked, folder)
-        for other in others:
-            if not (to := other.resolve()).is_relative_to(folder):
-                raise ReadError(
-                    f"{path.name}: its values are in {other.name}, which is a link to {to}, outside {folder}. "
-                    "It is not followed. Copy the file itself there."
-                )
-        wanted = {"window": None if window is None else asdict(window)}
-        recording = _bounded("read_here", chosen, path, checked, partial(recording_of, path), folder, others, **wanted)
+    recording = (_read if chosen.in_process else _read_bounded)(chosen, path, checked, window, within)
     return replace(recording, notes=(*evidence, *recording.notes))
 
 
-def companions(
-    path: Path, format: str | None = None, options: Mapping[str, Any] | None = None, *, within: Path | None = None
-) -> tuple[Path, ...]:
+def companions(path: Path, format: str | None = None) -> tuple[Path, ...]:
     """
     Find the other files that a raw file is in, such as the values of a header.
 
     Parameters
     ----------
-    path, format, options, within : as for `read`
+    path : Path
+    format : str, optional
+        Name of its format, if it is known.
 
     Returns
     -------
@@ -114,24 +102,15 @@ def companions(
     Raises
     ------
     ReadError
-        If what the file says of them cannot be read.
+        If the file cannot be opened.
     """
     if irregular(path):
         return ()
-    several = {each.name: each for each in formats().values() if each.companions is not None}
-    chosen = several.get(format or "")
-    if format is None:
+    several = [each for each in formats().values() if each.companions is not None and format in (None, each.name)]
+    if several and format is None:
         head = head_of(path)
-        chosen = next((each for each in several.values() if _recognition(each, head).yes), None)
-    if chosen is None:
-        return ()
-    return _companions(chosen, path, check_options(chosen, options or {}, where=path.name), _folder(path, within))
-
-
-def companions_here(path: Path, format: str, options: Mapping[str, Any]) -> tuple[list[str], Arrays]:
-    """Names of the other files that a raw file is in, found in this process for another one."""
-    chosen = _named(format)
-    return [] if chosen.companions is None else [*chosen.companions(path, chosen.options(**options))], []
+        several = [each for each in several if _recognition(each, head).yes]
+    return several[0].companions(path) if several and several[0].companions is not None else ()
 
 
 def read_here(
@@ -165,41 +144,38 @@ def check_options(format: Format, options: Mapping[str, Any], where: str) -> Bas
         raise ReadError("\n".join(problems)) from error
 
 
-def _folder(path: Path, within: Path | None) -> Path:
-    return path.resolve().parent if within is None else within.resolve()
+def _read_bounded(
+    format: Format, path: Path, options: BaseModel, window: Window | None, within: Path | None
+) -> Recording:
+    """Have the bounded process read a file."""
+    folder = path.resolve().parent if within is None else within.resolve()
+    others = () if format.companions is None else format.companions(path)
+    for other in others:
+        if not (to := other.resolve()).is_relative_to(folder):
+            raise ReadError(
+                f"{path.name}: its values are in {other.name}, which is a link to {to}, outside {folder}. "
+                "It is not followed. Copy the file itself there."
+            )
+    given = {
+        "format": format.name,
+        "options": options.model_dump(mode="json", exclude_unset=True),
+        "window": None if window is None else asdict(window),
+    }
+    return run_bounded(
+        f"{__name__}:read_here",
+        path,
+        given,
+        partial(recording_of, path),
+        kind=format.name,
+        within=folder,
+        modules=format.modules,
+        others=others,
+    )
 
 
-def _companions(format: Format, path: Path, options: BaseModel, within: Path) -> tuple[Path, ...]:
-    """Find the other files that a raw file is in; all are in its folder, whatever it says."""
-    if format.companions is None:
-        return ()
-
-    def found(names: Any, arrays: Arrays) -> tuple[Path, ...]:
-        names = TypeAdapter(list[str]).validate_python(names)
-        if any(name in ("", "..") or name != PureWindowsPath(name).name or "\0" in name for name in names):
-            raise ValueError("names of files were expected")
-        return tuple(path.with_name(name) for name in dict.fromkeys(names))
-
-    return _bounded("companions_here", format, path, options, found, within)
-
-
-def _bounded(
-    function: str,
-    format: Format,
-    path: Path,
-    options: BaseModel,
-    take: Callable[[Any, Arrays], Taken],
-    within: Path,
-    others: tuple[Path, ...] = (),
-    **wanted: Any,
-) -> Taken:
-    """Call a function of this module in the bounded process."""
-    given = {"format": format.name, "options": options.model_dump(mode="json", exclude_unset=True), **wanted}
-    where = f"colonnade.readers.registry:{function}"
-    return run_bounded(where, path, given, take, kind=format.name, within=within, modules=format.modules, others=others)
-
-
-def _read(format: Format, path: Path, options: BaseModel, window: Window | None) -> Recording:
+def _read(
+    format: Format, path: Path, options: BaseModel, window: Window | None, within: Path | None = None
+) -> Recording:
     with refusing(path, f'"{format.name}"'):
         if window is not None and format.read_window is not None and path.stat().st_size > LONG_FILE:
             recording = format.read_window(path, options, window)

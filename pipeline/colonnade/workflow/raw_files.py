@@ -84,7 +84,7 @@ def _looked_at(folder: Path, path: Path, how: FileOptions | None, catalogue: Cat
         if digest is None or how is None:
             return digest, []
         try:
-            return digest, [other.name for other in companions(path, how.format, how.options, within=folder)]
+            return digest, [other.name for other in companions(path, how.format)]
         except ReadError:  # reported when the file is read
             return digest, []
 

@@ -51,12 +51,15 @@ def test_a_tdm_header_tells_scaling_interleaving_and_clock(path, packed, order):
     assert recording.channel("even").values.tolist() == [1, 3, 5]
 
 
-def test_a_path_out_of_the_folder_is_not_followed(tmp_path):
-    folder = tmp_path / "data"
-    folder.mkdir()
-    path = tdm(folder / "a.tdm", url="../r.tdx")
-    (folder / "r.tdx").rename(tmp_path / "r.tdx")
-    with pytest.raises(ReadError, match=r'its values are in the file "r.tdx", which is not in its folder'):
+@every(("url", "told"), [("../a.tdx", "a.tdx"), ("C:\\data\\a.tdx", "a.tdx"), ("b.tdx", "b.tdx")])
+def test_values_are_only_looked_for_beside_the_header_under_its_name(tmp_path, url, told):
+    path = tdm(tmp_path / "a.tdm", url=url)
+    if told == "a.tdx":
+        assert read(path).channels  # whatever folder is written
+        path.with_suffix(".tdx").unlink()
+    with pytest.raises(
+        ReadError, match=rf'its values are in the file "{told}"; they were expected next to it in a.tdx'
+    ):
         read(path)
 
 

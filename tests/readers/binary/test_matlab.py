@@ -169,16 +169,6 @@ def test_bristols_numbered_channels_without_a_clock_go_by_the_rate_of_the_header
     np.testing.assert_array_equal(column(recording, "ACC"), TOP)
 
 
-def test_bristols_other_layout_warns_of_channels_that_are_not_there(tmp_path):
-    variables = {"t": TIME, "chan1": TOP, "chan2": -TOP, "Frequency": 200.0}
-    assert read(saved(tmp_path / "a.mat", {**variables, "No_Channels": 2})).warnings == ()
-    recording = read(saved(tmp_path / "a.mat", {**variables, "No_Channels": 3}))
-    np.testing.assert_array_equal(column(recording, "chan2"), -TOP)
-    assert recording.warnings == ("No_Channels says 3, but 2 channels are in the file",)
-    matrix = read(saved(tmp_path / "a.mat", {"t": TIME, "output": np.column_stack([TOP, -TOP]), "No_Channels": 2}))
-    np.testing.assert_array_equal(column(matrix, "output[2]"), -TOP)
-
-
 @every(
     ("content", "reason"),
     [

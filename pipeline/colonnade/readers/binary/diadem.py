@@ -69,18 +69,11 @@ def read(path: Path, options: Options) -> Recording:
     return with_clocks(Recording(path, "diadem", tuple(channels), notes=tuple(notes), warnings=tuple(warnings)))
 
 
-def companions(path: Path, options: Options) -> tuple[str, ...]:
-    """Names of the files with the values, all next to the header."""
-    urls = [file.get("url", "") for file in _Header(path).root.iter("file")]
-    return tuple(dict.fromkeys(_beside(path, url)[0] for url in urls if url))
-
-
-def _beside(header: Path, name: str) -> tuple[str, bool]:
-    """Name of a file of the header's folder, whatever its case, and whether it is there; no path out is followed."""
-    bare = PureWindowsPath(name).name
-    alike = [entry for entry in header.parent.iterdir() if entry.name.casefold() == bare.casefold()]
-    names = [entry.name for entry in alike if entry.is_file()]
-    return bare if bare in names or not names else names[0], bool(names)
+def companions(path: Path) -> tuple[Path, ...]:
+    """Give the file of the values, next to the header and of its name; DIAdem writes and reads it there."""
+    values = path.with_suffix(".tdx")
+    alike = [each for each in path.parent.glob("*.*") if each.name.casefold() == values.name.casefold()]
+    return (alike[0] if alike and values not in alike else values,)
 
 
 class _Header:
@@ -138,16 +131,16 @@ class _Header:
         first += int(block.get("blockOffset", "0")) if stride else 0
         if min(count, first, stride) < 0 or 0 < stride < int(form[-1]):
             raise ValueError(f"{count} values from byte {first} on, every {stride} bytes")
-        other, is_there = _beside(self.path, file.get("url", ""))
-        if not is_there:
+        (path,) = companions(self.path)
+        other = PureWindowsPath(file.get("url", "")).name
+        if other.casefold() != path.name.casefold() or not path.is_file():
             named = other if len(other) <= LONGEST_NAME else f"{other[:LONGEST_NAME]}…"
             raise ReadError(
-                f'{self.path.name}: its values are in the file "{named}", which is not in its folder. Copy that file '
-                "next to it."
+                f'{self.path.name}: its values are in the file "{named}"; they were expected next to it in {path.name}.'
+                " Copy the file there, or save the data set from DIAdem under a new name instead of renaming it."
             )
-        path = self.path.with_name(other)
         content = np.memmap(path, dtype=np.uint8, mode="r") if path.stat().st_size else np.empty(0, dtype=np.uint8)
-        return numbers_at(content, name, form, first, count, self.warnings, stride=stride, scale=scale, file=other)
+        return numbers_at(content, name, form, first, count, self.warnings, stride=stride, scale=scale, file=path.name)
 
 
 def _attribute(channel: ElementTree.Element, name: str) -> float:

@@ -14,14 +14,7 @@ import numpy as np
 from pydantic import Field
 
 from colonnade.errors import ReadError, nearest
-from colonnade.readers.binary.matlab_columns import (
-    FUNCTION,
-    Node,
-    find_columns,
-    lacking_channels,
-    numbered_channels,
-    object_reason,
-)
+from colonnade.readers.binary.matlab_columns import FUNCTION, Node, find_columns, object_reason
 from colonnade.readers.binary.numbers import ClockOptions, Told, UnreadableError, member, recorded
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import HDF5, Head, from_head
@@ -82,18 +75,12 @@ def read(path: Path, options: MatlabOptions) -> Recording:
         if name not in variables:
             reason = f"cannot be read: {told.left_out[name]}." if name in told.left_out else "is missing."
             raise ReadError(f'{path.name}: variable "{name}" {reason}{nearest(name, variables)}')
-    chosen = {name: variables[name] for name in options.variables or variables}
-    others, columns, scalars, notes = numbered_channels(chosen)
-    found = find_columns(others)
-    columns = [*columns, *found.columns]
-    left_out = [f"{place} is left out: {why}" for place, why in {**told.left_out, **found.left_out}.items()]
-    if not columns:
+    found = find_columns({name: variables[name] for name in options.variables or variables}, told)
+    if not found.columns:
         held = ", ".join(list(variables)[:8]) or "no variable"
-        message = f"{path.name}: no column of numbers in it; it holds {held}."
-        raise ReadError("\n  ".join([message, *told.warnings, *left_out]))
-    recording = recorded(path, "matlab", columns, options, {**found.scalars, **scalars})
-    said = (*told.warnings, *lacking_channels(chosen, columns), *recording.warnings)
-    return replace(recording, notes=(*notes, *recording.notes, *left_out), warnings=said)
+        raise told.nothing(f"{path.name}: no column of numbers in it; it holds {held}.")
+    recording = recorded(path, "matlab", found.columns, options, found.scalars)
+    return told.of(replace(recording, notes=(*found.notes, *recording.notes)))
 
 
 def read_v5(path: Path, told: Told) -> dict[str, Node]:
@@ -113,11 +100,8 @@ def read_v5(path: Path, told: Told) -> dict[str, Node]:
             continue
         for name, value in loaded.items():
             own = value["s0"].item().decode("latin-1") if isinstance(value, MatlabOpaque) else name
-            if own.startswith("__"):  # MATLAB's own data about its objects
-                continue
-            node = told.guarded(own, _node, value, own, told)
-            if node is not None:
-                variables[own] = node
+            if not own.startswith("__"):  # MATLAB's own data about its objects
+                variables |= told.parts(_node, {own: (own, value)})
     return variables
 
 
@@ -152,8 +136,7 @@ def _node(value: Any, path: str, told: Told) -> Node:
         parts = {k: (f"{path}{brackets[0]}{k}{brackets[1]}", part) for k, part in enumerate(listed, 1)}
     else:
         return _data(value)
-    nodes = {key: told.guarded(place, _node, part, place, told) for key, (place, part) in parts.items()}
-    nodes = {key: node for key, node in nodes.items() if node is not None}
+    nodes = told.parts(_node, parts)
     return nodes if isinstance(value, dict) else list(nodes.values())
 
 
@@ -189,14 +172,8 @@ def _members(group: h5py.Group, path: str, told: Told) -> dict[str, Node]:
     """Variables or fields, in MATLAB's order if the file keeps it, without those of MATLAB's own."""
     ordered = [b"".join(np.asarray(each).tolist()).decode("latin-1") for each in group.attrs.get("MATLAB_fields", ())]
     names = [name for name in ordered if name in group] or [name for name in group if name[:1] != "#"]
-    found = {}
-    for name in names:
-        place = f"{path}.{name}" if path else name
-        item = told.guarded(place, member, group, name)
-        node = None if item is None else told.guarded(place, _node_73, item, place, told)
-        if node is not None:
-            found[name] = node
-    return found
+    places = {name: (f"{path}.{name}" if path else name, name) for name in names}
+    return told.parts(lambda name, place, _: _node_73(member(group, name), place, told), places)
 
 
 def _node_73(item: h5py.Group | h5py.Dataset, path: str, told: Told) -> Node:
@@ -221,9 +198,9 @@ def _node_73(item: h5py.Group | h5py.Dataset, path: str, told: Told) -> Node:
     if item.attrs.get("MATLAB_empty", 0):
         return "" if matlab_class == "char" else np.empty((0, 0))
     if h5py.check_ref_dtype(item.dtype) is h5py.Reference:
-        places = {f"{path}{{{number}}}": each for number, each in enumerate(item[()].ravel().tolist(), 1)}
-        cells = [told.guarded(place, _node_73, item.file[each], place, told) for place, each in places.items()]
-        return [cell for cell in cells if cell is not None]
+        cells = {k: (f"{path}{{{k}}}", each) for k, each in enumerate(item[()].ravel().tolist(), 1)}
+        found = told.parts(lambda cell, place, _: _node_73(item.file[cell], place, told), cells)
+        return list(found.values())
     if item.dtype.kind not in "fiub":
         is_complex = item.dtype.names == ("real", "imag")
         raise UnreadableError("it holds complex numbers" if is_complex else "it holds no numbers")

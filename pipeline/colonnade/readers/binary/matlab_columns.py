@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from colonnade.readers.binary.numbers import Told, columns_of
 from colonnade.readers.clock import RISING_SHARE, rising_share
 from colonnade.readers.recording import RecordedChannel
 from colonnade.readers.text.heading import take_apart
@@ -38,8 +40,6 @@ def object_reason(class_name: str) -> str:
     return f"it is an object of MATLAB's class {class_name}, which only MATLAB can open: {advice}"
 
 
-MOST_COLUMNS = 1000
-"""Of one matrix; a wider one does not hold channels."""
 VALUE_FIELDS = frozenset(("values", "data", "value", "y", "signal"))
 NAME_FIELDS = frozenset(("label", "name", "signalname", "blockname", "title"))
 UNIT_FIELDS = frozenset(("unit", "units"))
@@ -48,44 +48,33 @@ LIST_FIELDS = frozenset(("colheaders", "names", "labels", "channels", "channelna
 
 @dataclass
 class Found:
-    """
-    What is of use in a MATLAB file.
-
-    Attributes
-    ----------
-    columns : list of RecordedChannel
-    scalars : dict of str to float
-        Single numbers, by path.
-    left_out : dict of str to str
-        Path -> why it is not a column.
-    """
+    """Columns of a MATLAB file, its single numbers by path, and what is said of its layout."""
 
     columns: list[RecordedChannel] = field(default_factory=list)
     scalars: dict[str, float] = field(default_factory=dict)
-    left_out: dict[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
 
 Leaf = tuple[str, tuple[str, ...], dict[str, Node], Numbers]
 """An array with its path, the structs that contain it, and the fields next to it."""
 
 
-def find_columns(variables: dict[str, Node]) -> Found:
+def find_columns(variables: dict[str, Node], told: Told) -> Found:
     """
     Find the columns of numbers among a file's variables.
 
     A matrix gives a channel a column where a vector is as long as it has rows, a channel a row where one is as long as
     it has columns; else its longer side counts as that of the samples.
     """
-    found = Found()
-    leaves = [leaf for name, node in variables.items() for leaf in _leaves(node, name, (), {})]
+    found, others = _numbered(variables)
+    leaves = [leaf for name, node in others.items() for leaf in _leaves(node, name, (), {})]
     lengths = {numbers.size for *_, numbers in leaves if 1 < numbers.size == max(numbers.shape)}
     for path, scope, beside, numbers in leaves:
         if numbers.size == 1:
             found.scalars[path] = float(numbers.ravel()[0])
         elif numbers.size:
-            _take(
-                found, path, scope, {name.casefold(): node for name, node in beside.items()}, numbers.squeeze(), lengths
-            )
+            fields = {name.casefold(): each for name, each in beside.items()}
+            found.columns += told.guarded(path, _columns, path, scope, fields, numbers.squeeze(), lengths) or ()
     return found
 
 
@@ -101,27 +90,25 @@ def _leaves(node: Node, path: str, scope: tuple[str, ...], beside: dict[str, Nod
             yield from _leaves(child, f"{path}{opening}{number}{closing}", scope, {})
 
 
-def _take(
-    found: Found, path: str, scope: tuple[str, ...], beside: dict[str, Node], numbers: Numbers, lengths: set[int]
-) -> None:
+def _columns(
+    path: str, scope: tuple[str, ...], beside: dict[str, Node], numbers: Numbers, lengths: set[int]
+) -> list[RecordedChannel]:
     """Split an array into columns; other fields of its struct may give names and units."""
     is_value = path.rpartition(".")[2].casefold() in VALUE_FIELDS
     name = _text(beside, NAME_FIELDS) if is_value else None
     unit = _text(beside, UNIT_FIELDS) if is_value else None
     if numbers.ndim == 1:
-        found.columns.append(RecordedChannel(name or "", unit, numbers, heading=path, scope=scope))
-        return
-    rows, columns, *more = numbers.shape
-    size = " × ".join(map(str, numbers.shape))
-    if (columns in lengths) > (rows in lengths) or ((columns in lengths) == (rows in lengths) and columns > rows):
-        numbers = numbers.T
-    if more or numbers.shape[1] > MOST_COLUMNS:
-        found.left_out[path] = f"an array of {size}; vectors, and matrices of up to {MOST_COLUMNS} channels, are read"
-        return
-    names = _list_of_names(beside, numbers.shape[1])
-    for number, part in enumerate(numbers.T, 1):
-        own, own_unit = take_apart(names[number - 1]) if names else (f"{name}[{number}]" if name else None, unit)
-        found.columns.append(RecordedChannel(own or "", own_unit, part, heading=f"{path}[{number}]", scope=scope))
+        return [RecordedChannel(name or "", unit, numbers, heading=path, scope=scope)]
+    if numbers.ndim == 2:
+        rows, columns = (size in lengths for size in numbers.shape)
+        numbers = numbers.T if columns > rows or (columns == rows and numbers.shape[1] > numbers.shape[0]) else numbers
+    parts = columns_of(numbers)
+    names = _list_of_names(beside, len(parts))
+    found = []
+    for number, part in enumerate(parts, 1):
+        own, own_unit = take_apart(names[number - 1]) if names else (f"{name}[{number}]" if name else "", unit)
+        found.append(RecordedChannel(own, own_unit, part, heading=f"{path}[{number}]", scope=scope))
+    return found
 
 
 def _text(beside: dict[str, Node], keys: frozenset[str]) -> str | None:
@@ -143,63 +130,26 @@ def _list_of_names(beside: dict[str, Node], count: int) -> list[str]:
 BRISTOL = re.compile(r"(?:Channel_(\d+)|File)_(?:Header|(Data))")
 
 
-def numbered_channels(
-    variables: dict[str, Node],
-) -> tuple[dict[str, Node], list[RecordedChannel], dict[str, float], list[str]]:
-    """
-    Take the channels of the layout `File_Header`, `Channel_i_Header`, `Channel_i_Data`.
-
-    Parameters
-    ----------
-    variables : dict of str to Node
-        All variables of the file.
-
-    Returns
-    -------
-    others : dict of str to Node
-        Variables that are not part of the layout.
-    columns : list of RecordedChannel
-        With names and units by the headers; the first one is called `time` where it rises, as that is the clock.
-    scalars : dict of str to float
-        `File_Header.SampleFrequency`, Hz, if the first channel is not a clock.
-    notes : list of str
-        Empty if the file has another layout.
-    """
+def _numbered(variables: dict[str, Node]) -> tuple[Found, dict[str, Node]]:
+    """Take the channels of the layout `File_Header`, `Channel_i_Header`, `Channel_i_Data`; what else there is, too."""
     parts = {name: match for name in variables if (match := BRISTOL.fullmatch(name))}
-    columns: list[RecordedChannel] = []
+    columns = []
     for number in sorted(int(match[1]) for match in parts.values() if match[1] and match[2]):
-        place, header = f"Channel_{number}_Data", variables.get(f"Channel_{number}_Header")
-        values = variables[place]
-        if not isinstance(values, np.ndarray) or values.size < 2 or values.size != max(values.shape):
-            continue
-        told = header if isinstance(header, dict) else {}
-        name, unit = (_text({"": told.get(key, "")}, frozenset(("",))) for key in ("SignalName", "Unit"))
-        if number == 1 and rising_share(values.ravel().astype(np.float64)) >= RISING_SHARE:
-            name = "time"
-        columns.append(RecordedChannel(name or "", unit, values.ravel(), heading=place))
+        header, values = variables.get(f"Channel_{number}_Header"), variables[f"Channel_{number}_Data"]
+        if isinstance(values, np.ndarray) and 1 < values.size == max(values.shape):
+            told = header if isinstance(header, dict) else {}
+            name, unit = (_text(told, frozenset((key,))) for key in ("SignalName", "Unit"))
+            is_clock = number == 1 and rising_share(values.ravel().astype(np.float64)) >= RISING_SHARE
+            name = "time" if is_clock else name or ""
+            columns.append(RecordedChannel(name, unit, values.ravel(), heading=f"Channel_{number}_Data"))
     if not columns:
-        return variables, [], {}, []
-    others = {name: node for name, node in variables.items() if name not in parts}
-    notes = ["layout of Bristol: Channel_i_Data, with names and units in Channel_i_Header"]
+        return Found(), variables
+    found = Found(columns, notes=("layout of Bristol: Channel_i_Data, with names and units in Channel_i_Header",))
+    general = variables.get("File_Header")
     if columns[0].name == "time":
-        return others, columns, {}, [*notes, "Channel_1_Data rises: it is the clock"]
-    rate = _number(variables.get("File_Header"), "SampleFrequency")
-    return others, columns, {"File_Header.SampleFrequency": rate} if rate else {}, notes
-
-
-def _number(header: Node | None, field: str) -> float | None:
-    value = header.get(field) if isinstance(header, dict) else None
-    try:
-        number = float(value.strip() if isinstance(value, str) else np.asarray(value, dtype=np.float64).ravel()[0])
-    except (ValueError, TypeError, IndexError):
-        return None
-    return number if number > 0 else None
-
-
-def lacking_channels(variables: dict[str, Node], columns: list[RecordedChannel]) -> list[str]:
-    """Warn where the layout `t`, `chan1` … `chann`, `No_Channels` has fewer channels than it says."""
-    said = variables.get("No_Channels")
-    there = sum(re.fullmatch(r"chan\d+|output\[\d+\]", column.heading) is not None for column in columns)
-    if not isinstance(said, np.ndarray) or said.size != 1 or there in (0, int(said.ravel()[0])):
-        return []
-    return [f"No_Channels says {int(said.ravel()[0])}, but {there} channels are in the file"]
+        found.notes += ("Channel_1_Data rises: it is the clock",)
+    elif isinstance(general, dict):
+        with suppress(ValueError, TypeError, IndexError):  # a number, or text that is one
+            rate = np.asarray(general.get("SampleFrequency")).ravel()[0]
+            found.scalars["File_Header.SampleFrequency"] = float(rate)
+    return found, {name: node for name, node in variables.items() if name not in parts}

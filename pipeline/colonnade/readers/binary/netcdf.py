@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from contextlib import suppress
+from dataclasses import replace
 from datetime import UTC, datetime
+from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +17,7 @@ from pydantic import Field
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.binary.numbers import DAMAGE, ClockOptions, Told, UnreadableError, member, recorded
+from colonnade.readers.binary.numbers import DAMAGE, ClockOptions, Told, UnreadableError, columns_of, member, recorded
 from colonnade.readers.format import Format
 from colonnade.readers.head import HDF5, NETCDF, by_mark
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
@@ -24,27 +26,12 @@ if TYPE_CHECKING:
     import h5py
 
 DIMENSION_ONLY = "This is a netCDF dimension but not a netCDF variable"
-MOST_COLUMNS = 1000
-"""Of one variable; a wider one does not hold channels."""
 SINCE = re.compile(r"(?P<unit>\w+)\s+since\s+(?P<moment>.+)", re.IGNORECASE)
 DAYS = {"d": 86400.0, "day": 86400.0, "days": 86400.0, "ns": 1e-9, "nanosecond": 1e-9, "nanoseconds": 1e-9}
 
 
-@dataclass(frozen=True)
-class Variable:
-    """
-    An array of numbers.
-
-    Attributes
-    ----------
-    path : str
-        With its groups: `run/top`.
-    values : ndarray
-        As stored.
-    coordinate : str or None
-        Path of the variable that is its first dimension.
-    attributes : dict
-    """
+class Variable(NamedTuple):
+    """An array of numbers as stored, by its path (`run/top`), with the path of the variable that is its dimension."""
 
     path: str
     values: NDArray[Any]
@@ -76,17 +63,15 @@ def read(path: Path, options: NetcdfOptions) -> Recording:
     within = "" if options.group is None else options.group.strip("/") + "/"
     variables = [each for each in variables if each.path.startswith(within)]
     columns, notes = _columns(variables, told, options.time_unit if options.time is None else None)
-    left_out = [f"{place} is left out: {why}" for place, why in told.left_out.items()]
     if not columns:
         where = "in it" if options.group is None else f'in group "{options.group}"'
-        raise ReadError("\n  ".join([f"{path.name}: no column of numbers {where}.", *told.warnings, *left_out]))
+        raise told.nothing(f"{path.name}: no column of numbers {where}.")
     scalars = {
         each.path.replace("/", "."): float(each.values.ravel()[0]) for each in variables if each.values.size == 1
     }
-    scalars |= {name: float(value) for name, value in attributes.items() if isinstance(value, (int, float, np.number))}
+    scalars |= {name: float(value) for name, value in attributes.items() if _is_number(value)}
     recording = recorded(path, "netcdf", columns, options, scalars)
-    warnings = (*told.warnings, *recording.warnings)
-    return replace(recording, notes=(*notes, *recording.notes, *left_out), warnings=warnings)
+    return told.of(replace(recording, notes=(*notes, *recording.notes)))
 
 
 def read_hdf5(path: Path, told: Told) -> tuple[list[Variable], dict[str, Any]]:
@@ -102,17 +87,16 @@ def _group(group: h5py.Group, path: str, told: Told, known: set[Any]) -> list[Va
     import h5py
 
     known.add(group.id)
-    variables: list[Variable] = []
-    for name in group:
-        place = f"{path}{name}"
-        item = told.guarded(place, member, group, name)
+
+    def one(name: str, place: str, _: Told) -> list[Variable]:
+        item = member(group, name)
         if not isinstance(item, h5py.Group):
-            variables += (told.guarded(place, _dataset, item, place, told) if item else None) or ()
-        elif item.id in known:
-            told.left_out[place] = "it is another name of a group that is read"
-        else:
-            variables += _group(item, f"{place}/", told, known)
-    return variables
+            return _dataset(item, place, told)
+        if item.id in known:
+            raise UnreadableError("it is another name of a group that is read")
+        return _group(item, f"{place}/", told, known)
+
+    return list(chain.from_iterable(told.parts(one, {name: (f"{path}{name}", name) for name in group}).values()))
 
 
 def _dataset(dataset: h5py.Dataset, path: str, told: Told) -> list[Variable]:
@@ -170,10 +154,8 @@ def _attributes(item: h5py.Group | h5py.Dataset) -> dict[str, Any]:
     """Attributes of a part of an HDF5 file; one that cannot be read says nothing."""
     found = {}
     for name in item.attrs:
-        try:
+        with suppress(*DAMAGE):
             found[name] = item.attrs[name]
-        except DAMAGE:
-            continue
     return found
 
 
@@ -188,41 +170,43 @@ def _plain(attributes: Mapping[str, Any]) -> dict[str, Any]:
 
 def _columns(variables: list[Variable], told: Told, unit: str | None) -> tuple[list[RecordedChannel], list[str]]:
     """Take variables apart into columns along their first dimension, each on its coordinate, if that is of times."""
-    columns: list[RecordedChannel] = []
     notes: list[str] = []
     clocks = {each.path: each for each in variables}
     times: dict[str, tuple[Array, datetime | None, str] | None] = {}
-    for variable in variables:
-        table = _decoded(variable)
+
+    def one(variable: Variable, path: str, _: Told) -> list[RecordedChannel]:
+        table, clock = _decoded(variable), variable.coordinate or ""
         if table.size < 2:
-            continue
-        if table.ndim > 2 or (table.ndim == 2 and min(table.shape) > MOST_COLUMNS):
-            size = " × ".join(map(str, table.shape))
-            told.left_out[variable.path] = f"an array of {size} is not a set of channels"
-            continue
-        if table.ndim == 2 and table.shape[1] > table.shape[0] and variable.coordinate is None:
+            return []
+        if table.ndim == 2 and table.shape[1] > table.shape[0] and not clock:
             table = table.T
-        clock = variable.coordinate or ""
+        parts = {"": table} if table.ndim == 1 else {f"[{k}]": part for k, part in enumerate(columns_of(table), 1)}
         if clock in clocks and clock not in times:
             times[clock] = _as_times(clocks[clock], unit)
         time, start, how = times.get(clock) or (None, None, "")
         if time is None or time.size != len(table):
             time, start = None, None
-        elif clock == variable.path:
+        is_clock = time is not None and clock == path
+        if is_clock:
             notes.append(f'"{clock}" is the coordinate of a dimension ({how})')
         units = str(variable.attributes.get("units", variable.attributes.get("unit", ""))).strip() or None
-        parts = {"": table} if table.ndim == 1 else {f"[{number}]": part for number, part in enumerate(table.T, 1)}
-        *groups, name = variable.path.split("/")
-        is_clock = time is not None and clock == variable.path
-        for number, values in parts.items():
-            place = variable.path + number
-            columns.append(RecordedChannel(name + number, units, values, time, place, is_clock, tuple(groups), start))
-    return columns, notes
+        *groups, name = path.split("/")
+        return [
+            RecordedChannel(name + number, units, values, time, path + number, is_clock, tuple(groups), start)
+            for number, values in parts.items()
+        ]
+
+    columns = told.parts(one, {each.path: (each.path, each) for each in variables})
+    return list(chain.from_iterable(columns.values())), notes
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, (int, float, np.number))
 
 
 def _decoded(variable: Variable) -> Array:
     """Values with what the CF conventions say of them: missing ones, factor and offset of packed numbers."""
-    known = {name: value for name, value in variable.attributes.items() if isinstance(value, (int, float, np.number))}
+    known = {name: value for name, value in variable.attributes.items() if _is_number(value)}
     decoded = np.array(variable.values, dtype=np.float64)
     for name in ("_FillValue", "missing_value"):
         if name in known:

@@ -6,13 +6,14 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
 from colonnade.arrays import Array
+from colonnade.errors import ReadError
 from colonnade.readers.clock import with_clocks
 from colonnade.readers.format import Options
 from colonnade.readers.recording import RecordedChannel, Recording, TimeUnit
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
     import h5py
 
 Bytes = NDArray[np.uint8]
+Key = TypeVar("Key")
+MOST_COLUMNS = 1000
+"""Of one matrix; a wider one does not hold channels."""
 
 
 class UnreadableError(Exception):
@@ -33,16 +37,7 @@ DAMAGE = (OSError, KeyError, ValueError, TypeError, RuntimeError, UnicodeError, 
 
 @dataclass
 class Told:
-    """
-    What is said of parts that are not read.
-
-    Attributes
-    ----------
-    left_out : dict of str to str
-        Path -> why.
-    warnings : list of str
-        Of parts that are damaged.
-    """
+    """What is said of parts that are not read: why each is left out, by its path, and warnings of damaged ones."""
 
     left_out: dict[str, str] = field(default_factory=dict)
     warnings: list[str] = field(default_factory=list)
@@ -56,6 +51,33 @@ class Told:
         except DAMAGE as error:
             self.warnings.append(f"{path} is damaged and not read: {error}")
         return None
+
+    def parts(self, read: Callable[[Any, str, Told], Any], parts: Mapping[Key, tuple[str, Any]]) -> dict[Key, Any]:
+        """What parts give, each of which is there with its path, but for those that are left out or damaged."""
+        read_parts = {key: self.guarded(path, read, part, path, self) for key, (path, part) in parts.items()}
+        return {key: each for key, each in read_parts.items() if each is not None}
+
+    @property
+    def notes(self) -> list[str]:
+        """A note on each part that is left out."""
+        return [f"{path} is left out: {why}" for path, why in self.left_out.items()]
+
+    def nothing(self, message: str) -> ReadError:
+        """Say of a file without any column what else is said of it."""
+        return ReadError("\n  ".join([message, *self.warnings, *self.notes]))
+
+    def of(self, recording: Recording) -> Recording:
+        """Add what is said to a recording."""
+        warnings = (*self.warnings, *recording.warnings)
+        return replace(recording, notes=(*recording.notes, *self.notes), warnings=warnings)
+
+
+def columns_of(table: NDArray[Any]) -> list[NDArray[Any]]:
+    """Columns of a matrix; UnreadableError if it is no set of channels."""
+    if table.ndim > 2 or table.shape[1] > MOST_COLUMNS:
+        size = " × ".join(map(str, table.shape))
+        raise UnreadableError(f"an array of {size}; vectors, and matrices of up to {MOST_COLUMNS} channels, are read")
+    return list(table.T)
 
 
 def member(group: h5py.Group, name: str) -> h5py.Group | h5py.Dataset:

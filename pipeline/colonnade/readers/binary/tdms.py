@@ -105,31 +105,24 @@ def _recording(path: Path, options: TdmsOptions, file: TdmsFile, window: Window 
 
 
 def cut_off(path: Path, channels: list[TdmsChannel]) -> list[str]:
-    """Say what a file that was cut off lacks, by the lengths that its segments give, and how many samples it has."""
+    """Say that a file was cut off, by the lengths that its segments give, and how many samples it has."""
     size, place = path.stat().st_size, 0
     with path.open("rb") as stream:
         while place < size:
             stream.seek(place)
             lead_in = stream.read(LEAD_IN).ljust(LEAD_IN, b"\0")
             order = ">" if struct.unpack("<I", lead_in[4:8])[0] & BIG_ENDIAN else "<"
-            length, description = struct.unpack(order + "QQ", lead_in[12:])
-            samples = place + LEAD_IN + description
-            if length == UNFINISHED and samples <= size:
+            (length,) = struct.unpack(order + "Q", lead_in[12:20])
+            if length == UNFINISHED:
                 return ["the recorder did not finish the last segment, as happens if it is killed: read up to its end"]
-            if samples > size:
-                return [
-                    f"it ends after {size} bytes, within the description of its last segment: a recording or a copy "
-                    f"was interrupted; the data in its last {size - place} bytes are lost"
-                ]
             place += LEAD_IN + length
     if place == size:
         return []
-    names: dict[int, list[str]] = {}
-    for channel in channels:
-        names.setdefault(len(channel), []).append(channel.name)
+    counts = dict.fromkeys(len(channel) for channel in channels)
+    alike = {count: [channel.name for channel in channels if len(channel) == count] for count in counts}
     found = ", ".join(
-        f'{count} samples of "{first}"' + (f" and {len(others)} others" if others else "")
-        for count, (first, *others) in names.items()
+        f'{count} samples of "{names[0]}"' + (f" and {len(names) - 1} others" if names[1:] else "")
+        for count, names in alike.items()
     )
     return [
         f"it ends after {size} of {place} bytes: a recording or a copy was interrupted; it has {found or 'no samples'}"
