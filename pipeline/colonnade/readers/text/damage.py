@@ -51,49 +51,41 @@ def mend(rows: Rows, headings: Sequence[str]) -> Mended:
     headings : sequence of str
         Of the columns.
     """
-    faults = {fault: list(found) for fault, found in rows.faults.items()}
-    short = faults.get("short", [])
+    width = len(headings)
+    faulty = [row for row in rows.odd if row.fault is not None]
     # Of a last line without its end only the delimiter at the very end may be lacking.
-    if rows.tail and short and short[-1].row == rows.size - 1:
-        last = short.pop()
-        if len(last.cells) < len(headings) or last.cells[-1] == "":
-            faults["cut"] = [last]
-    left_out = _marked(rows, faults, LEFT_OUT)
-    if ending := _ending(short, rows.size - int(left_out.sum())):
-        del short[-len(ending) :]
-    blanked = _marked(rows, faults, BLANKED)
-    notes = []
+    if rows.tail and faulty and (last := faulty[-1]).fault == "short" and last.row == rows.size - 1:
+        is_cut = len(last.cells) < width or last.cells[-1] == ""
+        faulty[-1:] = [last._replace(fault="cut")] if is_cut else []
+    left_out = _marked(rows, faulty, LEFT_OUT)
+    short = [row for row in faulty if row.fault == "short"]
+    ending = _ending(short, rows.size - int(left_out.sum()))
+    faulty = [row for row in faulty if row not in ending]
+    blanked = _marked(rows, faulty, BLANKED)
+    notes, warnings = [], []
     if ending:
         notes.append(
             f"from line {ending[0].line} on there are {len(ending[0].cells)} cells: "
             "the last columns are shorter than the others"
         )
-    if "comment" in faults:
-        notes.append(_listed(faults["comment"], LEFT_OUT["comment"]))
-    warnings = [
-        _listed(faults[fault], said.format(len(headings)))
-        for fault, said in (LEFT_OUT | BLANKED).items()
-        if fault != "comment" and faults.get(fault)
-    ]
-    number_cut, told = _unfinished_number(rows, len(headings))
-    others = {row.row: row for row in [*ending, *rows.tail[-1:]]}
-    absent = _missing(rows, rows.without_number | others, left_out | blanked, headings)
-    if number_cut:
+    for fault, said in (LEFT_OUT | BLANKED).items():
+        if found := [row for row in faulty if row.fault == fault]:
+            (notes if fault == "comment" else warnings).append(_listed(found, said.format(width)))
+    unfinished, told = _unfinished_number(rows, width)
+    absent = _missing(rows, [*rows.odd, *ending, *rows.tail[-1:]], left_out | blanked, headings)
+    if unfinished:
         rows.columns[-1][-1] = np.nan
-        warnings += told
-    else:
-        notes += told
+    (warnings if unfinished else notes).extend(told)
     for column in rows.columns:
         column[blanked] = np.nan
-    return Mended(
-        [column[~left_out] if left_out.any() else column for column in rows.columns], notes, warnings + absent
-    )
+    whole = [column[~left_out] if left_out.any() else column for column in rows.columns]
+    return Mended(whole, notes, warnings + absent)
 
 
-def _marked(rows: Rows, faults: dict[Fault, list[Row]], wanted: dict[Fault, str]) -> Mask:
+def _marked(rows: Rows, faulty: list[Row], wanted: dict[Fault, str]) -> Mask:
     """Which rows have one of these faults."""
     marked = np.zeros(rows.size, dtype=bool)
-    marked[[row.row for fault in wanted for row in faults.get(fault, ())]] = True
+    marked[[row.row for row in faulty if row.fault in wanted]] = True
     return marked
 
 
@@ -124,8 +116,9 @@ def _unfinished_number(rows: Rows, width: int) -> tuple[bool, list[str]]:
     return False, [f"the last line, {line}, has no line end; its last number is taken as complete"]
 
 
-def _missing(rows: Rows, known: dict[int, Row], damaged: Mask, headings: Sequence[str]) -> list[str]:
+def _missing(rows: Rows, looked_at: list[Row], damaged: Mask, headings: Sequence[str]) -> list[str]:
     """Say for each column of numbers how many cells hold none, and where the first of them is."""
+    known = {row.row: row for row in looked_at}
     groups: dict[tuple[int, int], list[int]] = {}
     for number, column in enumerate(rows.columns):
         absent = np.isnan(column) & ~damaged

@@ -20,7 +20,15 @@ from colonnade.readers.text.damage import mend
 from colonnade.readers.text.dialect import COMMENT_SIGNS, WHITESPACE, Dialect, column_kinds, find_first_sample, sniff
 from colonnade.readers.text.encoding import Text, TextOptions, looks_binary
 from colonnade.readers.text.heading import Heading, Lines, find_heading, read_heading, unread_numbers
-from colonnade.readers.text.rows import RowForm, Rows, Stretch, past_midnight, read_rows
+from colonnade.readers.text.rows import (
+    RowForm,
+    Rows,
+    Stretch,
+    are_marked,
+    marks_suspected,
+    past_midnight,
+    read_rows,
+)
 from colonnade.readers.text.running import (
     HeaderClaims,
     Layout,
@@ -270,12 +278,18 @@ def _rows(header: Header, stretch: Stretch | None) -> Rows:
 
 
 def _grouped(header: Header, rows: Rows, stretch: Stretch | None, options: DelimitedOptions) -> tuple[Header, Rows]:
-    """Read columns again as text whose numbers seem to have signs between thousands, until all of these have them."""
-    signs = rows.grouped if options.thousands is None else {}
-    while signs := {column: sign for column, sign in signs.items() if sign != options.decimal}:
+    """Read columns again whose numbers seem to have signs between thousands, until all of these have them."""
+    if options.thousands is not None:
+        return header, rows
+    clock = None if stretch is None else stretch.clock  # by which the rows of a window are found
+    suspected = marks_suspected(rows).items()
+    signs = {column: sign for column, sign in suspected if sign != options.decimal and column != clock}
+    while signs:
         form = replace(header.form, grouped=signs)
         again = _rows(replace(header, form=form), stretch)
-        kept = {column: sign for column, sign in again.grouped.items() if column in signs}
+        kept = {
+            column: sign for column, sign in signs.items() if are_marked(rows.columns[column], again.columns[column])
+        }
         if kept == signs:
             named = ", ".join(f'"{header.heading.headings[column]}"' for column in signs)
             note = f"{named}: whole numbers with a sign between thousands ({' '.join(sorted({*signs.values()}))})"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import re
 import warnings
 from collections import deque
 from collections.abc import Generator, Iterable, Mapping
@@ -30,12 +29,13 @@ Fault = Literal["comment", "text", "cut", "struck out", "long", "short"]
 
 
 class Row(NamedTuple):
-    """A row, by its number among the columns' values from 0, with its line in the file from 1."""
+    """A row, by its number among the columns' values from 0, with its line in the file from 1 and what is wrong."""
 
     row: int
     line: int
     text: str
     cells: list[str]
+    fault: Fault | None = None
 
 
 @dataclass(frozen=True)
@@ -108,18 +108,12 @@ class Rows:
         Number of the rows.
     columns : list of ndarray, shape (n,)
         NaN without a number; seconds from the first for columns of timestamps.
-    faults : dict of str to list of Row
-        Rows that are not as they should be, in their order.
-    without_number : dict of int to Row
-        Other rows, by their number: of each column the first without a number is among them.
+    odd : list of Row
+        Rows with a fault; others so that of each column the first without a number is among them.
     start : datetime or None
         The first timestamp, if it has a date; in its own zone if it has one.
-    grouped : dict of int to str
-        The sign between thousands of columns whose numbers seem to have one.
     skipped : int
         Rows of the file before the first of these.
-    reaches_end : bool
-        Whether the file's last row is among them.
     tail : list of Row
         The last rows, up to `TAIL`, of a file that ends within a line.
     """
@@ -127,12 +121,9 @@ class Rows:
     form: RowForm
     size: int = 0
     columns: list[Array] = field(default_factory=list)
-    faults: dict[Fault, list[Row]] = field(default_factory=dict)
-    without_number: dict[int, Row] = field(default_factory=dict)
+    odd: list[Row] = field(default_factory=list)
     start: datetime | None = None
-    grouped: dict[int, str] = field(default_factory=dict)
     skipped: int = 0
-    reaches_end: bool = True
     tail: list[Row] = field(default_factory=list)
 
 
@@ -171,7 +162,6 @@ def read_rows(path: Path, pieces: Iterable[Piece], form: RowForm, stretch: Stret
 
     rows = Rows(form)
     columns: list[list[Array]] = [[] for _ in form.kinds]
-    marks = {column: Grouping(form.dialect) for column, kind in enumerate(form.kinds) if kind == "number"}
     last: deque[Piece] = deque(maxlen=2)
     try:
         with warnings.catch_warnings():
@@ -183,16 +173,9 @@ def read_rows(path: Path, pieces: Iterable[Piece], form: RowForm, stretch: Stret
                         rows.skipped += part.size
                         continue
                     if place > 0 and rows.size:
-                        rows.reaches_end = False
+                        last.clear()
                         break
-                    for fault, row in part.found:
-                        row = row._replace(row=row.row + rows.size)
-                        if fault is None:
-                            rows.without_number[row.row] = row
-                        else:
-                            rows.faults.setdefault(fault, []).append(row)
-                    for column, grouping in marks.items():
-                        grouping.look(part.frame[column], part.columns[column])
+                    rows.odd += [row._replace(row=row.row + rows.size) for row in part.odd]
                     rows.start = rows.start if rows.size else _start(part.frame, form)
                     for whole, values in zip(columns, part.columns, strict=True):
                         whole.append(values)
@@ -209,28 +192,22 @@ def read_rows(path: Path, pieces: Iterable[Piece], form: RowForm, stretch: Stret
         if kind == "time":
             known = rows.columns[column][~np.isnan(rows.columns[column])]
             rows.columns[column] = (rows.columns[column] - known[:1].sum()) / 1e6
-    rows.grouped = {column: found.sign for column, found in marks.items() if found.sign is not None}
-    ending = last[-1].text.rstrip(UNREADABLE + "\x1a") if last and rows.reaches_end else ""
+    ending = last[-1].text.rstrip(UNREADABLE + "\x1a") if last else ""
     if ending and not ending.endswith("\n"):
-        rows.tail = _tail(last, rows)
+        lines = [each for line, text in last for each in enumerate(text.split("\n"), line)]
+        filled = [(line, text) for line, text in lines if not form.dialect.is_blank(text)]
+        numbered = enumerate(filled, rows.size - len(filled))
+        rows.tail = [Row(row, line, text, form.dialect.split(text)) for row, (line, text) in numbered][-TAIL:]
     return rows
 
 
-def _tail(last: Iterable[Piece], rows: Rows) -> list[Row]:
-    """Cut the last rows into cells again."""
-    dialect = rows.form.dialect
-    lines = [each for line, text in last for each in enumerate(text.split("\n"), line) if not dialect.is_blank(each[1])]
-    first = rows.size - len(lines)
-    return [Row(first + number, line, text, dialect.split(text)) for number, (line, text) in enumerate(lines)][-TAIL:]
-
-
 class _Part(NamedTuple):
-    """What a piece holds: rows, their values, their cells (with blank lines), and which rows deserve a look."""
+    """What a piece holds: rows, their values, their cells (with blank lines), and the rows that deserve a look."""
 
     size: int
     columns: list[Array]
     frame: pd.DataFrame
-    found: list[tuple[Fault | None, Row]]
+    odd: list[Row]
 
 
 def _parts(pieces: Iterable[Piece], form: RowForm) -> Generator[tuple[Piece, _Part], None, None]:
@@ -258,7 +235,7 @@ def _part(piece: Piece, form: RowForm) -> _Part:
     firsts = (np.flatnonzero(missing & ~doubtful)[:1].tolist() for missing in absent)
     wanted = sorted({*np.flatnonzero(doubtful).tolist()}.union(*firsts))
     texts = piece.text.split("\n") if wanted else []
-    found: list[tuple[Fault | None, Row]] = []
+    odd: list[Row] = []
     blank: list[int] = []
     lacking: set[int] = set()
     for number in wanted:
@@ -270,10 +247,10 @@ def _part(piece: Piece, form: RowForm) -> _Part:
         without = {column for column, missing in enumerate(absent) if missing[number]}
         fault = form.fault_of(row, has_number=len(without) < len(absent)) if doubtful[number] else None
         if fault is not None or not without <= lacking:
-            found.append((fault, row))
+            odd.append(row._replace(fault=fault))
             lacking |= without if fault is None else set()
     columns = [np.delete(values, blank) for values in columns] if blank else columns
-    return _Part(len(frame) - len(blank), columns, frame, found)
+    return _Part(len(frame) - len(blank), columns, frame, odd)
 
 
 def _frame(text: str, form: RowForm) -> pd.DataFrame:
@@ -408,57 +385,45 @@ def past_midnight(seconds: Array) -> Array:
     return turned
 
 
-_WHOLE = re.compile(r"[+\-\N{MINUS SIGN}]?\d{1,3}", re.ASCII)
-LARGE, THOUSAND = 100.0, 1000.0
-"""A number without a mark between thousands is below the second; some above the first are on the way there."""
+THOUSAND = 1000.0
+"""A number without a mark between thousands is below it."""
+LARGE = 100.0
+"""Some numbers above it have no mark where others have one, on the way there."""
 MANY = 50
 """Different numbers that have a mark, so many that decimals would differ in their number of digits."""
 
 
-class Grouping:
+def marks_suspected(rows: Rows) -> dict[int, str]:
     """
-    What speaks for and against thousands that are marked in a column.
+    Find columns whose numbers may be whole, with a point or comma between thousands, and that sign.
 
-    All numbers from 1000 on have three digits after each mark, and those below have no mark. Decimals would have other
-    numbers of digits, too, unless all have three.
+    As decimal signs these leave three decimals to each number that is not whole, and no number from 1000 on; as others
+    they leave no number at all.
     """
+    found = {
+        column: mark[1]
+        for row in rows.odd
+        for column, (cell, kind) in enumerate(zip(row.cells, rows.form.kinds, strict=False))
+        if kind == "number" and row.fault is None and (mark := MARKED.fullmatch(cell.strip('"')))
+    }
+    for column, kind in enumerate(rows.form.kinds):
+        values = np.abs(rows.columns[column])
+        if kind == "number" and not any(map(_is_decimal, (values[:1000], values))) and (values % 1 > 0).any():
+            found[column] = rows.form.dialect.decimal
+    return found
 
-    def __init__(self, dialect: Dialect) -> None:
-        self._dialect, self._signs = dialect, set[str]()
-        self._has_small = self._has_large = self._is_refuted = False
-        self._marked = 0
 
-    @property
-    def sign(self) -> str | None:
-        """The mark; None if nothing speaks for one."""
-        is_likely = self._has_small and (self._has_large or self._marked >= MANY) and not self._is_refuted
-        return next(iter(self._signs)) if is_likely and len(self._signs) == 1 else None
+def _is_decimal(sizes: Array) -> bool:
+    """Whether numbers cannot have lost a mark between their thousands."""
+    thousandths = THOUSAND * sizes[sizes % 1 > 0]
+    is_far = bool((sizes >= THOUSAND).any() or (thousandths < THOUSAND).any())
+    return is_far or bool((np.abs(thousandths - np.rint(thousandths)) > 1e-6).any())
 
-    def look(self, cells: pd.Series, values: Array) -> None:
-        """Look at further cells, unless it is refuted: as text, or as the numbers that they were read as."""
-        if self._is_refuted:
-            return
-        if cells.dtype.kind in "biuf":
-            self._look_at_numbers(np.abs(values[np.isfinite(values)]))
-            return
-        for cell in cells.dropna().unique():
-            text = str(cell).strip().strip('"')
-            if marked := MARKED.fullmatch(text):
-                self._signs.add(marked[1])
-                self._marked += 1
-            elif _WHOLE.fullmatch(text):
-                self._has_small = True
-                self._has_large |= abs(self._dialect.number(text)) >= LARGE
-            elif any(map(str.isdecimal, text)):
-                self._is_refuted = True
-                return
 
-    def _look_at_numbers(self, sizes: Array) -> None:
-        whole = sizes == np.rint(sizes)
-        thousandths = np.unique(THOUSAND * sizes[~whole])
-        far = (sizes >= THOUSAND).any() or (thousandths < THOUSAND).any()
-        self._is_refuted = bool(far or (np.abs(thousandths - np.rint(thousandths)) > 1e-6).any())
-        self._has_small |= bool(whole.any())
-        self._has_large |= bool((sizes[whole] >= LARGE).any())
-        self._marked += thousandths.size
-        self._signs |= {self._dialect.decimal} if thousandths.size else set()
+def are_marked(numbers: Array, again: Array) -> bool:
+    """Whether numbers that were read again with a mark between thousands are all whole, on both sides of a thousand."""
+    known = np.abs(again[np.isfinite(numbers) | np.isfinite(again)])
+    if not known.size or not (known == np.rint(known)).all():
+        return False
+    small = known[known < THOUSAND]
+    return bool(small.size) and bool((small >= LARGE).any() or np.unique(known[known >= THOUSAND]).size >= MANY)
