@@ -12,10 +12,14 @@ from PIL import Image
 
 from colonnade.errors import ReadError
 from colonnade.readers import photo
-from colonnade.readers.photo import LARGEST_SIDE, decode_here, read_photo
+from colonnade.readers.photo import LARGEST_SIDE, photo_here, read_photo
 from every import every
 
 RED, BLUE = (200, 20, 20), (20, 20, 200)
+
+
+def decoded(path):
+    return photo_here(path)[1][0]
 
 
 def two_halves(size=(400, 200)):
@@ -58,7 +62,7 @@ def test_a_photo_is_read_in_the_bounded_process(tmp_path, kind, name):
 def test_a_photo_is_turned_upright(tmp_path, orientation, red):
     exif = Image.Exif()
     exif[0x0112] = orientation
-    pixels = decode_here(saved(tmp_path / "a.jpg", two_halves(), exif=exif))
+    pixels = decoded(saved(tmp_path / "a.jpg", two_halves(), exif=exif))
     height, width, _ = pixels.shape
     at = {"left": (height // 2, 20), "right": (height // 2, width - 20)}
     at |= {"top": (20, width // 2), "bottom": (height - 20, width // 2)}
@@ -70,7 +74,7 @@ def test_a_photo_is_turned_upright(tmp_path, orientation, red):
 @settings(max_examples=15, deadline=None)
 def test_no_side_is_longer_than_a_page_needs(tmp_path_factory, width, height):
     path = saved(tmp_path_factory.mktemp("photo") / "a.png", Image.new("L", (width, height), 128), "PNG")
-    shape = decode_here(path).shape
+    shape = decoded(path).shape
     assert max(shape[:2]) == min(max(width, height), LARGEST_SIDE)
     assert min(shape[:2]) == pytest.approx(
         max(1, min(width, height) * min(1, LARGEST_SIDE / max(width, height))), abs=1
@@ -82,7 +86,7 @@ def test_every_kind_of_pixel_becomes_red_green_and_blue(tmp_path, mode):
     image = Image.new("RGBA", (20, 10), (0, 0, 0, 0)) if mode in ("LA", "RGBA") else Image.new("L", (20, 10), 255)
     kind = "JPEG" if mode == "CMYK" else "PNG"
     image = Image.fromarray(np.full((10, 20), 65535, np.uint16)) if mode == "I;16" else image.convert(mode)
-    pixels = decode_here(saved(tmp_path / "a", image, kind))
+    pixels = decoded(saved(tmp_path / "a", image, kind))
     assert pixels.shape == (10, 20, 3)
     assert pixels.min() > 250, "what can be seen through is white"
 
@@ -100,7 +104,7 @@ def test_every_kind_of_pixel_becomes_red_green_and_blue(tmp_path, mode):
 def test_what_is_no_photo_is_refused(path, content, told):
     path.write_bytes(content)
     with pytest.raises(ReadError, match=told):
-        decode_here(path)
+        decoded(path)
 
 
 def test_what_is_missing_a_link_or_too_large_is_not_opened(tmp_path, monkeypatch):
@@ -133,6 +137,6 @@ def test_a_damaged_photo_is_shown_or_refused(tmp_path_factory, changes, kind):
     path = tmp_path_factory.mktemp("photo") / "a"
     path.write_bytes(content)
     try:
-        assert decode_here(path).ndim == 3
+        assert decoded(path).ndim == 3
     except ReadError as error:
         assert str(error).startswith("a: ")  # noqa: PT017

@@ -64,11 +64,6 @@ def read_photo(path: Path, *, within: Path) -> Pixels:
     )
 
 
-def photo_here(path: Path) -> tuple[None, list[Pixels]]:
-    """Decode a photo in this process, for another one."""
-    return None, [decode_here(path)]
-
-
 def _taken(header: object, arrays: list[Pixels]) -> Pixels:
     (pixels,) = arrays
     if pixels.dtype != np.uint8 or pixels.ndim != 3 or pixels.shape[2] != 3 or max(pixels.shape) > LARGEST_SIDE:
@@ -76,8 +71,8 @@ def _taken(header: object, arrays: list[Pixels]) -> Pixels:
     return pixels
 
 
-def decode_here(path: Path) -> Pixels:
-    """Decode a photo in this process; `read_photo` says the rest."""
+def photo_here(path: Path) -> tuple[None, list[Pixels]]:
+    """Decode a photo in this process, for another one; `read_photo` says the rest."""
     from PIL import Image, ImageOps, UnidentifiedImageError
 
     Image.MAX_IMAGE_PIXELS = None  # the number of pixels is checked here, with a sentence of its own
@@ -98,7 +93,7 @@ def decode_here(path: Path) -> Pixels:
                 upright = Image.alpha_composite(white, upright.convert("RGBA"))
             upright = upright.convert("RGB")
             upright.thumbnail((LARGEST_SIDE, LARGEST_SIDE), Image.Resampling.LANCZOS)
-            return np.asarray(upright)
+            return None, [np.asarray(upright)]
     except (OSError, SyntaxError, ValueError, EOFError) as error:
         found = "neither JPEG nor PNG" if isinstance(error, UnidentifiedImageError) else f"damaged ({error})"
         raise ReadError(f"{path.name}: it is {found}. Save the photo again as JPEG or PNG.") from error

@@ -128,4 +128,4 @@ def test_a_file_says_its_record_and_direction(name, record, direction):
     [("NS [cm/s^2]", "y"), ("acc x (g)", "x"), ("HNZ", "z"), ("Acceleration", ""), ("U-D", "z"), ("exx", "")],
 )
 def test_a_column_says_its_direction(head, direction):
-    assert direction_of(head)[0] == direction
+    assert direction_of(head).direction == direction

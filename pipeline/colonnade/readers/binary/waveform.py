@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import struct
 import warnings
-from collections.abc import Sequence
 from datetime import UTC
 from importlib import import_module
 from pathlib import Path
@@ -14,7 +13,6 @@ from typing import Any
 import numpy as np
 from pydantic import Field
 
-from colonnade.arrays import Array
 from colonnade.errors import ReadError, nearest
 from colonnade.readers.clock import even_times
 from colonnade.readers.files import refusing
@@ -54,10 +52,6 @@ STARTS = {
 """What files of a kind, as ObsPy names it, start with; other kinds have no sign that separates them from noise."""
 UNITS = {"KNET": "m/s^2", "KINEMETRICS_EVT": "m/s^2"}
 """Units of kinds whose header gives the factor to them."""
-LARGEST_GAP = 10.0
-"""Gaps, as a multiple of what was recorded, that are still filled with missing values."""
-LARGEST_OFFSET = 0.1
-"""Of a piece from the steps of the first one, in steps, with which it is still joined to it."""
 ROUNDED = 1e-6
 """Relative difference to a rate of three decimals, in Hz, within which a step in single precision is meant to be it."""
 
@@ -83,7 +77,7 @@ def read(path: Path, options: WaveformOptions) -> Recording:
     """
     Read a seismic file with ObsPy.
 
-    Each channel keeps its own clock; pieces of one channel are joined, with missing values in the gaps.
+    Each channel keeps its own clock, and each piece of a channel its own times: gaps are not filled.
 
     Raises
     ------
@@ -108,12 +102,18 @@ def read(path: Path, options: WaveformOptions) -> Recording:
             # A step in single precision: 1/2048 s is exact in it, 1/100 s is not.
             step = 1 / rate
             notes.append(f"step {step:.10g} s: {rate:g} Hz, which the header's single precision allows")
-        time, values = _joined(name, traces, step, origin, told)
+        steps = [step if kind == "SAC" else float(trace.stats.delta) for trace in traces]
+        begins = [float(trace.stats.starttime - origin) for trace in traces]
+        pieces = [np.ma.filled(np.ma.asarray(trace.data, dtype=np.float64), np.nan) for trace in traces]
+        times = [even_times(piece.size, *clock) for piece, *clock in zip(pieces, steps, begins, strict=True)]
+        values = np.concatenate(pieces)
+        if len(pieces) > 1:
+            notes.append(f'"{name}": {len(pieces)} pieces, each with its own times; gaps are not filled')
         if kind in UNITS:
             values = values * calibration
         elif calibration != 1.0:
             notes.append(f'"{name}": the header gives a calibration of {calibration:g}, which is not applied')
-        channels.append(RecordedChannel(name, UNITS.get(kind), values, time))
+        channels.append(RecordedChannel(name, UNITS.get(kind), values, np.concatenate(times)))
     start = None
     if origin.year > 1970:  # what ObsPy puts in the place of a date that is not known
         start = origin.datetime.replace(tzinfo=UTC)
@@ -171,37 +171,6 @@ def _stream(path: Path, kind: str) -> tuple[Any, list[str]]:
         stream = getattr(import_module(module), function)(str(path.resolve()), **settings)
     told = dict.fromkeys(f"ObsPy: {' '.join(str(warning.message).split())}" for warning in caught)
     return stream, [text for text in told if "eprecat" not in text]
-
-
-def _joined(name: str, traces: Sequence[Any], step: float, origin: Any, told: list[str]) -> tuple[Array, Array]:
-    """Times, from the recording's first sample on, and values of the pieces of one channel."""
-    begins = [float(trace.stats.starttime - origin) for trace in traces]
-    pieces = [np.ma.filled(np.ma.asarray(trace.data, dtype=np.float64), np.nan) for trace in traces]
-    places = [round((begin - begins[0]) / step) for begin in begins]
-    late = max(abs(begin - begins[0] - place * step) for begin, place in zip(begins, places, strict=True))
-    steps = [float(trace.stats.delta) for trace in traces]
-    recorded = sum(piece.size for piece in pieces)
-    total = max(place + piece.size for place, piece in zip(places, pieces, strict=True))
-    why = ""
-    if any(abs(each / steps[0] - 1) > ROUNDED for each in steps):
-        why = f"have rates of {' and '.join(f'{1 / each:.6g} Hz' for each in dict.fromkeys(steps))}"
-    elif total > (1 + LARGEST_GAP) * recorded or late > LARGEST_OFFSET * step:
-        why = "are far apart" if late <= LARGEST_OFFSET * step else f"are {late:g} s off the steps of the first"
-    if why:
-        told.append(f'"{name}": its {len(pieces)} pieces {why}; each has its own times, and gaps are not filled')
-        times = [even_times(piece.size, *clock) for piece, *clock in zip(pieces, steps, begins, strict=True)]
-        return np.concatenate(times), np.concatenate(pieces)
-    values = np.full(total, np.nan)
-    for place, piece in reversed([*zip(places, pieces, strict=True)]):  # where they overlap the earlier ones stay
-        values[place : place + piece.size] = piece
-    missing = int(np.isnan(values).sum())
-    if missing:
-        told.append(
-            f'"{name}": {len(pieces)} pieces with gaps of {missing} samples ({missing * step:g} s) in all; missing'
-        )
-    if overlaps := recorded - total + missing:
-        told.append(f'"{name}": its pieces overlap by {overlaps} samples; the earlier ones are used')
-    return even_times(total, step, begins[0]), values
 
 
 FORMAT = Format(

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from colonnade import units
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import ReadError, UnitError, count, quoted
-from colonnade.readers.files import inside, irregular, sha256_of, unreachable
+from colonnade.readers.files import inside, sha256_of, unreachable
 from colonnade.readers.motion import read_motions
 from colonnade.readers.registry import companions
 from colonnade.readers.small_table import SmallTable, read_table
@@ -180,24 +180,23 @@ def named(file_name: str) -> Named:
         return Named(found["record"] + found["rest"], _DIRECTIONS[found["direction"].casefold()])
     stem, _, suffix = file_name.rpartition(".")
     stem = stem or suffix
-    direction, record = direction_of(stem)
-    if direction:
-        return Named(record or stem, direction)
+    found_in_stem = direction_of(stem)
+    if found_in_stem.direction:
+        return found_in_stem._replace(record=found_in_stem.record or stem)
     if suffix.casefold() == "at2" and (azimuth := _AZIMUTH.fullmatch(stem)):
         return Named(azimuth["record"].rstrip("-_. "), azimuth["direction"])
     return Named(stem, "")
 
 
-def direction_of(text: str) -> tuple[str, str]:
-    """Return the direction in a name, x, y, z or empty, and the rest of the name."""
+def direction_of(text: str) -> Named:
+    """Read the name of a file without its ending, or of a column."""
     bare = re.sub(r"\s*[\[(][^\])]*[\])]\s*$", "", text).strip()
     if found := _SEPARATED.fullmatch(bare):
         word = found["direction"] or found["alone"]
-        return _DIRECTIONS[word.casefold()], (found["record"] or "").rstrip("-_. ")
+        return Named((found["record"] or "").rstrip("-_. "), _DIRECTIONS[word.casefold()])
     if found := _CHANNEL.fullmatch(bare):
-        direction = {"E": "x", "N": "y", "Z": "z"}[found["direction"]]
-        return direction, found["record"] + found["rest"]
-    return "", bare
+        return Named(found["record"] + found["rest"], {"E": "x", "N": "y", "Z": "z"}[found["direction"]])
+    return Named(bare, "")
 
 
 LARGEST_FILE = 200_000_000
@@ -237,29 +236,23 @@ def in_folder(folder: Path, left_out: list[LeftOut]) -> list[Entry]:
 def components_of(entry: Entry, notes: list[str]) -> Iterator[Component]:
     """Read what an entry names; each column that may be an acceleration is a component."""
     path = entry.path
-    if kind := irregular(path):
-        raise ReadError(f"this is {kind}; a record was expected.")
-    try:
-        size = path.stat().st_size
-    except OSError as error:
-        raise ReadError(unreachable(path, error)) from None
-    if size > LARGEST_FILE:
+    if path.is_file() and (size := path.stat().st_size) > LARGEST_FILE:
         raise ReadError(f"{size:.3g} bytes are too many for a record; at most {LARGEST_FILE:.3g} were expected.")
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         column = int(entry.column) if entry.column.isdecimal() else entry.column or None
         motions = read_motions(path, unit=entry.unit, dt=entry.interval, column=column)
     notes += dict.fromkeys(str(each.message) for each in told)
-    files = tuple((each.name, _hashed(each)) for each in (path, *companions(path)))
+    files = tuple((each.name, sha256_of(each) or "") for each in (path, *companions(path)))
     record, direction = named(path.name)
-    if len(motions) > 1 and (entry.component or not all(direction_of(head)[0] for head in motions)):
+    if len(motions) > 1 and (entry.component or not all(direction_of(head).direction for head in motions)):
         heads = ", ".join(f'"{head}"' for head in motions)
         raise ReadError(
             f"{len(motions)} columns may be accelerations ({heads}), and which is which is not clear. Name one in each "
             'row of a list, in the columns "column", "component" and "record".'
         )
     for head, motion in motions.items():
-        own = direction_of(head)[0] if len(motions) > 1 else direction
+        own = direction_of(head).direction if len(motions) > 1 else direction
         whole = path.stem if len(motions) > 1 else record
         given = replace(entry, component=entry.component or own, record=entry.record or whole)
         yield Component(given, _usable(motion, entry.scale), files)
@@ -279,10 +272,3 @@ def _usable(motion: Motion, scale: float) -> Motion:
             f"its peak is {scaled.peak:.3g} m/s²; at most {LARGEST_ACCELERATION:g} m/s² was expected. Check its unit."
         )
     return scaled
-
-
-def _hashed(path: Path) -> str:
-    digest = sha256_of(path)
-    if digest is None:
-        raise ReadError(f"{path.name}: this file cannot be read.")
-    return digest
