@@ -62,7 +62,8 @@ def mend(rows: Rows, headings: Sequence[str]) -> Mended:
     ending = _ending(short, rows.size - int(left_out.sum()))
     faulty = [row for row in faulty if row not in ending]
     blanked = _marked(rows, faulty, BLANKED)
-    notes, warnings = [], []
+    notes: list[str] = []
+    warnings: list[str] = []
     if ending:
         notes.append(
             f"from line {ending[0].line} on there are {len(ending[0].cells)} cells: "
