@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
-from math import cos, cosh, sinh, sqrt
-from typing import NamedTuple
+from itertools import pairwise, starmap
 
 import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array
-from colonnade.dynamics.kernel import kernel
 
 CENTRAL_SHARE = 0.6
 """Smallest share of an arc about its middle that enters its fit; the filter blurs its ends, the impacts."""
@@ -22,8 +19,8 @@ BLURRED = 0.08
 MOST_LAGS = 200
 """Samples over which correlations are summed at most."""
 
-FEWEST_SAMPLES = 4
-"""With which an arc is fitted, ..."""
+FEWEST_WHOLE, FEWEST_CENTRAL, FEWEST_SAMPLES = 3, 5, 4
+"""Samples of an arc that counts; in its central part, without which all are taken; with which it is fitted, ..."""
 
 SINGULAR = 1e12
 """... if the condition of its normal equations is below this."""
@@ -151,14 +148,9 @@ def find_arcs(time: Array, angle: Array, p: float, *, lowest: float) -> Arcs:
 
 def arcs_between(impacts: Array, time: Array, angle: Array, p: float, *, critical: float | None = None) -> Arcs:
     """
-    Fit the arc between each pair of neighbouring impacts; arguments and result as for `find_arcs`.
+    Fit the arc between each pair of neighbouring impacts, shape (m + 1,), s; other arguments as for `find_arcs`.
 
-    Parameters
-    ----------
-    impacts : ndarray, shape (n + 1,)
-        s.
-    critical : float, optional
-        α, rad: p is then that of the equation linearised about the middle of the arc, p sqrt(cos(α − 2|θ|/3)).
+    With α (`critical`, rad) p is that of the equation linearised about the middle of an arc, p sqrt(cos(α − 2|θ|/3)).
 
     Notes
     -----
@@ -167,154 +159,84 @@ def arcs_between(impacts: Array, time: Array, angle: Array, p: float, *, critica
     the transducers nor the critical angle enters. Standard errors allow for noise that is correlated over some samples:
     the variance of a mean grows by the sum of the correlations, which is that of the residuals of all arcs.
     """
-    bounds = np.searchsorted(time, impacts)
-    # A copy: the kernel is compiled for arrays that may be written, and once more for that of a file.
-    sums = _summed(time.copy(), angle, impacts, bounds, p, np.nan if critical is None else critical)
-    middle, own_p, count, normal = sums.middle, sums.p, sums.last - sums.first, sums.normal
+    if impacts.size < 2:
+        return Arcs(*[np.empty(0)] * 9)
+    start, end = impacts[:-1], impacts[1:]
+    middle, half = (start + end) / 2, (end - start) / 2
+    highest = np.full((start.size, 2), np.nan)
+    bounds = np.searchsorted(time, impacts).tolist()
+    for arc, piece in enumerate(starmap(slice, pairwise(bounds))):
+        if piece.stop - piece.start >= FEWEST_WHOLE and np.isfinite(angle[piece]).all():
+            summit = piece.start + int(np.abs(angle[piece]).argmax())
+            highest[arc] = time[summit], angle[summit]
+    rate = np.full(start.size, p)
+    if critical is not None:
+        rate *= np.sqrt(np.cos(np.maximum(critical - 2 / 3 * np.abs(highest[:, 1]), 0.0)))
+    # From here on samples are those that are fitted, each with the number of its arc.
+    number, inside = np.repeat(np.arange(start.size), np.diff(bounds)), slice(bounds[0], bounds[-1])
+    time, angle = time[inside], angle[inside]
+    central = np.abs(time - middle[number]) <= np.maximum(CENTRAL_SHARE * half, half - BLURRED / rate)[number]
+    few = np.bincount(number, central, start.size) < FEWEST_CENTRAL
+    fitted = (central | few[number]) & np.isfinite(highest[number, 0])
+    number, angle = number[fitted], angle[fitted]
+    count = np.bincount(number, minlength=start.size)
     # With a clock in the wrong unit the hyperbolic functions exceed all numbers.
-    fitted = (count >= FEWEST_SAMPLES) & np.isfinite(normal).all(axis=(1, 2))
-    fitted[fitted] = np.linalg.cond(normal[fitted]) < SINGULAR
+    with np.errstate(over="ignore", invalid="ignore"):
+        columns = _shape(rate[number] * (time[fitted] - middle[number]))
+        pieces = list(starmap(slice, pairwise([0, *np.cumsum(count).tolist()])))
+        normal = np.array([columns[piece].T @ columns[piece] for piece in pieces])
+    is_known = (count >= FEWEST_SAMPLES) & np.isfinite(normal).all(axis=(1, 2))
+    is_known[is_known] = np.linalg.cond(normal[is_known]) < SINGULAR
     inverse = np.full(normal.shape, np.nan)
-    inverse[fitted] = np.linalg.inv(normal[fitted])
-    coefficients = (inverse @ sums.right[:, :, None])[:, :, 0]
-    residuals = [
-        _residual(time[each], angle[each], *of_arc) if is_fitted else np.empty(0)
-        for is_fitted, each, *of_arc in zip(
-            fitted.tolist(), map(slice, sums.first, sums.last), middle, own_p, coefficients, strict=True
-        )
-    ]
-    variance = np.array([residual @ residual / max(residual.size - 3, 1) for residual in residuals])
-    variance[~fitted] = np.nan
-    common = float(np.median(variance[fitted])) if fitted.any() else np.nan
-    variance = _growth(residuals) * np.where(fitted & (count < FEWEST_OWN), common, variance)
-    rows = [
-        (*ends, *_read_off(*of_arc))
-        for ends, *of_arc in zip(
-            pairwise(impacts), middle, own_p, coefficients, inverse, variance, sums.highest, strict=True
-        )
-    ]
-    return Arcs(*(np.array(column, dtype=np.float64) for column in (zip(*rows, strict=True) if rows else [()] * 9)))
+    inverse[is_known] = np.linalg.inv(normal[is_known])
+    right = np.array([columns[piece].T @ angle[piece] for piece in pieces])
+    coefficients = (inverse @ right[:, :, None])[:, :, 0]
+    residual = np.where(is_known[number], angle - (columns * coefficients[number]).sum(axis=1), 0.0)
+    variance = np.bincount(number, residual**2, start.size) / np.maximum(count - 3, 1)
+    common = float(np.median(variance[is_known])) if is_known.any() else np.nan
+    variance = _growth(residual, number, int(count.max())) * np.where(count < FEWEST_OWN, common, variance)
+    peak, summit, rise, fall = _read_off(coefficients)
+    peak_error, rise_error, fall_error = (
+        np.sqrt(variance * np.einsum("mi,mij,mj->m", _shape(x), inverse, _shape(x))) for x in (summit, rise, fall)
+    )
+    has_top = np.isfinite(summit)
+    return Arcs(
+        start,
+        end,
+        np.where(has_top, middle + summit / rate, highest[:, 0]),
+        np.where(has_top, peak, highest[:, 1]),
+        peak_error,
+        middle + rise / rate,
+        middle + fall / rate,
+        rise_error / np.abs(rate * _slope(coefficients, rise)),
+        fall_error / np.abs(rate * _slope(coefficients, fall)),
+    )
 
 
-class _Sums(NamedTuple):
-    """
-    What is summed over each of n arcs, for the coefficients of 1, cosh x − 1 and sinh x about its middle.
-
-    Attributes
-    ----------
-    middle, p : ndarray, shape (n,)
-        s; 1/s. NaN if samples are too few or missing.
-    first, last : ndarray of int, shape (n,)
-        Samples away from the impacts, the last excluded; none if samples are too few or missing.
-    normal, right : ndarray, shape (n, 3, 3), (n, 3)
-        Normal equations.
-    highest : ndarray, shape (n, 2)
-        Time (s) and angle (rad) of the highest sample.
-    """
-
-    middle: Array
-    p: Array
-    first: NDArray[np.int64]
-    last: NDArray[np.int64]
-    normal: Array
-    right: Array
-    highest: Array
+def _read_off(coefficients: Array) -> tuple[Array, Array, Array, Array]:
+    """Peak of each fitted arc, rad, and where it is and the arc passes zero; NaN where it has none."""
+    constant, even, odd = coefficients.T
+    with np.errstate(invalid="ignore", divide="ignore"):
+        summit, radius = -np.arctanh(odd / even), np.copysign(np.sqrt(even**2 - odd**2), even)
+        reach = np.arccosh((even - constant) / radius)
+    return constant - even + radius, summit, summit - reach, summit + reach
 
 
-@kernel
-def _summed(time: Array, angle: Array, impacts: Array, bounds: NDArray[np.int64], p: float, critical: float) -> _Sums:
-    arcs = max(impacts.size - 1, 0)
-    middle, own_p, highest = np.full(arcs, np.nan), np.full(arcs, p), np.full((arcs, 2), np.nan)
-    firsts, lasts = np.zeros(arcs, dtype=np.int64), np.zeros(arcs, dtype=np.int64)
-    normal, right = np.zeros((arcs, 3, 3)), np.zeros((arcs, 3))
-    for arc in range(arcs):
-        first, last = bounds[arc], bounds[arc + 1]
-        summit, is_whole = first, last - first >= 3
-        for n in range(first, last):
-            is_whole = is_whole and np.isfinite(angle[n])
-            if abs(angle[n]) > abs(angle[summit]):
-                summit = n
-        if not is_whole:
-            continue
-        highest[arc, 0], highest[arc, 1] = time[summit], angle[summit]
-        centre, half = (impacts[arc] + impacts[arc + 1]) / 2, (impacts[arc + 1] - impacts[arc]) / 2
-        rate = p
-        if not np.isnan(critical):
-            rate *= sqrt(cos(max(critical - 2 / 3 * abs(angle[summit]), 0.0)))
-        reach = max(CENTRAL_SHARE * half, half - BLURRED / rate)
-        low, high = first, last
-        while low < high and abs(time[low] - centre) > reach:
-            low += 1
-        while high > low and abs(time[high - 1] - centre) > reach:
-            high -= 1
-        if high - low < 5:
-            low, high = first, last
-        for n in range(low, high):
-            x = rate * (time[n] - centre)
-            even, odd = cosh(x) - 1.0, sinh(x)
-            row = (1.0, even, odd)
-            for i in range(3):
-                right[arc, i] += row[i] * angle[n]
-                for k in range(3):
-                    normal[arc, i, k] += row[i] * row[k]
-        middle[arc], own_p[arc], firsts[arc], lasts[arc] = centre, rate, low, high
-    return _Sums(middle, own_p, firsts, lasts, normal, right, highest)
+def _slope(coefficients: Array, x: Array) -> Array:
+    return np.asarray(coefficients[:, 1] * np.sinh(x) + coefficients[:, 2] * np.cosh(x))
 
 
-@kernel
-def _residual(time: Array, angle: Array, middle: float, p: float, coefficients: Array) -> Array:
-    """Measured less fitted, rad."""
-    residual = np.empty(time.size)
-    for n in range(time.size):
-        x = p * (time[n] - middle)
-        residual[n] = angle[n] - coefficients[0] - coefficients[1] * (cosh(x) - 1.0) - coefficients[2] * sinh(x)
-    return residual
+def _shape(x: Array) -> Array:
+    """Return the columns 1, cosh x − 1 and sinh x of the fit."""
+    return np.column_stack((np.ones(x.size), np.cosh(x) - 1.0, np.sinh(x)))
 
 
-def _growth(residuals: list[Array]) -> float:
-    """Sum of the correlations of all arcs' residuals up to where they vanish: 1 for white noise."""
-    longest = max((residual.size for residual in residuals), default=0) // 3
-    power = sum(float(residual @ residual) for residual in residuals)
-    growth = 1.0
-    for lag in range(1, min(longest, MOST_LAGS)):
-        together = sum(float(residual[lag:] @ residual[:-lag]) for residual in residuals if residual.size > lag)
+def _growth(residual: Array, number: NDArray[np.int64], longest: int) -> float:
+    """Sum of the correlations of residuals within arcs up to where they vanish: 1 for white noise."""
+    power, growth = float(residual @ residual), 1.0
+    for lag in range(1, min(longest // 3, MOST_LAGS)):
+        together = float((residual[lag:] * residual[:-lag])[number[lag:] == number[:-lag]].sum())
         if not together > 0.05 * power:
             break
         growth += 2 * together / power
     return growth
-
-
-@kernel
-def _read_off(
-    middle: float, p: float, coefficients: Array, inverse: Array, variance: float, highest: Array
-) -> tuple[float, float, float, float, float, float, float]:
-    """Peak and both zeros of a fitted arc, with their errors, in the order of `Arcs`."""
-    constant, even, odd = coefficients[0], coefficients[1], coefficients[2]
-    nan = np.nan
-    if not abs(even) > abs(odd):
-        return highest[0], highest[1], nan, nan, nan, nan, nan
-    summit = -np.arctanh(odd / even)
-    radius = np.sign(even) * sqrt(even**2 - odd**2)
-    peak, time = constant - even + radius, middle + summit / p
-    error = sqrt(variance * _spread(inverse, summit))
-    height = (even - constant) / radius
-    if not height > 1:
-        return time, peak, error, nan, nan, nan, nan
-    reach = np.arccosh(height)
-    rise, fall = summit - reach, summit + reach
-    of_rise = p * (even * sinh(rise) + odd * cosh(rise))
-    of_fall = p * (even * sinh(fall) + odd * cosh(fall))
-    rise_error = sqrt(variance * _spread(inverse, rise)) / abs(of_rise)
-    fall_error = sqrt(variance * _spread(inverse, fall)) / abs(of_fall)
-    return time, peak, error, middle + rise / p, middle + fall / p, rise_error, fall_error
-
-
-@kernel
-def _spread(inverse: Array, x: float) -> float:
-    """Variance of the fitted curve at x, in the variance of a sample."""
-    row = (1.0, cosh(x) - 1.0, sinh(x))
-    total = 0.0
-    for i in range(3):
-        for k in range(3):
-            total += row[i] * inverse[i, k] * row[k]
-    return total
