@@ -106,6 +106,7 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
     expect_angle(rocking)
     result = _identified(rocking, inputs)
     of_history, _ = result.estimates
+    residual = np.nan if result.history is None else float(np.sqrt(np.nanmean(result.history.residual**2)))
     return xr.Dataset(
         {
             **{name: ((), _number(value)) for name, value in _scalars(result).items()},
@@ -121,7 +122,7 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
                 )
                 for end, field in ENDS.items()
             },
-            "restitution_history_residual": ("model", np.array([_number(of_history.residual)])),
+            "restitution_history_residual": ("model", np.array([residual])),
         },
         coords={
             "model": ("model", np.array(["nonlinear"], dtype=object)),

@@ -116,7 +116,7 @@ def test_time_that_does_not_increase_is_an_error():
 
 
 def test_an_interval_beyond_all_numbers_ends_above_one():
-    empty = Estimate("peaks", None, None, None, None, 0.95, "", "")
+    empty = Estimate("peaks", 0.95, "")
     solved = SimpleNamespace(mean=[0.0], quantile=lambda share: 4000.0 * (share - 0.5))
     found = identify._estimate(empty, solved, logarithm=-0.05)
     assert (found.low, found.value) == (0.0, pytest.approx(np.exp(-0.05)))

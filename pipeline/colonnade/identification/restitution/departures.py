@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
-from numpy.typing import NDArray
 
-from colonnade.arrays import Array, Mask
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.identification.restitution.arcs import Arcs, noise_level
+from colonnade.identification.restitution.arcs import noise_level
 from colonnade.identification.restitution.estimator import Estimated
 from colonnade.identification.restitution.peaks import lift
+from colonnade.identification.restitution.record import Seen
 from colonnade.identification.restitution.result import Departure
 from colonnade.identification.restitution.scatter import SCATTERS
 from colonnade.units.text import format_percent
@@ -62,40 +60,6 @@ LEAST_FALL = 2.0
 """Times by which the residual of a history falls with the base turned round, from which it is recorded so."""
 
 THREE_DIMENSIONAL, UNEQUAL_SIDES, MOVING = "three-dimensional rocking", "unequal sides", "moving table"
-
-
-@dataclass(frozen=True)
-class Seen:
-    """
-    Arcs that count, in order, as they are about their zero.
-
-    Attributes
-    ----------
-    number : ndarray of int, shape (n,)
-        Of each among all arcs.
-    start, end, peak, critical, speed : ndarray, shape (n,)
-        Times of the impacts on either side (s), |θ| of the peak and α (rad), angular velocity at the impacts (rad/s).
-    side : ndarray, shape (n,)
-        −1 or 1, the sign of the peak.
-    """
-
-    number: NDArray[np.int64]
-    start: Array
-    end: Array
-    peak: Array
-    critical: Array
-    speed: Array
-    side: Array
-
-    @classmethod
-    def of(cls, arcs: Arcs, usable: Mask, zero: float, block: Block) -> Seen:
-        """Take the usable arcs, about a zero (rad)."""
-        angle = arcs.peak_angle - zero
-        kept = usable & (np.abs(angle) < block.critical_angle_at(angle))
-        angle = angle[kept]
-        peak, critical = np.abs(angle), block.critical_angle_at(angle)
-        speed = block.p_at(angle) * np.sqrt(2 * lift(peak, critical))
-        return cls(np.flatnonzero(kept), arcs.start[kept], arcs.end[kept], peak, critical, speed, np.sign(angle))
 
 
 def find_rotation(time: Array, out_of_plane: Array, seen: Seen) -> Departure | None:
@@ -262,8 +226,10 @@ def _passing(seen: Seen, index: int, low: float) -> float:
     return float(2 * low / (seen.speed[index] * (1 + np.sqrt(max(left, 0.0)))))
 
 
-def unequal_sides(tilt: float, error: float, critical: float) -> Departure | None:
-    """Name critical angles of the two sides that differ: half the difference of their logarithms, and its error."""
+def unequal_sides(found: Estimated) -> Departure | None:
+    """Name critical angles of the two sides that differ."""
+    tilt, error = found.tilt
+    critical = float(np.prod([side.critical_angle for side in found.path.block.sides]) ** 0.5)
     if abs(tilt) < max(SURE * error, LEAST_TILT):
         return None
     return Departure(

@@ -13,29 +13,17 @@ from numpy.typing import ArrayLike
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.uncertainty import Uncertainty
-from colonnade.identification.restitution.departures import (
-    Seen,
-    find_bouncing,
-    find_first_loss,
-    find_rotation,
-    find_sliding,
-    find_turned,
-    found_by_impact,
-    scatters,
-    unequal_sides,
-)
+from colonnade.identification.restitution import departures, peaks
 from colonnade.identification.restitution.estimator import ASSUMPTIONS, METHOD, Estimated, estimate, first_path
 from colonnade.identification.restitution.path import Priors, UnfollowedError
-from colonnade.identification.restitution.peaks import ASSUMPTIONS as OF_PEAKS
-from colonnade.identification.restitution.peaks import FEWEST_PEAKS, fit_peaks, single_impacts
-from colonnade.identification.restitution.peaks import METHOD as BY_PEAKS
-from colonnade.identification.restitution.record import Record, moving_base, objection, thinned
+from colonnade.identification.restitution.record import Record, Seen, moving_base, objection, thinned
 from colonnade.identification.restitution.result import (
+    NO_IMPACTS,
+    NO_PEAKS,
     Constancy,
     Departure,
     Estimate,
     FittedHistory,
-    Impacts,
     Joint,
     Peaks,
     Restitution,
@@ -44,7 +32,8 @@ from colonnade.identification.restitution.scatter import Solved
 from colonnade.units.text import format_percent
 from colonnade.validation import instance, number, samples
 
-FEWEST_SAMPLES, FEWEST_ARCS = 8, 2
+FEWEST_SAMPLES, FEWEST_ARCS, FEWEST_SEEN = 8, 2, 3
+"""Samples of a record; arcs for a value; arcs in which departures are looked for."""
 
 LARGEST_ERROR = 0.01
 """Standard error of e above which no value is given."""
@@ -133,46 +122,39 @@ def identify_restitution(
     0.9
     """
     _check_settings(block, level, lowest_amplitude, noise, lowpass, uncertainty)
-    times, angles = _check_records(
-        time, angle, out_of_plane=out_of_plane, slide=slide, uplift=uplift, base_acceleration=base_acceleration
+    times, measured = _checked(
+        time, angle=angle, out_of_plane=out_of_plane, slide=slide, uplift=uplift, base_acceleration=base_acceleration
     )
+    angles = measured["angle"]
     if np.isfinite(angles).sum() < FEWEST_SAMPLES:
-        return _refused(f"The record holds fewer than {FEWEST_SAMPLES} values.", level, Peaks())
+        return _refused(f"The record holds fewer than {FEWEST_SAMPLES} values.", level, NO_PEAKS)
     record = Record.seen(thinned(times, angles, block), block, lowest_amplitude, noise)
     if reason := _no_free_rocking(record):
         return _refused(reason + _in_other_units(times, angles, block), level, record.peaks)
     known = Priors.of(uncertainty.critical_angle, uncertainty.p, uncertainty.angle_gain)
     found, why = _followed(record, known, lowpass)
-    driven, departures = False, list[Departure]()
-    if base_acceleration is not None:
-        try:
-            base = moving_base(times, base_acceleration, block)
-        except ValueError as error:
-            return _refused(str(error), level, record.peaks)
-        if base is not None:
-            recorded, turned = (
-                _followed(replace(record, samples=thinned(times, angles, block, sign * base)), known, lowpass)
-                for sign in (1.0, -1.0)
-            )
-            departures += find_turned(turned[0], recorded[0], found)
-            # An accelerometer may have more noise than a table at rest may move.
-            better = found is None or (recorded[0] is not None and recorded[0].path.power < found.path.power)
-            driven = better or bool(departures) or (found is not None and scatters(found))
-            found, why = recorded if driven else (found, why)
-    is_turned = bool(departures)
-    if not driven:
-        measured = {"out_of_plane": out_of_plane, "slide": slide, "uplift": uplift}
-        record, found, why, departures = _departed(record, found, why, known, lowpass, times, angles, measured)
-    if found is not None and not is_turned and (by_impact := found_by_impact(found, driven=driven)) is not None:
-        departures.append(by_impact)
-    result = _result(record, found, why, uncertainty, level, driven=driven)
-    refusing = [departure.sentence for departure in departures if departure.refuses]
-    if refusing:
-        result = replace(
-            result, value=None, low=None, high=None, standard_error=None, reason=refusing[0], recommended="", joint=None
+    try:
+        base = moving_base(times, measured["base_acceleration"], block) if "base_acceleration" in measured else None
+    except ValueError as error:
+        return _refused(str(error), level, record.peaks)
+    driven, turned = False, list[Departure]()
+    if base is not None:
+        (recorded, why_not), (otherwise, _) = (
+            _followed(replace(record, samples=thinned(times, angles, block, sign * base)), known, lowpass)
+            for sign in (1.0, -1.0)
         )
-    moves = None if base_acceleration is None else driven
-    return replace(result, departures=tuple(departures), table_moves=moves)
+        turned = departures.find_turned(otherwise, recorded, found)
+        # An accelerometer may have more noise than a table at rest may move.
+        better = found is None or (recorded is not None and recorded.path.power < found.path.power)
+        driven = better or bool(turned) or (found is not None and departures.scatters(found))
+        found, why = (recorded, why_not) if driven else (found, why)
+    seen = turned
+    if not driven:
+        record, found, why, seen = _departed(record, found, why, known, lowpass, times, measured)
+    if found is not None and not turned and (by_impact := departures.found_by_impact(found, driven=driven)) is not None:
+        seen.append(by_impact)
+    moves = driven if "base_acceleration" in measured else None
+    return replace(_result(record, found, why, uncertainty, level, seen, driven=driven), table_moves=moves)
 
 
 def _followed(
@@ -180,8 +162,7 @@ def _followed(
 ) -> tuple[Estimated | None, str]:
     """Follow a record from the first arc that enters; what is found, or why nothing is."""
     try:
-        peaks, times = record.run(left_out)
-        path = first_path(record.samples, record.block, peaks, times)
+        path = first_path(record.samples, record.block, *record.run(left_out))
         return estimate(path, known, lowpass, record.least, whole=left_out == 0), ""
     except UnfollowedError as error:
         return None, f"No simulated history follows the record: {error}."
@@ -194,40 +175,30 @@ def _departed(
     known: Priors,
     lowpass: float | None,
     times: Array,
-    angles: Array,
-    measured: dict[str, ArrayLike | None],
+    measured: dict[str, Array],
 ) -> tuple[Record, Estimated | None, str, list[Departure]]:
     """Find departures from plane rocking on a table at rest, and leave out the arcs that they spoil."""
-    across, slid, lifted = (
-        None if given is None else np.asarray(given, dtype=np.float64) for given in measured.values()
-    )
-    block = record.block
+    block, fit = record.block, None
     if found is None:
-        fit = fit_peaks(record.peaks, block, record.noise, (0.0, 0.0))
-        zero = 0.0 if fit is None else fit.offset
-    else:
-        zero = found.zero
+        fit = peaks.fit_peaks(record.peaks, block, record.noise, (0.0, 0.0))
+    zero = found.zero if found is not None else 0.0 if fit is None else fit.offset
     record = record.about(zero)
-    seen = Seen.of(record.arcs, record.usable, 0.0, block)
-    if seen.number.size < 3:
+    seen = Seen.of(record)
+    if seen.number.size < FEWEST_SEEN:
         return record, found, why, []
-    spatial = None
-    if across is not None:
-        spatial = find_rotation(times, across, seen)
+    spatial, sliding, angle = None, None, measured["angle"] - zero
+    if "out_of_plane" in measured:
+        spatial = departures.find_rotation(times, measured["out_of_plane"], seen)
     elif found is not None:
-        spatial = find_first_loss(found, seen)
-    departures = [
-        spatial,
-        None if slid is None else find_sliding(times, angles - zero, slid, block, seen),
-        find_bouncing(times, angles - zero, lifted, block, seen),
-    ]
+        spatial = departures.find_first_loss(found, seen)
+    if "slide" in measured:
+        sliding = departures.find_sliding(times, angle, measured["slide"], block, seen)
+    bouncing = departures.find_bouncing(times, angle, measured.get("uplift"), block, seen)
     if spatial is not None:
         record = replace(record, usable=record.usable & (np.arange(record.usable.size) >= spatial.left_out))
         found, why = _followed(record, known, lowpass, left_out=spatial.left_out)
-    if found is not None:
-        critical = float(np.prod(block.critical_angle_at(np.array([-1.0, 1.0]))) ** 0.5)
-        departures.append(unequal_sides(*found.tilt, critical))
-    return record, found, why, [departure for departure in departures if departure is not None]
+    sides = None if found is None else departures.unequal_sides(found)
+    return record, found, why, [each for each in (spatial, sliding, bouncing, sides) if each is not None]
 
 
 def _no_free_rocking(record: Record) -> str:
@@ -250,66 +221,67 @@ def _in_other_units(times: Array, angles: Array, block: Block) -> str:
 
 
 def _result(
-    record: Record, found: Estimated | None, why: str, uncertainty: Uncertainty, level: float, *, driven: bool
+    record: Record,
+    found: Estimated | None,
+    why: str,
+    uncertainty: Uncertainty,
+    level: float,
+    departing: list[Departure],
+    *,
+    driven: bool,
 ) -> Restitution:
     """Give the value of the history, or if none follows the record that of the peaks."""
-    of_history = Estimate("history", None, None, None, None, level, ASSUMPTIONS, why)
-    of_peaks = Estimate("peaks", None, None, None, None, level, OF_PEAKS, "The table moves: it is taken to be at rest.")
-    peaks, fit = record.peaks, None
+    of_history = chosen = Estimate("history", level, ASSUMPTIONS, why)
+    seen, fit, zero, reason = record.peaks, None, 0.0, "The table moves: it is taken to be at rest."
     if not driven:
         widths = uncertainty.critical_angle, uncertainty.angle_gain
-        fit = fit_peaks(record.peaks, record.block, record.noise, widths)
-        reason = f"At least {FEWEST_PEAKS} peaks between two impacts, above the noise, are needed."
-        of_peaks = replace(of_peaks, reason=reason)
+        fit = peaks.fit_peaks(record.peaks, record.block, record.noise, widths)
+        reason = f"At least {peaks.FEWEST_PEAKS} peaks between two impacts, above the noise, are needed."
+    of_peaks = Estimate("peaks", level, peaks.ASSUMPTIONS, reason)
     if fit is not None:
-        peaks, of_peaks = fit.peaks, replace(_estimate(of_peaks, fit.solved, fit.logarithm), reason="")
-    zero = record.zero + (fit.offset if fit is not None else 0.0)
+        seen, zero, of_peaks = fit.peaks, fit.offset, _estimate(of_peaks, fit.solved, fit.logarithm)
     history, joint, constancy = None, None, Constancy()
     doubts: list[tuple[str, str]] = []
     if found is not None:
-        path = found.path
-        zero = found.zero if driven or fit is None else zero
-        counted = path.counted
-        inside = slice(int(np.argmax(counted)), counted.size - int(np.argmax(counted[::-1])))
+        path, counted = found.path, np.flatnonzero(found.path.counted)
+        zero = found.zero - record.zero if fit is None else zero
+        inside = slice(counted[0], counted[-1] + 1)
         cutoff = None if path.passed is None else path.passed.cutoff_hz
         history = FittedHistory(path.samples.time[inside], path.seen[inside], path.residual[inside], cutoff)
-        of_history = replace(_estimate(of_history, found.answer, found.logarithm_of_path), residual=path.power**0.5)
+        of_history = chosen = _estimate(of_history, found.answer, found.logarithm_of_path)
         joint, constancy = found.joint, _constancy(found)
         doubts = [*_shifts(joint, uncertainty), ("two values of e", _disagreement(of_history, of_peaks))]
-    chosen = of_peaks if found is None else of_history
-    if found is None and fit is not None:
+    else:
+        chosen = of_peaks
         joint = _joint_of_peaks(chosen, uncertainty)
-    reason = _objection(chosen, why)
-    given = replace(chosen, value=None, low=None, high=None, standard_error=None) if reason else chosen
-    impacts = single_impacts(record.arcs, zero - record.zero, record.usable, record.block) if not driven else Impacts()
+    refused = next((each.sentence for each in departing if each.refuses), "") or _objection(chosen, why)
+    value, low, high, error = chosen.value, chosen.low, chosen.high, chosen.standard_error
     return Restitution(
-        given.value,
-        given.low,
-        given.high,
-        given.standard_error,
+        *((None, None, None, None) if refused else (value, low, high, error)),
         level,
-        METHOD if chosen is of_history else BY_PEAKS,
-        reason,
-        zero_offset=zero,
-        peaks=peaks,
-        impacts=impacts,
+        peaks.METHOD if found is None else METHOD,
+        refused,
+        zero_offset=record.zero + zero,
+        peaks=seen,
+        impacts=NO_IMPACTS if driven else peaks.single_impacts(record.arcs, zero, record.usable, record.block),
         estimates=(of_history, of_peaks),
         history=history,
-        recommended="" if reason else chosen.name,
+        departures=tuple(departing),
+        recommended="" if refused else chosen.name,
         constancy=constancy,
-        joint=None if reason else joint,
+        joint=None if refused else joint,
         doubts=tuple(doubt for doubt in doubts if doubt[1]),
     )
 
 
 def _estimate(empty: Estimate, solved: Solved, logarithm: float) -> Estimate:
     """Fill in e from the distribution of ln e as a step from where the model was made linear."""
-    value = exp(logarithm + float(solved.mean[0]))
     # A record that says next to nothing has an interval beyond all numbers.
     low, high = (exp(min(logarithm + solved.quantile(0.5 + sign * empty.level / 2), WIDEST)) for sign in (-1, 1))
     # Of the normal distribution whose interval is as wide.
     error = (high - low) / 2 / float(scipy.special.ndtri((1 + empty.level) / 2))
-    return replace(empty, value=value, low=low, high=high, standard_error=error)
+    value = exp(logarithm + float(solved.mean[0]))
+    return replace(empty, reason="", value=value, low=low, high=high, standard_error=error)
 
 
 def _objection(chosen: Estimate, why: str) -> str:
@@ -383,14 +355,11 @@ def _disagreement(history: Estimate, peaks: Estimate) -> str:
     )
 
 
-def _refused(reason: str, level: float, peaks: Peaks) -> Restitution:
+def _refused(reason: str, level: float, seen: Peaks) -> Restitution:
     """Return a result without a value."""
     why = f"No value to start from: {reason}"
-    estimates = (
-        Estimate("history", None, None, None, None, level, ASSUMPTIONS, why),
-        Estimate("peaks", None, None, None, None, level, OF_PEAKS, why),
-    )
-    return Restitution(None, None, None, None, level, METHOD, reason, peaks=peaks, estimates=estimates)
+    estimates = Estimate("history", level, ASSUMPTIONS, why), Estimate("peaks", level, peaks.ASSUMPTIONS, why)
+    return Restitution(None, None, None, None, level, METHOD, reason, peaks=seen, estimates=estimates)
 
 
 def _check_settings(block: Any, level: Any, lowest_amplitude: Any, noise: Any, lowpass: Any, uncertainty: Any) -> None:
@@ -404,15 +373,18 @@ def _check_settings(block: Any, level: Any, lowest_amplitude: Any, noise: Any, l
     instance("uncertainty", uncertainty, Uncertainty)
 
 
-def _check_records(time: Any, angle: Any, **others: Any) -> tuple[Array, Array]:
-    """Return time and angle, checked with what was measured with them (None if it was not)."""
-    times, angles = samples("time", time, fewest=0), samples("angle", angle, fewest=0, finite=False)
-    for name, values in {"angle": angles, **others}.items():
-        if values is not None and samples(name, values, fewest=0, finite=False).shape != times.shape:
+def _checked(time: Any, **measured: Any) -> tuple[Array, dict[str, Array]]:
+    """Return times, and by name what was measured at them, checked."""
+    times = samples("time", time, fewest=0)
+    found = {
+        name: samples(name, values, fewest=0, finite=False) for name, values in measured.items() if values is not None
+    }
+    for name, values in found.items():
+        if values.shape != times.shape:
             raise ValueError(
-                f"time has shape {times.shape} and {name} {np.shape(values)}; arrays of one length were expected"
+                f"time has shape {times.shape} and {name} {values.shape}; arrays of one length were expected"
             )
     if times.size and not (np.diff(times) > 0).all():
         raise ValueError(f"time does not increase after sample {int(np.argmin(np.diff(times) > 0))}")
     # Copies: kernels are compiled for arrays that may be written, and once more for those of a file.
-    return times.copy(), angles.copy()
+    return times.copy(), {name: values.copy() for name, values in found.items()}

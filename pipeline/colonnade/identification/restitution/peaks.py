@@ -158,8 +158,6 @@ def fit_peaks(seen: Peaks, block: Block, noise: float, known: tuple[float, float
 
 def single_impacts(arcs: Arcs, offset: float, usable: Mask, block: Block) -> Impacts:
     """Find e of each impact between two arcs, with their peaks about a zero (rad)."""
-    if arcs.start.size < 2:
-        return Impacts()
     times, errors = arcs.impacts
     peak = arcs.peak_angle - offset
     critical = block.critical_angle_at(peak)

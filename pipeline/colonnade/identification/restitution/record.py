@@ -6,12 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike
+from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.identification.response.base_motion import table_moves
 from colonnade.identification.restitution.arcs import Arcs, arcs_between, find_impacts, noise_level
+from colonnade.identification.restitution.peaks import lift
 from colonnade.identification.restitution.result import Peaks
 from colonnade.units.text import format_percent
 
@@ -44,6 +45,9 @@ SURE = 3.0
 
 BEYOND_ERRORS = 20.0
 """Times by which the expected durations' variance exceeds that of their errors where measured ones must follow."""
+
+LEAST_CHANGE = 1e-6
+"""Of the squares of the expected durations' logarithms about their mean, with which measured ones are held to follow."""
 
 LARGEST_ERROR = 0.02
 """Of the durations by the middle part that are looked at, as a share of them."""
@@ -119,7 +123,7 @@ def _means(values: Array, group: int) -> Array:
     return np.asarray(values[: group * (values.size // group)].reshape(-1, group).mean(axis=1))
 
 
-def moving_base(time: Array, acceleration: ArrayLike, block: Block) -> Array | None:
+def moving_base(time: Array, values: Array, block: Block) -> Array | None:
     """
     Return the acceleration, over gravity, of a table that moves; None if it is at rest.
 
@@ -127,7 +131,7 @@ def moving_base(time: Array, acceleration: ArrayLike, block: Block) -> Array | N
     ----------
     time : ndarray, shape (n,)
         s.
-    acceleration : array_like, shape (n,)
+    values : ndarray, shape (n,)
         m/s².
     block : Block
 
@@ -136,7 +140,6 @@ def moving_base(time: Array, acceleration: ArrayLike, block: Block) -> Array | N
     ValueError
         If the table moves and samples are missing or not evenly spaced.
     """
-    values = np.asarray(acceleration, dtype=np.float64)
     interval = float(time[-1] - time[0]) / (time.size - 1)
     if not table_moves(values, interval, block):
         return None
@@ -220,6 +223,39 @@ class Record:
         return Peaks(arcs.peak_time, arcs.peak_angle, arcs.peak_standard_error, unfitted, self.usable)
 
 
+@dataclass(frozen=True)
+class Seen:
+    """
+    Arcs that count, in order, as they are about their zero.
+
+    Attributes
+    ----------
+    number : ndarray of int, shape (n,)
+        Of each among all arcs.
+    start, end, peak, critical, speed : ndarray, shape (n,)
+        Times of the impacts on either side (s), |θ| of the peak and α (rad), angular velocity at the impacts (rad/s).
+    side : ndarray, shape (n,)
+        −1 or 1, the sign of the peak.
+    """
+
+    number: NDArray[np.int64]
+    start: Array
+    end: Array
+    peak: Array
+    critical: Array
+    speed: Array
+    side: Array
+
+    @classmethod
+    def of(cls, record: Record) -> Seen:
+        """Take the usable arcs of a record."""
+        kept, arcs = record.usable, record.arcs
+        angle = arcs.peak_angle[kept]
+        peak, critical = np.abs(angle), record.block.critical_angle_at(angle)
+        speed = record.block.p_at(angle) * np.sqrt(2 * lift(peak, critical))
+        return cls(np.flatnonzero(kept), arcs.start[kept], arcs.end[kept], peak, critical, speed, np.sign(angle))
+
+
 def _usable(arcs: Arcs, lowest: float, block: Block) -> Mask:
     size = np.abs(arcs.peak_angle)
     high = size < block.critical_angle_at(arcs.peak_angle)
@@ -253,10 +289,9 @@ def objection(record: Record) -> str:
     A rocking block's period falls with its amplitude in its own way, and its arcs are near to parabolas; the duration,
     its change with the peak and what the middle of an arc says of its ends are held against the equation of motion.
     """
-    arcs, usable, block = record.arcs, record.usable, record.block
-    angle = arcs.peak_angle[usable]
-    peak, critical, p = np.abs(angle), block.critical_angle_at(angle), block.p_at(angle)
-    expected, duration = 2 * half_duration(peak, critical) / p, (arcs.end - arcs.start)[usable]
+    arcs, usable, seen = record.arcs, record.usable, Seen.of(record)
+    peak, critical, p = seen.peak, seen.critical, record.block.p_at(seen.side)
+    expected, duration = 2 * half_duration(peak, critical) / p, seen.end - seen.start
     excess = float(np.median(duration / expected)) - 1
     if abs(excess) > PERIOD_TOLERANCE:
         return (
@@ -266,18 +301,22 @@ def objection(record: Record) -> str:
     higher = np.minimum(1.001 * peak, 0.5 * (peak + critical))
     slope = np.log(2 * half_duration(higher, critical) / p / expected) / (higher - peak)
     blur = float(np.mean((slope * arcs.peak_standard_error[usable]) ** 2))
-    power, error = _power(np.log(expected), np.log(duration), blur)
+    power, error = 1.0, np.inf
+    # What is not seen beyond all error shows nothing.
+    if expected.size > 2 and np.var(np.log(expected)) >= max(BEYOND_ERRORS * blur, LEAST_CHANGE / expected.size):
+        line = scipy.stats.linregress(np.log(expected), np.log(duration))
+        power, error = float(line.slope), float(line.stderr)
     if power + SURE * error < LEAST_FOLLOWING:
         return (
             f"Times between impacts change with the {power:.2g} ± {error:.2g} power of those of a rocking block; 1 was "
             "expected. A period that does not follow the amplitude is that of an oscillator on springs, not of rocking."
         )
     unsure = np.hypot(arcs.rise_standard_error, arcs.fall_standard_error)[usable] / duration
-    seen = unsure < LARGEST_ERROR
-    if not seen.any():
+    sure = unsure < LARGEST_ERROR
+    if not sure.any():
         return ""
-    within = (arcs.fall - arcs.rise)[usable][seen] / duration[seen]
-    median, scatter = float(np.median(within)) - 1, 1.25 * float(np.median(unsure[seen])) / np.sqrt(seen.sum())
+    within = (arcs.fall - arcs.rise)[usable][sure] / duration[sure]
+    median, scatter = float(np.median(within)) - 1, 1.25 * float(np.median(unsure[sure])) / np.sqrt(sure.sum())
     if abs(median) > SHAPE_TOLERANCE + SURE * scatter:
         return (
             "Between impacts the angle is not the arc of a rocking block: judged by its middle part, an arc would "
@@ -285,14 +324,3 @@ def objection(record: Record) -> str:
             f"less than {format_percent(SHAPE_TOLERANCE)} was expected. This is not free rocking."
         )
     return ""
-
-
-def _power(expected: Array, duration: Array, blur: float) -> tuple[float, float]:
-    """Slope of one logarithm against the other, and its standard error; infinite if all is error."""
-    centred = expected - expected.mean()
-    power = float(centred @ centred)
-    if expected.size < 3 or power < max(BEYOND_ERRORS * blur * expected.size, 1e-6):
-        return 1.0, np.inf
-    slope = float(centred @ duration) / power
-    residual = duration - duration.mean() - slope * centred
-    return slope, float(np.sqrt(residual @ residual / (expected.size - 2) / power))

@@ -2,20 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from colonnade.arrays import Array, Mask
 from colonnade.units.text import Digested, format_percent, interval
-
-
-def _none() -> Array:
-    return np.empty(0)
-
-
-def _nothing() -> Mask:
-    return np.empty(0, dtype=bool)
 
 
 @dataclass(frozen=True)
@@ -27,37 +19,34 @@ class Estimate:
     ----------
     name : {"history", "peaks"}
         From the samples of the whole history; from the peaks alone, the cross-check.
-    value, low, high, standard_error : float or None
-        e, its interval of confidence at `level` and its standard error; None if refused.
     level : float
     assumptions : str
         What has to be true for the value to be that of the specimen.
     reason : str
         Why refused; empty otherwise.
-    residual : float or None
-        Of a whole history: RMS of measured − fitted, rad.
+    value, low, high, standard_error : float or None
+        e, its interval of confidence at `level` and its standard error; None if refused.
     """
 
     name: str
-    value: float | None
-    low: float | None
-    high: float | None
-    standard_error: float | None
     level: float
     assumptions: str
     reason: str = ""
-    residual: float | None = None
+    value: float | None = None
+    low: float | None = None
+    high: float | None = None
+    standard_error: float | None = None
 
 
 @dataclass(frozen=True)
 class Peaks:
     """The peaks that an identification saw: s, rad, rad, rad, and whether each entered the fit; all shape (n,)."""
 
-    time: Array = field(default_factory=_none)
-    angle: Array = field(default_factory=_none)
-    standard_error: Array = field(default_factory=_none)
-    fitted_angle: Array = field(default_factory=_none)
-    used: Mask = field(default_factory=_nothing)
+    time: Array
+    angle: Array
+    standard_error: Array
+    fitted_angle: Array
+    used: Mask
 
 
 @dataclass(frozen=True)
@@ -77,12 +66,17 @@ class Impacts:
         Whether both arcs have a peak that counts.
     """
 
-    time: Array = field(default_factory=_none)
-    time_standard_error: Array = field(default_factory=_none)
-    velocity: Array = field(default_factory=_none)
-    restitution: Array = field(default_factory=_none)
-    restitution_standard_error: Array = field(default_factory=_none)
-    used: Mask = field(default_factory=_nothing)
+    time: Array
+    time_standard_error: Array
+    velocity: Array
+    restitution: Array
+    restitution_standard_error: Array
+    used: Mask
+
+
+_NONE = np.empty(0)
+NO_PEAKS = Peaks(_NONE, _NONE, _NONE, _NONE, np.empty(0, dtype=bool))
+NO_IMPACTS = Impacts(_NONE, _NONE, _NONE, _NONE, _NONE, np.empty(0, dtype=bool))
 
 
 @dataclass(frozen=True)
@@ -123,7 +117,6 @@ class FittedHistory:
     angle: Array
     residual: Array
     cutoff_hz: float | None = None
-    model: str = "nonlinear"
 
 
 @dataclass(frozen=True)
@@ -205,13 +198,13 @@ class Restitution(Digested):
     method: str
     reason: str = ""
     zero_offset: float = 0.0
-    peaks: Peaks = field(default_factory=Peaks)
-    impacts: Impacts = field(default_factory=Impacts)
+    peaks: Peaks = NO_PEAKS
+    impacts: Impacts = NO_IMPACTS
     estimates: tuple[Estimate, ...] = ()
     history: FittedHistory | None = None
     departures: tuple[Departure, ...] = ()
     recommended: str = ""
-    constancy: Constancy = field(default_factory=Constancy)
+    constancy: Constancy = Constancy()
     table_moves: bool | None = None
     joint: Joint | None = None
     doubts: tuple[tuple[str, str], ...] = ()
