@@ -22,8 +22,8 @@ AT_REST = np.empty(0)
 E = 0.95 + 0.005 * np.sin(np.arange(29))
 
 
-def followed(base=AT_REST, peak=0.1, time=0.9, critical=ALPHA, p=RATE, e=E, derived=False):
-    return follow(TIMES, base, peak, time, 1, e, critical, p, derived)
+def followed(base=AT_REST, peak=0.1, time=0.9, critical=ALPHA, p=RATE, e=E):
+    return follow(TIMES, base, peak, time, 1, e, critical, p)
 
 
 def test_each_arc_lasts_as_the_elliptic_integral_says():
@@ -72,7 +72,7 @@ CHANGES = {
 
 @pytest.mark.parametrize("base", [AT_REST, SHAKEN], ids=["table at rest", "moving table"])
 def test_derivatives_are_those_of_differences(base):
-    found = followed(base, derived=True)
+    found = followed(base)
     count = E.size + 1
     by_unknown = np.zeros((count, 4, BY_IMPACT + E.size))
     by_unknown[:, :2] = found.starts

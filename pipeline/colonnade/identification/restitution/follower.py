@@ -28,6 +28,10 @@ PEAK, TIME, CRITICAL, TILT, P, BY_IMPACT = range(6)
 """Unknowns: first peak (rad), its time (s), ln α, half the difference of ln α, ln p; ln e of each impact from there."""
 
 
+Stages = tuple[float, float, float, float]
+"""Of a step, one value each."""
+
+
 class Followed(NamedTuple):
     """
     A rocking history of m arcs at n samples.
@@ -59,51 +63,66 @@ class Followed(NamedTuple):
 
 
 @kernel
-def _step(
-    height: float, speed: float, length: float, critical: float, square: float, first: float, last: float
-) -> tuple[float, float, float, float, float, float, float, float, float, float]:
-    """
-    Height and speed after a step, accelerations of its four stages and their derivatives by the height.
-
-    `first` and `last` are the push at its start and end.
-    """
-    middle = 0.5 * (first + last)
-    lean = critical - height
-    s, c = sin(lean), cos(lean)
-    one, by_one = -square * (s + first * c), square * (c - first * s)
-    lean = critical - (height + 0.5 * length * speed)
-    s, c = sin(lean), cos(lean)
-    two, by_two = -square * (s + middle * c), square * (c - middle * s)
-    lean = critical - (height + 0.5 * length * speed + 0.25 * length * length * one)
-    s, c = sin(lean), cos(lean)
-    three, by_three = -square * (s + middle * c), square * (c - middle * s)
-    lean = critical - (height + length * speed + 0.5 * length * length * two)
-    s, c = sin(lean), cos(lean)
-    four, by_four = -square * (s + last * c), square * (c - last * s)
-    higher = height + length * speed + length * length / 6.0 * (one + two + three)
-    faster = speed + length / 6.0 * (one + 2.0 * two + 2.0 * three + four)
-    return higher, faster, one, two, three, four, by_one, by_two, by_three, by_four
+def _pull(height: float, critical: float, square: float, push: float) -> tuple[float, float]:
+    """Acceleration at a height, and its derivative by the height."""
+    s, c = sin(critical - height), cos(critical - height)
+    return -square * (s + push * c), square * (c - push * s)
 
 
 @kernel
-def _vary(
-    x: float, u: float, length: float,
-    by_one: float, by_two: float, by_three: float, by_four: float,
-    one: float, two: float, three: float, four: float,
-) -> tuple[float, float]:  # fmt: skip
-    """One step of a derivative x and its rate u: x'' = k x + source, with both at the four stages."""
-    first = by_one * x + one
-    second = by_two * (x + 0.5 * length * u) + two
-    third = by_three * (x + 0.5 * length * u + 0.25 * length * length * first) + three
-    fourth = by_four * (x + length * u + 0.5 * length * length * second) + four
-    x += length * u + length * length / 6.0 * (first + second + third)
-    return x, u + length / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
+def _step(
+    height: float, speed: float, length: float, critical: float, square: float, first: float, last: float
+) -> tuple[float, float, Stages, Stages]:
+    """Height and speed after a step with this push at its ends; accelerations of its stages, and their derivatives."""
+    middle = 0.5 * (first + last)
+    one, by_one = _pull(height, critical, square, first)
+    two, by_two = _pull(height + 0.5 * length * speed, critical, square, middle)
+    three, by_three = _pull(height + 0.5 * length * speed + 0.25 * length * length * one, critical, square, middle)
+    four, by_four = _pull(height + length * speed + 0.5 * length * length * two, critical, square, last)
+    higher = height + length * speed + length * length / 6.0 * (one + two + three)
+    faster = speed + length / 6.0 * (one + 2.0 * two + 2.0 * three + four)
+    return higher, faster, (one, two, three, four), (by_one, by_two, by_three, by_four)
+
+
+@kernel
+def _vary(varied: Array, length: float, critical: float, accelerations: Stages, by: Stages) -> None:
+    """One step of each derivative x and its rate u: x'' = k x + source, with both at the four stages."""
+    for k in range(LOCAL):
+        x, u = varied[k, 0], varied[k, 1]
+        of_lean, of_rate = -critical if k == 2 else 0.0, 2.0 if k == 3 else 0.0
+        first = by[0] * x + of_lean * by[0] + of_rate * accelerations[0]
+        second = by[1] * (x + 0.5 * length * u) + of_lean * by[1] + of_rate * accelerations[1]
+        third = by[2] * (x + 0.5 * length * u + 0.25 * length * length * first)
+        third += of_lean * by[2] + of_rate * accelerations[2]
+        fourth = by[3] * (x + length * u + 0.5 * length * length * second)
+        fourth += of_lean * by[3] + of_rate * accelerations[3]
+        varied[k, 0] = x + length * u + length * length / 6.0 * (first + second + third)
+        varied[k, 1] = u + length / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
+
+
+@kernel
+def _land(
+    starts: Array, number: int, varied: Array, side: float, speed: float, e: float, pull: float, after: float
+) -> None:
+    """Fill in derivatives at the start of an arc from those at the end of the one before, on a side (−1 or 1)."""
+    for k in range(BY_IMPACT + number):
+        x = varied[0, 0] * starts[number - 1, 0, k] + varied[1, 0] * starts[number - 1, 1, k]
+        u = varied[0, 1] * starts[number - 1, 0, k] + varied[1, 1] * starts[number - 1, 1, k]
+        if k == CRITICAL:
+            x, u = x + varied[2, 0], u + varied[2, 1]
+        elif k == TILT:
+            x, u = x + side * varied[2, 0], u + side * varied[2, 1]
+        elif k == P:
+            x, u = x + varied[3, 0], u + varied[3, 1]
+        later, own = -x / speed, e * speed if k == BY_IMPACT + number - 1 else 0.0
+        starts[number, 0, k] = e * speed * later
+        starts[number, 1, k] = -e * (u + pull * later) - own - after * later
 
 
 @kernel
 def follow(
     time: Array, base: Array, peak: float, peak_time: float, first_side: int, restitution: Array,
-    critical: Array, p: Array, derived: bool,
+    critical: Array, p: Array,
 ) -> Followed:  # fmt: skip
     """
     Follow rocking from a peak, forward to the end of the last arc and backward to the first sample.
@@ -122,12 +141,10 @@ def follow(
         e of each impact.
     critical, p : ndarray, shape (2,)
         α (rad) and p (rad/s) of the sides θ < 0 and θ > 0.
-    derived : bool
-        Whether derivatives are wanted.
     """
     n, m = time.size, restitution.size + 1
-    angle, arc, local = np.full(n, np.nan), np.full(n, -1), np.zeros((n if derived else 0, LOCAL))
-    starts = np.zeros((m, 2, BY_IMPACT + m - 1))
+    angle, arc, local = np.full(n, np.nan), np.full(n, -1), np.zeros((n, LOCAL))
+    starts, varied = np.zeros((m, 2, BY_IMPACT + m - 1)), np.zeros((LOCAL, 2))
     peaks, times = np.full(m, np.nan), np.full(m, np.nan)
     ends, speeds = np.full(m, np.nan), np.full(m, np.nan)
     at_rest = base.size == 0
@@ -135,8 +152,8 @@ def follow(
     for way in (-1, 1):
         side, now, height, speed, number = first_side, peak_time, peak, 0.0, 0
         sign, alpha, square, longest = 2.0 * side - 1.0, critical[side], p[side] * p[side], STEP / p[side]
-        # Derivatives by height and speed at the start, by ln α and by ln p.
-        h, hu, v, vu, a, au, q, qu = 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0
+        varied[:, :] = 0.0
+        varied[0, 0] = varied[1, 1] = 1.0
         i = begin if way > 0 else begin - 1
         push = 0.0
         if not at_rest:
@@ -156,27 +173,16 @@ def follow(
             next_push = 0.0
             if not at_rest:
                 next_push = push + (sign * base[i] - push) * (length / (time[i] - now) if time[i] != now else 1.0)
-            stepped = _step(height, speed, length, alpha, square, push, next_push)
-            higher, faster, one, two, three, four, by_one, by_two, by_three, by_four = stepped
+            higher, faster, accelerations, by = _step(height, speed, length, alpha, square, push, next_push)
             landed = way > 0 and higher <= 0.0 and faster < 0.0
             if landed:
                 whole, whole_push = length, next_push
                 for _ in range(5):
                     length -= higher / faster
                     next_push = push + (whole_push - push) * (length / whole)
-                    stepped = _step(height, speed, length, alpha, square, push, next_push)
-                    higher, faster, one, two, three, four, by_one, by_two, by_three, by_four = stepped
+                    higher, faster, accelerations, by = _step(height, speed, length, alpha, square, push, next_push)
                 ends_at_sample = False
-            if derived:
-                h, hu = _vary(h, hu, length, by_one, by_two, by_three, by_four, 0.0, 0.0, 0.0, 0.0)
-                v, vu = _vary(v, vu, length, by_one, by_two, by_three, by_four, 0.0, 0.0, 0.0, 0.0)
-                a, au = _vary(
-                    a, au, length, by_one, by_two, by_three, by_four,
-                    -alpha * by_one, -alpha * by_two, -alpha * by_three, -alpha * by_four,
-                )  # fmt: skip
-                q, qu = _vary(
-                    q, qu, length, by_one, by_two, by_three, by_four, 2.0 * one, 2.0 * two, 2.0 * three, 2.0 * four
-                )
+            _vary(varied, length, alpha, accelerations, by)
             if way > 0 and number > 0 and speed > 0.0 and faster <= 0.0 and not higher <= peaks[number]:
                 turned = length * speed / (speed - faster)
                 peaks[number], times[number] = height + 0.5 * speed * turned, now + turned
@@ -186,8 +192,8 @@ def follow(
                 if way < 0 and height <= 0.0:
                     break
                 angle[i], arc[i] = sign * height, number
-                if derived:
-                    local[i, 0], local[i, 1], local[i, 2], local[i, 3] = sign * h, sign * v, sign * a, sign * q
+                for k in range(LOCAL):
+                    local[i, k] = sign * varied[k, 0]
                 i += way
             if not abs(height) < 1.5:
                 break
@@ -201,24 +207,9 @@ def follow(
                 sign, alpha, square = -sign, critical[side], p[side] * p[side]
                 push, longest = -push, STEP / p[side]
                 after = -square * (sin(alpha) + push * cos(alpha))
-                if derived:
-                    tilted = -sign  # of the arc that ended
-                    for k in range(BY_IMPACT + number):
-                        by_height, by_speed = starts[number - 1, 0, k], starts[number - 1, 1, k]
-                        x, u = h * by_height + v * by_speed, hu * by_height + vu * by_speed
-                        if k == CRITICAL:
-                            x, u = x + a, u + au
-                        elif k == TILT:
-                            x, u = x + tilted * a, u + tilted * au
-                        elif k == P:
-                            x, u = x + q, u + qu
-                        later = -x / speed
-                        rebound = -e * (u + pull * later)
-                        if k == BY_IMPACT + number - 1:
-                            rebound -= e * speed
-                        starts[number, 0, k] = e * speed * later
-                        starts[number, 1, k] = rebound - after * later
-                    h, hu, v, vu, a, au, q, qu = 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0
+                _land(starts, number, varied, -sign, speed, e, pull, after)
+                varied[:, :] = 0.0
+                varied[0, 0] = varied[1, 1] = 1.0
                 height, speed = 0.0, -e * speed
     return Followed(angle, arc, local, starts, peaks, times, ends, speeds)
 

@@ -120,9 +120,7 @@ class Path:
     def followed(self) -> Followed:
         """The history, with its derivatives."""
         samples, values = self.samples, self.values
-        return follow(
-            samples.time, samples.base, values[PEAK], values[TIME], self.side, self.restitution, *self.sides, True
-        )
+        return follow(samples.time, samples.base, values[PEAK], values[TIME], self.side, self.restitution, *self.sides)
 
     @cached_property
     def seen(self) -> Array:
@@ -335,7 +333,7 @@ def from_release(path: Path) -> Path | None:
     values = np.concatenate((path.values[:FIXED], [0.0], path.deviations))
     values[PEAK], values[TIME] = height, 0.0
     probe = np.linspace(0.0, 8.0 / float(p[side]), 400)
-    fall = follow(probe, np.empty(0), height, 0.0, side, np.empty(0), critical, p, False).ends[0]
+    fall = follow(probe, np.empty(0), height, 0.0, side, np.empty(0), critical, p).ends[0]
     if not np.isfinite(fall) or path.samples.time[0] > impact - 0.1 * fall:
         return None
     values[TIME] = impact - fall

@@ -47,7 +47,7 @@ BEYOND_ERRORS = 20.0
 """Times by which the expected durations' variance exceeds that of their errors where measured ones must follow."""
 
 LEAST_CHANGE = 1e-6
-"""Of the squares of the expected durations' logarithms about their mean, with which measured ones are held to follow."""
+"""Sum of squares of the expected durations' logarithms about their mean, from which measured ones have to follow."""
 
 LARGEST_ERROR = 0.02
 """Of the durations by the middle part that are looked at, as a share of them."""

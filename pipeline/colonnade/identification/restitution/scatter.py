@@ -57,7 +57,9 @@ class LinearModel:
         scaled = across / np.outer(size, size)
         left = across[0, 0]
         if free.size:
-            left *= 1 - scaled[0, free] @ np.linalg.pinv(scaled[np.ix_(free, free)], hermitian=True) @ scaled[free, 0]
+            # Columns that are nearly one another leave directions of rounding alone.
+            inverse = np.linalg.pinv(scaled[np.ix_(free, free)], rcond=1e-12, hermitian=True)
+            left *= 1 - scaled[0, free] @ inverse @ scaled[free, 0]
         level = max(float(left) / max(samples - unknowns - impacts, 1.0), least)
         return cls(products, precision, known, level)
 
