@@ -121,3 +121,16 @@ def test_an_interval_beyond_all_numbers_ends_above_one():
     found = identify._estimate(empty, solved, logarithm=-0.05)
     assert (found.low, found.value) == (0.0, pytest.approx(np.exp(-0.05)))
     assert 1.0 < found.high < 10.0
+
+
+def test_uneven_steps_give_as_good_an_e_as_even_ones():
+    time, angle = _nonlinear_decay(0.93, interval=0.001, duration=10.0)
+    random = np.random.default_rng(5)
+    uneven = time[::2] + random.choice([0.0, 0.001], time[::2].size)
+    even, found = (
+        identify_restitution(each, np.interp(each, time, angle) + random.normal(0, 1e-4, each.size), PRISM)
+        for each in (time[::2], uneven)
+    )
+    assert found.low <= 0.93 <= found.high
+    assert found.standard_error < 1.3 * even.standard_error
+    assert found.departures == ()

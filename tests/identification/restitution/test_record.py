@@ -63,11 +63,6 @@ def test_the_noise_is_that_of_the_averaged_angle(samples):
     assert found == pytest.approx(NOISE / np.sqrt(length), rel=0.25)
 
 
-def test_uneven_samples_are_seen_as_well(samples):
-    uneven = replace(samples, interval=None)
-    assert seen(uneven).arcs.peak_angle.tolist() == seen(samples).arcs.peak_angle.tolist()
-
-
 def test_a_missing_sample_takes_its_arc_alone(samples):
     whole = seen(samples)
     middle = np.searchsorted(samples.time, (whole.arcs.start[3] + whole.arcs.end[3]) / 2)
@@ -141,6 +136,6 @@ def test_the_bend_of_rocking_within_a_group_is_taken_off(side):
 
 def test_an_uneven_clock_and_a_coarse_record_are_kept_as_they_are():
     time = np.sort(np.random.default_rng(1).uniform(0, 5, 500))
-    assert thinned(time, np.zeros(500), PRISM).interval is None
+    assert not thinned(time, np.zeros(500), PRISM).is_even
     assert thinned(time, np.zeros(500), PRISM).time is time
     assert thinned(np.arange(50) * 0.01, np.zeros(50), PRISM).group == 1

@@ -69,8 +69,7 @@ def find_rotation(time: Array, out_of_plane: Array, seen: Seen) -> Departure | N
         return None
     time, values = time[finite], out_of_plane[finite] - np.median(out_of_plane[finite])
     noise = noise_level(values)
-    pieces = [values[slice(*np.searchsorted(time, ends))] for ends in zip(seen.start, seen.end, strict=True)]
-    amplitude = np.array([np.abs(piece).max(initial=0.0) for piece in pieces])
+    amplitude = np.array([np.abs(values[piece]).max(initial=0.0) for piece in seen.pieces(time, 0.0, 1.0)])
     share = amplitude / seen.peak
     large = (share > LARGEST_SHARE) & (amplitude > NOISE_MARGIN * noise)
     if not large.any():
@@ -131,22 +130,16 @@ def find_sliding(time: Array, angle: Array, slide: Array, block: Block, seen: Se
     The slide of an arc is its mean, after what goes with θ on either side was taken off: a transducer that is not quite
     where it is said to be shows rocking as slide.
     """
-    pieces = [
-        np.flatnonzero((time >= start + 0.1 * (end - start)) & (time <= end - 0.1 * (end - start)) & np.isfinite(slide))
-        for start, end in zip(seen.start, seen.end, strict=True)
-    ]
+    pieces = [piece.start + np.flatnonzero(np.isfinite(slide[piece])) for piece in seen.pieces(time, 0.1, 0.9)]
     level, error = np.full(seen.number.size, np.nan), np.full(seen.number.size, np.nan)
     for side in (-1.0, 1.0):
         own = [index for index, piece in enumerate(pieces) if seen.side[index] == side and piece.size > 3]
-        if not own:
-            continue
-        theta = np.concatenate([angle[pieces[index]] - angle[pieces[index]].mean() for index in own])
-        moved = np.concatenate([slide[pieces[index]] - slide[pieces[index]].mean() for index in own])
-        slope = float(theta @ moved) / max(float(theta @ theta), 1e-300)
+        turned = {index: angle[pieces[index]] - angle[pieces[index]].mean() for index in own}
+        power = sum(float(theta @ theta) for theta in turned.values())
+        slope = sum(float(theta @ slide[pieces[index]]) for index, theta in turned.items()) / max(power, 1e-300)
         for index in own:
             left = slide[pieces[index]] - slope * angle[pieces[index]]
-            level[index] = left.mean()
-            residual = left - left.mean()
+            level[index], residual = left.mean(), left - left.mean()
             power = max(float(residual @ residual), 1e-300)
             correlation = min(max(float(residual[1:] @ residual[:-1]) / power, 0.0), 0.98)
             error[index] = np.sqrt(power / left.size**2 * (1 + correlation) / (1 - correlation))
@@ -179,10 +172,7 @@ def find_bouncing(time: Array, angle: Array, uplift: Array | None, block: Block,
 def _lifted(time: Array, uplift: Array, block: Block, seen: Seen) -> Departure | None:
     noise = noise_level(uplift[np.isfinite(uplift)])
     threshold = max(LEAST_LIFT * block.governing.half_width, NOISE_MARGIN * noise)
-    lifts = np.zeros(seen.number.size)
-    for index, (start, end) in enumerate(zip(seen.start, seen.end, strict=True)):
-        inside = uplift[slice(*np.searchsorted(time, (start, start + 0.4 * (end - start))))]
-        lifts[index] = np.nanmax(inside) if np.isfinite(inside).any() else 0.0
+    lifts = np.array([np.nanmax(uplift[piece], initial=0.0) for piece in seen.pieces(time, 0.0, 0.4)])
     count, size = int((lifts > threshold).sum()), float(lifts.max(initial=0.0))
     if not count:
         return None

@@ -18,7 +18,6 @@ from colonnade.identification.restitution.noise import (
     filter_of,
     find_cutoff,
     find_knee,
-    may_be_coloured,
 )
 from colonnade.identification.restitution.path import (
     DRIFT,
@@ -151,28 +150,32 @@ class Estimated:
         speed = self.landing
         return np.asarray((speed - speed.mean()) / max(float(np.ptp(speed)), 1e-300))
 
+    @cached_property
+    def posterior(self) -> tuple[Array, Array]:
+        """Mean and covariance of the unknowns before the impacts' departures, shapes (9,) and (9, 9)."""
+        solved, moved = self.answer, list(self.names)
+        mean, covariance = self.path.values[:FIXED].copy(), np.zeros((FIXED, FIXED))
+        mean[moved] += solved.mean[: len(moved)]
+        covariance[np.ix_(moved, moved)] = solved.covariance[: len(moved), : len(moved)]
+        return mean, covariance
+
     @property
     def joint(self) -> Joint:
-        """ln e, and ln of α and p over those of the block."""
-        mean, covariance = np.zeros(4), np.zeros((4, 4))
-        solved, wanted = self.answer, (MEAN, CRITICAL, P, GAIN)
-        moved = [name for name in wanted if name in self.names]
-        here, there = [wanted.index(name) for name in moved], [self.names.index(name) for name in moved]
-        mean[here] = self.path.values[moved] + solved.mean[there]
-        covariance[np.ix_(here, here)] = solved.covariance[np.ix_(there, there)]
-        return Joint(mean[:3], covariance[:3, :3], float(mean[3]))
+        """ln e, and ln of α and of p over those of the block."""
+        mean, covariance = self.posterior
+        names = [MEAN, CRITICAL, P]
+        return Joint(mean[names], covariance[np.ix_(names, names)], float(mean[GAIN]))
+
+    @property
+    def tilt(self) -> tuple[float, float]:
+        """Half the difference of ln α of the two sides beyond that of the block, and its error."""
+        mean, covariance = self.posterior
+        return float(mean[TILT]), float(np.sqrt(covariance[TILT, TILT]))
 
     def along(self, direction: Array) -> tuple[float, float]:
         """Change of ln e along a direction of the impacts, shape (m,), that all else leaves, and its error."""
         solved = self.model.with_direction(direction).solved()
         return float(solved.mean[-1]), float(np.sqrt(solved.covariance[-1, -1]))
-
-    @property
-    def tilt(self) -> tuple[float, float]:
-        """Half the difference of ln α of the two sides beyond that of the block, and its error."""
-        index = self.names.index(TILT)
-        value = self.path.values[TILT] + self.answer.mean[index]
-        return float(value), float(np.sqrt(self.answer.covariance[index, index]))
 
 
 def first_path(samples: AngleSamples, block: Block, peaks: Array, times: Array) -> Path:
@@ -256,22 +259,17 @@ def _least(path: Path) -> float:
 def _estimated(path: Path, priors: Priors, lowpass: float | None) -> Estimated:
     if path.count < FEWEST_ARCS:
         raise UnfollowedError(f"{FEWEST_ARCS} arcs are needed, and {path.count} could be followed")
-    samples, scatter = path.samples, LIKELY_SCATTER
-    spectrum = None
-    if samples.interval is None or samples.step is None:
-        path = replace(path, passed=filter_of(None, 1.0, 1))
-    else:
-        if lowpass is None:
-            path = laid(path, priors, scatter)
-            lowpass = find_cutoff(path.residual, samples.interval, samples.step)
-            rounded = replace(path, passed=filter_of(lowpass, samples.step, samples.group))
-            if lowpass is not None and rounded.power > MISFIT * path.power:
-                lowpass = None
-        if lowpass is not None and lowpass * samples.interval > FINEST_CUTOFF:
+    samples, scatter, trend = path.samples, LIKELY_SCATTER, None
+    if lowpass is None and samples.is_even:
+        path = laid(path, priors, scatter)
+        lowpass = find_cutoff(path.residual, samples.interval, samples.step)
+        rounded = replace(path, passed=filter_of(lowpass, samples.step, samples.group))
+        if lowpass is not None and rounded.power > MISFIT * path.power:
             lowpass = None
-        path = replace(path, passed=filter_of(lowpass, samples.step, samples.group))
-        spectrum = Spectrum(0.0, lowpass, samples.interval, samples.step)
-    trend = None
+    if lowpass is not None and not (samples.is_even and lowpass * samples.interval <= FINEST_CUTOFF):
+        lowpass = None
+    path = replace(path, passed=filter_of(lowpass, samples.step, samples.group))
+    spectrum = Spectrum(0.0, lowpass, samples.interval, samples.step) if samples.is_even else None
     for _ in range(MOST_LAID):
         path = laid(path, priors, scatter, trend)
         found = _linear(path, priors, spectrum)
@@ -279,7 +277,7 @@ def _estimated(path: Path, priors: Priors, lowpass: float | None) -> Estimated:
         if abs(now - scatter) < 0.1 * scatter:
             break
         scatter = now
-    if spectrum is None or not may_be_coloured(path.residual, spectrum.interval, spectrum.cutoff_hz, spectrum.step):
+    if spectrum is None or not spectrum.may_be_coloured(path.residual):
         return found
     order = [*found.names, *range(FIXED, path.values.size)]
     transformed, precision = _transformed(path, order, spectrum), priors.precision(path.count, now)[order]

@@ -57,8 +57,6 @@ class Filter:
     Attributes
     ----------
     cutoff_hz : float or None
-    step : float
-        Of the recording, s.
     time : ndarray, shape (n,)
         s, evenly from −reach to reach.
     of_speed, of_acceleration : ndarray, shape (n,)
@@ -66,7 +64,6 @@ class Filter:
     """
 
     cutoff_hz: float | None
-    step: float
     time: Array
     of_speed: Array
     of_acceleration: Array
@@ -89,7 +86,7 @@ def filter_of(cutoff_hz: float | None, step: float, group: int) -> Filter:
     after = np.maximum(time, 0.0)
     of_speed, of_acceleration = twice - after, thrice - after**2 / 2
     # Beyond the corner the mean of a parabola is above its middle: that is taken off where samples are averaged.
-    return Filter(cutoff_hz, step, time, of_speed, of_acceleration - np.where(time > 0, of_acceleration[-1], 0.0))
+    return Filter(cutoff_hz, time, of_speed, of_acceleration - np.where(time > 0, of_acceleration[-1], 0.0))
 
 
 def corner_response(
@@ -162,6 +159,22 @@ class Spectrum:
         rows[0] /= left[kept]
         return Transformed(np.ascontiguousarray(rows).view(np.float64), frequency, share)
 
+    def bands(self, residual: Array) -> _Bands | None:
+        """Average the power of a residual, NaN where not counted, before its low-pass; None of too few samples."""
+        counted = np.isfinite(residual)
+        if counted.sum() < FEWEST:
+            return None
+        frequency = scipy.fft.rfftfreq(residual.size, self.interval)[1:]
+        left = passed(frequency, self.cutoff_hz, self.step) ** 2
+        kept = left > PASSED
+        power = np.abs(np.fft.rfft(np.where(counted, residual, 0.0)))[1:][kept] ** 2 / left[kept]
+        return _Bands.of(frequency[kept], power, np.full(power.size, 2.0))
+
+    def may_be_coloured(self, residual: Array) -> bool:
+        """Whether a residual is likelier with any knee than white, before what a fit took up."""
+        bands = self.bands(residual)
+        return bands is not None and int(np.argmax(bands.likelihoods())) > 0
+
 
 class Transformed(NamedTuple):
     """Rows with white noise, (1 + k, 2 f); frequencies (Hz, (f,)); share of the samples that count as independent."""
@@ -173,7 +186,7 @@ class Transformed(NamedTuple):
 
 def find_cutoff(residual: Array, interval: float, step: float) -> float | None:
     """Cut-off (Hz) of the low-pass that a residual, NaN where not counted, went through; None if it shows none."""
-    bands = _Bands.of_residual(residual, interval, None, step)
+    bands = Spectrum(0.0, None, interval, step).bands(residual)
     if bands is None:
         return None
     cutoffs = np.geomspace(4 * bands.frequency[0], FINEST_CUTOFF / interval, CUTOFFS).tolist()
@@ -181,12 +194,6 @@ def find_cutoff(residual: Array, interval: float, step: float) -> float | None:
     found = bands.likelihoods(left).max(axis=-1)
     best = int(np.argmax(found))
     return float(cutoffs[best]) if found[best] > bands.likelihoods().max() + SURE else None
-
-
-def may_be_coloured(residual: Array, interval: float, cutoff_hz: float | None, step: float) -> bool:
-    """Whether a residual, NaN where not counted, is likelier with any knee than white, before what a fit took up."""
-    bands = _Bands.of_residual(residual, interval, cutoff_hz, step)
-    return bands is not None and int(np.argmax(bands.likelihoods())) > 0
 
 
 def find_knee(transformed: Transformed, precision: Array, level: float) -> float:
@@ -236,18 +243,6 @@ class _Bands:
         middle = np.add.reduceat(frequency, starts) / np.diff([*edges[:-1], power.size])
         knees = np.append(0.0, np.geomspace(frequency[0], 3 * frequency[-1], KNEES))
         return cls(middle, total / weight, weight, knees)
-
-    @classmethod
-    def of_residual(cls, residual: Array, interval: float, cutoff_hz: float | None, step: float) -> _Bands | None:
-        """Take the spectrum of a residual, NaN where not counted, before its low-pass; None of too few samples."""
-        counted = np.isfinite(residual)
-        if counted.sum() < FEWEST:
-            return None
-        frequency = scipy.fft.rfftfreq(residual.size, interval)[1:]
-        left = passed(frequency, cutoff_hz, step) ** 2
-        kept = left > PASSED
-        power = np.abs(np.fft.rfft(np.where(counted, residual, 0.0)))[1:][kept] ** 2 / left[kept]
-        return cls.of(frequency[kept], power, np.full(power.size, 2.0))
 
     def likelihoods(self, left: Array | float = 1.0) -> Array:
         """Logarithm of Whittle's likelihood of each of `knees`, at the likeliest level; a low-pass leaves (…, b)."""

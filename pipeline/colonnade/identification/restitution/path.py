@@ -24,6 +24,7 @@ from colonnade.identification.restitution.follower import (
     spread_columns,
 )
 from colonnade.identification.restitution.noise import Filter, corner_response
+from colonnade.identification.restitution.peaks import angle_of_energy, lift
 from colonnade.identification.restitution.record import AngleSamples
 
 ZERO, DRIFT, GAIN, MEAN = range(BY_IMPACT, BY_IMPACT + 4)
@@ -323,10 +324,8 @@ def from_release(path: Path) -> Path | None:
     """Return the path with the release before its first arc; None if no such release leads to it."""
     followed, (critical, p) = path.followed, path.sides
     side, peak = 1 - path.side, path.values[PEAK]
-    energy = 2 * p[path.side] ** 2 * np.sin(critical[path.side] - peak / 2) * np.sin(peak / 2)
-    energy /= (p[side] * exp(path.values[MEAN])) ** 2
-    below = 1 - np.cos(critical[side]) - energy
-    height = critical[side] - np.arccos(np.clip(1 - below, -1.0, 1.0)) if below > 0 else np.inf
+    rise = (p[path.side] / (p[side] * exp(path.values[MEAN]))) ** 2 * lift(peak, critical[path.side])
+    height = float(angle_of_energy(rise / (1 - np.cos(critical[side])), critical[side]))
     if not height < 0.99 * critical[side]:
         return None
     impact = 2 * followed.times[0] - followed.ends[0]

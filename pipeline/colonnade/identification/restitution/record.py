@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import starmap
 
 import numpy as np
 import scipy
@@ -66,8 +67,9 @@ class AngleSamples:
         Share of the record, from −1/2 to 1/2.
     base : ndarray, shape (n,) or (0,)
         Base acceleration over gravity; empty if the table is at rest.
-    interval : float or None
-        s; None if the steps are uneven.
+    interval : float
+        s, the mean of steps that are uneven.
+    is_even : bool
     group : int
         Recorded samples averaged in each.
     """
@@ -76,13 +78,14 @@ class AngleSamples:
     angle: Array
     along: Array
     base: Array
-    interval: float | None
+    interval: float
+    is_even: bool
     group: int = 1
 
     @property
-    def step(self) -> float | None:
+    def step(self) -> float:
         """Of the recording, s."""
-        return None if self.interval is None else self.interval / self.group
+        return self.interval / self.group
 
 
 def thinned(time: Array, angle: Array, block: Block, base: Array | None = None) -> AngleSamples:
@@ -105,9 +108,9 @@ def thinned(time: Array, angle: Array, block: Block, base: Array | None = None) 
     steps = np.diff(time)
     interval = float(time[-1] - time[0]) / max(steps.size, 1)
     base = np.empty(0) if base is None else base
-    uneven = bool(np.abs(steps - interval).max(initial=0.0) > UNEVEN * interval)
+    is_even = bool(np.abs(steps - interval).max(initial=0.0) <= UNEVEN * interval)
     fine = STEP / max(map(block.side_p, block.sides))
-    group = 1 if uneven else max(min(int(fine / interval), time.size // 8), 1)
+    group = max(min(int(fine / interval), time.size // 8), 1) if is_even else 1
     if group > 1:
         time, angle, base = (_means(values, group) for values in (time, angle, base))
         critical = block.critical_angle_at(angle)
@@ -116,7 +119,7 @@ def thinned(time: Array, angle: Array, block: Block, base: Array | None = None) 
         moves = (np.abs(angle) < 1.5 * critical) & (np.abs(angle) > RESTING * np.abs(bend))
         angle = angle - np.where(moves, bend, 0.0)
     along = (time - time[0]) / max(float(time[-1] - time[0]), 1e-300) - 0.5
-    return AngleSamples(time, angle, along, base, None if uneven else group * interval, group)
+    return AngleSamples(time, angle, along, base, group * interval, is_even, group)
 
 
 def _means(values: Array, group: int) -> Array:
@@ -187,8 +190,7 @@ class Record:
     @classmethod
     def seen(cls, samples: AngleSamples, block: Block, lowest_amplitude: float, noise: float | None) -> Record:
         """Find the arcs in the averaged samples, and fit them in the samples themselves."""
-        step = samples.interval or float(np.median(np.diff(samples.time)))
-        length = max(int(SMOOTHED / (block.p * step)), 1)
+        length = max(int(SMOOTHED / (block.p * samples.interval)), 1)
         smooth = _averaged(samples.angle, length)
         sampled = smooth[::length]
         scatter = noise_level(sampled[np.isfinite(sampled)]) if noise is None else noise
@@ -245,6 +247,12 @@ class Seen:
     critical: Array
     speed: Array
     side: Array
+
+    def pieces(self, time: Array, first: float, last: float) -> list[slice]:
+        """Samples of each arc between two shares of its duration."""
+        duration = self.end - self.start
+        ends = np.searchsorted(time, (self.start + first * duration, self.start + last * duration))
+        return list(starmap(slice, ends.T.tolist()))
 
     @classmethod
     def of(cls, record: Record) -> Seen:
