@@ -11,7 +11,7 @@ from colonnade.campaign.found import find_tests
 from colonnade.campaign.notices import notices
 from colonnade.campaign.references import dangling
 from colonnade.campaign.review import read_review
-from colonnade.campaign.syntax.document import Place, Source, key_lines, parse, read_text, refusal, validated
+from colonnade.campaign.syntax.document import Place, Source, read, refusal, validated
 from colonnade.campaign.syntax.names import inside
 from colonnade.campaign.testlog import Log, read_log
 from colonnade.errors import CampaignError, ReadError
@@ -41,20 +41,19 @@ def load(path: Path | str) -> Campaign:
         If the file, its test log or its review cannot be used; its text has a paragraph for each problem.
     """
     path = _found(Path(path))
-    text = read_text(path)
-    document, source, log = parse(text, path.name), Source(path.name, key_lines(text)), Log()
-    if isinstance(document.get("tests"), str):
-        log = _log(document["tests"], path.parent, source)
-        document = document | {"tests": list(log.tests)}
-        source = replace(source, log=log.name, rows=log.rows)
-    written, problems = validated(CampaignFile, document, path.parent)
+    source, log = read(path), Log()
+    if isinstance(source.document.get("tests"), str):
+        log = _log(source, path.parent)
+        document = source.document | {"tests": list(log.tests)}
+        source = replace(source, document=document, log=log.name, rows=log.rows)
+    written, problems = validated(CampaignFile, source.document, path.parent)
     findings: tuple[Finding, ...] = ()
     if written is not None:
         tests, findings = find_tests(written, path.parent)
         written = written.model_copy(update={"tests": (*written.tests, *tests)})
         written, wrong = _with_wholes(written)
         problems += [*wrong, *dangling(written)]
-    paragraphs = [*log.problems, *source.paragraphs(problems, document)]
+    paragraphs = [*log.problems, *source.paragraphs(problems)]
     if paragraphs or written is None:
         raise refusal(paragraphs)
     campaign = Campaign.of(written, path, (*log.warnings, *findings, *notices(written)))
@@ -91,8 +90,8 @@ def _found(path: Path) -> Path:
     raise CampaignError(f"{path.name}: not found in {path.parent}.{hint} Name a {FILE_NAME} or its folder.")
 
 
-def _log(written: str, folder: Path, source: Source) -> Log:
+def _log(source: Source, folder: Path) -> Log:
     try:
-        return read_log(inside(folder, written))
+        return read_log(inside(folder, source.document["tests"]))
     except (ReadError, ValueError) as error:
-        return Log(problems=tuple(source.paragraph(("tests",), line, {}) for line in str(error).splitlines()))
+        return Log(problems=tuple(source.paragraph(("tests",), line) for line in str(error).splitlines()))

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from math import hypot, pi, sin
 
 from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.channel import ALONG, Channel
-from colonnade.campaign.setup import Setup
 from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics import size
 from colonnade.dynamics.block import STANDARD_GRAVITY
-from colonnade.findings import Finding, note, serious, warning
+from colonnade.findings import Finding, Severity, note, warning
 from colonnade.units.text import format_percent, listed, number, quantity
 
 OFF_SIDE = 0.02
@@ -37,25 +35,20 @@ _USED = {
 
 
 def notices(campaign: CampaignFile) -> tuple[Finding, ...]:
-    """
-    List the warnings of a valid campaign.
-
-    Parameters
-    ----------
-    campaign : CampaignFile
-
-    Returns
-    -------
-    warnings : tuple of Finding
-    """
+    """List the warnings of a valid campaign."""
     unused: dict[str, list[str]] = {}
     for what, where in _unused(campaign):
         unused.setdefault(what, []).append(where)
-    return (
-        *(warning("not used", f"{what} is valid but not used yet ({listed(at, 1)}).") for what, at in unused.items()),
-        *dict.fromkeys(_implausible(campaign)),
-        *dict.fromkeys(_odd(campaign)),
-    )
+    found = [warning("not used", f"{what} is valid but not used yet ({listed(at, 1)}).") for what, at in unused.items()]
+    for name, specimen in campaign.specimens.items():
+        found += _density(name, specimen)
+        found += [warning("specimen", f"specimens.{name}.{said}") for said in specimen.deviations(campaign.gravity)]
+    for setup, name in dict.fromkeys((test.setup, test.specimen) for test in campaign.tests):
+        for channel_name, channel in campaign.setups[setup].channels_of(name).items():
+            if channel.is_on_body and channel.at is not None:
+                told = _of_channel(f"setups.{setup}.channels.{channel_name}", channel, name, campaign.specimens[name])
+                found += (Finding(said, kind, severity, about=f"setups.{setup}") for severity, kind, said in told)
+    return (*found, *_of_tests(campaign))
 
 
 def _unused(campaign: CampaignFile) -> Iterator[tuple[str, str]]:
@@ -73,51 +66,18 @@ def _unused(campaign: CampaignFile) -> Iterator[tuple[str, str]]:
                 yield "a motion of the table that is not along x, y or z", place
 
 
-def _odd(campaign: CampaignFile) -> Iterator[Finding]:
-    for name, specimen in campaign.specimens.items():
-        for deviation in specimen.deviations(campaign.gravity):
-            yield warning("specimen", f"specimens.{name}.{deviation}")
+def _of_tests(campaign: CampaignFile) -> Iterator[Finding]:
     for test in campaign.tests:
         if test.kind == "sine" and test.frequency is None:
             text = f"tests[{test.id}] is a sine test without `frequency`: the table's recorded motion will give it."
             yield note("no frequency", text)
-        setup = campaign.setups[test.setup]
-        yield from _off_side(test.setup, setup, test.specimen, campaign.specimens[test.specimen])
-        for recorder in setup.recorders:
-            if recorder not in test.files:
-                text = f'tests[{test.id}] has no file of recorder "{recorder}"; its channels are missing in this test.'
-                yield note("no file of a recorder", text)
+        for recorder in campaign.setups[test.setup].recorders:
+            if recorder in test.files:
+                continue
+            text = f'tests[{test.id}] has no file of recorder "{recorder}"; its channels are missing in this test.'
+            yield note("no file of a recorder", text)
     if not (campaign.tests or campaign.assessments):
         yield warning("no test", "The campaign has no tests yet.")
-
-
-def _off_side(setup_name: str, setup: Setup, specimen_name: str, specimen: Specimen) -> Iterator[Finding]:
-    """Report lines of sight whose point is not on the side of a round specimen."""
-    for name, channel in setup.channels.items():
-        if channel.sensing != "surface" or channel.normal is not None or channel.at is None:
-            continue
-        x, y, z = channel.at
-        off, radius = hypot(x, y), specimen.radius(z)
-        if radius is not None and abs(off - radius) > OFF_SIDE * radius:
-            yield warning(
-                "geometry",
-                f"setups.{setup_name}.channels.{name}.at is {quantity(off, 'mm', 4)} from the axis of {specimen_name}, "
-                f"but the side is {quantity(radius, 'mm', 4)} from the axis at that height. Give the point where the "
-                "line of sight meets the side.",
-            )
-
-
-def _implausible(campaign: CampaignFile) -> Iterator[Finding]:
-    """Report implausible specimens, and implausible channels on the specimens of a set-up."""
-    for name, specimen in campaign.specimens.items():
-        yield from (replace(found, about=f"specimens.{name}") for found in _density(name, specimen))
-    pairs = dict.fromkeys((test.setup, test.specimen) for test in campaign.tests)
-    for setup, specimen_name in pairs:
-        specimen = campaign.specimens[specimen_name]
-        for name, channel in campaign.setups[setup].channels_of(specimen_name).items():
-            if channel.is_on_body and channel.at is not None:
-                about = (f"setups.{setup}.channels.{name}", channel, specimen_name, specimen)
-                yield from (replace(found, about=f"setups.{setup}") for found in (*_place(*about), *_range(*about)))
 
 
 def _density(name: str, specimen: Specimen) -> Iterator[Finding]:
@@ -130,11 +90,12 @@ def _density(name: str, specimen: Specimen) -> Iterator[Finding]:
     lengths = {1: "one of the lengths", 2: "two of the lengths", 3: "the lengths"}
     cause = f"were {lengths[count]} in {unit} read as m?" if count else "check the units of its lengths and mass."
     sizes = ", ".join(f"{key} {quantity(value, 'm', 4)}" for key, value in specimen.sizes().items())
-    weight = warning if size.FOAM <= found <= size.HEAVIEST else serious
-    yield weight(
-        "specimen",
+    yield Finding(
         f"specimens.{name}: {sizes} and {quantity(specimen.mass, 'kg', 4)} give {number(found, 2)} kg/m³; "
         f"{size.LIGHTEST:g} to {size.HEAVIEST:g} kg/m³ was expected: {cause}",
+        "specimen",
+        Severity.WARNING if size.FOAM <= found <= size.HEAVIEST else Severity.SERIOUS,
+        about=f"specimens.{name}",
     )
 
 
@@ -147,29 +108,32 @@ def _size(specimen: Specimen) -> tuple[float, float]:
     return side.pole_distance, 2 * side.pole_distance
 
 
-def _place(place: str, channel: Channel, name: str, specimen: Specimen) -> Iterator[Finding]:
-    """Report a transducer whose point is further from the specimen than a bracket reaches."""
+def _of_channel(place: str, channel: Channel, name: str, specimen: Specimen) -> Iterator[tuple[Severity, str, str]]:
+    """Say of a transducer whose point is off the specimen, or whose range does not fit what the point travels."""
     half_width, height = _size(specimen)
     x, y, z = channel.at or (0.0, 0.0, 0.0)
-    off = max(abs(x) - half_width, abs(y) - half_width, z - height, -z)
-    largest = max(height, 2 * half_width)
-    if off <= BRACKET * largest:
+    radius, largest = specimen.radius(z), max(height, 2 * half_width)
+    off, aside = max(abs(x) - half_width, abs(y) - half_width, z - height, -z), hypot(x, y)
+    if off > BRACKET * largest:
+        yield (
+            Severity.SERIOUS if off > FAR_OFF * largest else Severity.WARNING,
+            "geometry",
+            f"{place}.at is {quantity(off, 'mm', 4)} off {name}, which is {quantity(height, 'mm', 4)} high and "
+            f"{quantity(2 * half_width, 'mm', 4)} wide. Give a point on it, measured from the centre of the base, and "
+            "check the unit.",
+        )
+    is_line_of_sight = channel.sensing == "surface" and channel.normal is None
+    if is_line_of_sight and radius is not None and abs(aside - radius) > OFF_SIDE * radius:
+        yield (
+            Severity.WARNING,
+            "geometry",
+            f"{place}.at is {quantity(aside, 'mm', 4)} from the axis of {name}, but the side is "
+            f"{quantity(radius, 'mm', 4)} from the axis at that height. Give the point where the line of sight meets "
+            "the side.",
+        )
+    if channel.quantity != "displacement" or channel.full_scale is None:
         return
-    weight = serious if off > FAR_OFF * largest else warning
-    yield weight(
-        "geometry",
-        f"{place}.at is {quantity(off, 'mm', 4)} off {name}, which is {quantity(height, 'mm', 4)} high and "
-        f"{quantity(2 * half_width, 'mm', 4)} wide. Give a point on it, measured from the centre of the base, and "
-        "check the unit.",
-    )
-
-
-def _range(place: str, channel: Channel, name: str, specimen: Specimen) -> Iterator[Finding]:
-    """Report a displacement transducer whose range does not fit the specimen's travel."""
-    if channel.quantity != "displacement" or channel.at is None or channel.full_scale is None:
-        return
-    half_width, height = _size(specimen)
-    arm, reach = hypot(half_width, channel.at[2]), channel.full_scale
+    arm, reach = hypot(half_width, z), channel.full_scale
     lying, rocking = 2 * arm * sin(pi / 4), arm * specimen.block(STANDARD_GRAVITY).critical_angle
     if reach > WIDEST_RANGE * max(lying, 0.1 * height):
         than, travel, end = f"{number(reach / lying, 2)} times", lying, "lies on its side"
@@ -177,7 +141,8 @@ def _range(place: str, channel: Channel, name: str, specimen: Specimen) -> Itera
         than, travel, end = f"{format_percent(reach / rocking, 1)} of", rocking, "overturns"
     else:
         return
-    yield warning(
+    yield (
+        Severity.WARNING,
         "gain",
         f"{place}: with its gain and range it reads up to {quantity(reach, 'mm', 4)}, {than} the "
         f"{quantity(travel, 'mm')} that this point of {name} moves until it {end}. Check gain and unit.",

@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
 
 from colonnade.campaign.setup import Setup
-from colonnade.campaign.syntax.document import Place, Source, key_lines, parse, read_text, refusal, unknown, validated
+from colonnade.campaign.syntax.document import Place, read, refusal, unknown, validated
 from colonnade.campaign.syntax.fields import FACTOR, Day, Interval, Number, Several, Text, outside, shown
 from colonnade.campaign.syntax.names import inside
 from colonnade.campaign.syntax.table import Table
@@ -223,15 +223,14 @@ def read_review(folder: Path, tests: Mapping[str, Test], setups: Mapping[str, Se
     if not path.exists():
         return {}
     try:
-        written = read_text(inside(folder, FILE_NAME))
+        source = read(inside(folder, FILE_NAME))
     except ValueError as error:
         raise CampaignError(f"{FILE_NAME}: {error}") from None
-    document, source = parse(written, path.name), Source(path.name, key_lines(written))
-    review, problems = validated(ReviewFile, document, folder)
+    review, problems = validated(ReviewFile, source.document, folder)
     if review is not None:
         problems = list(_problems(review, tests, setups))
     if problems or review is None:
-        raise refusal(source.paragraphs(problems, document))
+        raise refusal(source.paragraphs(problems))
     entries = [entry for _, entry in review.entries()]
     concerned = dict.fromkeys(name for entry in entries for name in entry.tests)
     return {name: decided(entry for entry in entries if name in entry.tests) for name in concerned}

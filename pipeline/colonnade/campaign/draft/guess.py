@@ -93,9 +93,9 @@ def meaning(column: Column) -> Meaning | str:
     by_unit = next((each for each, dim in dimensions if dim and units.is_of(column.unit or "", dim)), None)
     if column.is_clock:
         return "the clock"
-    if column.shape.is_dead:
-        return f"{'it never changes' if column.shape.spread == 0.0 else 'it holds no number'} in any of these files"
-    if by_unit is None and column.shape.counts:
+    if not column.spread > 0.0:
+        return f"{'it never changes' if column.spread == 0.0 else 'it holds no number'} in any of these files"
+    if by_unit is None and column.counts:
         return "a running number: it rises by one from sample to sample"
     if by_unit is None and by_name is None and (other := find(name, "left_out")):
         return f'{other[0]}, from "{other[1]}" in its name'
@@ -260,9 +260,9 @@ def kind_lines(test: Files, channels: Sequence[Meaning], others: Collection[File
     table = [each for each in channels if each.is_of_table]
     # Impacts disturb the displacement less than the acceleration.
     table.sort(key=lambda each: each.quantity != "displacement")
-    recorded = next((sine for each in table if (sine := each.of(test).shape.sine) is not None), None)
+    recorded = next((sine for each in table if (sine := each.of(test).sine) is not None), None)
     still = bool(table) and all(
-        each.of(test).shape.spread < STILL * max(each.of(other).shape.spread for other in others) for each in table
+        each.of(test).spread < STILL * max(each.of(other).spread for other in others) for each in table
     )
     angles = [each for each in channels if each.quantity in ("displacement", "angle") and each not in table]
     named = _number(_FREQUENCY, name)
@@ -277,7 +277,7 @@ def kind_lines(test: Files, channels: Sequence[Meaning], others: Collection[File
     elif recorded is not None:
         kind = "sine"
         yield Line("kind", '"sine"', "the table moves as a steady sine", "guessed from its signal")
-    elif still and any(each.of(test).shape.dies_away for each in angles):
+    elif still and any(each.of(test).dies_away for each in angles):
         reason = "the table does not move and the specimen comes to rest"
         yield Line("kind", '"free-vibration"', reason, "guessed from its signal")
     else:

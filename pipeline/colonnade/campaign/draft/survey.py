@@ -9,6 +9,7 @@ from datetime import date
 from pathlib import Path, PurePosixPath
 
 import numpy as np
+import scipy
 
 from colonnade.arrays import Array
 from colonnade.campaign.channel import MAIN
@@ -20,6 +21,7 @@ from colonnade.readers.clock import may_be_clock
 from colonnade.readers.files import irregular
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import MOST_GENERAL, read
+from colonnade.signals.timing import sampling_interval
 
 OWN_FOLDERS = ("processed", "report")
 """Folders that colonnade itself writes next to a campaign file."""
@@ -48,12 +50,19 @@ QUIET_END = 0.1
 
 
 @dataclass(frozen=True)
-class Shape:
+class Column:
     """
-    What a signal looks like.
+    One column of a raw file.
 
     Attributes
     ----------
+    number : int
+        From 1.
+    name, heading : str
+    unit : str or None
+        As written in the file.
+    is_clock, has_clock : bool
+        Whether it holds times, and whether its samples have some.
     spread : float
         Standard deviation, in the file's unit; NaN if there is no number.
     counts : bool
@@ -61,25 +70,8 @@ class Shape:
     sine : float or None
         Frequency of a steady sine, Hz.
     dies_away : bool
-    """
-
-    spread: float
-    counts: bool = False
-    sine: float | None = None
-    dies_away: bool = False
-
-    @property
-    def is_dead(self) -> bool:
-        """Whether nothing ever changes in it."""
-        return not self.spread > 0.0
-
-
-@dataclass(frozen=True)
-class Column:
-    """
-    One column of a raw file, by its number from 1; its unit is as written in the file.
-
-    `hint` says that it may be the clock of a file in which none was found.
+    hint : str
+        That it may be the clock of a file in which none was found.
     """
 
     number: int
@@ -88,7 +80,10 @@ class Column:
     unit: str | None
     is_clock: bool
     has_clock: bool
-    shape: Shape
+    spread: float
+    counts: bool = False
+    sine: float | None = None
+    dies_away: bool = False
     hint: str = ""
 
 
@@ -209,48 +204,34 @@ def _first_reason(refusal: str, name: str) -> str:
 
 
 def _seen(relative: str, recording: Recording) -> RawFile:
-    rate = duration = None
-    clock = next((channel.time for channel in recording.channels if channel.time is not None), None)
-    if clock is not None:
-        steps = np.diff(clock[np.isfinite(clock)])
-        if steps.size and (step := float(np.median(steps))) > 0:
-            rate, duration = 1 / step, float(np.nansum(steps))
-    columns = tuple(
-        Column(
-            *(number, each.name, each.heading, each.unit, each.is_clock, each.time is not None, shape_of(each)),
-            may_be_clock(each.heading, each.values) if each.time is None else "",
-        )
-        for number, each in enumerate(recording.channels, start=1)
-    )
+    clock = next((channel.time for channel in recording.channels if channel.time is not None), np.empty(0))
+    interval = sampling_interval(clock)
+    rate, duration = (1 / interval, float(np.nanmax(clock) - np.nanmin(clock))) if interval > 0 else (None, None)
+    columns = tuple(look_at(number, channel) for number, channel in enumerate(recording.channels, start=1))
     day = recording.start and recording.start.date()
     return RawFile(relative, recording.format, columns, rate, duration, recording.warnings, day)
 
 
-def shape_of(channel: RecordedChannel) -> Shape:
-    """Look at a signal; without its times no frequency is found."""
-    values, time = channel.values, channel.time
-    known = np.isfinite(values) if time is None else np.isfinite(values) & np.isfinite(time)
-    signal = values[known][:LONGEST]
+def look_at(number: int, channel: RecordedChannel) -> Column:
+    """Look at a column and its signal; without its times no frequency is found."""
+    time = np.zeros(channel.values.size) if channel.time is None else channel.time
+    known = np.isfinite(channel.values) & np.isfinite(time)
+    signal, time = channel.values[known][:LONGEST], time[known][:LONGEST]
+    of_file = (number, channel.name, channel.heading, channel.unit, channel.is_clock, channel.time is not None)
+    hint = may_be_clock(channel.heading, channel.values) if channel.time is None else ""
     if signal.size < 2 or not np.ptp(signal) > 0:
-        return Shape(0.0 if signal.size else np.nan)
+        return Column(*of_file, 0.0 if signal.size else np.nan, hint=hint)
     counts = bool(np.all(np.diff(signal) == 1.0))
-    interval = 0.0 if time is None else float(np.median(np.diff(time[known][:LONGEST])))
-    half, sixth = signal.size // 2, signal.size // 6
-    with np.errstate(over="ignore"):
+    interval, half, sixth = float(np.median(np.diff(time))), signal.size // 2, signal.size // 6
+    with np.errstate(over="ignore", invalid="ignore"):
         dies_away = sixth > 8 and float(signal[-sixth:].std()) < QUIET_END * float(signal[:half].std())
         sine = steady_sine(signal, interval) if interval > 0 and not counts else None
-        return Shape(float(signal.std()), counts, sine, dies_away)
+        return Column(*of_file, float(signal.std()), counts, sine, dies_away, hint)
 
 
 def steady_sine(signal: Array, interval: float) -> float | None:
     """
     Frequency of a signal that is a steady sine while it moves, Hz; None if it is not.
-
-    Parameters
-    ----------
-    signal : ndarray, shape (n,)
-    interval : float
-        s.
 
     Examples
     --------
@@ -262,13 +243,9 @@ def steady_sine(signal: Array, interval: float) -> float | None:
     part = signal[moving[0] : moving[-1] + 1]
     if part.size < 32:
         return None
-    with np.errstate(over="ignore", invalid="ignore"):
-        power = np.abs(np.fft.rfft((part - part.mean()) * np.hanning(part.size))) ** 2
-    power[0] = 0.0
-    peak, total = int(power.argmax()), float(power.sum())
-    if not np.isfinite(total) or not FEWEST_CYCLES <= peak < power.size - 2:
-        return None
-    if power[peak - 3 : peak + 4].sum() < SINE_SHARE * total:
+    power = scipy.signal.periodogram(part, window="hann", scaling="spectrum")[1]
+    peak = int(power.argmax())
+    if not FEWEST_CYCLES <= peak < power.size - 2 or not power[peak - 3 : peak + 4].sum() >= SINE_SHARE * power.sum():
         return None
     left, middle, right = np.log(np.maximum(power[peak - 1 : peak + 2], 1e-300))
     shift = 0.5 * (left - right) / (left - 2 * middle + right)

@@ -252,7 +252,7 @@ class DraftSetup:
     def _moving(self, recorder: str) -> tuple[Column, ...]:
         """Columns of a recorder, each as it is in the file where it moves most."""
         return tuple(
-            max(alike, key=lambda column: column.shape.spread if column.shape.spread > 0 else -1.0)
+            max(alike, key=lambda column: column.spread if column.spread > 0 else -1.0)
             for alike in zip(*(test[recorder].columns for test in self.tests), strict=True)
         )
 

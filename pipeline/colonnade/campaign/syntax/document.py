@@ -6,7 +6,7 @@ import json
 import re
 import tomllib
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
 from typing import Any, TypeVar
@@ -28,21 +28,15 @@ _KEY = re.compile(r"""^\s*((?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*')(?:\s*\.\s*(?:[A-Za
 _PART = re.compile(r"""[A-Za-z0-9_-]+|"[^"]*"|'[^']*'""")
 
 
-def read_text(path: Path) -> str:
-    """
-    Read a text file that a person wrote.
-
-    Raises
-    ------
-    CampaignError
-        If it cannot be read or is not UTF-8.
-    """
+def read(path: Path) -> Source:
+    """Read a TOML file that a person wrote; CampaignError if it cannot be read or is none, with its line and column."""
     if kind := irregular(path):
         raise CampaignError(f"{path.name}: this is {kind}; a text file was expected.")
     try:
         if path.stat().st_size > _LARGEST_BYTES:
             raise CampaignError(f"{path.name} is too large for a campaign's own file. Is it a raw file?")
-        return path.read_bytes().decode("utf-8-sig")
+        text = path.read_bytes().decode("utf-8-sig")
+        return Source(path.name, tomllib.loads(text.replace("\r\n", "\n")), key_lines(text))
     except UnicodeDecodeError as error:
         raise CampaignError(
             f"{path.name}: byte {error.start + 1} is not UTF-8 text. "
@@ -50,23 +44,10 @@ def read_text(path: Path) -> str:
         ) from None
     except OSError as error:
         raise CampaignError(f"{path.name}: it cannot be read ({error.strerror}).") from None
-
-
-def parse(text: str, name: str) -> dict[str, Any]:
-    """
-    Parse TOML.
-
-    Raises
-    ------
-    CampaignError
-        If it is not TOML; the message gives line and column.
-    """
-    try:
-        return tomllib.loads(text.replace("\r\n", "\n"))
     except (ValueError, RecursionError) as error:  # a number of thousands of digits is a plain ValueError
         said = "tables or lists are nested too deeply" if isinstance(error, RecursionError) else str(error)
         raise CampaignError(
-            f"{name}: this is not valid TOML: {said}. Put text in quotes and lists in [ ]; give each key once."
+            f"{path.name}: this is not valid TOML: {said}. Put text in quotes and lists in [ ]; give each key once."
         ) from None
 
 
@@ -108,14 +89,9 @@ def key_lines(text: str) -> dict[Place, int]:
             table = _parts(header[2])
             if header[1] == "[[":
                 counts[table] = counts.get(table, -1) + 1
-            table = next(
-                (
-                    (*table[:end], counts[table[:end]], *table[end:])
-                    for end in range(len(table), 0, -1)
-                    if table[:end] in counts
-                ),
-                table,
-            )
+            listed = next((end for end in range(len(table), 0, -1) if table[:end] in counts), 0)
+            if listed:
+                table = (*table[:listed], counts[table[:listed]], *table[listed:])
             lines.setdefault(table, number)
         elif key:
             lines.setdefault((*table, *_parts(key[1])), number)
@@ -126,51 +102,27 @@ def _parts(text: str) -> Place:
     return tuple(part.strip("\"'") for part in _PART.findall(text))
 
 
-def written(place: Place, document: Mapping[str, Any]) -> str:
-    """
-    Write a key's whole path; a test is called by its id.
-
-    Examples
-    --------
-    >>> written(("tests", 0, "kind"), {"tests": [{"id": "free-01"}]})
-    'tests[free-01].kind'
-    """
-    path = ""
-    for index, part in enumerate(place):
-        if not isinstance(part, int):
-            path += f"{'.' if path else ''}{_short(part)}"
-            continue
-        tests = document.get("tests") if place[:index] == ("tests",) else None
-        name = tests[part].get("id") if isinstance(tests, list) and isinstance(tests[part], dict) else None
-        path += f"[{_short(name) if isinstance(name, str) and name else part + 1}]"
-    return path
-
-
-def _short(part: str) -> str:
-    return quoted(part)[1:-1]
-
-
 @dataclass(frozen=True)
 class Source:
-    """
-    The files that a campaign was read from, to say where a problem is.
-
-    Attributes
-    ----------
-    name : str
-        The campaign file's name.
-    lines : dict
-        Lines of its keys.
-    log : str
-        The test log's name, or empty.
-    rows : tuple of int
-        Row of each test in the log.
-    """
+    """What a campaign was read from: a file's name, document and lines of keys; the name and rows of its test log."""
 
     name: str
-    lines: dict[Place, int] = field(default_factory=dict)
+    document: dict[str, Any]
+    lines: dict[Place, int]
     log: str = ""
     rows: tuple[int, ...] = ()
+
+    def path(self, place: Place) -> str:
+        """Write a key's whole path; a test is called by its id: ``tests[free-01].kind``."""
+        path = ""
+        for index, part in enumerate(place):
+            if not isinstance(part, int):
+                path += f"{'.' if path else ''}{_short(part)}"
+                continue
+            tests = self.document.get("tests") if place[:index] == ("tests",) else None
+            name = tests[part].get("id") if isinstance(tests, list) and isinstance(tests[part], dict) else None
+            path += f"[{_short(name) if isinstance(name, str) and name else part + 1}]"
+        return path
 
     def where(self, place: Place) -> tuple[tuple[int, int], str]:
         """Give the order of a place in the files, those without a line first; and its file with line, or row."""
@@ -181,15 +133,18 @@ class Source:
         line = next((self.lines[place[:end]] for end in range(len(place), 0, -1) if place[:end] in self.lines), 0)
         return (line, 0), f"{self.name}, line {line}" if line else self.name
 
-    def paragraph(self, place: Place, message: str, document: Mapping[str, Any]) -> str:
+    def paragraph(self, place: Place, message: str) -> str:
         """Write one problem: file, line, the key's whole path, and what is wrong."""
-        path = written(place, document)
+        path = self.path(place)
         return f"{self.where(place)[1]}: {f'{path}: ' if path else ''}{message}"
 
-    def paragraphs(self, problems: Iterable[tuple[Place, str]], document: Mapping[str, Any]) -> list[str]:
+    def paragraphs(self, problems: Iterable[tuple[Place, str]]) -> list[str]:
         """Write all problems in the order of the files."""
-        ordered = sorted(problems, key=lambda each: self.where(each[0])[0])
-        return [self.paragraph(place, message, document) for place, message in ordered]
+        return [self.paragraph(*each) for each in sorted(problems, key=lambda each: self.where(each[0])[0])]
+
+
+def _short(part: str) -> str:
+    return quoted(part)[1:-1]
 
 
 def unknown(place: Place, what: str, name: str, known: Collection[str], where: str = "") -> Iterator[tuple[Place, str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import reprlib
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date, datetime, time
 from math import hypot, isfinite
@@ -16,12 +17,9 @@ from pydantic_core import CoreSchema, core_schema
 from colonnade import units
 from colonnade.errors import quoted
 
-UNITS = {"frequency": "Hz", "acceleration": "m/s^2", "inertia": "kg m^2", "pressure": "Pa", "mass": "kg"} | {
-    "length": "m",
-    "velocity": "m/s",
-    "time": "s",
-    "angle": "rad",
-    "angular_velocity": "rad/s",
+UNITS = {name: units.normalise_unit(si_unit) for name, (si_unit, _) in units.DIMENSIONS.items()} | {
+    "frequency": "Hz",
+    "pressure": "Pa",
 }
 """In which bounds are written, by dimension."""
 
@@ -75,10 +73,11 @@ _QUANTITY_PATTERN = rf"^\s*{units.NUMBER_PATTERN}\s*[^\s0-9.,].*$"
 FIRST_YEAR, LAST_YEAR = 1900, 2100
 """Years between which a test was done; another is a slip of the pen."""
 
-_ISO = re.compile(r"(\d{4})([-/.])(\d{1,2})\2(\d{1,2})")
-_DOTTED = re.compile(r"(\d{1,2})\.\s?(\d{1,2})\.\s?(\d{4})")
-_SLASHED = re.compile(r"(\d{1,2})([-/])(\d{1,2})\2(\d{4})")
-_TIME = re.compile(r"(?:[T ]\s*\d{1,2}:\d{2}(?::\d{2}(?:\.\d+)?)?\s*(?:Z|[+-]\d{2}:?\d{2})?)?$")
+_DATE = re.compile(
+    r"(\d{4}|\d{1,2})([-/.])\s?(\d{1,2})\2\s?(\d{4}|\d{1,2})"
+    r"(?:[T ]\s*\d{1,2}:\d{2}(?::\d{2}(?:\.\d+)?)?\s*(?:Z|[+-]\d{2}:?\d{2})?)?"
+)
+"""A date, followed by nothing but a time of day."""
 
 
 def shown(value: object) -> str:
@@ -237,32 +236,25 @@ def day(value: object) -> date:
 
 def _written(text: str) -> date | None:
     """Read a day from text; None if it is not one."""
-    for pattern, order in ((_ISO, (1, 3, 4)), (_DOTTED, (3, 2, 1))):
-        if (found := _whole(pattern, text)) is not None:
-            return _calendar_day(*(int(found[number]) for number in order))
-    if (found := _whole(_SLASHED, text)) is None:
+    found = _DATE.fullmatch(text)
+    if found is None or (len(found[1]) == 4) == (len(found[4]) == 4):
         return None
-    first, second, year = int(found[1]), int(found[3]), int(found[4])
-    day_first, month_first = _calendar_day(year, second, first), _calendar_day(year, first, second)
-    if day_first and month_first and day_first != month_first:
+    first, second, third = (int(found[number]) for number in (1, 3, 4))
+    orders = [(third, second, first), (third, first, second)]
+    if len(found[1]) == 4:
+        orders = [(first, second, third)]
+    elif found[2] == ".":
+        orders = orders[:1]
+    days: list[date] = []
+    for order in orders:
+        with suppress(ValueError):
+            days.append(date(*order))
+    if len(set(days)) > 1:
         raise ValueError(
-            f"{shown(text)} is {day_first} or {month_first}: it is not clear which number is the day. Write the "
+            f"{shown(text)} is {days[0]} or {days[1]}: it is not clear which number is the day. Write the "
             "year first, such as 2013-04-26."
         )
-    return day_first or month_first
-
-
-def _whole(pattern: re.Pattern[str], text: str) -> re.Match[str] | None:
-    """Match a date, followed by nothing but a time of day."""
-    found = pattern.match(text)
-    return found if found and _TIME.match(text, found.end()) else None
-
-
-def _calendar_day(year: int, month: int, of_month: int) -> date | None:
-    try:
-        return date(year, month, of_month)
-    except ValueError:
-        return None
+    return days[0] if days else None
 
 
 def _filled(value: str) -> str:
