@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -100,8 +101,7 @@ class Campaign(CampaignKeys):
     def of(cls, written: CampaignFile, path: Path, warnings: tuple[Finding, ...]) -> Campaign:
         """Make the campaign of a valid file."""
         tests = {test.id: test for test in written.tests}
-        missing = {name: missing_file(test, path.parent) for name, test in tests.items() if test.planned}
-        awaited = {name: file for name, file in missing.items() if file}
+        awaited = missing_files((test for test in written.tests if test.planned), path.parent)
         keys: dict[str, Any] = {name: getattr(written, name) for name in CampaignKeys.model_fields}
         wholes = [each for each in written.specimens.values() if isinstance(each, Whole)]
         parts = {body.specimen for whole in wholes for body in whole.placed.values()}
@@ -135,8 +135,7 @@ class Campaign(CampaignKeys):
 
     def awaiting(self) -> Campaign:
         """Return the campaign with every test that lacks a raw file planned."""
-        missing = {name: missing_file(test, self.folder) for name, test in self.tests.items()}
-        return self.but(awaited={name: file for name, file in missing.items() if file})
+        return self.but(awaited=missing_files(self.tests.values(), self.folder))
 
     def left_out(self, test: str) -> str:
         """Why a test is not run: people excluded it, or it is planned and has no raw file; empty if it is run."""
@@ -182,6 +181,11 @@ class Campaign(CampaignKeys):
         return tuple(found for found in self.warnings if found.about in tables)
 
 
-def missing_file(test: Test, folder: Path) -> str:
-    """Give the first raw file of a test that is not there, as a path from the campaign's folder; empty if all are."""
-    return next((path.relative_to(folder).as_posix() for path in test.files.values() if not path.exists()), "")
+def missing_files(tests: Iterable[Test], folder: Path) -> dict[str, str]:
+    """Give the first raw file that is not there, as a path from the campaign's folder, of each test that lacks one."""
+    found: dict[str, str] = {}
+    for test in tests:
+        missing = [path for path in test.files.values() if not path.exists()]
+        if missing:
+            found[test.id] = missing[0].relative_to(folder).as_posix()
+    return found

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 from colonnade.campaign.assembly import Whole
@@ -11,10 +10,9 @@ from colonnade.campaign.found import find_tests
 from colonnade.campaign.notices import notices
 from colonnade.campaign.references import dangling
 from colonnade.campaign.review import read_review
-from colonnade.campaign.syntax.document import Place, Source, read, refusal, validated
-from colonnade.campaign.syntax.names import inside
-from colonnade.campaign.testlog import Log, read_log
-from colonnade.errors import CampaignError, ReadError
+from colonnade.campaign.syntax.document import Place, read, refusal, validated
+from colonnade.campaign.testlog import with_log
+from colonnade.errors import CampaignError
 from colonnade.findings import Finding
 from colonnade.readers.files import irregular
 
@@ -41,11 +39,9 @@ def load(path: Path | str) -> Campaign:
         If the file, its test log or its review cannot be used; its text has a paragraph for each problem.
     """
     path = _found(Path(path))
-    source, log = read(path), Log()
+    source, paragraphs, ignored = read(path), list[str](), list[Finding]()
     if isinstance(source.document.get("tests"), str):
-        log = _log(source, path.parent)
-        document = source.document | {"tests": list(log.tests)}
-        source = replace(source, document=document, log=log.name, rows=log.rows)
+        source, paragraphs, ignored = with_log(source, path.parent)
     written, problems = validated(CampaignFile, source.document, path.parent)
     findings: tuple[Finding, ...] = ()
     if written is not None:
@@ -53,10 +49,10 @@ def load(path: Path | str) -> Campaign:
         written = written.model_copy(update={"tests": (*written.tests, *tests)})
         written, wrong = _with_wholes(written)
         problems += [*wrong, *dangling(written)]
-    paragraphs = [*log.problems, *source.paragraphs(problems)]
+    paragraphs += source.paragraphs(problems)
     if paragraphs or written is None:
         raise refusal(paragraphs)
-    campaign = Campaign.of(written, path, (*log.warnings, *findings, *notices(written)))
+    campaign = Campaign.of(written, path, (*ignored, *findings, *notices(written)))
     return campaign.but(reviews=read_review(path.parent, campaign.tests, campaign.setups))
 
 
@@ -88,10 +84,3 @@ def _found(path: Path) -> Path:
         raise CampaignError(f"{path}: invalid path ({error}).") from None
     hint = f" That folder has: {', '.join(others)}." if others else ""
     raise CampaignError(f"{path.name}: not found in {path.parent}.{hint} Name a {FILE_NAME} or its folder.")
-
-
-def _log(source: Source, folder: Path) -> Log:
-    try:
-        return read_log(inside(folder, source.document["tests"]))
-    except (ReadError, ValueError) as error:
-        return Log(problems=tuple(source.paragraph(("tests",), line) for line in str(error).splitlines()))

@@ -3,73 +3,53 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from colonnade.campaign.channel import MAIN
+from colonnade.campaign.syntax.document import Source
+from colonnade.campaign.syntax.names import inside
 from colonnade.campaign.test import Test
+from colonnade.errors import ReadError
 from colonnade.findings import Finding, note
 from colonnade.readers.small_table import SmallTable, read_table
 
 
-@dataclass(frozen=True)
-class Log:
+def with_log(source: Source, folder: Path) -> tuple[Source, list[str], list[Finding]]:
     """
-    A test log as tables of the campaign file.
+    Put the rows of the test log that `tests` names in its place, as tables of the campaign file.
 
-    Attributes
-    ----------
-    name : str
-        The file's name.
-    tests : tuple of dict
-        As they would stand in campaign.toml.
-    rows : tuple of int
-        Row of each in the file, from 1.
-    problems : tuple of str
-    warnings : tuple of Finding
-        Finished paragraphs.
-    """
-
-    name: str = ""
-    tests: tuple[dict[str, Any], ...] = ()
-    rows: tuple[int, ...] = ()
-    problems: tuple[str, ...] = ()
-    warnings: tuple[Finding, ...] = ()
-
-
-def read_log(path: Path) -> Log:
-    """
-    Read a test log.
-
-    Parameters
-    ----------
-    path : Path
-        CSV (comma, semicolon or tab) or Excel; of a workbook the first sheet.
+    Empty cells are keys not given. A column that is not a key is left out with a note, but refused where its name is
+    nearly that of a key. `file.daq2` is the file of recorder daq2.
 
     Returns
     -------
-    log : Log
-        Empty cells are keys not given. A column that is not a key is left out with a warning, but refused where its
-        name is nearly that of a key. `file.daq2` is the file of recorder daq2.
-
-    Raises
-    ------
-    ReadError
-        If the file is missing or cannot be read as a table; with a line for each problem of its heads.
+    source : Source
+        Without tests if there is no such table.
+    problems : list of str
+        Finished paragraphs.
+    notes : list of Finding
     """
-    table = read_table(path, "a test log")
-    keys = Test.purposes()
-    files = {index: head.name for index, head in enumerate(table.heads) if head.name.startswith("file.")}
-    places, unused = table.places([*keys, *map(str.casefold, files.values())], "is not a key of a test")
+    try:
+        path = inside(folder, source.document["tests"])
+        table = read_table(path, "a test log")
+        files = {index: head.name for index, head in enumerate(table.heads) if head.name.startswith("file.")}
+        known = [*Test.purposes(), *map(str.casefold, files.values())]
+        places, unused = table.places(known, "is not a key of a test")
+    except (ReadError, ValueError) as error:
+        wrong = [source.paragraph(("tests",), line) for line in str(error).splitlines()]
+        return replace(source, document=source.document | {"tests": []}), wrong, []
     heads = {index: files.get(index, key) for key, index in places.items()}
     tests = [
         _test({head: (index, cells[index]) for index, head in heads.items() if cells[index]}, table)
         for _, cells in table.rows
     ]
+    rows = tuple(row for row, _ in table.rows)
     problems = [f"{path.name}, row {row}: {fault}" for row, fault in table.faults]
-    warnings = [note("unused column", said) for said in unused]
-    return Log(path.name, tuple(tests), tuple(row for row, _ in table.rows), tuple(problems), tuple(warnings))
+    read = replace(source, document=source.document | {"tests": tests}, log=path.name, rows=rows)
+    return read, problems, [note("unused column", said) for said in unused]
 
 
 def _test(cells: dict[str, tuple[int, str]], table: SmallTable) -> dict[str, Any]:
@@ -85,10 +65,8 @@ def _value(key: str, index: int, text: str, table: SmallTable) -> Any:
     if form.is_number or form.dimension or form.is_interval:
         text = table.quantity(index, text)
     if form.is_number:
-        try:
+        with suppress(ValueError):
             return float(text)
-        except ValueError:
-            return text
     if form.is_interval:
         parts = [part.strip() for part in re.split(r"[;,…]|\.\.\.|\bto\b", text.strip("[]")) if part.strip()]
         return [part.strip("\"'") for part in parts] if len(parts) > 1 else text

@@ -87,34 +87,28 @@ class Meaning:
 
 def meaning(column: Column) -> Meaning | str:
     """Find out what a column is from its unit, its name and its signal; or why it is not a channel."""
-    name = _NUMBERED.sub("", column.name)
-    by_name, place = find(name, "quantities"), find(name, "places")
-    dimensions = units.QUANTITY_DIMENSIONS.items()
-    by_unit = next((each for each, dim in dimensions if dim and units.is_of(column.unit or "", dim)), None)
+    name, unit = _NUMBERED.sub("", column.name), column.unit or ""
+    by_unit = next((each for each, dim in units.QUANTITY_DIMENSIONS.items() if dim and units.is_of(unit, dim)), None)
+    by_name, word = find(name, "quantities") or (None, "")
+    place, place_word = find(name, "places") or (None, "")
+    other = find(name, "left_out")
     if column.is_clock:
         return "the clock"
     if not column.spread > 0.0:
         return f"{'it never changes' if column.spread == 0.0 else 'it holds no number'} in any of these files"
     if by_unit is None and column.counts:
         return "a running number: it rises by one from sample to sample"
-    if by_unit is None and by_name is None and (other := find(name, "left_out")):
-        return f'{other[0]}, from "{other[1]}" in its name'
-    because = f'from "{by_name[1]}" in its name' if by_name else ""
-    conflict = ""
-    if by_unit:
-        because = f'from its unit "{column.unit}"'
-        if by_name and by_unit != by_name[0]:
-            conflict = f'its unit "{column.unit}" says {by_unit}, its name "{by_name[1]}" {by_name[0]}'
-    return Meaning(
-        column,
-        by_unit or (by_name[0] if by_name else None),
-        because,
-        conflict,
-        by_unit is not None,
-        place[0] if place else None,
-        f'from "{place[1]}" in its name' if place else "",
-        axis(column.name),
-    )
+    if by_unit is None and by_name is None and other:
+        return f"{other[0]}, {_from(other[1])}"
+    because = f'from its unit "{unit}"' if by_unit else _from(word)
+    contradict = by_unit and by_name and by_unit != by_name
+    conflict = f'its unit "{unit}" says {by_unit}, its name "{word}" {by_name}' if contradict else ""
+    quantity, is_physical = by_unit or by_name, by_unit is not None
+    return Meaning(column, quantity, because, conflict, is_physical, place, _from(place_word), axis(column.name))
+
+
+def _from(word: str) -> str:
+    return f'from "{word}" in its name' if word else ""
 
 
 def draft_channels(recorders: Mapping[str, Sequence[Column]]) -> tuple[list[Meaning], dict[str, list[str]]]:
@@ -144,8 +138,7 @@ def draft_channels(recorders: Mapping[str, Sequence[Column]]) -> tuple[list[Mean
             left_out[f"{unit} does not show what it measures"].append(column.heading)
         else:
             taken.append(replace(each, recorder=recorder))
-    names = ("_".join(re.findall(r"[a-z0-9]+", plain(each.column.name))) for each in taken)
-    ids = unique(names, "channel", as_variables=True)
+    ids = unique((each.column.name for each in taken), "channel", as_variables=True)
     return [replace(each, id=name) for name, each in zip(ids, taken, strict=True)], left_out
 
 
@@ -157,8 +150,7 @@ def markers_of(channels: Sequence[Meaning]) -> dict[str, list[Meaning]]:
         if found and each.quantity == "displacement" and each.is_physical and each.place != "table":
             alike[each.recorder, found[1], each.column.unit][found[2].casefold()] = each
     whole = {name: [axes[axis] for axis in AXES] for (_, name, _), axes in alike.items() if len(axes) == len(AXES)}
-    ids = unique(("_".join(re.findall(r"[a-z0-9]+", plain(name))) for name in whole), "marker", as_variables=True)
-    return dict(zip(ids, whole.values(), strict=True))
+    return dict(zip(unique(whole, "marker", as_variables=True), whole.values(), strict=True))
 
 
 def marker_lines(marker: Sequence[Meaning], others: Sequence[Column]) -> Iterator[Line]:
@@ -257,9 +249,8 @@ def kind_lines(test: Files, channels: Sequence[Meaning], others: Collection[File
         kind, and frequency, motion or span if they are known.
     """
     name = PurePosixPath(test[MAIN].stem).name
-    table = [each for each in channels if each.is_of_table]
     # Impacts disturb the displacement less than the acceleration.
-    table.sort(key=lambda each: each.quantity != "displacement")
+    table = sorted((each for each in channels if each.is_of_table), key=lambda each: each.quantity != "displacement")
     recorded = next((sine for each in table if (sine := each.of(test).sine) is not None), None)
     still = bool(table) and all(
         each.of(test).spread < STILL * max(each.of(other).spread for other in others) for each in table
@@ -267,13 +258,13 @@ def kind_lines(test: Files, channels: Sequence[Meaning], others: Collection[File
     angles = [each for each in channels if each.quantity in ("displacement", "angle") and each not in table]
     named = _number(_FREQUENCY, name)
     kind, word = find(name, "kinds") or (("sine", f"{named:g} Hz") if named else ("", ""))
+    doubt = ""
+    if recorded is not None and kind in ("free-vibration", "earthquake", "noise"):
+        doubt = f"the table moves as a steady sine of {recorded:.3g} Hz"
+    elif still and kind in ("earthquake", "noise", "sine", "pulse"):
+        doubt = "the table hardly moves in this test"
     if kind:
-        doubt = ""
-        if recorded is not None and kind in ("free-vibration", "earthquake", "noise"):
-            doubt = f"the table moves as a steady sine of {recorded:.3g} Hz"
-        elif still and kind in ("earthquake", "noise", "sine", "pulse"):
-            doubt = "the table hardly moves in this test"
-        yield Line("kind", toml_value(kind), f'from "{word}" in its name', doubt)
+        yield Line("kind", toml_value(kind), _from(word), doubt)
     elif recorded is not None:
         kind = "sine"
         yield Line("kind", '"sine"', "the table moves as a steady sine", "guessed from its signal")

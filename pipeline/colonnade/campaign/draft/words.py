@@ -142,7 +142,7 @@ def unique(names: Iterable[str], otherwise: str, *, as_variables: bool = False) 
     otherwise : str
         What a name becomes if none of its letters and digits can be kept.
     as_variables : bool, optional
-        Whether ids that differ in ``.``, ``-`` and ``_`` alone count as the same.
+        Whether they have small Latin letters, digits and ``_`` alone.
 
     Examples
     --------
@@ -151,7 +151,7 @@ def unique(names: Iterable[str], otherwise: str, *, as_variables: bool = False) 
     """
     ids: dict[str, str] = {}
     for name in names:
-        made = as_id(name, otherwise)
+        made = as_id("_".join(re.findall("[a-z0-9]+", plain(name))) if as_variables else name, otherwise)
         number, candidate = 1, made
         while folded(candidate, as_variables=as_variables) in ids:
             number += 1

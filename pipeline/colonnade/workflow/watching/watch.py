@@ -11,7 +11,7 @@ from logging.handlers import RotatingFileHandler
 from pathlib import Path
 
 from colonnade.campaign import Campaign, load
-from colonnade.campaign.campaign import missing_file
+from colonnade.campaign.campaign import missing_files
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.campaign.found import WITHOUT_TEST, files_in
 from colonnade.errors import CampaignError, StoreError
@@ -202,7 +202,7 @@ class _Watching:
         del self._due[name]
         self._is_outdated = True
         test = self.campaign.tests.get(name)
-        if test is None or self.campaign.left_out(name) or missing_file(test, self.campaign.folder):
+        if test is None or self.campaign.left_out(name) or missing_files([test], self.campaign.folder):
             return
         self.behind.give_way()
         finished = last_change(test.files.values()) / 1e9
