@@ -18,10 +18,6 @@ from colonnade.campaign.test import MotionPath
 from colonnade.dynamics.models import PLANE_MODELS
 
 
-def _measure(name: str) -> str:
-    return measure_of(name).id
-
-
 def _scaling_measure(name: str) -> str:
     found = measure_of(name)
     if not found.power:
@@ -30,7 +26,7 @@ def _scaling_measure(name: str) -> str:
 
 
 def _measures(names: tuple[str, ...]) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(map(_measure, names)))
+    return tuple(dict.fromkeys(measure_of(name).id for name in names))
 
 
 def _baseline(name: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 
 from colonnade.campaign.assembly import RESERVED, Whole
 from colonnade.campaign.assessment import Assessment
@@ -18,20 +18,17 @@ Problem = tuple[Place, str]
 
 def dangling(campaign: CampaignFile) -> Iterator[Problem]:
     """Find names that refer to nothing and ids that clash: the place of each, and what is wrong."""
-    yield from _clashing(("specimens",), campaign.specimens)
+    for table in ("specimens", "setups", "assessments"):
+        yield from _clashing((table,), getattr(campaign, table))
     yield from _assemblies(campaign)
-    yield from _clashing(("setups",), campaign.setups)
-    yield from _clashing(("assessments",), campaign.assessments)
     for name, setup in campaign.setups.items():
-        yield from _setup(("setups", name), setup, ("specimen", *SURROUNDINGS, *campaign.bodies))
+        yield from _setup(("setups", name), setup, campaign)
     for name in campaign.prototype:
         yield from unknown(("prototype", name), "specimen", name, campaign.specimens)
     for name, assessment in campaign.assessments.items():
-        place = ("assessments", name, "specimen")
+        yield from unknown(("assessments", name, "specimen"), "specimen", assessment.specimen, campaign.specimens)
         if assessment.specimen in campaign.specimens:
             yield from _assessed(campaign, name, assessment)
-        else:
-            yield from unknown(place, "specimen", assessment.specimen, campaign.specimens)
     for index, test_id, earlier in clashes(test.id for test in campaign.tests):
         only = f'It differs from "{earlier}" only in upper and lower case'
         same = "This id is used twice" if test_id == earlier else only
@@ -76,21 +73,20 @@ def _clashing(place: Place, names: Iterable[str], *, as_variables: bool = False)
         yield (*place, name), f'This id differs from "{earlier}" only in {same}. Choose another.'
 
 
-def _setup(place: Place, setup: Setup, bodies: Sequence[str]) -> Iterator[Problem]:
+def _setup(place: Place, setup: Setup, campaign: CampaignFile) -> Iterator[Problem]:
+    against = (*SURROUNDINGS, *campaign.bodies)
+    bodies = ("specimen", *against)
     yield from _clashing((*place, "channels"), setup.channels, as_variables=True)
     yield from _clashing((*place, "recorders"), setup.further_recorders)
     for name, channel in setup.channels.items():
         where = (*place, "channels", name)
         yield from unknown((*where, "recorder"), "recorder", channel.recorder, setup.recorders, " in this set-up")
-        if channel.on is not None:
-            yield from unknown((*where, "on"), "body", channel.on, bodies)
-        if channel.relative_to is not None:
-            against = (*SURROUNDINGS, *bodies[1 + len(SURROUNDINGS) :])
-            yield from unknown((*where, "relative_to"), "body", channel.relative_to, against)
+        for key, body, known in (("on", channel.on, bodies), ("relative_to", channel.relative_to, against)):
+            if body is not None:
+                yield from unknown((*where, key), "body", body, known)
     for name, recorder in setup.further_recorders.items():
-        for linked, owner in (
-            zip(recorder.clock.align, (MAIN, name), strict=True) if recorder.clock != "trigger" else ()
-        ):
+        links = () if recorder.clock == "trigger" else recorder.clock.align
+        for linked, owner in zip(links, (MAIN, name), strict=False):
             own = [each for each, channel in setup.channels.items() if channel.recorder == owner]
             where = (*place, "recorders", name, "clock", "align")
             yield from unknown(where, "channel", linked, own, f' of recorder "{owner}"')
@@ -98,11 +94,11 @@ def _setup(place: Place, setup: Setup, bodies: Sequence[str]) -> Iterator[Proble
 
 def _assemblies(campaign: CampaignFile) -> Iterator[Problem]:
     """Find ids of assemblies and bodies that are taken, and bodies of no specimen."""
-    taken = {name: "specimen" for name in campaign.specimens if not isinstance(campaign.specimens[name], Whole)}
+    specimens = [name for name, each in campaign.specimens.items() if not isinstance(each, Whole)]
     for name, table in campaign.assemblies.items():
         place = ("assemblies", name)
-        if name in RESERVED or name in taken:
-            said = f"a {taken[name]} has it" if name in taken else "it has a meaning of its own"
+        if name in RESERVED or name in specimens:
+            said = "a specimen has it" if name in specimens else "it has a meaning of its own"
             yield place, f"{shown(name)} cannot be the id of an assembly: {said}. Choose another."
         if bool(table.stack) == bool(table.bodies):
             yield place, "Either `stack`, a list of specimens from bottom to top, or `bodies` was expected."
@@ -110,8 +106,7 @@ def _assemblies(campaign: CampaignFile) -> Iterator[Problem]:
             where = (*place, "bodies", body) if table.bodies else (*place, "stack")
             if body in RESERVED:
                 yield where, f"{shown(body)} cannot be the id of a body: it has a meaning of its own. Choose another."
-            known = [name for name in campaign.specimens if name in taken]
-            yield from unknown((*where, "specimen") if table.bodies else where, "specimen", each.specimen, known)
+            yield from unknown((*where, "specimen") if table.bodies else where, "specimen", each.specimen, specimens)
 
 
 def _faces(campaign: CampaignFile) -> Iterator[Problem]:

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 
 from colonnade.campaign.draft.guess import MOST_UNKNOWN, channel_lines, draft_channels, meaning
-from colonnade.campaign.draft.survey import Column, RawFile, Shape, arrange
+from colonnade.campaign.draft.survey import Column, RawFile, arrange
 from colonnade.campaign.draft.words import Line
 from colonnade.campaign.draft.write import DraftSetup
 
-MOVING = Shape(1.0)
 TIME = 0.01 * np.arange(2000)
 SINE = np.sin(2 * np.pi * 3.0 * TIME)
 DECAY = np.exp(-TIME) * np.cos(6 * TIME)
@@ -16,8 +15,8 @@ NOISE = np.random.default_rng(1).standard_normal(TIME.size)
 STILL = 1e-3 * NOISE
 
 
-def column(name, unit=None, shape=MOVING, *, is_clock=False):
-    return Column(1, name, f"{name} [{unit}]", unit, is_clock, True, shape)
+def column(name, unit=None, spread=1.0, *, is_clock=False, counts=False):
+    return Column(1, name, f"{name} [{unit}]", unit, is_clock, True, spread, counts)
 
 
 @pytest.mark.parametrize(
@@ -49,9 +48,9 @@ def test_a_voltage_is_known_but_not_physical():
     ("each", "reason"),
     [
         (column("t", "s", is_clock=True), "the clock"),
-        (column("LVDT 1", "mm", Shape(0.0)), "it never changes in any of these files"),
-        (column("LVDT 1", "mm", Shape(np.nan)), "it holds no number in any of these files"),
-        (column("n", None, Shape(9.0, counts=True)), "a running number: it rises by one from sample to sample"),
+        (column("LVDT 1", "mm", 0.0), "it never changes in any of these files"),
+        (column("LVDT 1", "mm", np.nan), "it holds no number in any of these files"),
+        (column("n", counts=True), "a running number: it rises by one from sample to sample"),
         (column("Trigger"), 'a synchronisation signal, from "trigger" in its name'),
     ],
     ids=["clock", "constant", "empty", "counter", "trigger"],
@@ -66,7 +65,7 @@ def test_the_place_and_the_axis_are_read_from_the_name():
 
 
 def named_column(number, name, unit=None):
-    return Column(number, name, name, unit, False, True, MOVING)
+    return Column(number, name, name, unit, False, True, 1.0)
 
 
 def lines_of(*named):
@@ -181,8 +180,7 @@ def test_a_frequency_in_the_name_is_held_against_the_recorded_one(folder):
 
 
 def raw(relative, *names, spread=1.0):
-    shape = Shape(spread)
-    columns = tuple(Column(n, name, name, "mm", False, True, shape) for n, name in enumerate(names, start=1))
+    columns = tuple(Column(n, name, name, "mm", False, True, spread) for n, name in enumerate(names, start=1))
     return RawFile(relative, "delimited", columns, 100.0, 10.0, ())
 
 
@@ -209,7 +207,7 @@ def test_files_of_two_recorders_are_one_test(first, second, recorder):
 def test_a_column_is_shown_as_in_the_file_where_it_moves_most():
     (tests,), _ = arrange([raw("a.csv", "top", spread=0.1), raw("b.csv", "top", spread=3.0)])
     setup = DraftSetup(tests)
-    assert [column.shape.spread for column in setup.columns["main"]] == [3.0]
+    assert [column.spread for column in setup.columns["main"]] == [3.0]
     assert [channel.id for channel in setup.channels] == ["top"]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -63,11 +64,6 @@ class Question:
     key: str
     value: str
     asked: str
-
-    @property
-    def is_open(self) -> bool:
-        """Whether the value has to be filled in."""
-        return "?" in self.value
 
 
 @dataclass(frozen=True)
@@ -136,18 +132,15 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
         "\n".join([*lines, ""]),
         sum(len(each.tests) for each in setups),
         len(setups),
-        tuple(each for each in asked if each.is_open),
-        tuple(each for each in asked if not each.is_open),
+        tuple(each for each in asked if "?" in each.value),
+        tuple(each for each in asked if "?" not in each.value),
         tuple(refused),
         asks_first=len(setups) > MOST_SETUPS,
     )
 
 
 def _expected(folder: Path) -> Path:
-    try:
-        folder = folder.resolve()
-    except (OSError, RuntimeError, ValueError) as error:
-        raise CampaignError(f"{folder}: invalid path ({error}). Name the folder with the raw files.") from None
+    folder = Path(os.path.realpath(folder))
     if not folder.is_dir():
         kind = irregular(folder)
         found = f"this is {kind}" if kind else "folder not found"
@@ -172,17 +165,17 @@ def _asked(lines: Lines) -> tuple[list[str], list[Question]]:
     section, texts, asked = "", [], []
     before: set[str] = set()
     for number, line in enumerate(lines, start=1):
-        if isinstance(line, Line):
-            section = f"tests[{line.value.strip(chr(34))}]" if section == "tests" and line.key == "id" else section
-            if line.question:
-                shown = replace(line, question="as above") if line.question in before else line
-                before.add(line.question)
-                asked.append(Question(number, f"{section}.{line.key}".lstrip("."), line.value, shown.question))
-                line = shown
-        elif line.startswith("["):
-            section = line.strip("[]")
-            if section.count(".") == 1:  # another specimen or set-up
+        if isinstance(line, str):
+            section = line.strip("[]") if line.startswith("[") else section
+            if line.startswith("[") and section.count(".") == 1:  # another specimen or set-up
                 before.clear()
+        elif section == "tests" and line.key == "id":
+            section = f"tests[{line.value.strip(chr(34))}]"
+        elif line.question:
+            if line.question in before:
+                line = replace(line, question="as above")
+            before.add(line.question)
+            asked.append(Question(number, f"{section}.{line.key}".lstrip("."), line.value, line.question))
         texts.append(str(line))
     return texts, asked
 
