@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colonnade.arrays import Array
 from colonnade.campaign import Campaign
 from colonnade.campaign.assembly import Whole
 from colonnade.campaign.settings import PlaneEnsembleSettings
@@ -67,19 +65,16 @@ def _is_rocked(campaign: Campaign, specimen: str) -> bool:
     return not is_part or any(test.specimen == specimen for test in campaign.tests.values())
 
 
-@dataclass(frozen=True)
-class _Identified:
-    """
-    Ids of free vibrations with an e, their e and errors, what they say of e, α and p, the method; why others have none.
-    """
+OF_TESTS: dict[str, tuple[int, ...]] = {
+    "restitution": (),
+    "restitution_standard_error": (),
+    "joint_mean": (3,),
+    "joint_covariance": (3, 3),
+}
+"""Variables of a free vibration that the pool keeps, as `test_…`, and their shapes."""
 
-    tests: tuple[str, ...] = ()
-    values: Array = field(default_factory=lambda: np.empty(0))
-    errors: Array = field(default_factory=lambda: np.empty(0))
-    means: Array = field(default_factory=lambda: np.empty((0, 3)))
-    covariances: Array = field(default_factory=lambda: np.empty((0, 3, 3)))
-    method: str = ""
-    refused: tuple[str, ...] = ()
+JOINT = ("joint", "joint_column")
+"""Their dimensions."""
 
 
 def specimen(identified: Mapping[str, xr.Dataset], inputs: SpecimenInputs) -> xr.Dataset:
@@ -98,20 +93,12 @@ def specimen(identified: Mapping[str, xr.Dataset], inputs: SpecimenInputs) -> xr
         `side_restitution` (θ < 0, θ > 0) that predictions take and `restitution`, their mean: the one given in the
         campaign file, else the identified one, else the rigid-body value; `restitution_source` says which.
     """
-    tests = tuple(sorted(name for name, result in identified.items() if np.isfinite(float(result["restitution"]))))
-    refused = [f"{name}: {result.attrs['reason']}" for name, result in sorted(identified.items()) if name not in tests]
-    return _taken(
-        _Identified(
-            tests,
-            np.array([float(identified[name]["restitution"]) for name in tests]),
-            np.array([float(identified[name]["restitution_standard_error"]) for name in tests]),
-            np.array([identified[name]["joint_mean"].to_numpy() for name in tests]).reshape(-1, 3),
-            np.array([identified[name]["joint_covariance"].to_numpy() for name in tests]).reshape(-1, 3, 3),
-            identified[tests[0]].attrs["method"] if tests else "",
-            tuple(refused),
-        ),
-        inputs,
-    )
+    refused = [
+        f"{name}: {result.attrs['reason']}"
+        for name, result in sorted(identified.items())
+        if not np.isfinite(result["restitution"])
+    ]
+    return _taken(_gathered(identified, refused), inputs)
 
 
 def taken(stored: xr.Dataset | None, inputs: SpecimenInputs) -> xr.Dataset:
@@ -129,18 +116,25 @@ def taken(stored: xr.Dataset | None, inputs: SpecimenInputs) -> xr.Dataset:
     pooled : xr.Dataset
         As of `specimen`.
     """
-    found = _Identified(refused=("the free vibrations have not been identified",))
     if stored is not None and "test_method" in stored.attrs and "known" in stored and _is_of(stored, inputs.block):
-        found = _Identified(
-            tuple(str(name) for name in stored["test_id"].to_numpy()),
-            stored["test_restitution"].to_numpy(),
-            stored["test_restitution_standard_error"].to_numpy(),
-            stored["test_joint_mean"].to_numpy(),
-            stored["test_joint_covariance"].to_numpy(),
-            str(stored.attrs["test_method"]),
-            tuple(stored.attrs["refused"]),
-        )
-    return _taken(found, inputs)
+        return _taken(stored[[f"test_{name}" for name in OF_TESTS]], inputs)
+    return _taken(_gathered({}, ["the free vibrations have not been identified"]), inputs)
+
+
+def _gathered(identified: Mapping[str, xr.Dataset], refused: list[str]) -> xr.Dataset:
+    """What the free vibrations that have an e say of e, α and p, and why others have none."""
+    import xarray as xr
+
+    tests = {name: result for name, result in sorted(identified.items()) if np.isfinite(result["restitution"])}
+    values = {
+        name: np.array([result[name].to_numpy() for result in tests.values()]).reshape(len(tests), *shape)
+        for name, shape in OF_TESTS.items()
+    }
+    return xr.Dataset(
+        {f"test_{name}": (("test", *JOINT)[: each.ndim], each) for name, each in values.items()},
+        coords={"test_id": ("test", np.array(list(tests), dtype=object))},
+        attrs={"test_method": next((each.attrs["method"] for each in tests.values()), ""), "refused": refused},
+    )
 
 
 def restitution_spread(pooled: xr.Dataset, usual: float) -> tuple[float, int | None]:
@@ -190,18 +184,13 @@ def spread_of(pooled: xr.Dataset, usual: PlaneEnsembleSettings) -> Uncertainty:
 
 def pooled_of(pooled: xr.Dataset) -> Pooled:
     """Give what the free vibrations in a result of `specimen` say of e, α and p together."""
-    found = _Identified(
-        values=pooled["test_restitution"].to_numpy(),
-        errors=pooled["test_restitution_standard_error"].to_numpy(),
-        means=pooled["test_joint_mean"].to_numpy(),
-        covariances=pooled["test_joint_covariance"].to_numpy(),
-    )
-    return _pooled(found, float(pooled["level"]), (float(pooled["known"][0]), float(pooled["known"][1])))
+    return _pooled(pooled, float(pooled["level"]), (float(pooled["known"][0]), float(pooled["known"][1])))
 
 
-def _pooled(found: _Identified, level: float, known: tuple[float, float]) -> Pooled:
-    joints = [Joint(mean, covariance) for mean, covariance in zip(found.means, found.covariances, strict=True)]
-    return pool(found.values, found.errors, level=level, joints=joints, known=known)
+def _pooled(found: xr.Dataset, level: float, known: tuple[float, float]) -> Pooled:
+    values, errors, means, covariances = (found[f"test_{name}"].to_numpy() for name in OF_TESTS)
+    joints = [Joint(mean, covariance) for mean, covariance in zip(means, covariances, strict=True)]
+    return pool(values, errors, level=level, joints=joints, known=known)
 
 
 def _is_of(stored: xr.Dataset, block: Block) -> bool:
@@ -213,62 +202,54 @@ def _properties(block: Block) -> dict[str, float]:
     return {name: getattr(block, name) for name in names} | {"rigid_restitution": block.restitution}
 
 
-def _taken(found: _Identified, inputs: SpecimenInputs) -> xr.Dataset:
+def _taken(found: xr.Dataset, inputs: SpecimenInputs) -> xr.Dataset:
     """The rule: e as given, else as identified, else of the rigid body."""
-    import xarray as xr
-
-    block = inputs.block
+    block, refused = inputs.block, list(found.attrs["refused"])
     low = high = between = np.nan
     method = reason = ""
+    warnings: list[Finding] = []
     if inputs.given is not None:
         value, source, method = pair(inputs.given), "given", "given in the campaign file"
-    elif found.tests:
+    elif tests := found.sizes["test"]:
         pooled = _pooled(found, inputs.level, inputs.known)
         value, source = pair(pooled.value), "identified"
         low, high, between = pooled.low, pooled.high, pooled.between
-        method = f"{found.method}; random effects over {count(len(found.tests), 'free vibration')}"
+        method = f"{found.attrs['test_method']}; random effects over {count(tests, 'free vibration')}"
     else:
         value, source = pair(block.restitution), "rigid-body"
-        reason = "; ".join(found.refused) or "no free vibration of this specimen was identified"
+        reason = "; ".join(refused) or "no free vibration of this specimen was identified"
         beam = ", the beam counts four times in m" if block.beam_ratio else ""
         method = f"rigid body without bounce, 1 − (2 m R b/I₀) sin α (Housner 1963){beam}"
-    return xr.Dataset(
+        warnings = [_rigid(value[0], refused)] if inputs.is_rocked else []
+    described = found.assign(
         {
             "side_restitution": ("side", np.array(value)),
-            "restitution": ((), float(np.mean(value))),
-            "restitution_low": ((), low),
-            "restitution_high": ((), high),
-            "between_test_scatter": ((), between),
-            "level": ((), inputs.level),
-            **{name: ((), each) for name, each in _properties(block).items()},
-            "test_restitution": ("test", found.values),
-            "test_restitution_standard_error": ("test", found.errors),
-            "test_joint_mean": (("test", "joint"), found.means),
-            "test_joint_covariance": (("test", "joint", "joint_column"), found.covariances),
+            "restitution": float(np.mean(value)),
+            "restitution_low": low,
+            "restitution_high": high,
+            "between_test_scatter": between,
+            "level": inputs.level,
+            **_properties(block),
             "known": ("property", np.array(inputs.known)),
-        },
-        coords={"test_id": ("test", np.array(found.tests, dtype=object))},
-        attrs={
-            "restitution_source": source,
-            "method": method,
-            "reason": reason,
-            "test_method": found.method,
-            "refused": list(found.refused),
-            "warnings": _warnings(source, value, found) if inputs.is_rocked else [],
-        },
+        }
     )
+    described.attrs = {
+        "restitution_source": source,
+        "method": method,
+        "reason": reason,
+        "test_method": found.attrs["test_method"],
+        "refused": refused,
+        "warnings": warnings,
+    }
+    return described
 
 
-def _warnings(source: str, value: tuple[float, float], found: _Identified) -> list[Finding]:
+def _rigid(restitution: float, refused: list[str]) -> Finding:
     """Note that predictions use the e of a rigid body; a warning if free vibrations should have given it."""
-    if source != "rigid-body":
-        return []
-    weight = warning if found.refused else note
-    why = "none of its free vibrations gives one" if found.refused else "it has no free vibration"
-    return [
-        weight(
-            "rigid-body e",
-            f"Predictions use the rigid body's e, {value[0]:.4g}, because {why}. Give `restitution` in the campaign "
-            "file if it is known.",
-        )
-    ]
+    weight = warning if refused else note
+    why = "none of its free vibrations gives one" if refused else "it has no free vibration"
+    return weight(
+        "rigid-body e",
+        f"Predictions use the rigid body's e, {restitution:.4g}, because {why}. Give `restitution` in the campaign "
+        "file if it is known.",
+    )
