@@ -131,5 +131,5 @@ def row(name):
     """Describe a variable as the files do."""
     entry = VARIABLES[name]
     comment = f" {entry.comment}" if entry.comment else ""
-    unit = {"1": "–", None: "text or flag"}.get(entry.units, code(entry.units))
+    unit = {"1": "–", "": "text or flag"}.get(entry.units, code(entry.units))
     return code(name), unit, f"{entry.long_name[0].upper()}{entry.long_name[1:]}.{comment}"

@@ -16,7 +16,7 @@ from colonnade.laboratory.campaign_file import OPERATOR
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import GERMAN, FileFormat, Sheet
 from colonnade.laboratory.programme import CYCLES, LADDERS, LASTING, MARGIN, RAMP, RAMPS, SPECIMENS, sine
-from colonnade.laboratory.runs import START_SCATTER, run_test, run_tests, write, write_truth
+from colonnade.laboratory.runs import START_SCATTER, run_test, run_tests, truth_of, with_its_truth, write
 from colonnade.laboratory.table import Imperfections, Transducer, ramped_sine
 from colonnade.laboratory.truth import simulate
 from colonnade.workflow import executors
@@ -147,7 +147,7 @@ def test_each_test_has_a_seed_of_its_own_and_the_campaign_one_for_all(plan, tmp_
 
 def test_the_truth_holds_specimens_errors_and_tests_and_reads_back(plan, tmp_path):
     records = {"rest": run(plan, 2, tmp_path)}
-    truth = write_truth(plan, records, tmp_path, 11)
+    truth = with_its_truth(tmp_path, truth_of(plan, records, 11)).truth
     assert json.loads((tmp_path / "truth" / "truth.json").read_text("utf-8")) == truth
     assert truth["seed"] == 11
     assert truth["tests"] == records

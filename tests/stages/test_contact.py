@@ -114,7 +114,8 @@ def shaken_in_space(small_campaign, shaken):
     settings = ContactSettings.model_validate({"step": "50 us", "damping_fraction": 0.3, "penetration": 1e-5})
     space = calibrating.ContactInputs.of(small_campaign, "prism").model_copy(update={"settings": settings})
     ready, rocking = chain.measured(small_campaign, test, shaken[0])
-    read = running.ContactEnsembleInputs.of(small_campaign, test).model_copy(update={"space": space})
+    read = running.ContactEnsembleInputs.of(small_campaign, test)
+    read = read.model_copy(update={"prediction": read.prediction.model_copy(update={"space": space})})
     return ready, rocking, calibrating.contact(SPECIMEN, space), _set(read, members=RUNS)
 
 
@@ -126,8 +127,7 @@ def _set(read, **changes):
 def test_the_bands_lie_about_the_prediction_on_its_clock(shaken_in_space):
     conditioned, rocking, law, read = shaken_in_space
     bands = running.contact_ensemble(conditioned, rocking, read, law)
-    prediction = read.prediction.model_copy(update={"space": read.space})
-    predicted = predicting.predict(rocking, SPECIMEN, prediction, law)
+    predicted = predicting.predict(rocking, SPECIMEN, read.prediction, law)
     np.testing.assert_array_equal(bands["elapsed"], predicted["elapsed"])
     np.testing.assert_array_equal(bands["rocking_angle"], predicted["rocking_angle"])
     low, high = (bands["rocking_angle_band"].sel(quantile=level) for level in (0.025, 0.975))

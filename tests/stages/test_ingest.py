@@ -17,7 +17,6 @@ from colonnade.findings import Severity
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.signals.quality import Flag
 from colonnade.signals.rest import RestWindow
-from colonnade.signals.timing import Clock
 from colonnade.stages.ingest import (
     IngestInputs,
     channel_verdicts,
@@ -26,10 +25,7 @@ from colonnade.stages.ingest import (
     find_column,
     recorded_at,
     reviewed,
-    rounding,
-    too_short,
     unit_findings,
-    within,
 )
 from colonnade.stages.parts.zeroing import find_zero_error, on_angle, on_base
 from colonnade.store.description import describe
@@ -305,38 +301,6 @@ def test_a_recorders_own_unit_is_noted_where_the_campaign_file_explains_it(own):
 def test_counts_taken_for_millimetres_and_another_known_unit_stay_serious():
     assert_unit_finding(Severity.SERIOUS, (), "counts", unit="mm")
     assert_unit_finding(Severity.SERIOUS, (), "mV", unit="V", gain="10 mm/V")
-
-
-def test_a_window_takes_its_edges_and_leaves_out_what_has_no_time():
-    time = np.array([0.0, 1.0, np.nan, 2.0, 3.0])
-    found = within(RecordedChannel("Top", None, np.arange(5.0), time), (1.0, 2.0))
-    np.testing.assert_array_equal(found, [[1.0, 2.0], [1.0, 3.0]])
-
-
-def test_without_a_window_everything_belongs_to_the_test():
-    time, values = within(RECORDING.channels[1], None)
-    assert time is FILE_TIME
-    assert values is VALUES
-
-
-@every(("window", "words"), [(None, "; at least"), ((2.0, 2.5), " between 2 and 2.5 s; at")])
-def test_too_few_samples_are_told_with_the_window_that_cut_them(window, words):
-    error = too_short("top", 1, window)
-    assert isinstance(error, StageError)
-    assert f"channel top has 1 sample{words}" in str(error)
-
-
-@pytest.mark.parametrize(("resolution", "is_warned"), [(0.0, False), (0.0005, False), (0.00051, True), (0.001, True)])
-def test_rounded_times_are_noted_above_the_share_of_an_interval(resolution, is_warned):
-    findings = rounding(RECORDING, Clock(FILE_TIME, 0.005, resolution), jitter=0.1)
-    assert bool(findings) is is_warned
-    if is_warned:
-        assert (findings[0].kind, findings[0].severity) == ("rounded times", Severity.NOTE)
-        assert f"rounded to {1e3 * resolution:g} ms; an even clock of 200 Hz" in findings[0].text
-
-
-def test_a_clock_without_an_interval_is_not_called_rounded():
-    assert rounding(RECORDING, Clock(FILE_TIME, float("nan"), 0.001), jitter=0.1) == []
 
 
 def test_a_channel_is_on_the_clock_of_its_recorder_or_its_own():

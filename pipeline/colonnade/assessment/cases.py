@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import ceil, inf
@@ -213,6 +213,14 @@ def in_plane(motion: Motion, place: int, factor: float) -> Motion | None:
     return Motion(factor * along, motion.dt, None if motion.vertical is None else abs(factor) * motion.vertical)
 
 
+def components(motions: Sequence[Motion]) -> Iterator[tuple[int, int, Motion]]:
+    """Give each horizontal component of records as recorded: number of the record, place in `COMPONENTS`, motion."""
+    for record, motion in enumerate(motions):
+        for place in range(len(COMPONENTS)):
+            if (along := in_plane(motion, place, 1.0)) is not None:
+                yield record, place, along
+
+
 def run_cases(cases: Cases) -> CaseOutcomes:
     """Run all cases in this process."""
     _records, levels, _draws, _signs, components = shape = cases.shape
@@ -311,9 +319,8 @@ def _first_uplift(column: RealColumn, motions: Sequence[Motion], intensity: Arra
     """Give the level from which the first of the records uplifts the column, vertical motion left out."""
     found = [
         float(intensity[record, place]) * (column.block.uplift_acceleration / plane.peak) ** power
-        for record, motion in enumerate(motions)
-        for place in range(len(COMPONENTS))
-        if (plane := in_plane(motion, place, 1.0)) is not None and plane.peak > 0.0 and intensity[record, place] > 0.0
+        for record, place, plane in components(motions)
+        if plane.peak > 0.0 and intensity[record, place] > 0.0
     ]
     if not found:
         raise ValueError("no record has a component with a positive measure; a record that moves was expected")

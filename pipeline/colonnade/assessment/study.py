@@ -10,7 +10,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
-from colonnade.assessment.cases import COMPONENTS, CaseOutcomes, Cases, OnContact, default_levels, factors_at, run_cases
+from colonnade.assessment.cases import (
+    COMPONENTS,
+    CaseOutcomes,
+    Cases,
+    OnContact,
+    components,
+    default_levels,
+    factors_at,
+    run_cases,
+)
 from colonnade.assessment.fragility import Fragility, summarise
 from colonnade.assessment.ground import LARGEST_DRIFT, NONE, Ground, correction_of
 from colonnade.assessment.hazard import Hazard, hazard_curve
@@ -33,9 +42,6 @@ USUAL = tuple(name for name, measure in MEASURES.items() if not measure.needs_bl
 
 FALLS = "it does not move, or at all levels its base falls faster than the column; lower levels are needed"
 """Why a record has no history at all."""
-
-WITH_COMPONENT = {"x": "acceleration", "y": "transverse"}
-"""Attribute of a motion that holds each horizontal component."""
 
 
 @dataclass(frozen=True)
@@ -164,18 +170,14 @@ def _measured(
     component why it does not have the first of the measures.
     """
     values = {each.id: np.full((len(motions), len(COMPONENTS)), np.nan) for each in compared}
-    drifts, reasons = np.zeros(len(motions)), dict[tuple[str, str], str]()
-    for row, (name, motion) in enumerate(motions.items()):
-        for column, component in enumerate(COMPONENTS):
-            along = getattr(motion, WITH_COMPONENT[component])
-            if along is None:
-                continue
-            ground = Ground(along, motion.dt, block.gravity)
-            drifts[row] = max(drifts[row], ground.drift)
-            for each in compared:
-                values[each.id][row, column], reason = measured(each, ground, block, drift=drift)
-                if reason and each is compared[0]:
-                    reasons[name, component] = reason
+    names, drifts, reasons = list(motions), np.zeros(len(motions)), dict[tuple[str, str], str]()
+    for row, place, along in components(list(motions.values())):
+        ground = Ground(along.acceleration, along.dt, block.gravity)
+        drifts[row] = max(drifts[row], ground.drift)
+        for each in compared:
+            values[each.id][row, place], reason = measured(each, ground, block, drift=drift)
+            if reason and each is compared[0]:
+                reasons[names[row], COMPONENTS[place]] = reason
     return values, drifts, reasons
 
 

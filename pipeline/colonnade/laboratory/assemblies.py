@@ -23,10 +23,9 @@ from colonnade.campaign.channel import MAIN
 from colonnade.dynamics.assembly import Assembly, Placed
 from colonnade.laboratory.campaign_file import FILE_NAME, refuse_foreign
 from colonnade.laboratory.files import put
-from colonnade.laboratory.runs import WrittenCampaign, spread_over
+from colonnade.laboratory.runs import WrittenCampaign, spread_over, with_its_truth
 from colonnade.laboratory.table import ramped_sine
 from colonnade.laboratory.truth import NO_ROCKING_RATIO
-from colonnade.store.files import own_files
 
 RATE = 200.0
 """Frames a second of the cameras, and samples of the accelerometer."""
@@ -107,15 +106,11 @@ def write_assemblies(folder: Path, *, seed: int = 0, workers: int | None = 1) ->
         If the folder holds a campaign that the laboratory did not write.
     """
     refuse_foreign(folder)
-    for name in ("raw", "truth"):
-        own_files(folder / name)
     put(folder / FILE_NAME, (resources("colonnade.laboratory") / "assemblies.toml").read_bytes())
     campaign = load(folder.absolute())  # as workers may have started in another folder
     seeds = np.random.SeedSequence(seed).spawn(len(SHAKEN))
     done = spread_over(workers, partial(_record, campaign), SHAKEN, seeds)
-    truth = {"seed": seed, "tests": {name: true for each in done for name, true in each.items()}}
-    put(folder / "truth" / "truth.json", (json.dumps(truth, indent=1) + "\n").encode())
-    return WrittenCampaign(folder / FILE_NAME, truth)
+    return with_its_truth(folder, {"seed": seed, "tests": {name: true for each in done for name, true in each.items()}})
 
 
 def _record(campaign: Campaign, recording: str, seed: np.random.SeedSequence) -> dict[str, dict[str, Any]]:

@@ -13,6 +13,7 @@ from colonnade.laboratory.experiment import MAIN, Plan, Setup, Trial, begun, raw
 from colonnade.laboratory.files import FileFormat
 from colonnade.laboratory.table import VOLTS, Transducer
 from colonnade.readers.files import irregular
+from colonnade.store.files import own_files
 
 FILE_NAME = "campaign.toml"
 MARK = "# Written by colonnade's virtual laboratory"
@@ -67,20 +68,15 @@ def entries(values: Mapping[str, object]) -> list[str]:
 
 
 def refuse_foreign(folder: Path) -> None:
-    """
-    Keep the laboratory from writing over a real campaign.
-
-    Raises
-    ------
-    CampaignError
-        If the folder holds a campaign file that the laboratory did not write.
-    """
+    """Refuse a folder with a campaign file that the laboratory did not write, or with links where it would write."""
     path = folder / FILE_NAME
     if path.exists() and (irregular(path) or not path.read_bytes().startswith(MARK.encode())):
         raise CampaignError(
             f"{path}: this campaign was not written by the virtual laboratory and was not changed. Name another folder "
             "for the demo."
         )
+    for name in ("raw", "truth"):
+        own_files(folder / name)
 
 
 def _setup(key: str, setup: Setup, *, explained: bool) -> list[str]:

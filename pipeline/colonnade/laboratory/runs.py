@@ -20,7 +20,6 @@ from colonnade.laboratory.programme import load_record, prism_programme
 from colonnade.laboratory.site import add_site
 from colonnade.laboratory.table import measure
 from colonnade.laboratory.truth import Truth, simulate
-from colonnade.store.files import own_files
 
 Result = TypeVar("Result")
 
@@ -98,11 +97,14 @@ def write(plan: Plan, folder: Path | str, *, seed: int = 0, workers: int | None 
     """Run a plan: write its raw files, its truth and its campaign file; see `write_campaign`."""
     folder = Path(folder)
     refuse_foreign(folder)
-    for name in ("raw", "truth"):
-        own_files(folder / name)
-    records = run_tests(plan, folder, seed, workers)
-    truth = write_truth(plan, records, folder, seed)
+    truth = truth_of(plan, run_tests(plan, folder, seed, workers), seed)
     put(folder / FILE_NAME, campaign_text(plan).encode())
+    return with_its_truth(folder, truth)
+
+
+def with_its_truth(folder: Path, truth: dict[str, Any]) -> WrittenCampaign:
+    """Write truth/truth.json next to a campaign that was written."""
+    put(folder / "truth" / "truth.json", (json.dumps(truth, indent=1, ensure_ascii=False) + "\n").encode())
     return WrittenCampaign(folder / FILE_NAME, truth)
 
 
@@ -127,15 +129,11 @@ def run_test(plan: Plan, trial: Trial, folder: Path, seed: np.random.SeedSequenc
     """Run one test: write its raw files and its true angle; return what is true of it, for truth.json."""
     generator = np.random.default_rng(seed)
     setup, specimen = plan.setups[trial.setup], plan.specimens[plan.specimen_of(trial)]
-    starts = {
-        name: recorder.late + (generator.uniform(-START_SCATTER, START_SCATTER) if recorder.late else 0.0)
-        for name, recorder in setup.recorders.items()
-    }
-    rates = {name: recorder.sampling_rate_hz for name, recorder in setup.recorders.items()}
-    clocks = {
-        name: starts[name] + np.arange(int((trial.duration - starts[name]) * rate)) / rate
-        for name, rate in rates.items()
-    }
+    starts, clocks = {}, {}
+    for name, recorder in setup.recorders.items():
+        scatter = generator.uniform(-START_SCATTER, START_SCATTER) if recorder.late else 0.0
+        starts[name], rate = recorder.late + scatter, recorder.sampling_rate_hz
+        clocks[name] = starts[name] + np.arange(int((trial.duration - starts[name]) * rate)) / rate
     truth = simulate(
         specimen.block,
         np.unique(np.concatenate(list(clocks.values()))),
@@ -209,20 +207,18 @@ def _draw_spikes(
     return drawn
 
 
-def write_truth(plan: Plan, records: Mapping[str, Mapping[str, Any]], folder: Path, seed: int) -> dict[str, Any]:
-    """Write truth/truth.json: e and properties of each specimen, what is true of each test; return it."""
-    truth = {
+def truth_of(plan: Plan, records: Mapping[str, Mapping[str, Any]], seed: int) -> dict[str, Any]:
+    """Gather what is true: e and properties of each specimen, and of each test."""
+    names = ("critical_angle", "pole_distance", "inertia", "p")
+    return {
         "seed": seed,
         "specimens": {
-            name: {"restitution": specimen.restitution}
-            | {key: getattr(specimen.block, key) for key in ("critical_angle", "pole_distance", "inertia", "p")}
+            name: {"restitution": specimen.restitution} | {key: getattr(specimen.block, key) for key in names}
             for name, specimen in plan.specimens.items()
         },
         "imperfections": asdict(plan.imperfections),
         "tests": dict(records),
     }
-    put(folder / "truth" / "truth.json", (json.dumps(truth, indent=1, ensure_ascii=False) + "\n").encode())
-    return truth
 
 
 def with_truth(truth: Mapping[str, Any], summary: Path) -> dict[str, Any]:

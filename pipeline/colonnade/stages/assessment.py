@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from colonnade.arrays import Array
 from colonnade.assessment.cases import (
     AXES,
     COMPONENTS,
@@ -15,12 +14,11 @@ from colonnade.assessment.cases import (
     NOT_RUN,
     CaseOutcomes,
     FrictionNeeded,
+    components,
     friction_needed,
     holds,
-    in_plane,
 )
 from colonnade.assessment.criteria import CRITERIA, Demands, agreement, spectral_velocity
-from colonnade.assessment.curves import LognormalFit
 from colonnade.assessment.fragility import MISFITS, Fragility
 from colonnade.assessment.ground import Ground
 from colonnade.assessment.intervals import Interval, Resampling
@@ -78,42 +76,29 @@ def assessment(plan: Plan, outcomes: Mapping[str, CaseOutcomes]) -> xr.Dataset:
         If the outcomes allow no answer.
     """
     about = {each.name: each for each in plan.records.records}
-    names = plan.studies[ASSUMED].names
-    magnitude = _known([about[name].magnitude for name in names])
-    distance = _known([about[name].distance for name in names])
-
-    def judged(name: str) -> Fragility:
-        return judge(
-            plan.studies[name],
-            outcomes[name],
-            Resampling(plan.inputs.asked.resamples, plan.inputs.asked.seed),
-            overturned=plan.inputs.asked.overturned,
-            hazard=plan.hazard if name == ASSUMED else None,
-            magnitude=magnitude if name == ASSUMED else None,
-            distance=distance if name == ASSUMED else None,
-        )
-
+    known = {
+        key: np.array([getattr(about[name], key) for name in plan.studies[ASSUMED].names], dtype=np.float64)
+        for key in ("magnitude", "distance")
+    }
+    asked, found = plan.inputs.asked, {}
+    resampling = Resampling(asked.resamples, asked.seed)
     try:
-        fragilities = {name: judged(name) for name in plan.studies}
+        for name, study in plan.studies.items():
+            more: dict[str, Any] = {"hazard": plan.hazard, **known} if name == ASSUMED else {}
+            found[name] = judge(study, outcomes[name], resampling, overturned=asked.overturned, **more)
     except ValueError as error:
         raise StageError(str(error)) from error
     needed = None if plan.inputs.several else friction_needed(plan.studies[ASSUMED].cases)
-    found = answer(plan, outcomes[ASSUMED], fragilities, _sliding(plan, outcomes[ASSUMED], needed))
-    result = _dataset(plan, outcomes[ASSUMED], needed, fragilities[ASSUMED])
+    said = _answer(plan, outcomes[ASSUMED], found, _sliding(plan, outcomes[ASSUMED], needed))
+    result = _dataset(plan, outcomes[ASSUMED], needed, found[ASSUMED])
     return result.assign_attrs(
-        answer=found.model_dump_json(),
-        measure_asked=f"{found.measure} [{found.unit or '1'}]",
+        answer=said.model_dump_json(),
+        measure_asked=f"{said.measure} [{said.unit or '1'}]",
         restitution_source=plan.restitution_source,
-        record_files=[file for each in found.records_used for file in each.files],
-        record_sha256=[digest for each in found.records_used for digest in each.files.values()],
-        warnings=[warning("assessment", said) for said in found.warnings],
+        record_files=[file for each in said.records_used for file in each.files],
+        record_sha256=[digest for each in said.records_used for digest in each.files.values()],
+        warnings=[warning("assessment", text) for text in said.warnings],
     )
-
-
-def _known(values: list[float | None]) -> Array | None:
-    """Values with NaN for those that are missing; None if all are."""
-    found = np.array([np.nan if value is None else value for value in values])
-    return None if np.isnan(found).all() else found
 
 
 def _sliding(plan: Plan, outcomes: CaseOutcomes, needed: FrictionNeeded | None) -> float | None:
@@ -126,39 +111,31 @@ def _sliding(plan: Plan, outcomes: CaseOutcomes, needed: FrictionNeeded | None) 
     return float((~holds(needed, cases.drawn("friction")[:, drawn]) & run).sum() / run.sum())
 
 
-def _spectra(study: Study) -> Array:
-    """Pseudo-acceleration of the components as recorded, m/s², shape (records, components, periods)."""
-    found = np.full((len(study.names), len(COMPONENTS), PERIODS.size), np.nan)
-    for record, motion in enumerate(study.cases.motions):
-        for place in range(len(COMPONENTS)):
-            if (along := in_plane(motion, place, 1.0)) is not None:
-                found[record, place] = response_spectrum(along.acceleration, along.dt, PERIODS).pseudo_acceleration
-    return found
-
-
 def _dataset(plan: Plan, outcomes: CaseOutcomes, needed: FrictionNeeded | None, fragility: Fragility) -> xr.Dataset:
     import xarray as xr
 
-    study = plan.studies[ASSUMED]
+    study, isotonic = plan.studies[ASSUMED], fragility.isotonic
     units = [measure_of(name).unit or "1" for name in study.values]
     reach = np.sqrt(study.levels[-1] / study.levels[0])
     over = np.geomspace(study.levels[0] / reach, study.levels[-1] * reach, CURVE)
-    lognormal = fragility.lognormal.probability(over)
-    isotonic = fragility.isotonic
-    drawn = {f"drawn_{name}": (("record", "draw"), study.cases.drawn(name)) for name in UNCERTAIN}
-    disaggregated: dict[str, Any] = {}
-    if needed is not None:
-        disaggregated = {"case_friction": (("record", "level", "sign", "component"), needed.largest)}
-    if (rate := fragility.rate) is not None:
-        disaggregated |= {"rate_edge": ("edge", rate.edges), "rate_share": ("part", rate.contributions)}
-    curves = {
-        f"{kind}_probability{end}": (dimension, values)
-        for kind, dimension, band in (
-            ("lognormal", "curve", lognormal),
-            ("isotonic", "stripe", isotonic.probability),
-        )
+    # Pseudo-acceleration of the components as recorded, m/s².
+    spectra = np.full((len(study.names), len(COMPONENTS), PERIODS.size), np.nan)
+    for record, place, along in components(study.cases.motions):
+        spectra[record, place] = response_spectrum(along.acceleration, along.dt, PERIODS).pseudo_acceleration
+    bands = {
+        "lognormal_probability": ("curve", fragility.lognormal.probability(over)),
+        "isotonic_probability": ("stripe", isotonic.probability),
+    }
+    variables: dict[str, Any] = {
+        f"{name}{end}": (dimension, values)
+        for name, (dimension, band) in bands.items()
         for end, values in zip(("", "_low", "_high"), band, strict=True)
     }
+    variables |= {f"drawn_{name}": (("record", "draw"), study.cases.drawn(name)) for name in UNCERTAIN}
+    if needed is not None:
+        variables["case_friction"] = (("record", "level", "sign", "component"), needed.largest)
+    if (rate := fragility.rate) is not None:
+        variables |= {"rate_edge": ("edge", rate.edges), "rate_share": ("part", rate.contributions)}
     return xr.Dataset(
         {
             "case_outcome": (AXES, outcomes.outcome),
@@ -167,11 +144,9 @@ def _dataset(plan: Plan, outcomes: CaseOutcomes, needed: FrictionNeeded | None, 
             "case_factor": (("record", "level", "component"), study.cases.factors),
             "curve_intensity": ("curve", over),
             "stripe_intensity": ("stripe", isotonic.intensity),
-            **curves,
-            **disaggregated,
-            **drawn,
-            "record_spectrum": (("record", "component", "period"), _spectra(study)),
+            "record_spectrum": (("record", "component", "period"), spectra),
             "record_measure": (("measure", "record", "component"), np.stack(list(study.values.values()))),
+            **variables,
         },
         coords={
             "record": np.array(study.names, dtype=object),
@@ -197,85 +172,83 @@ NO_CURVE = {
 """Why there is no lognormal curve, by the fit's own reason."""
 
 
-def answer(
+def _answer(
     plan: Plan, outcomes: CaseOutcomes, fragilities: Mapping[str, Fragility], sliding: float | None
 ) -> AssessmentSummary:
-    """
-    Gather the answer.
-
-    Parameters
-    ----------
-    plan : Plan
-    outcomes : CaseOutcomes
-        Of the study as assumed.
-    fragilities : mapping of str to Fragility
-        Of each study.
-    sliding : float or None
-        Share of the histories that need more friction than there is.
-
-    Returns
-    -------
-    answer : AssessmentSummary
-    """
-    study, found = plan.studies[ASSUMED], fragilities[ASSUMED]
-    lognormal = found.lognormal
-    five, fifty = (_estimate(found.reaches(share)) for share in (0.05, 0.5))
-    rate = found.rate
-    variants = [_variant(plan, name, each) for name, each in fragilities.items() if name != ASSUMED]
+    """Gather the answer: outcomes of the study as assumed, fragility of each, share that would slide."""
+    study, found, column = plan.studies[ASSUMED], fragilities[ASSUMED], plan.studies[ASSUMED].cases.column
+    uplift, rate, asked = found.uplift.curve, found.rate, plan.inputs.asked
+    one = plan.inputs.several is None
+    low, high = column.restitution_range or (None, None)
+    of_rate: dict[str, Any] = {}
+    if rate is not None:
+        of_rate = {
+            "annual_rate": _estimate(rate.rate),
+            "probability_50_years": _estimate(rate.in_50_years),
+            "annual_rate_isotonic": rate.isotonic,
+            "rate_outside": rate.below_hazard + rate.above_hazard,
+        }
+    compared = () if found.measures is None else found.measures.scores
+    # Nobody asked for measures that are compared by default.
+    missing = [name for name in study.values if name not in {each.name for each in compared}]
+    left_out = _left_out(plan)
     return AssessmentSummary(
         status="done",
-        warnings=tuple(_doubts(plan, outcomes, found, sliding)),
+        warnings=tuple(_doubts(plan, outcomes, found, sliding, left_out)),
         specimen=plan.inputs.specimen,
         measure=study.measure.id,
         unit=study.measure.unit,
-        **_assumed(plan, study.cases.column),
-        baseline=plan.inputs.asked.baseline,
-        uplift=Estimate() if found.uplift.curve is None else _estimate(found.uplift.curve.median),
-        median=_estimate(lognormal.median),
-        dispersion=_estimate(lognormal.beta),
+        critical_angle=column.block.critical_angle,
+        critical_angle_range=column.critical_angle_range,
+        p=column.block.p,
+        p_range=column.p_range,
+        restitution=Estimate(value=_both(column), low=low, high=high) if one else Estimate(),
+        restitution_source=plan.restitution_source if one else None,
+        displaced=asked.displaced,
+        friction=column.friction,
+        friction_range=column.friction_range,
+        uplift_acceleration=column.block.uplift_acceleration,
+        baseline=asked.baseline,
+        uplift=Estimate() if uplift is None else _estimate(uplift.median),
+        median=_estimate(found.lognormal.median),
+        dispersion=_estimate(found.lognormal.beta),
         dispersion_records=found.betas.records,
         dispersion_parameters=found.betas.parameters,
-        five_percent=five,
-        fifty_percent=fifty,
+        five_percent=_estimate(found.reaches(0.05)),
+        fifty_percent=_estimate(found.reaches(0.5)),
         curve=found.taken,
         curve_reason=None if found.taken == "lognormal" else _why_not(found),
         misfit=found.misfit.p_value,
         resurrected=found.resurrection.lost,
         sliding=sliding,
-        annual_rate=Estimate() if rate is None else _estimate(rate.rate),
-        probability_50_years=Estimate() if rate is None else _estimate(rate.in_50_years),
-        annual_rate_isotonic=None if rate is None else rate.isotonic,
-        rate_outside=None if rate is None else rate.below_hazard + rate.above_hazard,
-        variants=(*variants, *_without_correction(plan)),
-        measures=_measures(found),
-        criteria=_judged_criteria(
-            study, outcomes, drift=plan.inputs.asked.drift, overturned=plan.inputs.asked.overturned
+        **of_rate,
+        variants=tuple(_variants(plan, fragilities)),
+        measures=tuple(
+            JudgedMeasure(
+                measure=each.name,
+                deviance=each.deviance,
+                auc=each.auc,
+                scatter=each.scatter,
+                best=each.best,
+                magnitude=each.on_magnitude,
+                distance=each.on_log_distance,
+            )
+            for each in compared
         ),
+        criteria=_judged_criteria(study, outcomes, drift=asked.drift, overturned=asked.overturned),
         deciding=_deciding(found),
         records_used=_used(plan),
-        records_left_out=_left_out(plan),
-        notes=(*plan.records.notes, *_not_compared(plan, found)),
+        records_left_out=left_out,
+        notes=(
+            *plan.records.notes,
+            *(f"Not compared, as not all records have it: {measure_of(name).name}." for name in missing),
+        ),
     )
 
 
-def _assumed(plan: Plan, column: RealColumn) -> dict[str, Any]:
-    """Give what was assumed of the column."""
-    low, high = column.restitution_range or (None, None)
-    one = plan.inputs.several is None
-    return {
-        "critical_angle": column.block.critical_angle,
-        "critical_angle_range": column.critical_angle_range,
-        "p": column.block.p,
-        "p_range": column.p_range,
-        "restitution": Estimate(value=float(np.mean(pair(column.restitution))), low=low, high=high)
-        if one
-        else Estimate(),
-        "restitution_source": plan.restitution_source if one else None,
-        "displaced": plan.inputs.asked.displaced,
-        "friction": column.friction,
-        "friction_range": column.friction_range,
-        "uplift_acceleration": column.block.uplift_acceleration,
-    }
+def _both(column: RealColumn) -> float:
+    """The mean e of its sides."""
+    return float(np.mean(pair(column.restitution)))
 
 
 def _estimate(interval: Interval) -> Estimate:
@@ -294,53 +267,21 @@ def _why_not(found: Fragility) -> str:
     return f"the lognormal curve does not fit (p = {found.misfit.p_value:.2g})"
 
 
-def _at_lognormal(fit: LognormalFit, share: float) -> Estimate:
-    """Intensity at which the lognormal curve reaches a share."""
-    return _estimate(Interval(*(float(each[0]) for each in fit.intensity([share]))))
-
-
-def _variant(plan: Plan, name: str, found: Fragility) -> Variant:
-    fit = found.lognormal
-    return Variant(
-        name=name,
-        restitution=float(np.mean(pair(plan.studies[name].cases.column.restitution))),
-        median=Estimate() if fit.reason else _estimate(fit.median),
-        five_percent=Estimate() if fit.reason else _at_lognormal(fit, 0.05),
-        records=len(found.outcomes.records),
-        reason=NO_CURVE[fit.reason] if fit.reason else None,
-    )
-
-
-def _without_correction(plan: Plan) -> list[Variant]:
-    """Give the reason if the records have no answer without the correction."""
-    if not plan.without_correction:
-        return []
-    e = float(np.mean(pair(plan.studies[ASSUMED].cases.column.restitution)))
-    return [Variant(name=UNCORRECTED, restitution=e, reason=plan.without_correction)]
-
-
-def _not_compared(plan: Plan, found: Fragility) -> list[str]:
-    """Say which measures are not compared; nobody asked for those that are compared by default."""
-    compared = () if found.measures is None else {each.name for each in found.measures.scores}
-    missing = [name for name in plan.studies[ASSUMED].values if name not in compared]
-    return [f"Not compared, as not all records have it: {measure_of(name).name}." for name in missing]
-
-
-def _measures(found: Fragility) -> tuple[JudgedMeasure, ...]:
-    if found.measures is None:
-        return ()
-    return tuple(
-        JudgedMeasure(
-            measure=each.name,
-            deviance=each.deviance,
-            auc=each.auc,
-            scatter=each.scatter,
-            best=each.best,
-            magnitude=each.on_magnitude,
-            distance=each.on_log_distance,
-        )
-        for each in found.measures.scores
-    )
+def _variants(plan: Plan, fragilities: Mapping[str, Fragility]) -> Iterator[Variant]:
+    """Give the answer under each other assumption; of the records without their correction at least the reason."""
+    for name, found in fragilities.items():
+        if name == ASSUMED:
+            continue
+        fit, e = found.lognormal, _both(plan.studies[name].cases.column)
+        common: dict[str, Any] = {"name": name, "restitution": e, "records": len(found.outcomes.records)}
+        if fit.reason:
+            yield Variant(**common, reason=NO_CURVE[fit.reason])
+        else:
+            five = Interval(*(float(each[0]) for each in fit.intensity([0.05])))
+            yield Variant(**common, median=_estimate(fit.median), five_percent=_estimate(five))
+    if plan.without_correction:
+        e = _both(plan.studies[ASSUMED].cases.column)
+        yield Variant(name=UNCORRECTED, restitution=e, reason=plan.without_correction)
 
 
 def _deciding(found: Fragility) -> tuple[DecidingRecord, ...]:
@@ -348,10 +289,8 @@ def _deciding(found: Fragility) -> tuple[DecidingRecord, ...]:
         return ()
     without = found.influence
     rates = [None] * len(without.records) if without.rate is None else without.rate.tolist()
-    rows = zip(without.records, without.median.tolist(), rates, strict=True)
-    return tuple(DecidingRecord(record=name, median=median, annual_rate=rate) for name, median, rate in rows)[
-        :MOST_DECIDING
-    ]
+    rows = list(zip(without.records, without.median.tolist(), rates, strict=True))[:MOST_DECIDING]
+    return tuple(DecidingRecord(record=name, median=median, annual_rate=rate) for name, median, rate in rows)
 
 
 def _used(plan: Plan) -> tuple[RecordUsed, ...]:
@@ -368,71 +307,55 @@ def _used(plan: Plan) -> tuple[RecordUsed, ...]:
     )
 
 
-def _doubts(plan: Plan, outcomes: CaseOutcomes, found: Fragility, sliding: float | None) -> list[str]:
-    """Say what is doubtful, the gravest first; arguments as of `answer`, with the study as assumed."""
-    said = [*_of_the_column(plan), *_of_the_histories(outcomes, sliding), *_of_the_records(plan, found)]
-    return said + _of_the_rate(plan, found)
-
-
 def _left_out(plan: Plan) -> tuple[RecordLeftOut, ...]:
     """Name the files, records and components that are not used, with the reason."""
-    named = [(each.name, each.reason.removeprefix(f"{each.name}: ")) for each in plan.records.left_out]
-    return tuple(
-        RecordLeftOut(record=name, reason=reason) for name, reason in (*named, *plan.studies[ASSUMED].left_out.items())
-    )
+    files = [(each.name, each.reason.removeprefix(f"{each.name}: ")) for each in plan.records.left_out]
+    reasons = [*files, *plan.studies[ASSUMED].left_out.items()]
+    return tuple(RecordLeftOut(record=name, reason=reason) for name, reason in reasons)
 
 
-def _of_the_column(plan: Plan) -> list[str]:
-    column, said = plan.studies[ASSUMED].cases.column, []
+def _doubts(
+    plan: Plan,
+    outcomes: CaseOutcomes,
+    found: Fragility,
+    sliding: float | None,
+    left_out: Sequence[RecordLeftOut],
+) -> Iterator[str]:
+    """Say what is doubtful, the gravest first."""
+    column, rate = plan.studies[ASSUMED].cases.column, found.rate
     if plan.inputs.prototype.restitution == "identified" and plan.restitution_source == "rigid-body":
-        said.append("No e is identified on the model. That of a rigid body is assumed.")
-    rows = zip(("e", "α (rad)", "p (rad/s)"), column.central, column.ranges, strict=False)
-    return said + [
-        f"{name} is {value:.4g}, outside the limits {limits[0]:.4g} and {limits[1]:.4g} between which it is drawn."
-        for name, value, limits in rows
-        if limits is not None and not limits[0] <= value <= limits[1]
-    ]
-
-
-def _of_the_histories(outcomes: CaseOutcomes, sliding: float | None) -> list[str]:
-    said = []
+        yield "No e is identified on the model. That of a rigid body is assumed."
+    for name, value, limits in zip(("e", "α (rad)", "p (rad/s)"), column.central, column.ranges, strict=False):
+        if limits is not None and not limits[0] <= value <= limits[1]:
+            between = f"the limits {limits[0]:.4g} and {limits[1]:.4g} between which it is drawn"
+            yield f"{name} is {value:.4g}, outside {between}."
     if sliding:
-        said.append(
+        yield (
             f"In {format_percent(sliding)} of the histories the column would slide: it needs more friction than there "
             "is. There the answer does not hold."
         )
     if (falling := float((outcomes.outcome == FALLS_AWAY).sum() / (outcomes.outcome != NOT_RUN).sum())) > 0.0:
-        said.append(
+        yield (
             f"{format_percent(falling)} of the histories are not run, and do not count: their base falls faster than "
             "the column. Their levels are too high."
         )
-    return said
-
-
-def _of_the_records(plan: Plan, found: Fragility) -> list[str]:
-    said, missing = [], _left_out(plan)
-    if missing:
-        first = missing[0]
-        others = "" if len(missing) == 1 else f" and {len(missing) - 1} more"
-        said.append(f"Left out: {first.record}{others}. {first.record}: {first.reason.splitlines()[0]}")
-    return [*said, found.lognormal.no_interval] if found.lognormal.no_interval else said
-
-
-def _of_the_rate(plan: Plan, found: Fragility) -> list[str]:
-    rate, said = found.rate, []
+    if left_out:
+        first, others = left_out[0], "" if len(left_out) == 1 else f" and {len(left_out) - 1} more"
+        yield f"Left out: {first.record}{others}. {first.record}: {first.reason.splitlines()[0]}"
+    if found.lognormal.no_interval:
+        yield found.lognormal.no_interval
     if rate is not None and rate.is_extrapolated:
-        said.append(
+        yield (
             f"{format_percent(rate.below_hazard + rate.above_hazard)} of the annual rate is from outside the hazard "
             f"curve, and {format_percent(rate.below_levels + rate.above_levels)} from outside the levels."
         )
     if rate is not None and found.misfit.p_value < MISFITS:
-        said.append(
+        yield (
             "The annual rate is by the lognormal curve, which does not fit. By the curve that only rises it is "
             f"{with_minus(f'{rate.isotonic:.2g}')} a year."
         )
     if plan.hazard is not None and rate is None:
-        said.append("There is a hazard, and no annual rate: that needs a lognormal curve.")
-    return said
+        yield "There is a hazard, and no annual rate: that needs a lognormal curve."
 
 
 def _judged_criteria(
@@ -441,15 +364,7 @@ def _judged_criteria(
     """
     Compare what each criterion says of every scaled motion with what the column does, nothing varied.
 
-    Parameters
-    ----------
-    study : Study
-    outcomes : CaseOutcomes
-        Of its cases; the first draw has nothing varied.
-    drift : float
-        Up to which a record has a velocity.
-    overturned : float
-        As of `judge`.
+    `drift` is that up to which a record has a velocity; `overturned` as of `judge`.
     """
     run = np.asarray(outcomes.is_run[:, :, 0].any(axis=2))
     happened = {
@@ -457,7 +372,11 @@ def _judged_criteria(
         "rocking": np.asarray(outcomes.exceeds(np.finfo(np.float64).tiny)[:, :, 0].any(axis=2))[run],
         "overturning": np.asarray(outcomes.exceeds(overturned)[:, :, 0].any(axis=2))[run],
     }
-    recorded = _recorded(study, drift)
+    recorded = np.full((3, len(study.names), len(COMPONENTS)), np.nan)
+    for record, place, along in components(study.cases.motions):
+        ground = Ground(along.acceleration, along.dt)
+        velocity = float(np.abs(ground.velocity).max()) if ground.drift <= drift else np.nan
+        recorded[:, record, place] = along.peak, velocity, spectral_velocity(along.acceleration, along.dt)
     demands = Demands(*((each[:, None, :] * study.cases.factors)[run] for each in recorded))
     block = study.cases.column.block
     return tuple(
@@ -466,17 +385,3 @@ def _judged_criteria(
         )
         for criterion in CRITERIA
     )
-
-
-def _recorded(study: Study, drift: float) -> tuple[Array, Array, Array]:
-    """Peak acceleration, peak velocity and level of the velocity spectrum of each record and component."""
-    found = np.full((3, *study.cases.factors.shape[::2]), np.nan)
-    for record, motion in enumerate(study.cases.motions):
-        for place in range(found.shape[2]):
-            along = in_plane(motion, place, 1.0)
-            if along is None:
-                continue
-            ground = Ground(along.acceleration, along.dt)
-            velocity = float(np.abs(ground.velocity).max()) if ground.drift <= drift else np.nan
-            found[:, record, place] = along.peak, velocity, spectral_velocity(along.acceleration, along.dt)
-    return found[0], found[1], found[2]

@@ -298,7 +298,4 @@ def _variants(column: RealColumn) -> dict[str, RealColumn]:
         f"an e smaller by {USUAL_MARGIN:g}": np.maximum(e - USUAL_MARGIN, 0.0),
         f"an e larger by {USUAL_MARGIN:g}": np.minimum(e + USUAL_MARGIN, 1.0),
     }
-    return {
-        name: replace(column, restitution=float(both[0]) if both[0] == both[1] else (float(both[0]), float(both[1])))
-        for name, both in changed.items()
-    }
+    return {name: replace(column, restitution=(float(both[0]), float(both[1]))) for name, both in changed.items()}

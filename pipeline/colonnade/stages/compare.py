@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -72,7 +71,7 @@ def compare(
         (s), `predicted_peak_ratio`, `peak_ratio_error` and `predicted_outcome`. NaN if nothing was measured. The
         measured angle counts over the time that is predicted, about its true zero and with its true gain
         (`zero_offset`, `angle_gain`): its `measured_peak_ratio` and `measured_peak_time` (s); of a free vibration the
-        largest before that is the `release_ratio`. Of a sine test also what `sine` adds; with ensembles what
+        largest before that is the `release_ratio`. Of a sine test also what `_with_sine` adds; with ensembles what
         `horizons_and_ranks` adds.
     """
     import xarray as xr
@@ -83,42 +82,35 @@ def compare(
     if "rocking_angle" in rocking:
         true = (rocking["rocking_angle"] - zero["zero_offset"]) / zero["angle_gain"]
         rocking = rocking.assign(rocking_angle=true)
-    peak = _find_peak(rocking, predicted, inputs.block, free_vibration=inputs.free_vibration)
-    rows = [_row(rocking, predicted[model], inputs.block) for model in models]
+    peak, peak_time, release = _peak(rocking, predicted, inputs)
+    rows = [_misfit(rocking, predicted[model], inputs.block) for model in models]
     ratios = np.array([float(predicted[model]["peak_ratio"]) for model in models])
+    outcomes = np.array([predicted[model].attrs["outcome"] for model in models], dtype=object)
     warnings: list[Finding] = []
     measured, observed = rocking.attrs["outcome"], inputs.observed_outcome
     if measured and observed and not _agree(measured, observed):
         text = f"The transducers show {measured}, the test log says {observed}: check the record."
         warnings.append(serious("outcome", text, follows=MEASUREMENT))
-    steady = sine(rocking, predicted, inputs.block, inputs.frequency, inputs.amplitude) if inputs.is_sine else Sine()
-    return xr.Dataset(
+    compared = xr.Dataset(
         {
             "nrmse": ("model", np.array([row[0] for row in rows])),
             "compared_until": ("model", np.array([row[1] for row in rows])),
             "predicted_peak_ratio": ("model", ratios),
-            "peak_ratio_error": ("model", ratios - peak.ratio),
-            "predicted_outcome": (
-                "model",
-                np.array([predicted[model].attrs["outcome"] for model in models], dtype=object),
-            ),
-            "measured_peak_ratio": ((), peak.ratio),
-            "measured_peak_time": ((), peak.time),
-            "release_ratio": ((), peak.release),
-            **{name: ((), value) for name, value in zero.items()},
+            "peak_ratio_error": ("model", ratios - peak),
+            "predicted_outcome": ("model", outcomes),
+            "measured_peak_ratio": peak,
+            "measured_peak_time": peak_time,
+            "release_ratio": release,
         }
-        | steady.variables
+        | zero
         | horizons_and_ranks(rocking, ensembles or {}, models, inputs.block),
         coords={"model": ("model", np.array(models, dtype=object))},
-        attrs={
-            "outcome_measured": measured or observed or "",
-            **steady.attributes,
-            "warnings": [*warnings, *steady.warnings],
-        },
+        attrs={"outcome_measured": measured or observed or "", "warnings": warnings},
     )
+    return _with_sine(compared, rocking, predicted, inputs) if inputs.is_sine else compared
 
 
-def _row(rocking: xr.Dataset, predicted: xr.Dataset, block: Block) -> tuple[float, float]:
+def _misfit(rocking: xr.Dataset, predicted: xr.Dataset, block: Block) -> tuple[float, float]:
     """Return the nrmse and the end of the time that it covers."""
     if "rocking_angle" not in rocking:
         return np.nan, np.nan
@@ -140,53 +132,27 @@ SETTLED = 0.1
 """Over p: time before the release over which the held angle is averaged."""
 
 
-class _Peak(NamedTuple):
+def _peak(
+    rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], inputs: CompareInputs
+) -> tuple[float, float, float]:
     """
-    Largest measured |θ|/α.
+    Find the largest measured |θ|/α over the time that is predicted, when it is (s), and where a free vibration began.
 
-    Attributes
-    ----------
-    ratio, time : float
-        Over the time that is predicted, and when, s; NaN if it is not known, the ratio also of what overturned.
-    release : float
-        |θ|/α from which a free vibration was released; NaN of other tests.
-    """
-
-    ratio: float = np.nan
-    time: float = np.nan
-    release: float = np.nan
-
-
-def _find_peak(
-    rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], block: Block, *, free_vibration: bool
-) -> _Peak:
-    """
-    Find the measured peak.
-
-    Parameters
-    ----------
-    rocking : xr.Dataset
-        Result of `rocking`, its angle about the true zero.
-    predicted : mapping of str to xr.Dataset
-        Results of `predict` by model.
-    block : Block
-    free_vibration : bool
+    NaN of what is not known, the ratio also of what overturned; the last, |θ|/α of the release, of other tests.
     """
     if "rocking_angle" not in rocking:
-        return _Peak()
-    if not free_vibration:
-        return _Peak(float(rocking["peak_ratio"]), float(rocking["peak_time"]))
+        return np.nan, np.nan, np.nan
+    if not inputs.free_vibration:
+        return float(rocking["peak_ratio"]), float(rocking["peak_time"]), np.nan
     time, angle = rocking["elapsed"].to_numpy(), np.nan_to_num(rocking["rocking_angle"].to_numpy())
-    ratio = amplitude(angle, block)
+    ratio = amplitude(angle, inputs.block)
     is_predicted = np.any([np.isfinite(each["rocking_angle"].to_numpy()) for each in predicted.values()], axis=0)
     first = int(np.argmax(is_predicted))
     largest = first + int(np.argmax(ratio[first:]))
     held = angle[:first] * np.sign(angle[first]) < 0.0
-    return _Peak(
-        np.nan if rocking.attrs["outcome"] == "overturned" else float(ratio[largest]),
-        float(time[largest]),
-        _release(time[:first][held], ratio[:first][held], block.p, least=0.5 * ratio[largest]),
-    )
+    release = _release(time[:first][held], ratio[:first][held], inputs.block.p, least=0.5 * ratio[largest])
+    fell = rocking.attrs["outcome"] == "overturned"
+    return np.nan if fell else float(ratio[largest]), float(time[largest]), release
 
 
 def _release(time: Array, ratio: Array, p: float, *, least: float) -> float:
@@ -214,106 +180,76 @@ AMPLITUDE_TOLERANCE = 0.1
 """The same of its amplitude: a table hardly does better."""
 
 
-@dataclass
-class Sine:
-    """What a sine test adds to a comparison: variables, attributes and warnings."""
-
-    variables: dict[str, Any] = field(default_factory=dict)
-    attributes: dict[str, str] = field(default_factory=dict)
-    warnings: list[Finding] = field(default_factory=list)
-
-
-def sine(
-    rocking: xr.Dataset,
-    predicted: Mapping[str, xr.Dataset],
-    block: Block,
-    frequency: float | None,
-    amplitude: float | None,
-) -> Sine:
+def _with_sine(
+    compared: xr.Dataset, rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], inputs: CompareInputs
+) -> xr.Dataset:
     """
-    Find frequency and amplitude ratio of a sine test, and the order of the measured and of each predicted response.
+    Add frequency and amplitude ratio of a sine test, and the order of the measured and of each predicted response.
 
-    Parameters
-    ----------
-    rocking : xr.Dataset
-        Result of `rocking`.
-    predicted : mapping of str to xr.Dataset
-        Results of `predict` by model.
-    block : Block
-    frequency, amplitude : float or None
-        As given in the campaign, Hz and m/s².
-
-    Returns
-    -------
-    sine : Sine
-        An order is text: "1" harmonic, "n" sub-harmonic 1/n, "irregular", or empty if unknown; the
-        attributes `response_order` and `response_order_reason` are the measured one's.
+    An order is text: "1" harmonic, "n" sub-harmonic 1/n, "irregular", or empty if unknown; the attributes
+    `response_order` and `response_order_reason` are the measured one's.
     """
-    forcing = _forcing(rocking)
+    block, warnings = inputs.block, compared.attrs["warnings"]
+    forcing = forcing_of(rocking)
     if forcing is None:
         reason = (
             f"The table's recorded motion along x has no stretch of {FEWEST_CYCLES} periods of an even amplitude, so "
             "this sine test has no amplitude ratio and no order of response."
         )
-        given = {} if frequency is None else {"frequency_ratio": ((), 2 * np.pi * frequency / block.p)}
-        return Sine(given, {"response_order": "", "response_order_reason": reason}, [warning("no steady sine", reason)])
-    result = Sine(_forcing_variables(forcing, block), warnings=contradictions(rocking, frequency, amplitude))
+        given = {} if inputs.frequency is None else {"frequency_ratio": 2 * np.pi * inputs.frequency / block.p}
+        warnings = [*warnings, warning("no steady sine", reason)]
+        return compared.assign(given).assign_attrs(response_order="", response_order_reason=reason, warnings=warnings)
     measured = _measured(rocking, forcing)
-    orders = [_text(_predicted(predicted[model], forcing, block)) for model in sorted(predicted)]
-    result.attributes = {"response_order": _text(measured), "response_order_reason": measured.reason}
-    result.variables |= {
-        "response_misfit": ("order", measured.misfit),
-        "impacts_per_cycle": ((), measured.impacts_per_cycle),
-        "predicted_response_order": ("model", np.array(orders, dtype=object)),
-    }
-    return result
+    least = NO_ROCKING_RATIO * block.critical_angle
+    orders = [_text(_response(predicted[model], forcing, least, 0.0)) for model in sorted(predicted)]
+    return compared.assign(
+        {
+            "forcing_frequency": forcing.frequency,
+            "forcing_amplitude": forcing.amplitude,
+            "forcing_amplitude_spread": forcing.amplitude_spread,
+            "forcing_distortion": forcing.distortion,
+            "steady_start": forcing.start,
+            "steady_stop": forcing.stop,
+            "frequency_ratio": 2 * np.pi * forcing.frequency / block.p,
+            "amplitude_ratio": forcing.amplitude / block.uplift_acceleration,
+            "response_misfit": ("order", measured.misfit),
+            "impacts_per_cycle": measured.impacts_per_cycle,
+            "predicted_response_order": ("model", np.array(orders, dtype=object)),
+        }
+    ).assign_attrs(
+        response_order=_text(measured),
+        response_order_reason=measured.reason,
+        warnings=warnings + contradictions(forcing, inputs.frequency, inputs.amplitude),
+    )
 
 
-def contradictions(rocking: xr.Dataset, frequency: float | None, amplitude: float | None) -> list[Finding]:
-    """Say where the table's recorded motion is not the sine that was asked for; see `sine`."""
-    forcing, found = _forcing(rocking), []
-    if forcing is None:
-        return []
-    if frequency is not None and abs(forcing.frequency / frequency - 1) > FREQUENCY_TOLERANCE:
-        found.append(
-            warning(
-                "frequency",
-                f"The table moved at {forcing.frequency:.4g} Hz; the test's frequency is given as {frequency:g} Hz. "
-                "The recorded one is used: correct the test's `frequency`, or the recorder's sampling rate if that is "
-                "wrong.",
-            )
-        )
-    if amplitude is not None and abs(forcing.amplitude / amplitude - 1) > AMPLITUDE_TOLERANCE:
-        ratio = forcing.amplitude / amplitude
-        found.append(
-            warning(
-                "amplitude",
-                f"The table's acceleration has an amplitude of {forcing.amplitude:.3g} ± "
-                f"{2 * forcing.amplitude_spread:.1g} m/s², {ratio:.2f} times the test's `amplitude` of "
-                f"{amplitude:.3g} m/s². The recorded one is used: the table did not do what was asked for, or the "
-                f"accelerometer's gain is wrong; then A is {1 / ratio:.2f} times what is given.",
-                follows=("gain", "unit", "AC coupling", "hum", "end of the range", "dead channel"),
-            )
-        )
-    return found
-
-
-def _forcing(rocking: xr.Dataset) -> Forcing | None:
+def forcing_of(rocking: xr.Dataset) -> Forcing | None:
+    """Return the steady sine of the table's recorded motion; None if there is none."""
     return fit_forcing(rocking["elapsed"], rocking["base_acceleration"]) if "base_acceleration" in rocking else None
 
 
-def _forcing_variables(forcing: Forcing, block: Block) -> dict[str, Any]:
-    scalars = {
-        "forcing_frequency": forcing.frequency,
-        "forcing_amplitude": forcing.amplitude,
-        "forcing_amplitude_spread": forcing.amplitude_spread,
-        "forcing_distortion": forcing.distortion,
-        "steady_start": forcing.start,
-        "steady_stop": forcing.stop,
-        "frequency_ratio": 2 * np.pi * forcing.frequency / block.p,
-        "amplitude_ratio": forcing.amplitude / block.uplift_acceleration,
-    }
-    return {name: ((), value) for name, value in scalars.items()}
+def contradictions(forcing: Forcing | None, frequency: float | None, amplitude: float | None) -> list[Finding]:
+    """Say where the table's recorded motion is not the sine that was asked for, in Hz and m/s²."""
+    found: list[Finding] = []
+    if forcing is None:
+        return found
+    if frequency is not None and abs(forcing.frequency / frequency - 1) > FREQUENCY_TOLERANCE:
+        text = (
+            f"The table moved at {forcing.frequency:.4g} Hz; the test's frequency is given as {frequency:g} Hz. The "
+            "recorded one is used: correct the test's `frequency`, or the recorder's sampling rate if that is wrong."
+        )
+        found.append(warning("frequency", text))
+    if amplitude is not None and abs(forcing.amplitude / amplitude - 1) > AMPLITUDE_TOLERANCE:
+        ratio = forcing.amplitude / amplitude
+        text = (
+            f"The table's acceleration has an amplitude of {forcing.amplitude:.3g} ± "
+            f"{2 * forcing.amplitude_spread:.1g} m/s², {ratio:.2f} times the test's `amplitude` of {amplitude:.3g} "
+            "m/s². The recorded one is used: the table did not do what was asked for, or the accelerometer's gain is "
+            f"wrong; then A is {1 / ratio:.2f} times what is given."
+        )
+        others = ("gain", "unit", "AC coupling", "hum", "end of the range", "dead channel")
+        found.append(warning("amplitude", text, follows=others))
+    return found
 
 
 def _measured(rocking: xr.Dataset, forcing: Forcing) -> Response:
@@ -325,15 +261,10 @@ def _measured(rocking: xr.Dataset, forcing: Forcing) -> Response:
     return _response(rocking, forcing, threshold, noise)
 
 
-def _predicted(predicted: xr.Dataset, forcing: Forcing, block: Block) -> Response:
-    return _response(predicted, forcing, NO_ROCKING_RATIO * block.critical_angle, 0.0)
-
-
 def _response(motion: xr.Dataset, forcing: Forcing, threshold: float, noise: float) -> Response:
-    if motion.attrs["outcome"] == "overturned":
-        return Response(None, "The specimen overturned.")
-    if motion.attrs["outcome"] == "no-rocking":
-        return Response(None, "The specimen did not rock.")
+    if motion.attrs["outcome"] in ("overturned", "no-rocking"):
+        fell = motion.attrs["outcome"] == "overturned"
+        return Response(None, "The specimen overturned." if fell else "The specimen did not rock.")
     return response_order(
         motion["elapsed"],
         motion["rocking_angle"],

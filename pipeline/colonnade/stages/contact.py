@@ -6,19 +6,11 @@ from dataclasses import replace
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import ContactSettings
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.body import ContactBody, ContactLaw
-from colonnade.dynamics.contact.calibration import (
-    FRACTIONS,
-    VELOCITY_RATIO,
-    Calibration,
-    calibrate,
-    free_restitution,
-)
+from colonnade.dynamics.contact.body import ContactBody, ContactLaw, rigid_body
+from colonnade.dynamics.contact.calibration import FRACTIONS, VELOCITY_RATIO, calibrate, free_restitution
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.stability import keep_modes_for_step
 from colonnade.errors import StageError
@@ -82,34 +74,10 @@ def contact(specimen: xr.Dataset, inputs: ContactInputs) -> xr.Dataset:
     StageError
         If the specimen cannot be meshed, or the step is too long for the contact.
     """
-    found = calibrate_specimen(inputs, float(specimen["restitution"]))
-    reason = found.reason if inputs.settings.damping_fraction == "auto" else ""
-    return _described(found, reason).assign(law_variables(found.history.body, found.history.law, inputs.block.gravity))
+    import xarray as xr
 
-
-def calibrate_specimen(inputs: ContactInputs, restitution: float) -> Calibration:
-    """
-    Find the law of contact with which a specimen rocks freely with a restitution: the one rule for it.
-
-    Parameters
-    ----------
-    inputs : ContactInputs
-    restitution : float
-        e to be reached.
-
-    Returns
-    -------
-    found : Calibration
-        With a damping fraction given in the settings, that law and what it gives.
-
-    Raises
-    ------
-    StageError
-        As `contact`.
-    """
-    settings = inputs.settings
+    settings, body = inputs.settings, _whole_body(inputs)
     given = settings.damping_fraction != "auto"
-    body = _whole_body(inputs)
     law = ContactLaw.stiff(
         body,
         inputs.block.gravity,
@@ -118,10 +86,10 @@ def calibrate_specimen(inputs: ContactInputs, restitution: float) -> Calibration
         penetration=settings.penetration,
     )
     try:
-        return calibrate(
+        found = calibrate(
             body,
             law,
-            restitution,
+            float(specimen["restitution"]),
             gravity=inputs.block.gravity,
             step=settings.step,
             fractions=(law.damping_fraction,) if given else FRACTIONS,
@@ -129,6 +97,24 @@ def calibrate_specimen(inputs: ContactInputs, restitution: float) -> Calibration
         )
     except ValueError as error:
         raise StageError(f"processing.predict.contact: {error}") from error
+    return xr.Dataset(
+        {
+            "contact_restitution": found.restitution,
+            "contact_velocity_ratio": free_restitution(found.history),
+            "restitution": found.target,
+            "contact_step": found.history.step,
+            "energy_residual": found.history.energies.relative_residual,
+            "tried_damping_fraction": ("trial", found.fractions),
+            "tried_stiffness": ("trial", found.stiffnesses),
+            "tried_restitution": ("trial", found.restitutions),
+        }
+        | law_variables(found.history.body, found.history.law, inputs.block.gravity),
+        attrs={
+            "body": found.history.body.description,
+            "contact_restitution_source": found.source,
+            "warnings": [] if given or found.agrees else [warning("contact law", found.reason)],
+        },
+    )
 
 
 def identified(history: ContactHistory, *, lowest_amplitude: float) -> tuple[float, str]:
@@ -146,26 +132,15 @@ def identified(history: ContactHistory, *, lowest_amplitude: float) -> tuple[flo
 
 def law_variables(body: ContactBody, law: ContactLaw, gravity: float) -> dict[str, Any]:
     """
-    Describe what a body touches the table with.
+    Describe what a body touches the table with: its law, and by `node` mass, weight and radius.
 
-    Parameters
-    ----------
-    body : ContactBody
-    law : ContactLaw
-    gravity : float
-        m/s².
-
-    Returns
-    -------
-    variables : dict
-        `contact_stiffness` (N/m³), `damping_fraction`, `friction`, `effective_damping`; by `node` its `node_mass` (kg)
-        and the `node_weight` (N) that it bears of the standing body, and its `ring_radius` (m): 0 of a point.
+    `node_weight` (N) is what it bears of the standing body; `ring_radius` (m) is 0 of a point. `gravity` in m/s².
     """
     return {
-        "contact_stiffness": ((), law.stiffness),
-        "damping_fraction": ((), law.damping_fraction),
-        "friction": ((), law.friction),
-        "effective_damping": ((), law.effective_damping(body)),
+        "contact_stiffness": law.stiffness,
+        "damping_fraction": law.damping_fraction,
+        "friction": law.friction,
+        "effective_damping": law.effective_damping(body),
         "node_mass": ("node", body.node_mass),
         "node_weight": ("node", law.node_weights(body, gravity)),
         "ring_radius": ("node", body.ring_radii),
@@ -174,11 +149,10 @@ def law_variables(body: ContactBody, law: ContactLaw, gravity: float) -> dict[st
 
 def law_of(calibrated: xr.Dataset) -> ContactLaw:
     """Return the law of contact that a result of `contact` describes."""
-    return ContactLaw(
-        stiffness=float(calibrated["contact_stiffness"]),
-        damping_fraction=float(calibrated["damping_fraction"]),
-        friction=float(calibrated["friction"]),
+    stiffness, damping, friction = (
+        float(calibrated[name]) for name in ("contact_stiffness", "damping_fraction", "friction")
     )
+    return ContactLaw(stiffness=stiffness, damping_fraction=damping, friction=friction)
 
 
 def assembly_law(settings: ContactSettings) -> ContactLaw:
@@ -208,8 +182,6 @@ def _whole_body(inputs: ContactInputs) -> ContactBody:
     """Build the body with all its modes; meshing takes its time, so the last few are kept."""
     settings, sizes = inputs.settings, dict(inputs.sizes)
     if settings.mesh == "rigid":
-        from colonnade.dynamics.contact.body import rigid_body
-
         return rigid_body(inputs.block)
     if not sizes:
         raise StageError(
@@ -224,30 +196,4 @@ def _whole_body(inputs: ContactInputs) -> ContactBody:
         degrees_of_freedom=settings.mesh,
         modulus=settings.modulus,
         poisson_ratio=settings.poisson_ratio,
-    )
-
-
-def _described(found: Calibration, reason: str) -> xr.Dataset:
-    import xarray as xr
-
-    scalars = {
-        "contact_restitution": found.restitution,
-        "contact_velocity_ratio": free_restitution(found.history),
-        "restitution": found.target,
-        "contact_step": found.history.step,
-        "energy_residual": found.history.energies.relative_residual,
-    }
-    tried = {
-        "tried_damping_fraction": found.fractions,
-        "tried_stiffness": found.stiffnesses,
-        "tried_restitution": found.restitutions,
-    }
-    return xr.Dataset(
-        {name: ((), value) for name, value in scalars.items()}
-        | {name: ("trial", np.asarray(values)) for name, values in tried.items()},
-        attrs={
-            "body": found.history.body.description,
-            "contact_restitution_source": found.source,
-            "warnings": [warning("contact law", reason)] if reason else [],
-        },
     )

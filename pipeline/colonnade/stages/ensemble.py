@@ -17,12 +17,11 @@ from colonnade.dynamics.contact.ensemble import AssemblyPlan, ContactPlan, Range
 from colonnade.dynamics.contact.simulate import plane_block
 from colonnade.dynamics.ensemble import Plan, PlanePlan
 from colonnade.dynamics.models import CONTACT
-from colonnade.dynamics.uncertainty import INPUTS, Uncertainty
+from colonnade.dynamics.uncertainty import INPUTS
 from colonnade.errors import StageError
-from colonnade.identification.response.rank import Measurement
-from colonnade.stages.contact import ContactInputs, assembly_law, body_of, law_of
+from colonnade.stages.contact import assembly_law, body_of, law_of
 from colonnade.stages.parts.beginning import RECORDED, begin
-from colonnade.stages.parts.rank import MeasurementInputs, describe_bands, measurement_errors, rank_measured
+from colonnade.stages.parts.rank import MeasurementInputs, describe_bands, measurement_errors
 from colonnade.stages.parts.transducers import transducers
 from colonnade.stages.predict import PredictInputs, sides
 from colonnade.stages.specimen import centre, spread_of
@@ -40,7 +39,6 @@ class EnsembleInputs(Inputs):
     ----------
     prediction : PredictInputs
     settings : PlaneEnsembleSettings
-    filter_order : int
     table : tuple of str
         Accelerometers of the table along x, by the names of their variables.
     measurement : MeasurementInputs
@@ -48,7 +46,6 @@ class EnsembleInputs(Inputs):
 
     prediction: PredictInputs
     settings: PlaneEnsembleSettings
-    filter_order: int
     table: tuple[str, ...]
     measurement: MeasurementInputs
 
@@ -59,7 +56,6 @@ class EnsembleInputs(Inputs):
         return cls(
             prediction=PredictInputs.of(campaign, test, model),
             settings=campaign.ensemble_settings(test.specimen),
-            filter_order=campaign.processing.filter_order,
             table=tuple(name for name, direction in along.items() if abs(direction[0]) >= ALONG),
             measurement=MeasurementInputs.of(campaign, test),
         )
@@ -97,16 +93,26 @@ def ensemble(
     StageError
         As `predict`.
     """
-    block = centre(specimen, inputs.prediction.block)
+    block, settings = centre(specimen, inputs.prediction.block), inputs.settings
     beginning = begin(rocking, inputs.prediction, identified, block)
-    start = beginning.theta0 if inputs.prediction.free_vibration else None
-    errors = measurement_errors(conditioned, rocking, start, inputs.measurement)
+    errors = measurement_errors(conditioned, rocking, beginning, inputs.measurement)
+    is_driven = beginning.driven_by == RECORDED
+    noise, cutoff = _base_noise(conditioned, inputs.table) if is_driven else (0.0, None)
     plan = PlanePlan(
         block=block,
         motion=beginning.motion,
         restitution=sides(specimen),
-        uncertainty=_uncertainty(conditioned, specimen, errors, inputs, is_driven=beginning.driven_by == RECORDED),
-        count=inputs.settings.members,
+        uncertainty=replace(
+            spread_of(specimen, settings),
+            gain=settings.gain if is_driven else 0.0,
+            clock=settings.clock,
+            noise=noise,
+            cutoff=cutoff,
+            filter=0.0 if cutoff is None else settings.filter,
+            filter_order=inputs.measurement.filter_order,
+            theta0=errors.start_deviation,
+        ),
+        count=settings.members,
         model=inputs.prediction.model,
         theta0=beginning.theta0,
         omega0=beginning.omega0,
@@ -115,35 +121,8 @@ def ensemble(
     found = plan.run()
     deviations = dict(zip(INPUTS, plan.uncertainty.deviations.tolist(), strict=True))
     starts = found.inputs[:, INPUTS.index("theta0")]
-    bands = describe_bands(rocking, beginning, found, deviations)
-    return bands.assign(rank_measured(rocking, beginning, found, starts, errors, inputs.measurement)).assign_attrs(
-        model=plan.model,
-        members=plan.count,
-        noise=plan.uncertainty.noise,
-        cutoff_hz=plan.uncertainty.cutoff,
-        warnings=[],
-    )
-
-
-def _uncertainty(
-    conditioned: xr.Dataset,
-    specimen: xr.Dataset,
-    errors: Measurement,
-    inputs: EnsembleInputs,
-    *,
-    is_driven: bool,
-) -> Uncertainty:
-    noise, cutoff = _base_noise(conditioned, inputs.table) if is_driven else (0.0, None)
-    return replace(
-        spread_of(specimen, inputs.settings),
-        gain=inputs.settings.gain if is_driven else 0.0,
-        clock=inputs.settings.clock,
-        noise=noise,
-        cutoff=cutoff,
-        filter=0.0 if cutoff is None else inputs.settings.filter,
-        filter_order=inputs.filter_order,
-        theta0=errors.start_deviation,
-    )
+    bands = describe_bands(rocking, beginning, found, deviations, starts, errors, inputs.measurement)
+    return bands.assign_attrs(model=plan.model, members=plan.count, noise=noise, cutoff_hz=cutoff, warnings=[])
 
 
 def _base_noise(conditioned: xr.Dataset, table: tuple[str, ...]) -> tuple[float, float | None]:
@@ -169,7 +148,6 @@ class ContactEnsembleInputs(Inputs):
     """
 
     prediction: PredictInputs
-    space: ContactInputs
     settings: ContactEnsembleSettings
     measurement: MeasurementInputs
 
@@ -179,7 +157,6 @@ class ContactEnsembleInputs(Inputs):
         members = {"members": campaign.members(test, CONTACT.name)}
         return cls(
             prediction=PredictInputs.of(campaign, test, CONTACT.name),
-            space=ContactInputs.of(campaign, test.specimen),
             settings=campaign.processing.predict.ensemble.contact.model_copy(update=members),
             measurement=MeasurementInputs.of(campaign, test),
         )
@@ -235,7 +212,8 @@ def contact_ensemble(
         As `predict`.
     """
     beginning = begin(rocking, inputs.prediction, identified)
-    space, ranges, assembled = inputs.space, inputs.settings, inputs.prediction.assembly
+    space, ranges, assembled = inputs.prediction.space, inputs.settings, inputs.prediction.assembly
+    assert space is not None  # the contact model's inputs have it
     law = assembly_law(space.settings) if contact is None else law_of(contact)
     common: dict[str, Any] = {
         "law": law,
@@ -263,13 +241,12 @@ def contact_ensemble(
     found = plan.gather(central, parts)
     middles = {name: getattr(law, name, 1.0) or 1.0 for name in plan.names}
     deviations = {name: np.ptp(getattr(plan, name)) / np.sqrt(12.0) / middles[name] for name in plan.names}
-    start = beginning.theta0 if inputs.prediction.free_vibration else None
-    errors = measurement_errors(conditioned, rocking, start, inputs.measurement)
-    ranked = rank_measured(rocking, beginning, found, np.zeros(plan.count), errors, inputs.measurement)
-    bands = describe_bands(rocking, beginning, found, deviations)
+    errors = measurement_errors(conditioned, rocking, beginning, inputs.measurement)
+    starts = np.zeros(plan.count)
+    bands = describe_bands(rocking, beginning, found, deviations, starts, errors, inputs.measurement)
     if isinstance(plan, AssemblyPlan):
         bands = bands.assign(_ends(list(plan.assembly.bodies), parts, found.levels))
-    return bands.assign(ranked).assign_attrs(model=CONTACT.name, members=plan.count, warnings=[])
+    return bands.assign_attrs(model=CONTACT.name, members=plan.count, warnings=[])
 
 
 def _ends(bodies: Sequence[str], parts: Parts, levels: Array) -> dict[str, Any]:

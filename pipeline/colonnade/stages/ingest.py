@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date, datetime, timedelta
 from typing import TYPE_CHECKING, Any
@@ -72,9 +72,8 @@ class IngestInputs(Inputs):
             files={name: recorder.file.model_dump() for name, recorder in setup.recorders.items()},
             sampling_rates={name: recorder.sampling_rate for name, recorder in setup.recorders.items()},
             channels={
-                name: ChannelInputs(
-                    **{key: getattr(channel, key) for key in ChannelInputs.model_fields}
-                    | {"factor": channel.factor * review.factors.get(name, 1.0)}
+                name: ChannelInputs.model_validate(channel, from_attributes=True).model_copy(
+                    update={"factor": channel.factor * review.factors.get(name, 1.0)}
                 )
                 for name, channel in campaign.channels(test).items()
             },
@@ -125,28 +124,35 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
         recording = recordings[channel.recorder]
         column = find_column(recording, name, channel, inputs.sampling_rates.get(channel.recorder))
         findings = unit_findings(recording, column, name, channel)
-        time, values = within(column, inputs.window)
+        time, values = _within(column, inputs.window)
         dimension = dimension_of(stamps, time, name, channel)
         if dimension not in stamps:
             clock = timing.read_clock(time)
             if not np.isfinite(clock.interval):
-                raise too_short(name, time.size, inputs.window)
+                part = "" if inputs.window is None else f" between {inputs.window[0]:g} and {inputs.window[1]:g} s"
+                raise StageError(
+                    f"channel {name} has {count(time.size, 'sample')}{part}; at least two at increasing times were "
+                    "expected. Check the file's time column and the test's `window`."
+                )
             stamps[dimension], timed[dimension] = time, _clock_verdicts(time, clock, inputs.settings)
-            findings += rounding(recording, clock, inputs.settings.jitter)
+            if clock.resolution > inputs.settings.jitter * clock.interval:
+                text = (
+                    f"{recording.path.name}: the times are rounded to {1e3 * clock.resolution:g} ms; an even clock of "
+                    f"{1 / clock.interval:.5g} Hz matches them all and is used."
+                )
+                findings.append(note("rounded times", text))
         tracks.append(_Track(name, channel, column, dimension, values, findings))
-    judged = side_by_side(lambda track: _judged(track, stamps[track.dimension], timed[track.dimension], inputs), tracks)
-    variables: dict[str, Any] = {}
-    for described, found in judged:
-        variables |= described
-        warnings += found
-    warnings += _of_clocks(tracks, timed)
-    dataset = xr.Dataset(
-        variables,
-        coords={dimension: (dimension, time) for dimension, time in stamps.items()},
-        attrs={"notes": "; ".join(_notes(recordings)), "recorded_at": recorded_at(recordings, begin)},
+    table = [track for track in tracks if track.channel.on == "table" and track.channel.quantity == "acceleration"]
+    judged = side_by_side(
+        lambda track: _judged(track, table, stamps[track.dimension], timed[track.dimension], inputs), tracks
     )
-    dataset = _flag_dead_on_specimen(dataset, inputs.channels, warnings)
-    dataset.attrs["warnings"] = warnings
+    warnings += [finding for _, found in judged for finding in found] + _of_clocks(tracks, timed)
+    notes = [f"{recording.path.name}: {note}" for recording in recordings.values() for note in recording.notes]
+    dataset = xr.Dataset(
+        {name: variable for variables, _ in judged for name, variable in variables.items()},
+        coords={dimension: (dimension, time) for dimension, time in stamps.items()},
+        attrs={"notes": "; ".join(notes), "recorded_at": recorded_at(recordings, begin), "warnings": warnings},
+    )
     if inputs.review.sentences:
         dataset.attrs["review"] = list(inputs.review.sentences)
     return dataset
@@ -163,15 +169,23 @@ class _Track:
     values: Array
     warnings: list[Finding]
 
+    @property
+    def physical(self) -> Array:
+        """Values in SI."""
+        physical = self.values * self.channel.factor
+        physical += self.channel.offset
+        return physical
+
 
 def _judged(
-    track: _Track, time: Array, timed: list[quality.Verdict], inputs: IngestInputs
+    track: _Track, table: Sequence[_Track], time: Array, timed: list[quality.Verdict], inputs: IngestInputs
 ) -> tuple[dict[str, Any], list[Finding]]:
     """Variables of a channel, and all its findings but those of its clock."""
-    channel, values = track.channel, track.values
-    physical = values * channel.factor
-    physical += channel.offset
+    channel, values, physical = track.channel, track.values, track.physical
     verdicts = channel_verdicts(time, values, physical, channel, inputs.settings)
+    references = [other.physical for other in table if _same_axis(channel, other.channel)]
+    if channel.on == "specimen" and channel.quantity == "acceleration" and references:
+        verdicts.append(quality.check_dead(physical, max(references, key=np.nanstd), share=DEAD_SHARE))
     flags, found = quality.combine([*timed, *verdicts], values.size)
     seen, decisions = quality.combine(reviewed(track.name, time, inputs.review), values.size)
     variable = variable_name(track.name)
@@ -192,28 +206,27 @@ def _judged(
     return variables, [*track.warnings, *(replace(each, text=f"channel {track.name}: {each}.") for each in own)]
 
 
+def _same_axis(first: ChannelInputs, second: ChannelInputs) -> bool:
+    if first.direction is None or second.direction is None:
+        return False
+    return bool(abs(np.dot(first.direction, second.direction)) > SAME_AXIS)
+
+
 def _of_clocks(tracks: list[_Track], timed: Mapping[str, list[quality.Verdict]]) -> list[Finding]:
     """Findings about a clock, once for all channels on it."""
     found = []
     for dimension, verdicts in timed.items():
         timed_so = [track for track in tracks if track.dimension == dimension]
-        names = ", ".join(track.name for track in timed_so)
-        whose = f"channel{'s' if len(timed_so) > 1 else ''} {names}"
-        for verdict in verdicts:
-            if not verdict.reason:
-                continue
-            finding = replace(verdict.finding, text=f"{whose}: {verdict.reason}.")
-            telling = [track for track in timed_so if track.channel.on == "specimen"] or timed_so
+        telling = [track for track in timed_so if track.channel.on == "specimen"] or timed_so
+        whose = f"channel{'s' if len(timed_so) > 1 else ''} {', '.join(track.name for track in timed_so)}"
+        for verdict in [each for each in verdicts if each.reason]:
+            text, severity = f"{whose}: {verdict.reason}.", verdict.severity
             is_lost = any(timing.loses_motion(track.values, verdict.where) for track in telling)
             if verdict.flag == quality.Flag.FAIL and is_lost:
-                why = "They are left out, and the largest readings may be among them: repair the time column."
-                finding = replace(finding, text=f"{finding} {why}", severity=Severity.SERIOUS)
-            found.append(finding)
+                text += " They are left out, and the largest readings may be among them: repair the time column."
+                severity = Severity.SERIOUS
+            found.append(replace(verdict.finding, text=text, severity=severity))
     return found
-
-
-def _notes(recordings: Mapping[str, Recording]) -> list[str]:
-    return [f"{recording.path.name}: {note}" for recording in recordings.values() for note in recording.notes]
 
 
 DEAD_SHARE = 0.08
@@ -254,16 +267,7 @@ def _clock_verdicts(stamps: Array, clock: timing.Clock, settings: QualitySetting
 def channel_verdicts(
     stamps: Array, values: Array, physical: Array, channel: ChannelInputs, settings: QualitySettings
 ) -> list[quality.Verdict]:
-    """
-    Check one channel alone.
-
-    Parameters
-    ----------
-    stamps, values, physical : ndarray, shape (n,)
-        Times as in the file, s; values as in the file and in SI.
-    channel : ChannelInputs
-    settings : QualitySettings
-    """
+    """Check one channel alone: its times (s), its values as in the file and in SI."""
     found = [
         quality.check_missing(stamps, values),
         quality.check_flat(stamps, values, duration=settings.flat_duration),
@@ -291,71 +295,21 @@ def reviewed(name: str, time: Array, review: Review) -> list[quality.Verdict]:
     return found
 
 
-def _flag_dead_on_specimen(
-    dataset: xr.Dataset, channels: Mapping[str, ChannelInputs], warnings: list[Finding]
-) -> xr.Dataset:
-    """Flag accelerometers on the specimen that are practically dead compared with the table along their axis."""
-    accelerometers = {name: channel for name, channel in channels.items() if channel.quantity == "acceleration"}
-    for name, channel in accelerometers.items():
-        references = [
-            dataset[variable_name(other)].to_numpy()
-            for other, table in accelerometers.items()
-            if table.on == "table" and _same_axis(channel, table)
-        ]
-        if channel.on != "specimen" or not references:
-            continue
-        variable = variable_name(name)
-        reference = max(references, key=np.nanstd)
-        verdict = quality.check_dead(dataset[variable].to_numpy(), reference, share=DEAD_SHARE)
-        if verdict.reason:
-            flags = dataset[f"{variable}_quality"]
-            dataset[f"{variable}_quality"] = (flags.dims, np.maximum(flags.to_numpy(), np.int8(verdict.flag)))
-            warnings.append(replace(verdict.finding, text=f"channel {name}: {verdict.reason}."))
-            report = dataset[variable].attrs.get("quality_report", "")
-            dataset[variable].attrs["quality_report"] = "; ".join(filter(None, (report, verdict.reason)))
-    return dataset
-
-
-def _same_axis(first: ChannelInputs, second: ChannelInputs) -> bool:
-    if first.direction is None or second.direction is None:
-        return False
-    return bool(abs(np.dot(first.direction, second.direction)) > SAME_AXIS)
-
-
 def find_column(recording: Recording, name: str, channel: ChannelInputs, rate: float | None) -> RecordedChannel:
-    """
-    Find the column of a channel, with its times.
-
-    Parameters
-    ----------
-    recording : Recording
-    name : str
-        Of the channel.
-    channel : ChannelInputs
-    rate : float or None
-        Sampling rate of the recorder, Hz, if its file has no time column.
-
-    Raises
-    ------
-    StageError
-        If it has no clock.
-    ReadError
-        If the column is not in the file.
-    """
+    """Find the column of a channel, with its times; `rate` is that of the recorder, Hz, if its file has no clock."""
     if channel.time is not None:
         return recording.on_clock(channel.column, channel.time)
     column = recording.channel(channel.column)
-    if column.time is not None and rate is None:
-        return column
-    if rate is None:
+    if rate is not None:
+        time = np.arange(column.values.size) / rate
+        return RecordedChannel(column.name, column.unit, column.values, time, column.heading)
+    if column.time is None:
         raise StageError(
             f"channel {name}: {recording.path.name} has no recognised time column, and the set-up "
             'gives no sampling rate. Add `sampling_rate = "200 Hz"` to the recorder, or name the '
             "column (`time`) in its `file`."
         )
-    return RecordedChannel(
-        column.name, column.unit, column.values, np.arange(column.values.size) / rate, column.heading
-    )
+    return column
 
 
 def unit_findings(recording: Recording, column: RecordedChannel, name: str, channel: ChannelInputs) -> list[Finding]:
@@ -368,53 +322,21 @@ def unit_findings(recording: Recording, column: RecordedChannel, name: str, chan
         return []
     if LETTERED.fullmatch(column.heading) and column.unit in ("V", "A") and channel.gain is None:
         return []  # a label
+    said = f'channel {name}: {recording.path.name} says "{column.unit}" for column "{column.heading}", '
     if channel.gain is not None and not units.is_physical(column.unit):
-        return [
-            note(
-                "unit",
-                f'channel {name}: {recording.path.name} says "{column.unit}" for column "{column.heading}", which '
-                f"is not the unit of a physical quantity. The campaign file's unit ({channel.unit}) and gain "
-                f"({channel.gain}) were used.",
-            )
-        ]
-    return [
-        serious(
-            "unit",
-            f'channel {name}: {recording.path.name} says "{column.unit}" for column "{column.heading}", the campaign '
-            f'file says "{channel.unit}", which was used. One of them is wrong.',
-        )
-    ]
+        said += f"which is not the unit of a physical quantity. The campaign file's unit ({channel.unit}) and gain "
+        return [note("unit", f"{said}({channel.gain}) were used.")]
+    said += f'the campaign file says "{channel.unit}", which was used. One of them is wrong.'
+    return [serious("unit", said)]
 
 
-def within(column: RecordedChannel, window: tuple[float, float] | None) -> tuple[Array, Array]:
+def _within(column: RecordedChannel, window: tuple[float, float] | None) -> tuple[Array, Array]:
     """Times and values of a channel that belong to the test."""
     time = column.time if column.time is not None else np.empty(0)
     if window is None:
         return time, column.values
     inside = (time >= window[0]) & (time <= window[1])
     return time[inside], column.values[inside]
-
-
-def too_short(name: str, size: int, window: tuple[float, float] | None) -> StageError:
-    """Say that a channel has too few samples for a clock."""
-    part = "" if window is None else f" between {window[0]:g} and {window[1]:g} s"
-    return StageError(
-        f"channel {name} has {count(size, 'sample')}{part}; at least two at increasing times were expected. "
-        "Check the file's time column and the test's `window`."
-    )
-
-
-def rounding(recording: Recording, clock: timing.Clock, jitter: float) -> list[Finding]:
-    """Note that the times of a file are rounded by more than `jitter`, in sampling intervals."""
-    if not clock.resolution > jitter * clock.interval:
-        return []
-    return [
-        note(
-            "rounded times",
-            f"{recording.path.name}: the times are rounded to {1e3 * clock.resolution:g} ms; an even clock of "
-            f"{1 / clock.interval:.5g} Hz matches them all and is used.",
-        )
-    ]
 
 
 def dimension_of(known: Mapping[str, Array], time: Array, name: str, channel: ChannelInputs) -> str:
@@ -428,69 +350,34 @@ def dimension_of(known: Mapping[str, Array], time: Array, name: str, channel: Ch
     return f"{own}_{len(known)}"
 
 
-KIND = "date"
-"""Kind of the finding that two dates contradict each other."""
-
 ZONES = (timedelta(hours=-12), timedelta(0), timedelta(hours=14))
 """From UTC to the clocks on the wall anywhere: a file in UTC does not say in which of them the laboratory is."""
 
-NO_ZONE = "no time zone recorded"
-
 
 def recorded_at(recordings: Mapping[str, Recording], begin: float = 0.0) -> str:
-    """
-    Write when a test was recorded, by the first recorder whose file says so; empty if none does.
-
-    Parameters
-    ----------
-    recordings : mapping of str to Recording
-    begin : float, optional
-        Of the test in its files, s.
-
-    Returns
-    -------
-    text : str
-        ``2013-04-26 10:15:00+02:00``, in the zone of the file, or a note that it records none.
-    """
+    """Write when a test that begins so late in its files (s) was recorded, by the first that says so, or nothing."""
     starts = (moment_after(recording.start, begin) for recording in recordings.values())
     return next((_written(start) for start in starts if start is not None), "")
 
 
 def contradictions(recordings: Mapping[str, Recording], day: date | None, begin: float = 0.0) -> list[Finding]:
-    """
-    Compare the day of each file with that of the campaign file.
-
-    Parameters
-    ----------
-    recordings : mapping of str to Recording
-    day : date or None
-        As campaign.toml gives it; None if it does not.
-    begin : float, optional
-        Of the test in its files, s.
-
-    Returns
-    -------
-    findings : list of Finding
-        A warning for each file of another day.
-    """
-    if day is None:
-        return []
+    """Warn of each file whose day is not that of the campaign file; `begin` as of `recorded_at`."""
     found = []
     for recording in recordings.values():
         start = moment_after(recording.start, begin)
-        if start is not None and day not in _days(start):
+        if day is not None and start is not None and day not in _days(start):
             text = (
                 f"{recording.path.name} was recorded on {start.date()} by its own clock ({_written(start)}), but the "
                 f"campaign file gives the date {day}. Correct the date, or check that this is the file of the test and "
                 "that the recorder's clock was right."
             )
-            found.append(warning(KIND, text))
+            found.append(warning("date", text))
     return found
 
 
 def _days(start: datetime) -> set[date]:
     """Days that it may have been on the wall."""
-    if start.utcoffset() is None or start.utcoffset() != timedelta(0):
+    if start.utcoffset() != timedelta(0):
         return {start.date()}
     shifted = (moment_after(start, zone.total_seconds()) for zone in ZONES)
     return {moment.date() for moment in shifted if moment is not None}
@@ -498,4 +385,4 @@ def _days(start: datetime) -> set[date]:
 
 def _written(start: datetime) -> str:
     text = start.isoformat(" ", "milliseconds" if start.microsecond else "seconds")
-    return text if start.tzinfo is not None else f"{text}, {NO_ZONE}"
+    return text if start.tzinfo is not None else f"{text}, no time zone recorded"

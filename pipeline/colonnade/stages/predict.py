@@ -23,7 +23,7 @@ from colonnade.stages.specimen import centre
 if TYPE_CHECKING:
     import xarray as xr
 
-    from colonnade.dynamics.contact.history import ContactHistory
+    from colonnade.dynamics.contact.bodies import AssemblyHistory
 
 
 class PredictInputs(BeginningInputs):
@@ -108,21 +108,8 @@ def predict(
     block = inputs.block if inputs.is_in_space else centre(specimen, inputs.block)
     beginning = begin(rocking, inputs, identified, block)
     time = rocking["elapsed"].to_numpy()
-    if inputs.assembly is not None and inputs.space is not None:
-        return _assembled(beginning, time, inputs.assembly, inputs.space).assign_attrs(
-            model=inputs.model, restitution_source=""
-        )
-    if contact is not None and inputs.space is not None:
-        moved = _in_space(beginning, contact, inputs.space)
-        described = _described(moved, time, beginning, specimen, inputs)
-        return described.assign(
-            _space_variables(moved, beginning.first)
-            | law_variables(moved.body, moved.law, moved.block.gravity)
-            | {"energy_residual": ((), moved.energies.relative_residual)}
-        ).assign_attrs(
-            body=moved.body.description,
-            warnings=[*beginning.warnings, *(serious("energy balance", text) for text in moved.warnings)],
-        )
+    if inputs.space is not None:
+        return _in_space(beginning, time, specimen, inputs, inputs.space, contact)
     history = rock(
         block,
         beginning.motion,
@@ -132,45 +119,7 @@ def predict(
         omega0=beginning.omega0,
         rest_angle=inputs.rest_angle,
     )
-    return _described(history, time, beginning, specimen, inputs)
-
-
-def _assembled(beginning: Beginning, time: Array, inputs: AssemblyInputs, space: ContactInputs) -> xr.Dataset:
-    """Move the bodies of an assembly; its rocking angle is the lean of the lowest body with all that it carries."""
-    import xarray as xr
-
-    from colonnade.dynamics.contact.simulate import simulate_assembly
-
-    try:
-        moved = simulate_assembly(
-            inputs.assembly,
-            beginning.motion,
-            law=assembly_law(space.settings),
-            theta0=beginning.theta0,
-            omega0=beginning.omega0,
-        )
-    except ValueError as error:
-        raise StageError(f"processing.predict.contact: {error}") from error
-    lowest, first = next(iter(moved.bodies.values())), beginning.first
-    peak = int(np.argmax(np.abs(moved.angle)))
-    return xr.Dataset(
-        {
-            "rocking_angle": ("elapsed", np.concatenate((np.full(first, np.nan), moved.angle))),
-            "base_acceleration": ("elapsed", beginning.base),
-            "impact_time": ("impact", lowest.impact_times + time[first]),
-            "zero_offset": ((), beginning.zero_offset),
-            "angle_gain": ((), beginning.angle_gain),
-            "peak_angle": ((), float(moved.angle[peak])),
-            "peak_ratio": ((), np.nan if moved.peak_ratio is None else moved.peak_ratio),
-            "peak_time": ((), float(time[first] + moved.time[peak])),
-            "overturning_time": ((), moved.overturning_time + float(time[first])),
-            "impact_count": ((), lowest.impact_times.size),
-            "energy_residual": ((), moved.energies.relative_residual),
-        }
-        | predicted_variables(moved, first, inputs),
-        coords={"elapsed": ("elapsed", time)},
-        attrs={"outcome": moved.outcome, "driven_by": beginning.driven_by, "warnings": beginning.warnings},
-    )
+    return _of_block(history, time, beginning, specimen, inputs)
 
 
 def sides(specimen: xr.Dataset) -> tuple[float, float]:
@@ -179,71 +128,101 @@ def sides(specimen: xr.Dataset) -> tuple[float, float]:
     return negative, positive
 
 
-def _in_space(beginning: Beginning, contact: xr.Dataset, inputs: ContactInputs) -> ContactHistory:
-    from colonnade.dynamics.contact.simulate import simulate
+def _in_space(
+    beginning: Beginning,
+    time: Array,
+    specimen: xr.Dataset,
+    inputs: PredictInputs,
+    space: ContactInputs,
+    contact: xr.Dataset | None,
+) -> xr.Dataset:
+    """Move one body with its calibrated law, or the bodies of an assembly, by the contact model."""
+    from colonnade.dynamics.contact.simulate import simulate, simulate_assembly
 
-    settings, law = inputs.settings, law_of(contact)
-    body = body_of(inputs, law)
+    settings, motion = space.settings, beginning.motion
+    theta0, omega0 = beginning.theta0, beginning.omega0
+    law = assembly_law(settings) if contact is None else law_of(contact)
     try:
-        return simulate(
-            body,
-            beginning.motion,
+        if inputs.assembly is not None:
+            bodies = inputs.assembly.assembly
+            together = simulate_assembly(bodies, motion, law=law, theta0=theta0, omega0=omega0)
+            return _of_assembly(together, time, beginning, inputs, inputs.assembly)
+        moved = simulate(
+            body_of(space, law),
+            motion,
             law=law,
-            gravity=inputs.block.gravity,
+            gravity=space.block.gravity,
             step=settings.step,
-            theta0=beginning.theta0,
-            omega0=beginning.omega0,
+            theta0=theta0,
+            omega0=omega0,
             out_of_plane=settings.out_of_plane,
         )
     except ValueError as error:
         raise StageError(f"processing.predict.contact: {error}") from error
-
-
-def _space_variables(history: ContactHistory, first: int) -> dict[str, tuple[str, Array]]:
-    """What the contact model says beyond the rocking angle, NaN up to the sample at which it starts."""
-    values = {
-        "slide": history.slide[:, 0],
-        "transverse_slide": history.slide[:, 1],
-        "uplift": history.uplift,
-        "out_of_plane_angle": history.out_of_plane,
-        "yaw": history.yaw,
+    over_time = {
+        "slide": moved.slide[:, 0],
+        "transverse_slide": moved.slide[:, 1],
+        "uplift": moved.uplift,
+        "out_of_plane_angle": moved.out_of_plane,
+        "yaw": moved.yaw,
     }
-    return {name: ("elapsed", np.concatenate((np.full(first, np.nan), each))) for name, each in values.items()}
+    described = _of_block(moved, time, beginning, specimen, inputs).assign(
+        {name: ("elapsed", beginning.padded(values)) for name, values in over_time.items()}
+        | law_variables(moved.body, law, moved.block.gravity)
+        | {"energy_residual": moved.energies.relative_residual}
+    )
+    warnings = [*beginning.warnings, *(serious("energy balance", text) for text in moved.warnings)]
+    return described.assign_attrs(body=moved.body.description, warnings=warnings)
+
+
+def _of_block(
+    history: History, time: Array, beginning: Beginning, specimen: xr.Dataset, inputs: PredictInputs
+) -> xr.Dataset:
+    peak = int(np.searchsorted(history.time, history.peak_time))
+    # By the α of the campaign file, as the measured one is.
+    ratio = None if history.peak_ratio is None else float(amplitude(history.angle, inputs.block).max())
+    described = _described(history, time, beginning, peak, ratio, history.impact_times)
+    return described.assign(restitution=float(specimen["restitution"]), impact_count=history.impacts).assign_attrs(
+        model=inputs.model, restitution_source=specimen.attrs["restitution_source"]
+    )
+
+
+def _of_assembly(
+    history: AssemblyHistory, time: Array, beginning: Beginning, inputs: PredictInputs, assembly: AssemblyInputs
+) -> xr.Dataset:
+    """Its rocking angle is the lean of the lowest body with all that it carries."""
+    peak, impacts = int(np.argmax(np.abs(history.angle))), next(iter(history.bodies.values())).impact_times
+    described = _described(history, time, beginning, peak, history.peak_ratio, impacts)
+    return described.assign(
+        {"impact_count": impacts.size, "energy_residual": history.energies.relative_residual}
+        | predicted_variables(history, beginning, assembly)
+    ).assign_attrs(model=inputs.model, restitution_source="")
 
 
 def _described(
-    history: History,
+    history: History | AssemblyHistory,
     time: Array,
     beginning: Beginning,
-    specimen: xr.Dataset,
-    inputs: PredictInputs,
+    peak: int,
+    peak_ratio: float | None,
+    impacts: Array,
 ) -> xr.Dataset:
+    """What all models say; the history's largest angle is at its sample `peak`."""
     import xarray as xr
 
-    first = beginning.first
-    angle = np.concatenate((np.full(first, np.nan), history.angle))
-    peak = int(np.searchsorted(history.time, history.peak_time))
+    start = float(time[beginning.first])
     return xr.Dataset(
         {
-            "rocking_angle": ("elapsed", angle),
+            "rocking_angle": ("elapsed", beginning.padded(history.angle)),
             "base_acceleration": ("elapsed", beginning.base),
-            "impact_time": ("impact", history.impact_times + time[first]),
-            "restitution": ((), float(specimen["restitution"])),
-            "zero_offset": ((), beginning.zero_offset),
-            "angle_gain": ((), beginning.angle_gain),
-            "peak_angle": ((), float(history.angle[peak])),
-            # By the α of the campaign file, as the measured one is.
-            "peak_ratio": ((), np.nan if history.peak_ratio is None else amplitude(history.angle, inputs.block).max()),
-            "peak_time": ((), history.peak_time + float(time[first])),
-            "overturning_time": ((), history.overturning_time + float(time[first])),
-            "impact_count": ((), history.impacts),
+            "impact_time": ("impact", impacts + start),
+            "zero_offset": beginning.zero_offset,
+            "angle_gain": beginning.angle_gain,
+            "peak_angle": float(history.angle[peak]),
+            "peak_ratio": np.nan if peak_ratio is None else peak_ratio,
+            "peak_time": float(history.time[peak]) + start,
+            "overturning_time": history.overturning_time + start,
         },
         coords={"elapsed": ("elapsed", time)},
-        attrs={
-            "outcome": history.outcome,
-            "model": inputs.model,
-            "restitution_source": specimen.attrs["restitution_source"],
-            "driven_by": beginning.driven_by,
-            "warnings": beginning.warnings,
-        },
+        attrs={"outcome": history.outcome, "driven_by": beginning.driven_by, "warnings": beginning.warnings},
     )

@@ -105,35 +105,40 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
 
     expect_angle(rocking)
     result = _identified(rocking, inputs)
-    of_history, _ = result.estimates
+    of_history, estimates = result.estimates[0], result.estimates
     residual = np.nan if result.history is None else float(np.sqrt(np.nanmean(result.history.residual**2)))
     return xr.Dataset(
         {
-            **{name: ((), _number(value)) for name, value in _scalars(result).items()},
+            "restitution": _number(result.value),
+            "restitution_low": _number(result.low),
+            "restitution_high": _number(result.high),
+            "restitution_standard_error": _number(result.standard_error),
+            "level": _number(result.level),
+            "zero_offset": _number(result.zero_offset),
+            "angle_scale": 1.0 if result.joint is None else exp(float(result.joint.mean[1]) + result.joint.gain),
+            "restitution_slope": _number(result.constancy.slope),
+            "restitution_slope_standard_error": _number(result.constancy.slope_standard_error),
+            "restitution_history_residual": ("model", [residual]),
             **_along("peak", PEAKS, result.peaks),
             **_along("impact", IMPACTS, result.impacts),
             **_along("fitted_elapsed", HISTORY, result.history),
             **_joint(result),
             **{
-                f"{name}{end}": (dimension, np.array([_number(getattr(each, field)) for each in estimates]))
-                for name, dimension, estimates in (
-                    ("estimate", "estimator", result.estimates),
+                f"{name}{end}": (dimension, [_number(getattr(each, field)) for each in found])
+                for name, dimension, found in (
+                    ("estimate", "estimator", estimates),
                     ("restitution_history", "model", [of_history]),
                 )
                 for end, field in ENDS.items()
             },
-            "restitution_history_residual": ("model", np.array([residual])),
         },
-        coords={
-            "model": ("model", np.array(["nonlinear"], dtype=object)),
-            "estimator": ("estimator", np.array([each.name for each in result.estimates], dtype=object)),
-        },
+        coords={"model": ["nonlinear"], "estimator": [each.name for each in estimates]},
         attrs={
             "method": result.method,
             "reason": result.reason,
             "recommended": result.recommended,
-            "estimate_assumptions": [each.assumptions for each in result.estimates],
-            "estimate_reasons": [each.reason for each in result.estimates],
+            "estimate_assumptions": [each.assumptions for each in estimates],
+            "estimate_reasons": [each.reason for each in estimates],
             "history_model": "" if result.history is None else "nonlinear",
             "departures": [found.sentence for found in result.departures],
             "history_reason": of_history.reason,
@@ -144,14 +149,7 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
 
 
 def expect_angle(rocking: xr.Dataset) -> None:
-    """
-    Refuse a free vibration whose rocking angle was not measured.
-
-    Raises
-    ------
-    StageError
-        If `rocking` has no angle.
-    """
+    """Refuse a free vibration whose rocking angle was not measured."""
     if "rocking_angle" not in rocking:
         raise StageError(
             "A free vibration without a usable displacement transducer on the specimen gives no restitution; "
@@ -171,11 +169,9 @@ def _warnings(result: Restitution) -> list[Finding]:
 
 
 def _identified(rocking: xr.Dataset, inputs: RestitutionInputs) -> Restitution:
-    beside: dict[str, Any] = {
-        name: rocking[variable].to_numpy()
-        for name, variable in (("out_of_plane", "out_of_plane_angle"), ("slide", "slide"), ("uplift", "uplift"))
-        if variable in rocking
-    }
+    names = {"out_of_plane": "out_of_plane_angle", "slide": "slide", "uplift": "uplift"}
+    names["base_acceleration"] = "base_acceleration"
+    beside: dict[str, Any] = {name: rocking[each].to_numpy() for name, each in names.items() if each in rocking}
     return identify_restitution(
         rocking["elapsed"].to_numpy(),
         rocking["rocking_angle"].to_numpy(),
@@ -186,27 +182,12 @@ def _identified(rocking: xr.Dataset, inputs: RestitutionInputs) -> Restitution:
         # A filter of another order is not the one that the fit knows: it finds the nearest one itself.
         lowpass=rocking["rocking_angle"].attrs.get("cutoff_hz") if inputs.filter_order == ORDER else None,
         uncertainty=Uncertainty(critical_angle=inputs.critical_angle, p=inputs.p, angle_gain=inputs.angle_gain),
-        base_acceleration=rocking["base_acceleration"].to_numpy() if "base_acceleration" in rocking else None,
         **beside,
     )
 
 
 def _number(value: float | None) -> float:
     return np.nan if value is None else float(value)
-
-
-def _scalars(result: Restitution) -> dict[str, float | None]:
-    return {
-        "restitution": result.value,
-        "restitution_low": result.low,
-        "restitution_high": result.high,
-        "restitution_standard_error": result.standard_error,
-        "level": result.level,
-        "zero_offset": result.zero_offset,
-        "angle_scale": 1.0 if result.joint is None else exp(float(result.joint.mean[1]) + result.joint.gain),
-        "restitution_slope": result.constancy.slope,
-        "restitution_slope_standard_error": result.constancy.slope_standard_error,
-    }
 
 
 def _along(dimension: str, names: Mapping[str, str], found: Any) -> dict[str, Any]:

@@ -27,9 +27,9 @@ from colonnade.stages.parts.transducers import (
     Transducers,
     axes,
     base_motion,
-    group,
     misplaced,
     outline,
+    readings,
     transducers,
 )
 from colonnade.store.provenance import Inputs
@@ -141,17 +141,15 @@ def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
         motion = together(motion, bodies, inputs.assembly)
     variables: dict[str, Any] = {name: ("elapsed", values) for name, values in base.items()}
     acceleration = base.get("base_acceleration")
-    if acceleration is not None and not inputs.free_vibration:
-        warnings += _shock(acceleration, time)
-    peak_acceleration = np.nan if acceleration is None else float(np.nanmax(np.abs(acceleration)))
-    variables["peak_ground_acceleration"] = ((), peak_acceleration)
+    variables["peak_ground_acceleration"] = np.nan
+    if acceleration is not None:
+        variables["peak_ground_acceleration"] = float(np.nanmax(np.abs(acceleration)))
+        warnings += [] if inputs.free_vibration else _shock(acceleration, time)
     attributes = {"outcome": "", "separation": separation, "warnings": warnings}
     if motion is not None:
         variables |= _motion_variables(time, motion, acceleration, inputs, attributes)
-        variables["rocking_angle"] += ({"cutoff_hz": cutoff},) if (cutoff := _cutoff(conditioned, motion, used)) else ()
-        variables |= _quality(conditioned, motion, used)
-        if not inputs.free_vibration:
-            warnings += _hidden_peak(time, motion.angle, inputs.block)
+        variables |= _of_transducers(conditioned, motion, used)
+        warnings += [] if inputs.free_vibration else _hidden_peak(time, motion.angle, inputs.block)
     if inputs.assembly is not None and bodies is not None:
         described, outcome = measured_variables(time, bodies, inputs.assembly, warnings)
         variables |= described
@@ -216,16 +214,21 @@ def _motion(
             '(on = "table", quantity = "displacement"), or write relative_to = "table" if the transducer is fixed to '
             "the table."
         )
-    gravity = inputs.block.gravity
     motion = specimen_motion(
-        group(conditioned, known.positions, gravity),
-        group(conditioned, known.gyroscopes, gravity),
-        group(conditioned, known.accelerometers, gravity),
+        *readings(conditioned, known, inputs.block.gravity),
         inputs.block,
         inputs.outline,
         _circumstances(conditioned["elapsed"].to_numpy(), inputs, base),
     )
-    warnings += _contradicting(motion, known, used)
+    turning = {name for name, each in known.gyroscopes.items() if abs(each.direction[1]) > SEEN}
+    left_out = [name for name, enters in zip(used, motion.entered, strict=True) if name in turning and not enters]
+    if left_out:
+        several = "s" if len(left_out) > 1 else ""
+        text = (
+            f"The angle is not from gyroscope{several} {', '.join(left_out)}: the displacement transducers contradict. "
+            "Check gain, sign and axis (`direction`)."
+        )
+        warnings.append(warning("fewer transducers", text))
     return motion
 
 
@@ -238,21 +241,6 @@ def _circumstances(time: Array, inputs: RockingInputs, base: Mapping[str, Array]
         displacement=axes(base, "displacement", time),
         acceleration=axes(base, "acceleration", time) if resting else None,
     )
-
-
-def _contradicting(motion: SpecimenMotion, known: Transducers, used: list[str]) -> list[Finding]:
-    """Report the gyroscopes about the axis of rocking that the angle is not from, as the others contradict them."""
-    entered = dict(zip(used, motion.entered.tolist(), strict=True))
-    turning = [name for name, each in known.gyroscopes.items() if name in entered and abs(each.direction[1]) > SEEN]
-    left_out = [name for name in turning if not entered[name]]
-    if not left_out:
-        return []
-    several = "s" if len(left_out) > 1 else ""
-    text = (
-        f"The angle is not from gyroscope{several} {', '.join(left_out)}: the displacement transducers contradict. "
-        "Check gain, sign and axis (`direction`)."
-    )
-    return [warning("fewer transducers", text)]
 
 
 def _motion_variables(
@@ -274,19 +262,19 @@ def _motion_variables(
     )  # fmt: skip
     # Bodies that slid on each other leave the one block leaning.
     attributes["warnings"] += [ended] if ended and inputs.assembly is None else []
-    variables: dict[str, Any] = {f"{name}_standard_error": ((), error) for name, error in median.items()}
+    variables: dict[str, Any] = {f"{name}_standard_error": error for name, error in median.items()}
     variables |= {name: ("elapsed", values) for name, values in motion.values.items()}
     if motion.is_integrated:
         variables["angle_deviation"] = ("elapsed", motion.standard_error["rocking_angle"])
     return variables | {
-        "rocking_angle_standard_error": ((), found.standard_error),
-        "rocking_angle_drift": ((), found.drift),
+        "rocking_angle_standard_error": found.standard_error,
+        "rocking_angle_drift": found.drift,
         "impact_time": ("impact", found.impact_times),
-        "peak_angle": ((), found.peak_angle),
-        "peak_ratio": ((), found.peak_ratio),
-        "peak_time": ((), found.peak_time),
-        "overturning_time": ((), found.verdict.overturning_time),
-        "noise_threshold": ((), found.threshold),
+        "peak_angle": found.peak_angle,
+        "peak_ratio": found.peak_ratio,
+        "peak_time": found.peak_time,
+        "overturning_time": found.verdict.overturning_time,
+        "noise_threshold": found.threshold,
     }
 
 
@@ -298,22 +286,22 @@ def _only_lever(known: Transducers) -> float | None:
     return along[0] if len(along) == 1 == len(known.on_specimen) else None
 
 
-def _cutoff(conditioned: xr.Dataset, motion: SpecimenMotion, used: list[str]) -> float | None:
-    """Low-pass of the angle, Hz: that of its transducers, if they share one and nothing else smoothed it."""
+def _of_transducers(conditioned: xr.Dataset, motion: SpecimenMotion, used: list[str]) -> dict[str, Any]:
+    """
+    The angle with its low-pass, its flags and the residuals.
+
+    Flags are the worst of its transducers, suspect if one is missing but others are there. The low-pass is that of its
+    transducers, if they share one and nothing else smoothed the angle.
+    """
     entered = [name for name, counts in zip(used, motion.entered, strict=True) if counts]
     cutoffs = {float(conditioned[name].attrs.get("cutoff_hz", np.nan)) for name in entered}
-    return None if motion.is_integrated or len(cutoffs) != 1 or not np.isfinite(min(cutoffs)) else cutoffs.pop()
-
-
-def _quality(conditioned: xr.Dataset, motion: SpecimenMotion, used: list[str]) -> dict[str, Any]:
-    """Flags of the angle: the worst of its transducers, suspect if one is missing but others are there; residuals."""
-    entered = [name for name, counts in zip(used, motion.entered, strict=True) if counts]
+    is_shared = not motion.is_integrated and len(cutoffs) == 1 and np.isfinite(min(cutoffs))
     flags = np.max([conditioned[f"{name}_quality"].to_numpy() for name in entered], axis=0).astype(np.int8)
     others = np.isfinite(motion.angle) & (flags == Flag.MISSING)
-    readings = [conditioned[name].to_numpy() for name in used]
-    moved = np.array([float(np.nanstd(values)) for values in readings])
+    moved = np.array([float(np.nanstd(conditioned[name].to_numpy())) for name in used])
     noise = np.array([max(float(conditioned[name].attrs.get("noise", 0.0)), LEAST_NOISE) for name in used])
     return {
+        "rocking_angle": ("elapsed", motion.angle, {"cutoff_hz": min(cutoffs)} if is_shared else {}),
         "rocking_angle_quality": ("elapsed", np.where(others, np.int8(Flag.SUSPECT), flags)),
         "transducer": ("transducer", [str(conditioned[name].attrs.get("channel", name)) for name in used]),
         "residual_to_noise": ("transducer", motion.residual_size / noise),

@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import csv
 import re
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -54,17 +53,17 @@ def variable_name(channel_id: str) -> str:
     return f"{name}_channel" if _RESERVED_NAME.fullmatch(name) else name
 
 
-def udunits(unit: str | None) -> str | None:
+def udunits(unit: str | None) -> str:
     """
-    UDUNITS spelling of a recorded unit, None if it has none.
+    UDUNITS spelling of a recorded unit, empty if it has none.
 
     Examples
     --------
     >>> udunits("Volts"), udunits("g's"), udunits("furlong"), udunits(None)
-    ('V', '9.80665 m s-2', None, None)
+    ('V', '9.80665 m s-2', '', '')
     """
     if unit is None or (found := units.find_unit(unit)) is None:
-        return None
+        return ""
     if found.symbol in _UDUNITS:
         return found.symbol
     factor, si_unit = units.si_factor(unit)
@@ -155,7 +154,7 @@ def _attributes(name: str, dataset: xr.Dataset) -> tuple[dict[str, Any], str]:
         recorded = Variable(f"as in the file, channel {channel}", udunits(unit), MEASURED)
         return recorded.attributes() | ({"recorded_unit": unit} if unit else {}), "float64"
     if channel is not None and form == "quality":
-        quality = Variable(f"quality of channel {channel}", None, QUALITY, "quality_flag", "int8")
+        quality = Variable(f"quality of channel {channel}", "", QUALITY, "quality_flag", "int8")
         return quality.attributes() | _flag_attributes(name), "int8"
     raise StoreError(
         f"variable '{name}' of {dict(dataset[name].sizes)} is not described: it is not in the table of variables, and "
@@ -178,63 +177,47 @@ QUALITY = "qualityInformation"
 COORDINATE = "coordinate"
 
 
-@dataclass(frozen=True)
-class Variable:
+class Variable(NamedTuple):
     """
-    How one variable is stored and described.
+    How one variable is stored and described; empty for what it does not have.
 
     Attributes
     ----------
     long_name : str
         In words.
-    units : str or None
-        UDUNITS spelling; "1" for a number, None for text and flags.
+    units : str
+        UDUNITS spelling; "1" for a number, none for text and flags.
     content : str
         ACDD coverage_content_type.
-    standard_name : str or None
+    standard_name : str
         Where CF has one; rocking has almost none.
     dtype : str
         numpy's name; "str" for text.
-    comment : str or None
+    comment : str
         Sign, frame or definition, where the name does not say it.
     stages : tuple of str
         Whose results may have it.
     """
 
     long_name: str
-    units: str | None = "1"
+    units: str = "1"
     content: str = AUXILIARY
-    standard_name: str | None = None
+    standard_name: str = ""
     dtype: str = "float64"
-    comment: str | None = None
+    comment: str = ""
     stages: tuple[str, ...] = ()
 
     def attributes(self) -> dict[str, Any]:
         """CF and ACDD attributes, those that are not given left out."""
-        given = {
-            "long_name": self.long_name,
-            "standard_name": self.standard_name,
-            "units": self.units,
-            "coverage_content_type": self.content,
-            "comment": self.comment,
-        }
-        return {name: value for name, value in given.items() if value is not None}
+        given = self._asdict() | {"coverage_content_type": self.content}
+        names = ("long_name", "standard_name", "units", "coverage_content_type", "comment")
+        return {name: given[name] for name in names if given[name]}
 
 
 def _table() -> dict[str, Variable]:
     with Path(__file__).with_name("variables.csv").open(encoding="utf-8", newline="") as stream:
-        return {
-            row["name"]: Variable(
-                row["long_name"],
-                row["units"] or None,
-                row["content"],
-                row["standard_name"] or None,
-                row["dtype"],
-                row["comment"] or None,
-                tuple(row["stages"].split()),
-            )
-            for row in csv.DictReader(stream)
-        }
+        rows: list[dict[str, Any]] = list(csv.DictReader(stream))
+    return {row.pop("name"): Variable(**row | {"stages": tuple(row["stages"].split())}) for row in rows}
 
 
 VARIABLES = _table()

@@ -136,30 +136,21 @@ def _read(path: Path) -> Known | Refused:
             return Refused(path.name, "it is a link or no file; forecasts are not read through links.")
         if status.st_size > LARGEST:
             return Refused(path.name, f"it has {status.st_size / 1e6:.0f} MB; no forecast is as large.")
-        content = json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse_constant)
+        content = dict(json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse_constant))
+        digest = content.pop(HASH, None)
+        if digest != hash_of(content):
+            return Refused(path.name, "it was altered after it was made: its hash is another.")
+        return Known(path.name, str(digest), ForecastFile.model_validate(content))
     except OSError as error:
         return Refused(path.name, f"it cannot be read ({error.strerror}).")
-    except (ValueError, RecursionError):
-        return Refused(path.name, "it is damaged: it is not the JSON that was written.")
-    if not isinstance(content, dict):
-        return Refused(path.name, "it is damaged: it is not the JSON that was written.")
-    return _checked(path.name, content)
-
-
-def _checked(name: str, content: dict[str, Any]) -> Known | Refused:
-    digest = content.pop(HASH, None)
-    try:
-        if digest != hash_of(content):
-            return Refused(name, "it was altered after it was made: its hash is another.")
-    except (ValueError, RecursionError):  # lone surrogates have no UTF-8
-        return Refused(name, "it is damaged: it is not the JSON that was written.")
-    try:
-        return Known(name, str(digest), ForecastFile.model_validate(content))
     except ValidationError as error:
         first: Mapping[str, Any] = error.errors(include_url=False, include_input=False)[0]
         place = ".".join(map(str, first["loc"]))[:200]
         said = f"{place}: {first['msg']}" if place else str(first["msg"])
-        return Refused(name, f"it is no forecast of schema 1 ({said}). Another version of colonnade may have made it.")
+        why = f"it is no forecast of schema 1 ({said}). Another version of colonnade may have made it."
+        return Refused(path.name, why)
+    except (ValueError, TypeError, RecursionError):  # not JSON, no object, or text that has no UTF-8
+        return Refused(path.name, "it is damaged: it is not the JSON that was written.")
 
 
 def _refuse_constant(text: str) -> NoReturn:

@@ -250,7 +250,8 @@ def _measure(campaign: Campaign, test: Test, recordings: dict[str, Recording], f
     if test.kind == "free-vibration":
         restitution.expect_angle(measured)
     elif test.kind == "sine":
-        findings += at_stage(compare.contradictions(measured, test.frequency, test.amplitude), "compare")
+        forcing = compare.forcing_of(measured)
+        findings += at_stage(compare.contradictions(forcing, test.frequency, test.amplitude), "compare")
     for model in models_of(campaign, test)[:1]:  # the base motion and the start are the same for all
         beginning = begin(measured, predict.PredictInputs.of(campaign, test, model))
         findings += at_stage(beginning.warnings, "predict")

@@ -21,7 +21,7 @@ from colonnade.stages.parts.beginning import (
     weakened,
 )
 from colonnade.stages.parts.reference_motions import load, reference_files
-from colonnade.stages.parts.transducers import Transducers, axes, base_motion, group
+from colonnade.stages.parts.transducers import Transducers, axes, base_motion, readings
 from colonnade.units.text import format_percent
 from every import every
 from prism import PRISM
@@ -286,11 +286,12 @@ def test_an_axis_that_was_not_recorded_does_not_move():
 
 
 def test_gravity_is_subtracted_unless_the_zero_was():
-    upright = {"block": Accelerometer((0.0, 0.0, 1.0), (0.0, 0.0, 0.4))}
+    unused = {name: {} for name in ("positions", "gyroscopes", "accelerations", "displacements")}
+    upright = Transducers(accelerometers={"block": Accelerometer((0.0, 0.0, 1.0), (0.0, 0.0, 0.4))}, **unused)
     whole = _conditioned(block=SWELL + 9.81)
-    np.testing.assert_allclose(group(whole, upright, 9.81).values[0], SWELL, atol=1e-12)
+    np.testing.assert_allclose(readings(whole, upright, 9.81)[2].values[0], SWELL, atol=1e-12)
     whole["block"].attrs |= {"zero": 0.1, "rest_value": 9.81}
-    np.testing.assert_allclose(group(whole, upright, 9.81).values[0], SWELL, atol=1e-12)
+    np.testing.assert_allclose(readings(whole, upright, 9.81)[2].values[0], SWELL, atol=1e-12)
 
 
 def test_one_of_three_components_has_to_be_named(small_campaign):

@@ -53,14 +53,21 @@ def base_acceleration(rocking: xr.Dataset) -> Array:
             'Add a channel with on = "table" and quantity = "acceleration" (or "displacement") to its set-up.'
         )
     base = rocking["base_acceleration"].to_numpy()
-    missing = int((~np.isfinite(base)).sum())
-    if missing:
-        where = float(rocking["elapsed"][int(np.argmin(np.isfinite(base)))])
+    if missing := _missing(base, rocking):
         raise StageError(
-            f"The base acceleration is missing {missing} of {base.size} samples, the first at {where:.3f} s; all "
-            "of them were expected. Give the test a `window` without them, or repair the channel."
+            f"The base acceleration is missing {missing}; all of them were expected. Give the test a `window` without "
+            "them, or repair the channel."
         )
     return base
+
+
+def _missing(values: Array, rocking: xr.Dataset) -> str:
+    """Say how many samples miss, and the first; empty if none does."""
+    finite = np.isfinite(values)
+    if finite.all():
+        return ""
+    where = float(rocking["elapsed"][int(np.argmin(finite))])
+    return f"{int((~finite).sum())} of {values.size} samples, the first at {where:.3f} s"
 
 
 def vertical_acceleration(rocking: xr.Dataset, *, gravity: float, expected: bool) -> tuple[Array | None, list[Finding]]:
@@ -87,18 +94,13 @@ def vertical_acceleration(rocking: xr.Dataset, *, gravity: float, expected: bool
         reason = "No channel of the table's vertical acceleration is usable: predicted without it."
         return None, [warning(VERTICAL, reason, follows=MEASUREMENT)] if expected else []
     vertical = rocking["vertical_base_acceleration"].to_numpy()
-    finite = np.isfinite(vertical)
-    if not finite.all():
-        where = float(rocking["elapsed"][int(np.argmin(finite))])
-        reason = (
-            f"The vertical acceleration of the base is missing {int((~finite).sum())} of {vertical.size} samples, the "
-            f"first at {where:.3f} s: predicted without it."
-        )
+    if missing := _missing(vertical, rocking):
+        reason = f"The vertical acceleration of the base is missing {missing}: predicted without it."
         return None, [warning(VERTICAL, reason, follows=("lost samples", "missing samples"))]
     if np.ptp(vertical) < LEAST_VERTICAL:
         reason = "The table's vertical accelerometer is dead (no noise at all): predicted without it."
         return None, [warning(VERTICAL, reason, follows=("dead channel",))]
-    if not vertical.min() > -gravity:
+    if vertical.min() <= -gravity:
         where = float(rocking["elapsed"][int(vertical.argmin())])
         reason = (
             f"The vertical acceleration of the base reaches {vertical.min():.4g} m/s² at {where:.3f} s, so the "
@@ -212,6 +214,10 @@ class Beginning:
     zero_offset: float = 0.0
     angle_gain: float = 1.0
     warnings: list[Finding] = field(default_factory=list)
+
+    def padded(self, values: Array) -> Array:
+        """Values over time from `first` on, shape (n - first,), on the whole clock; NaN before."""
+        return np.concatenate((np.full(self.first, np.nan), values))
 
 
 def begin(

@@ -22,7 +22,8 @@ from colonnade.identification.fusion.motion import Circumstances, specimen_motio
 from colonnade.identification.fusion.pose import SpecimenMotion
 from colonnade.identification.fusion.sensors import Readings, Transducer, UnseenRotationError
 from colonnade.identification.response.outcome import angle_features
-from colonnade.stages.parts.transducers import MarkerInputs, Transducers, group, markers_of, outline, transducers
+from colonnade.stages.parts.beginning import Beginning
+from colonnade.stages.parts.transducers import MarkerInputs, Transducers, markers_of, outline, readings, transducers
 from colonnade.store.description import variable_name
 from colonnade.store.provenance import Inputs
 
@@ -135,23 +136,16 @@ def measure(conditioned: xr.Dataset, inputs: AssemblyInputs, test: Circumstances
     motions: dict[str, SpecimenMotion] = {}
     reasons: dict[str, str] = {}
     for name, body in inputs.bodies.items():
-        known, gravity = body.transducers, body.block.gravity
-        positions = group(conditioned, known.positions, gravity)
         missing = sorted({other for other in body.against.values() if other not in motions})
         if missing:
             reasons[name] = f"it is measured against {', '.join(missing)}, whose motion is not known"
-        elif not any(each in conditioned for each in known.on_specimen):
+        elif not any(each in conditioned for each in body.transducers.on_specimen):
             reasons[name] = "no transducer on it could be used"
         else:
+            positions, rates, forces = readings(conditioned, body.transducers, body.block.gravity)
+            positions = _from_the_table(positions, name, conditioned, inputs, motions)
             try:
-                motions[name] = specimen_motion(
-                    _from_the_table(positions, name, conditioned, inputs, motions),
-                    group(conditioned, known.gyroscopes, gravity),
-                    group(conditioned, known.accelerometers, gravity),
-                    body.block,
-                    body.outline,
-                    test,
-                )
+                motions[name] = specimen_motion(positions, rates, forces, body.block, body.outline, test)
             except UnseenRotationError as error:
                 reasons[name] = f"{error}"
     return Measured(motions, reasons)
@@ -312,17 +306,8 @@ def _median(errors: Array | None) -> float:
     return float(np.nanmedian(errors)) if errors is not None and np.isfinite(errors).any() else np.nan
 
 
-def predicted_variables(history: AssemblyHistory, first: int, inputs: AssemblyInputs) -> dict[str, Any]:
-    """
-    Describe the bodies in a result of `predict`.
-
-    Parameters
-    ----------
-    history : AssemblyHistory
-    first : int
-        Sample of the record at which it begins.
-    inputs : AssemblyInputs
-    """
+def predicted_variables(history: AssemblyHistory, beginning: Beginning, inputs: AssemblyInputs) -> dict[str, Any]:
+    """Describe the bodies in a result of `predict`."""
     rows = []
     at_end = history.time >= history.time[-1] - inputs.rest_duration
     for name, body in history.bodies.items():
@@ -344,7 +329,7 @@ def predicted_variables(history: AssemblyHistory, first: int, inputs: AssemblyIn
             "joint_yaw": joint.yaw,
         }
         rows.append(
-            {key: np.concatenate((np.full(first, np.nan), each)) for key, each in over_time.items()}
+            {key: beginning.padded(each) for key, each in over_time.items()}
             | {
                 "outcome": "overturned" if fell else "rocking" if ratio > NO_ROCKING_RATIO else "no-rocking",
                 "peak_ratio": np.nan if fell else ratio,

@@ -77,19 +77,14 @@ The sign is -1 if the two point against each other. A recorder without a link st
 
 def find_links(recorders: Mapping[str, Recorder], channels: Mapping[str, Channel]) -> dict[str, tuple[str, str, float]]:
     """Find the channels of a test that link its recorders to the main one."""
-    aligned = {name: recorder.clock for name, recorder in recorders.items() if isinstance(recorder.clock, Align)}
-    return {
-        name: _link(channels, clock)
-        for name, clock in aligned.items()
-        if all(linked in channels for linked in clock.align)
-    }
-
-
-def _link(channels: Mapping[str, Channel], clock: Align) -> tuple[str, str, float]:
-    main, own = clock.align
-    one, other = channels[main].direction, channels[own].direction
-    against = one is not None and other is not None and float(np.dot(one, other)) < 0
-    return main, own, -1.0 if against else 1.0
+    links = {}
+    for name, recorder in recorders.items():
+        if isinstance(recorder.clock, Align) and all(linked in channels for linked in recorder.clock.align):
+            main, own = recorder.clock.align
+            one, other = channels[main].direction, channels[own].direction
+            against = one is not None and other is not None and float(np.dot(one, other)) < 0
+            links[name] = main, own, -1.0 if against else 1.0
+    return links
 
 
 def own_records(
@@ -115,25 +110,7 @@ def recorder_offsets(
     longest: float,
     warnings: list[Finding],
 ) -> dict[str, Offset]:
-    """
-    Find the delays of the recorders relative to the main one, if they can be found.
-
-    Parameters
-    ----------
-    records : mapping of str to Record
-        By channel.
-    channels : mapping of str to ChannelOnClock
-    links : Links
-    longest : float
-        Largest delay that is searched for, s.
-    warnings : list of Finding
-        What is in doubt is added to it.
-
-    Raises
-    ------
-    StageError
-        If two linked channels share no time.
-    """
+    """Find the delays of the recorders relative to the main one, if they can be found; none `longest` (s) or more."""
     offsets = {"main": Offset(0.0, 0.0, 1.0)}
     for recorder, (channel, own_channel, sign) in links.items():
         if channel not in records or own_channel not in records:
@@ -163,25 +140,13 @@ def recorder_offsets(
             kind, others = ("clock", ("table motion",)) if found.beyond is None else ("late recorder", ())
             warnings.append(weight(kind, doubt, follows=("dead channel", "gain", "sign", *others)))
         if found.drift is not None:
-            warnings.append(
-                note(
-                    "clock drift",
-                    f"recorder {recorder}: its clock runs {found.drift} against the main recorder's, by {channel} and "
-                    f"{own_channel}; the delay changes by {1e3 * abs(found.drift.change):.2g} ms over the motion. This "
-                    "was corrected. A common sampling clock or trigger line avoids this.",
-                )
+            text = (
+                f"recorder {recorder}: its clock runs {found.drift} against the main recorder's, by {channel} and "
+                f"{own_channel}; the delay changes by {1e3 * abs(found.drift.change):.2g} ms over the motion. This was "
+                "corrected. A common sampling clock or trigger line avoids this."
             )
+            warnings.append(note("clock drift", text))
     return offsets
-
-
-def _expect_room(leader: Record, interval: float, start: float, stop: float) -> None:
-    """Refuse a sampling rate that gives far more samples than were recorded and would only fill the memory."""
-    count, most = (stop - start) / interval, max(MOST_SAMPLES, 2 * leader.time.size)
-    if count > most:
-        raise StageError(
-            f"At {1 / interval:.4g} Hz the {stop - start:.4g} s of this test are {count:.3g} samples; at most "
-            f"{most:.3g} were expected. It was recorded at {1 / leader.interval:.4g} Hz: see `sampling_rate`."
-        )
 
 
 def common_clock(
@@ -193,29 +158,24 @@ def common_clock(
     """
     Clock of the main recorder's fastest channel, up to `HIGHEST_RATE`, over the stretch that all channels share.
 
-    Parameters
-    ----------
-    records, offsets, channels
-        By channel: its record, the delay of its recorder, what is known of it.
-    rate : float or "auto"
-        Hz.
-
-    Raises
-    ------
-    StageError
-        If the channels share no time.
+    Records, delays and what is known are by channel; `rate` in Hz or "auto". A rate that gives far more samples than
+    were recorded, and would only fill the memory, is refused.
     """
     start = max(_on_main(record.time[0], offsets[name]) for name, record in records.items())
     stop = min(_on_main(record.time[-1], offsets[name]) for name, record in records.items())
     of_main = [name for name in records if channels[name].recorder == "main"]
     shortest = min(records[name].interval for name in of_main or records)
     fastest = [name for name in of_main or records if records[name].interval < 1.01 * shortest]
-    leading = min(fastest, key=lambda name: abs(channels[name].delay))
-    leader = records[leading]
+    leader = records[min(fastest, key=lambda name: abs(channels[name].delay))]
     # A rate that was recorded comes through its interval a little off.
     is_faster = leader.interval < 0.999 / HIGHEST_RATE
     interval = 1 / rate if not isinstance(rate, str) else 1 / HIGHEST_RATE if is_faster else leader.interval
-    _expect_room(leader, interval, start, stop)
+    samples, most = (stop - start) / interval, max(MOST_SAMPLES, 2 * leader.time.size)
+    if samples > most:
+        raise StageError(
+            f"At {1 / interval:.4g} Hz the {stop - start:.4g} s of this test are {samples:.3g} samples; at most "
+            f"{most:.3g} were expected. It was recorded at {1 / leader.interval:.4g} Hz: see `sampling_rate`."
+        )
     steps = np.ceil((start - leader.time[0]) / interval - 1e-6)
     clock = uniform_clock(leader.time[0] + steps * interval, stop, interval)
     if clock.size < FEWEST_SAMPLES:
@@ -258,16 +218,13 @@ def cut_short(
             continue
         shortest = channels[min(reach, key=lambda name: reach[name])].recorder
         longest = max(beyond, key=lambda name: beyond[name])
-        found.append(
-            serious(
-                "cut record",
-                f"Recorder {shortest} {words} {edge:.4g} s, in the motion of {', '.join(moving)}; recorder "
-                f"{channels[longest].recorder} has {beyond[longest]:.3g} s more, which are not used. The peak and the "
-                f"end may be missing: {shortest}'s file was cut, or it was stopped too early. Find the whole file, or "
-                "repeat the test.",
-                follows=("table motion",),
-            )
+        text = (
+            f"Recorder {shortest} {words} {edge:.4g} s, in the motion of {', '.join(moving)}; recorder "
+            f"{channels[longest].recorder} has {beyond[longest]:.3g} s more, which are not used. The peak and the end "
+            f"may be missing: {shortest}'s file was cut, or it was stopped too early. Find the whole file, or repeat "
+            "the test."
         )
+        found.append(serious("cut record", text, follows=("table motion",)))
     return found
 
 

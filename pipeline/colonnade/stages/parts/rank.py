@@ -36,51 +36,45 @@ class MeasurementInputs(Inputs):
     filter_order : int
     channels : tuple of str
         Transducers on the specimen, by the names of their variables.
+    free_vibration : bool
+        Whether the model starts from the measured angle.
     """
 
     block: Block
     settings: MeasurementSettings
     filter_order: int
     channels: tuple[str, ...]
+    free_vibration: bool = False
 
     @classmethod
     def of(cls, campaign: Campaign, test: Test) -> MeasurementInputs:
         """Gather it for one test."""
         return cls(
-            block=campaign.specimens[test.specimen].block(campaign.gravity),
+            block=campaign.block(test.specimen),
             settings=campaign.ensemble_settings(test.specimen),
             filter_order=campaign.processing.filter_order,
             channels=transducers(campaign.channels(test)).on_specimen,
+            free_vibration=test.kind == "free-vibration",
         )
 
 
 def measurement_errors(
-    conditioned: xr.Dataset, rocking: xr.Dataset, start: float | None, inputs: MeasurementInputs
+    conditioned: xr.Dataset, rocking: xr.Dataset, beginning: Beginning, inputs: MeasurementInputs
 ) -> Measurement:
-    """
-    Gather the errors of a measured angle.
-
-    Parameters
-    ----------
-    conditioned, rocking : xr.Dataset
-        Results of `condition` and `rocking`.
-    start : float or None
-        Measured angle that the model starts from, rad; None if it starts at rest.
-    inputs : MeasurementInputs
-    """
+    """Gather the errors of a measured angle, and of the one that a free vibration starts from."""
     time = rocking["elapsed"].to_numpy()
     error = float(rocking["rocking_angle_standard_error"]) if "rocking_angle" in rocking else 0.0
     drift = float(rocking["rocking_angle_drift"]) / np.sqrt(3) if "rocking_angle" in rocking else 0.0
     is_integrated = "angle_deviation" in rocking
     cutoffs = [conditioned[name].attrs.get("cutoff_hz") for name in inputs.channels if name in conditioned]
-    known = [float(each) for each in cutoffs if each is not None]
+    start = beginning.theta0 if inputs.free_vibration else None
     return Measurement(
         interval=float(time[1] - time[0]),
         gain=inputs.settings.angle_gain,
         zero=max(inputs.settings.angle_zero * inputs.block.critical_angle, drift),
         noise=0.0 if is_integrated else float(np.sqrt(max(error**2 - drift**2, 0.0))),
         drift=rocking["angle_deviation"].to_numpy() if is_integrated else np.zeros(time.size),
-        cutoff_hz=min(known, default=None),
+        cutoff_hz=min((float(each) for each in cutoffs if each is not None), default=None),
         filter_order=inputs.filter_order,
         start=start,
         start_error=0.0 if start is None else error,
@@ -88,10 +82,16 @@ def measurement_errors(
 
 
 def describe_bands(
-    rocking: xr.Dataset, beginning: Beginning, found: Ensemble, deviations: Mapping[str, float]
+    rocking: xr.Dataset,
+    beginning: Beginning,
+    found: Ensemble,
+    deviations: Mapping[str, float],
+    starts: Array,
+    errors: Measurement,
+    inputs: MeasurementInputs,
 ) -> xr.Dataset:
     """
-    Put the bands of an ensemble into a dataset.
+    Put the bands of an ensemble into a dataset, and compare the measured angle with the runs.
 
     Parameters
     ----------
@@ -102,50 +102,6 @@ def describe_bands(
     found : Ensemble
     deviations : mapping of str to float
         Standard deviation of each input.
-    """
-    import xarray as xr
-
-    time = rocking["elapsed"].to_numpy()[beginning.first :: _stride(beginning, found)]
-    low, high = found.overturning_interval()
-    sensitivity = found.sensitivity()
-    return xr.Dataset(
-        {
-            "rocking_angle": ("elapsed", found.central),
-            "rocking_angle_band": (("quantile", "elapsed"), found.bands),
-            "overturning_probability": ((), found.overturning_probability),
-            "overturning_probability_low": ((), low),
-            "overturning_probability_high": ((), high),
-            "member_peak_ratio": ("member", found.peak_ratio),
-            "member_overturning_time": ("member", found.overturning_time + float(time[0])),
-            "input_deviation": ("input", np.array([deviations[name] for name in sensitivity])),
-            "peak_sensitivity": ("input", np.array(list(sensitivity.values()))),
-        },
-        coords={
-            "elapsed": ("elapsed", time),
-            "quantile": ("quantile", found.levels),
-            "input": ("input", np.array(list(sensitivity), dtype=object)),
-        },
-    )
-
-
-def rank_measured(
-    rocking: xr.Dataset,
-    beginning: Beginning,
-    found: Ensemble,
-    starts: Array,
-    errors: Measurement,
-    inputs: MeasurementInputs,
-) -> dict[str, Any]:
-    """
-    Compare the measured angle with the runs of a model.
-
-    Parameters
-    ----------
-    rocking : xr.Dataset
-        Result of `rocking`.
-    beginning : Beginning
-        Of the prediction.
-    found : Ensemble
     starts : ndarray, shape (members,)
         By how much each run began above the measured start, rad.
     errors : Measurement
@@ -154,38 +110,49 @@ def rank_measured(
 
     Returns
     -------
-    variables : dict
-        `horizon`, s; if an angle was measured, on `judged_member` the `judged_peak_ratio` that would have been recorded
-        of each run, missing where it overturns, and if there are runs enough, `measured_distance` and `member_distance`
-        of the runs.
+    bands : xr.Dataset
+        With the `horizon`, s; if an angle was measured, on `judged_member` the `judged_peak_ratio` that would have been
+        recorded of each run, missing where it overturns, and if there are runs enough, `measured_distance` and
+        `member_distance` of the runs.
     """
-    first, stride = beginning.first, _stride(beginning, found)
+    import xarray as xr
+
+    # Samples of the record to each of the bands.
+    first, stride = beginning.first, round(float(found.time[1] - found.time[0]) / beginning.motion.dt)
     time = rocking["elapsed"].to_numpy()[first::stride]
-    horizon = found.horizon(inputs.settings.horizon * inputs.block.critical_angle) + float(time[0])
-    variables: dict[str, Any] = {"horizon": ((), horizon)}
+    start = float(time[0])
+    low, high = found.overturning_interval()
+    sensitivity = found.sensitivity()
+    horizon = found.horizon(inputs.settings.horizon * inputs.block.critical_angle) + start
+    bands = xr.Dataset(
+        {
+            "rocking_angle": ("elapsed", found.central),
+            "rocking_angle_band": (("quantile", "elapsed"), found.bands),
+            "overturning_probability": found.overturning_probability,
+            "overturning_probability_low": low,
+            "overturning_probability_high": high,
+            "member_peak_ratio": ("member", found.peak_ratio),
+            "member_overturning_time": ("member", found.overturning_time + start),
+            "input_deviation": ("input", np.array([deviations[name] for name in sensitivity])),
+            "peak_sensitivity": ("input", np.array(list(sensitivity.values()))),
+            "horizon": horizon,
+        },
+        coords={"elapsed": time, "quantile": found.levels, "input": np.array(list(sensitivity), dtype=object)},
+    )
     if "rocking_angle" not in rocking:
-        return variables
+        return bands
     angle = rocking["rocking_angle"].to_numpy()[first::stride] - beginning.zero_offset
-    angle = angle / beginning.angle_gain
-    measured = capped(time, angle, float(rocking["overturning_time"]), inputs.block)
+    measured = capped(time, angle / beginning.angle_gain, float(rocking["overturning_time"]), inputs.block)
     thinned = errors.thinned(first, stride)
     recorded = as_measured(found.histories, starts[: len(found.histories)], thinned, np.random.default_rng(SEED))
     falls = np.isfinite(found.overturning_time[: len(recorded)])
     peaks = amplitude(recorded, inputs.block).max(axis=1)
-    variables["judged_peak_ratio"] = ("judged_member", np.where(falls, np.nan, peaks))
+    bands = bands.assign(judged_peak_ratio=("judged_member", np.where(falls, np.nan, peaks)))
     seen = time <= horizon
     compared = distances(measured[seen], recorded[:, seen])
     if compared is None:
-        return variables
-    return variables | {
-        "measured_distance": ((), compared[0]),
-        "member_distance": ("judged_member", compared[1]),
-    }
-
-
-def _stride(beginning: Beginning, found: Ensemble) -> int:
-    """Samples of the record to each of the bands."""
-    return round(float(found.time[1] - found.time[0]) / beginning.motion.dt)
+        return bands
+    return bands.assign(measured_distance=compared[0], member_distance=("judged_member", compared[1]))
 
 
 def horizons_and_ranks(
@@ -216,7 +183,7 @@ def horizons_and_ranks(
         return {}
     rows = [_row(rocking, ensembles[model], block) if model in ensembles else (np.nan,) * 4 for model in models]
     names = ("horizon", "within_spread", "peak_rank", "overturning_probability")
-    return {name: ("model", np.array(column)) for name, column in zip(names, zip(*rows, strict=True), strict=True)}
+    return {name: ("model", column) for name, column in zip(names, np.transpose(rows), strict=True)}
 
 
 def _row(rocking: xr.Dataset, ensemble: xr.Dataset, block: Block) -> tuple[float, float, float, float]:
@@ -230,10 +197,7 @@ def _row(rocking: xr.Dataset, ensemble: xr.Dataset, block: Block) -> tuple[float
     if rocking.attrs["outcome"] == "overturned":
         peak = np.inf
     peaks = np.nan_to_num(ensemble["judged_peak_ratio"].to_numpy(), nan=np.inf)
-    return horizon, _within(ensemble), rank(peak, np.maximum(peaks, least)), probability
-
-
-def _within(ensemble: xr.Dataset) -> float:
-    if "measured_distance" not in ensemble:
-        return np.nan
-    return rank(float(ensemble["measured_distance"]), ensemble["member_distance"].to_numpy())
+    within = np.nan
+    if "measured_distance" in ensemble:
+        within = rank(float(ensemble["measured_distance"]), ensemble["member_distance"].to_numpy())
+    return horizon, within, rank(peak, np.maximum(peaks, least)), probability

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict
@@ -199,45 +199,31 @@ def transducers(channels: Mapping[str, Channel]) -> Transducers:
 
 @lru_cache
 def _sorted(channels: tuple[tuple[str, Channel], ...]) -> Transducers:
-    named = {variable_name(name): channel for name, channel in channels}
-    return Transducers(
-        positions=dict(_positions(named)),
-        gyroscopes={
-            name: Gyroscope(direction) for name, direction in _directions(named, "specimen", "angular_velocity")
-        },
-        accelerometers={
-            name: Accelerometer(direction, at)
-            for name, direction in _directions(named, "specimen", "acceleration")
-            if (at := named[name].at) is not None
-        },
-        accelerations=dict(_directions(named, "table", "acceleration")),
-        displacements=dict(_directions(named, "table", "displacement")),
-    )
-
-
-def _directions(named: Mapping[str, Channel], on: str, quantity: str) -> Iterator[tuple[str, Vector]]:
-    for name, channel in named.items():
-        if channel.on == on and channel.quantity == quantity and channel.direction is not None:
-            yield name, channel.direction
-
-
-def _positions(named: Mapping[str, Channel]) -> Iterator[tuple[str, Transducer]]:
-    for name, direction in _directions(named, "specimen", "angle"):
-        yield name, Transducer("angle", direction)
-    for name, direction in _directions(named, "specimen", "displacement"):
-        channel = named[name]
-        if channel.at is not None:
-            yield (
-                name,
-                Transducer(
+    found: dict[str, dict[str, Any]] = {name: {} for name in Transducers.model_fields}
+    # Inclinometers come before displacement transducers.
+    for key, channel in sorted(channels, key=lambda each: each[1].quantity != "angle"):
+        name, direction = variable_name(key), channel.direction
+        match channel.on, channel.quantity:
+            case _ if direction is None:
+                continue
+            case "specimen", "angle":
+                found["positions"][name] = Transducer("angle", direction)
+            case "specimen", "displacement" if channel.at is not None:
+                found["positions"][name] = Transducer(
                     channel.sensing,
                     direction,
                     channel.at,
                     normal=channel.normal,
                     anchor=channel.anchor,
                     on_ground=channel.relative_to == "ground",
-                ),
-            )
+                )
+            case "specimen", "angular_velocity":
+                found["gyroscopes"][name] = Gyroscope(direction)
+            case "specimen", "acceleration" if channel.at is not None:
+                found["accelerometers"][name] = Accelerometer(direction, channel.at)
+            case "table", "acceleration" | "displacement":
+                found[f"{channel.quantity}s"][name] = direction
+    return Transducers(**found)
 
 
 def outline(specimen: Specimen, block: Block) -> Outline:
@@ -331,8 +317,18 @@ def axes(base: Mapping[str, Array], quantity: str, time: Array) -> Array:
     return np.array([along[axis] for axis in range(3)])
 
 
-def group(conditioned: xr.Dataset, known: Mapping[str, Kind], gravity: float) -> Readings[Kind]:
-    """Transducers of one kind, as far as they are usable, and what they read: changes from rest."""
+def readings(
+    conditioned: xr.Dataset, known: Transducers, gravity: float
+) -> tuple[Readings[Transducer], Readings[Gyroscope], Readings[Accelerometer]]:
+    """Transducers on a specimen by their kinds, as far as they are usable, and what they read: changes from rest."""
+    return (
+        _group(conditioned, known.positions, gravity),
+        _group(conditioned, known.gyroscopes, gravity),
+        _group(conditioned, known.accelerometers, gravity),
+    )
+
+
+def _group(conditioned: xr.Dataset, known: Mapping[str, Kind], gravity: float) -> Readings[Kind]:
     names = [name for name in known if name in conditioned]
     values, noise, cutoff = [], [], []
     for name in names:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -34,36 +33,17 @@ def rest_window(
     """
     Find the window of the true rest state: of a free vibration the end, of all others the start.
 
-    Parameters
-    ----------
-    clock : ndarray, shape (n,)
-        s.
-    values, attributes, channels
-        By channel: values (SI), attributes with its `noise`, and what is known of it.
-    zero : str or (float, float)
-        "auto", "start", "end", "none" or a stretch, s.
-    free_vibration : bool
-    duration : float
-        Of the window, s.
-    effects : mapping of str to Effect
-        By channel, of those whose zero enters a result.
-    warnings : list of Finding
-        How far the zero may be off is added, where that matters.
-
-    Returns
-    -------
-    window : RestWindow or None
-        None if no zero is wanted.
+    Values (SI), attributes with their `noise`, what is known and the effects of their zeros are by channel; `zero` is
+    "auto", "start", "end", "none" or a stretch (s), and None is returned if no zero is wanted. How far the zero may be
+    off is added to the warnings, where that matters.
     """
     if zero == "none":
         return None
     if not isinstance(zero, str):
         return RestWindow(*zero, quiet=True)
     end = zero == "end" or (zero == "auto" and free_vibration)
-    noises = {
-        name: (values[name], float(attributes[name]["noise"]))
-        for name in _showing_rest({name: channels[name] for name in values}, free_vibration=free_vibration)
-    }
+    shown = _showing_rest({name: channels[name] for name in values}, free_vibration=free_vibration)
+    noises = {name: (values[name], float(attributes[name]["noise"])) for name in shown}
     window = find_rest(clock, noises, end=end, duration=duration)
     if not window.quiet:
         known = {name: effect for name, effect in effects.items() if name in values}
@@ -93,30 +73,9 @@ def zeroed(
     warnings: list[Finding],
 ) -> Array | None:
     """
-    Bring a channel to its true value at rest; what was taken off is noted in its attributes.
+    Bring a channel to its true value at rest, `resting` (SI); None if it has no value in the window.
 
-    Parameters
-    ----------
-    clock, values : ndarray, shape (n,)
-        s; SI.
-    name : str
-        Of the channel.
-    attributes : dict
-        Of the channel; `zero`, `zero_window` and `noise` are set.
-    window : RestWindow
-    resting : float
-        True value at rest, SI: gravity's part along an accelerometer on the upright specimen, 0 for all else.
-    warnings : list of Finding
-
-    Returns
-    -------
-    values : ndarray, shape (n,), or None
-        None if the channel has no value in the window.
-
-    Raises
-    ------
-    StageError
-        If the window holds no sample.
+    What was taken off is noted in its attributes: `zero`, `zero_window` and `noise` are set.
     """
     inside = (clock >= window.start) & (clock <= window.stop)
     if not inside.any():
@@ -126,27 +85,24 @@ def zeroed(
         )
     still = values[inside][np.isfinite(values[inside])]
     if still.size == 0:
-        warnings.append(
-            serious(
-                "channel left out",
-                f"channel {name} is left out: it has no value from {window.start:.3g} to {window.stop:.3g} s, where "
-                "the zero is taken. Give the test another `zero`.",
-            )
+        text = (
+            f"channel {name} is left out: it has no value from {window.start:.3g} to {window.stop:.3g} s, where the "
+            "zero is taken. Give the test another `zero`."
         )
+        warnings.append(serious("channel left out", text))
         return None
-    attributes["zero"] = float(still.mean()) - resting
+    shown = float(still.mean())
+    attributes["zero"] = shown - resting
     attributes["zero_window"] = f"{window.start:.6g} s to {window.stop:.6g} s"
     if resting:
         attributes["rest_value"] = resting
-        if abs(float(still.mean())) < COUPLED * abs(resting):
-            warnings.append(
-                warning(
-                    "gravity",
-                    f"channel {name}: at rest it shows {float(still.mean()):.3g} m/s², but gravity's part along it is "
-                    f"{resting:.3g} m/s². The sensor or amplifier blocks constant values (AC), or was zeroed in the "
-                    "recorder. Gravity was added to it.",
-                )
-            )
+    if abs(shown) < COUPLED * abs(resting):
+        text = (
+            f"channel {name}: at rest it shows {shown:.3g} m/s², but gravity's part along it is {resting:.3g} m/s². "
+            "The sensor or amplifier blocks constant values (AC), or was zeroed in the recorder. Gravity was added to "
+            "it."
+        )
+        warnings.append(warning("gravity", text))
     if window.quiet:
         attributes["noise"] = max(float(still.std()), float(attributes["noise"]))
     return values - float(attributes["zero"])
@@ -168,39 +124,32 @@ MOST_WINDOWS = 10_000
 """Stretches of a record that are looked at for a better one."""
 
 
-@dataclass(frozen=True)
-class Effect:
-    """
-    What an error of a channel's zero does to a result.
+class Effect(NamedTuple):
+    """What an error of a channel's zero does to a result, which is compared with a scale."""
 
-    Attributes
-    ----------
-    factor : float
-        Error of the result over that of the zero.
-    unit : str
-        Of the result: "rad" or "m/s²".
-    scale : float
-        What the result is compared with: the critical angle, or the acceleration that uplifts the specimen.
-    """
-
+    result: str
     factor: float
     unit: str
     scale: float
+    of_scale: str
+    share: float
 
     @property
     def largest(self) -> float:
         """Largest error of the result that is not reported."""
-        return self.scale * (LARGEST_ANGLE if self.unit == "rad" else LARGEST_ACCELERATION)
+        return self.scale * self.share
 
 
 def on_angle(lever: float, block: Block) -> Effect:
     """Effect of a transducer on the specimen with this lever (m; 1 of an inclinometer) on the rocking angle."""
-    return Effect(1 / abs(lever), "rad", block.critical_angle)
+    of_scale = "the critical angle"
+    return Effect("rocking angle", 1 / abs(lever), "rad", block.critical_angle, of_scale, LARGEST_ANGLE)
 
 
 def on_base(along: float, block: Block) -> Effect:
     """Effect of a table accelerometer with this part of its direction along x on the base acceleration."""
-    return Effect(1 / abs(along), "m/s²", block.uplift_acceleration)
+    scale, of_scale = block.uplift_acceleration, "the acceleration that uplifts the specimen"
+    return Effect("base acceleration", 1 / abs(along), "m/s²", scale, of_scale, LARGEST_ACCELERATION)
 
 
 def find_zero_error(
@@ -212,25 +161,9 @@ def find_zero_error(
     free_vibration: bool,
 ) -> list[Finding]:
     """
-    Report how far the zero of a window that is not quiet may be off, if that matters.
+    Report the largest error of the zero of a window that is not quiet, if it matters, and a stretch without it.
 
-    Parameters
-    ----------
-    clock : ndarray, shape (n,)
-        s, even.
-    values : mapping of str to ndarray, shape (n,)
-        SI, by channel.
-    effects : mapping of str to Effect
-        Of the channels whose zero enters a result.
-    window : RestWindow
-        Used for the zero.
-    free_vibration : bool
-        A stretch before the release is not rest, however still it is: the specimen is held tilted.
-
-    Returns
-    -------
-    findings : list of Finding
-        At most one: the largest error with its size, and a stretch of the record that does not have it, if there is.
+    Of a free vibration a stretch before the release is not rest, however still it is: the specimen is held tilted.
     """
     size = max(int(np.count_nonzero((clock >= window.start) & (clock <= window.stop))), PARTS)
     first = int(np.searchsorted(clock, window.start))
@@ -240,18 +173,13 @@ def find_zero_error(
     if worst is None or not shares[worst] > 1:
         return []
     effect = effects[worst]
-    held = "the critical angle" if effect.unit == "rad" else "the acceleration that uplifts the specimen"
-    result = "rocking angle" if effect.unit == "rad" else "base acceleration"
     weight = serious if shares[worst] > SERIOUS else warning
-    return [
-        weight(
-            "zero",
-            f"The zero of the {result} is uncertain by {errors[worst]:.2g} {effect.unit}, "
-            f"{errors[worst] / effect.scale:.2g} of {held}: {worst} moves from {window.start:.3g} to "
-            f"{window.stop:.3g} s, where zero is taken. {_advice(clock, values, effects, size, free_vibration)}",
-            follows=(*MEASUREMENT, "hum"),
-        )
-    ]
+    text = (
+        f"The zero of the {effect.result} is uncertain by {errors[worst]:.2g} {effect.unit}, "
+        f"{errors[worst] / effect.scale:.2g} of {effect.of_scale}: {worst} moves from {window.start:.3g} to "
+        f"{window.stop:.3g} s, where zero is taken. {_advice(clock, values, effects, size, free_vibration)}"
+    )
+    return [weight("zero", text, follows=(*MEASUREMENT, "hum"))]
 
 
 def _error(stretch: Array) -> float:

@@ -109,15 +109,19 @@ class Stored:
         """Return the models by which a stage has results, in the campaign's order."""
         return [model for known, model in self.datasets if known == stage and model is not None]
 
+    def _of(self, stage: str, name: str, model: str | None = None) -> xr.DataArray | None:
+        dataset = self.datasets.get((stage, model))
+        return None if dataset is None else dataset.get(name)
+
     def value(self, stage: str, name: str, model: str | None = None) -> float:
         """Return a number, NaN if it is missing or not a scalar."""
-        dataset = self.datasets.get((stage, model))
-        return float(dataset[name]) if dataset is not None and name in dataset and not dataset[name].ndim else nan
+        found = self._of(stage, name, model)
+        return nan if found is None or found.ndim else float(found)
 
     def array(self, stage: str, name: str, model: str | None = None) -> Array:
         """Return the values of a variable, of length 0 if it is missing."""
-        dataset = self.datasets.get((stage, model))
-        return dataset[name].to_numpy() if dataset is not None and name in dataset else np.empty(0)
+        found = self._of(stage, name, model)
+        return np.empty(0) if found is None else found.to_numpy()
 
     def median(self, stage: str, name: str) -> float:
         """Return a number, of a series its median; NaN if it is missing or has no value."""
@@ -126,10 +130,10 @@ class Stored:
 
     def by(self, along: str, stage: str, name: str) -> dict[str, Any]:
         """Return the values along a named dimension (model, transducer, estimator), empty if they are missing."""
-        dataset = self.datasets.get((stage, None))
-        if dataset is None or name not in dataset or dataset[name].dims != (along,) or along not in dataset.coords:
+        found = self._of(stage, name)
+        if found is None or found.dims != (along,) or along not in found.coords:
             return {}
-        return dict(zip(map(str, dataset[along].to_numpy()), dataset[name].to_numpy().tolist(), strict=True))
+        return dict(zip(map(str, found[along].to_numpy()), found.to_numpy().tolist(), strict=True))
 
     def compared(self, name: str, model: str) -> float:
         """Return a number by which a model is compared with the measured angle, NaN if it is missing."""
