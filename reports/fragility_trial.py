@@ -101,7 +101,7 @@ def run(population: Population, seed: int, number: int) -> Held:
     truth = population.probability(curve.intensity)
     inside = (curve.probability.low <= truth) & (truth <= curve.probability.high)
     held: Held = {f"isotonic {place}": bool(each) for place, each in enumerate(inside)}
-    held["misfit"] = lognormal_misfit(outcomes, Resampling(RESAMPLES, number)).p_value < SIGNIFICANT
+    held["misfit"] = lognormal_misfit(outcomes, Resampling(RESAMPLES, number)) < SIGNIFICANT
     return held if population.two_kinds else held | _lognormal(population, outcomes, curve, number)
 
 

@@ -52,16 +52,6 @@ def test_the_scatter_is_that_of_a_straight_line(outcomes, measures):
     assert found == pytest.approx(np.sqrt((left**2).sum() / (left.size - 2)))
 
 
-def test_records_without_a_measure_are_left_out_of_all(outcomes, measures):
-    lacking = measures["noisy"].copy()
-    lacking[3] = np.nan
-    found = compare_measures(outcomes, {"pgv": measures["pgv"], "noisy": lacking}, Resampling(20))
-    assert found.left_out == ("record 3",)
-    kept = np.arange(30) != 3
-    alone = compare_measures(outcomes.only(kept), {"pgv": measures["pgv"][kept]}, Resampling(2))
-    assert found.scores[0].deviance == pytest.approx(alone.scores[0].deviance)
-
-
 def test_a_measure_that_leaves_magnitude_to_explain_is_not_sufficient(outcomes, measures):
     magnitude = np.random.default_rng(6).uniform(5, 7.5, 30)
     without = measures["pgv"] * np.exp(-0.8 * (magnitude - 6))[:, None]
@@ -70,16 +60,3 @@ def test_a_measure_that_leaves_magnitude_to_explain_is_not_sufficient(outcomes, 
     by_name = {each.name: each for each in scores.scores}
     assert by_name["without"].on_magnitude < 0.02 < by_name["pgv"].on_magnitude
     assert by_name["pgv"].on_log_distance is None
-
-
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        pytest.param(lambda values: values[:, :3], "were expected", id="another shape"),
-        pytest.param(lambda values: -values, "not positive", id="negative"),
-        pytest.param(lambda values: values * np.nan, "0 records have all", id="nothing known"),
-    ],
-)
-def test_measures_that_cannot_be_compared_are_refused(outcomes, measures, change, said):
-    with pytest.raises(ValueError, match=said):
-        compare_measures(outcomes, {"pgv": change(measures["pgv"])}, Resampling(2))

@@ -12,7 +12,7 @@ from colonnade.assessment.curves import fit_isotonic, fit_lognormal
 from colonnade.assessment.hazard import annual_rate, hazard_curve, isotonic_rate, lognormal_rate
 from colonnade.assessment.intervals import Resampling
 from every import every
-from virtual_capacities import BETA, MEDIAN, lognormal, outcomes_of
+from virtual_capacities import BETA, MEDIAN, lognormal
 
 X = np.geomspace(0.01, 10, 30)
 
@@ -117,8 +117,3 @@ def test_a_hazard_curve_that_ends_too_early_is_seen():
 def test_a_steep_hazard_far_below_the_levels_is_seen():
     found = rate_of(lognormal(4), hazard_curve(LEVELS_OF_RATE, 1e-4 * LEVELS_OF_RATE**-6))
     assert (found.below_levels > 0.5, found.below_hazard < 0.05, found.is_extrapolated) == (True, True, True)
-
-
-def test_without_a_curve_there_is_no_rate():
-    with pytest.raises(ValueError, match="no curve"):
-        rate_of(outcomes_of(np.full((4, 2), MEDIAN)), hazard_curve(LEVELS_OF_RATE, LEVELS_OF_RATE**-2))

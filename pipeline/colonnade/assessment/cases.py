@@ -19,7 +19,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.reactions import reactions
 from colonnade.dynamics.plane.run import OUTCOMES, OVERTURNS, ends_of, expect_usable, prepared
 from colonnade.dynamics.rock import rock
-from colonnade.validation import number, whole
+from colonnade.validation import whole
 
 AXES = ("record", "level", "draw", "sign", "component")
 """Of the arrays of an assessment."""
@@ -174,7 +174,6 @@ class CaseOutcomes:
 
     def exceeds(self, limit: float = 1.0) -> Mask:
         """Tell which cases overturn or go beyond `limit` α, also if they come back."""
-        limit = number("limit", limit, "a positive multiple of the critical angle", above=0.0)
         return np.asarray((self.outcome == OVERTURNS) | (self.peak_ratio > limit))
 
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
 from colonnade.assessment.intervals import Resampling
-from colonnade.assessment.outcomes import FEWEST, Outcomes, with_axes
+from colonnade.assessment.outcomes import Outcomes, with_axes
 from colonnade.assessment.probit import fit_parameters
 from colonnade.validation import samples
 
@@ -48,10 +48,9 @@ class MeasureScore:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Measures, the best by deviance first, and the records left out because they lack one of them."""
+    """Measures, the best by deviance first."""
 
     scores: tuple[MeasureScore, ...]
-    left_out: tuple[str, ...]
 
 
 def compare_measures(
@@ -69,61 +68,31 @@ def compare_measures(
     ----------
     outcomes : Outcomes
     measures : mapping of str to array_like, shape (r, l) or (r, l, c)
-        Positive values of each measure for the scaled records; NaN if a record does not have it.
+        Positive values of each measure for the scaled records: at least one, which all records have.
     resampling : Resampling
     magnitude, distance : array_like, shape (r,), optional
         Of the records; distances positive. NaN if not known.
-
-    Returns
-    -------
-    comparison : Comparison
-
-    Raises
-    ------
-    ValueError
-        If there is no measure, a shape does not fit, a value is not positive, or fewer than `FEWEST` records
-        have all measures.
     """
-    if not measures:
-        raise ValueError("measures is empty; at least one measure was expected")
-    arrays = {name: _checked(name, values, outcomes) for name, values in measures.items()}
-    was_run = outcomes.was_run.any(axis=2)
-    known = np.all([~(np.isnan(each) & was_run).any(axis=(1, 2)) for each in arrays.values()], axis=0)
-    if known.sum() < FEWEST:
-        raise ValueError(f"{known.sum()} records have all measures; at least {FEWEST} were expected")
-    chosen, weights = outcomes.only(known), resampling.weights(int(known.sum()))
-    deviances = np.array([_deviances(chosen, each[known], weights) for each in arrays.values()])
+    arrays = {name: with_axes(values, 3) for name, values in measures.items()}
+    weights, was_run = resampling.weights(len(outcomes.records)), outcomes.was_run
+    deviances = np.array([_deviances(outcomes, each, weights) for each in arrays.values()])
     resampled = deviances[:, 1:][:, ~np.isnan(deviances[:, 1:]).any(axis=0)]
     first = resampled <= resampled.min(axis=0, initial=np.inf) + 1e-12
     best = (first / first.sum(axis=0)).mean(axis=1) if resampled.size else np.full(len(arrays), np.nan)
     covariates = [
-        None if magnitude is None else samples("magnitude", magnitude, gaps=True)[known],
-        None if distance is None else np.log(samples("distance", distance, gaps=True)[known]),
+        None if magnitude is None else samples("magnitude", magnitude, gaps=True),
+        None if distance is None else np.log(samples("distance", distance, gaps=True)),
     ]
     scores = []
     for place, (name, intensity) in enumerate(arrays.items()):
-        x, fell = _histories(chosen, intensity[known], chosen.was_run), chosen.overturned[chosen.was_run]
-        scatter, left = _regressed(chosen, intensity[known])
+        x, fell = _histories(outcomes, intensity, was_run), outcomes.overturned[was_run]
+        scatter, left = _regressed(outcomes, intensity)
         p_values = [None if each is None else _p_of_trend(each, left) for each in covariates]
-        both = fell.any() and not fell.all()
-        auc = (
-            float(scipy.stats.mannwhitneyu(x[fell], x[~fell]).statistic) / (fell.sum() * (~fell).sum())
-            if both
-            else np.nan
-        )
+        auc = np.nan
+        if fell.any() and not fell.all():
+            auc = float(scipy.stats.mannwhitneyu(x[fell], x[~fell]).statistic) / (fell.sum() * (~fell).sum())
         scores.append(MeasureScore(name, float(deviances[place, 0]), float(best[place]), auc, scatter, *p_values))
-    left_out = tuple(name for name, is_in in zip(outcomes.records, known, strict=True) if not is_in)
-    return Comparison(tuple(sorted(scores, key=lambda score: score.deviance)), left_out)
-
-
-def _checked(name: str, values: ArrayLike, outcomes: Outcomes) -> Array:
-    array = with_axes(samples(name, values, dimensions=(2, 3), gaps=True), 3)
-    rows, levels, _, directions = outcomes.peak.shape
-    if array.shape not in ((rows, levels, 1), (rows, levels, directions)):
-        raise ValueError(f"measure {name} has shape {array.shape}; {rows} records and {levels} levels were expected")
-    if (array <= 0).any():
-        raise ValueError(f"measure {name} is not positive for all records; positive values or NaN were expected")
-    return array
+    return Comparison(tuple(sorted(scores, key=lambda score: score.deviance)))
 
 
 def _deviances(outcomes: Outcomes, intensity: Array, weights: Array) -> Array:

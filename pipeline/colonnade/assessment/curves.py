@@ -49,8 +49,6 @@ class LognormalFit:
         If the outcomes are separated, that is all that is known. 0 or inf if there is no such intensity.
     median, beta : Interval
         NaN if there is no curve; their limits also if `no_interval` says why.
-    log_likelihood : float
-        Of the histories, taken as independent; if separated its limit.
     level : float
         Of the intervals.
     records : int
@@ -65,7 +63,6 @@ class LognormalFit:
     rises: tuple[float, float]
     median: Interval
     beta: Interval
-    log_likelihood: float
     level: float
     records: int
     degenerate: float
@@ -139,7 +136,7 @@ def fit_lognormal(outcomes: Outcomes, resampling: Resampling, *, event: Mask | N
     studentised, of ln median and ln β.
     """
     cells, level = outcomes.cells(event), resampling.level
-    parameters, log_likelihood, reasons = fit_parameters(cells, resampling.weights(len(outcomes.records)))
+    parameters, _, reasons = fit_parameters(cells, resampling.weights(len(outcomes.records)))
     all_records, resampled = (Parameters(*(each[part] for each in parameters)) for part in (slice(1), slice(1, None)))
     has_curve = reasons[1:] == ""
     stripes = striped(cells)
@@ -154,7 +151,6 @@ def fit_lognormal(outcomes: Outcomes, resampling: Resampling, *, event: Mask | N
         _rises(cells),
         median,
         beta,
-        float(log_likelihood[0]),
         level,
         len(outcomes.records),
         float(1 - has_curve.mean()),
@@ -203,37 +199,15 @@ def _rises(cells: Cells) -> tuple[float, float]:
     return float(np.exp(low)), float(np.exp(high))
 
 
-@dataclass(frozen=True)
-class Misfit:
-    """
-    Departure of the stripes from the lognormal curve.
-
-    Attributes
-    ----------
-    intensity, departure : ndarray, shape (k,)
-        Of each stripe: share less the curve's probability.
-    p_value : float
-        Probability of so large a χ² of Pearson's if the curve were right, by resamples of the records. NaN without a
-        curve.
-    """
-
-    intensity: Array
-    departure: Array
-    p_value: float
-
-
-def lognormal_misfit(outcomes: Outcomes, resampling: Resampling) -> Misfit:
+def lognormal_misfit(outcomes: Outcomes, resampling: Resampling) -> float:
     """
     Test whether a lognormal curve fits.
 
-    Parameters
-    ----------
-    outcomes : Outcomes
-    resampling : Resampling
-
     Returns
     -------
-    misfit : Misfit
+    p_value : float
+        Probability of so large a χ² of Pearson's of the stripes' shares if the curve were right, by resamples of the
+        records. NaN without a curve.
 
     Notes
     -----
@@ -251,8 +225,7 @@ def lognormal_misfit(outcomes: Outcomes, resampling: Resampling) -> Misfit:
     scale = stripes.histories.sum(axis=0) / (likely * (1 - likely))
     statistic = float((scale * departures[0] ** 2).sum())
     null = (scale * (departures[1:][fitted[1:]] - departures[0]) ** 2).sum(axis=1)
-    p_value = float((1 + (null >= statistic).sum()) / (1 + null.size)) if fitted[0] else np.nan
-    return Misfit(np.exp(stripes.log_intensity), departures[0], p_value)
+    return float((1 + (null >= statistic).sum()) / (1 + null.size)) if fitted[0] else np.nan
 
 
 def _shares(cells: Cells, stripes: Stripes, weights: Array, parameters: Parameters) -> tuple[Array, Array]:

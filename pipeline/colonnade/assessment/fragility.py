@@ -15,7 +15,6 @@ from colonnade.assessment.comparison import Comparison, compare_measures
 from colonnade.assessment.curves import (
     IsotonicCurve,
     LognormalFit,
-    Misfit,
     fit_isotonic,
     fit_lognormal,
     lognormal_misfit,
@@ -23,7 +22,7 @@ from colonnade.assessment.curves import (
 from colonnade.assessment.hazard import AnnualRate, Hazard, annual_rate, lognormal_rate
 from colonnade.assessment.intervals import Interval, Resampling
 from colonnade.assessment.measures import measure_of
-from colonnade.assessment.outcomes import Outcomes, Resurrection, resurrection
+from colonnade.assessment.outcomes import Outcomes, resurrected
 from colonnade.assessment.probit import fit_parameters
 from colonnade.units.text import Digested, written
 from colonnade.validation import number
@@ -59,10 +58,11 @@ class Fragility(Digested):
     lognormal : LognormalFit
         Of overturning, or why there is none.
     isotonic : IsotonicCurve
-    misfit : Misfit
-        Of the lognormal curve.
+    misfit : float
+        Of the lognormal curve: probability of one as large if the curve were right; NaN without a curve.
     uplift : Uplift
-    resurrection : Resurrection
+    resurrected : float
+        Share of all histories that survive although the same record and draw overturned at a lower level.
     betas : Betas
     influence : Influence
     measures : Comparison or None
@@ -91,9 +91,9 @@ class Fragility(Digested):
     outcomes: Outcomes
     lognormal: LognormalFit
     isotonic: IsotonicCurve
-    misfit: Misfit
+    misfit: float
     uplift: Uplift
-    resurrection: Resurrection
+    resurrected: float
     betas: Betas
     influence: Influence
     measures: Comparison | None
@@ -103,7 +103,7 @@ class Fragility(Digested):
     @property
     def taken(self) -> Literal["lognormal", "isotonic"]:
         """The curve from which answers are read: the lognormal one, if there is one and it fits."""
-        return "isotonic" if self.lognormal.reason or self.misfit.p_value < MISFITS else "lognormal"
+        return "isotonic" if self.lognormal.reason or self.misfit < MISFITS else "lognormal"
 
     def reaches(self, probability: float) -> Interval:
         """
@@ -148,7 +148,7 @@ class Fragility(Digested):
                 "median": written(median.value, limits[0] + unit),
                 "β": written(beta.value, limits[1].rstrip()),
                 **({"no interval": why} if why else {}),
-                "p of the misfit": written(self.misfit.p_value, digits=2),
+                "p of the misfit": written(self.misfit, digits=2),
             }
         rate = {} if self.rate is None else {"rate": written(self.rate.rate.value, "1/year", 3)}
         return {"records": str(len(self.outcomes.records)), **curve, **rate}
@@ -203,7 +203,7 @@ def summarise(
         isotonic,
         lognormal_misfit(outcomes, resampling),
         Uplift(threshold, None if threshold else fit_lognormal(outcomes, resampling, event=outcomes.peak > 0)),
-        resurrection(outcomes),
+        resurrected(outcomes),
         split_beta(outcomes, lognormal),
         influence(outcomes, hazard),
         compared,
@@ -268,7 +268,7 @@ class Influence:
     records : tuple of str, length r
         The most influential first: by the change of the rate if there is a hazard, else of the median. A record
         without which there is no curve comes first of all.
-    median, beta : ndarray, shape (r,)
+    median : ndarray, shape (r,)
         Without the record; NaN if there is then no curve.
     rate : ndarray, shape (r,), or None
         Per year, if there is a hazard.
@@ -276,7 +276,6 @@ class Influence:
 
     records: tuple[str, ...]
     median: Array
-    beta: Array
     rate: Array | None
 
 
@@ -287,20 +286,16 @@ def influence(outcomes: Outcomes, hazard: Hazard | None = None) -> Influence:
     weights = np.vstack((np.ones(rows), 1.0 - np.eye(rows)))
     parameters = fit_parameters(outcomes.cells(), weights)[0]
     median, beta = np.exp(parameters.log_median), np.exp(parameters.log_beta)
-    rate = None if hazard is None else _rates(hazard, median, beta)
+    rate = None
+    if hazard is not None:
+        known = np.isfinite(median)
+        rate = np.full(median.size, np.nan)
+        rate[known] = lognormal_rate(hazard, median[known], beta[known])
     decides = median if rate is None else rate
     change = np.abs(np.log(decides[1:] / decides[0]))
     order = np.argsort(-np.where(np.isnan(change), np.inf, change), kind="stable")
     return Influence(
         tuple(outcomes.records[place] for place in order),
         median[1:][order],
-        beta[1:][order],
         None if rate is None else rate[1:][order],
     )
-
-
-def _rates(hazard: Hazard, median: Array, beta: Array) -> Array:
-    found = np.full(median.size, np.nan)
-    known = np.isfinite(median)
-    found[known] = lognormal_rate(hazard, median[known], beta[known])
-    return found

@@ -200,17 +200,10 @@ def annual_rate(hazard: Hazard, fit: LognormalFit, isotonic: IsotonicCurve) -> A
     isotonic : IsotonicCurve
         Of the same outcomes; its stripes are the levels.
 
-    Raises
-    ------
-    ValueError
-        If there is no curve.
-
     Notes
     -----
     McGuire (2004). The interval is that of the fragility over records; the hazard has none.
     """
-    if fit.reason:
-        raise ValueError(f"fit has no curve ({fit.reason}); a fitted curve was expected")
 
     def log_rate(mean: Array, log_beta: Array) -> Array:
         return np.log(lognormal_rate(hazard, np.exp(mean[:, 0]), np.exp(log_beta[:, 0])))[:, None]

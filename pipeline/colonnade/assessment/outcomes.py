@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from colonnade.arrays import Array, Mask
-from colonnade.validation import samples
+from colonnade.errors import count
 
 FEWEST = 2
 """Of a curve: one record has no scatter between records."""
@@ -42,7 +42,7 @@ class Outcomes:
     records : tuple of str, length r
         Their names. A record at many levels is one record: intervals resample records.
     intensity : ndarray, shape (r, l, 1) or (r, l, c)
-        Of each record at each level, positive; the last axis if directions have intensities of their own.
+        Of each record at each level, positive and rising; the last axis if directions have intensities of their own.
     peak : ndarray, shape (r, l, d, c)
         max |θ| / α; 0 without uplift, NaN if the history was not run. Axes: record, level, draw, direction (components
         and signs). A draw is the same at all levels of its record. Other records have draws of their own; if all share
@@ -81,75 +81,38 @@ class Outcomes:
         known = np.where(histories.reshape(rows, -1) > 0, intensity.reshape(rows, -1), 1.0)
         return Cells(np.log(known), events.reshape(rows, -1), histories.reshape(rows, -1))
 
-    def only(self, chosen: Mask) -> Outcomes:
-        """Give the outcomes of some records; `chosen` has shape (r,)."""
-        names = tuple(name for name, is_in in zip(self.records, chosen, strict=True) if is_in)
-        return Outcomes(names, self.intensity[chosen], self.peak[chosen], self.overturned[chosen])
 
-
-def gather(
-    records: Sequence[str], intensity: ArrayLike, peak: ArrayLike, overturned: ArrayLike | None = None
-) -> Outcomes:
+def gather(records: Sequence[str], intensity: ArrayLike, peak: ArrayLike, overturned: Mask | None = None) -> Outcomes:
     """
-    Check outcomes and bring them to their axes.
+    Bring outcomes to their axes.
 
     Parameters
     ----------
     records : sequence of str, length r
         Names, each once.
     intensity : array_like, shape (r, l) or (r, l, c)
-        Positive, in SI.
+        Positive, in SI, rising along l.
     peak : array_like, shape (r, l), (r, l, d) or (r, l, d, c)
-        max |θ| / α; NaN if the history was not run.
-    overturned : array_like of bool, shape of peak, optional
+        max |θ| / α; NaN if the history was not run. Each record has a history.
+    overturned : ndarray of bool, shape of peak, optional
         Default: peak above 1.
-
-    Returns
-    -------
-    outcomes : Outcomes
 
     Raises
     ------
     ValueError
-        If the shapes do not fit, a name occurs twice, there are fewer than `FEWEST` records, a peak is
-        negative, a record has no history, or an intensity of a history is missing or not positive.
+        If there are fewer than `FEWEST` records.
     """
-    peaks = with_axes(samples("peak", peak, dimensions=(2, 3, 4), gaps=True, finite=False, each="history"), 4)
-    over = _overturned(overturned, peaks)
-    names = tuple(str(name) for name in records)
-    given = with_axes(samples("intensity", intensity, dimensions=(2, 3), gaps=True, each="value"), 3)
-    rows, levels, _, directions = peaks.shape
-    if given.shape not in ((rows, levels, 1), (rows, levels, directions)) or len(names) != rows:
-        raise ValueError(
-            f"there are {len(names)} records, intensity has shape {given.shape} and peak {peaks.shape}; one intensity "
-            "for each record and level (and direction) of peak was expected"
-        )
-    if len(set(names)) < len(names) or rows < FEWEST:
-        raise ValueError(f"records has {len(set(names))} different names; at least {FEWEST} were expected, each once")
-    was_run = ~np.isnan(peaks)
-    if (peaks < 0).any() or not was_run.any(axis=(1, 2, 3)).all():
-        raise ValueError("peak is negative, or a record has no history; max |θ| / α of each record was expected")
-    needed = np.any(was_run, axis=2) if given.shape[2] > 1 else np.any(was_run, axis=(2, 3))[:, :, None]
-    if not (given[needed] > 0).all():
-        raise ValueError("intensity is missing or not positive for a history that was run; a positive one was expected")
-    return Outcomes(names, given, peaks, over & was_run)
+    if len(records) < FEWEST:
+        raise ValueError(f"records has {count(len(records), 'name')}; at least {FEWEST} were expected")
+    peaks = with_axes(peak, 4)
+    over = peaks > 1.0 if overturned is None else overturned.reshape(peaks.shape)
+    return Outcomes(tuple(records), with_axes(intensity, 3), peaks, over & ~np.isnan(peaks))
 
 
-def with_axes(values: Array, count: int) -> Array:
+def with_axes(values: ArrayLike, axes: int) -> Array:
     """Add axes of length 1 at the end, up to so many in all."""
-    return np.asarray(np.reshape(values, (*values.shape, *(1,) * (count - values.ndim))), dtype=np.float64)
-
-
-def _overturned(given: ArrayLike | None, peaks: Array) -> Mask:
-    """Give the mask in the shape of the peaks; by default above 1."""
-    if given is None:
-        return np.asarray(peaks > 1.0)
-    mask = np.asarray(given)
-    if mask.dtype.kind != "b" or mask.size != peaks.size or mask.shape != peaks.shape[: mask.ndim]:
-        raise ValueError(
-            f"overturned has shape {mask.shape} and holds {mask.dtype}; truth values in the shape of peak were expected"
-        )
-    return np.asarray(mask.reshape(peaks.shape))
+    array = np.asarray(values, dtype=np.float64)
+    return array.reshape(*array.shape, *(1,) * (axes - array.ndim))
 
 
 MOST_STRIPES = 20
@@ -199,41 +162,11 @@ def summed(values: Array, place: NDArray[np.intp], count: int) -> Array:
     return np.asarray(np.bincount(flat, values.ravel(), rows * count).reshape(rows, count), dtype=np.float64)
 
 
-@dataclass(frozen=True)
-class Resurrection:
+def resurrected(outcomes: Outcomes) -> float:
     """
-    How often a stronger motion spares what a weaker one overturned.
+    Give the share of all histories that survive although the same record and draw overturned at a lower level.
 
-    Attributes
-    ----------
-    pairs : float
-        Share of the pairs of record and draw (in each direction) that overturn at a level and survive at a higher one.
-    records : tuple of str
-        In which it happens.
-    lost : float
-        Share of all histories that survive although the same pair overturned at a lower level: what the curve would
-        gain if overturning once were overturning at all higher levels.
+    That is what the curve would gain if overturning once were overturning at all higher levels.
     """
-
-    pairs: float
-    records: tuple[str, ...]
-    lost: float
-
-
-def resurrection(outcomes: Outcomes) -> Resurrection:
-    """Count resurrections; the levels of a record are compared by their intensities."""
-    over, was_run = by_intensity(outcomes)[1:]
-    before = np.logical_or.accumulate(over, axis=1)
-    lost: Mask = before & ~over & was_run
-    pairs: Mask = np.any(lost, axis=1)
-    counted = np.any(was_run, axis=1)
-    names = tuple(name for name, has in zip(outcomes.records, np.any(pairs, axis=(1, 2)), strict=True) if has)
-    return Resurrection(float(pairs.sum() / counted.sum()), names, float(lost.sum() / was_run.sum()))
-
-
-def by_intensity(outcomes: Outcomes) -> tuple[Array, Mask, Mask]:
-    """Give intensity, overturned and was_run with the levels of each record and direction in rising order."""
-    intensity = np.broadcast_to(outcomes.intensity[:, :, None, :], outcomes.peak.shape)
-    order = np.argsort(intensity, axis=1)
-    over, was_run = (np.take_along_axis(each, order, axis=1) for each in (outcomes.overturned, outcomes.was_run))
-    return np.take_along_axis(intensity, order, axis=1), over, was_run
+    before = np.logical_or.accumulate(outcomes.overturned, axis=1)
+    return float((before & ~outcomes.overturned & outcomes.was_run).sum() / outcomes.was_run.sum())

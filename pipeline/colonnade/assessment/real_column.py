@@ -9,9 +9,8 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block, Sided, pair
-from colonnade.dynamics.ensemble import LARGEST_SEED
 from colonnade.dynamics.uncertainty import member_block, member_restitution
-from colonnade.validation import instance, number, sided, whole
+from colonnade.validation import instance, number, sided
 
 Limits = tuple[float, float]
 
@@ -103,14 +102,7 @@ def draw(column: RealColumn, count: int, seed: int = 0, *, record: int = 0) -> A
     draws : ndarray, shape (1 + count, 4)
         By `UNCERTAIN`: e, α (rad), p (rad/s), coefficient of friction (NaN if there is none). In the first row nothing
         is varied.
-
-    Raises
-    ------
-    ValueError
-        If the count or the seed is out of its range.
     """
-    whole("count", count, 0, MOST_DRAWS)
-    whole("seed", seed, 0, LARGEST_SEED)
     values = np.tile(column.central, (1 + (count if any(column.ranges) else 0), 1))
     for number_ in range(1, len(values)):
         shares = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(record, number_))).random(len(UNCERTAIN))

@@ -218,8 +218,8 @@ def _answer(
         fifty_percent=_estimate(found.reaches(0.5)),
         curve=found.taken,
         curve_reason=None if found.taken == "lognormal" else _why_not(found),
-        misfit=found.misfit.p_value,
-        resurrected=found.resurrection.lost,
+        misfit=found.misfit,
+        resurrected=found.resurrected,
         sliding=sliding,
         **of_rate,
         variants=tuple(_variants(plan, fragilities)),
@@ -264,7 +264,7 @@ def _why_not(found: Fragility) -> str:
     """Say why the lognormal curve is not taken."""
     if found.lognormal.reason:
         return NO_CURVE[found.lognormal.reason]
-    return f"the lognormal curve does not fit (p = {found.misfit.p_value:.2g})"
+    return f"the lognormal curve does not fit (p = {found.misfit:.2g})"
 
 
 def _variants(plan: Plan, fragilities: Mapping[str, Fragility]) -> Iterator[Variant]:
@@ -349,7 +349,7 @@ def _doubts(
             f"{format_percent(rate.below_hazard + rate.above_hazard)} of the annual rate is from outside the hazard "
             f"curve, and {format_percent(rate.below_levels + rate.above_levels)} from outside the levels."
         )
-    if rate is not None and found.misfit.p_value < MISFITS:
+    if rate is not None and found.misfit < MISFITS:
         yield (
             "The annual rate is by the lognormal curve, which does not fit. By the curve that only rises it is "
             f"{with_minus(f'{rate.isotonic:.2g}')} a year."
