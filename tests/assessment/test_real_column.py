@@ -6,7 +6,7 @@ from math import tan
 import numpy as np
 import pytest
 
-from colonnade.assessment.cases import Cases, FrictionNeeded, friction_needed, holds
+from colonnade.assessment.cases import Cases, friction_needed
 from colonnade.assessment.real_column import UNCERTAIN, RealColumn, draw, drawn_column
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
@@ -107,40 +107,30 @@ def needed(*factors, vertical=None):
 
 def test_a_column_at_rest_needs_the_accelerations_over_gravity():
     found = needed(0.1 * 9.81)
-    assert found.standing[0, 0, 0, 0] == pytest.approx(0.1, rel=1e-3)
-    assert found.rocking[0, 0, 0, 0] == found.impact[0, 0, 0, 0] == 0.0
-    assert np.isnan(found.largest[..., 1]).all()
+    assert found[0, 0, 0, 0] == pytest.approx(0.1, rel=1e-3)
+    assert np.isnan(found[..., 1]).all()
 
 
 def test_a_rising_base_presses_a_column_and_a_falling_one_lets_it_slide():
-    down, up = (needed(0.981, vertical=sign * 3.0 * np.ones_like(TIME)).standing.flat[0] for sign in (-1, 1))
+    down, up = (needed(0.981, vertical=sign * 3.0 * np.ones_like(TIME)).flat[0] for sign in (-1, 1))
     assert down == pytest.approx(0.981 / (9.81 - 3.0 * 0.981), rel=1e-3)
     assert up == pytest.approx(0.981 / (9.81 + 3.0 * 0.981), rel=1e-3)
 
 
-def test_a_column_that_rocks_needs_tan_alpha_at_rest_and_the_ratio_of_impulses_at_impacts():
-    found = needed(0.4 * 9.81)
-    assert 0.8 * tan(0.18) < found.standing[0, 0, 0, 0] <= tan(0.18)
-    assert found.impact[0, 0, 0, 0] == pytest.approx((1 - 0.9) / ((1 + 0.9) * tan(0.18)), rel=1e-9)
-    assert found.rocking[0, 0, 0, 0] > tan(0.18)
+def test_a_column_that_rocks_needs_more_than_tan_alpha_and_the_ratio_of_impulses_at_impacts():
+    found = needed(0.4 * 9.81)[0, 0, 0, 0]
+    assert found > tan(0.18)
+    assert found >= (1 - 0.9) / ((1 + 0.9) * tan(0.18))
 
 
 def test_a_record_that_begins_with_a_jump_uplifts_the_column_before_it_needs_friction_at_rest():
     column = RealColumn(BLOCK, 0.9)
     jump = Motion(np.where(TIME < 0.1, 5.0, 0.0), 0.01)
     found = friction_needed(Cases(column, draw(column, 0)[None], (jump,), np.array([[[1.0, np.nan]]])))
-    assert found.standing[0, 0, 0, 0] <= tan(0.18)
-    assert tan(0.18) < found.rocking[0, 0, 0, 0] < 5.0 / 9.81
+    assert tan(0.18) < found[0, 0, 0, 0] < 5.0 / 9.81
 
 
 def test_a_base_that_falls_away_holds_nothing():
     found = needed(1.0, 4.0, vertical=-3.0 * np.ones_like(TIME))
-    assert np.isinf(found.largest[0, 1, 0, 0])
-    assert np.isfinite(found.largest[0, 0, 0, 0])
-
-
-def test_a_case_holds_where_the_drawn_friction_reaches():
-    one = np.array([0.3, 0.5, np.nan]).reshape(1, 3, 1, 1)
-    found = holds(FrictionNeeded(one, 0.5 * one, 0.0 * one), np.array([[0.2, 0.4, 0.6]]))
-    assert found.shape == (1, 3, 3, 1, 1)
-    assert found[0, :, :, 0, 0].tolist() == [[False, True, True], [False, False, True], [False, False, False]]
+    assert np.isinf(found[0, 1, 0, 0])
+    assert np.isfinite(found[0, 0, 0, 0])

@@ -182,7 +182,7 @@ SLENDER = Block.measured(mass=1.0, pole_distance=1.0, critical_angle=1e-4, inert
 def one_sine(ratio, block, period):
     """One whole sine of amplitude `ratio` g tan α."""
 
-    def wave(time):
+    def wave(time, piece):
         return ratio * block.gravity * tan(block.critical_angle) * sin(2 * pi * time / period)
 
     return TableMotion(tuple(np.linspace(0.0, period, 9).tolist()), wave, np.zeros_like)
@@ -257,15 +257,14 @@ def test_one_sine_leaves_the_published_energy(pole_distance, energy):
     block, e = published(pole_distance)
     run = Integration(block, np.array([0.5]), e, pi / 2, 0.0)
     run.release(0.0, 0.0)
-    table = one_sine(2.0, block, 0.5)
-    for left, right in pairwise(table.edges):
-        run.go(left, right, table.formula)
+    for piece in one_sine(2.0, block, 0.5).pieces:
+        run.go(*piece)
     risen = (cos(0.2 - abs(run.angle)) - cos(0.2)) / (1 - cos(0.2))
     assert run.velocity**2 / (2 * block.p**2 * (1 - cos(0.2))) + risen == pytest.approx(energy, abs=1e-8)
 
 
 def test_acceleration_towards_plus_x_starts_rocking_with_negative_angle_at_g_tan_alpha():
-    ramp = TableMotion((0.0, 1.0), lambda time: 2.0 * PRISM.uplift_acceleration * time, np.zeros_like)
+    ramp = TableMotion((0.0, 1.0), lambda time, piece: 2.0 * PRISM.uplift_acceleration * time, np.zeros_like)
     time = np.linspace(0.0, 0.7, 701)
     angle = simulate(PRISM, time, ramp, restitution=0.9).angle
     assert not angle[time <= 0.5].any()

@@ -27,7 +27,7 @@ from colonnade.stages.ingest import (
     reviewed,
     unit_findings,
 )
-from colonnade.stages.parts.zeroing import find_zero_error, on_angle, on_base
+from colonnade.stages.parts.zeroing import find_zero_error, on_angle
 from colonnade.store.description import describe
 from every import every
 from prism import PRISM
@@ -239,10 +239,7 @@ def test_a_sampling_rate_counts_the_samples_from_zero_even_beside_a_clock(column
     np.testing.assert_array_equal(found.time, [0.0, 0.005, 0.01])
     np.testing.assert_array_equal(found.values, VALUES)
     assert (found.name, found.unit) == (column, "mm")
-
-
-def test_a_rate_leaves_the_heading_as_written():
-    assert find_column(RECORDING, "top", channel(), 200.0).heading == "Timed [mm]"
+    assert found.heading == {"Timed": "Timed [mm]", "Untimed": "Untimed"}[column]
 
 
 @every("rate", [None, 200.0])
@@ -385,10 +382,6 @@ def test_a_file_of_another_day_is_a_warning_with_both_dates():
     assert "gives the date 2013-04-26" in found.text
 
 
-def test_without_a_date_in_the_campaign_file_nothing_contradicts():
-    assert contradictions(recorded(TEN), None) == []
-
-
 @given(st.datetimes(datetime(1990, 1, 1), datetime(2090, 1, 1)), st.integers(-12, 14))
 def test_no_laboratory_on_earth_is_warned_of_a_file_in_utc_of_its_own_day(wall, hours):
     start = wall.replace(tzinfo=timezone(timedelta(hours=hours))).astimezone(UTC)
@@ -426,8 +419,3 @@ def test_a_drift_is_reported_in_radians_with_a_stretch_without_it():
     assert f"uncertain by {error:.2g} rad" in found.text
     assert 'zero = ["1' in found.text
     assert found.severity == "warning"
-
-
-def test_an_accelerometer_across_the_shaking_weighs_more():
-    assert on_base(0.5, PRISM).factor == 2.0
-    assert on_base(1.0, PRISM).scale == PRISM.uplift_acceleration

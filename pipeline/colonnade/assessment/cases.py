@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import ceil, inf
-from typing import NamedTuple
 
 import numpy as np
 
@@ -326,34 +325,15 @@ def _first_uplift(column: RealColumn, motions: Sequence[Motion], intensity: Arra
     return min(found)
 
 
-class FrictionNeeded(NamedTuple):
+def friction_needed(cases: Cases) -> Array:
     """
-    Largest |H|/N of the column with nothing varied, up to overturning; NaN where it is not run.
-
-    Attributes
-    ----------
-    standing, rocking, impact : ndarray, shape (records, levels, signs, components)
-        While it rests on its whole base, before uplift and between; while it rocks; of the impulses of its impacts.
-        0 if it never does; inf where the base would have to pull.
-    """
-
-    standing: Array
-    rocking: Array
-    impact: Array
-
-    @property
-    def largest(self) -> Array:
-        """Largest of the three, of the same shape."""
-        return np.maximum(np.maximum(self.standing, self.rocking), self.impact)
-
-
-def friction_needed(cases: Cases) -> FrictionNeeded:
-    """
-    Find the friction that each record needs at each level.
+    Find the friction that each record needs at each level, of the column with nothing varied, up to overturning.
 
     Returns
     -------
-    needed : FrictionNeeded
+    needed : ndarray, shape (records, levels, signs, components)
+        Largest |H|/N at rest on the whole base, while it rocks and of the impulses of its impacts; inf where the base
+        would have to pull, NaN where it is not run.
 
     Notes
     -----
@@ -361,46 +341,24 @@ def friction_needed(cases: Cases) -> FrictionNeeded:
     rocking. Once it rocks, the forces are those of `reactions`.
     """
     records, levels, _draws, signs, components = cases.shape
-    needed = np.full((3, records, levels, signs, components), np.nan)
-    for record, level, sign, place in np.ndindex(needed.shape[1:]):
+    needed = np.full((records, levels, signs, components), np.nan)
+    for record, level, sign, place in np.ndindex(needed.shape):
         factor = cases.signs[sign] * float(cases.factors[record, level, place])
         if (motion := in_plane(cases.motions[record], place, factor)) is not None:
-            needed[:, record, level, sign, place] = _needed(cases, motion)
-    return FrictionNeeded(*needed)
+            needed[record, level, sign, place] = _needed(cases, motion)
+    return needed
 
 
-def holds(needed: FrictionNeeded, friction: Array) -> Mask:
-    """
-    Tell in which cases the column does not slide.
-
-    Parameters
-    ----------
-    needed : FrictionNeeded
-    friction : ndarray, shape (records, draws)
-        Drawn coefficients; not of a column without friction.
-
-    Returns
-    -------
-    holds : ndarray of bool, shape (records, levels, draws, signs, components)
-        False also where nothing was run.
-    """
-    return np.asarray(needed.largest[:, :, None] <= friction[:, None, :, None, None])
-
-
-def _needed(cases: Cases, motion: Motion) -> tuple[float, float, float]:
+def _needed(cases: Cases, motion: Motion) -> float:
     block = cases.column.block
     if _falls_away(motion, block.gravity):
-        return 0.0, np.inf, 0.0
+        return np.inf
     history = rock(block, motion, restitution=cases.column.restitution, model=cases.model)
     forces = reactions(history, motion)
     until = history.overturning_time if np.isfinite(history.overturning_time) else np.inf
     widest = max(side.critical_angle for side in block.sides)
-    upright = (history.angle == 0.0) & (history.angular_velocity == 0.0)
+    moves = (history.angle != 0.0) | (history.angular_velocity != 0.0)
     # A record that begins with a jump uplifts the column in its first sample: it stands there, but does not rest.
-    rests = upright & (forces.required_friction <= model_of(cases.model).uplift_threshold(widest))
-    before, landed = forces.time <= until, forces.impact_times <= until
-    return (
-        float(forces.required_friction[before & rests].max(initial=0.0)),
-        float(forces.required_friction[before & ~upright].max(initial=0.0)),
-        float(forces.impact_friction[landed].max(initial=0.0)),
-    )
+    rests = forces.required_friction <= model_of(cases.model).uplift_threshold(widest)
+    continuous = forces.required_friction[(forces.time <= until) & (moves | rests)].max(initial=0.0)
+    return float(max(continuous, forces.impact_friction[forces.impact_times <= until].max(initial=0.0)))

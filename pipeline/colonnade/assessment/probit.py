@@ -35,68 +35,55 @@ def _log_below(z: float) -> float:
 
 
 @kernel
-def _likelihood(y: Array, events: Array, histories: Array, weights: Array, a: float, b: float) -> float:
-    total = 0.0
-    for r in range(y.shape[0]):
-        if weights[r] > 0.0:
-            for m in range(y.shape[1]):
-                if histories[r, m] > 0.0:
-                    z = a + b * y[r, m]
-                    if events[r, m] > 0.0:
-                        total += weights[r] * events[r, m] * _log_below(z)
-                    if events[r, m] < histories[r, m]:
-                        total += weights[r] * (histories[r, m] - events[r, m]) * _log_below(-z)
-    return total
-
-
-@kernel
-def _derivatives(y: Array, events: Array, histories: Array, weights: Array, a: float, b: float) -> Array:
-    """Score (2), information (3: aa, ab, bb) and the records' squared scores (3) of the log-likelihood, in one row."""
-    found = np.zeros(8)
+def _at(y: Array, events: Array, histories: Array, weights: Array, a: float, b: float) -> Array:
+    """Log-likelihood, its score (2), information (3: aa, ab, bb) and the records' squared scores (3), in one row."""
+    found = np.zeros(9)
     for r in range(y.shape[0]):
         if weights[r] > 0.0:
             one, two = 0.0, 0.0
             for m in range(y.shape[1]):
                 if histories[r, m] > 0.0:
                     z = a + b * y[r, m]
-                    up, down = _hazard(-z), _hazard(z)
                     left = histories[r, m] - events[r, m]
+                    if events[r, m] > 0.0:
+                        found[0] += weights[r] * events[r, m] * _log_below(z)
+                    if left > 0.0:
+                        found[0] += weights[r] * left * _log_below(-z)
+                    up, down = _hazard(-z), _hazard(z)
                     slope = events[r, m] * up - left * down
                     curved = events[r, m] * up * (up + z) + left * down * (down - z)
                     one += slope
                     two += slope * y[r, m]
-                    found[2] += weights[r] * curved
-                    found[3] += weights[r] * curved * y[r, m]
-                    found[4] += weights[r] * curved * y[r, m] ** 2
-            found[0] += weights[r] * one
-            found[1] += weights[r] * two
-            found[5] += weights[r] * one * one
-            found[6] += weights[r] * one * two
-            found[7] += weights[r] * two * two
+                    found[3] += weights[r] * curved
+                    found[4] += weights[r] * curved * y[r, m]
+                    found[5] += weights[r] * curved * y[r, m] ** 2
+            found[1] += weights[r] * one
+            found[2] += weights[r] * two
+            found[6] += weights[r] * one * one
+            found[7] += weights[r] * one * two
+            found[8] += weights[r] * two * two
     return found
 
 
 @kernel
-def _maximise(y: Array, events: Array, histories: Array, weights: Array) -> tuple[float, float, float]:
+def _maximise(y: Array, events: Array, histories: Array, weights: Array) -> tuple[float, float, Array]:
     """Newton with halved steps: the log-likelihood is concave."""
     a, b = 0.0, 0.0
-    best = _likelihood(y, events, histories, weights, a, b)
+    d = _at(y, events, histories, weights, a, b)
     for _ in range(STEPS):
-        d = _derivatives(y, events, histories, weights, a, b)
-        whole = d[2] * d[4] - d[3] * d[3]
-        da, db = (d[4] * d[0] - d[3] * d[1]) / whole, (d[2] * d[1] - d[3] * d[0]) / whole
-        step, tried = 1.0, -np.inf
-        while step > 1e-6:
-            tried = _likelihood(y, events, histories, weights, a + step * da, b + step * db)
-            if tried >= best:
-                break
+        whole = d[3] * d[5] - d[4] * d[4]
+        da, db = (d[5] * d[1] - d[4] * d[2]) / whole, (d[3] * d[2] - d[4] * d[1]) / whole
+        step = 1.0
+        tried = _at(y, events, histories, weights, a + da, b + db)
+        while not tried[0] >= d[0]:
             step *= 0.5
-        if step <= 1e-6:
-            break
-        a, b, best = a + step * da, b + step * db, tried
+            if step <= 1e-6:
+                return a, b, d
+            tried = _at(y, events, histories, weights, a + step * da, b + step * db)
+        a, b, d = a + step * da, b + step * db, tried
         if abs(step * da) + abs(step * db) < CLOSE * (1.0 + abs(a) + abs(b)):
             break
-    return a, b, best
+    return a, b, d
 
 
 @kernel
@@ -109,14 +96,13 @@ def fit_each(y: Array, events: Array, histories: Array, weights: Array) -> Array
     """
     fits = np.empty((weights.shape[0], 6))
     for n in range(weights.shape[0]):
-        a, b, best = _maximise(y, events, histories, weights[n])
-        d = _derivatives(y, events, histories, weights[n], a, b)
-        whole = d[2] * d[4] - d[3] * d[3]
-        aa, ab, bb = d[4] / whole, -d[3] / whole, d[2] / whole
-        fits[n, 0], fits[n, 1], fits[n, 5] = a, b, best
-        fits[n, 2] = aa * aa * d[5] + 2.0 * aa * ab * d[6] + ab * ab * d[7]
-        fits[n, 3] = aa * ab * d[5] + (aa * bb + ab * ab) * d[6] + ab * bb * d[7]
-        fits[n, 4] = ab * ab * d[5] + 2.0 * ab * bb * d[6] + bb * bb * d[7]
+        a, b, d = _maximise(y, events, histories, weights[n])
+        whole = d[3] * d[5] - d[4] * d[4]
+        aa, ab, bb = d[5] / whole, -d[4] / whole, d[3] / whole
+        fits[n, 0], fits[n, 1], fits[n, 5] = a, b, d[0]
+        fits[n, 2] = aa * aa * d[6] + 2.0 * aa * ab * d[7] + ab * ab * d[8]
+        fits[n, 3] = aa * ab * d[6] + (aa * bb + ab * ab) * d[7] + ab * bb * d[8]
+        fits[n, 4] = ab * ab * d[6] + 2.0 * ab * bb * d[7] + bb * bb * d[8]
     return fits
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from math import copysign, cos, pi, sin
 from typing import Any, Literal
 
@@ -29,28 +30,38 @@ class TableMotion:
     ----------
     edges : tuple of float
         s, between which the acceleration is smooth; empty for a table that stands still.
-    formula : callable
-        Acceleration, m/s², at a time from the first edge to the last, s.
+    acceleration_in : callable
+        Acceleration, m/s², at a time, s, by the formula of the piece with a number.
     displacement_of : callable
         Displacement, m, at an array of times, s.
     """
 
     edges: tuple[float, ...]
-    formula: Callable[[float], float]
+    acceleration_in: Callable[[float, int], float]
     displacement_of: Callable[[Array], Array]
 
     def acceleration(self, time: ArrayLike) -> Array:
         """Acceleration, m/s², at times of shape (n,), s: exactly what the specimen stands on."""
         instants = np.atleast_1d(np.asarray(time, dtype=np.float64))
+        pieces = np.minimum(np.searchsorted(self.edges, instants, side="right") - 1, len(self.edges) - 2)
         values = np.zeros(instants.size)
-        if self.edges:
-            moving = (instants >= self.edges[0]) & (instants <= self.stop)
-            values[moving] = [self.formula(instant) for instant in instants[moving].tolist()]
+        for moving in np.flatnonzero((pieces >= 0) & (instants <= self.stop)).tolist():
+            values[moving] = self.acceleration_in(float(instants[moving]), int(pieces[moving]))
         return values
 
     def displacement(self, time: ArrayLike) -> Array:
         """Displacement, m, at times of shape (n,), s."""
         return self.displacement_of(np.atleast_1d(np.asarray(time, dtype=np.float64)))
+
+    @property
+    def pieces(self) -> Iterator[tuple[float, float, Callable[[float], float]]]:
+        """Start, stop (s) and acceleration at a time of each piece in order."""
+
+        def formula(number: int) -> Callable[[float], float]:
+            return lambda instant: self.acceleration_in(instant, number)
+
+        for number, (left, right) in enumerate(pairwise(self.edges)):
+            yield left, right, formula(number)
 
     @property
     def stop(self) -> float:
@@ -60,7 +71,7 @@ class TableMotion:
 
 def still() -> TableMotion:
     """Return the motion of a table that does not move."""
-    return TableMotion((), lambda instant: 0.0, np.zeros_like)
+    return TableMotion((), lambda instant, piece: 0.0, np.zeros_like)
 
 
 def ramped_sine(frequency: float, acceleration: float, *, start: float, cycles: int, ramp: int) -> TableMotion:
@@ -103,7 +114,7 @@ def ramped_sine(frequency: float, acceleration: float, *, start: float, cycles: 
         grown = fraction**4 * (35 + fraction * (-84 + fraction * (70 - 20 * fraction)))
         return np.asarray(-acceleration / omega**2 * grown * np.sin(omega * (time - start)))
 
-    def formula(time: float) -> float:
+    def acceleration_in(time: float, piece: int) -> float:
         x = min(time - start, end - time) / ramp_duration
         phase = omega * (time - start)
         if x >= 1.0:
@@ -113,7 +124,7 @@ def ramped_sine(frequency: float, acceleration: float, *, start: float, cycles: 
         second = 420 * x**2 * (1 - x) ** 2 * (1 - 2 * x) / ramp_duration**2
         return acceleration * ((grown - second / omega**2) * sin(phase) - 2 * first / omega * cos(phase))
 
-    return TableMotion(tuple(edges.tolist()), formula, shape)
+    return TableMotion(tuple(edges.tolist()), acceleration_in, shape)
 
 
 def recorded(motion: Motion, *, start: float) -> TableMotion:
@@ -139,9 +150,8 @@ def recorded(motion: Motion, *, start: float) -> TableMotion:
     edges = tuple(start + k * dt for k in range(rates.size + 1))
     levels, slopes = acceleration.tolist(), rates.tolist()
 
-    def line(instant: float) -> float:
-        k = min(int((instant - start) / dt), len(slopes) - 1)
-        return float(levels[k] + slopes[k] * (instant - edges[k]))
+    def line(instant: float, piece: int) -> float:
+        return float(levels[piece] + slopes[piece] * (instant - edges[piece]))
 
     def shape(instants: Array) -> Array:
         k = np.clip(((instants - start) / dt).astype(np.int64), 0, rates.size - 1)

@@ -159,11 +159,14 @@ def simulate(
 
 def _pieces(table: TableMotion, start: float, stop: float) -> list[tuple[float, float, Acceleration]]:
     """Pieces of the base motion from `start` to `stop`, rest included."""
-    edges, rest = table.edges or (stop,), still().formula
-    moving = [(left, right, table.formula) for left, right in pairwise(edges)]
-    pieces = [(start, edges[0], rest), *moving, (edges[-1], stop, rest)]
+    edges = table.edges or (stop,)
+    pieces = [(start, edges[0], _no_acceleration), *table.pieces, (edges[-1], stop, _no_acceleration)]
     clipped = ((max(left, start), min(right, stop), acceleration) for left, right, acceleration in pieces)
     return [piece for piece in clipped if piece[1] > piece[0]]
+
+
+def _no_acceleration(instant: float) -> float:
+    return 0.0
 
 
 class Integration:
@@ -238,22 +241,23 @@ class Integration:
 
     def _rest(self, stop: float, acceleration: Acceleration) -> None:
         """Stand still up to uplift or to the end of the piece."""
-        negative, positive = (tan(side.critical_angle) for side in (self.block.negative, self.block.positive))
+        sides = ((-1.0, tan(self.block.negative.critical_angle)), (1.0, tan(self.block.positive.critical_angle)))
+        looks = np.linspace(self.now, stop, LOOKS_PER_STEP + 1).tolist()
+        for left, right in pairwise(looks):
+            for side, threshold in sides:
 
-        def excess(instant: float) -> float:
-            pull = acceleration(instant) / self.block.gravity
-            return max(pull - negative, -pull - positive)
+                def excess(instant: float, side: float = side, threshold: float = threshold) -> float:
+                    return -side * acceleration(instant) / self.block.gravity - threshold
 
-        for left, right in pairwise(np.linspace(self.now, stop, LOOKS_PER_STEP + 1).tolist()):
-            if excess(right) > 0.0:
-                instant = left if excess(left) > 0.0 else _root(excess, left, right)
-                # The end of the bracket that is past the threshold: there the block does rise.
-                while excess(instant) <= 0.0:
-                    instant = nextafter(instant, right)
-                self.move_to(instant)
-                self._stand_on(-1.0 if acceleration(instant) > 0.0 else 1.0)
-                self.velocity, self.resting = 0.0, False
-                return
+                if excess(right) > 0.0:
+                    instant = left if excess(left) > 0.0 else _root(excess, left, right)
+                    # The end of the bracket that is past the threshold: there the block does rise.
+                    while excess(instant) <= 0.0:
+                        instant = nextafter(instant, right)
+                    self.move_to(instant)
+                    self._stand_on(side)
+                    self.velocity, self.resting = 0.0, False
+                    return
         self.move_to(stop)
 
     def _rock(self, stop: float, acceleration: Acceleration) -> None:

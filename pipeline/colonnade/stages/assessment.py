@@ -7,16 +7,15 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from colonnade.arrays import Array
 from colonnade.assessment.cases import (
     AXES,
     COMPONENTS,
     FALLS_AWAY,
     NOT_RUN,
     CaseOutcomes,
-    FrictionNeeded,
     components,
     friction_needed,
-    holds,
 )
 from colonnade.assessment.criteria import CRITERIA, Demands, agreement, spectral_velocity
 from colonnade.assessment.fragility import MISFITS, Fragility
@@ -101,17 +100,18 @@ def assessment(plan: Plan, outcomes: Mapping[str, CaseOutcomes]) -> xr.Dataset:
     )
 
 
-def _sliding(plan: Plan, outcomes: CaseOutcomes, needed: FrictionNeeded | None) -> float | None:
+def _sliding(plan: Plan, outcomes: CaseOutcomes, needed: Array | None) -> float | None:
     """Share of the histories that need more friction than there is; None if none is given, or bodies do slide."""
     cases = plan.studies[ASSUMED].cases
     if cases.column.friction is None or needed is None:
         return None
     drawn = counted_draws(cases.shape[2])
-    run = outcomes.is_run[:, :, drawn]
-    return float((~holds(needed, cases.drawn("friction")[:, drawn]) & run).sum() / run.sum())
+    run, friction = outcomes.is_run[:, :, drawn], cases.drawn("friction")[:, drawn]
+    slides = ~(needed[:, :, None] <= friction[:, None, :, None, None])
+    return float((slides & run).sum() / run.sum())
 
 
-def _dataset(plan: Plan, outcomes: CaseOutcomes, needed: FrictionNeeded | None, fragility: Fragility) -> xr.Dataset:
+def _dataset(plan: Plan, outcomes: CaseOutcomes, needed: Array | None, fragility: Fragility) -> xr.Dataset:
     import xarray as xr
 
     study, isotonic = plan.studies[ASSUMED], fragility.isotonic
@@ -133,7 +133,7 @@ def _dataset(plan: Plan, outcomes: CaseOutcomes, needed: FrictionNeeded | None, 
     }
     variables |= {f"drawn_{name}": (("record", "draw"), study.cases.drawn(name)) for name in UNCERTAIN}
     if needed is not None:
-        variables["case_friction"] = (("record", "level", "sign", "component"), needed.largest)
+        variables["case_friction"] = (("record", "level", "sign", "component"), needed)
     if (rate := fragility.rate) is not None:
         variables |= {"rate_edge": ("edge", rate.edges), "rate_share": ("part", rate.contributions)}
     return xr.Dataset(

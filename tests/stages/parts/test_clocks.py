@@ -70,10 +70,6 @@ def test_a_test_without_one_of_the_linked_channels_has_no_link(missing):
     assert find_links(ALIGNED, channels) == {}
 
 
-def test_a_recorder_on_the_same_trigger_needs_no_link():
-    assert find_links({"main": Recorder(), "second": Recorder()}, {"one": channel(), "other": channel()}) == {}
-
-
 RISING = np.arange(20.0)
 
 
@@ -227,10 +223,6 @@ def test_the_shared_time_counts_on_the_clock_of_the_main_recorder(offset, first,
 def test_channels_that_share_too_little_are_refused(stop, words):
     with pytest.raises(StageError, match=f"{words}; at least 16 were expected"):
         common({"a": record(-1.0, stop, 100), "b": record(0.0, 4, 100)})
-
-
-def test_the_fewest_samples_are_enough():
-    assert common({"a": record(0, 0.15, 100)}).size == clocks.FEWEST_SAMPLES
 
 
 def test_a_rate_that_would_fill_the_memory_is_refused_with_both_rates():

@@ -96,11 +96,6 @@ def test_the_low_pass_is_the_lowest_of_the_transducers_on_the_specimen():
     assert [errors_of(rocking(), **cutoffs).cutoff_hz for cutoffs in channels] == [25.0, 40.0, None, None]
 
 
-def test_channels_without_a_low_pass_give_none():
-    unfiltered = xr.Dataset({"top": ("elapsed", TIME), "bottom": ("elapsed", TIME)})
-    assert measurement_errors(unfiltered, rocking(), BEGINNING, inputs()).cutoff_hz is None
-
-
 def ensemble(members=40, *, overturned=0, widens_at=None, scatter=1e-3):
     """Runs that are the central one and a constant of their own; the band is wide from `widens_at` on."""
     random = np.random.default_rng(3)
@@ -217,11 +212,6 @@ def test_a_specimen_that_lies_is_held_at_the_critical_angle_that_it_fell_past():
     angles = np.where(falls, 1.4, SWING), np.where(falls, np.nan, SWING)
     far, lost = (float(ranked(rocking(angle, overturning_time=TIME[211]))["measured_distance"]) for angle in angles)
     assert far == pytest.approx(lost)
-
-
-def test_the_same_runs_give_the_same_distances():
-    one, other = ranked(), ranked()
-    np.testing.assert_array_equal(one["member_distance"], other["member_distance"])
 
 
 PEAKS = np.array([0.1, 0.2, 0.3, 0.4])
