@@ -63,13 +63,6 @@ def test_a_direct_reading_has_no_gain():
     assert low.keys().isdisjoint({"gain", "offset"})
 
 
-def test_a_channel_of_the_table_is_relative_to_nothing():
-    channels = written_channels()
-    assert "relative_to" not in channels["table"]
-    assert channels["top"]["relative_to"] == "table"
-    assert channels["table"]["column"] == 'ACC "x"'
-
-
 def test_gravity_is_written_where_it_is_not_the_usual_one(loaded):
     assert "gravity" not in tomllib.loads(campaign_text(plan()))
     assert loaded(plan(gravity=9.8)).gravity == 9.8
@@ -119,10 +112,6 @@ def test_of_several_specimens_one_is_named():
     with pytest.raises(ValueError, match="free-01: one of prism, statue was expected"):
         plan_with("prism", "statue").specimen_of(FREE)
     assert plan_with("prism", "statue").specimen_of(replace(FREE, specimen="statue")) == "statue"
-
-
-def test_a_trial_stands_on_a_table_at_rest_unless_it_is_shaken():
-    assert FREE.table.acceleration([0.0, 1.0, 8.5]).tolist() == [0.0, 0.0, 0.0]
 
 
 def test_each_recorder_writes_a_file_of_its_own():

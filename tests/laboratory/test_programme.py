@@ -59,15 +59,6 @@ def test_free_vibrations_start_near_their_angles_on_a_table_at_rest(seed):
         assert (trial.kind, trial.setup) == ("free-vibration", "bench")
 
 
-def test_the_generator_alone_decides_what_is_drawn():
-    first, again, other = (
-        [(trial.theta0, trial.release) for trial in free_vibrations(PRISM, np.random.default_rng(seed))]
-        for seed in (1, 1, 2)
-    )
-    assert first == again
-    assert len({*first, *other}) == 6
-
-
 @pytest.mark.parametrize("frequency", [1.0, 2.5])
 def test_a_sine_reaches_its_multiple_of_g_tan_alpha_between_its_ramps(frequency):
     trial = sine(PRISM, "sine", frequency, 1.4, cycles=6, ramp=2)

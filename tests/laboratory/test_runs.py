@@ -16,7 +16,7 @@ from colonnade.laboratory.campaign_file import OPERATOR
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import GERMAN, FileFormat, Sheet
 from colonnade.laboratory.programme import CYCLES, LADDERS, LASTING, MARGIN, RAMP, RAMPS, SPECIMENS, sine
-from colonnade.laboratory.runs import START_SCATTER, run_test, run_tests, truth_of, with_its_truth, write
+from colonnade.laboratory.runs import START_SCATTER, run_test, truth_of, with_its_truth, write
 from colonnade.laboratory.table import Imperfections, Transducer, ramped_sine
 from colonnade.laboratory.truth import simulate
 from colonnade.workflow import executors
@@ -137,14 +137,6 @@ def test_the_largest_acceleration_is_that_of_the_table(plan, tmp_path):
     assert record["steady"] == [1.0, 2.0]
 
 
-def test_each_test_has_a_seed_of_its_own_and_the_campaign_one_for_all(plan, tmp_path):
-    first, again, other = (run_tests(plan, tmp_path / str(place), seed, 1) for place, seed in enumerate((7, 7, 8)))
-    assert list(first) == ["free", "sine", "rest"]
-    assert first == again
-    starts = [each["recorder_starts"]["daq2"] for found in (first, other) for each in found.values()]
-    assert len(set(starts)) == 6
-
-
 def test_the_truth_holds_specimens_errors_and_tests_and_reads_back(plan, tmp_path):
     records = {"rest": run(plan, 2, tmp_path)}
     truth = with_its_truth(tmp_path, truth_of(plan, records, 11)).truth
@@ -225,12 +217,6 @@ def test_the_second_recorder_starts_twenty_milliseconds_late_and_never_twice_ali
     starts = [each["daq2"] for each in tests if "daq2" in each]
     np.testing.assert_allclose(starts, 0.020, atol=1e-3)
     assert len(set(starts)) == len(starts)
-
-
-def test_every_earthquake_record_has_three_spikes_and_no_other_record_any(prism):
-    for test in prism.truth["tests"].values():
-        spikes = sum(len(channel["spikes"]) for channel in test["channels"].values())
-        assert spikes == (3 if test["kind"] == "earthquake" else 0)
 
 
 def test_the_transducer_at_the_top_follows_the_true_angle(prism):

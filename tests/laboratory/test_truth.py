@@ -29,26 +29,6 @@ def running(angle, velocity, *, block=PRISM, restitution=0.9, catch=pi / 2, time
     return run
 
 
-# Held to the right and to the left, pushed to the right and to the left, upright.
-@every(
-    ("angle", "velocity", "side", "resting"),
-    [(0.1, 0.0, 1, False), (-0.1, 2.0, -1, False), (0.0, 0.3, 1, False), (0.0, -0.3, -1, False), (0.0, 0.0, 1, True)],
-)
-def test_a_released_block_turns_about_the_edge_of_its_side(angle, velocity, side, resting):
-    run = running(angle, velocity, block=UNEVEN)
-    assert (run.side, run.resting) == (side, resting)
-    assert run.geometry.critical_angle == {-1: 0.15, 1: 0.2}[side]
-    assert run.p == UNEVEN.side_p(UNEVEN.positive if side > 0 else UNEVEN.negative)
-
-
-def test_time_passes_for_a_held_block_with_its_angle():
-    run = Integration(PRISM, np.array([0.0, 0.5, 1.0, 1.5]), 0.9, pi / 2, 0.1)
-    run.angle = 0.05
-    run.move_to(1.0)
-    assert run.angles.tolist() == [0.05, 0.05, 0.05, 0.1]
-    assert (run.filled, run.now) == (3, 1.0)
-
-
 @pytest.mark.parametrize(("push", "side"), [(1.0, -1), (-1.0, 1)], ids=["towards +x", "towards -x"])
 def test_each_side_lifts_at_g_tan_of_its_own_critical_angle(push, side):
     critical = {-1: 0.15, 1: 0.2}[side]
@@ -111,37 +91,6 @@ def test_an_arc_shorter_than_a_look_has_its_impact():
     assert run.resting
 
 
-@pytest.mark.parametrize(("factor", "rests"), [(0.999, True), (1.001, False)], ids=["below the rule", "above it"])
-def test_a_block_rests_where_the_next_arc_would_be_too_low(factor, rests):
-    rebound = factor * P * (2 * REST_ANGLE * ALPHA * sin(ALPHA)) ** 0.5
-    run = running(0.0, rebound / 0.5, restitution=0.5)
-    duration = 2 * run.velocity / (P**2 * sin(ALPHA))
-    run.go(0.0, 1.01 * duration, still)
-    assert len(run.impact_times) == 1
-    assert run.resting is rests
-
-
-def test_an_impact_without_restitution_ends_the_motion():
-    run = running(0.5 * ALPHA, 0.0, restitution=0.0, time=np.linspace(0.0, 3.0, 31))
-    run.go(0.0, 3.0, still)
-    assert len(run.impact_times) == 1
-    assert run.resting
-    assert not run.angles[run.time > run.impact_times[0]].any()
-
-
-@pytest.mark.parametrize("side", [-1.0, 1.0])
-def test_the_frame_holds_what_falls_into_it_to_the_end(side):
-    time = np.linspace(0.0, 5.0, 501)
-    run = running(side * 1.01 * ALPHA, 0.0, catch=1.5 * ALPHA, time=time)
-    run.go(0.0, 5.0, still)
-    assert run.caught
-    assert run.angle == run.angles[-1] == side * 1.5 * ALPHA
-    assert np.abs(run.angles).max() == 1.5 * ALPHA
-    assert np.all(np.diff(np.abs(run.angles)) >= 0)
-    assert run.passed == 0.0  # it was past α when it was released
-    assert (run.filled, run.now) == (501, 5.0)
-
-
 def test_the_last_outward_pass_of_the_critical_angle_is_kept_and_a_return_forgets_it():
     outward = running(0.9 * ALPHA, 0.5)
     outward.go(0.0, 0.3, still)
@@ -170,10 +119,6 @@ def test_what_would_become_of_a_block_is_what_becomes_of_it(way, factor):
     assert stands is (factor < 1)
     run.go(0.0, 5.0, still)
     assert isnan(run.passed) is stands
-
-
-def test_a_resting_block_stands():
-    assert running(0.0, 0.0).stands_when_left_alone()
 
 
 SLENDER = Block.measured(mass=1.0, pole_distance=1.0, critical_angle=1e-4, inertia=1.3)

@@ -188,9 +188,9 @@ def _answer(
             "annual_rate_isotonic": rate.isotonic,
             "rate_outside": rate.below_hazard + rate.above_hazard,
         }
-    compared = () if found.measures is None else found.measures.scores
+    measures = _measures(found)
     # Nobody asked for measures that are compared by default.
-    missing = [name for name in study.values if name not in {each.name for each in compared}]
+    missing = [name for name in study.values if name not in {each.measure for each in measures}]
     left_out = _left_out(plan)
     return AssessmentSummary(
         status="done",
@@ -223,18 +223,7 @@ def _answer(
         sliding=sliding,
         **of_rate,
         variants=tuple(_variants(plan, fragilities)),
-        measures=tuple(
-            JudgedMeasure(
-                measure=each.name,
-                deviance=each.deviance,
-                auc=each.auc,
-                scatter=each.scatter,
-                best=each.best,
-                magnitude=each.on_magnitude,
-                distance=each.on_log_distance,
-            )
-            for each in compared
-        ),
+        measures=measures,
         criteria=_judged_criteria(study, outcomes, drift=asked.drift, overturned=asked.overturned),
         deciding=_deciding(found),
         records_used=_used(plan),
@@ -243,6 +232,21 @@ def _answer(
             *plan.records.notes,
             *(f"Not compared, as not all records have it: {measure_of(name).name}." for name in missing),
         ),
+    )
+
+
+def _measures(found: Fragility) -> tuple[JudgedMeasure, ...]:
+    return tuple(
+        JudgedMeasure(
+            measure=each.name,
+            deviance=each.deviance,
+            auc=each.auc,
+            scatter=each.scatter,
+            best=each.best,
+            magnitude=each.on_magnitude,
+            distance=each.on_log_distance,
+        )
+        for each in (() if found.measures is None else found.measures.scores)
     )
 
 
