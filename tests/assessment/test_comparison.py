@@ -21,7 +21,7 @@ def measures(outcomes):
 
 
 def test_the_measure_that_decides_comes_first_by_every_criterion(outcomes, measures):
-    scores = compare_measures(outcomes, measures, Resampling(200)).scores
+    scores = compare_measures(outcomes, measures, Resampling(200))
     assert [each.name for each in scores] == ["pgv", "noisy", "unrelated"]
     best = scores[0]
     assert best.best > 0.8
@@ -32,19 +32,19 @@ def test_the_measure_that_decides_comes_first_by_every_criterion(outcomes, measu
 
 def test_two_measures_that_say_the_same_share_the_first_place(outcomes, measures):
     twins = {"one": measures["pgv"], "other": measures["pgv"] ** 2}
-    shares = [each.best for each in compare_measures(outcomes, twins, Resampling(50)).scores]
+    shares = [each.best for each in compare_measures(outcomes, twins, Resampling(50))]
     assert shares == pytest.approx([0.5, 0.5], abs=0.2)
 
 
 def test_the_auc_is_the_share_of_pairs_in_their_order(outcomes, measures):
-    found = compare_measures(outcomes, {"noisy": measures["noisy"]}, Resampling(2)).scores[0].auc
+    found = compare_measures(outcomes, {"noisy": measures["noisy"]}, Resampling(2))[0].auc
     x = np.broadcast_to(measures["noisy"][:, :, None, None], outcomes.peak.shape)
     fell, stood = x[outcomes.overturned], x[~outcomes.overturned]
     assert found == pytest.approx(np.mean((fell[:, None] > stood) + 0.5 * (fell[:, None] == stood)))
 
 
 def test_the_scatter_is_that_of_a_straight_line(outcomes, measures):
-    found = compare_measures(outcomes, {"noisy": measures["noisy"]}, Resampling(2)).scores[0].scatter
+    found = compare_measures(outcomes, {"noisy": measures["noisy"]}, Resampling(2))[0].scatter
     stood = ~outcomes.overturned
     x = np.log(np.broadcast_to(measures["noisy"][:, :, None, None], outcomes.peak.shape)[stood])
     y = np.log(outcomes.peak[stood])
@@ -57,6 +57,6 @@ def test_a_measure_that_leaves_magnitude_to_explain_is_not_sufficient(outcomes, 
     without = measures["pgv"] * np.exp(-0.8 * (magnitude - 6))[:, None]
     both = {"pgv": measures["pgv"], "without": without}
     scores = compare_measures(outcomes, both, Resampling(2), magnitude=magnitude)
-    by_name = {each.name: each for each in scores.scores}
+    by_name = {each.name: each for each in scores}
     assert by_name["without"].on_magnitude < 0.02 < by_name["pgv"].on_magnitude
     assert by_name["pgv"].on_log_distance is None

@@ -154,7 +154,7 @@ def test_limits_rise_and_hold_the_curve():
 
 def test_the_intensity_of_a_probability_is_between_its_stripes():
     band = Band(*(np.array(each) for each in ([0.0, 0.2, 0.6], [0.0, 0.1, 0.4], [0.1, 0.5, 0.9])))
-    curve = IsotonicCurve(np.array([1.0, 2.0, 4.0]), band, 0.95)
+    curve = IsotonicCurve(np.array([1.0, 2.0, 4.0]), band)
     assert curve.reaches(0.4) == pytest.approx((2 * 2**0.5, 2**0.75, 4.0))
     assert curve.reaches(0.05) == pytest.approx((2**0.25, 0.0, 2**0.5))
     assert curve.reaches(0.95) == (np.inf, np.inf, np.inf)

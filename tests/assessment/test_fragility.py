@@ -18,7 +18,7 @@ def test_everything_is_of_the_same_outcomes():
     found = summarise(
         outcomes,
         Resampling(100),
-        threshold=(1.8, 1.9),
+        uplift_varies=False,
         hazard=hazard_curve([0.05, 2.0], [1e-1, 1e-5]),
         measures={"pgv": outcomes.intensity},
         magnitude=np.linspace(5, 7, 30),
@@ -27,7 +27,7 @@ def test_everything_is_of_the_same_outcomes():
     total = np.hypot(*found.betas)
     assert total == pytest.approx(found.lognormal.beta.value)
     assert found.rate.rate.low < found.influence.rate.mean() < found.rate.rate.high
-    assert (found.uplift.threshold, found.resurrected, found.measures.scores[0].name) == ((1.8, 1.9), 0.0, "pgv")
+    assert (found.uplift, found.resurrected, found.measures[0].name) == (None, 0.0, "pgv")
     assert found.misfit > 0.05
 
 
@@ -35,13 +35,12 @@ def test_without_a_threshold_the_start_of_rocking_is_a_curve_of_the_histories_th
     peak = np.where(np.random.default_rng(1).normal(2.0, 0.5, (40, 1)) < np.linspace(1, 3, 8), 0.3, 0.0)
     records = [str(number) for number in range(40)]
     found = summarise(gather(records, np.tile(np.linspace(1, 3, 8), (40, 1)), peak), Resampling(100)).uplift
-    assert found.threshold is None
-    assert found.curve.median.low < 2.0 < found.curve.median.high
+    assert found.median.low < 2.0 < found.median.high
 
 
 def test_without_a_curve_the_isotonic_one_and_the_reason_remain():
     found = summarise(outcomes_of(np.full((4, 3), MEDIAN)), Resampling(20), hazard=hazard_curve([0.1, 1.0], [1.0, 0.1]))
-    assert (found.lognormal.reason, found.rate, found.measures) == ("separated", None, None)
+    assert (found.lognormal.reason, found.rate, found.measures) == ("separated", None, ())
     assert found.isotonic.probability.value.tolist() == [0.0] * 5 + [1.0] * 5
     assert found.taken == "isotonic"
     assert found.reaches(0.5) == found.isotonic.reaches(0.5)

@@ -46,13 +46,6 @@ class MeasureScore:
     on_log_distance: float | None
 
 
-@dataclass(frozen=True)
-class Comparison:
-    """Measures, the best by deviance first."""
-
-    scores: tuple[MeasureScore, ...]
-
-
 def compare_measures(
     outcomes: Outcomes,
     measures: Mapping[str, ArrayLike],
@@ -60,19 +53,21 @@ def compare_measures(
     *,
     magnitude: ArrayLike | None = None,
     distance: ArrayLike | None = None,
-) -> Comparison:
+) -> tuple[MeasureScore, ...]:
     """
-    Compare measures on the same histories.
+    Compare measures on the same histories, the best by deviance first.
 
     Parameters
     ----------
     outcomes : Outcomes
     measures : mapping of str to array_like, shape (r, l) or (r, l, c)
-        Positive values of each measure for the scaled records: at least one, which all records have.
+        Positive values of each measure for the scaled records: such that all records have.
     resampling : Resampling
     magnitude, distance : array_like, shape (r,), optional
         Of the records; distances positive. NaN if not known.
     """
+    if not measures:
+        return ()
     arrays = {name: with_axes(values, 3) for name, values in measures.items()}
     weights, was_run = resampling.weights(len(outcomes.records)), outcomes.was_run
     deviances = np.array([_deviances(outcomes, each, weights) for each in arrays.values()])
@@ -92,7 +87,7 @@ def compare_measures(
         if fell.any() and not fell.all():
             auc = float(scipy.stats.mannwhitneyu(x[fell], x[~fell]).statistic) / (fell.sum() * (~fell).sum())
         scores.append(MeasureScore(name, float(deviances[place, 0]), float(best[place]), auc, scatter, *p_values))
-    return Comparison(tuple(sorted(scores, key=lambda score: score.deviance)))
+    return tuple(sorted(scores, key=lambda score: score.deviance))
 
 
 def _deviances(outcomes: Outcomes, intensity: Array, weights: Array) -> Array:

@@ -250,13 +250,10 @@ class IsotonicCurve:
         Rising.
     probability : Band
         Shape (k,) each.
-    level : float
-        Of the intervals.
     """
 
     intensity: Array
     probability: Band
-    level: float
 
     def reaches(self, probability: float) -> Interval:
         """
@@ -306,7 +303,7 @@ def fit_isotonic(outcomes: Outcomes, resampling: Resampling) -> IsotonicCurve:
     low, high = _limits(value, variance, of_records, resampling.level)
     # A curve that only rises has limits that only rise.
     band = Band(value, np.maximum.accumulate(low), np.minimum.accumulate(high[::-1])[::-1])
-    return IsotonicCurve(np.exp(stripes.log_intensity), band, resampling.level)
+    return IsotonicCurve(np.exp(stripes.log_intensity), band)
 
 
 def _pooled(events: Array, histories: Array) -> Array:

@@ -11,7 +11,7 @@ import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
-from colonnade.assessment.comparison import Comparison, compare_measures
+from colonnade.assessment.comparison import MeasureScore, compare_measures
 from colonnade.assessment.curves import (
     IsotonicCurve,
     LognormalFit,
@@ -31,22 +31,6 @@ MISFITS = 0.05
 """p-value of the misfit below which the lognormal curve is not taken."""
 
 
-@dataclass(frozen=True)
-class Uplift:
-    """
-    When the block starts to rock: one of the two is None.
-
-    Attributes
-    ----------
-    threshold : tuple of float or None
-        Lowest and highest intensity, over the draws, at which it starts. They differ only as the draws of α do.
-    curve : LognormalFit or None
-    """
-
-    threshold: tuple[float, float] | None
-    curve: LognormalFit | None
-
-
 @dataclass(frozen=True, repr=False)
 class Fragility(Digested):
     """
@@ -60,13 +44,14 @@ class Fragility(Digested):
     isotonic : IsotonicCurve
     misfit : float
         Of the lognormal curve: probability of one as large if the curve were right; NaN without a curve.
-    uplift : Uplift
+    uplift : LognormalFit or None
+        Of the start of rocking; None if the peak acceleration alone decides it.
     resurrected : float
         Share of all histories that survive although the same record and draw overturned at a lower level.
     betas : Betas
     influence : Influence
-    measures : Comparison or None
-        If there are measures to compare.
+    measures : tuple of MeasureScore
+        Measures that were compared, the best by deviance first.
     rate : AnnualRate or None
         If there are a hazard and a lognormal curve.
     measure : str
@@ -92,11 +77,11 @@ class Fragility(Digested):
     lognormal: LognormalFit
     isotonic: IsotonicCurve
     misfit: float
-    uplift: Uplift
+    uplift: LognormalFit | None
     resurrected: float
     betas: Betas
     influence: Influence
-    measures: Comparison | None
+    measures: tuple[MeasureScore, ...]
     rate: AnnualRate | None
     measure: str = ""
 
@@ -158,7 +143,7 @@ def summarise(
     outcomes: Outcomes,
     resampling: Resampling,
     *,
-    threshold: tuple[float, float] | None = None,
+    uplift_varies: bool = True,
     hazard: Hazard | None = None,
     measures: Mapping[str, ArrayLike] | None = None,
     magnitude: ArrayLike | None = None,
@@ -174,9 +159,9 @@ def summarise(
         Made by `gather`.
     resampling : Resampling
         Of all intervals.
-    threshold : tuple of float, optional
-        Smallest and largest g tan α of the draws, if the intensity is the peak acceleration and no motion is vertical:
-        the block then rocks exactly if it exceeds g tan α, and no probability is fitted.
+    uplift_varies : bool, optional
+        Whether the start of rocking has a probability. It has none if the intensity is the peak acceleration and no
+        motion is vertical: the block then rocks exactly if it exceeds g tan α.
     hazard : Hazard, optional
         Of the measure of the outcomes; made by `hazard_curve`.
     measures, magnitude, distance : optional
@@ -194,19 +179,16 @@ def summarise(
         If an argument is out of its range.
     """
     lognormal, isotonic = fit_lognormal(outcomes, resampling), fit_isotonic(outcomes, resampling)
-    compared = None
-    if measures:
-        compared = compare_measures(outcomes, measures, resampling, magnitude=magnitude, distance=distance)
     return Fragility(
         outcomes,
         lognormal,
         isotonic,
         lognormal_misfit(outcomes, resampling),
-        Uplift(threshold, None if threshold else fit_lognormal(outcomes, resampling, event=outcomes.peak > 0)),
+        fit_lognormal(outcomes, resampling, event=outcomes.peak > 0) if uplift_varies else None,
         resurrected(outcomes),
         split_beta(outcomes, lognormal),
         influence(outcomes, hazard),
-        compared,
+        compare_measures(outcomes, measures or {}, resampling, magnitude=magnitude, distance=distance),
         annual_rate(hazard, lognormal, isotonic) if hazard is not None and not lognormal.reason else None,
         measure,
     )

@@ -238,7 +238,7 @@ def judge(
     return summarise(
         gathered,
         resampling,
-        threshold=_threshold(study),
+        uplift_varies=study.measure.id != "pga" or any(motion.vertical is not None for motion in study.cases.motions),
         hazard=hazard,
         measures=_scaled(study, signs),
         magnitude=magnitude,
@@ -273,14 +273,6 @@ def _corrected(motion: Motion, baseline: str) -> Motion:
     correct = correction_of(baseline)
     others = (None if part is None else correct(part, motion.dt) for part in (motion.vertical, motion.transverse))
     return Motion(correct(motion.acceleration, motion.dt), motion.dt, *others)
-
-
-def _threshold(study: Study) -> tuple[float, float] | None:
-    """Peak accelerations at which the drawn columns uplift, where these alone decide it."""
-    if study.measure.id != "pga" or any(motion.vertical is not None for motion in study.cases.motions):
-        return None
-    uplifting = study.cases.column.block.gravity * np.tan(study.cases.drawn("critical_angle"))
-    return float(uplifting.min()), float(uplifting.max())
 
 
 def _scaled(study: Study, signs: int) -> dict[str, Array]:

@@ -177,7 +177,7 @@ def _answer(
 ) -> AssessmentSummary:
     """Gather the answer: outcomes of the study as assumed, fragility of each, share that would slide."""
     study, found, column = plan.studies[ASSUMED], fragilities[ASSUMED], plan.studies[ASSUMED].cases.column
-    uplift, rate, asked = found.uplift.curve, found.rate, plan.inputs.asked
+    uplift, rate, asked = found.uplift, found.rate, plan.inputs.asked
     one = plan.inputs.several is None
     low, high = column.restitution_range or (None, None)
     of_rate: dict[str, Any] = {}
@@ -246,7 +246,7 @@ def _measures(found: Fragility) -> tuple[JudgedMeasure, ...]:
             magnitude=each.on_magnitude,
             distance=each.on_log_distance,
         )
-        for each in (() if found.measures is None else found.measures.scores)
+        for each in found.measures
     )
 
 
