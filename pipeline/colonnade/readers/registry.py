@@ -102,15 +102,12 @@ def companions(path: Path, format: str | None = None) -> tuple[Path, ...]:
     Raises
     ------
     ReadError
-        If the file cannot be opened.
+        If the file cannot be opened, or its format is not known.
     """
     if irregular(path):
         return ()
-    several = [each for each in formats().values() if each.companions is not None and format in (None, each.name)]
-    if several and format is None:
-        head = head_of(path)
-        several = [each for each in several if _recognition(each, head).yes]
-    return several[0].companions(path) if several and several[0].companions is not None else ()
+    chosen = _recognised(path)[0] if format is None else _named(format)
+    return () if chosen.companions is None else chosen.companions(path)
 
 
 def read_here(

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from colonnade.errors import ReadError
-from colonnade.readers.clock import even_times, moment_after, on_one_zero
+from colonnade.readers.clock import even_times, moment_after, moment_of, on_one_zero
 from colonnade.readers.format import Format, Options
 from colonnade.readers.head import by_first_line
 from colonnade.readers.recording import RecordedChannel, Recording
@@ -34,9 +34,7 @@ DATA = re.compile(
 )
 STEP = 61
 """Place, from 0, of the time step in ms among the real header values (COSMOS 1.20, Table 9, value 62)."""
-START = re.compile(
-    r"start time\s*:\s*(\d{1,4})/(\d{1,4})/(\d{1,4}),?\s+(\d{1,2}):(\d{1,2}):([\d.]+)\s*(\w*)", re.IGNORECASE
-)
+START = re.compile(r"start time\s*:\s*([\d/]+),?\s+([\d:]+)(\.\d*)?\s*(\w*)", re.IGNORECASE)
 COMPONENT = re.compile(r"^Sta\s+Cha\w*[\s:]*(?P<name>.*?)\s*(?:\(Rcrdr|Location|$)", re.IGNORECASE)
 
 
@@ -122,13 +120,10 @@ def _start(texts: list[str]) -> datetime | None:
     found = next((match for text in texts if (match := START.search(text))), None)
     if found is None:
         return None
-    first, second, third, hour, minute = (int(group) for group in found.groups()[:5])
-    year, month, day = (first, second, third) if first > 31 else (third, first, second)
-    try:
-        whole = datetime(year, month, day, hour, minute, tzinfo=UTC if found[7].upper() in ("UTC", "GMT") else None)
-        return moment_after(whole, float(found[6]))
-    except ValueError:
-        return None
+    whole = moment_of(f"{found[1]} {found[2]}", ("%m/%d/%Y %H:%M:%S", "%Y/%m/%d %H:%M:%S"))
+    if whole is not None and found[4].upper() in ("UTC", "GMT"):
+        whole = whole.replace(tzinfo=UTC)
+    return moment_after(whole, float(f"0{found[3] or ''}"))
 
 
 FORMAT = Format(
