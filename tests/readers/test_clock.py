@@ -165,10 +165,6 @@ def test_steps_that_contradict_each_other_are_not_used():
     assert recording.notes == ("no clock: the step is not clear (dt says 0.1 s, fs says 0.005 s); give sampling_rate",)
 
 
-def test_a_vector_that_rises_evenly_by_another_name_is_hinted_at():
-    assert 'set time = "x" if that is one' in clocked(vectors(top=SIGNAL, x=RISING)).notes[0]
-
-
 def test_channels_with_starts_of_their_own_count_from_the_earliest():
     begin = datetime(2013, 4, 26, 10, 15)
     shared = np.arange(3) / 10

@@ -100,14 +100,6 @@ def test_a_table_of_hdf5_gives_its_columns_and_a_rate_among_the_attributes_the_c
     assert "table/remark is left out: it holds no numbers" in recording.notes
 
 
-def test_the_clock_that_was_given_is_taken(tmp_path):
-    with h5py.File(tmp_path / "a.h5", "w") as file:
-        file["n"], file["top"] = TIME * 1e3, TOP
-    np.testing.assert_allclose(
-        read(tmp_path / "a.h5", options={"time": "n", "time_unit": "ms"}).channel("top").time, TIME, atol=1e-12
-    )
-
-
 def test_what_is_not_read_is_left_out_with_its_reason(tmp_path):
     path = tmp_path / "a.h5"
     with h5py.File(path, "w") as file:

@@ -90,14 +90,6 @@ def test_timestamps_are_a_clock_and_give_the_start(path):
     assert recording.start == datetime(2013, 4, 26, 10, 15, 0, 250000, tzinfo=UTC)
 
 
-def test_the_clock_that_was_given_is_taken(path):
-    written(path, [ChannelObject("g", "counter", np.arange(20.0) * 5), sampled("a", np.zeros(20))])
-    recording = read(path, options={"time": "counter", "time_unit": "ms"})
-    np.testing.assert_allclose(recording.channel("a").time, np.arange(20) * 0.005, atol=1e-12)
-    with pytest.raises(ReadError, match="no column is called"):
-        read(path, options={"time": "clock"})
-
-
 def test_channels_that_start_later_keep_their_own_clock(path):
     late = START + np.timedelta64(250, "ms")
     recording = read(written(path, [sampled("a", [0.0] * 3), sampled("b", [0.0] * 3, offset=1.0, wf_start_time=late)]))
@@ -117,11 +109,6 @@ def test_a_start_that_is_not_known_is_none(path, start):
 @every("step", [0.0, -1.0, np.nan, "fast"])
 def test_a_step_that_is_none_gives_no_clock(path, step):
     assert read(written(path, [ChannelObject("g", "a", np.zeros(3), {"wf_increment": step})])).channels[0].time is None
-
-
-def test_a_channel_of_times_is_not_that_of_another_group(path):
-    columns = [ChannelObject("g", "Time", np.arange(5) / 100), ChannelObject("other", "far", np.zeros(5))]
-    assert read(written(path, columns)).channel("far").time is None
 
 
 def test_a_step_of_one_second_that_nobody_gave_yields_to_a_channel_of_times(path):

@@ -87,14 +87,6 @@ def test_a_last_number_with_lost_decimals_is_missing(tmp_path):
     assert whole.warnings == ()
 
 
-def test_columns_that_end_earlier_keep_their_values(tmp_path):
-    text = "Time 1;a;Time 2;b\n" + "".join(f"{row};{row};{2 * row};7\n" for row in range(20))
-    recording = recorded(tmp_path, text + "".join(f"{row};{row}\n" for row in range(20, 30)))
-    assert values(recording, "a") == list(range(30))
-    assert np.isfinite(recording.channel("b").values).sum() == 20
-    assert any("the last columns are shorter" in note for note in recording.notes)
-
-
 def test_a_sample_behind_a_comment_sign_is_missing_and_keeps_its_place(tmp_path):
     recording = recorded(tmp_path, "t;a\n0;1\n1;2\n#2;3\n3;4\n4;5\n")
     assert np.isnan(values(recording, "a")).tolist() == [False, False, True, False, False]
@@ -139,29 +131,18 @@ def test_an_option_that_cannot_be_is_told(tmp_path, options, message):
         recorded(tmp_path, "a;b;c\n" + ROWS, **options)
 
 
-def test_lines_for_names_and_units_can_be_given(tmp_path):
-    text = "mm;kN;V\nfirst;second;third\nraw;raw;raw\n" + ROWS
-    recording = recorded(tmp_path, text, names_row=2, units_row=1)
-    assert [(channel.name, channel.unit) for channel in recording.channels] == [
-        ("first", "mm"),
-        ("second", "kN"),
-        ("third", "V"),
-    ]
-
-
-def test_names_that_are_numbers_have_to_be_given(tmp_path):
-    recording = recorded(tmp_path, "11;12;13\n" + ROWS, names_row=1)
-    assert [channel.name for channel in recording.channels] == ["11", "12", "13"]
-    assert len(values(recording, "11")) == 9
-
-
-def test_a_row_of_text_that_is_no_heading_can_be_declared_so(tmp_path):
-    recording = recorded(tmp_path, "a;b;c\n" + ROWS, names_row=0, units_row=0)
-    assert [channel.name for channel in recording.channels] == ["column 1", "column 2", "column 3"]
-
-
-def test_lines_at_the_top_can_be_skipped(tmp_path):
-    recording = recorded(tmp_path, "1;2;3\n4;5;6\n" + ROWS, skip_rows=2)
+@every(
+    ("above", "options", "heads"),
+    [
+        ("mm;kN;V\na;b;c\nraw;raw;raw\n", {"names_row": 2, "units_row": 1}, [("a", "mm"), ("b", "kN"), ("c", "V")]),
+        ("11;12;13\n", {"names_row": 1}, [("11", None), ("12", None), ("13", None)]),
+        ("a;b;c\n", {"names_row": 0, "units_row": 0}, [(f"column {number}", None) for number in (1, 2, 3)]),
+        ("1;2;3\n4;5;6\n", {"skip_rows": 2}, [(f"column {number}", None) for number in (1, 2, 3)]),
+    ],
+)
+def test_lines_of_names_and_units_and_those_to_skip_can_be_given(tmp_path, above, options, heads):
+    recording = recorded(tmp_path, above + ROWS, **options)
+    assert [(channel.name, channel.unit) for channel in recording.channels] == heads
     assert values(recording, 1) == list(range(1, 10))
 
 
@@ -247,22 +228,6 @@ def test_a_decimal_sign_that_is_given_is_no_mark_between_thousands(tmp_path):
     assert max(values(recorded(tmp_path, text, decimal="."), "top")) == 999
 
 
-def test_a_shake_table_recording_with_names_and_units_rows(shared_data):
-    recording = read(shared_data / "shaketable" / "thadhaines_01.csv")
-    assert recording.warnings == ()
-    table = recording.channel("Table accel XXXX")
-    assert recording.channel("LED Light").unit is None
-    assert table.time[[0, -1]].tolist() == [0.0, 8.999]  # 1000 Hz, 9 s
-    assert np.allclose(np.diff(table.time), 1e-3, atol=1e-9)
-    assert np.ptp(table.values) / 2 == pytest.approx(0.35, abs=0.03)  # table ±0.35 g, with noise
-    drive = recording.channel("Output To Table")
-    assert drive.unit == "Volts"
-    assert np.abs(drive.values).max() == pytest.approx(1.0, abs=0.05)  # 2 Hz sine ±1 V
-    light = recording.channel("LED Light").values < 2
-    assert table.time[light][[0, -1]] == pytest.approx([3.731, 6.189], abs=0.002)
-    assert recording.channel("Block accel 26430").values.std() == pytest.approx(0.006, abs=0.001)
-
-
 @every(
     ("heading", "factor"),
     [
@@ -282,12 +247,6 @@ def test_a_clock_is_known_by_its_name_and_unit(tmp_path, heading, factor):
 @every("heading", ["T [°C]", "Temperature", "X", "Time constant", "T [V]"])
 def test_a_rising_column_of_another_name_or_unit_is_no_clock(tmp_path, heading):
     assert recorded(tmp_path, f"{heading};a\n0;1\n5;2\n10;0\n").channel("a").time is None
-
-
-def test_a_clock_that_does_not_rise_is_refused_with_a_warning(tmp_path):
-    recording = recorded(tmp_path, "Time;a\n5;1\n1;2\n4;0\n2;1\n")
-    assert recording.channel("a").time is None
-    assert "only 33\u00a0% of its steps go forward" in recording.warnings[0]
 
 
 def test_the_clock_can_be_given(tmp_path):

@@ -71,14 +71,6 @@ def test_columns_are_channels_where_the_header_counts_rows_or_names_stand_above(
     np.testing.assert_allclose(recording.channel(2).values, components()[:, 1], atol=5e-5)
 
 
-def test_three_components_with_names_are_not_interleaved(tmp_path):
-    head = "3F10.4 units are g, dt = 0.01 sec\n        NS        EW        UD\n"
-    path = written(tmp_path, components(), head=head, form="%10.4f")
-    with pytest.raises(ReadError, match='3 columns may be the acceleration: "NS", "EW", "UD"'):
-        read_motion(path, unit="g", dt=0.01)
-    assert read_motion(path, unit="g", dt=0.01, column="EW").acceleration.size == 400
-
-
 def test_three_components_after_the_time_are_not_interleaved(tmp_path):
     table = np.column_stack([0.01 * np.arange(400), components()])
     path = written(tmp_path, table, head="4F10.3, units are g\n", form="%10.3f")
