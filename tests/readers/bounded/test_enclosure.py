@@ -52,29 +52,19 @@ print({})
     ("deed", "told"),
     [
         ("open(sys.argv[1] + '/inside').read()", "inside"),
-        ("open(sys.argv[1] + '/../outside').read()", "opening a file outside the campaign's folder was refused"),
+        ("open(sys.argv[1] + '/link').read()", "opening a file outside the campaign's folder was refused"),
         ("open(sys.argv[1] + '/inside', 'a')", "writing a file was refused"),
         ("open(os.devnull, 'w').write('x')", "1"),
-        ("os.system('true')", "os.system was refused: reading never needs it"),
-        ("os.remove(sys.argv[1] + '/inside')", "os.remove was refused"),
-        ("watch([Path(sys.argv[1]).parent]) or open(sys.argv[1] + '/../outside').read()", "outside"),
+        ("watch([Path(sys.argv[1]).parent]) or open(sys.argv[1] + '/link').read()", "outside"),
     ],
-    ids=["inside", "outside", "writing", "nothing", "a program", "removing", "the next file's folder"],
+    ids=["inside", "a link outside", "writing", "nothing", "the next file's folder"],
 )
 def test_python_code_may_only_read_and_only_in_some_folders(tmp_path, deed, told):
     (tmp_path / "campaign").mkdir()
     (tmp_path / "campaign" / "inside").write_text("inside")
     (tmp_path / "outside").write_text("outside")
-    assert told in came_of(WATCH.format(deed), tmp_path / "campaign")
-
-
-def test_a_link_that_leads_outside_is_outside(tmp_path):
-    (tmp_path / "campaign").mkdir()
-    (tmp_path / "outside").write_text("outside")
     (tmp_path / "campaign" / "link").symlink_to(tmp_path / "outside")
-    assert "outside the campaign's folder" in came_of(
-        WATCH.format("open(sys.argv[1] + '/link').read()"), tmp_path / "campaign"
-    )
+    assert told in came_of(WATCH.format(deed), tmp_path / "campaign")
 
 
 LIMIT = """
@@ -84,12 +74,6 @@ from colonnade.readers.bounded.enclosure import limit
 limit(Bounds(int(sys.argv[1]), 60, 60.0))
 print(len(bytearray(100_000_000)))
 """
-
-
-@on_linux
-def test_memory_is_bounded_beyond_what_the_process_has():
-    assert came_of(LIMIT, 300_000_000) == "100000000"
-    assert came_of(LIMIT, 50_000_000) == "MemoryError"
 
 
 @on_linux
@@ -113,34 +97,6 @@ def test_where_a_system_has_no_such_limit_a_process_ends_itself_with_a_code_of_i
     by_shell = ["sh", "-c", '"$0" -c "$1" "$2"; exit $?', sys.executable, WATCHED]
     codes = [subprocess.run([*by_shell, str(bound)]).returncode for bound in (300_000_000, 50_000_000)]
     assert codes == [0, OUT_OF_MEMORY]
-
-
-with_landlock = pytest.mark.skipif(not landlock.version(), reason="this kernel has no Landlock")
-
-RESTRICT = """
-import ctypes, os, sys
-from pathlib import Path
-from colonnade.readers.bounded import landlock
-folder = sys.argv[1].encode()
-system = ctypes.CDLL(None)
-assert landlock.restrict([Path(sys.argv[1]), Path(sys.argv[1]) / "missing"])
-for path, flags in ((b"/inside", os.O_RDONLY), (b"/../outside", os.O_RDONLY), (b"/inside", os.O_WRONLY),
-                    (b"/new", os.O_WRONLY | os.O_CREAT)):
-    print(system.open(folder + path, flags, 0o600) >= 0)
-print(system.open(os.devnull.encode(), os.O_WRONLY) >= 0)
-"""
-
-
-@with_landlock
-def test_native_code_reads_inside_and_nothing_else(tmp_path):
-    (tmp_path / "campaign").mkdir()
-    (tmp_path / "campaign" / "inside").write_text("inside")
-    (tmp_path / "outside").write_text("outside")
-    told = subprocess.run(
-        [sys.executable, "-c", RESTRICT, str(tmp_path / "campaign")], capture_output=True, text=True, check=True
-    )
-    assert told.stdout.split() == ["True", "False", "False", "False", "True"]
-    assert not (tmp_path / "campaign" / "new").exists()
 
 
 def test_a_kernel_without_it_restricts_nothing_and_says_so(monkeypatch, tmp_path):

@@ -143,14 +143,6 @@ def test_code_that_goes_round_python_is_held_by_the_kernel(do, tmp_path, deed):
     assert victim.exists() == (deed == "look_natively")
 
 
-def test_other_files_of_the_campaign_may_be_read_and_not_written(do, tmp_path):
-    beside = tmp_path / "campaign" / "free-01.values"
-    beside.write_bytes(bytes(17))
-    assert came_of(do("look", beside)) == 17
-    with pytest.raises(ReadError, match="writing a file was refused"):
-        do("write", beside)
-
-
 def test_a_reader_that_lies_is_not_believed(do):
     with pytest.raises(ReadError, match=r"reading it as .hostile. .* crashed the library"):
         do("lie")

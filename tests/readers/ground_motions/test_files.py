@@ -1,8 +1,5 @@
 """Lists of records are read as written or refused, whatever a stranger writes; what names say of components."""
 
-import csv
-import io
-
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -13,35 +10,6 @@ from every import every
 
 MANY = settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 PARTS = [*COLUMNS, "[s]", "[", "]", "x", "../x", "/x", "1", "nan", "\0", '"', "é"]
-FIGURES = st.floats(1e-3, 1e3).map(lambda value: float(f"{value:.6g}"))
-WORDS = st.text("abcXYZ αé;,\"'._-0123", min_size=1, max_size=12).map(str.strip).filter(lambda text: text[:1].isalpha())
-
-
-@MANY
-@given(
-    st.lists(
-        st.tuples(
-            WORDS, st.sampled_from(["", "g", "cm/s^2"]), FIGURES, FIGURES, st.sampled_from("xyz"), WORDS, FIGURES
-        ),
-        min_size=1,
-        max_size=5,
-    ),
-    st.sampled_from(",\t"),
-)
-def test_what_is_written_is_read(tmp_path, rows, delimiter):
-    stream = io.StringIO()
-    writer = csv.writer(stream, delimiter=delimiter, lineterminator="\n")
-    writer.writerow(["file", "unit", "interval [s]", "Scale", "component", "record", "distance [km]"])
-    writer.writerows(rows)
-    path = tmp_path / "list.csv"
-    path.write_text(stream.getvalue(), encoding="utf-8")
-    entries, left_out, notes = read_list(path)
-    assert left_out == notes == []
-    for entry, (file, unit, interval, scale, component, record, distance) in zip(entries, rows, strict=True):
-        assert entry.path == tmp_path / file
-        assert (entry.unit or "", entry.component, entry.record) == (unit, component, record)
-        assert (entry.interval, entry.scale) == (interval, scale)
-        assert entry.distance == pytest.approx(1000.0 * distance)
 
 
 @MANY

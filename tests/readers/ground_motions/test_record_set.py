@@ -210,18 +210,6 @@ def test_what_is_too_large_is_left_out(tmp_path, monkeypatch, where, name, most,
     assert message in reasons(found)["b.csv"]
 
 
-def test_a_set_that_is_full_reads_no_further_file(tmp_path, monkeypatch):
-    for name in ("a.csv", "b.csv", "c.csv"):
-        columns(tmp_path / name)
-    read, whole = [], record_set.components_of
-    monkeypatch.setattr(record_set, "MOST_SAMPLES", 300)
-    monkeypatch.setattr(
-        record_set, "components_of", lambda entry, notes: read.append(entry.place) or whole(entry, notes)
-    )
-    assert [each.name for each in read_record_set(tmp_path).left_out] == ["b.csv", "c.csv"]
-    assert read == ["a.csv", "b.csv"]
-
-
 def test_a_set_of_too_many_files_is_refused(tmp_path, monkeypatch):
     columns(tmp_path / "a.csv")
     columns(tmp_path / "b.csv")

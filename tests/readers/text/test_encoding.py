@@ -48,10 +48,6 @@ def test_as_many_lines_are_read_as_are_wanted(path, monkeypatch):
     assert len(Text.of(path).head(wanted=300)) >= 300
 
 
-def test_unprintable_characters_make_a_file_binary():
-    assert "not printable" in looks_binary(["\x01\x02\x03", "abc"])
-
-
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"], ids=["Unix", "Windows", "old Macintosh"])
 @pytest.mark.parametrize("size", [1, 3, 7, 1000])
 def test_lines_keep_their_numbers_whatever_the_size_of_the_pieces(path, monkeypatch, end, size):

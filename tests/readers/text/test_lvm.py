@@ -21,11 +21,6 @@ def segments(path, text):
     return read_segments(path, lines, read_preamble(path, lines))
 
 
-def test_the_preamble_says_how_numbers_are_written(path):
-    preamble = read_preamble(path, PREAMBLE.replace("Tab", "Semicolon").replace("\t", ";").split("\n"))
-    assert (preamble.dialect.delimiter, preamble.dialect.decimal, preamble.clocks) == (";", ",", "multi")
-
-
 def test_each_header_begins_a_segment_and_rows_below_a_blank_line_go_on(tmp_path):
     rows = "0\t1,5\n1\t2,5\n"
     found, warnings = segments(tmp_path / "a.lvm", PREAMBLE + HEAD + rows + "\n" + rows + "\n" + HEAD + rows)

@@ -86,12 +86,6 @@ def test_what_is_no_number_is_missing_and_told_with_its_line(tmp_path):
         read_motion(path)
 
 
-def test_a_record_is_a_base_motion_in_si(tmp_path):
-    motion = read_motion(record(tmp_path, "NPTS= 6, DT= .01 SEC"))
-    assert motion.dt == pytest.approx(0.01)
-    np.testing.assert_allclose(motion.acceleration, np.array(VALUES) * 9.80665)
-
-
 def test_a_velocity_is_no_base_acceleration(tmp_path):
     with pytest.raises(ReadError, match="unit of velocity"):
         read_motion(record(tmp_path, "NPTS= 6, DT= .01 SEC", "VELOCITY TIME SERIES IN UNITS OF CM/S"))

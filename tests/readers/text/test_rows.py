@@ -8,47 +8,10 @@ import pytest
 
 from colonnade.readers.text.dialect import Dialect
 from colonnade.readers.text.encoding import Piece
-from colonnade.readers.text.rows import Row, RowForm, past_midnight, read_rows
+from colonnade.readers.text.rows import RowForm, past_midnight, read_rows
 from every import every
 
 FORM = RowForm(Dialect(";", "."), ("number", "number"))
-
-
-def judged(text, form=FORM):
-    cells = form.dialect.split(text)
-    return form.fault_of(Row(0, 1, text, cells), has_number=any(map(form.dialect.is_number, cells)))
-
-
-@every(
-    ("text", "fault"),
-    [
-        ("1;2", None),
-        ("1;OVL", None),
-        ("OVL;--", None),
-        ("1;2;3", "long"),
-        ("1;2;", "long"),
-        ("1", "short"),
-        ("# event", "comment"),
-        ("# 1;2", "struck out"),
-        ("Time;x", "text"),
-    ],
-)
-def test_a_fault_has_a_name(text, fault):
-    assert judged(text) == fault
-
-
-def test_delimiters_at_each_lines_end_belong_to_the_form():
-    form = RowForm(FORM.dialect, FORM.kinds, trailing=1)
-    assert judged("1;2;", form) is None
-    assert judged("1;2;3", form) == "long"
-    assert judged("1;2", form) == "short"
-
-
-def test_each_row_of_an_instrument_is_a_sample_in_its_place():
-    form = RowForm(FORM.dialect, FORM.kinds, remark=True, by_instrument=True)
-    assert judged("Time;x", form) is None
-    assert judged("1;2;lost;;", form) is None
-    assert judged("1;2;lost;4", form) == "long"
 
 
 INSTRUMENT = RowForm(Dialect("\t", "."), ("number", "number"), by_instrument=True)
