@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as some
 
-from colonnade.readers.binary.matlab_columns import find_columns, object_reason
+from colonnade.readers.binary.matlab import find_columns, object_reason
 from colonnade.readers.binary.numbers import MOST_COLUMNS, Told
 from every import every
 
@@ -12,7 +12,7 @@ VECTOR = np.arange(50.0).reshape(-1, 1)
 
 
 def columns(variables):
-    return find_columns(variables, Told()).columns
+    return find_columns(variables, Told())[0]
 
 
 def test_vectors_in_structs_and_cells_have_the_path_that_matlab_would_write():
@@ -47,7 +47,7 @@ def test_names_and_units_beside_the_numbers_are_theirs():
 def test_single_numbers_are_kept_and_what_is_no_table_is_left_out():
     wide, told = np.zeros((MOST_COLUMNS + 2, MOST_COLUMNS + 1)), Told()
     found = find_columns({"fs": np.array([[200.0]]), "cube": np.zeros((2, 3, 4)), "wide": wide}, told)
-    assert (found.scalars, found.columns) == ({"fs": 200.0}, [])
+    assert found == ([], {"fs": 200.0})
     assert told.left_out["cube"].startswith("an array of 2 × 3 × 4; vectors")
     assert "matrices of up to 1000 channels" in told.left_out["wide"]
 
@@ -72,11 +72,11 @@ def test_any_nest_of_variables_gives_columns_of_several_numbers(variables):
 def test_a_rate_of_the_layout_of_bristol_is_taken_if_it_is_a_number(rate, known):
     sine = np.sin(np.arange(20.0)).reshape(-1, 1)
     header = {"SignalName": " LVDT 1 ", "Unit": "mm"}
-    found = find_columns(
+    found, scalars = find_columns(
         {"File_Header": {"SampleFrequency": rate}, "Channel_1_Header": header, "Channel_1_Data": sine}, Told()
     )
-    assert [(column.name, column.unit) for column in found.columns] == [("LVDT 1", "mm")]
-    assert list(found.scalars.values()) == known
+    assert [(column.name, column.unit) for column in found] == [("LVDT 1", "mm")]
+    assert list(scalars.values()) == known
 
 
 @every(("name", "told"), [("timetable", "timetable2table(x)"), ("odd", "as plain arrays")])

@@ -222,14 +222,6 @@ def test_a_real_file_of_raw_counts_with_scaling(shared_data):
     assert recording.start == datetime(2016, 12, 15, 22, 35, 21, tzinfo=UTC)
 
 
-def test_raw_counts_whose_scaling_is_lost_are_given_with_a_warning(shared_data, path):
-    scaled = (shared_data / "tdms" / "raw1.tdms").read_bytes()
-    path.write_bytes(scaled.replace(b"NI_Number_Of_Scales", b"XX_Number_Of_Scales"))
-    recording = read(path)
-    assert recording.channel(1).values[0] == -603
-    assert any("raw counts" in warning for warning in recording.warnings)
-
-
 def whole_and_part(path, window, step=0.005):
     """A file in several segments of which the second channel starts 0.1 s late and at another rate."""
     late = START + np.timedelta64(100, "ms")

@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 from colonnade.readers.bounded import enclosure as bounds
-from colonnade.readers.bounded import landlock
 from colonnade.readers.bounded.enclosure import OUT_OF_MEMORY, own_folders
 
 
@@ -101,5 +100,5 @@ def test_where_a_system_has_no_such_limit_a_process_ends_itself_with_a_code_of_i
 
 def test_a_kernel_without_it_restricts_nothing_and_says_so(monkeypatch, tmp_path):
     monkeypatch.setattr(sys, "platform", "darwin")
-    assert landlock.version() == 0
-    assert not landlock.restrict([tmp_path])
+    assert bounds.landlock_version() == 0
+    assert not bounds.restrict([tmp_path])

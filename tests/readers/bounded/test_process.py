@@ -14,12 +14,12 @@ from pathlib import Path
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.bounded import enclosure, landlock, messages, process
+from colonnade.readers.bounded import enclosure, messages, process
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import formats, read
 
 on_linux = pytest.mark.skipif(sys.platform != "linux", reason="only Linux binds a process so far")
-with_landlock = pytest.mark.skipif(not landlock.version(), reason="this kernel has no Landlock")
+with_landlock = pytest.mark.skipif(not enclosure.landlock_version(), reason="this kernel has no Landlock")
 
 Deed = Callable[..., Recording]
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import replace
 from datetime import UTC, datetime
 from itertools import chain
 from pathlib import Path
@@ -17,7 +16,7 @@ from pydantic import Field
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.binary.numbers import DAMAGE, ClockOptions, Told, UnreadableError, columns_of, member, recorded
+from colonnade.readers.binary.numbers import DAMAGE, ClockOptions, Told, UnreadableError, columns_of, member
 from colonnade.readers.format import Format
 from colonnade.readers.head import HDF5, NETCDF, by_mark
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
@@ -62,16 +61,13 @@ def read(path: Path, options: NetcdfOptions) -> Recording:
     variables, attributes = (read_classic if is_classic else read_hdf5)(path, told)
     within = "" if options.group is None else options.group.strip("/") + "/"
     variables = [each for each in variables if each.path.startswith(within)]
-    columns, notes = _columns(variables, told, options.time_unit if options.time is None else None)
-    if not columns:
-        where = "in it" if options.group is None else f'in group "{options.group}"'
-        raise told.nothing(f"{path.name}: no column of numbers {where}.")
+    columns = _columns(variables, told, options.time_unit if options.time is None else None)
     scalars = {
         each.path.replace("/", "."): float(each.values.ravel()[0]) for each in variables if each.values.size == 1
     }
     scalars |= {name: float(value) for name, value in attributes.items() if _is_number(value)}
-    recording = recorded(path, "netcdf", columns, options, scalars)
-    return told.of(replace(recording, notes=(*notes, *recording.notes)))
+    where = "in it" if options.group is None else f'in group "{options.group}"'
+    return told.recorded(path, "netcdf", columns, options, scalars, where)
 
 
 def read_hdf5(path: Path, told: Told) -> tuple[list[Variable], dict[str, Any]]:
@@ -168,9 +164,8 @@ def _plain(attributes: Mapping[str, Any]) -> dict[str, Any]:
     return plain
 
 
-def _columns(variables: list[Variable], told: Told, unit: str | None) -> tuple[list[RecordedChannel], list[str]]:
+def _columns(variables: list[Variable], told: Told, unit: str | None) -> list[RecordedChannel]:
     """Take variables apart into columns along their first dimension, each on its coordinate, if that is of times."""
-    notes: list[str] = []
     clocks = {each.path: each for each in variables}
     times: dict[str, tuple[Array, datetime | None, str] | None] = {}
 
@@ -188,7 +183,7 @@ def _columns(variables: list[Variable], told: Told, unit: str | None) -> tuple[l
             time, start = None, None
         is_clock = time is not None and clock == path
         if is_clock:
-            notes.append(f'"{clock}" is the coordinate of a dimension ({how})')
+            told.notes.append(f'"{clock}" is the coordinate of a dimension ({how})')
         units = str(variable.attributes.get("units", variable.attributes.get("unit", ""))).strip() or None
         *groups, name = path.split("/")
         return [
@@ -197,7 +192,7 @@ def _columns(variables: list[Variable], told: Told, unit: str | None) -> tuple[l
         ]
 
     columns = told.parts(one, {each.path: (each.path, each) for each in variables})
-    return list(chain.from_iterable(columns.values())), notes
+    return list(chain.from_iterable(columns.values()))
 
 
 def _is_number(value: object) -> bool:

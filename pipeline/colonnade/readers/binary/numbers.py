@@ -37,10 +37,11 @@ DAMAGE = (OSError, KeyError, ValueError, TypeError, RuntimeError, UnicodeError, 
 
 @dataclass
 class Told:
-    """What is said of parts that are not read: why each is left out, by its path, and warnings of damaged ones."""
+    """What is said of a file: why parts are left out, by their paths, warnings of damaged ones, and notes."""
 
     left_out: dict[str, str] = field(default_factory=dict)
     warnings: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
 
     def guarded(self, path: str, read: Callable[..., Any], *arguments: Any) -> Any:
         """What a part gives; None if it is left out or damaged, which is noted."""
@@ -57,19 +58,23 @@ class Told:
         read_parts = {key: self.guarded(path, read, part, path, self) for key, (path, part) in parts.items()}
         return {key: each for key, each in read_parts.items() if each is not None}
 
-    @property
-    def notes(self) -> list[str]:
-        """A note on each part that is left out."""
-        return [f"{path} is left out: {why}" for path, why in self.left_out.items()]
-
-    def nothing(self, message: str) -> ReadError:
-        """Say of a file without any column what else is said of it."""
-        return ReadError("\n  ".join([message, *self.warnings, *self.notes]))
-
-    def of(self, recording: Recording) -> Recording:
-        """Add what is said to a recording."""
-        warnings = (*self.warnings, *recording.warnings)
-        return replace(recording, notes=(*recording.notes, *self.notes), warnings=warnings)
+    def recorded(
+        self,
+        path: Path,
+        format: str,
+        columns: Sequence[RecordedChannel],
+        options: ClockOptions,
+        scalars: Mapping[str, float],
+        where: str,
+    ) -> Recording:
+        """Make a recording with all that is said; ReadError with it if there is no column `where` it was looked for."""
+        left_out = [f"{place} is left out: {why}" for place, why in self.left_out.items()]
+        if not columns:
+            message = f"{path.name}: no column of numbers {where}."
+            raise ReadError("\n  ".join([message, *self.warnings, *left_out]))
+        found = recorded(path, format, columns, options, scalars)
+        notes = (*self.notes, *found.notes, *left_out)
+        return replace(found, notes=notes, warnings=(*self.warnings, *found.warnings))
 
 
 def columns_of(table: NDArray[Any]) -> list[NDArray[Any]]:

@@ -80,7 +80,7 @@ def _recording(path: Path, options: TdmsOptions, file: TdmsFile, window: Window 
     unsure: dict[int, Array] = {}
     for number, (channel, own) in enumerate(zip(channels, waveforms, strict=True)):
         part = slice(None) if window is None or own is None else own.part(window, zero, len(channel))
-        column = _column(channel, file, part, warnings)
+        column = _column(channel, part)
         if own is not None and not column.is_clock:
             first, size = part.start or 0, column.values.size
             if (key := (own, first, size)) not in shared:
@@ -185,7 +185,7 @@ def _waveform(channel: TdmsChannel) -> _Waveform | None:
 def _is_timed(channel: TdmsChannel) -> bool:
     """Whether a part of a channel can be found by its own clock."""
     own = _waveform(channel)
-    return own is not None and own.step != NO_TIMING and not channel.scaler_data_types
+    return own is not None and own.step != NO_TIMING
 
 
 def _moment(stamp: np.datetime64) -> datetime | None:
@@ -194,7 +194,7 @@ def _moment(stamp: np.datetime64) -> datetime | None:
     return found.replace(tzinfo=UTC) if isinstance(found, datetime) else None
 
 
-def _column(channel: TdmsChannel, file: TdmsFile, part: slice, warnings: list[str]) -> RecordedChannel:
+def _column(channel: TdmsChannel, part: slice) -> RecordedChannel:
     """Return a channel with its unit; one of timestamps is a clock."""
     written, scope = f"{channel.group_name}/{channel.name}", (channel.group_name,)
     name, unit_in_name = take_apart(channel.name)
@@ -205,16 +205,9 @@ def _column(channel: TdmsChannel, file: TdmsFile, part: slice, warnings: list[st
         values = np.where(known, (moments - first) / np.timedelta64(1, "us") / 1e6, np.nan)
         start = _moment(first) if known.any() else None
         return RecordedChannel(name, None, values, values, written, is_clock=True, scope=scope, start=start)
-    everywhere = (channel.properties, file[channel.group_name].properties, file.properties)
-    if channel.scaler_data_types and not any("NI_Number_Of_Scales" in properties for properties in everywhere):
-        numbers = next(iter(channel.raw_scaler_data.values()))
-        unscaled = "raw counts, as the file does not say how they are scaled; give the gain in campaign.toml"
-        warnings.append(f'"{written}": {unscaled}')
-    else:
-        numbers = channel[part]
     properties = _properties(channel)
     unit = next((str(properties[key]).strip() for key in UNIT_PROPERTIES if properties.get(key)), "") or unit_in_name
-    return RecordedChannel(name, unit, numbers, None, written, scope=scope)
+    return RecordedChannel(name, unit, channel[part], None, written, scope=scope)
 
 
 FORMAT = Format(
