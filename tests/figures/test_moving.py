@@ -7,26 +7,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.dynamics.block import Block
-from colonnade.figures.drawing.view import Body, Rocking
 from colonnade.figures.moving import MOST_FRAMES, RATE, rocking_block, turn
 from colonnade.figures.panels.curve import Curve
 
-BODY = Body(
-    "rectangle",
-    (0.086, 0.086),
-    (0.086, 0.086),
-    0.456,
-    True,
-    Rocking.of(Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.1)),
-)
 CORNERS = np.array([(-0.043, 0.0), (0.043, 0.0), (0.043, 0.456), (-0.043, 0.456)])
 POLES = (-0.043, 0.043)
 
 
 @given(st.floats(-1.5, 1.5))
 def test_the_pole_stays_and_all_lengths_stay(angle):
-    turned = turn(CORNERS, angle, POLES)
+    (turned,) = turn(CORNERS, np.array([angle]), POLES)
     fixed = 1 if angle > 0 else 0
     np.testing.assert_allclose(turned[fixed], CORNERS[fixed], atol=1e-12)
     for one in range(4):
@@ -35,7 +25,7 @@ def test_the_pole_stays_and_all_lengths_stay(angle):
 
 
 def test_a_positive_angle_moves_the_top_to_plus_x():
-    turned = turn(CORNERS, 0.1, POLES)
+    (turned,) = turn(CORNERS, np.array([0.1]), POLES)
     assert (turned[2:, 0] > CORNERS[2:, 0]).all()
     side = turned[2] - turned[1]
     assert atan2(side[0], side[1]) == pytest.approx(0.1)
@@ -45,7 +35,7 @@ def test_a_positive_angle_moves_the_top_to_plus_x():
 def movie(duration, base=None):
     time = np.linspace(0.0, duration, 2000)
     angles = {"measured": Curve(time, 0.1 * np.sin(time)), "linear": Curve(time, 0.1 * np.cos(time))}
-    return rocking_block(angles, BODY, base, title="one", description="two")
+    return rocking_block(angles, CORNERS, POLES, base)
 
 
 def test_a_short_test_is_shown_at_its_own_speed_and_a_long_one_faster():
@@ -64,5 +54,5 @@ def test_each_history_has_its_outline_on_the_moving_base():
     moving.show(moving.frames - 1)
     measured, linear = (patch.get_xy()[:4] for patch in axes.patches)
     aside = np.array([0.08, 0.0])
-    np.testing.assert_allclose(measured, turn(CORNERS, 0.1 * np.sin(4.0), POLES) + aside, atol=1e-6)
-    np.testing.assert_allclose(linear, turn(CORNERS, 0.1 * np.cos(4.0), POLES) + aside, atol=1e-6)
+    np.testing.assert_allclose(measured, turn(CORNERS, np.array([0.1 * np.sin(4.0)]), POLES)[0] + aside, atol=1e-6)
+    np.testing.assert_allclose(linear, turn(CORNERS, np.array([0.1 * np.cos(4.0)]), POLES)[0] + aside, atol=1e-6)

@@ -14,19 +14,16 @@ from colonnade.campaign import Test
 from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block
 from colonnade.figures.drawing.described import body_of
-from colonnade.figures.drawing.view import Body
+from colonnade.figures.drawing.view import Rocking, Spot
 from colonnade.figures.files.output import Movie
 from colonnade.figures.histories import time_limits
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored.record import base_displacement, true_angle
-from colonnade.figures.style import INK, MEASURED, SOFT, model_style, styled
+from colonnade.figures.style import INK, SOFT, name_of, style_of, styled
 from colonnade.store.records.stored import Stored
 
 RATE, MOST_FRAMES = 25.0, 250
 """Frames a second, and of a movie: a longer test is played faster."""
-
-FALLS = 0.5
-"""rad: an angle beyond it needs room for a block that lies down."""
 
 SIZE = (3.6, 4.0)
 """Of the picture, inches."""
@@ -38,148 +35,101 @@ FACE = "#e8ecf1"
 @styled()
 def rocking_block(
     angles: Mapping[str, Curve],
-    body: Body,
-    base: Curve | None,
+    corners: Sequence[Spot],
+    poles: Spot,
+    base: Curve | None = None,
     *,
-    title: str,
-    description: str,
+    title: str = "",
+    description: str = "",
     figure: Figure | None = None,
 ) -> Movie:
     """
-    Draw the rocking block, one outline for each history.
+    Draw the rocking block, one outline for each history: "measured", and by model.
 
-    Parameters
-    ----------
-    angles : mapping of str to Curve
-        θ in rad over time (s): under "measured", and by model.
-    body : Body
-        With what it rocks about.
-    base : Curve or None
-        Displacement of the base, m, over time; None if it was not recorded: the base is then drawn at rest.
-    title, description : str
-    figure : Figure, optional
-        To draw into, empty; a new one otherwise.
-
-    Returns
-    -------
-    movie : Movie
-        Of at most `MOST_FRAMES` frames; a long test is shown faster, and the picture says how much.
-
-    Raises
-    ------
-    ValueError
-        If there is no history or it is not known what the body rocks about.
+    `angles` are θ (rad) over time (s), `corners` x and z (m) of the block at rest, `poles` x of those that it rocks
+    about with θ < 0 and θ > 0. A base whose displacement (m) is not known is drawn at rest. The movie is drawn into
+    the empty `figure`, or a new one.
     """
-    if not angles or body.rocking is None:
-        raise ValueError("no history of a body with poles was given; at least one was expected")
-    first, last = time_limits(list(angles.values()))
-    frames = min(max(ceil((last - first) * RATE), 2), MOST_FRAMES)
-    times = np.linspace(first, last, frames)
-    speed = (last - first) * RATE / frames
-    shift = np.zeros(frames) if base is None else _at(base, times)
-    shift = shift - shift[0]
-    figure = figure or Figure(figsize=SIZE)
-    axes = figure.add_axes((0.0, 0.0, 1.0, 0.86))
-    axes.set_axis_off()
-    axes.set_aspect("equal")
-    falls = max(float(np.nanmax(np.abs(curve.values))) for curve in angles.values()) > FALLS
-    wide = body.height * (1.15 if falls else 0.6) + float(np.abs(shift).max())
-    axes.set_xlim(-wide, wide)
-    axes.set_ylim(-0.15 * body.height, max(1.12 * body.height, body.height + 0.2 * max(body.width)))
-    (table,) = axes.plot([], [], color=INK, linewidth=2.0)
-    poles, corners = body.rocking.poles, _outline(body)
-    blocks: list[tuple[Polygon, Array]] = []
-    for name, curve in angles.items():
-        look = MEASURED if name == "measured" else model_style(name)
-        block = Polygon(corners, closed=True, label=_label(name), edgecolor=look["color"], linestyle=look["linestyle"])
-        block.set_facecolor(FACE if name == "measured" else "none")
-        axes.add_patch(block)
-        blocks.append((block, _at(curve, times)))
-    figure.legend(loc="upper left", ncols=2, fontsize=7, borderaxespad=0.3, columnspacing=1.0)
-    clock = axes.text(0.98, 0.02, "", transform=axes.transAxes, ha="right", fontsize=8, color=SOFT)
-
-    def show(frame: int) -> None:
-        aside = np.array([shift[frame], 0.0])
-        for block, turned in blocks:
-            block.set_xy(turn(corners, float(turned[frame]), poles) + aside)
-        table.set_data(shift[frame] + np.array([-0.5, 0.5]) * body.height, [0.0, 0.0])
-        clock.set_text(f"{times[frame]:.2f} s" + (f", {speed:.2g} × faster" if speed > 1.01 else ""))
-
-    return Movie(figure, show, frames, RATE, title, description)
+    times = _times(*time_limits(angles.values()))
+    shift = np.zeros_like(times) if base is None else _at(base, times) - _at(base, times[:1])
+    aside = np.column_stack((shift, np.zeros_like(shift)))[:, None]
+    outlines = {who: turn(np.array(corners), _at(curve, times), poles) + aside for who, curve in angles.items()}
+    table = shift[:, None] + 0.5 * max(high for _, high in corners) * np.array([-1.0, 1.0])
+    movie = _movie(figure or Figure(figsize=SIZE), outlines, times, table, title, description)
+    for who, block in zip(angles, movie.figure.axes[0].patches, strict=True):
+        style = style_of(who)
+        block.set(edgecolor=style["color"], linestyle=style["linestyle"], label=name_of(who))
+        block.set_facecolor(FACE if who == "measured" else "none")
+    movie.figure.legend(loc="upper left", ncols=2, fontsize=7, borderaxespad=0.3, columnspacing=1.0)
+    return movie
 
 
 @styled()
-def moving_bodies(
-    outlines: Mapping[str, Array], time: Array, *, title: str, description: str, figure: Figure | None = None
-) -> Movie:
+def moving_bodies(outlines: Mapping[str, Array], time: Array, figure: Figure) -> Movie:
     """
-    Draw several bodies as they move, each by its outline, seen from the table.
+    Draw several bodies as they move, seen from the table, into an empty figure.
 
-    Parameters
-    ----------
-    outlines : mapping of str to ndarray, shape (n, k, 2)
-        By body, x and z of its corners, m.
-    time : ndarray, shape (n,)
-        s.
-    title, description : str
-    figure : Figure, optional
-        To draw into, empty; a new one otherwise.
-
-    Returns
-    -------
-    movie : Movie
-        Of at most `MOST_FRAMES` frames.
+    `outlines` are x and z (m) of the corners of each, shape (n, k, 2), at the times `time` (s).
     """
-    lowest = np.min([outline.min(axis=(0, 1)) for outline in outlines.values()], axis=0)
-    highest = np.max([outline.max(axis=(0, 1)) for outline in outlines.values()], axis=0)
-    frames = min(max(ceil((time[-1] - time[0]) * RATE), 2), MOST_FRAMES)
-    times = np.linspace(time[0], time[-1], frames)
+    times = _times(float(time[0]), float(time[-1]))
     samples = np.clip(np.searchsorted(time, times), 0, time.size - 1)
-    speed, margin = (times[-1] - times[0]) * RATE / frames, 0.1 * float((highest - lowest).max())
-    figure = figure or Figure(figsize=SIZE)
-    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    table = np.tile([-1e3, 1e3], (times.size, 1))
+    return _movie(figure, {name: outline[samples] for name, outline in outlines.items()}, times, table, "", "")
+
+
+def _times(first: float, last: float) -> Array:
+    """Return the times of the frames; a long test has no more than others and is shown faster."""
+    return np.linspace(first, last, min(max(ceil((last - first) * RATE), 2), MOST_FRAMES))
+
+
+def _movie(
+    figure: Figure, outlines: Mapping[str, Array], times: Array, table: Array, title: str, description: str
+) -> Movie:
+    """Show outlines on the ends of a table (x, m), a frame each; the picture says how much faster it is."""
+    corners = np.concatenate([outline.reshape(-1, 2) for outline in outlines.values()])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    margin, speed = 0.1 * (high - low).max(), (times[-1] - times[0]) * RATE / times.size
+    axes = figure.add_axes((0.0, 0.0, 1.0, 0.86))
     axes.set_axis_off()
     axes.set_aspect("equal")
-    axes.set(xlim=(lowest[0] - margin, highest[0] + margin), ylim=(min(0.0, lowest[1]) - margin, highest[1] + margin))
-    axes.plot([lowest[0] - margin, highest[0] + margin], [0.0, 0.0], color=INK, linewidth=2.0)
-    drawn = {name: Polygon(outline[0], edgecolor=INK, facecolor=FACE) for name, outline in outlines.items()}
-    for block in drawn.values():
+    axes.set(xlim=(low[0] - margin, high[0] + margin), ylim=(min(0.0, low[1]) - margin, high[1] + margin))
+    (ground,) = axes.plot([], [], color=INK, linewidth=2.0)
+    blocks = [Polygon(each[0], edgecolor=INK, facecolor=FACE) for each in outlines.values()]
+    for block in blocks:
         axes.add_patch(block)
     clock = axes.text(0.98, 0.02, "", transform=axes.transAxes, ha="right", fontsize=8, color=SOFT)
 
     def show(frame: int) -> None:
-        for name, body in drawn.items():
-            body.set_xy(outlines[name][samples[frame]])
+        for block, outline in zip(blocks, outlines.values(), strict=True):
+            block.set_xy(outline[frame])
+        ground.set_data(table[frame], [0.0, 0.0])
         clock.set_text(f"{times[frame]:.2f} s" + (f", {speed:.2g} × faster" if speed > 1.01 else ""))
 
-    return Movie(figure, show, frames, RATE, title, description)
+    return Movie(figure, show, times.size, RATE, title, description)
 
 
-def turn(outline: Array, angle: float, poles: Sequence[float]) -> Array:
+def turn(outline: Array, angle: Array, poles: Sequence[float]) -> Array:
     """
-    Turn an outline about the pole that it rocks about; an angle that is not known leaves nothing to draw.
+    Turn an outline about the pole that it rocks about.
 
     Parameters
     ----------
-    outline : ndarray, shape (n, 2)
+    outline : ndarray, shape (k, 2)
         x and z, m.
-    angle : float
+    angle : ndarray, shape (n,)
         θ, rad, positive when the top moves to +x: about the pole at +x.
     poles : (float, float)
         x of the poles for θ < 0 and θ > 0, m.
 
     Returns
     -------
-    turned : ndarray, shape (n, 2)
+    turned : ndarray, shape (n, k, 2)
     """
-    pole = np.array([poles[1] if angle > 0 else poles[0], 0.0])
+    angle = angle[:, None]
+    pole = np.where(angle > 0, poles[1], poles[0])
+    across, up = outline[:, 0] - pole, outline[:, 1]
     sine, cosine = np.sin(angle), np.cos(angle)
-    return np.asarray((outline - pole) @ np.array([[cosine, -sine], [sine, cosine]]) + pole)
-
-
-def _outline(body: Body) -> Array:
-    base, top = (size / 2 for size in body.width)
-    return np.array([(-base, 0.0), (base, 0.0), (top, body.height), (-top, body.height)])
+    return np.stack((pole + across * cosine + up * sine, up * cosine - across * sine), axis=-1)
 
 
 def _at(curve: Curve, times: Array) -> Array:
@@ -188,10 +138,6 @@ def _at(curve: Curve, times: Array) -> Array:
         return np.zeros_like(times)
     # Past its end a history keeps its last value: an overturned block stays where it fell.
     return np.interp(times, curve.time[known], curve.values[known])
-
-
-def _label(name: str) -> str:
-    return name if name == "measured" else f"{name} model"
 
 
 def animation(test: Test, specimen: Specimen, stored: Stored, block: Block) -> Movie | None:
@@ -205,6 +151,7 @@ def animation(test: Test, specimen: Specimen, stored: Stored, block: Block) -> M
     if not angles:
         return None
     base, how = base_displacement(stored)
-    title = f"{test.id}: the rocking block"
     said = "measured and predicted" if len(angles) > 1 else next(iter(angles))
-    return rocking_block(angles, body_of(specimen, block), base, title=title, description=f"{said}; base: {how}.")
+    corners, poles = body_of(specimen, block).outline(), Rocking.of(block).poles
+    title, description = f"{test.id}: the rocking block", f"{said}; base: {how}."
+    return rocking_block(angles, corners, poles, base, title=title, description=description)

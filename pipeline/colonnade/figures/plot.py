@@ -20,7 +20,7 @@ from colonnade.dynamics.maps import StabilityMap
 from colonnade.dynamics.pulses import OverturningSpectrum
 from colonnade.dynamics.spectra import RockingSpectrum
 from colonnade.figures import fragility
-from colonnade.figures.drawing.view import Body, Rocking
+from colonnade.figures.drawing.view import Rocking
 from colonnade.figures.files.output import Movie
 from colonnade.figures.histories import SHADES, draw_angle, limit_of
 from colonnade.figures.maps.stability_map import draw_map
@@ -176,18 +176,14 @@ def animate(history: History) -> FuncAnimation:
     b'GIF'
     """
     if isinstance(history, AssemblyHistory):
-        figure = pyplot.figure(figsize=SIZE)
-        movie = moving_bodies(history.outlines(), history.time, title="", description="", figure=figure)
-        return _animation(movie)
+        return _animation(moving_bodies(history.outlines(), history.time, pyplot.figure(figsize=SIZE)))
     instance("history", history, History)
-    rocking = Rocking.of(history.block)
-    wide, solid = rocking.poles[1] - rocking.poles[0], history.block.solid
-    shape = "rectangle" if solid is None else solid.base
-    body = Body(shape, (wide, wide), (wide, wide), 2 * rocking.centre[1], is_known=False, rocking=rocking)
-    curve = Curve(history.time, history.angle)
+    rocking, curve = Rocking.of(history.block), Curve(history.time, history.angle)
+    (left, right), height = rocking.poles, 2 * rocking.centre[1]
+    corners = [(left, 0.0), (right, 0.0), (right, height), (left, height)]
     # A figure of pyplot: `pyplot.show()` plays it in a script.
     figure = pyplot.figure(figsize=SIZE)
-    return _animation(rocking_block({history.model: curve}, body, None, title="", description="", figure=figure))
+    return _animation(rocking_block({history.model: curve}, corners, rocking.poles, figure=figure))
 
 
 def _animation(movie: Movie) -> FuncAnimation:

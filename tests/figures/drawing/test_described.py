@@ -35,11 +35,11 @@ def test_a_measured_body_is_drawn_from_its_poles_and_says_so(drawn_campaign):
 
 def test_channels_become_transducers_and_those_fixed_to_nothing_are_named(drawn_campaign):
     drawn = described.drawn_of(drawn_campaign(), "prism", "frame")
-    by_name = {each.name: each for each in drawn.transducers}
+    by_name = drawn.transducers
     assert "oil" not in by_name
     assert "not drawn: oil" in drawn.body.words
     assert by_name["string"].anchor == pytest.approx((-0.3, 0.0, 0.42))
-    assert by_name["laser"].is_laser
+    assert by_name["laser"].sensing == "surface"
     assert by_name["laser"].relative_to == "ground"
     assert "hollow: place not given" in drawn.body.words  # the gyro has no place
 
@@ -106,6 +106,5 @@ def test_bodies_of_an_assembly_are_drawn_where_they_stand(tmp_path):
     levels = drums.COLUMN.levels
     assert [place[2] for _, place in drawn.body.parts.values()] == pytest.approx(list(levels.values()))
     assert drawn.body.height == pytest.approx(drums.COLUMN.height)
-    [seen] = [each for each in drawn.transducers if each.name == "m1"]
-    assert seen.at == pytest.approx((0.1, 0.0, 0.18 + levels["2"]))
+    assert drawn.transducers["m1"].at == pytest.approx((0.1, 0.0, 0.18 + levels["2"]))
     assert len(described.of_campaign(campaign).figure.axes) == 3

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from colonnade.dynamics.block import Block
 from colonnade.figures.drawing.setup import ELEVATION, PLAN, SIDE
-from colonnade.figures.drawing.view import Rocking, View, _spaced
+from colonnade.figures.drawing.view import Label, Rocking, View, _spaced
 
 
 def view(orientation):
@@ -46,14 +46,14 @@ def test_labels_stay_apart_and_within_the_view(wanted):
 def test_labels_at_one_spot_without_details_are_written_as_one():
     one = view(PLAN)
     for name in ("1", "2"):
-        one.label((0.05, 0.0), name, "", "black")
+        one.labels.append(Label((0.05, 0.0), name, "", "black"))
     one.write_labels(0.2)
     assert [text.get_text() for text in one.axes.texts] == ["1, 2"]
 
 
 def test_a_long_name_is_cut_to_its_margin():
     one = view(ELEVATION)
-    one.label((0.05, 0.0), "1 " + "x" * 60, "displacement", "black")
+    one.labels.append(Label((0.05, 0.0), "1 " + "x" * 60, "displacement", "black"))
     one.write_labels(1.0)
     (name,) = (text.get_text() for text in one.axes.texts if "x" in text.get_text())
     assert name.endswith("…")

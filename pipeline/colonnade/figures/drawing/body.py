@@ -6,7 +6,7 @@ from math import atan2, cos, degrees, sin
 
 import numpy as np
 
-from colonnade.figures.drawing.view import LINE, NAMES, NORMAL, SMALL, Body, Point, Rocking, Spot, View
+from colonnade.figures.drawing.view import LINE, NAMES, NORMAL, SMALL, Body, Point, Rocking, Spot, View, along
 from colonnade.figures.style import FAINT, INK, SOFT
 
 TABLE, GAP, GROUND = 0.42, 0.13, 0.1
@@ -19,20 +19,17 @@ STEEL, WOOD = "#e8ecf1", "#f3f0ea"
 def draw_table(view: View, half: float) -> None:
     """Draw the table, `half` (m) to either side, and the ground below it; from above the table alone."""
     inch = view.inch
+    low, high = (-half, half) if view.up == 1 else (-TABLE * inch, 0.0)
+    view.shape([(-half, low), (half, low), (half, high), (-half, high)], facecolor=WOOD, edgecolor=FAINT, zorder=0)
     if view.up == 1:
-        view.shape(
-            [(-half, -half), (half, -half), (half, half), (-half, half)], facecolor=WOOD, edgecolor=FAINT, zorder=0
-        )
         return
-    low = -TABLE * inch
-    view.shape([(-half, low), (half, low), (half, 0.0), (-half, 0.0)], facecolor=WOOD, edgecolor=FAINT, zorder=0)
     view.line((-half, 0.0), (half, 0.0), color=INK, linewidth=LINE, zorder=1)
     floor = low - GAP * inch
     view.line((-1.15 * half, floor), (1.15 * half, floor), color=INK, linewidth=LINE)
     for place in np.linspace(-1.1 * half, 1.1 * half, 14):
         view.line((place, floor), (place - 0.06 * inch, floor - GROUND * inch), color=FAINT)
     for place in (-0.6 * half, 0.6 * half):
-        view.axes.plot(place, (low + floor) / 2, "o", markersize=5.0, color=FAINT, markerfacecolor="none")
+        view.mark((place, (low + floor) / 2), "o", 5.0, FAINT, markerfacecolor="none")
 
 
 def draw_body(view: View, body: Body, at: Point = (0.0, 0.0, 0.0)) -> None:
@@ -44,18 +41,12 @@ def draw_body(view: View, body: Body, at: Point = (0.0, 0.0, 0.0)) -> None:
             view.text((place[0], place[2] + 0.4 * part.height), name, rotation=turn, zorder=5)
     if body.parts:
         return
-    across, up = view.spot(at)
-    look = {"facecolor": STEEL, "zorder": 3, "linestyle": "-" if body.is_known else (0, (4.0, 2.0))}
-    if view.up == 1:
-        for size, fill in ((0, STEEL), (1, "none")):
-            seen = [(across + x, up + y) for x, y in _seen_from_above(body, size)]
-            view.shape(seen, **{**look, "facecolor": fill})
-            if body.width[0] == body.width[1]:
-                break
-        return
-    base, top = (size[index] / 2 for size in [body.width if view.across == 0 else body.depth] for index in (0, 1))
-    corners = [(-base, 0.0), (base, 0.0), (top, body.height), (-top, body.height)]
-    view.shape([(across + x, up + z) for x, z in corners], **look)
+    outlines = [body.outline(view.across)]
+    if view.up == 1:  # the top of a cone is seen within its base
+        outlines = [_seen_from_above(body, end) for end in (0, 1)][: 1 + (body.width[0] != body.width[1])]
+    for outline, fill in zip(outlines, (STEEL, "none"), strict=False):
+        corners = [along(view.spot(at), corner, 1.0) for corner in outline]
+        view.shape(corners, facecolor=fill, zorder=3, linestyle="-" if body.is_known else (0, (4.0, 2.0)))
 
 
 def _seen_from_above(body: Body, end: int) -> list[Spot]:
@@ -98,7 +89,7 @@ def draw_rocking(view: View, rocking: Rocking) -> None:
         _mark_centre(view, (rocking.centre[0], 0.0))
         return
     for pole in rocking.poles:
-        view.axes.plot(pole, 0.0, "^", markersize=5.5, color=INK, zorder=6, clip_on=False)
+        view.mark((pole, 0.0), "^", 5.5, INK, zorder=6, clip_on=False)
     (negative, positive), (low, high) = rocking.poles, rocking.critical_angles
     _draw_angle(view, positive, rocking.centre, "α" if low == high else "α, θ > 0", outside=low != high)
     if low != high:
@@ -112,7 +103,7 @@ def _draw_angle(view: View, pole: float, centre: Spot, name: str, *, outside: bo
     view.line((pole, 0.0), (pole, 1.12 * centre[1]), color=INK, linestyle=(0, (3.0, 2.0)), zorder=4)
     radius, lean = 0.62 * centre[1], atan2(centre[0] - pole, centre[1])
     turns = np.linspace(0.0, lean, 20)
-    view.axes.plot(pole + radius * np.sin(turns), radius * np.cos(turns), color=INK, linewidth=0.7, zorder=4)
+    view.line(*((pole + radius * sin(turn), radius * cos(turn)) for turn in turns), color=INK, linewidth=0.7, zorder=4)
     if outside:
         view.text((pole + (0.04 if pole > 0 else -0.04) * view.inch, radius), name, ha="left" if pole > 0 else "right")
         return
@@ -121,15 +112,15 @@ def _draw_angle(view: View, pole: float, centre: Spot, name: str, *, outside: bo
 
 
 def _mark_centre(view: View, spot: Spot) -> None:
-    view.axes.plot(*spot, "o", markersize=7.0, markerfacecolor="white", markeredgecolor=INK, zorder=5)
-    view.axes.plot(*spot, "+", markersize=7.0, color=INK, zorder=5)
+    view.mark(spot, "o", 7.0, INK, markerfacecolor="white", zorder=5)
+    view.mark(spot, "+", 7.0, INK, zorder=5)
 
 
 def draw_senses(view: View, body: Body, half_table: float) -> None:
     """Draw which way θ and the base motion are positive."""
     inch = view.inch
     top = body.height + (0.3 if body.width[0] != body.width[1] else 0.12) * inch
-    view.arrow((-0.24 * inch, top), (0.24 * inch, top), INK, bend=-0.3)
+    view.arrow((-0.24 * inch, top), (0.24 * inch, top), INK, connectionstyle="arc3,rad=-0.3")
     view.text((0.0, top + 0.16 * inch), "θ > 0", fontsize=NORMAL)
     low, edge = -0.7 * TABLE * inch, half_table + 0.06 * inch
     view.arrow((edge, low), (edge + 0.36 * inch, low), INK)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Literal
 
 from colonnade import units
 from colonnade.campaign import Campaign
@@ -14,8 +14,8 @@ from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block
 from colonnade.errors import CampaignError, UnitError, count
 from colonnade.figures.drawing.body import words_of_angle
-from colonnade.figures.drawing.setup import Drawn, setup_drawings
-from colonnade.figures.drawing.view import MARKER, Body, Point, Rocking, Transducer
+from colonnade.figures.drawing.setup import MARKER, Drawn, setup_drawings
+from colonnade.figures.drawing.view import Body, Point, Rocking
 from colonnade.figures.files.output import Picture
 from colonnade.units.text import listed, quantity
 
@@ -42,17 +42,16 @@ def drawn_of(campaign: Campaign, specimen: str, setup: str) -> Drawn:
     else:
         body = body_of(whole, campaign.block(specimen))
     followed = {f"{name}_{axis}" for name in markers for axis in "xyz"}
-    transducers = [transducer_of(name, each) for name, each in channels.items() if name not in followed]
-    # A marker is one point, which is followed along three axes.
-    seen = {name: channels[f"{name}_x"] for name in markers if f"{name}_x" in channels}
-    transducers += [transducer_of(name, each)._replace(quantity=MARKER, direction=None) for name, each in seen.items()]
-    shown = [each for each in transducers if each.on]
-    others = [each.name for each in transducers if not each.on]
+    transducers = {name: each for name, each in channels.items() if name not in followed}
+    for name in markers:  # one point, which is followed along three axes
+        if f"{name}_x" in channels:
+            transducers[name] = channels[f"{name}_x"].model_copy(update={"quantity": MARKER, "direction": None})
+    shown = {name: each for name, each in transducers.items() if each.on}
     words = [*body.words, "", *SIGNS]
-    if any(each.at is None for each in shown if each.on == "specimen"):
+    if any(each.at is None for each in shown.values() if each.on == "specimen"):
         words += ["hollow: place not given"]
-    if others:
-        words += [f"not drawn: {listed(others)}"]
+    if len(shown) < len(transducers):
+        words += [f"not drawn: {listed([name for name in transducers if name not in shown])}"]
     return Drawn(f"{specimen} in {setup}", body._replace(words=words), shown)
 
 
@@ -67,18 +66,13 @@ def said_of(campaign: Campaign, specimen: str, setup: str) -> str:
     """Say what the drawing of a specimen with the transducers of a setup shows."""
     drawn = drawn_of(campaign, specimen, setup)
     body = [word for word in drawn.body.words if word and word not in SIGNS]
-    return " ".join(f"{part}." for part in (*body, *(f"{each.name}: {_said(each)}" for each in drawn.transducers)))
+    return " ".join(
+        f"{part}." for part in (*body, *(f"{name}: {_said(each)}" for name, each in drawn.transducers.items()))
+    )
 
 
 def of_campaign(campaign: Campaign) -> Picture:
-    """
-    Draw every specimen with the transducers of every setup that a test combines it with.
-
-    Raises
-    ------
-    CampaignError
-        If there is no test.
-    """
+    """Draw every specimen with the transducers of every setup that a test combines it with."""
     if not campaign.combinations:
         raise CampaignError(f"{campaign.path}: the campaign has no test, so no specimen is in a set-up to be drawn.")
     drawn = [drawn_of(campaign, *pair) for pair in campaign.combinations]
@@ -92,30 +86,20 @@ def body_of(specimen: Specimen, block: Block) -> Body:
     height = sizes.get("height", 2 * rocking.centre[1])
     base = sizes.get("width", sizes.get("diameter", sizes.get("base_diameter", rocking.poles[1] - rocking.poles[0])))
     top, depth = sizes.get("top_diameter", base), sizes.get("depth")
+    sides = block.negative, block.positive
+    angles = _sides(*(words_of_angle(side.critical_angle) for side in sides))
+    distances = _sides(*(quantity(side.pole_distance, "mm", 4) for side in sides))
     words = [
         f"{specimen.shape}, {quantity(specimen.mass, 'kg', 4)}",
-        *(
-            f"α = {words_of_angle(angle)}{side}"
-            for angle, side in _sides(block.negative.critical_angle, block.positive.critical_angle)
-        ),
-        *(
-            f"R = {quantity(distance, 'mm', 4)}{side}"
-            for distance, side in _sides(block.negative.pole_distance, block.positive.pole_distance)
-        ),
+        *(f"α = {angle}" for angle in angles),
+        *(f"R = {distance}" for distance in distances),
         f"⊕ centre of mass, {quantity(rocking.centre[1], 'mm', 4)} up",
         "▲ poles: −x θ < 0, +x θ > 0",
     ]
     if not sizes:
         words += ["outline not known: drawn from pole to pole, twice as high as ⊕, as deep as wide"]
-    return Body(
-        "circle" if specimen.radius(0.0) is not None else "rectangle",
-        (base, top),
-        (depth or base, depth or top),
-        height,
-        is_known=bool(sizes),
-        rocking=rocking,
-        words=words,
-    )
+    shape: Literal["rectangle", "circle"] = "rectangle" if specimen.radius(0.0) is None else "circle"
+    return Body(shape, (base, top), (depth or base, depth or top), height, bool(sizes), rocking, words)
 
 
 def _several(whole: Whole, gravity: float) -> Body:
@@ -131,16 +115,7 @@ def _several(whole: Whole, gravity: float) -> Body:
     )
     words = [f"{count(len(parts), 'body', 'bodies')}, {quantity(whole.mass, 'kg', 4)}"]
     words += [f"{name}: {whole.placed[name].specimen}" for name in reversed(parts)]
-    return Body(
-        "rectangle",
-        (width, width),
-        (depth, depth),
-        assembly.height,
-        is_known=True,
-        rocking=None,
-        words=words,
-        parts=parts,
-    )
+    return Body("rectangle", (width, width), (depth, depth), assembly.height, True, None, words, parts)
 
 
 def _in_place(channel: Channel, body: Body) -> Channel:
@@ -152,51 +127,28 @@ def _in_place(channel: Channel, body: Body) -> Channel:
     return channel.model_copy(update={"on": "specimen", "at": at})
 
 
-def _sides(negative: float, positive: float) -> list[tuple[float, str]]:
-    return [(negative, "")] if negative == positive else [(negative, ", θ < 0"), (positive, ", θ > 0")]
+def _sides(negative: str, positive: str) -> list[str]:
+    return [negative] if negative == positive else [f"{negative}, θ < 0", f"{positive}, θ > 0"]
 
 
-def transducer_of(name: str, channel: Channel) -> Transducer:
-    """Describe a channel; one that is fixed to nothing is `on` nothing."""
-    return Transducer(
-        name,
-        channel.quantity,
-        channel.on or "",
-        channel.direction,
-        channel.at,
-        channel.relative_to or "",
-        channel.normal,
-        channel.anchor,
-        is_laser=channel.sensing == "surface",
-    )
-
-
-def _said(one: Transducer) -> str:
+def _said(one: Channel) -> str:
     """Say where a transducer is and what it reads, for those who do not see it."""
     place = "" if one.at is None else f" at ({', '.join(f'{1e3 * part:.4g}' for part in one.at)}) mm"
-    direction = (
-        "" if one.direction is None else f", positive along ({', '.join(f'{part:.3g}' for part in one.direction)})"
-    )
+    direction = ", ".join(f"{part:.3g}" for part in one.direction or ())
+    along = f", positive along ({direction})" if direction else ""
     relative = f", relative to the {one.relative_to}" if one.relative_to else ""
-    return f"{one.quantity.replace('_', ' ')} of the {one.on}{place}{direction}{relative}"
+    return f"{one.quantity.replace('_', ' ')} of the {one.on}{place}{along}{relative}"
 
 
 def of_draft(text: str) -> Picture:
-    """
-    Draw what a drafted campaign file guesses of transducers, on a body that stands in for the specimen.
-
-    Parameters
-    ----------
-    text : str
-        Of the file, in which "?" stands for what is not known.
-    """
+    """Draw what a drafted file, in which "?" is not known, guesses of transducers, on a body that stands in."""
     setups = tomllib.loads(text)["setups"]
     words = ["dimensions and places are asked for in campaign.toml; hollow: not yet placed", "", *SIGNS]
     drawn = [
         Drawn(
             f"{name}, as drafted",
             STAND_IN._replace(words=words),
-            [_drafted(channel, keys) for channel, keys in setup["channels"].items() if keys.get("on", "?") != "?"],
+            {channel: _drafted(keys) for channel, keys in setup["channels"].items() if keys.get("on", "?") != "?"},
         )
         for name, setup in setups.items()
     ]
@@ -206,17 +158,17 @@ def of_draft(text: str) -> Picture:
     return Picture(setup_drawings(drawn), "drawing", "Transducers of the drafted campaign file", said)
 
 
-def _drafted(name: str, keys: Mapping[str, Any]) -> Transducer:
-    relative, direction = str(keys.get("relative_to", "")), keys.get("direction")
-    return Transducer(
-        name,
-        str(keys["quantity"]).replace("?", "other"),
-        str(keys["on"]),
-        None if direction is None else (float(direction[0]), float(direction[1]), float(direction[2])),
-        _place(keys.get("at")),
-        "" if relative == "?" else relative,
+def _drafted(keys: Mapping[str, Any]) -> Channel:
+    """Return what is known of a channel, unchecked."""
+    relative = keys.get("relative_to")
+    return Channel.model_construct(
+        quantity=keys["quantity"].replace("?", "other"),
+        on=keys["on"],
+        direction=keys.get("direction"),
+        at=_place(keys.get("at")),
+        relative_to=None if relative == "?" else relative,
         anchor=_place(keys.get("anchor")),
-        is_laser=keys.get("sensing") == "surface",
+        sensing=keys.get("sensing", "point"),
     )
 
 

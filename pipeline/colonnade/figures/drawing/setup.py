@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import hypot
 from textwrap import wrap
 from typing import NamedTuple
 
-import numpy as np
 from matplotlib.figure import Figure, FigureBase
 
+from colonnade.campaign.channel import Channel
 from colonnade.figures.drawing.body import (
     GAP,
     GROUND,
@@ -21,7 +21,7 @@ from colonnade.figures.drawing.body import (
     draw_senses,
     draw_table,
 )
-from colonnade.figures.drawing.view import FINE, MARKER, SMALL, Body, Point, Spot, Transducer, View
+from colonnade.figures.drawing.view import FINE, SMALL, Body, Label, Point, Spot, View, along
 from colonnade.figures.style import INK, SOFT, WIDTH, styled, width
 
 MARKS = {"displacement": "o", "velocity": "^", "acceleration": "s", "angle": "D", "angular_velocity": "d"}
@@ -36,98 +36,79 @@ END_ON = 0.2
 """Share of a direction in the plane of the paper below which it is drawn as one towards the viewer or away."""
 
 
-def places_of(transducers: Sequence[Transducer], body: Body, half_table: float, inch: float) -> list[Point]:
-    """
-    Return where each transducer is drawn.
+MARKER = "marker"
+"""Quantity of a point that is followed along three axes."""
 
-    Parameters
-    ----------
-    transducers : sequence of Transducer
-    body : Body
-    half_table : float
-        m.
-    inch : float
-        m on an inch of paper.
 
-    Returns
-    -------
-    places : list of Point
-        As given; if not given, one below the other on the +x face of the specimen or on the face of the table, of
-        accelerometers on its top, or at the ground.
+def places_of(transducers: Mapping[str, Channel], body: Body, half_table: float, inch: float) -> dict[str, Point]:
     """
-    groups: dict[tuple[str, bool], list[int]] = {}
-    places: list[Point] = [each.at or (0.0, 0.0, 0.0) for each in transducers]
-    for index, each in enumerate(transducers):
+    Return where each transducer is drawn: as given, or one below the other where it is fixed.
+
+    That is the +x face of the specimen, the face of the table, of accelerometers its top, or the ground. The table
+    reaches `half_table` (m) to either side; `inch` is m on an inch of paper.
+    """
+    groups: dict[tuple[str | None, bool], list[str]] = {}
+    for name, each in transducers.items():
         if each.at is None:
-            groups.setdefault((each.on, each.quantity == "acceleration"), []).append(index)
+            groups.setdefault((each.on, each.quantity == "acceleration"), []).append(name)
     edge = max(body.width) / 2
     aside = -half_table + (ARROW + 0.04) * inch  # an arrow to either side stays on the table
-    for (on, accelerates), members in groups.items():
-        shares = (np.arange(len(members)) + 0.5) / len(members)
-        for index, share in zip(members, shares.tolist(), strict=True):
+    places = {name: each.at or (aside, 0.0, -(TABLE + GAP) * inch) for name, each in transducers.items()}
+    for (on, accelerates), names in groups.items():
+        for index, name in enumerate(names):
+            share = (index + 0.5) / len(names)
             if on == "specimen":
-                places[index] = (edge, 0.0, body.height * (1.0 - share))
+                places[name] = (edge, 0.0, body.height * (1.0 - share))
             elif on == "table" and accelerates:
-                places[index] = (-half_table + share * (half_table - edge - 0.1 * inch), 0.0, 0.05 * inch)
+                places[name] = (-half_table + share * (half_table - edge - 0.1 * inch), 0.0, 0.05 * inch)
             elif on == "table":
-                places[index] = (aside, 0.0, -(0.5 + 0.4 * share) * TABLE * inch)
-            else:
-                places[index] = (aside, 0.0, -(TABLE + GAP) * inch)
+                places[name] = (aside, 0.0, -(0.5 + 0.4 * share) * TABLE * inch)
     return places
 
 
-def draw_transducer(view: View, number: int, one: Transducer, place: Point, *, named: bool) -> None:
+def draw_transducer(view: View, number: int, name: str, one: Channel, place: Point, *, named: bool) -> None:
     """Draw one transducer and ask for its label: number, name and what it reads, or its number alone."""
-    spot, colour = view.spot(place), COLOURS.get(one.relative_to, COLOURS["table"])
+    spot, colour = view.spot(place), COLOURS.get(one.relative_to or "", COLOURS["table"])
     if one.anchor is not None:
         end = view.spot(one.anchor)
         view.line(spot, end, color=colour, linestyle=(0, (5.0, 1.5)), zorder=5)
-        view.axes.plot(*end, "s", markersize=5.0, color=colour, markerfacecolor="white", zorder=6)
-    if one.is_laser and one.direction is not None:
-        _draw_sight(view, one, spot, colour)
+        view.mark(end, "s", 5.0, colour, markerfacecolor="white", zorder=6)
     tip, is_seen_end_on = spot, False
     if one.direction is not None:
-        flat = view.spot(one.direction)
-        size = hypot(*flat) / max(float(np.linalg.norm(one.direction)), 1e-12)
-        is_seen_end_on = size < END_ON
+        flat, size = view.spot(one.direction), hypot(*one.direction)
+        if one.sensing == "surface":
+            _draw_sight(view, flat, one.normal, spot, colour)
+        is_seen_end_on = hypot(*flat) < END_ON * size
         if is_seen_end_on:
             view.through(spot, colour, towards=view.depth(one.direction) > 0)
         else:
-            step = (ARROW if named else SHORT) * view.inch / max(hypot(*flat), 1e-12) * size
-            tip = (spot[0] + step * flat[0], spot[1] + step * flat[1])
+            step = (ARROW if named else SHORT) * view.inch / size
+            tip = along(spot, flat, step)
             view.arrow(spot, tip, colour)
-            if one.is_turn:  # a second head: the arrow is an axis
-                view.arrow(spot, (spot[0] + 0.75 * (tip[0] - spot[0]), spot[1] + 0.75 * (tip[1] - spot[1])), colour)
+            if one.quantity in ("angle", "angular_velocity"):  # a second head: the arrow is an axis
+                view.arrow(spot, along(spot, flat, 0.75 * step), colour)
     if not is_seen_end_on:
         fill = colour if one.at is not None or one.on != "specimen" else "white"
-        view.axes.plot(
-            *spot, MARKS.get(one.quantity, "o"), markersize=4.5, color=colour, markerfacecolor=fill, zorder=8
-        )
-    outer = max(spot, tip, key=lambda each: each[0]) if spot[0] >= 0 else min(spot, tip, key=lambda each: each[0])
-    anchor = outer if (outer[0] < 0) == (spot[0] < 0) else spot
-    view.label(anchor, f"{number} {one.name}" if named else str(number), _detail(one) if named else "", colour)
+        view.mark(spot, MARKS.get(one.quantity, "o"), 4.5, colour, markerfacecolor=fill, zorder=8)
+    outer = (max if spot[0] >= 0 else min)(spot, tip, key=lambda each: each[0])
+    label = (f"{number} {name}", _detail(one)) if named else (str(number), "")
+    view.labels.append(Label(outer, *label, colour))
 
 
-def _draw_sight(view: View, one: Transducer, spot: Spot, colour: str) -> None:
-    """Draw the line of sight of a laser, and the face that it looks at."""
-    flat = view.spot(one.direction or (0.0, 0.0, 0.0))
+def _draw_sight(view: View, flat: Spot, normal: Point | None, spot: Spot, colour: str) -> None:
+    """Draw the line of sight of a laser in a direction, and the face that it looks at, by its normal."""
     if hypot(*flat) < 1e-6:
         return
-    across = (flat[0] / hypot(*flat), flat[1] / hypot(*flat))
-    outward = 1.0 if across[0] * spot[0] + across[1] * spot[1] >= 0 else -1.0
-    reach = 0.75 * view.inch * outward
-    view.line(
-        spot, (spot[0] + reach * across[0], spot[1] + reach * across[1]), color=colour, linestyle=(0, (6, 2, 1, 2))
-    )
-    normal = view.spot(one.normal) if one.normal is not None else None
-    if normal is not None and hypot(*normal) > 1e-6:
-        half = 0.14 * view.inch / hypot(*normal)
-        along = (-normal[1] * half, normal[0] * half)
-        ends = ((spot[0] - along[0], spot[1] - along[1]), (spot[0] + along[0], spot[1] + along[1]))
-        view.line(*ends, color=colour, linewidth=2.0, zorder=7)
+    outward = 1.0 if flat[0] * spot[0] + flat[1] * spot[1] >= 0 else -1.0
+    seen = along(spot, flat, 0.75 * view.inch * outward / hypot(*flat))
+    view.line(spot, seen, color=colour, linestyle=(0, (6, 2, 1, 2)))
+    across, up = view.spot(normal or (0.0, 0.0, 0.0))
+    if hypot(across, up) > 1e-6:
+        face, half = (-up, across), 0.14 * view.inch / hypot(across, up)
+        view.line(along(spot, face, -half), along(spot, face, half), color=colour, linewidth=2.0, zorder=7)
 
 
-def _detail(one: Transducer) -> str:
+def _detail(one: Channel) -> str:
     said = one.quantity.replace("_", " ")
     said += f", to {one.relative_to}" if one.relative_to else f" of {one.on}" if one.on != "specimen" else ""
     return said if one.direction is not None or one.quantity == MARKER else f"{said}, direction ?"
@@ -154,36 +135,18 @@ class Drawn(NamedTuple):
 
     title: str
     body: Body
-    transducers: Sequence[Transducer]
+    transducers: Mapping[str, Channel]
 
 
 @styled()
 def setup_drawings(drawn: Sequence[Drawn]) -> Figure:
     """
-    Draw specimens with their transducers, each to scale in elevation, from the side and from above.
+    Draw specimens with their transducers below each other, each to scale in elevation, from the side and from above.
 
-    Parameters
-    ----------
-    drawn : sequence of Drawn
-        One below the other.
-
-    Returns
-    -------
-    figure : Figure
-
-    Raises
-    ------
-    ValueError
-        If there is nothing to draw.
-
-    Notes
-    -----
     An arrow points in the direction of a positive reading, or along the axis of a rotation (two heads). A circle with a
     dot is an arrow towards the viewer, one with a cross an arrow away. A transducer whose place is not given is hollow
     and drawn on the +x face.
     """
-    if not drawn:
-        raise ValueError("no specimen was given; at least one with a setup was expected")
     figure = Figure(figsize=(width(), width() / WIDTH * HEIGHT * len(drawn)))
     parents = figure.subfigures(len(drawn), 1, squeeze=False)[:, 0]
     for parent, each in zip(parents, drawn, strict=True):
@@ -208,8 +171,8 @@ def _draw(parent: FigureBase, drawn: Drawn) -> None:
             draw_dimensions(view, body)
         if body.rocking is not None:
             draw_rocking(view, body.rocking)
-        for number, (one, place) in enumerate(zip(transducers, places, strict=True), start=1):
-            draw_transducer(view, number, one, place, named=view is elevation)
+        for number, (name, one) in enumerate(transducers.items(), start=1):
+            draw_transducer(view, number, name, one, places[name], named=view is elevation)
         view.write_labels(MARGIN if view is elevation else NARROW)
         draw_axes(view, (corner[0] * inch, corner[1] * inch))
     draw_senses(elevation, body, half)
@@ -226,7 +189,7 @@ def _draw(parent: FigureBase, drawn: Drawn) -> None:
 def _inch(drawn: Drawn, high: float) -> float:
     """Return how many m an inch of paper shows, so that all of the body and of its transducers is seen in each view."""
     body = drawn.body
-    points = [point for each in drawn.transducers for point in (each.at, each.anchor) if point is not None]
+    points = [point for each in drawn.transducers.values() for point in (each.at, each.anchor) if point is not None]
     across = max([*body.width, *(2 * abs(point[0]) for point in points)])
     deep = max([*body.depth, *(2 * abs(point[1]) for point in points)])
     top = max([body.height, *(point[2] for point in points)])

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from io import BytesIO, StringIO
@@ -183,19 +183,15 @@ def to_svg(figure: Figure, *, identity: str, title: str, description: str) -> st
         raise ValueError(f"{identity!r} cannot be an id; a letter, then letters, digits, '.', '_' or '-' were expected")
     nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
     root = ElementTree.fromstring(_written(figure, "svg", metadata=nothing))
-    _drop(root, {f"{{{NAMESPACE}}}metadata", f"{{{NAMESPACE}}}style"})
+    # The style sheet that matplotlib writes is meant for a file and would act on the whole page.
+    for parent in list(root.iter()):
+        for child in [*parent.findall("{*}metadata"), *parent.findall("{*}style")]:
+            parent.remove(child)
     _rename(root, identity)
     _shorten(root)
     _describe(root, identity, title, description, role="group" if _name_links(root) else "img")
     ElementTree.register_namespace("", NAMESPACE)
     return ElementTree.tostring(root, encoding="unicode")
-
-
-def _drop(root: ElementTree.Element, tags: set[str]) -> None:
-    """Remove elements: the style sheet that matplotlib writes is meant for a file and would act on the whole page."""
-    for parent in root.iter():
-        for child in [child for child in parent if child.tag in tags]:
-            parent.remove(child)
 
 
 def _rename(root: ElementTree.Element, identity: str) -> None:
@@ -226,19 +222,12 @@ def _shorten(root: ElementTree.Element) -> None:
         for name in element.attrib.keys() & {"x", "y", "transform", "points"}:
             element.set(name, _BEYOND_HUNDREDTHS.sub("", element.attrib[name]))
         if "d" in element.attrib:
-            element.set("d", _shorter(element.attrib["d"]))
+            element.set("d", shorter(element.attrib["d"]))
         if "style" in element.attrib:
-            element.set(
-                "style", _FONT.sub(lambda found: f"font{found[1] or ''}:{found[2]}{FONTS}", element.attrib["style"])
-            )
+            element.set("style", _FONT.sub(rf"font\1:\2{FONTS}", element.attrib["style"]))
         if element.text is not None and not element.text.strip():
             element.text = None
         element.tail = None
-
-
-def _shorter(path: str) -> str:
-    straight = shorter(path)
-    return _BEYOND_HUNDREDTHS.sub("", path).replace("\n", "") if straight is path else straight
 
 
 def _name_links(root: ElementTree.Element) -> bool:
@@ -271,23 +260,14 @@ def _describe(root: ElementTree.Element, identity: str, title: str, description:
 
 
 _NUMBERS_ONLY = str.maketrans("MLz", "   ")
+_LEADING_ZERO = re.compile(r"(?<!\d)0\.")
 
 
 def shorter(path: str) -> str:
     """
-    Write a path of straight lines by steps, rounded to hundredths.
+    Write a path of straight lines by steps, rounded to hundredths; one with curves comes back as it is.
 
     Points are rounded first, so that no error grows along a line.
-
-    Parameters
-    ----------
-    path : str
-        The attribute `d` with M, L, Q, C and z, as matplotlib writes it.
-
-    Returns
-    -------
-    shorter : str
-        The same lines; a path with curves comes back as it is.
 
     Examples
     --------
@@ -295,40 +275,20 @@ def shorter(path: str) -> str:
     'M72 50.4l.5-1.3 .5 10.9z'
     """
     if "C" in path or "Q" in path:
-        return path
-    numbers = np.fromstring(path.translate(_NUMBERS_ONLY), sep=" ")
-    return _steps(path.split("M")[1:], np.rint(100 * numbers).astype(np.int64))
-
-
-class _Steps(dict[int, str]):
-    """Hundredths as text, each written once; the sign or a space parts it from what is before."""
-
-    def __missing__(self, hundredths: int) -> str:
-        text = f"{abs(hundredths) / 100:.2f}".strip("0").rstrip(".") or "0"
-        self[hundredths] = f"-{text}" if hundredths < 0 else f" {text}"
-        return self[hundredths]
-
-
-_STEPS = _Steps()
-
-
-def _steps(lines: list[str], numbers: NDArray[np.int64]) -> str:
-    """Write lines, as given behind each M, with all their coordinates in hundredths."""
-    steps = numbers.copy()
-    steps[2:] -= numbers[:-2]
-    texts = [_STEPS[step] for step in steps.tolist()]
+        return _BEYOND_HUNDREDTHS.sub("", path).replace("\n", "")
+    points = np.rint(100 * np.fromstring(path.translate(_NUMBERS_ONLY), sep=" ")).astype(np.int64).reshape(-1, 2)
     written: list[str] = []
-    start = 0
-    for line in lines:
-        end = start + 2 + 2 * line.count("L")
-        written += "M", _joined(_STEPS[number] for number in numbers[start : start + 2].tolist())
-        if end > start + 2:
-            written += "l", _joined(texts[start + 2 : end])
+    for line in path.split("M")[1:]:
+        count = 1 + line.count("L")
+        own, points = points[:count], points[count:]
+        written += ["M", _hundredths(own[0])]
+        if count > 1:
+            written += ["l", _hundredths(np.diff(own, axis=0).ravel())]
         if "z" in line:
             written.append("z")
-        start = end
-    return "".join(written)
+    return _LEADING_ZERO.sub(".", "".join(written))
 
 
-def _joined(texts: Iterable[str]) -> str:
-    return "".join(texts).lstrip()
+def _hundredths(numbers: NDArray[np.int64]) -> str:
+    """Write hundredths; the sign or a space parts each from what is before."""
+    return " ".join(f"{number / 100:.6g}" for number in numbers.tolist()).replace(" -", "-")
