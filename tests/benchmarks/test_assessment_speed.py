@@ -19,7 +19,8 @@ from colonnade.assessment.real_column import RealColumn, draw, drawn_column
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.march import propagate
-from colonnade.dynamics.plane.run import forcing_of, prepared
+from colonnade.dynamics.plane.run import forcing_of
+from colonnade.dynamics.plane.sides import sides_of
 from colonnade.workflow.assessing import outcomes_of
 from colonnade.workflow.executors import Where
 
@@ -74,7 +75,7 @@ def _inputs(cases, chosen):
 
 def _kernel(inputs):
     """Processor time of the kernel alone, s, with all that it takes prepared."""
-    ready = [(forcing_of(Motion(base, INTERVAL), 1.0), prepared(block, e)) for base, block, e in inputs]
+    ready = [(forcing_of(Motion(base, INTERVAL), 1.0), sides_of(block, e)) for base, block, e in inputs]
     propagate(*ready[0], is_linearised=False)
     begin = time.process_time()
     for forcing, sides in ready:

@@ -16,7 +16,7 @@ from colonnade.dynamics.contact.body import ContactLaw
 from colonnade.dynamics.models import NONLINEAR, model_of, plane_model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.reactions import reactions
-from colonnade.dynamics.plane.run import OUTCOMES, OVERTURNS, ends_of, expect_usable, prepared
+from colonnade.dynamics.plane.run import OUTCOMES, OVERTURNS, ends_of, expect_usable
 from colonnade.dynamics.rock import rock
 from colonnade.validation import whole
 
@@ -221,11 +221,14 @@ def components(motions: Sequence[Motion]) -> Iterator[tuple[int, int, Motion]]:
 
 def run_cases(cases: Cases) -> CaseOutcomes:
     """Run all cases in this process."""
+    # The kernels are decorated on import.
+    from colonnade.dynamics.plane.sides import sides_of
+
     _records, levels, _draws, _signs, components = shape = cases.shape
     found = CaseOutcomes(np.full(shape, NOT_RUN, dtype=np.int8), np.full(shape, np.nan))
     gravity = cases.column.block.gravity
     for record, motion in enumerate(cases.motions):
-        columns = [prepared(*drawn_column(cases.column, values)) for values in cases.draws[record]]
+        columns = [sides_of(*drawn_column(cases.column, values)) for values in cases.draws[record]]
         for level, (side, sign), place in product(range(levels), enumerate(cases.signs), range(components)):
             plane = in_plane(motion, place, sign * float(cases.factors[record, level, place]))
             if plane is None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from math import atan2, cos, hypot
+from math import atan2, cos
 
 import numpy as np
 
@@ -188,9 +188,8 @@ class Assembly(Digested):
         """
         span = number("span", span, "a positive number", above=0.0, unit="m")
         instance("beam", beam, Block)
-        bodies = _column(column, "left", -0.5 * span) | _column(column, "right", 0.5 * span)
-        tops = tuple(name for name in bodies if not any(name in body.on for body in bodies.values()))
-        return cls(bodies | {"beam": Placed(beam, tops)})
+        bodies, tops = _columns(column, {"left": -0.5 * span, "right": 0.5 * span})
+        return cls(bodies | {"beam": Placed(beam, tuple(tops))})
 
     @classmethod
     def colonnade(cls, column: Block | Assembly, beam: Block, *, columns: int, spacing: float) -> Assembly:
@@ -215,11 +214,8 @@ class Assembly(Digested):
         columns = whole("columns", columns, 2, MOST_COLUMNS)
         spacing = number("spacing", spacing, "a positive number", above=0.0, unit="m")
         instance("beam", beam, Block)
-        bodies: dict[str, Placed] = {}
-        tops: list[str] = []
-        for i in range(columns):
-            bodies |= _column(column, f"column{i + 1}", (i - 0.5 * (columns - 1)) * spacing)
-            tops.append(list(bodies)[-1])
+        places = [(i - 0.5 * (columns - 1)) * spacing for i in range(columns)]
+        bodies, tops = _columns(column, {f"column{i + 1}": place for i, place in enumerate(places)})
         for i in range(columns - 1):
             middle = (i + 0.5 - 0.5 * (columns - 1)) * spacing
             bodies[f"beam{i + 1}"] = Placed(beam, (tops[i], tops[i + 1]), (middle, 0.0))
@@ -353,28 +349,31 @@ def as_one(assembly: Assembly, name: str | None = None) -> Block:
     places = np.array([(body.position[0] - base.position[0], level + body.centre_height) for body, level in parts])
     masses = np.array([body.block.mass for body, _ in parts])
     x, z = (masses @ places / masses.sum()).tolist()
-    side = base.block.governing
     own = [body.block.governing.inertia - body.block.mass * body.block.governing.pole_distance**2 for body, _ in parts]
-    poles = side.half_width * np.array([-1.0, 1.0])
-    arms = poles - x
+    poles = base.block.governing.half_width * np.array([-1.0, 1.0])
     around = [sum(own) + float(masses @ (((places - (pole, 0.0)) ** 2).sum(axis=1))) for pole in poles]
-    same = abs(x) < LEVEL
+    if abs(x) < LEVEL:
+        x, around[1] = 0.0, around[0]
+    arms = np.abs(poles - x)
     return Block.measured(
         mass=float(masses.sum()),
-        critical_angle=atan2(side.half_width, z) if same else (atan2(-arms[0], z), atan2(arms[1], z)),
-        pole_distance=hypot(side.half_width, z) if same else (hypot(arms[0], z), hypot(arms[1], z)),
-        inertia=around[0] if same else (around[0], around[1]),
+        critical_angle=np.arctan2(arms, z),
+        pole_distance=np.hypot(arms, z),
+        inertia=(around[0], around[1]),
         gravity=assembly.gravity,
     )
 
 
-def _column(column: Block | Assembly, name: str, x: float) -> dict[str, Placed]:
-    """Place a column, or its blocks, at x."""
-    if isinstance(column, Block):
-        return {name: Placed(column, (), (x, 0.0))}
-    instance("column", column, Assembly)
-    placed: dict[str, Placed] = {}
-    for own, body in column.bodies.items():
-        on = tuple(f"{name}.{below}" for below in body.on)
-        placed[f"{name}.{own}"] = Placed(body.block, on, (body.position[0] + x, body.position[1]))
-    return placed
+def _columns(column: Block | Assembly, places: Mapping[str, float]) -> tuple[dict[str, Placed], list[str]]:
+    """Place columns, or their blocks, at x by name; give the uppermost of each too."""
+    bodies: dict[str, Placed] = {}
+    tops: list[str] = []
+    for name, x in places.items():
+        if isinstance(column, Block):
+            bodies[name] = Placed(column, (), (x, 0.0))
+        else:
+            for own, body in instance("column", column, Assembly).bodies.items():
+                on = tuple(f"{name}.{below}" for below in body.on)
+                bodies[f"{name}.{own}"] = Placed(body.block, on, (body.position[0] + x, body.position[1]))
+        tops.append(list(bodies)[-1])
+    return bodies, tops

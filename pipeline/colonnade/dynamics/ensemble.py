@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import ceil, inf, nan, sqrt
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -249,13 +249,17 @@ class Plan(ABC):
     omega0: float = 0.0
     count: int = 1000
     seed: int = 0
-    names: ClassVar[tuple[str, ...]]
 
     def __post_init__(self) -> None:
         instance("block", self.block, Block)
         instance("motion", self.motion, Motion)
         whole("count", self.count, 1, MOST_MEMBERS, f"at least one member, and at most {MOST_MEMBERS},")
         whole("seed", self.seed, 0, LARGEST_SEED)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the inputs."""
+        return INPUTS
 
     @abstractmethod
     def central(self) -> History | AssemblyHistory:
@@ -353,7 +357,6 @@ class PlanePlan(Plan):
     uncertainty: Uncertainty
     model: str = DEFAULT
     rest_angle: float = DEFAULT_REST_ANGLE
-    names: ClassVar[tuple[str, ...]] = INPUTS
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -22,7 +22,6 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_outcomes
 from colonnade.dynamics.plane.run import OUTCOMES, OVERTURNS, ends_of, expect_usable
 from colonnade.dynamics.restitution_law import Restitution, RestitutionLaw
-from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.units.text import Digested
 from colonnade.validation import number, whole
 
@@ -126,7 +125,7 @@ def runs_of(
     from colonnade.dynamics.plane.sides import sides_of
 
     expect_usable(block, Motion(unit, dt))
-    sides = [sides_of(block, restitution, DEFAULT_REST_ANGLE)]
+    sides = [sides_of(block, restitution)]
 
     def recorded(amplitudes: Array) -> Codes:
         motions = (Motion(unit * amplitude, dt) for amplitude in amplitudes)

@@ -13,7 +13,8 @@ from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, Sided
 from colonnade.dynamics.models import NONLINEAR, plane_model_of
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.run import OVERTURNS, ends_of, expect_usable, prepared
+from colonnade.dynamics.plane.run import OVERTURNS, ends_of, expect_usable
+from colonnade.dynamics.restitution_law import law_of
 from colonnade.dynamics.search import in_threads
 from colonnade.units.text import Digested
 from colonnade.validation import instance, number, samples
@@ -142,7 +143,10 @@ def rocking_spectrum(
     plane_model_of(model)
     blocks = [rectangular(alpha, one, gravity) for alpha in angles.tolist() for one in periods.tolist()]
     expect_usable(max(blocks, key=lambda block: block.p), motion)
-    sides = [prepared(block, restitution) for block in blocks]
+    # The kernels are decorated on import.
+    from colonnade.dynamics.plane.sides import sides_of
+
+    sides = [sides_of(block, law_of(block, restitution)) for block in blocks]
     ends = in_threads(lambda each: ends_of(motion, [each], gravity=gravity, model=model), sides, threads)
     codes, peak, speed = (np.reshape(part, (angles.size, -1)) for part in zip(*ends, strict=True))
     velocity = speed / np.reshape([block.p for block in blocks], speed.shape)

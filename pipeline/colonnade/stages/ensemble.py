@@ -13,7 +13,9 @@ from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.channel import ALONG
 from colonnade.campaign.settings import ContactEnsembleSettings, PlaneEnsembleSettings
-from colonnade.dynamics.contact.ensemble import AssemblyPlan, ContactPlan, Range
+from colonnade.dynamics.assembly import Assembly
+from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.ensemble import ContactPlan, Range
 from colonnade.dynamics.contact.simulate import plane_block
 from colonnade.dynamics.ensemble import Plan, PlanePlan
 from colonnade.dynamics.models import CONTACT
@@ -215,37 +217,43 @@ def contact_ensemble(
     space, ranges, assembled = inputs.prediction.space, inputs.settings, inputs.prediction.assembly
     assert space is not None  # the contact model's inputs have it
     law = assembly_law(space.settings) if contact is None else law_of(contact)
-    common: dict[str, Any] = {
-        "law": law,
+    varied = {
         "friction": _about(law.friction, ranges.friction * law.friction),
         "damping_fraction": _about(law.damping_fraction, ranges.damping_fraction * law.damping_fraction),
-        "motion": beginning.motion,
-        "theta0": beginning.theta0,
-        "omega0": beginning.omega0,
-        "count": int(ranges.members),
     }
-    plan: AssemblyPlan | ContactPlan
+    body: ContactBody | Assembly
     if assembled is not None:
-        common |= {"assembly": assembled.assembly, "misplacement": abs(ranges.misplacement)}
-        penetration = _about(law.penetration, ranges.penetration * law.penetration)
-        plan = AssemblyPlan(block=space.block, penetration=penetration, **common)
+        body, block = assembled.assembly, space.block
+        varied["penetration"] = _about(law.penetration, ranges.penetration * law.penetration)
     else:
-        body, tilt = body_of(space, law), _about(space.settings.out_of_plane, abs(ranges.out_of_plane))
+        body = body_of(space, law)
         block = plane_block(body, space.block.gravity)
-        plan = ContactPlan(block=block, body=body, out_of_plane=tilt, step=space.settings.step, **common)
+        varied["out_of_plane"] = _about(space.settings.out_of_plane, abs(ranges.out_of_plane))
+    plan = ContactPlan(
+        block=block,
+        motion=beginning.motion,
+        theta0=beginning.theta0,
+        omega0=beginning.omega0,
+        count=int(ranges.members),
+        body=body,
+        law=law,
+        ranges=varied,
+        misplacement=abs(ranges.misplacement),
+        step=space.settings.step,
+    )
     try:
         central = plan.central_angle()
         parts = run(plan, central)
     except ValueError as error:
         raise StageError(f"processing.predict.contact: {error}") from error
     found = plan.gather(central, parts)
-    middles = {name: getattr(law, name, 1.0) or 1.0 for name in plan.names}
-    deviations = {name: np.ptp(getattr(plan, name)) / np.sqrt(12.0) / middles[name] for name in plan.names}
+    middles = {name: getattr(law, name, 1.0) or 1.0 for name in varied}
+    deviations = {name: np.ptp(varied[name]) / np.sqrt(12.0) / middles[name] for name in varied}
     errors = measurement_errors(conditioned, rocking, beginning, inputs.measurement)
     starts = np.zeros(plan.count)
     bands = describe_bands(rocking, beginning, found, deviations, starts, errors, inputs.measurement)
-    if isinstance(plan, AssemblyPlan):
-        bands = bands.assign(_ends(list(plan.assembly.bodies), parts, found.levels))
+    if isinstance(body, Assembly):
+        bands = bands.assign(_ends(list(body.bodies), parts, found.levels))
     return bands.assign_attrs(model=CONTACT.name, members=plan.count, warnings=[])
 
 

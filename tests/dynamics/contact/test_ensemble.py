@@ -21,9 +21,7 @@ PLAN = ContactPlan(
     motion=at_rest(BLOCK, 0.5),
     body=BODY,
     law=LAW,
-    friction=(0.3, 0.9),
-    damping_fraction=(0.1, 1.0),
-    out_of_plane=(0.0, 0.01 * PRISM.critical_angle),
+    ranges={"friction": (0.3, 0.9), "damping_fraction": (0.1, 1.0), "out_of_plane": (0.0, 0.01 * PRISM.critical_angle)},
     theta0=0.4 * PRISM.critical_angle,
     step=5e-5,
     count=12,
@@ -38,7 +36,7 @@ def ensemble():
 
 def test_inputs_stay_in_their_ranges_and_differ(ensemble):
     for name, values in zip(PLAN.names, ensemble.inputs.T, strict=True):
-        low, high = getattr(PLAN, name)
+        low, high = PLAN.ranges[name]
         assert low <= values.min() < values.max() <= high
         assert np.unique(values).size == PLAN.count
 
@@ -55,7 +53,7 @@ def test_a_member_is_the_run_with_what_it_drew_whoever_runs_it_and_when():
 
 def test_more_damping_takes_more_at_an_impact(ensemble):
     assert ensemble.correlations(ensemble.peak_ratio).keys() == set(PLAN.names)
-    plan = replace(PLAN, friction=(0.6, 0.6), out_of_plane=(0.0, 0.0))
+    plan = replace(PLAN, ranges=PLAN.ranges | {"friction": (0.6, 0.6), "out_of_plane": (0.0, 0.0)})
     inputs, histories = zip(*(plan.member(member) for member in range(plan.count)), strict=True)
     restitution = np.array([free_restitution(history) for history in histories])
     assert spearmanr(restitution, np.array(inputs)[:, 1]).statistic < -0.99
@@ -63,7 +61,9 @@ def test_more_damping_takes_more_at_an_impact(ensemble):
 
 
 def test_bands_lie_in_their_order_about_the_run_with_nothing_varied(ensemble):
-    plain = simulate(BODY, law=LAW, theta0=PLAN.theta0, duration=0.5, step=5e-5, out_of_plane=PLAN.out_of_plane[1] / 2)
+    plain = simulate(
+        BODY, law=LAW, theta0=PLAN.theta0, duration=0.5, step=5e-5, out_of_plane=PLAN.ranges["out_of_plane"][1] / 2
+    )
     np.testing.assert_array_equal(ensemble.central, plain.angle)
     np.testing.assert_array_equal(ensemble.time, plain.time)
     assert np.all(np.diff(ensemble.bands, axis=0) >= 0.0)

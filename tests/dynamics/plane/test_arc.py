@@ -155,7 +155,7 @@ def test_samples_in_which_nothing_happens_are_passed_over_to_the_same_state(side
     angles, velocities = np.zeros(60), np.zeros(60)
     angles[0] = side * 0.6 * LEAN
     whole = sides.whole_sample(side, LEAN, P, step / P, float(np.abs(base).max()))
-    reached = sides.undisturbed(angles, velocities, base, 0, False, (LEAN, LEAN), whole)
+    reached = sides.pass_over(angles, velocities, base, 0, whole)
     height, rate = 0.6 * LEAN, 0.0
     for sample in range(reached):
         push = Push(side * base[sample], side * (base[sample + 1] - base[sample]) / step, 1.0, 0.0, 0.0, 1.0, 0.0)
@@ -170,7 +170,5 @@ def test_samples_in_which_nothing_happens_are_passed_over_to_the_same_state(side
 
 def test_at_rest_it_stays_until_the_base_pulls_harder_than_alpha():
     base = LEAN * np.array([0.0, 0.9, -0.9, 1.0, 1.1, 0.0])
-    whole = sides.whole_sample(1.0, LEAN, P, 0.01, float(base.max()))
-    rest = np.zeros(6), np.zeros(6)
-    assert sides.undisturbed(*rest, base, 0, True, (LEAN, LEAN), whole) == 3
-    assert sides.undisturbed(*rest, base, 4, True, (LEAN, LEAN), whole) == 4
+    assert sides.stay(base, 0, (LEAN, LEAN)) == 3
+    assert sides.stay(base, 4, (LEAN, LEAN)) == 4

@@ -7,7 +7,8 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.run import LARGEST_ACCELERATION, LONGEST_SAMPLE, OUTCOMES, ends_of, prepared
+from colonnade.dynamics.plane.run import LARGEST_ACCELERATION, LONGEST_SAMPLE, OUTCOMES, ends_of
+from colonnade.dynamics.plane.sides import sides_of
 from colonnade.dynamics.rock import rock
 from prism import PRISM
 
@@ -69,7 +70,7 @@ LIFTED = 0.4 * np.cos(2 * np.pi * 5.0 * TIME) * PRISM.gravity
 @pytest.mark.parametrize("vertical", [None, LIFTED, 0.0 * LIFTED], ids=["level", "lifted", "lifted by nothing"])
 def test_ends_are_those_of_the_histories(model, vertical):
     blocks = [(PRISM, (0.95, 0.95)), (LEANING, (0.9, 0.96)), (PRISM, (0.8, 0.8))]
-    drawn, seen = [prepared(*each) for each in blocks], set()
+    drawn, seen = [sides_of(*each) for each in blocks], set()
     for level in (0.1, 0.15, 0.22, 0.3, 0.6, 1.2):
         motion = Motion(level * SHAKEN, 0.005, vertical)
         ends = ends_of(motion, drawn, gravity=PRISM.gravity, model=model)
@@ -80,11 +81,6 @@ def test_ends_are_those_of_the_histories(model, vertical):
             np.testing.assert_array_equal(ends.peak_ratio[number], expected)
             seen.add(history.outcome)
     assert seen == set(OUTCOMES)
-
-
-def test_a_block_is_refused_whose_e_is_none():
-    with pytest.raises(ValueError, match=r"restitution is 1\.1; a number between 0 and 1"):
-        prepared(PRISM, 1.1)
 
 
 @pytest.mark.parametrize("model", ["linear", "nonlinear"])

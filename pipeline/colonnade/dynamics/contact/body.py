@@ -44,6 +44,12 @@ class Nodes:
         if self.ring_radii.size == 0:
             object.__setattr__(self, "ring_radii", np.zeros(len(self.nodes)))
 
+    def around(self, count: int) -> Array:
+        """Give equal points on the circle of each node, shape (n, count, 3); of a point node it again and again."""
+        turned = 2.0 * pi * (np.arange(count) + 0.5) / count
+        circle = np.column_stack((np.cos(turned) - 1.0, np.sin(turned), np.zeros(count)))
+        return np.asarray(self.nodes[:, None] + self.ring_radii[:, None, None] * circle)
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ContactBody(Nodes):

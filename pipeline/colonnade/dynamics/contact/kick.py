@@ -11,7 +11,7 @@ from __future__ import annotations
 from math import sqrt
 
 from colonnade.arrays import Array
-from colonnade.dynamics.contact.state import Near, State, System
+from colonnade.dynamics.contact.state import State, System
 from colonnade.dynamics.contact.touch import fill_twists
 from colonnade.dynamics.kernel import kernel_in_place
 
@@ -20,23 +20,23 @@ PASSES = 3
 
 
 @kernel_in_place
-def kick(system: System, state: State, near: Near, step: float) -> None:
+def kick(system: System, state: State, step: float) -> None:
     """Take the contact's impulse on all bodies, and book it."""
-    mass, rigid, matrix, listed, load = system.mass, state.rigid, state.matrix, near.listed, near.load
-    change, total, gain, rates, sides = near.change, near.total, near.gain, near.rates, system.carrier.size
+    mass, rigid, matrix, listed, load = system.mass, state.rigid, state.matrix, state.listed, state.load
+    change, total, gain, rates, sides = state.change, state.total, state.gain, state.rates, system.carrier.size
     strain, force, begins, touched = state.strain, state.force, system.sides, state.touched
-    slots, pull = near.slot, near.pull
+    slots, pull = state.slot, state.pull
     change[:, :], gain[:], total[:, :], force[:, :] = 0.0, 0.0, 0.0, 0.0
     if listed[sides] == 0:
         return
     for turn in range(PASSES + 1):
         # Means of the velocities before and after the impulse found so far: of bodies, modes and points.
         if turn > 0:
-            fill_twists(system, state, near, 0.5)
+            fill_twists(system, state, 0.5)
         for mode in range(gain.size):
             rates[mode] = strain[1, mode] + 0.5 * gain[mode]
         for side in range(sides):
-            _fill_velocities(system, near, side)
+            _fill_velocities(system, state, side)
         if turn == 0:
             # The slip's increase since the last kick; a point that just arrives has none. Free of contact, the mean
             # velocity since then was less than the present one by what the table's acceleration gives in half a step.
@@ -53,8 +53,8 @@ def kick(system: System, state: State, near: Near, step: float) -> None:
         total[:, :], gain[:], force[:, :] = 0.0, 0.0, 0.0
         for joint in range(force.shape[0]):
             for side in range(begins[joint], begins[joint + 1]):
-                _fill_forces(system, state, near, side, step)
-                _add_forces(system, state, near, joint, side, step)
+                _fill_forces(system, state, side, step)
+                _add_forces(system, state, joint, side, step)
         for body in range(mass.size):
             for axis in range(3):
                 change[body, axis] = step * total[body, axis] / mass[body]
@@ -68,14 +68,21 @@ def kick(system: System, state: State, near: Near, step: float) -> None:
     for mode in range(gain.size):
         strain[1, mode] += gain[mode]
     for side in range(sides):
-        _settle(system, state, near, side, step)
+        _settle(system, state, side, step)
 
 
 @kernel_in_place
-def _fill_velocities(system: System, near: Near, side: int) -> None:
+def _fill_velocities(system: System, state: State, side: int) -> None:
     """Fill the velocities of an interface's points relative to the target, v + ω × r + R Φ η̇."""
-    rates, modes, turned, lever, load, twist = near.rates, system.modes, near.turned, near.lever, near.load, near.twist
-    listed, nodes = near.listed, near.node
+    rates, modes, turned, lever, load, twist = (
+        state.rates,
+        system.modes,
+        state.turned,
+        state.lever,
+        state.load,
+        state.twist,
+    )
+    listed, nodes = state.listed, state.node
     u, v, w, p, q, r = twist[side, 0], twist[side, 1], twist[side, 2], twist[side, 3], twist[side, 4], twist[side, 5]
     for index in range(listed[side], listed[side + 1]):
         x, y, z = lever[index, 0], lever[index, 1], lever[index, 2]
@@ -90,10 +97,10 @@ def _fill_velocities(system: System, near: Near, side: int) -> None:
 
 
 @kernel_in_place
-def _fill_forces(system: System, state: State, near: Near, side: int, step: float) -> None:
+def _fill_forces(system: System, state: State, side: int, step: float) -> None:
     """Fill the forces of an interface's points by the law of contact, and what becomes of their slip."""
-    load, depths, slip, listed = near.load, near.depth, state.slip, near.listed
-    nodes, slots, shares, friction = near.node, near.slot, near.share, system.friction[side]
+    load, depths, slip, listed = state.load, state.depth, state.slip, state.listed
+    nodes, slots, shares, friction = state.node, state.slot, state.share, system.friction[side]
     for index in range(listed[side], listed[side + 1]):
         node, slot, share, depth = nodes[index], slots[index], shares[index], depths[index]
         # Normal: the part of the step that the point is in contact, and the mean depth times that part.
@@ -136,10 +143,17 @@ def _shorten(load: Array, row: int, column: int, stiffness: float, limit: float)
 
 
 @kernel_in_place
-def _add_forces(system: System, state: State, near: Near, joint: int, side: int, step: float) -> None:
+def _add_forces(system: System, state: State, joint: int, side: int, step: float) -> None:
     """Add the forces of an interface's points and their moments to its bodies, equal and opposite, and to the modes."""
-    load, lever, frame, total, listed, rigid = near.load, near.lever, near.frame, near.total, near.listed, state.rigid
-    gain, turned, modes, nodes, force = near.gain, near.turned, system.modes, near.node, state.force
+    load, lever, frame, total, listed, rigid = (
+        state.load,
+        state.lever,
+        state.frame,
+        state.total,
+        state.listed,
+        state.rigid,
+    )
+    gain, turned, modes, nodes, force = state.gain, state.turned, system.modes, state.node, state.force
     upper, lower, flip = system.carrier[side], system.target[side], system.flip[side]
     u, v, w, p, q, r = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for index in range(listed[side], listed[side + 1]):
@@ -189,10 +203,10 @@ def _add(total: Array, body: int, u: float, v: float, w: float, p: float, q: flo
 
 
 @kernel_in_place
-def _settle(system: System, state: State, near: Near, side: int, step: float) -> None:
+def _settle(system: System, state: State, side: int, step: float) -> None:
     """Book what the contact of an interface took, and keep the slip."""
-    slip, lost, load, slots, nodes = state.slip, state.lost, near.load, near.slot, near.node
-    share, listed, touched = near.share, near.listed, state.touched
+    slip, lost, load, slots, nodes = state.slip, state.lost, state.load, state.slot, state.node
+    share, listed, touched = state.share, state.listed, state.touched
     for index in range(listed[side], listed[side + 1]):
         slot = slots[index]
         stiffness = share[index] * system.stiffness[nodes[index]]

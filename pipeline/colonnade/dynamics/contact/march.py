@@ -20,7 +20,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.contact.kick import kick
-from colonnade.dynamics.contact.state import Near, State, System
+from colonnade.dynamics.contact.state import State, System
 from colonnade.dynamics.contact.touch import fill_poses, fill_twists, place, spring_energy
 from colonnade.dynamics.kernel import kernel_in_place
 
@@ -32,7 +32,6 @@ POLE = 0.75
 def march(
     system: System,
     state: State,
-    near: Near,
     motion: Array,
     interval: float,
     parts: int,
@@ -52,8 +51,8 @@ def march(
     might find more impacts than `found`, shape (k, IMPACT), has room for.
     """
     step, bodies, count = interval / parts, state.rigid.shape[0], state.watch.shape[0]
-    watch, before, strain, force, hits = state.watch, near.before, state.strain, state.force, state.hits
-    pull, rigid, matrix, stands = near.pull, state.rigid, state.matrix, state.stands
+    watch, before, strain, force, hits = state.watch, state.before, state.strain, state.force, state.hits
+    pull, rigid, matrix, stands = state.pull, state.rigid, state.matrix, state.stands
     if begin == 0:
         _fill_rotations(rigid, matrix)
     for sample in range(begin, motion.shape[0]):
@@ -65,28 +64,28 @@ def march(
                 pull[axis] = -_table(motion, sample, (part + 0.25) / parts, axis)
             _drift(system, state, pull, 0.5 * step)
             # What may touch within the step, and its impulse.
-            fill_poses(system, state, near)
-            fill_twists(system, state, near, 0.0)
+            fill_poses(system, state)
+            fill_twists(system, state, 0.0)
             flutter = 0.0
             for mode in range(strain.shape[1]):
                 flutter += strain[1, mode] ** 2
-            place(system, state, near, sqrt(flutter), step)
+            place(system, state, sqrt(flutter), step)
             for joint in range(count):
-                angle, speed = _about_pole(system, near, joint, watch[joint, 0])
+                angle, speed = _about_pole(system, state, joint, watch[joint, 0])
                 before[joint, 0], before[joint, 1] = angle, speed
                 watch[joint, 2] = max(watch[joint, 2], abs(angle))
-            kick(system, state, near, step)
+            kick(system, state, step)
             time = (sample - 1) * interval + (part + 0.5) * step
             base = _table(motion, sample, (part + 0.5) / parts, 0)
             for joint in range(count):
-                _watch(system, state, near, joint, base, time, found)
+                _watch(system, state, joint, base, time, found)
             # The second half of the drift.
             for axis in range(3):
                 pull[axis] = -_table(motion, sample, (part + 0.75) / parts, axis)
                 for joint in range(count):
                     joints[sample, joint, 3 + axis] += force[joint, axis] / parts
             _drift(system, state, pull, 0.5 * step)
-        _fill_sample(system, state, near, samples[sample], joints[sample], sums[sample])
+        _fill_sample(system, state, samples[sample], joints[sample], sums[sample])
         left = 0
         for body in range(bodies):
             if stands[body] == 1 and (matrix[body, 2, 2] <= 0.0 or rigid[body, 2] < system.lowest[body]):
@@ -173,9 +172,9 @@ def _turn(rigid: Array, body: int, axis: int, angle: float) -> None:
 
 
 @kernel_in_place
-def _about_pole(system: System, near: Near, joint: int, pole: float) -> tuple[float, float]:
+def _about_pole(system: System, state: State, joint: int, pole: float) -> tuple[float, float]:
     """Give angle about y and speed about a pole of a joint: the angular momentum about it over the inertia about it."""
-    mass, inertia, poles, turned, twist = system.mass, system.inertia, system.poles, near.turned, near.twist
+    mass, inertia, poles, turned, twist = system.mass, system.inertia, system.poles, state.turned, state.twist
     side = system.sides[joint]
     body = system.carrier[side]
     along, below = poles[joint, 0] + pole * poles[joint, 1], poles[joint, 2]
@@ -191,10 +190,10 @@ def _about_pole(system: System, near: Near, joint: int, pole: float) -> tuple[fl
 
 
 @kernel_in_place
-def _watch(system: System, state: State, near: Near, joint: int, base: float, time: float, found: Array) -> None:
+def _watch(system: System, state: State, joint: int, base: float, time: float, found: Array) -> None:
     """Note in `found` where an arc of rocking ends and the next begins."""
-    watch, hits, before = state.watch, state.hits, near.before
-    left, right, inner = _where_it_touches(system, near, joint)
+    watch, hits, before = state.watch, state.hits, state.before
+    left, right, inner = _where_it_touches(system, state, joint)
     watch[joint, 3] += 0.0 if left or right or inner else 1.0
     pole, hit = watch[joint, 0], int(watch[joint, 1])
     now = 0.0 if inner else (1.0 if right else 0.0) - (1.0 if left else 0.0)
@@ -207,17 +206,17 @@ def _watch(system: System, state: State, near: Near, joint: int, base: float, ti
     # The next begins where it touches at one pole only.
     if now != 0.0 and abs(pole) != 1.0:
         if pole == 2.0:
-            fill_twists(system, state, near, 0.0)
+            fill_twists(system, state, 0.0)
             found[hit, 5], found[hit, 8] = time, now
-            found[hit, 6], found[hit, 7] = _about_pole(system, near, joint, now)
+            found[hit, 6], found[hit, 7] = _about_pole(system, state, joint, now)
         pole, watch[joint, 2] = now, 0.0
     watch[joint, 0], watch[joint, 1] = pole, hit
 
 
 @kernel_in_place
-def _where_it_touches(system: System, near: Near, joint: int) -> tuple[bool, bool, bool]:
+def _where_it_touches(system: System, state: State, joint: int) -> tuple[bool, bool, bool]:
     """Say whether a joint touches at its left pole (beyond −`POLE`), at its right one, and between them."""
-    load, lever, listed, apart, flip = near.load, near.lever, near.listed, near.apart, system.flip
+    load, lever, listed, apart, flip = state.load, state.lever, state.listed, state.apart, system.flip
     left, right, inner, edge = False, False, False, POLE * system.poles[joint, 1]
     for side in range(system.sides[joint], system.sides[joint + 1]):
         for index in range(listed[side], listed[side + 1]):
@@ -229,9 +228,9 @@ def _where_it_touches(system: System, near: Near, joint: int) -> tuple[bool, boo
 
 
 @kernel_in_place
-def _fill_sample(system: System, state: State, near: Near, sample: Array, joints: Array, sums: Array) -> None:
+def _fill_sample(system: System, state: State, sample: Array, joints: Array, sums: Array) -> None:
     """Fill the rows of a sample except the forces, which are added up along the run."""
-    fill_poses(system, state, near)
+    fill_poses(system, state)
     for body in range(sample.shape[0]):
         for column in range(10):
             sample[body, column] = state.rigid[body, column]
@@ -239,7 +238,7 @@ def _fill_sample(system: System, state: State, near: Near, sample: Array, joints
             sample[body, 10 + axis] = state.rigid[body, 10 + axis] / system.inertia[body, axis]
     for joint in range(joints.shape[0]):
         for side in range(system.sides[joint], system.sides[joint + 1]):
-            joints[joint, 0] += spring_energy(system, state, near, side)
+            joints[joint, 0] += spring_energy(system, state, side)
             joints[joint, 1] += state.lost[side, 0]
             joints[joint, 2] += state.lost[side, 1]
     sums[0], sums[1] = state.work[0], state.work[1]

@@ -17,7 +17,7 @@ from colonnade.dynamics.contact.history import ContactHistory, EnergyBalance, im
 from colonnade.dynamics.contact.march import march
 from colonnade.dynamics.contact.stability import longest_step
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing, standing_assembly
-from colonnade.dynamics.contact.state import IMPACT, Near, State
+from colonnade.dynamics.contact.state import IMPACT, State
 from colonnade.dynamics.contact.structure import Structure
 from colonnade.dynamics.motion import Motion, at_rest
 from colonnade.validation import number
@@ -297,12 +297,12 @@ def _march(
 ) -> tuple[Array, Array, Array, Array, int, Mask]:
     """Call the engine from the bodies' rows, as of `Start`; give samples, joints, sums, impacts, reached, stands."""
     system, joints = structure.system(interval / parts), len(structure.joints)
-    state, near = State.begin(system, rows), Near.room(system)
+    state = State.begin(system, rows)
     samples, sums = np.zeros((len(table), *rows.shape)), np.zeros((len(table), 4))
     contact, found = np.zeros((len(table), joints, 7)), np.zeros((2 * joints * parts, IMPACT))
     reached, stands = 0, state.stands > 0
     while reached < len(table) and stands.any():
-        reached = march(system, state, near, table, interval, parts, samples, contact, sums, found, reached)
+        reached = march(system, state, table, interval, parts, samples, contact, sums, found, reached)
         found, stands = np.concatenate((found, np.zeros_like(found))), state.stands > 0
     return samples, contact, sums, found[: state.hits[0]], reached, stands
 

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from colonnade.arrays import Array
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.dynamics.contact.body import ContactBody, ContactLaw
 from colonnade.dynamics.contact.kick import PASSES
-from colonnade.dynamics.contact.structure import Interface, Structure
+from colonnade.dynamics.contact.state import TABLE
+from colonnade.dynamics.contact.structure import Structure
 
 AROUND = 4
 """Equal points that have the second moments of a ring."""
@@ -26,18 +26,20 @@ def highest_frequency(structure: Structure) -> float:
     bodies, frequencies = structure.bodies, structure.bodies[0].frequencies
     matrix = np.diag(np.concatenate((np.zeros(6 * len(bodies)), frequencies**2)))
     for side in structure.interfaces:
-        places, stiffness, owner = _points(side)
+        around = AROUND if side.ring_radii.any() else 1
+        places = side.around(around).reshape(-1, 3)
+        # What each point moves relative to the target: with the carrier, and against it with the target.
         shapes = np.zeros((len(places), 3, len(matrix)))
-        # What a point moves relative to the target: with the carrier, and against it with the target.
-        _add_rigid(shapes, bodies[side.carrier].mass, bodies[side.carrier].inertia, side.carrier, places, 1.0)
+        for body, arms, sign in ((side.carrier, places, 1.0), (side.target, places + side.apart, -1.0)):
+            if body != TABLE:
+                mass, inertia, first = bodies[body].mass, bodies[body].inertia, 6 * body
+                turned = np.cross(np.eye(3), arms[:, None]).swapaxes(1, 2)
+                shapes[:, :, first : first + 3] = sign * np.eye(3) / np.sqrt(mass)
+                shapes[:, :, first + 3 : first + 6] = sign * turned / np.sqrt(inertia)
         if frequencies.size:
-            shapes[:, :, 6:] = bodies[0].modes[owner]
-        if side.target >= 0:
-            _add_rigid(
-                shapes, bodies[side.target].mass, bodies[side.target].inertia, side.target, places + side.apart, -1.0
-            )
-        weighted = np.sqrt(stiffness)[:, None, None] * shapes
-        flat = weighted.reshape(-1, len(matrix))
+            shapes[:, :, 6:] = np.repeat(bodies[0].modes, around, axis=0)
+        weights = np.sqrt(np.repeat(side.law.node_stiffness(side) / around, around))
+        flat = (weights[:, None, None] * shapes).reshape(-1, len(matrix))
         matrix += flat.T @ flat
     return float(np.sqrt(np.linalg.eigvalsh(matrix)[-1]))
 
@@ -72,27 +74,6 @@ def _grows_not(step: float, damping: float) -> bool:
     kick = np.eye(2)
     kick[1] += change
     return bool(np.abs(np.linalg.eigvals(half @ kick @ half)).max() <= 1.0 + 1e-9)
-
-
-def _points(side: Interface) -> tuple[Array, Array, NDArray[np.int64]]:
-    """Give an interface's points, with several of the same moments for each ring; their stiffness; whose they are."""
-    whole = side.ring_radii > 0.0
-    count = np.where(whole, AROUND, 1)
-    owner = np.repeat(np.arange(len(count), dtype=np.int64), count)
-    turned = np.concatenate([2.0 * np.pi * np.arange(each) / each for each in count] or [np.zeros(0)])
-    radii = side.ring_radii[owner]
-    ring = np.column_stack((radii * np.cos(turned), radii * np.sin(turned), side.nodes[owner, 2]))
-    places = np.where(whole[owner][:, None], ring, side.nodes[owner])
-    return places, side.law.node_stiffness(side)[owner] / count[owner], owner
-
-
-def _add_rigid(shapes: Array, mass: float, inertia: Array, body: int, places: Array, sign: float) -> None:
-    """Add the displacements of places in the rigid motions of unit modal mass of a body."""
-    for axis in range(3):
-        about = np.zeros(3)
-        about[axis] = 1.0 / np.sqrt(inertia[axis])
-        shapes[:, axis, 6 * body + axis] += sign / np.sqrt(mass)
-        shapes[:, :, 6 * body + 3 + axis] += sign * np.cross(about, places)
 
 
 FOLLOWED = 0.25
@@ -155,13 +136,10 @@ def keep_modes_for_step(body: ContactBody, law: ContactLaw, step: float) -> Cont
         raise ValueError(
             f"The step is {step:.3g} s; even the rigid body on this contact needs one of at most {longest:.3g} s"
         )
-    frequencies = np.append(0.0, body.frequencies)
-    low, high = 0, body.frequencies.size + 1
-    while high - low > 1:
-        middle = (low + high) // 2
-        allowed = longest_with(body, law, frequencies[middle]) >= step / FOLLOWED
-        low, high = (middle, high) if allowed else (low, middle)
-    return keep_modes(body, frequencies[low])
+    count = bisect_left(
+        body.frequencies, True, key=lambda highest: longest_with(body, law, float(highest)) < step / FOLLOWED
+    )
+    return keep_modes(body, float(body.frequencies[count - 1]) if count else 0.0)
 
 
 def longest_with(body: ContactBody, law: ContactLaw, highest_frequency: float) -> float:

@@ -278,11 +278,8 @@ def on_face(side: Interface) -> Array:
     """Give how much of each node is on the target's face at rest, shape (n,), of a ring in the mean over its circle."""
     if side.target == TABLE:
         return np.ones(len(side.nodes))
-    turns = 2.0 * np.pi * (np.arange(64) + 0.5) / 64
-    circle = np.column_stack((np.cos(turns), np.sin(turns)))
-    middles = side.nodes[:, :2] - np.column_stack((side.ring_radii, np.zeros(len(side.nodes)))) + side.apart[:2]
-    places = middles[:, None] + side.ring_radii[:, None, None] * circle
-    return np.array([np.mean([inside(*side.outline, x, y) for x, y in around]) for around in places])
+    places = side.around(64) + side.apart
+    return np.array([np.mean([inside(*side.outline, x, y) for x, y, _ in circle]) for circle in places])
 
 
 def _on_table(body: ContactBody, carrier: int, law: ContactLaw) -> Interface:

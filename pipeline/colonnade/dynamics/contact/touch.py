@@ -17,7 +17,7 @@ from __future__ import annotations
 from math import asin, atan2, cos, floor, pi, sin, sqrt
 
 from colonnade.arrays import Array
-from colonnade.dynamics.contact.state import Near, State, System
+from colonnade.dynamics.contact.state import State, System
 from colonnade.dynamics.kernel import kernel_in_place
 
 DEEPEST = 1e-4
@@ -25,10 +25,10 @@ DEEPEST = 1e-4
 
 
 @kernel_in_place
-def fill_poses(system: System, state: State, near: Near) -> None:
+def fill_poses(system: System, state: State) -> None:
     """Fill where each carrier is in the axes of its target."""
     rigid, matrix, target, carrier, flip = state.rigid, state.matrix, system.target, system.carrier, system.flip
-    frame, turned, apart, face = near.frame, near.turned, near.apart, system.face
+    frame, turned, apart, face = state.frame, state.turned, state.apart, system.face
     for side in range(carrier.size):
         upper, lower = carrier[side], target[side]
         if lower < 0:
@@ -51,10 +51,10 @@ def fill_poses(system: System, state: State, near: Near) -> None:
 
 
 @kernel_in_place
-def fill_twists(system: System, state: State, near: Near, share: float) -> None:
+def fill_twists(system: System, state: State, share: float) -> None:
     """Fill the velocities of bodies, a share of the change by the kick later, and of carriers relative to targets."""
     rigid, matrix, inertia = state.rigid, state.matrix, system.inertia
-    speeds, change, twist, frame = near.speeds, near.change, near.twist, near.frame
+    speeds, change, twist, frame = state.speeds, state.change, state.twist, state.frame
     carrier, target = system.carrier, system.target
     for body in range(rigid.shape[0]):
         for axis in range(3):
@@ -83,9 +83,9 @@ def fill_twists(system: System, state: State, near: Near, share: float) -> None:
 
 
 @kernel_in_place
-def place(system: System, state: State, near: Near, flutter: float, step: float) -> None:
+def place(system: System, state: State, flutter: float, step: float) -> None:
     """List the points that may touch within `step`, interface by interface."""
-    listed, twist, carrier, target, stands = near.listed, near.twist, system.carrier, system.target, state.stands
+    listed, twist, carrier, target, stands = state.listed, state.twist, system.carrier, system.target, state.stands
     first, radii, reach = system.first, system.radii, system.reach
     listed[0] = 0
     for side in range(target.size):
@@ -94,17 +94,17 @@ def place(system: System, state: State, near: Near, flutter: float, step: float)
             # A node that is higher than the fastest one moves in a step neither touched before nor does now.
             fastest = reach[side] * (abs(twist[side, 3]) + abs(twist[side, 4]) + abs(twist[side, 5]))
             margin = step * (abs(twist[side, 2]) + system.bend * flutter + fastest)
-            count = _place_points(system, state, near, side, count, margin)
+            count = _place_points(system, state, side, count, margin)
             for node in range(first[side], first[side + 1]):
                 if radii[node] > 0.0:
-                    count = _place_ring(system, state, near, side, node, count, step)
+                    count = _place_ring(system, state, side, node, count, step)
         listed[side + 1] = count
 
 
 @kernel_in_place
-def _place_points(system: System, state: State, near: Near, side: int, count: int, margin: float) -> int:
+def _place_points(system: System, state: State, side: int, count: int, margin: float) -> int:
     """Add the point nodes of an interface that are lower than `margin` to the `count` points that are listed."""
-    turned, apart, nodes, radii, first = near.turned, near.apart, system.nodes, system.radii, system.first
+    turned, apart, nodes, radii, first = state.turned, state.apart, system.nodes, system.radii, system.first
     modes, strain, slots = system.modes, state.strain, system.slots
     for node in range(first[side], first[side + 1]):
         # Where the node is in the body's axes, as the modes displace it.
@@ -115,15 +115,15 @@ def _place_points(system: System, state: State, near: Near, side: int, count: in
             z += modes[node, 2, mode] * strain[0, mode]
         above = turned[side, 2, 0] * x + turned[side, 2, 1] * y + turned[side, 2, 2] * z
         if apart[side, 2] + above < margin and radii[node] == 0.0:
-            share = _put(system, near, side, count, x, y, z)
-            count = _list(state, near, count, node, slots[node], share, DEEPEST * system.outline[side, 0])
+            share = _put(system, state, side, count, x, y, z)
+            count = _list(state, count, node, slots[node], share, DEEPEST * system.outline[side, 0])
     return count
 
 
 @kernel_in_place
-def _put(system: System, near: Near, side: int, row: int, x: float, y: float, z: float) -> float:
+def _put(system: System, state: State, side: int, row: int, x: float, y: float, z: float) -> float:
     """Fill the lever and depth of a point at (x, y, z) in the carrier's axes; return how much of it is on the face."""
-    lever, turned, apart, depth, outline = near.lever, near.turned, near.apart, near.depth, system.outline
+    lever, turned, apart, depth, outline = state.lever, state.turned, state.apart, state.depth, system.outline
     for axis in range(3):
         lever[row, axis] = turned[side, axis, 0] * x + turned[side, axis, 1] * y + turned[side, axis, 2] * z
     lever[row, 3], lever[row, 4], lever[row, 5] = x, y, z
@@ -134,10 +134,10 @@ def _put(system: System, near: Near, side: int, row: int, x: float, y: float, z:
 
 
 @kernel_in_place
-def _list(state: State, near: Near, row: int, node: int, slot: int, share: float, deepest: float) -> int:
+def _list(state: State, row: int, node: int, slot: int, share: float, deepest: float) -> int:
     """List a point that is on the face, or forget what it held where it is not; return the next row."""
-    touched, slip, nodes, slots, shares = state.touched, state.slip, near.node, near.slot, near.share
-    entry, depth = state.entry, near.depth
+    touched, slip, nodes, slots, shares = state.touched, state.slip, state.node, state.slot, state.share
+    entry, depth = state.entry, state.depth
     nodes[row], slots[row], shares[row] = node, slot, share
     # From where on it bears; off the face it is kept as −1 less that.
     bears = entry[slot] if entry[slot] >= 0.0 else -1.0 - entry[slot]
@@ -165,11 +165,11 @@ def inside(half_x: float, half_y: float, band: float, is_round: float, x: float,
 
 
 @kernel_in_place
-def _place_ring(system: System, state: State, near: Near, side: int, node: int, count: int, step: float) -> int:
+def _place_ring(system: System, state: State, side: int, node: int, count: int, step: float) -> int:
     """Add the points of a ring's arc that may touch within the step to the `count` points that are listed."""
-    turned, twist, arc, arcs, slots = near.turned, near.twist, system.arc, state.arcs, system.slots
+    turned, twist, arc, arcs, slots = state.turned, state.twist, system.arc, state.arcs, system.slots
     radius, z = system.radii[node], system.nodes[node, 2]
-    depth, rise = _lowest(system, near, side, node)
+    depth, rise = _lowest(system, state, side, node)
     # How fast the ring can sink anywhere: at its middle, and by its turning at the radius.
     p, q = twist[side, 3], twist[side, 4]
     sinking = abs(twist[side, 2] + z * (p * turned[side, 1, 2] - q * turned[side, 0, 2]))
@@ -180,19 +180,19 @@ def _place_ring(system: System, state: State, near: Near, side: int, node: int, 
     half = half_arc(depth + 0.5 * step * sinking, rise)
     angle = atan2(-turned[side, 2, 1], -turned[side, 2, 0]) if rise > 0.0 else arcs[node, 0]
     if angle != arcs[node, 0] or half != arcs[node, 1]:
-        _move_arc(system, state, near, side, node, angle, half)
+        _move_arc(system, state, side, node, angle, half)
     for point in range(arc.shape[1] if half > 0.0 else 0):
         about = angle + half * arc[0, point]
-        share = _put(system, near, side, count, radius * cos(about), radius * sin(about), z)
+        share = _put(system, state, side, count, radius * cos(about), radius * sin(about), z)
         share *= half * arc[1, point] / (2.0 * pi)
-        count = _list(state, near, count, node, slots[node] + point, share, DEEPEST * radius)
+        count = _list(state, count, node, slots[node] + point, share, DEEPEST * radius)
     return count
 
 
 @kernel_in_place
-def _lowest(system: System, near: Near, side: int, node: int) -> tuple[float, float]:
+def _lowest(system: System, state: State, side: int, node: int) -> tuple[float, float]:
     """Give the depth of a ring's lowest point, and what its highest is above it, over 2."""
-    turned, apart, radii, nodes = near.turned, near.apart, system.radii, system.nodes
+    turned, apart, radii, nodes = state.turned, state.apart, system.radii, system.nodes
     rise = radii[node] * sqrt(turned[side, 2, 0] ** 2 + turned[side, 2, 1] ** 2)
     return rise - apart[side, 2] - turned[side, 2, 2] * nodes[node, 2], rise
 
@@ -206,9 +206,9 @@ def half_arc(depth: float, rise: float) -> float:
 
 
 @kernel_in_place
-def _move_arc(system: System, state: State, near: Near, side: int, node: int, angle: float, half: float) -> None:
+def _move_arc(system: System, state: State, side: int, node: int, angle: float, half: float) -> None:
     """Move a ring's arc; its slip stays with the body's material, which enters with none and loses it as it leaves."""
-    slip, touched, carried, first = state.slip, state.touched, near.carried, system.slots[node]
+    slip, touched, carried, first = state.slip, state.touched, state.carried, system.slots[node]
     places, weights, points = system.arc[0], system.arc[1], system.arc.shape[1]
     former, span = state.arcs[node, 0], state.arcs[node, 1]
     state.arcs[node, 0], state.arcs[node, 1] = angle, half
@@ -247,15 +247,15 @@ def _read_slip(slip: Array, first: int, places: Array, sought: float, around: bo
 
 
 @kernel_in_place
-def spring_energy(system: System, state: State, near: Near, side: int) -> float:
+def spring_energy(system: System, state: State, side: int) -> float:
     """Give the energy in the springs of an interface at this instant."""
     slip, touched, weights, energy = state.slip, state.touched, system.arc[1], 0.0
     for node in range(system.first[side], system.first[side + 1]):
         x, y, z, radius = system.nodes[node, 0], system.nodes[node, 1], system.nodes[node, 2], system.radii[node]
         angle, half, points = 0.0, pi, 1
         if radius > 0.0:
-            depth, rise = _lowest(system, near, side, node)
-            angle = atan2(-near.turned[side, 2, 1], -near.turned[side, 2, 0]) if rise > 0.0 else 0.0
+            depth, rise = _lowest(system, state, side, node)
+            angle = atan2(-state.turned[side, 2, 1], -state.turned[side, 2, 0]) if rise > 0.0 else 0.0
             half, points = half_arc(depth, rise), weights.size
         for mode in range(state.strain.shape[1]):
             x += system.modes[node, 0, mode] * state.strain[0, mode]
@@ -266,8 +266,8 @@ def spring_energy(system: System, state: State, near: Near, side: int) -> float:
             if radius > 0.0:
                 about, share = angle + half * system.arc[0, point], weights[point] / (2.0 * pi)
                 x, y, now, before = radius * cos(about), radius * sin(about), half * share, state.arcs[node, 1] * share
-            on_face, slot = _put(system, near, side, 0, x, y, z), system.slots[node] + point
-            deep = max(near.depth[0] - max(state.entry[slot], 0.0), 0.0)
+            on_face, slot = _put(system, state, side, 0, x, y, z), system.slots[node] + point
+            deep = max(state.depth[0] - max(state.entry[slot], 0.0), 0.0)
             slipped = slip[slot, 0] ** 2 + slip[slot, 1] ** 2 if touched[slot] == 1 else 0.0
             energy += 0.5 * on_face * system.stiffness[node] * (now * deep**2 + before * slipped)
     return energy

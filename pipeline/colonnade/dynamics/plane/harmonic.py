@@ -14,7 +14,6 @@ from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.models import DEFAULT, plane_model_of
 from colonnade.dynamics.plane.run import OUTCOMES
 from colonnade.dynamics.restitution_law import Given, Restitution, law_of
-from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 
 if TYPE_CHECKING:
     from colonnade.dynamics.plane.march import Forcing
@@ -175,7 +174,7 @@ def harmonic_run(
     times = interval * np.arange(samples)
     forcing = motion.forcing(peaks_from, *times)
     levels = forcing.levels * (amplitude_ratio * tan(block.critical_angle))
-    sides = sides_of(block, restitution_up_to(block, restitution, amplitude_ratio), DEFAULT_REST_ANGLE)
+    sides = sides_of(block, restitution_up_to(block, restitution, amplitude_ratio))
     since = int(np.searchsorted(forcing.times, peaks_from))
     angles, velocities, impact_times, impact_velocities, end = propagate(
         forcing._replace(levels=levels), sides, is_linearised=chosen.is_linearised, since=since, floor=inf
@@ -197,6 +196,6 @@ def harmonic_outcomes(
     from colonnade.dynamics.plane.sides import sides_of
 
     scales = amplitude_ratio * tan(block.critical_angle)
-    sides = sides_of(block, restitution, DEFAULT_REST_ANGLE)
+    sides = sides_of(block, restitution)
     work = None if plane_model_of(model).is_linearised else empty_series()
     return column(motion.forcing(), scales, sides, NO_ROCKING_RATIO, work)

@@ -10,14 +10,17 @@ import numpy as np
 from colonnade.arrays import Array, Codes
 from colonnade.dynamics.kernel import kernel, kernel_in_place
 from colonnade.dynamics.plane.arc import follow
+from colonnade.dynamics.plane.run import OVERTURNS, ROCKS, STANDS
 from colonnade.dynamics.plane.series import Push, Series, empty_series
 from colonnade.dynamics.plane.sides import (
+    LONGEST_SAMPLE,
     Part,
     Sides,
     of_side,
+    pass_over,
     rebound,
+    stay,
     survives_free_rocking,
-    undisturbed,
     uplift,
     uplift_threshold,
     whole_sample,
@@ -28,9 +31,6 @@ NONE = np.empty(0)
 
 FIRST_ROOM = 256
 """Impacts kept of a run at first."""
-
-NO_ROCKING, ROCKING, OVERTURNED = 0, 1, 2
-"""Codes of outcomes."""
 
 
 class Forcing(NamedTuple):
@@ -122,7 +122,11 @@ def march(
     is_past, peak, count, knot, now = False, 0.0, 0, 0, 0.0
     while knot < levels.size - 1 and height < 0.5 * pi and (is_kept or not is_past):
         if is_quick:
-            reached = undisturbed(angles, velocities, levels, knot, is_resting, thresholds, whole[here])
+            reached = knot
+            if is_resting:
+                reached = stay(levels, knot, thresholds)
+            elif whole[here].step < LONGEST_SAMPLE:
+                reached = pass_over(angles, velocities, levels, knot, whole[here])
             if reached > knot:
                 knot = reached
                 height, rate = side * angles[knot], side * velocities[knot] / of_side(p, here)
@@ -219,14 +223,14 @@ def _turned(part: Part, now: float) -> tuple[float, float]:
 
 @kernel
 def column(forcing: Forcing, scales: Array, sides: Sides, no_rocking: float, work: Series | None) -> Codes:
-    """Codes of the outcomes under many multiples of a motion; the block rocks where |θ|/α comes above `no_rocking`."""
+    """Outcomes under many multiples of a motion, as `OUTCOMES`; the block rocks where |θ|/α is above `no_rocking`."""
     omega, phase, interval, times, levels, weights = forcing
     outcomes, nothing = np.empty(scales.size, dtype=np.int8), np.empty(0)
     watch = Watch(0, no_rocking, nothing, nothing, np.empty((0, 2)))
     for index in range(scales.size):
         scaled = Forcing(omega, phase, interval, times, scales[index] * levels, weights)
         time, peak, _count = march(scaled, sides, 0.0, 0.0, watch, work)
-        outcomes[index] = OVERTURNED if time == time else ROCKING if peak > no_rocking else NO_ROCKING
+        outcomes[index] = OVERTURNS if time == time else ROCKS if peak > no_rocking else STANDS
     return outcomes
 
 

@@ -120,21 +120,6 @@ class Ends(NamedTuple):
     peak_velocity: Array
 
 
-def prepared(block: Block, restitution: Given = None) -> Sides:
-    """
-    Put a block and its e, by default the rigid-body value, into the form that the kernels take.
-
-    Raises
-    ------
-    ValueError
-        If e is not between 0 and 1.
-    """
-    from colonnade.dynamics.plane.sides import sides_of
-    from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
-
-    return sides_of(block, law_of(block, restitution), DEFAULT_REST_ANGLE)
-
-
 def ends_of(motion: Motion, blocks: Sequence[Sides], *, gravity: float, model: str) -> Ends:
     """
     Run blocks from rest under one motion.
@@ -144,7 +129,7 @@ def ends_of(motion: Motion, blocks: Sequence[Sides], *, gravity: float, model: s
     motion : Motion
         Along x and, if given, z; usable as `expect_usable` says.
     blocks : sequence of Sides
-        Each `prepared`.
+        By `sides_of`.
     gravity : float
         m/s².
     model : str

@@ -11,6 +11,7 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kernel import kernel_in_place
 from colonnade.dynamics.restitution_law import Restitution, restitution_table
+from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 
 Pair = tuple[float, float]
 """Of the side θ < 0 and of θ > 0."""
@@ -31,7 +32,7 @@ class Sides(NamedTuple):
     rest_angle: float
 
 
-def sides_of(block: Block, restitution: Restitution, rest_angle: float) -> Sides:
+def sides_of(block: Block, restitution: Restitution, rest_angle: float = DEFAULT_REST_ANGLE) -> Sides:
     """Put a block, its restitution and its rule of rest into the form that the kernels take."""
     speeds, values = restitution_table(restitution)
     left, right = block.sides
@@ -219,7 +220,7 @@ class WholeSample(NamedTuple):
     factors : tuple of float
         Coefficients of θ and ω/p over a sample, and of what α and a/g at its start and end take off each.
     bounds : tuple of float
-        What excludes an impact inside a sample, see `_march`.
+        What excludes an impact inside a sample, see `pass_over`.
     """
 
     side: float
@@ -246,25 +247,7 @@ def whole_sample(side: float, critical: float, p: float, dt: float, largest: flo
 
 
 @kernel_in_place
-def undisturbed(
-    angles: Array,
-    velocities: Array,
-    base: Array,
-    sample: int,
-    is_resting: bool,
-    thresholds: Pair,
-    whole: WholeSample,
-) -> int:
-    """Pass over the samples in which nothing happens, filling in their state; return the last that is reached."""
-    if is_resting:
-        return _still(base, sample, thresholds)
-    if whole.step >= LONGEST_SAMPLE:
-        return sample
-    return _march(angles, velocities, base, sample, whole)
-
-
-@kernel_in_place
-def _march(angles: Array, velocities: Array, base: Array, sample: int, whole: WholeSample) -> int:
+def pass_over(angles: Array, velocities: Array, base: Array, sample: int, whole: WholeSample) -> int:
     """
     Propagate sample by sample for as long as no impact can hide inside one and |θ| ≤ α; return where that ends.
 
@@ -291,7 +274,7 @@ def _march(angles: Array, velocities: Array, base: Array, sample: int, whole: Wh
 
 
 @kernel_in_place
-def _still(base: Array, sample: int, thresholds: Pair) -> int:
+def stay(base: Array, sample: int, thresholds: Pair) -> int:
     """Last sample up to which a block at rest at `sample` stays so."""
     negative, positive = thresholds
     for following in range(sample, base.size):
