@@ -62,14 +62,14 @@ def test_each_forecast_is_listed_with_what_happened(foreseen_copy):
     (foreseen_copy / "forecasts" / "<b>.json").write_text("{}", encoding="utf-8")
     campaign, layout = with_summary(foreseen_copy)
     page = forecasts_page(layout, read_summary(layout))
-    assert [(row.forecast.level, row.entry.blind, row.happened) for row in page.rows] == [
+    assert [(row.forecast.level, row.entry.blind, row.happened) for row in page["rows"]] == [
         ("0.01 g", True, "not yet"),
         ("9x", True, "not yet"),
     ]
-    shares = [tuple(text.replace("\xa0", " ") for text in row.models[0].foreseen[:3]) for row in page.rows]
+    shares = [tuple(text.replace("\xa0", " ") for text in row.models[0][1][:3]) for row in page["rows"]]
     assert shares == [("100 %", "0 %", "0 %"), ("0 %", "0 %", "100 %")]
-    assert [entry.file for entry in page.refused] == ["<b>.json"]
-    assert page.calibration is None
+    assert [entry.file for entry in page["refused"]] == ["<b>.json"]
+    assert page["calibration"] is None
     forecasts = read_summary(layout).forecasts
     update_report(campaign, layout, Catalogue(layout), forecasts=forecasts)
     folder = layout.report.parent
@@ -85,5 +85,5 @@ def test_each_forecast_is_listed_with_what_happened(foreseen_copy):
 def test_without_a_forecast_there_is_no_page(foreseen_copy):
     layout = Layout(foreseen_copy)
     summary = Summary.model_validate_json(layout.summary_json.read_text(encoding="utf-8"))
-    assert forecasts_page(layout, summary) is None
-    assert forecasts_page(layout, None) is None
+    assert forecasts_page(layout, summary) == {}
+    assert forecasts_page(layout, None) == {}

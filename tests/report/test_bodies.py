@@ -48,7 +48,7 @@ def test_the_answer_says_what_moved_and_the_table_has_a_row_a_body_from_the_top(
 def test_models_that_none_of_the_tests_can_have_are_no_columns(shaken):
     assert load(shaken).processing.predict.models == ("linear", "nonlinear")
     overview = (shaken / "report/index.html").read_text()
-    table = overview[overview.index('id="tests-table"') :]
+    table = overview[overview.index('class="tests"') :]
     heads = table[: table.index("</thead>")]
     assert "contact<br>max |θ|/α" in heads
     assert "linear" not in heads

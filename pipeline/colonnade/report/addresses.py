@@ -53,6 +53,17 @@ def of_setup(specimen: str, setup: str) -> str:
     return f"setups/{specimen}+{setup}.svg"
 
 
+def way(campaign: Campaign, has_forecasts: object) -> dict[str, str]:
+    """Give the pages that every page leads to: address and name."""
+    alone = "Specimen " if len(campaign.of_interest) == 1 else ""
+    found = {WHOLE["overview"]: "Overview"} | {of_specimen(name): f"{alone}{name}" for name in campaign.of_interest}
+    if campaign.assessments:
+        found[ASSESSMENTS] = "Real column"
+    if has_forecasts:
+        found[FORECASTS] = "Forecasts"
+    return found | {WHOLE[name]: name.capitalize() for name in ("quality", "problems", "methods")}
+
+
 def of_campaign(optional: Iterable[str]) -> list[str]:
     """
     Addresses of what shows the whole campaign, with scripts and data, the overview last.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from colonnade.assessment.criteria import NOT_COMPUTED
@@ -11,16 +11,15 @@ from colonnade.campaign.settings import settings
 from colonnade.identification.response.base_motion import LEAST_MOTION
 from colonnade.identification.response.rank import WITHIN
 from colonnade.report import addresses, methods, pages, specimens_page
-from colonnade.report.assessments_page import AssessmentShown, assessments_page, symbol
+from colonnade.report.assessments_page import assessments_page
 from colonnade.report.forecasts_page import forecasts_page
 from colonnade.report.interactive import panels
 from colonnade.report.interactive.scripts import scripts
 from colonnade.report.methods import REFERENCES, Used
 from colonnade.report.overview_page import groups
 from colonnade.report.overview_page.agreement import confusions, peak_points, peaks_picture, worst
-from colonnade.report.overview_page.attention import WarningGroup, attention, warning_groups
+from colonnade.report.overview_page.attention import attention, warning_groups
 from colonnade.report.parts import Part
-from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import SpecimenPage
 from colonnade.store.layout import Layout
 from colonnade.store.records import advice as advising
@@ -38,12 +37,9 @@ Pages = Iterator[tuple[str, str]]
 def specimen_page(campaign: Campaign, layout: Layout, name: str, parts: Sequence[Part]) -> Pages:
     """Give the data and the page of a specimen, whose tests are among those of `parts`."""
     own = [part for part in parts if part.row.test.specimen == name]
-    rows = [part.row for part in own]
-    shown = {
+    shown = _tests(campaign, layout, own) | {
         "specimen": _specimen(campaign, layout, name, own),
         "models": models_moving(campaign, name, models_shown(campaign)),
-        "groups": [group for group in groups.by_specimen(campaign, rows) if group.specimen == name],
-        "maps": [drawn for drawn in groups.measured_maps(campaign, layout, rows) if drawn.specimen == name],
     }
     yield from _page(pages.renderer_of(campaign), "specimen", addresses.of_specimen(name), shown)
 
@@ -71,21 +67,42 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
     yield from scripts().items()
     summary, rows = read_summary(layout), [part.row for part in parts]
     foreseen, assessed = forecasts_page(layout, summary), assessments_page(campaign, layout, summary)
-    shown = _shown(campaign, parts, specimens, assessed, used) | {
-        "groups": groups.by_specimen(campaign, rows),
-        "maps": groups.measured_maps(campaign, layout, rows),
+    asked = models_shown(campaign)
+    # Bodies that do not rock as one block are predicted by one model alone, whatever is asked for.
+    models = [model for model in asked if any(row.predicted(model).outcome for row in rows)] or asked
+    warned = [(row.id, found) for row in rows for found in row.record.warnings]
+    warned += [(f"specimen {specimen.id}", found) for specimen in specimens for found in specimen.warnings]
+    warned += [(f"assessment {one.name}", found) for one in assessed for found in one.warned()]
+    warnings, mistaken, furthest = warning_groups(warned), confusions(rows, models), worst(rows, models)
+    shown = _tests(campaign, layout, parts) | {
+        "models": models,
+        "specimens": specimens,
+        "warnings": warnings,
+        "attention": attention(rows, models, warnings, mistaken, {one.name: one.record for one in assessed}),
+        "confusions": mistaken,
+        "worst": furthest,
+        "peaks": peaks_picture(peak_points(rows, models, furthest)),
+        "spans": groups.span_groups([part.span for part in parts if part.span is not None]),
+        "agreement": agreement({row.id: row.record.model_dump() for row in rows}),
+        "channels": {part.row.id: part.channels for part in parts},
+        "doubtful": [
+            (part.row.id, bad) for part in parts if (bad := [one for one in part.channels if not one.is_good])
+        ],
+        "used": used,
+        "settings": list(settings(campaign.processing, campaign.next)),
+        "references": REFERENCES,
+        "software": methods.software(),
+        "within": format_percent(WITHIN),
+        "least_motion": format_percent(LEAST_MOTION, 1),
         "forecasts": foreseen,
-        "advice": {
-            "heads": [f"#{head}" if head in ("risk", "tests left") else head for head in advising.HEADS],
-            "rows": [each.row() for each in advice],
-        },
+        "advice_heads": [f"#{head}" if head in ("risk", "tests left") else head for head in advising.HEADS],
+        "advice": [each.row() for each in advice],
         "assessments": assessed,
-        "symbol": symbol,
         "not_computed": NOT_COMPUTED,
     }
     if campaign.assessments:
         yield from _page(renderer, "assessments", addresses.ASSESSMENTS, shown)
-    if foreseen is not None:
+    if foreseen:
         yield from _page(renderer, "forecasts", addresses.FORECASTS, shown)
     for template, address in addresses.WHOLE.items():
         yield from _page(renderer, template, address, shown)
@@ -96,55 +113,19 @@ def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[Par
     return specimens_page.of_specimen(campaign, name, read_specimen(campaign, layout, name), free)
 
 
-def _page(renderer: pages.Renderer, template: str, address: str, shown: dict[str, Any]) -> Pages:
+def _tests(campaign: Campaign, layout: Layout, parts: Sequence[Part]) -> dict[str, Any]:
+    """Give what tables and maps of tests show."""
+    rows = [part.row for part in parts]
+    return {
+        "tests": rows,
+        "thumbnails": {part.row.id: part.thumbnail for part in parts},
+        "ladders": groups.ladders(campaign, rows),
+        "maps": groups.measured_maps(campaign, layout, rows),
+    }
+
+
+def _page(renderer: pages.Renderer, template: str, address: str, shown: Mapping[str, Any]) -> Pages:
     """Render a page that shows several tests, and its data."""
     text = renderer.page(template, address, **shown)
     yield addresses.of_data(address), panels.of_page(address, renderer.pictures)
     yield address, text
-
-
-def _shown(
-    campaign: Campaign,
-    tests: Sequence[Part],
-    specimens: list[SpecimenPage],
-    assessed: list[AssessmentShown],
-    used: Used,
-) -> dict[str, Any]:
-    """Give what the pages about the whole campaign show."""
-    rows, asked = [part.row for part in tests], models_shown(campaign)
-    # Bodies that do not rock as one block are predicted by one model alone, whatever is asked for.
-    models = [model for model in asked if any(row.predicted(model).outcome for row in rows)] or asked
-    findings, mistaken, furthest = (
-        _warnings(rows, specimens, assessed),
-        confusions(rows, models),
-        worst(rows, models),
-    )
-    return {
-        "tests": rows,
-        "models": models,
-        "specimens": specimens,
-        "warnings": findings,
-        "attention": attention(rows, models, findings, mistaken, {one.name: one.record for one in assessed}),
-        "confusions": mistaken,
-        "worst": furthest,
-        "peaks": peaks_picture(peak_points(rows, models, furthest)),
-        "thumbnails": {part.row.id: part.thumbnail for part in tests},
-        "spans": groups.span_groups([part.span for part in tests if part.span is not None]),
-        "agreement": agreement({row.id: row.record.model_dump() for row in rows}),
-        "channels": {part.row.id: part.channels for part in tests},
-        "used": used,
-        "settings": list(settings(campaign.processing, campaign.next)),
-        "references": REFERENCES,
-        "software": methods.software(),
-        "within": format_percent(WITHIN),
-        "least_motion": format_percent(LEAST_MOTION, 1),
-    }
-
-
-def _warnings(
-    tests: list[TestRow], specimens: list[SpecimenPage], assessed: list[AssessmentShown]
-) -> list[WarningGroup]:
-    given = [(row.id, found) for row in tests for found in row.record.warnings]
-    given += [(f"specimen {specimen.id}", found) for specimen in specimens for found in specimen.warnings]
-    given += [(f"assessment {one.name}", found) for one in assessed for found in one.warned()]
-    return warning_groups(given)

@@ -3,97 +3,73 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from colonnade.campaign.forms.forecast import ForecastFile
-from colonnade.campaign.forms.foreseen import ForecastEntry, ForecastOfModel, ForecastsSummary
+from colonnade.campaign.forms.foreseen import ForecastEntry, ForecastOfModel
 from colonnade.campaign.forms.summary import Summary, TestSummary
 from colonnade.errors import StoreError, count
 from colonnade.figures.files.output import Picture
 from colonnade.figures.forecasts import Calibration, reliability_and_pit
 from colonnade.identification.calibration import reliability
 from colonnade.store import files
-from colonnade.store.forecasts import Known, read_forecasts
+from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
-from colonnade.store.records.forecast import FEWEST, scored_of, shown_model, shown_table
+from colonnade.store.records.forecast import FEWEST, scored_of, shown_model
 from colonnade.units.text import NOTHING, number
 
-
-class ModelRow(NamedTuple):
-    """What a model foresaw, in words (probabilities, bands, friction), and its record if it is scored."""
-
-    model: str
-    foreseen: tuple[str, ...]
-    scores: ForecastOfModel | None
+SCORES = {
+    "on_target": "as it was made",
+    "on_recorded": "on the recorded motion",
+    "skill_rigid_body": "skill over rigid-body e",
+    "skill_base_rate": "skill over base rate",
+}
+"""What scores are of, in words."""
 
 
 class ForecastRow(NamedTuple):
-    """A forecast: its file, what the table has to do, each model, and what happened in words."""
+    """
+    A forecast: its file, what happened in words, and of each model what it foresaw and its record if it is scored.
+
+    What a model foresaw is in words: probabilities, bands, friction.
+    """
 
     entry: ForecastEntry
     forecast: ForecastFile
-    made: str
-    table: tuple[str, str, str]
-    models: list[ModelRow]
     happened: str
+    models: list[tuple[str, tuple[str, ...], ForecastOfModel | None]]
 
 
-class ForecastsPage(NamedTuple):
-    """All that the page shows."""
-
-    summary: ForecastsSummary
-    rows: list[ForecastRow]
-    refused: list[ForecastEntry]
-    calibration: Picture | None
-    fewest: int
-
-
-def forecasts_page(layout: Layout, summary: Summary | None) -> ForecastsPage | None:
-    """
-    Gather what the page shows.
-
-    Parameters
-    ----------
-    layout : Layout
-    summary : Summary or None
-        Of the last run.
-
-    Returns
-    -------
-    page : ForecastsPage or None
-        None without a forecast.
-    """
+def forecasts_page(layout: Layout, summary: Summary | None) -> dict[str, Any]:
+    """Gather what the page shows; empty without a forecast."""
     if summary is None or summary.forecasts is None:
-        return None
-    there = {known.sha256: known for known in read_forecasts(layout).known}
-    entries = summary.forecasts.files
-    rows = [_row(entry, there[entry.sha256], summary.tests) for entry in entries if entry.sha256 in there]
-    return ForecastsPage(
-        summary.forecasts,
-        rows,
-        [entry for entry in entries if entry.refused is not None],
-        calibration(calibrations_of(layout, summary)),
-        FEWEST,
-    )
+        return {}
+    there = {known.sha256: known.forecast for known in read_forecasts(layout).known}
+    judged, entries = summary.forecasts.models, summary.forecasts.files
+    return {
+        "summary": summary.forecasts,
+        "scores": [
+            (model, [(said, each.tests, getattr(each, name)) for name, said in SCORES.items() if getattr(each, name)])
+            for model, each in judged.items()
+        ],
+        "coverage": [(model, each.coverage) for model, each in judged.items() if each.coverage],
+        "rows": [_row(entry, there[entry.sha256], summary.tests) for entry in entries if entry.sha256 in there],
+        "refused": [entry for entry in entries if entry.refused is not None],
+        "calibration": calibration(calibrations_of(layout, summary)),
+        "fewest": FEWEST,
+    }
 
 
-def _row(entry: ForecastEntry, known: Known, tests: Mapping[str, TestSummary]) -> ForecastRow:
-    forecast = known.forecast
+def _row(entry: ForecastEntry, forecast: ForecastFile, tests: Mapping[str, TestSummary]) -> ForecastRow:
     test = tests.get(entry.test or "") if entry.blind is not None else None
     record = test.forecast if test is not None and entry.scored else None
-    return ForecastRow(
-        entry,
-        forecast,
-        f"{forecast.made:%Y-%m-%d %H:%M:%S} UTC",
-        shown_table(forecast.table),
-        [
-            ModelRow(name, shown_model(model), None if record is None else record.models[name])
-            for name, model in forecast.models.items()
-        ],
-        NOTHING if test is None else _happened(test),
-    )
+    models = [
+        (name, shown_model(model), None if record is None else record.models[name])
+        for name, model in forecast.models.items()
+    ]
+    return ForecastRow(entry, forecast, NOTHING if test is None else _happened(test), models)
 
 
 def _happened(test: TestSummary) -> str:

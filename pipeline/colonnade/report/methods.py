@@ -127,9 +127,9 @@ class Used:
             return " and ".join(values) or text.NOTHING
         return " or ".join(f"{value} ({text.listed(list(tests), _LONGEST)})" for value, tests in values.items())
 
-    def differing(self) -> dict[str, Mapping[str, Iterable[str]]]:
+    def differing(self) -> list[tuple[str, list[tuple[str, Iterable[str]]]]]:
         """Settings in which tests differ: each value with its tests."""
-        return {name: self.values[name] for name in _STORED if len(self.values.get(name, {})) > 1}
+        return [(name, list(self.values[name].items())) for name in _STORED if len(self.values.get(name, {})) > 1]
 
 
 def software() -> list[tuple[str, str]]:

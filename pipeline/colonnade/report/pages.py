@@ -15,11 +15,14 @@ from colonnade.campaign.settings import Setting
 from colonnade.dynamics.models import MODELS
 from colonnade.errors import count
 from colonnade.figures.files.output import Picture, link_to
-from colonnade.report.addresses import of_specimen, of_test, scripts_of
+from colonnade.report.addresses import of_specimen, of_test, scripts_of, way
+from colonnade.report.assessments_page import symbol
 from colonnade.report.pictures.registry import picture
 from colonnade.report.rows import KINDS
 from colonnade.report.test_page import facts
 from colonnade.store.records import wording
+from colonnade.store.records.forecast import shown_table
+from colonnade.store.records.test import predicted_peak_time
 from colonnade.store.results import models_shown
 from colonnade.units import text
 from colonnade.units.text import format_percent
@@ -85,6 +88,10 @@ class Renderer:
             "scripts_of": scripts_of,
             "specimen_page": of_specimen,
             "sections": _SECTION.findall,
+            "peak_time": predicted_peak_time,
+            "symbol": symbol,
+            "way": way,
+            "forecasts": None,  # a forecast that is added draws no page of a test or specimen again
         }
         self._environment.filters |= {
             "setting": _setting,
@@ -92,11 +99,15 @@ class Renderer:
             "quantity": text.quantity,
             "acceleration": text.acceleration,
             "order": wording.order,
+            "by_bodies": wording.by_bodies,
+            "table": shown_table,
             "ratio": text.ratio,
             "signed_ratio": text.signed_ratio,
             "percent": format_percent,
             "drawn": self._drawn,
         }
+        for name in ("parts", "groups"):
+            self._environment.globals |= vars(self._environment.get_template(f"{name}.html.jinja").module)
 
     def page(self, template: str, address: str, **given: Any) -> str:
         """Return the page that stands at an address within the report's folder."""

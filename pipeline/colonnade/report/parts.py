@@ -5,13 +5,16 @@ from __future__ import annotations
 import gc
 import json
 from base64 import b64decode, b64encode
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, fields, is_dataclass
-from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
+from pydantic import ConfigDict, TypeAdapter
+from pydantic_core import to_json
 
+from colonnade.arrays import Array
 from colonnade.figures.stored.record import SpanPanel, measured_ratio
 from colonnade.figures.style import styled
 from colonnade.report import addresses, pages, rows, specimens_page
@@ -43,6 +46,20 @@ class Kept(NamedTuple):
     used: Used
 
 
+_KEPT = TypeAdapter(Kept, config=ConfigDict(arbitrary_types_allowed=True))
+
+
+def _without_array(array: Array) -> dict[str, str]:
+    """Write an array as JSON can hold it."""
+    return {"dtype": array.dtype.str, "bytes": b64encode(array.tobytes()).decode()}
+
+
+def _with_array(given: dict[str, Any]) -> Any:
+    """Read what may be such an array."""
+    is_array = given.keys() == {"dtype", "bytes"}
+    return np.frombuffer(b64decode(given["bytes"]), dtype=given["dtype"]) if is_array else given
+
+
 @dataclass(frozen=True)
 class Part:
     """
@@ -71,7 +88,7 @@ class Part:
     @classmethod
     def of(cls, asked: Asked, text: str) -> Part:
         """Read a part from the text that `drawn` gave."""
-        kept: Kept = _typed(Kept, json.loads(text))
+        kept = _KEPT.validate_python(json.loads(text, object_hook=_with_array))
         row = TestRow.known(asked.campaign, asked.campaign.tests[asked.test], asked.record, kept.failures)
         span = None if kept.panel is None else SpanTest(row, kept.panel, kept.described)
         return cls(row, kept.channels, kept.thumbnail, span, kept.free_vibration, kept.used)
@@ -93,8 +110,7 @@ def _drawn(renderer: pages.Renderer, layout: Layout, asked: Asked) -> tuple[list
         span = span_of(subject)
         panel, described = span.panel.thinned(), span.description
     shown = page.of_test(campaign, row, stored, asked.photos)
-    address = addresses.of_test(test.id)
-    text = renderer.page("test", address, test=shown, before=asked.before, after=asked.after)
+    text = renderer.page("test", addresses.of_test(test.id), before=asked.before, after=asked.after, **shown)
     samples = (stored.datasets.get((stage, None)) for stage in WITHOUT_SAMPLES)
     data = test_data.of_test(campaign, test, stored, renderer.pictures, *samples)
     kept = Kept(
@@ -106,7 +122,7 @@ def _drawn(renderer: pages.Renderer, layout: Layout, asked: Asked) -> tuple[list
         specimens_page.free_vibration(subject) if stored.has("restitution") else None,
         used,
     )
-    return [text, data], json.dumps(_plain(kept), separators=(",", ":"))
+    return [text, data], to_json(kept, fallback=_without_array).decode()
 
 
 @contextmanager
@@ -123,33 +139,3 @@ def seldom_collected() -> Iterator[None]:
     finally:
         gc.collect(1)
         gc.set_threshold(*thresholds)
-
-
-def _plain(value: Any) -> Any:
-    """Write a value as JSON can hold it: arrays by their bytes, records as lists."""
-    if isinstance(value, np.ndarray):
-        return [value.dtype.str, b64encode(value.tobytes()).decode()]
-    if is_dataclass(value) and not isinstance(value, type):
-        return [_plain(getattr(value, field.name)) for field in fields(value)]
-    if isinstance(value, Mapping):
-        return {name: _plain(each) for name, each in value.items()}
-    return [_plain(each) for each in value] if isinstance(value, (list, tuple)) else value
-
-
-def _typed(kind: Any, plain: Any) -> Any:
-    """Make a value of a type from what `_plain` gave."""
-    origin, arguments = get_origin(kind), get_args(kind)
-    if origin is np.ndarray:
-        return np.frombuffer(b64decode(plain[1]), dtype=plain[0])
-    if type(None) in arguments:
-        return None if plain is None else _typed(next(each for each in arguments if each is not type(None)), plain)
-    if isinstance(origin, type) and issubclass(origin, Mapping):
-        return {name: _typed(arguments[1], each) for name, each in plain.items()}
-    if origin is not None:
-        values = [_typed(arguments[0], each) for each in plain]
-        return tuple(values) if origin is tuple else values
-    if is_dataclass(kind) or hasattr(kind, "_fields"):
-        names = [field.name for field in fields(kind)] if is_dataclass(kind) else kind._fields
-        hints = get_type_hints(kind)
-        return kind(*(_typed(hints[name], each) for name, each in zip(names, plain, strict=True)))
-    return plain

@@ -17,15 +17,15 @@ from colonnade.store.records.stored import Failure, Stored
 from colonnade.store.results import models_shown
 
 KINDS = {
-    "free-vibration": "Free vibrations",
-    "sine": "Sine tests",
-    "earthquake": "Earthquake tests",
-    "pulse": "Pulse tests",
-    "noise": "Noise tests",
-    "tilt": "Tilt tests",
-    "other": "Other tests",
+    "free-vibration": "Free vibration",
+    "sine": "Sine test",
+    "earthquake": "Earthquake test",
+    "pulse": "Pulse test",
+    "noise": "Noise test",
+    "tilt": "Tilt test",
+    "other": "Other test",
 }
-"""Kinds of test in words, in the order in which they stand."""
+"""Kinds of test in words."""
 
 
 @dataclass(frozen=True)
@@ -94,6 +94,11 @@ class TestRow:
         """How many findings it has of each severity, the worst first; severities without findings are left out."""
         found = [finding.severity for finding in self.record.warnings]
         return [(severity, found.count(severity)) for severity in Severity if severity in found]
+
+    @property
+    def states(self) -> list[str]:
+        """How far it is, and the severities of its findings."""
+        return ["excluded" if self.excluded else self.record.status, *(severity for severity, _ in self.severities)]
 
     @property
     def differing(self) -> list[str]:

@@ -10,7 +10,7 @@ from browsing import TELEPHONE
 pytestmark = pytest.mark.whole
 
 SHOWN = (
-    "() => [...document.querySelectorAll('#tests-table tbody tr:not([hidden]) th')].map(th => th.textContent.trim())"
+    "() => [...document.querySelectorAll('#tests table tbody tr:not([hidden]) th')].map(th => th.textContent.trim())"
 )
 STRONG = "sine-3hz-too-strong-for-the-block-1"
 
@@ -26,7 +26,7 @@ def choose(page, name, value):
 
 def test_without_scripts_the_whole_table_stands(visit):
     page = visit("index.html", scripts=False)
-    assert page.locator("#tests-table tbody tr").count() == 9
+    assert page.locator("#tests table tbody tr").count() == 9
     assert not page.locator("#filter").is_visible()
     assert page.locator("#missed-linear-rocking-overturned a").first.inner_text() == "span-3.0"
 
@@ -83,7 +83,7 @@ def test_the_address_holds_the_filter(overview):
 
 def test_at_1280_px_the_answers_are_seen_and_the_filters_are_one_line(visit):
     page = visit("index.html", screen=(1280, 900))
-    heads = page.locator("#tests-table th[data-column]")
+    heads = page.locator("#tests table th[data-column]")
     first = ["test", "differs", "peak", "peak-linear", "peak-nonlinear"]
     assert heads.evaluate_all("heads => heads.map(head => head.dataset.column)")[:5] == first
     assert heads.nth(4).bounding_box()["x"] + heads.nth(4).bounding_box()["width"] < 1280
@@ -95,16 +95,16 @@ def test_the_head_of_a_long_table_stays(thousand):
     box = thousand.locator("#tests .scroll")
     box.scroll_into_view_if_needed()
     box.evaluate("box => { box.scrollTop = 900; }")
-    head = thousand.locator("#tests-table thead th").first
+    head = thousand.locator("#tests table thead th").first
     assert head.bounding_box()["y"] == pytest.approx(box.bounding_box()["y"], abs=1)
 
 
 def test_it_is_sorted_by_the_keyboard_and_what_is_not_known_stays_last(overview):
-    head = overview.locator("#tests-table th[data-column='peak']")
+    head = overview.locator("#tests table th[data-column='peak']")
     head.locator("button").focus()
     overview.keyboard.press("Enter")
     assert head.get_attribute("aria-sort") == "ascending"
-    rows = overview.locator("#tests-table tbody tr")
+    rows = overview.locator("#tests table tbody tr")
     peaks = [rows.nth(place).locator("td").nth(1).inner_text() for place in range(9)]
     known = [float(peak) for peak in peaks[:5]]
     assert known == sorted(known)
@@ -113,7 +113,7 @@ def test_it_is_sorted_by_the_keyboard_and_what_is_not_known_stays_last(overview)
     overview.keyboard.press("Enter")
     assert head.get_attribute("aria-sort") == "descending"
     assert rows.first.locator("td").nth(1).inner_text() == "overturned"
-    overview.click("#tests-table th[data-column='test'] button")
+    overview.click("#tests table th[data-column='test'] button")
     assert overview.evaluate(SHOWN) == sorted(overview.evaluate(SHOWN))
     assert overview.locator("[aria-sort]").count() == 1
 
@@ -156,7 +156,7 @@ def thousand(visit, report_folder, tmp_path):
     folder = Path(shutil.copytree(report_folder, tmp_path / "report"))
     page = folder / "index.html"
     text = page.read_text(encoding="utf-8")
-    start = text.index("<tbody>", text.index('id="tests-table"')) + len("<tbody>")
+    start = text.index("<tbody>", text.index('class="tests"')) + len("<tbody>")
     end = text.index("</tbody>", start)
     page.write_text(text[:start] + 112 * text[start:end] + text[end:], encoding="utf-8")
     return visit("index.html", folder=folder)
@@ -166,17 +166,17 @@ def test_a_thousand_rows_are_all_there_again_after_a_filter_and_after_a_sort(tho
     page = thousand
     choose(page, "kind", "earthquake")
     assert page.locator("#filter output").inner_text() == "448 of 1008 tests"
-    shown = "document.querySelectorAll('#tests-table tbody tr:not([hidden])').length"
+    shown = "document.querySelectorAll('#tests table tbody tr:not([hidden])').length"
     page.wait_for_function(f"{shown} === 448")
     choose(page, "kind", "")
     page.wait_for_function(f"{shown} === 1008")
-    page.click("#tests-table th[data-column='test'] button")
+    page.click("#tests table th[data-column='test'] button")
     page.wait_for_function(f"{shown} === 1008")
     assert page.evaluate(SHOWN) == sorted(page.evaluate(SHOWN))
 
 
 def test_an_answer_waits_for_a_screen_of_rows_and_print_for_all(thousand):
-    counted = "document.querySelectorAll('#tests-table tbody tr').length"
+    counted = "document.querySelectorAll('#tests table tbody tr').length"
     at_once, printed = thousand.evaluate(
         f"""() => {{
           const form = document.getElementById("filter");

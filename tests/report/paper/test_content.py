@@ -1,85 +1,71 @@
-"""What is taken from a page: its words as data, its figures by number, and nothing that only a screen can use."""
+"""What is taken from a page: its words as data, its pictures by name, and nothing that only a screen can use."""
 
 from html import escape
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.report.paper.content import Page
+from colonnade.report.paper.content import Gatherer, as_data
 from every import every
 
 
-def blocks_of(inside):
-    return Page(f"<main><section id='all'>{inside}</section></main>").sections().get("all", [])
+@pytest.fixture(scope="module")
+def taken(tmp_path_factory):
+    """Head and main part of a page as data, and who gathered them: `taken("<p>a</p>", head="<p>b</p>")`."""
+    folder = tmp_path_factory.mktemp("report")
+    (folder / "photos").mkdir()
+    (folder / "photos" / "a-1.jpg").write_bytes(b"a photo")
+
+    def take(inside, head=""):
+        page = f"<html><body><header>{head}</header><main>{inside}</main></body></html>"
+        (folder / "a.html").write_text(page, encoding="utf-8")
+        gatherer = Gatherer(folder, {"b.html"})
+        return [list(map(as_data, part)) for part in gatherer.page("a.html")], gatherer
+
+    return take
 
 
-@given(st.text(st.characters(codec="utf-8", exclude_characters="\r\0"), max_size=60))
-def test_what_people_wrote_stays_text(written):
-    (block, *others) = blocks_of(f"<p>begin {escape(written)} end</p>")
-    assert not others
-    assert all(isinstance(part, str) for part in block["in"])
-    assert "".join(block["in"]).split() == f"begin {written} end".split()
+def texts(element):
+    """Give the texts in an element, in their order."""
+    return [text for part in element["in"] for text in ([part] if isinstance(part, str) else texts(part))]
 
 
-def test_sections_are_found_by_their_ids_and_what_is_before_them_has_none():
-    page = Page("<header><h1>a</h1></header><main><p>first</p><section id='found'><h2>Found</h2></section></main>")
-    assert page.sections() == {
-        "": [{"is": "paragraph", "soft": False, "in": ["first"]}],
-        "found": [{"is": "heading", "depth": 1, "in": ["Found"]}],
-    }
+@given(st.text(st.characters(codec="utf-8", exclude_categories=["Cc", "Cn"]), max_size=60))
+def test_what_people_wrote_stays_text(taken, written):
+    (_, (found,)), _ = taken(f"<p>begin {escape(written)} end</p>")
+    assert found.keys() == {"tag", "in"}
+    assert all(isinstance(part, str) for part in found["in"])
+    assert "".join(found["in"]).split() == f"begin {written} end".split()
 
 
-def test_the_head_gives_its_lines_but_not_the_way_to_other_pages():
-    page = Page(
-        "<header><nav><a href='index.html'>Overview</a></nav><p class='soft above'>title</p><h1>a</h1>"
-        "<p>Sine test of <a href='../specimens/prism.html'>prism</a></p><p class='steps'>next</p></header><main></main>"
+def test_elements_keep_their_attributes_and_what_is_in_them(taken):
+    (_, (found,)), _ = taken('<p class="soft">a\n <b>b</b> c<br>d</p>')
+    bold, line = {"tag": "b", "in": ["b"]}, {"tag": "br", "in": []}
+    assert found == {"tag": "p", "class": "soft", "in": ["a ", bold, " c", line, "d"]}
+
+
+def test_the_head_gives_its_lines_but_not_the_way_to_other_pages(taken):
+    head = "<nav>x</nav><p class='soft above'>title</p><h1>a</h1><p>Sine test</p><p class='steps'>next</p>"
+    (found, _), _ = taken("", head)
+    assert found == [{"tag": "p", "in": ["Sine test"]}]
+
+
+def test_links_lead_to_pages_of_the_document_or_are_none(taken):
+    (_, (found,)), _ = taken('<p><a href="b.html#e">b</a> and <a href="c.html">c</a></p>')
+    assert found["in"] == [{"tag": "a", "href": "b.html", "in": ["b"]}, " and c"]
+
+
+def test_figures_are_numbered_and_described(taken):
+    (_, (drawn, photo)), gatherer = taken(
+        "<figure><svg><desc>a &lt; b</desc><path/></svg><figcaption>one</figcaption></figure>"
+        '<figure><img src="photos/a-1.jpg" alt="a photo"></figure><figure><img src="data:x"></figure>'
     )
-    link = {"is": "link", "to": "../specimens/prism.html", "in": ["prism"]}
-    assert page.below_title() == [{"is": "paragraph", "soft": False, "in": ["Sine test of ", link]}]
-
-
-def test_a_table_keeps_its_spans_and_where_numbers_are():
-    (table,) = blocks_of(
-        '<div class="scroll"><table><caption> <b>both</b> </caption>'
-        '<thead><tr><th rowspan="2">a</th><th colspan="2">b</th></tr>'
-        "<tr><th>c</th><th>d</th></tr></thead><tbody>"
-        '<tr><td class="wide">x<br>y</td><td class="number">1</td><td></td></tr></tbody></table></div>'
-    )
-    assert (table["columns"], len(table["head"]), len(table["body"])) == (3, 2, 1)
-    assert table["caption"] == [{"is": "strong", "in": ["both"]}]
-    assert [(cell["columns"], cell["rows"]) for cell in table["head"][0]] == [(1, 2), (2, 1)]
-    wide, number, empty = table["body"][0]
-    assert (wide["wide"], wide["number"], number["number"], empty["in"]) == (True, False, True, [])
-    assert wide["in"] == [{"is": "paragraph", "in": ["x", {"is": "break"}, "y"]}]
-
-
-def test_lists_facts_and_boxes_keep_their_parts():
-    listed, facts, box = blocks_of(
-        "<ol><li>one</li><li>two <strong>three</strong></li></ol><dl><dt>e</dt><dd>0.9</dd></dl>"
-        '<div class="failure"><p>gone</p></div>'
-    )
-    assert listed["numbered"]
-    assert listed["items"][1][0]["in"] == ["two ", {"is": "strong", "in": ["three"]}]
-    assert facts["items"] == [[["e"], [{"is": "paragraph", "in": ["0.9"]}]]]
-    assert (box["kind"], box["in"][0]["in"]) == ("failure", ["gone"])
-
-
-def test_figures_are_numbered_and_described():
-    page = Page(
-        "<main><figure><svg><desc>a &lt; b</desc><path/></svg><figcaption>one</figcaption></figure>"
-        '<figure><img src="../photos/a-1.jpg" alt="a photo"></figure><figure><img src="data:x"></figure></main>'
-    )
-    drawn, photo = page.sections()[""]
-    assert drawn["pictures"] == [{"is": "picture", "number": 0, "alt": "a < b"}]
-    assert drawn["caption"] == ["one"]
-    assert page.pictures == ["<svg><desc>a &lt; b</desc><path/></svg>"]
-    assert photo["pictures"] == [{"is": "picture", "file": "../photos/a-1.jpg", "alt": "a photo"}]
-
-
-def test_a_column_for_the_screen_is_left_out_of_a_table():
-    row = '<tr><td>a</td><td data-paper="no">x</td><td>b</td></tr>'
-    (table,) = blocks_of(f"<table>{row}</table>")
-    assert [cell["in"][0]["in"] for cell in table["body"][0]] == [["a"], ["b"]]
+    picture = {"tag": "img", "src": "figure-1.svg", "alt": "a < b", "in": []}
+    assert drawn["in"] == [picture, {"tag": "figcaption", "in": ["one"]}]
+    assert gatherer.pictures == {"figure-1.svg": "<svg><desc>a &lt; b</desc><path/></svg>"}
+    assert photo["in"] == [{"tag": "img", "src": "photos-a-1.jpg", "alt": "a photo", "in": []}]
+    assert list(gatherer.files) == ["photos-a-1.jpg"]
 
 
 @every(
@@ -87,14 +73,17 @@ def test_a_column_for_the_screen_is_left_out_of_a_table():
     [
         *("<script>x</script>", "<style>x</style>", "<nav>x</nav>", "<details><p>x</p></details>"),
         *("<button>x</button>", "<select><option>x</option></select>", '<p data-paper="no">x</p>', "<p hidden>x</p>"),
-        *("<div hidden><p>x</p></div>", '<p class="steps">x</p>', "<p></p>"),
+        *("<div hidden><p>x</p></div>", '<p class="steps">x</p>', "<!-- x -->"),
+        '<table><tr><td>a</td><td data-paper="no">x</td></tr></table>',
     ],
 )
-def test_what_only_a_screen_can_use_is_left_out(screen):
-    assert blocks_of(f"<p>before</p>{screen}<p>after</p>") == blocks_of("<p>before</p><p>after</p>")
+def test_what_only_a_screen_can_use_is_left_out(taken, screen):
+    (_, found), _ = taken(f"<p>before</p>{screen}<p>after</p>")
+    assert "x" not in str([texts(each) for each in found])
+    assert [texts(found[0]), texts(found[-1])] == [["before"], ["after"]]
 
 
-def test_nothing_is_lost_of_a_page_with_a_very_long_text():
-    said, after = blocks_of(f"<p>{'x' * 11_000_000}</p><p>after</p>")
+def test_nothing_is_lost_of_a_page_with_a_very_long_text(taken):
+    (_, (said, after)), _ = taken(f"<p>{'x' * 11_000_000}</p><p>after</p>")
     assert len(said["in"][0]) == 11_000_000
     assert after["in"] == ["after"]

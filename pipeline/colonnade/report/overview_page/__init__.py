@@ -1,1 +1,1 @@
-"""What the overview shows, a module each part; `report/templates/overview` shows them."""
+"""What the overview shows, a module each part."""

@@ -1,9 +1,10 @@
-"""Tests by specimen and kind: sine tests on maps of frequency and amplitude, earthquakes by rising Span."""
+"""Sine tests of a specimen by frequency and amplitude and on maps, earthquakes by rising Span."""
 
 from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import NamedTuple
 
 from colonnade.campaign import Campaign
@@ -15,7 +16,7 @@ from colonnade.figures.maps import response_orders
 from colonnade.figures.stored import record
 from colonnade.figures.stored.record import SpanPanel
 from colonnade.identification.response.boundaries import Boundaries, Bracket, MapPoint, bracket_boundaries, makes_map
-from colonnade.report.rows import KINDS, TestRow
+from colonnade.report.rows import TestRow
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import as_map
@@ -23,60 +24,31 @@ from colonnade.store.records.summary import map_points
 from colonnade.units.text import NOTHING, number, quantity
 
 
-class SineGroup(NamedTuple):
-    """Sine tests of one frequency, by rising amplitude."""
-
-    frequency: str
-    tests: tuple[TestRow, ...]
-
-
-class KindGroup(NamedTuple):
-    """Tests of one kind with a row each."""
-
-    title: str
-    tests: tuple[TestRow, ...]
-
-
-class SpecimenGroup(NamedTuple):
-    """All tests of one specimen: sine tests of known Ω and A by rising frequency, all others by kind."""
+class Ladder(NamedTuple):
+    """Sine tests of one specimen with known Ω and A: by rising frequency, and of each frequency by rising amplitude."""
 
     specimen: str
-    kinds: tuple[KindGroup, ...]
-    sines: tuple[SineGroup, ...]
+    sines: dict[str, list[TestRow]]
 
     @property
     def steps(self) -> int:
-        """Largest number of sine tests of one frequency."""
-        return max((len(group.tests) for group in self.sines), default=0)
+        """Largest number of tests of one frequency."""
+        return max(map(len, self.sines.values()))
 
 
-def by_specimen(campaign: Campaign, tests: Sequence[TestRow]) -> list[SpecimenGroup]:
-    """Group tests; specimens without any are left out."""
-    groups = []
+def ladders(campaign: Campaign, tests: Sequence[TestRow]) -> list[Ladder]:
+    """Lay out the sine tests of each specimen that has any."""
+    known = [row for row in tests if row.frequency is not None and row.record.amplitude_ratio is not None]
+    known.sort(key=lambda row: (row.frequency or 0.0, row.record.amplitude_ratio or 0.0, row.id))
+    found = []
     for specimen in campaign.specimens:
-        own = [row for row in tests if row.test.specimen == specimen]
-        sines = [row for row in own if row.frequency is not None and row.record.amplitude_ratio is not None]
-        if own:
-            in_ladder = {row.id for row in sines}
-            others = [row for row in own if row.id not in in_ladder]
-            groups.append(SpecimenGroup(specimen, _kinds(others), _ladder(sines)))
-    return groups
-
-
-def _kinds(tests: Sequence[TestRow]) -> tuple[KindGroup, ...]:
-    by_kind = {kind: tuple(row for row in tests if row.test.kind == kind) for kind in KINDS}
-    return tuple(
-        KindGroup(f"{KINDS[kind]} of unknown amplitude" if kind == "sine" else KINDS[kind], members)
-        for kind, members in by_kind.items()
-        if members
-    )
-
-
-def _ladder(sines: Sequence[TestRow]) -> tuple[SineGroup, ...]:
-    by_frequency: dict[str, list[TestRow]] = defaultdict(list)
-    for row in sorted(sines, key=lambda row: (row.frequency or 0.0, row.record.amplitude_ratio or 0.0, row.id)):
-        by_frequency[quantity(row.frequency, "Hz")].append(row)
-    return tuple(SineGroup(frequency, tuple(members)) for frequency, members in by_frequency.items())
+        sines: dict[str, list[TestRow]] = defaultdict(list)
+        for row in known:
+            if row.test.specimen == specimen:
+                sines[quantity(row.frequency, "Hz")].append(row)
+        if sines:
+            found.append(Ladder(specimen, sines))
+    return found
 
 
 class SpanTest(NamedTuple):
@@ -91,7 +63,7 @@ class SpanGroup(NamedTuple):
     """Earthquake tests of one specimen and motion, by rising Span."""
 
     title: str
-    tests: tuple[SpanTest, ...]
+    tests: list[TestRow]
     picture: Picture
 
 
@@ -109,7 +81,7 @@ def span_groups(drawn: Sequence[SpanTest]) -> list[SpanGroup]:
         title = f"{motion or 'Base motion'}, {specimen}" + (f", time scale {scale:.4g}" if scale != 1.0 else "")
         described = " ".join(f"{entry.panel.title}: {entry.description}" for entry in members)
         picture = record.spans(f"spans-{count}", title, described, [entry.panel for entry in members])
-        groups.append(SpanGroup(title, tuple(members), picture))
+        groups.append(SpanGroup(title, [entry.row for entry in members], picture))
     return groups
 
 
@@ -151,20 +123,14 @@ def _map(campaign: Campaign, layout: Layout, specimen: str, points: Sequence[Map
 
 
 def charts_of(campaign: Campaign, layout: Layout, specimen: str) -> list[StabilityMap]:
-    """Read the stability maps of a specimen by the campaign's models in the plane."""
-    return list(filter(None, (_chart(layout, specimen, model) for model in campaign.processing.predict.models)))
-
-
-def _chart(layout: Layout, specimen: str, model: str) -> StabilityMap | None:
-    """Read the map of a model in the plane, which a run keeps up to date; None if it was not made."""
-    path = layout.stage(specimen, "map", model)
-    if MODELS[model].in_space or not path.is_file():
-        return None
-    try:
-        stored = files.read(path)
-    except StoreError:
-        return None
-    return as_map(stored) if stored.attrs.get("status") == "done" else None
+    """Read the stability maps of a specimen by the campaign's models in the plane, which a run keeps up to date."""
+    found = []
+    for model in campaign.processing.predict.models:
+        path = layout.stage(specimen, "map", model)
+        if not MODELS[model].in_space and path.is_file():
+            with suppress(StoreError):
+                found.append(files.read(path))
+    return [as_map(stored) for stored in found if stored.attrs.get("status") == "done"]
 
 
 def _boundary(found: Boundaries) -> tuple[str, str, str, str]:

@@ -1,205 +1,111 @@
 """
-What a page of the report says, as data: headings, paragraphs, lists, tables and figures without their markup.
+What a page of the report says, as data: its elements without what only a screen can use.
 
-Data is a tree of texts and of tables with the entry ``is``. A template of another kind than HTML shows it; what people
-wrote stays text in it.
+An element is its `tag`, its attributes, and what is `in` it: texts and elements. A template of another kind than HTML
+shows them; what people wrote stays text in it.
 """
 
 from __future__ import annotations
 
+import posixpath
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection
 from html import unescape
-from itertools import chain
+from pathlib import Path
 from typing import Any
 
 from lxml.html import HtmlElement, HTMLParser, document_fromstring
 
-Block = dict[str, Any]
-"""A part of a page as data: what it `is`, and what belongs to that."""
+Element = dict[str, Any]
+"""An element as data."""
 
-NOT_ON_PAPER = frozenset(
-    ("script", "style", "nav", "form", "button", "input", "select", "label", "details", "template", "canvas", "video")
-)
-"""Elements that only a screen can use; `data-paper="no"` marks others."""
-INLINE = {"strong": "strong", "b": "strong", "em": "emphasis", "i": "emphasis", "code": "code", "sub": "below"}
-INLINE |= {"sup": "above"}
-TRANSPARENT = frozenset(("a", "span", "abbr", "small", "time", "data", "br", *INLINE))
-"""Elements within a line."""
-HEADINGS = {"h2": 1, "h3": 2, "h4": 3, "h5": 3}
-"""Elements and how deep they are in their page."""
+SCREEN = ("script", "style", "nav", "form", "button", "input", "select", "label", "details", "template", "canvas")
+"""Elements that only a screen can use; `data-paper="no"` marks others, and `hidden` what scripts would fill."""
 
+_ONLY_ON_SCREEN = " | ".join(f".//{tag}" for tag in SCREEN) + " | .//*[@hidden or @data-paper='no']"
 _SVG = re.compile(r"<svg\b.*?</svg>", re.DOTALL)
 _DESCRIPTION = re.compile(r"<desc\b[^>]*>(.*?)</desc>", re.DOTALL)
+_NO_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")  # a page of HTML may have them, an SVG file may not
 _BLANKS = re.compile(r"[ \t\r\n]+")
 
+PHOTO, DRAWING = ".jpg", ".svg"
+"""Endings of the files that pages show as pictures."""
 
-class Page:
+
+class Gatherer:
     """
-    One page of the report.
+    Takes pages apart; numbers pictures through the whole document and leads links to its own places.
 
     Parameters
     ----------
-    text : str
-        As it was rendered; what is not its own markup is escaped in it.
+    folder : Path
+        The report.
+    labels : collection of str
+        Pages that the document shows: other links are none in it.
 
     Attributes
     ----------
-    pictures : list of str
-        The SVG in it; a figure gives their numbers.
+    pictures : dict of str to str
+        SVG by the name of its file.
+    files : dict of str to Path
+        Photos and drawings that are files of the report, by the name of their file in the document.
     """
 
-    def __init__(self, text: str) -> None:
-        self.pictures: list[str] = []
+    def __init__(self, folder: Path, labels: Collection[str]) -> None:
+        self.pictures: dict[str, str] = {}
+        self.files: dict[str, Path] = {}
+        self._folder, self._labels = folder, labels
+
+    def page(self, address: str) -> tuple[list[HtmlElement], list[HtmlElement]]:
+        """Return the paragraphs of a page's head, without its way to other pages, and what is in its main part."""
+        text = _NO_XML.sub("", (self._folder / address).read_text(encoding="utf-8"))
         # By default a text above 10 MB would empty the page, without a word.
-        self._root = document_fromstring(_SVG.sub(self._put_aside, text), parser=HTMLParser(huge_tree=True))
+        parser = HTMLParser(huge_tree=True, remove_comments=True)
+        root = document_fromstring(_SVG.sub('<img data-svg="">', text), parser=parser)
+        for node, drawn in zip(root.xpath(".//img[@data-svg]"), _SVG.findall(text), strict=True):
+            node.set("data-svg", drawn)
+        for node in (*root.xpath(_ONLY_ON_SCREEN), *root.find_class("steps"), *root.find_class("above")):
+            node.drop_tree()
+        for node in root.xpath(".//a[@href]"):
+            place = _within(address, node.get("href").partition("#")[0])
+            if place in self._labels:
+                node.set("href", place)
+            else:
+                node.drop_tag()
+        for node in root.xpath(".//img"):
+            if not self._settle(node, address):
+                node.drop_tree()
+        for node in root.xpath(".//figure[not(.//img)]"):
+            node.drop_tree()
+        return root.xpath("body/header/p"), root.xpath(".//main/*")
 
-    def _put_aside(self, found: re.Match[str]) -> str:
-        self.pictures.append(found[0])
-        return f'<img data-picture="{len(self.pictures) - 1}">'
-
-    def below_title(self) -> list[Block]:
-        """Paragraphs of the page's head, without its way to other pages."""
-        lines = self._root.iterfind("body/header/p")
-        return self._blocks(node for node in lines if not _classes(node) & {"above", "steps"})
-
-    def sections(self) -> dict[str, list[Block]]:
-        """Blocks of each section by its id; what is before the first section has an empty one."""
-        found = dict[str, list[Block]]()
-        for node in self._root.iterfind(".//main/*"):
-            name = node.get("id", "") if node.tag == "section" else ""
-            found.setdefault(name, []).extend(self._blocks([node]))
-        return {name: blocks for name, blocks in found.items() if blocks}
-
-    def _blocks(self, nodes: Iterable[HtmlElement | str]) -> list[Block]:
-        """Turn elements into blocks; a run of text and of elements within a line is a paragraph."""
-        blocks: list[Block] = []
-        line: list[HtmlElement | str] = []
-        for node in [*nodes, None]:
-            if isinstance(node, str) or (node is not None and node.tag in TRANSPARENT):
-                line.append(node)
-                continue
-            if said := _trimmed(self._inline(line)):
-                blocks.append({"is": "paragraph", "in": said})
-            line = []
-            if node is not None:
-                blocks += self._block(node)
-        return blocks
-
-    def _block(self, node: HtmlElement) -> list[Block]:
-        tag, classes = node.tag, _classes(node)
-        if _is_left_out(node):
-            return []
-        if tag in HEADINGS:
-            return [{"is": "heading", "depth": HEADINGS[tag], "in": self._line(node)}]
-        if tag == "p" and not classes & {"note", "failure"}:
-            said = self._line(node)
-            return [{"is": "paragraph", "soft": "soft" in classes, "in": said}] if said else []
-        if tag in ("ul", "ol"):
-            return [{"is": "list", "numbered": tag == "ol", "items": [self._inside(item) for item in node]}]
-        if tag == "dl":
-            terms, values = map(self._line, node.iterfind("dt")), map(self._inside, node.iterfind("dd"))
-            return [{"is": "facts", "items": [list(pair) for pair in zip(terms, values, strict=True)]}]
-        if tag == "table":
-            return [self._table(node)]
-        if tag in ("figure", "img"):
-            return self._figure(node)
-        inside = self._inside(node)
-        kind = next((kind for kind in ("failure", "note") if kind in classes), None)
-        return [{"is": "box", "kind": kind, "in": inside}] if kind else inside
-
-    def _table(self, table: HtmlElement) -> Block:
-        rows: dict[bool, list[list[Block]]] = {True: [], False: []}
-        for row in table.iter("tr"):
-            is_head = row.getparent().tag == "thead"
-            rows[is_head].append([self._cell(node) for node in row if not _is_left_out(node)])
-        columns = max((sum(cell["columns"] for cell in row) for row in (*rows[True], *rows[False])), default=1)
-        caption = next(map(self._line, table.iterfind("caption")), [])
-        return {"is": "table", "caption": caption, "columns": columns, "head": rows[True], "body": rows[False]}
-
-    def _cell(self, node: HtmlElement) -> Block:
-        classes = _classes(node)
-        return {
-            "is": "cell",
-            "in": self._inside(node),
-            "columns": int(node.get("colspan", 1)),
-            "rows": int(node.get("rowspan", 1)),
-            "number": "number" in classes,
-            "wide": "wide" in classes,
-            "head": node.tag == "th",
-        }
-
-    def _figure(self, node: HtmlElement) -> list[Block]:
-        images = [node] if node.tag == "img" else _every(node, "img")
-        pictures = [found for each in images if (found := self._picture_of(each))]
-        caption = next(map(self._line, _every(node, "figcaption")), [])
-        return [{"is": "figure", "pictures": pictures, "caption": caption}] if pictures else []
-
-    def _picture_of(self, node: HtmlElement) -> Block | None:
-        if "data-picture" in node.attrib:
-            number = int(node.attrib["data-picture"])
-            described = _DESCRIPTION.search(self.pictures[number])
-            return {"is": "picture", "number": number, "alt": unescape(described[1]) if described else ""}
-        source = node.get("src", "")
-        return (
-            None
-            if not source or source.startswith("data:")
-            else {"is": "picture", "file": source, "alt": node.get("alt", "")}
-        )
-
-    def _inside(self, node: HtmlElement) -> list[Block]:
-        return self._blocks(_children(node))
-
-    def _line(self, node: HtmlElement) -> list[Any]:
-        return _trimmed(self._inline(_children(node)))
-
-    def _inline(self, nodes: Iterable[HtmlElement | str]) -> list[Any]:
-        said: list[Any] = []
-        for node in nodes:
-            if isinstance(node, str):
-                said.append(_BLANKS.sub(" ", node))
-            elif node.tag == "br":
-                said.append({"is": "break"})
-            elif not _is_left_out(node):
-                inside = self._inline(_children(node))
-                if node.tag in INLINE:
-                    said.append({"is": INLINE[node.tag], "in": inside})
-                elif node.tag == "a":
-                    said.append({"is": "link", "to": node.get("href", ""), "in": inside})
-                else:
-                    said += inside
-        return said
+    def _settle(self, image: HtmlElement, address: str) -> bool:
+        """Give a picture the name of its file in the document; whether it has one."""
+        drawn = image.attrib.pop("data-svg", None)
+        if drawn is not None:
+            name, described = f"figure-{len(self.pictures) + 1}{DRAWING}", _DESCRIPTION.search(drawn)
+            self.pictures[name] = drawn
+            image.set("src", name)
+            image.set("alt", unescape(described[1]) if described else "")
+            return True
+        place = _within(address, image.get("src", ""))
+        path = self._folder / place
+        is_outside = place.startswith(("/", "..")) or path.is_symlink()
+        if is_outside or not place.endswith((PHOTO, DRAWING)) or not path.is_file():
+            return False
+        name = place.replace("/", "-")
+        self.files[name] = path
+        image.set("src", name)
+        return True
 
 
-def _children(node: HtmlElement) -> Iterator[HtmlElement | str]:
-    """Give the texts and elements of an element in their order."""
-    parts = chain([node.text], *([child, child.tail] for child in node))
-    return (part for part in parts if part is not None and part != "")
+def _within(address: str, link: str) -> str:
+    """Where a page's link leads, as an address within the report."""
+    return posixpath.normpath(posixpath.join(posixpath.dirname(address), link)) if link else address
 
 
-def _classes(node: HtmlElement) -> set[str]:
-    return set(node.get("class", "").split())
-
-
-def _is_left_out(node: HtmlElement) -> bool:
-    is_marked = node.get("data-paper") == "no" or "hidden" in node.attrib
-    return node.tag in NOT_ON_PAPER or is_marked or "steps" in _classes(node)
-
-
-def _every(node: HtmlElement, tag: str) -> list[HtmlElement]:
-    """Find the elements of a kind in another one, at any depth, in their order."""
-    found: list[HtmlElement] = []
-    for child in node:
-        if not _is_left_out(child):
-            found += [child] if child.tag == tag else _every(child, tag)
-    return found
-
-
-def _trimmed(said: list[Any]) -> list[Any]:
-    """Leave out blanks at both ends of a line; empty if nothing is left."""
-    said = [part for part in said if part != ""]
-    while said and isinstance(said[0], str) and not (said := [said[0].lstrip(), *said[1:]])[0]:
-        said = said[1:]
-    while said and isinstance(said[-1], str) and not (said := [*said[:-1], said[-1].rstrip()])[-1]:
-        said = said[:-1]
-    return said
+def as_data(node: HtmlElement) -> Element:
+    """Return an element with all that is in it; blanks are one, as on a page."""
+    inside = [node.text, *(part for child in node for part in (as_data(child), child.tail))]
+    said = [_BLANKS.sub(" ", part) if isinstance(part, str) else part for part in inside if part]
+    return {"tag": node.tag, **node.attrib, "in": said}

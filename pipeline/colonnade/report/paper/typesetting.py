@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import json
-import posixpath
-import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from importlib.resources import files as resources
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Literal
 
+from lxml.html import HtmlElement
+
 from colonnade import __version__
 from colonnade.campaign import Campaign
 from colonnade.errors import StoreError
 from colonnade.report import addresses
-from colonnade.report.paper.content import Block, Page
+from colonnade.report.paper.content import PHOTO, Gatherer, as_data
 from colonnade.report.test_page import facts
 
 if TYPE_CHECKING:
@@ -26,11 +26,8 @@ if TYPE_CHECKING:
 SPANS = "spans"
 """Section of the overview that is a chapter of its own. A section that is not printed says so: `data-paper="no"`."""
 
-PHOTO, DRAWING = ".jpg", ".svg"
-"""Endings of the files that pages show as pictures."""
 
-
-@dataclass
+@dataclass(frozen=True)
 class Document:
     """
     A document.
@@ -46,8 +43,8 @@ class Document:
     """
 
     data: dict[str, Any]
-    pictures: dict[str, str] = field(default_factory=dict)
-    files: dict[str, Path] = field(default_factory=dict)
+    pictures: dict[str, str]
+    files: dict[str, Path]
 
 
 def document_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> Document:
@@ -62,116 +59,43 @@ def document_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> D
     appendix : bool, optional
         Whether each test has its pages, too.
     """
-    tests = list(map(addresses.of_test, campaign.tests)) if appendix else []
-    specimens = list(map(addresses.of_specimen, campaign.of_interest))
+    tests = {addresses.of_test(name): name for name in campaign.tests} if appendix else {}
+    specimens = {addresses.of_specimen(name): f"Specimen {name}" for name in campaign.of_interest}
     overview, methods = addresses.WHOLE["overview"], addresses.WHOLE["methods"]
-    document = Document({})
     optional = {page: title for page, title in addresses.OPTIONAL.items() if (folder / page).is_file()}
-    gather = _Gatherer(folder, document, {*tests, *specimens, *optional, overview, methods})
-    summary = gather.page(overview)
-    chapters = [_chapter("Summary", overview, summary.parts(without=SPANS))]
-    for name, address in zip(campaign.of_interest, specimens, strict=True):
-        chapters.append(_chapter(f"Specimen {name}", address, gather.page(address).parts()))
-    if spans := summary.sections.get(SPANS):
-        chapters.append(_chapter(_plain(spans[0]["in"]), "", spans))
-    chapters += [_chapter(title, page, gather.page(page).parts()) for page, title in optional.items()]
-    chapters.append(_chapter("Methods", methods, gather.page(methods).parts()))
-    chapters[-1]["equations"] = True
-    of_tests = []
-    for name, address in zip(campaign.tests, tests, strict=False):  # none without the appendix
-        page = gather.page(address)
-        of_tests.append(_chapter(name, address, [*page.below_title, *page.parts()]))
-    shown = [each for part in (*chapters, *of_tests) for each in _pictures(part["in"])]
-    shown = [each for each in shown if each["file"] in document.files]
-    document.data |= {
+    gather = Gatherer(folder, {*tests, *specimens, *optional, overview, methods})
+    _, summary = gather.page(overview)
+    spans = [node for node in summary if node.get("id") == SPANS]
+    chapters = [_chapter("Summary", overview, [node for node in summary if node not in spans])]
+    chapters += [_chapter(title, page, gather.page(page)[1]) for page, title in specimens.items()]
+    chapters += [_chapter(node.findtext("h2", ""), "", [node]) for node in spans]
+    chapters += [_chapter(title, page, gather.page(page)[1]) for page, title in optional.items()]
+    chapters.append(_chapter("Methods", methods, gather.page(methods)[1]) | {"equations": True})
+    of_tests = [
+        _chapter(name, page, (part for parts in gather.page(page) for part in parts)) for page, name in tests.items()
+    ]
+    shown = [image for part in (*chapters, *of_tests) for image in part.pop("images") if image["src"] in gather.files]
+    data = {
         "title": campaign.title,
         "campaign": campaign.campaign,
         "facts": facts.on_cover(campaign),
-        "cover": next((each for each in shown if each["photo"]), next(iter(shown), None)),
+        "cover": next((each for each in shown if each["src"].endswith(PHOTO)), next(iter(shown), None)),
         "chapters": chapters,
         "appendix": of_tests,
         "version": __version__,
     }
-    return document
+    return Document(data, gather.pictures, gather.files)
 
 
-def _chapter(title: str, address: str, inside: list[Block]) -> dict[str, Any]:
-    said = [block for block in inside if block["is"] != "heading" or _plain(block["in"]) != title]
-    return {"title": title, "label": address, "in": said, "equations": False}
-
-
-def _pictures(blocks: list[Block]) -> Iterator[Block]:
-    for block in blocks:
-        yield from block.get("pictures", ())
-
-
-def _plain(said: list[Any]) -> str:
-    return "".join(part if isinstance(part, str) else _plain(part.get("in", [])) for part in said)
-
-
-@dataclass(frozen=True)
-class _Gathered:
-    """What is taken from one page."""
-
-    below_title: list[Block]
-    sections: Mapping[str, list[Block]]
-
-    def parts(self, without: str | None = None) -> list[Block]:
-        return [block for name, blocks in self.sections.items() if name != without for block in blocks]
-
-
-class _Gatherer:
-    """Takes pages apart; numbers pictures through the whole document and leads links to its own places."""
-
-    def __init__(self, folder: Path, document: Document, labels: Collection[str]) -> None:
-        self._folder, self._document, self._labels = folder, document, labels
-
-    def page(self, address: str) -> _Gathered:
-        page = Page((self._folder / address).read_text(encoding="utf-8"))
-        sections = page.sections()
-        for blocks in (page_head := page.below_title(), *sections.values()):
-            self._settle(blocks, page, address)
-        return _Gathered(page_head, sections)
-
-    def _settle(self, node: Any, page: Page, address: str) -> None:
-        """Give pictures the names of their files, and links the places that they lead to."""
-        if isinstance(node, list):
-            for each in node:
-                self._settle(each, page, address)
-        if not isinstance(node, dict):
-            return
-        if node["is"] == "figure":
-            node["pictures"] = [found for each in node["pictures"] if (found := self._file(each, page, address))]
-        if node["is"] == "link":
-            place = _within(address, node["to"].partition("#")[0])
-            node["to"] = place if place in self._labels else ""
-        for each in node.values():
-            self._settle(each, page, address)
-
-    def _file(self, picture: Block, page: Page, address: str) -> Block | None:
-        if "number" in picture:
-            name = f"figure-{len(self._document.pictures) + 1}{DRAWING}"
-            self._document.pictures[name] = page.pictures[picture["number"]]
-            return {"is": "picture", "file": name, "alt": picture["alt"], "photo": False}
-        place = _within(address, picture["file"])
-        path = self._folder / place
-        is_outside = place.startswith(("/", "..")) or path.is_symlink()
-        if is_outside or not place.endswith((PHOTO, DRAWING)) or not path.is_file():
-            return None
-        name = place.replace("/", "-")
-        self._document.files[name] = path
-        return {"is": "picture", "file": name, "alt": picture["alt"], "photo": place.endswith(PHOTO)}
-
-
-def _within(address: str, link: str) -> str:
-    """Where a page's link leads, as an address within the report."""
-    return posixpath.normpath(posixpath.join(posixpath.dirname(address), link)) if link else address
+def _chapter(title: str, address: str, inside: Iterable[HtmlElement]) -> dict[str, Any]:
+    nodes = list(inside)
+    for heading in (heading for node in nodes for heading in node.findall("h2") if heading.text_content() == title):
+        heading.drop_tree()
+    images = [as_data(image) for node in nodes for image in node.iter("img")]
+    return {"title": title, "label": address, "in": list(map(as_data, nodes)), "equations": False, "images": images}
 
 
 TEMPLATE = "report.typ"
-
-NO_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
-"""Characters that a page of HTML may have and an SVG file may not."""
 
 PIXELS_PER_INCH = 80
 """Of a page as PNG."""
@@ -234,7 +158,7 @@ def prepared(document: Document) -> Iterator[typst.Compiler]:
         (root / TEMPLATE).write_bytes((resources("colonnade.report") / "templates" / TEMPLATE).read_bytes())
         (root / "report.json").write_text(json.dumps(document.data, ensure_ascii=False), encoding="utf-8")
         for name, picture in document.pictures.items():
-            (root / name).write_text(NO_XML.sub("", picture), encoding="utf-8")
+            (root / name).write_text(picture, encoding="utf-8")
         for name, path in document.files.items():
             (root / name).write_bytes(path.read_bytes())
         yield typst.Compiler(root / TEMPLATE, root=root, font_paths=fonts, ignore_system_fonts=True)

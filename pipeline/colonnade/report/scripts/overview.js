@@ -2,7 +2,7 @@
 (function () {
   "use strict";
   const form = document.getElementById("filter");
-  const table = document.getElementById("tests-table");
+  const table = document.querySelector("#tests table");
   if (!form || !table) return;
   const body = table.tBodies[0];
   const heads = Array.from(table.querySelectorAll("th[data-column]"));

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isnan, nan
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +14,6 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.size import at_prototype
 from colonnade.figures import base_motion
 from colonnade.figures.base_motion import BaseMotion
-from colonnade.figures.files.output import Picture
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.signals.filters import lowpass
@@ -27,79 +25,54 @@ FASTEST = 25.0
 """Hz, below which a measured displacement is differentiated: above it its noise is larger than its motion."""
 
 
-class Measure(NamedTuple):
-    """A measure of the motion: achieved, of the target, and at prototype scale; how it is computed."""
-
-    name: str
-    achieved: str
-    target: str
-    prototype: str
-    how: str
-
-
-@dataclass(frozen=True)
-class Table:
-    """`measures` are empty without a recorded motion; `facts` are of a sine, or say how the target was laid on it."""
-
-    measures: list[Measure]
-    facts: list[Fact]
-    picture: Picture | None
-    has_target: bool
-
-
-def of_test(campaign: Campaign, row: TestRow, stored: Stored, block: Block) -> Table:
-    """Measure the table's motion, and draw it with its target."""
+def of_test(campaign: Campaign, row: TestRow, stored: Stored, block: Block) -> dict[str, Any]:
+    """Measure the table's motion at both scales, and draw it with its target; empty without a recorded motion."""
     motion = base_motion.base_of(campaign, row.test, stored)
     if motion is None:
-        return Table([], [], None, has_target=False)
-    scale = campaign.specimens[row.test.specimen].scale
-    return Table(
-        _measures(motion, stored, campaign.gravity, scale),
-        known([*_sine(row, stored), *_target(motion)]),
-        base_motion.base_picture(row.test, motion, block),
-        has_target=motion.target is not None,
-    )
+        return {}
+    heads, rows = _measures(motion, stored, campaign.gravity, campaign.specimens[row.test.specimen].scale)
+    return {
+        "facts": known([*_sine(row, stored), *_target(motion)]),
+        "heads": heads,
+        "rows": rows,
+        "picture": base_motion.base_picture(row.test, motion, block),
+    }
 
 
-def _measures(motion: BaseMotion, stored: Stored, gravity: float, scale: float | None) -> list[Measure]:
-    series = [motion.acceleration, None if motion.target is None else motion.target.acceleration]
+def _measures(
+    motion: BaseMotion, stored: Stored, gravity: float, scale: float | None
+) -> tuple[list[str], list[list[str]]]:
+    """Give heads and rows of the measures, and how each is computed."""
+    series = [motion.acceleration, *([motion.target.acceleration] if motion.target else [])]
+    target, at_scale = (["#target"] if motion.target else []), (["#achieved, prototype scale"] if scale else [])
+
+    def row(name: str, unit: str, kind: str, values: list[float], how: str) -> list[str]:
+        prototype = [at_prototype(kind, values[0], scale)] if scale else []
+        return [name, *(quantity(value, unit) for value in (*values, *prototype)), how]
+
     measured = largest_motion(stored, "base_displacement")
-
-    def row(name: str, unit: str, kind: str, values: list[float], how: str) -> Measure:
-        achieved, target = values
-        prototype = nan if scale is None else at_prototype(kind, achieved, scale)
-        return Measure(name, quantity(achieved, unit), quantity(target, unit), quantity(prototype, unit), how)
-
-    peaks = [nan if values is None else float(np.abs(values).max()) for values in series]
     none = dict.fromkeys(("pgv", "pgd", "arias"), nan)
+    peaks = [nan if values is None else float(np.abs(values).max()) for values in series]
     tables = [none if values is None else table_measures(values, motion.interval, gravity)[0] for values in series]
     velocity, displacement, arias = ([each[name] for each in tables] for name in none)
-    derived = isnan(velocity[0]) and not isnan(measured)
-    if derived:
-        velocity[0] = _from_displacement(stored, motion.interval)
     allowed = f"{100 * LARGEST_DRIFT_AT_REST:g}{PERCENT}"
     drifts = f"not given: the integral of the acceleration drifts by more than {allowed} of its peak"
     integrated = "integral of the acceleration, less a line through its ends, where the table is at rest"
-    return [
+    how_fast, how_far = integrated, f"twice the {integrated}"
+    if isnan(velocity[0]):
+        how_fast = drifts
+        if not isnan(measured):
+            velocity[0] = _from_displacement(stored, motion.interval)
+            how_fast = f"derivative of the measured displacement below {FASTEST:g} Hz, as the integral of the "
+            how_fast += "acceleration drifts"
+    if not isnan(measured):
+        displacement[0], how_far = measured, "measured"
+    elif isnan(displacement[0]):
+        how_far = drifts
+    return ["", "#achieved", *target, *at_scale, "how it is computed"], [
         row("peak acceleration (PGA)", "m/s²", "acceleration", peaks, ""),
-        row(
-            "peak velocity of the table",
-            "mm/s",
-            "velocity",
-            velocity,
-            f"derivative of the measured displacement below {FASTEST:g} Hz, as the integral of the acceleration drifts"
-            if derived
-            else drifts
-            if isnan(velocity[0])
-            else integrated,
-        ),
-        row(
-            "peak displacement of the table",
-            "mm",
-            "length",
-            [displacement[0] if isnan(measured) else measured, displacement[1]],
-            "measured" if not isnan(measured) else drifts if isnan(displacement[0]) else f"twice the {integrated}",
-        ),
+        row("peak velocity of the table", "mm/s", "velocity", velocity, how_fast),
+        row("peak displacement of the table", "mm", "length", displacement, how_far),
         row("Arias intensity", "m/s", "velocity", arias, "π/(2g) times the integral of the squared acceleration"),
     ]
 

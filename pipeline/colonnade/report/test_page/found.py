@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import hypot, isnan, nan
 
 from colonnade.campaign.forms.summary import BodyPrediction, PredictionSummary, TestSummary
@@ -13,52 +12,32 @@ from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.store.records.stored import Stored
-from colonnade.store.records.test import driven_by, largest_motion, predicted_peak_time
-from colonnade.store.records.wording import by_bodies, order
+from colonnade.store.records.test import driven_by, largest_motion
+from colonnade.store.records.wording import order
 from colonnade.units.text import NOTHING, acceleration, format_percent, number, quantity, ratio
 
 
-@dataclass(frozen=True)
-class Found:
-    """
-    The measured motion and the predicted ones; `predicted_times` are when each model's largest angle or its overturning
-    is, s.
-    """
-
-    facts: list[Fact]
-    predicted_times: dict[str, float]
-
-
-def of_test(subject: OfTest) -> Found:
-    """Say what was measured, and when the models have their largest angle."""
+def of_test(subject: OfTest) -> list[Fact]:
+    """Say what was measured."""
     row, stored = subject.row, subject.stored
-    return Found(
-        known(_facts(row, stored, subject.campaign.specimens[row.test.specimen].scale)),
-        {model: predicted_peak_time(stored, model) for model in stored.models("predict")},
+    scale = subject.campaign.specimens[row.test.specimen].scale
+    is_free, has_fallen = row.test.kind == "free-vibration", row.record.outcome == "overturned"
+    largest = quantity(abs(stored.value("rocking", "peak_angle")), "mrad", 4)
+    return known(
+        [
+            ("largest |θ|, release included" if is_free else "largest |θ|", "" if has_fallen else largest),
+            ("released at |θ|/α", ratio(row.record.release_ratio)),
+            ("predictions use", driven_by(stored) if is_free else ""),
+            ("overturned at", quantity(stored.value("rocking", "overturning_time"), "s", 4)),
+            ("peak base acceleration", acceleration(row.record.pga)),
+            ("standard error of θ", quantity(stored.median("rocking", "rocking_angle_standard_error"), "mrad", 2)),
+            *_other_motions(stored),
+            ("noise threshold", quantity(stored.value("rocking", "noise_threshold"), "mrad", 2)),
+            ("measured", stored.text("rocking", "separation")),
+            ("order of the response", order(row.record.order) or row.record.order_reason or ""),
+            (f"at prototype scale, 1:{scale:g}" if scale else "", _at_prototype(row, stored, scale) if scale else ""),
+        ]
     )
-
-
-def _facts(row: TestRow, stored: Stored, scale: float | None) -> list[Fact]:
-    is_free = row.test.kind == "free-vibration"
-    error = quantity(stored.median("rocking", "rocking_angle_standard_error"), "mrad", 2)
-    return [
-        (
-            "largest |θ|, release included" if is_free else "largest |θ|",
-            ""
-            if row.record.outcome == "overturned"
-            else quantity(abs(stored.value("rocking", "peak_angle")), "mrad", 4),
-        ),
-        ("released at |θ|/α", ratio(row.record.release_ratio)),
-        ("predictions use", driven_by(stored) if is_free else ""),
-        ("overturned at", quantity(stored.value("rocking", "overturning_time"), "s", 4)),
-        ("peak base acceleration", acceleration(row.record.pga)),
-        ("standard error of θ", error),
-        *_other_motions(stored),
-        ("noise threshold", quantity(stored.value("rocking", "noise_threshold"), "mrad", 2)),
-        ("measured", stored.text("rocking", "separation")),
-        ("order of the response", order(row.record.order) or row.record.order_reason or ""),
-        (f"at prototype scale, 1:{scale:g}" if scale else "", _at_prototype(row, stored, scale) if scale else ""),
-    ]
 
 
 def _other_motions(stored: Stored) -> list[Fact]:
@@ -91,56 +70,37 @@ FINEST = 5
 """Decimals of displacements in m and of turns in rad that are shown."""
 
 
-@dataclass(frozen=True)
-class BodyRow:
-    """A body as measured, or as a model has it: cells as they are shown."""
+def bodies_of(record: TestSummary) -> list[tuple[str, ...]]:
+    """
+    Put what is known of each body into rows, from the top to the bottom as they stand.
 
-    name: str
-    who: str
-    outcome: str
-    peak: str
-    opening: str
-    opened: str
-    moved: str
-    along: str
-    turned: str
-    separation: str
-
-
-@dataclass(frozen=True)
-class Bodies:
-    """`rows` is empty for a single body; `answer` says in a sentence what became of them."""
-
-    answer: str
-    rows: list[BodyRow]
-
-
-def bodies_of(record: TestSummary) -> Bodies:
-    """Put what is known of each body into rows, from the top to the bottom as they stand."""
-    rows = []
+    Its name, who says it, outcome, largest angle, how far its joint opened and when; then where it stands at the end.
+    """
+    rows = list[tuple[str, ...]]()
     for name, body in reversed(record.bodies.items()):
-        opening, opened = quantity(body.opening, "mm"), quantity(body.opening_time, "s", 4)
-        rows.append(_row(name, "measured", body, opening, opened, body.separation or ""))
+        opened = quantity(body.opening, "mm"), quantity(body.opening_time, "s", 4)
+        rows.append((name, "measured", body.outcome or "not measured", ratio(body.peak_ratio), *opened, *_place(body)))
         for model, each in body.predicted.items():
-            rows.append(_row("", f"{model} model", each, "–", "–", ""))
+            said = each.outcome or "not measured"
+            rows.append(("", f"{model} model", said, ratio(each.peak_ratio), "", "", *_place(each)))
             if each.overturning_probability is not None:
                 low, high = (number(None if end is None else 1e3 * end) for end in (each.moved_low, each.moved_high))
-                falls = format_percent(each.overturning_probability)
-                band = "–" if each.moved_low is None else f"{low} to {high} mm"
-                rows.append(BodyRow("", "its runs", f"{falls} overturn", "–", "–", "–", band, "–", "–", ""))
-    return Bodies(by_bodies(record), rows)
+                band = "" if each.moved_low is None else f"{low} to {high} mm"
+                falls = f"{format_percent(each.overturning_probability)} overturn"
+                rows.append(("", "its runs", falls, "", "", "", band, "", ""))
+    return rows
 
 
-def _row(name: str, who: str, body: BodyPrediction, opening: str, opened: str, separation: str) -> BodyRow:
-    fell = body.outcome == "overturned"
-    x, y = (None if each is None or fell else round(each, FINEST) for each in (body.residual_x, body.residual_y))
+def _place(body: BodyPrediction) -> tuple[str, str, str]:
+    """Write how far a body has moved for good, along x and y, and how far it has turned; a fallen one has no place."""
+    if body.outcome == "overturned":
+        return NOTHING, f"{NOTHING}, {NOTHING}", NOTHING
+    x, y, yaw = (
+        None if each is None else round(each, FINEST) for each in (body.residual_x, body.residual_y, body.residual_yaw)
+    )
     far = None if x is None or y is None else round(hypot(x, y), FINEST)
     along = ", ".join(number(None if each is None else 1e3 * each) for each in (x, y))
-    turned = quantity(None if fell or body.residual_yaw is None else round(body.residual_yaw, FINEST), "mrad")
-    outcome = body.outcome or "not measured"
-    return BodyRow(
-        name, who, outcome, ratio(body.peak_ratio), opening, opened, quantity(far, "mm"), along, turned, separation
-    )
+    return quantity(far, "mm"), along, quantity(yaw, "mrad")
 
 
 def verdicts_of(record: TestSummary) -> list[str]:

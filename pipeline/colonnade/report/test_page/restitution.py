@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from colonnade.campaign.forms.summary import IdentifiedSummary
 from colonnade.figures.stored.restitution import STAGE, estimate_rows
-from colonnade.report.pictures.subjects import OfTest
-from colonnade.report.test_page.facts import Fact, known
+from colonnade.report.test_page.facts import known
 from colonnade.store.records.stored import Stored
 from colonnade.units.text import format_uncertain, interval, quantity
 
@@ -70,27 +68,7 @@ PEAK = ("peak_time", "peak_angle", "peak_angle_standard_error", "fitted_angle", 
 """Columns of the table of peaks, by their stored names."""
 
 
-@dataclass(frozen=True)
-class Decay:
-    """
-    A free vibration; without facts the section is left out.
-
-    `peaks` are number, time, angle, standard error, fitted angle and whether it was used.
-    """
-
-    facts: list[Fact]
-    estimates: list[EstimateText]
-    departures: list[str]
-    peaks: list[tuple[float, ...]]
-
-
-def decay_of(subject: OfTest) -> Decay:
-    """Put what is stored of a test's restitution into words."""
-    stored = subject.stored
+def peaks_of(stored: Stored) -> list[tuple[float, ...]]:
+    """Give number, time, angle, standard error, fitted angle and use of each peak."""
     columns = (stored.array(STAGE, name).tolist() for name in PEAK)
-    return Decay(
-        facts=facts_of(stored, subject.row.record.restitution),
-        estimates=estimates_of(stored),
-        departures=stored.texts(STAGE, "departures"),
-        peaks=[(number, *peak) for number, peak in enumerate(zip(*columns, strict=True), 1)],
-    )
+    return [(number, *peak) for number, peak in enumerate(zip(*columns, strict=True), 1)]
