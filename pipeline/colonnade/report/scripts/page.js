@@ -47,7 +47,6 @@ colonnade.Page = class {
     this.root.append(this.hint);
     this.place.append(this.root);
     this.place.closest("section").hidden = false;
-    this.addToContents();
     await Promise.all(made.map((group) => group.open && this.fill(group)));
     document.documentElement.classList.add("scripted"); // the style sheet hides the picture that the panels replace
     colonnade.page = this;
@@ -67,13 +66,6 @@ colonnade.Page = class {
       this.speed.value = speed;
       if (view) this.look(view.from, view.to);
     });
-  }
-
-  // The table of contents is written without a section that needs scripts.
-  addToContents() {
-    const [contents, section] = [document.querySelector(".contents ul"), this.place.closest("section")];
-    if (!contents || contents.querySelector(`[href="#${section.id}"]`)) return;
-    contents.prepend(colonnade.element("li", {}, colonnade.element("a", { href: `#${section.id}` }, section.querySelector("h2").textContent)));
   }
 
   // Time of the largest value of the first curve, where the cursor stands at first.
@@ -145,7 +137,6 @@ colonnade.Page = class {
       panel.plot.replaceChildren();
       await panel.make();
     }
-    if (this.block) this.block.draw();
   }
 
   listen(panel) {

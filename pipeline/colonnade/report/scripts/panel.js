@@ -9,7 +9,8 @@ const FLAGS = { 2: "not evaluated", 3: "suspect", 4: "failed", 9: "missing" };
 
 // An element with attributes and children; texts are texts, never markup.
 colonnade.element = function (tag, attributes = {}, ...children) {
-  const made = document.createElement(tag);
+  const isDrawn = ["svg", "polygon", "rect", "path"].includes(tag);
+  const made = isDrawn ? document.createElementNS("http://www.w3.org/2000/svg", tag) : document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
   made.append(...children);
   return made;
@@ -42,7 +43,7 @@ colonnade.Panel = class {
     this.given = given;
     this.page = page;
     this.right_border = group.panels.some((panel) => panel.second) ? RIGHT : 12;
-    const of = (shown, values) => ({ ...shown, clockOf: page.clocks[shown.clock], of: values, largest: colonnade.largest(values) });
+    const of = (shown, values) => ({ ...shown, clock: page.clocks[shown.clock], values, largest: colonnade.largest(values) });
     this.curves = given.curves.map((curve) => of(curve, page.series[curve.values]));
     this.bands = (given.bands || []).map((band) => ({ ...of(band, page.series[band.high]), is: "band" }));
     const unit = given.unit ? ` (${given.unit}${given.second ? `; right: ${given.second.unit}` : ""})` : "";
@@ -53,8 +54,8 @@ colonnade.Panel = class {
     this.box = colonnade.element("div", { class: "plotted" }, this.plot, this.line, this.chosen);
     this.root = colonnade.element("section", { class: "panel" }, colonnade.element("h3", {}, given.title + unit), this.keys, this.box);
     for (const shown of [...this.curves, ...this.bands]) this.addKey(shown, `${group.title}, ${given.title}, ${shown.name}`);
-    for (const mark of given.marks || []) this.keys.append(colonnade.element("span", { class: "mark" }, `┊ ${mark.name}: ${mark.time.toFixed(2)} s`));
-    if (given.flags && given.flags.length) this.keys.append(this.flagKey(given.flags, this.curves[0].of.length));
+    for (const mark of given.marks || []) this.keys.append(colonnade.element("span", { class: "mark soft" }, `┊ ${mark.name}: ${mark.time.toFixed(2)} s`));
+    if (given.flags && given.flags.length) this.keys.append(this.flagKey(given.flags, this.curves[0].values.length));
   }
 
   // A button that turns a curve on and off, with its look and its value.
@@ -84,7 +85,7 @@ colonnade.Panel = class {
     for (const [first, last, flag] of flags) counts.set(flag, (counts.get(flag) || 0) + last - first);
     const said = [...counts].map(([flag, count]) => `${count} ${FLAGS[flag] || flag}`).join(", ");
     const isFew = [...counts.values()].reduce((sum, count) => sum + count) <= FEW * samples;
-    return colonnade.element("span", { class: isFew ? "mark" : "flags" }, `× flagged samples: ${said}`);
+    return colonnade.element("span", { class: isFew ? "mark soft" : "mark differs" }, `× flagged samples: ${said}`);
   }
 
   async make() {
@@ -173,13 +174,13 @@ colonnade.Panel = class {
       }
     };
     for (const curve of this.curves) {
-      const data = curve.is_hidden ? { x: [], y: [] } : colonnade.thinned(curve.clockOf, curve.of, from, to, pixels);
+      const data = curve.is_hidden ? { x: [], y: [] } : colonnade.thinned(curve.clock, curve.values, from, to, pixels);
       curve.source.data = data;
       reach(data.y);
     }
     for (const band of this.bands) {
       const [below, above] = [this.page.series[band.low], this.page.series[band.high]];
-      const data = band.is_hidden ? { x: [], low: [], high: [] } : colonnade.thinnedBand(band.clockOf, below, above, from, to, pixels);
+      const data = band.is_hidden ? { x: [], low: [], high: [] } : colonnade.thinnedBand(band.clock, below, above, from, to, pixels);
       band.source.data = data;
       reach(data.low);
       reach(data.high);
@@ -187,7 +188,7 @@ colonnade.Panel = class {
     if (this.marked) {
       const [curve] = this.curves;
       const flags = curve.is_hidden ? [] : this.given.flags;
-      this.marked.data = colonnade.flagged(curve.clockOf, curve.of, flags, from, to, pixels);
+      this.marked.data = colonnade.flagged(curve.clock, curve.values, flags, from, to, pixels);
     }
     this.x.setv({ start: from, end: to });
     this.scale(low, high);
@@ -212,15 +213,14 @@ colonnade.Panel = class {
     this.line.style.left = `${place}px`;
     for (const curve of this.curves) curve.value.textContent = curve.is_hidden ? "" : this.reading(curve, time);
     for (const band of this.bands) {
-      const index = band.is_hidden ? -1 : band.clockOf.nearest(time);
+      const index = band.is_hidden ? -1 : band.clock.nearest(time);
       const ends = [band.low, band.high].map((end) => colonnade.written(this.page.series[end][index], 3, band.largest));
-      band.value.textContent = index < 0 ? "" : `${ends[0]} to ${ends[1]}`;
+      band.value.textContent = index < 0 ? "" : ends.join(" to ");
     }
   }
 
   reading(curve, time) {
-    const index = curve.clockOf.nearest(time);
-    const value = index < 0 ? NaN : curve.of[index];
+    const value = colonnade.valueAt(curve, time);
     if (!Number.isFinite(value)) return "–";
     const { unit, second, is_angle: isAngle } = this.given;
     const text = `${colonnade.written(value, 4, curve.largest)}${unit ? ` ${unit}` : ""}`;
