@@ -30,6 +30,8 @@ from colonnade.workflow.walk import Walk
 if TYPE_CHECKING:
     import xarray as xr
 
+    from colonnade.stages.assessment_plan import AssessmentInputs
+
 MADE_BY = ("colonnade.stages.assessment", "colonnade.workflow.assessing")
 """Modules whose code makes assessments; what they import counts too."""
 
@@ -139,7 +141,7 @@ def assess_own(
     inputs = AssessmentInputs(**dict(found.inputs), specimen=name, asked=asked)
     with tempfile.TemporaryDirectory(prefix="colonnade-") as blocks:
         try:
-            result = _made(asked, where, Path(blocks), "", {"specimen": found.pooled}, inputs)
+            result = _made(asked, where, Path(blocks), "", inputs=inputs, specimen=found.pooled)
         except ColonnadeError as error:
             return Assessed(OWN, _failed(asked.specimen, asked.measure, str(error)), None)
     return Assessed(OWN, AssessmentSummary.model_validate_json(result.attrs["answer"]), result)
@@ -192,7 +194,7 @@ def _digest(catalogue: Catalogue, path: Path) -> str | None:
 
 
 def _made(
-    asked: Assessment, where: Where, blocks: Path, code: str, upstream: Mapping[str, Any], inputs: Any
+    asked: Assessment, where: Where, blocks: Path, code: str, *, inputs: AssessmentInputs, specimen: xr.Dataset
 ) -> xr.Dataset:
     """Make an assessment; finished blocks of its histories are known again by the code, and kept in `blocks`."""
     import joblib
@@ -203,7 +205,7 @@ def _made(
     from colonnade.stages.assessment_plan import plan_assessment
 
     hazard = None if asked.hazard is None else read_hazard_of(asked.hazard, asked.measure)
-    plan = plan_assessment(upstream["specimen"], read_record_set(asked.records), hazard, inputs)
+    plan = plan_assessment(specimen, read_record_set(asked.records), hazard, inputs)
     key = joblib.hash((code, [study.cases for study in plan.studies.values()]))
     outcomes = {
         name: outcomes_of(study.cases, where, blocks / str(number), key)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from pydantic import BaseModel
 
     from colonnade.dynamics.ensemble import Plan
+    from colonnade.stages.compare import CompareInputs
+    from colonnade.stages.ingest import IngestInputs
 
 COMPARED = {"predict": "predicted", "ensemble": "ensembles"}
 """Stages whose results `compare` takes by model, and the name of the argument."""
@@ -63,31 +65,18 @@ class Graph:
             ResultId(test.id, stage) for stage in ("ingest", "condition", "rocking", "restitution")
         )
         read, raw = ingest.IngestInputs.of(self.campaign, test), self.raw[test.id]
+        digests = {name: file.sha256 for name, file in raw.items()}
+        ingests = partial(_ingest, self.campaign.folder, test.files, raw)
+        cleaned = condition.ConditionInputs.of(self.campaign, test)
+        turned = rocking.RockingInputs.of(self.campaign, test)
         products = [
-            self.product(
-                recorded,
-                read,
-                {name: file.sha256 for name, file in raw.items()},
-                partial(_ingest, self.campaign.folder, test.files, raw),
-                FORMATS,
-            ),
-            self.product(
-                conditioned,
-                condition.ConditionInputs.of(self.campaign, test),
-                {"recorded": recorded},
-                _by_name(condition.condition),
-                FORMATS,
-            ),
-            self.product(
-                measured,
-                rocking.RockingInputs.of(self.campaign, test),
-                {"conditioned": conditioned},
-                _by_name(rocking.rocking),
-            ),
+            self.product(recorded, read, digests, ingests, FORMATS),
+            self.product(conditioned, cleaned, {"recorded": recorded}, condition.condition, FORMATS),
+            self.product(measured, turned, {"conditioned": conditioned}, rocking.rocking),
         ]
         if test.kind == "free-vibration":
             of_free = restitution.RestitutionInputs.of(self.campaign, test)
-            products.append(self.product(identified, of_free, {"rocking": measured}, _by_name(restitution.restitution)))
+            products.append(self.product(identified, of_free, {"rocking": measured}, restitution.restitution))
         return products
 
     def pooling(self, specimen_id: str, tests: list[str]) -> Product:
@@ -96,14 +85,15 @@ class Graph:
 
         identified = {name: ResultId(name, "restitution") for name in tests}
         inputs = specimen.SpecimenInputs.of(self.campaign, specimen_id)
-        return self.product(ResultId(specimen_id, "specimen"), inputs, identified, specimen.specimen)
+        pooled = self.product(ResultId(specimen_id, "specimen"), inputs, identified, specimen.specimen)
+        return replace(pooled, make=partial(specimen.specimen, inputs=inputs))  # a test may be called like an argument
 
     def calibrating(self, specimen_id: str) -> Product:
         """Return the law of contact with which a specimen has its restitution."""
         from colonnade.stages import contact
 
         inputs, upstream = contact.ContactInputs.of(self.campaign, specimen_id), ResultId(specimen_id, "specimen")
-        return self.product(ResultId(specimen_id, "contact"), inputs, {"specimen": upstream}, _by_name(contact.contact))
+        return self.product(ResultId(specimen_id, "contact"), inputs, {"specimen": upstream}, contact.contact)
 
     def predicting(self, test: Test, where: Where | None = None) -> list[Product]:
         """
@@ -123,20 +113,18 @@ class Graph:
             law = {"contact": ResultId(test.specimen, "contact")} if is_calibrated else {}
             inputs = predict.PredictInputs.of(self.campaign, test, model)
             upstream = {**rocking, **specimen, **law, **own}
-            predictions.append(
-                self.product(ResultId(test.id, "predict", model), inputs, upstream, _by_name(predict.predict))
-            )
+            predictions.append(self.product(ResultId(test.id, "predict", model), inputs, upstream, predict.predict))
             if not self.campaign.members(test, model):
                 continue
             result, upstream = ResultId(test.id, "ensemble", model), {**conditioned, **rocking, **own}
             if MODELS[model].in_space:
                 in_space = ensemble.ContactEnsembleInputs.of(self.campaign, test)
                 run = ensemble.all_at_once if where is None else partial(_members, self.layout.blocks(result), where)
-                work = _by_name(partial(ensemble.contact_ensemble, run=run))
+                work = partial(ensemble.contact_ensemble, run=run)
                 ensembles.append(self.product(result, in_space, upstream | law, work))
             else:
                 in_plane = ensemble.EnsembleInputs.of(self.campaign, test, model)
-                ensembles.append(self.product(result, in_plane, upstream | specimen, _by_name(ensemble.ensemble)))
+                ensembles.append(self.product(result, in_plane, upstream | specimen, ensemble.ensemble))
         predicted = [*predictions, *ensembles]
         upstream = rocking | {str(product.id): product.result for product in predicted}
         compared = ResultId(test.id, "compare")
@@ -150,7 +138,7 @@ class Graph:
             ResultId(test.id, "forecast"),
             forecast.ForecastScoreInputs(file=known.name),
             {"rocking": ResultId(test.id, "rocking"), "forecast": known.sha256},
-            _by_name(partial(forecast.score_forecast, forecast=known.forecast)),
+            partial(forecast.score_forecast, forecast=known.forecast),
         )
 
     def product(
@@ -172,7 +160,7 @@ class Graph:
         upstream : mapping of str to ResultId, str or None
             Results that it reads, or hashes of what else it is made from.
         work : callable
-            Takes the results of `upstream` by name, and the inputs.
+            Takes the inputs, and the results of `upstream` by name.
         *more
             Modules whose code counts too: those that are loaded by name.
         """
@@ -194,22 +182,11 @@ def _members(folder: Path, where: Where, plan: Plan, central: Array) -> list[Arr
     return in_blocks(partial(plan.members, central), blocks_of(plan.count), folder, key, where)
 
 
-def _made(work: Callable[..., xr.Dataset], inputs: Any, upstream: Mapping[str, Any]) -> xr.Dataset:
-    return work(upstream, inputs)
+def _made(work: Callable[..., xr.Dataset], inputs: BaseModel, upstream: Mapping[str, xr.Dataset]) -> xr.Dataset:
+    return work(inputs=inputs, **upstream)
 
 
-def _by_name(function: Callable[..., xr.Dataset]) -> Callable[..., xr.Dataset]:
-    """Have a stage take its results as arguments."""
-    return partial(_called, function)
-
-
-def _called(function: Callable[..., xr.Dataset], upstream: Mapping[str, Any], inputs: Any) -> xr.Dataset:
-    return function(inputs=inputs, **upstream)
-
-
-def _ingest(
-    folder: Path, paths: Mapping[str, Path], raw: RawFiles, upstream: Mapping[str, Any], inputs: Any
-) -> xr.Dataset:
+def _ingest(folder: Path, paths: Mapping[str, Path], raw: RawFiles, *, inputs: IngestInputs) -> xr.Dataset:
     from colonnade.readers.registry import read
     from colonnade.stages.ingest import ingest
 
@@ -223,12 +200,11 @@ def _ingest(
     return result
 
 
-def _compare(upstream: Mapping[str, Any], inputs: Any) -> xr.Dataset:
+def _compare(*, inputs: CompareInputs, rocking: xr.Dataset, **predicted: xr.Dataset) -> xr.Dataset:
     from colonnade.stages.compare import compare
 
     by_model: dict[str, dict[str, xr.Dataset]] = {stage: {} for stage in COMPARED}
-    for name, result in upstream.items():
+    for name, result in predicted.items():
         stage, _, model = name.partition(" ")
-        if stage in by_model:
-            by_model[stage][model] = result
-    return compare(upstream["rocking"], inputs=inputs, **{COMPARED[stage]: each for stage, each in by_model.items()})
+        by_model[stage][model] = result
+    return compare(rocking, inputs=inputs, **{COMPARED[stage]: each for stage, each in by_model.items()})

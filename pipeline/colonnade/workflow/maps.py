@@ -288,7 +288,7 @@ def _in_blocks(
     folder: Path,
     code: str,
     where: Where | None,
-    upstream: Mapping[str, Any],
+    *,
     inputs: Options,
 ) -> xr.Dataset:
     """Make a result over Ω and A of blocks of Ω, or at once without `where`."""
