@@ -48,11 +48,11 @@ def with_summary(folder):
     campaign, layout = load(folder), Layout(folder)
     forecasts = read_forecasts(layout)
     chosen = choose(campaign, forecasts, {name: {} for name in campaign.tests})
-    foreseen = foreseen_of(layout, forecasts, chosen, set())
+    by_test, together = foreseen_of(layout, forecasts, chosen, set())
     summary = json.loads(layout.summary_json.read_text(encoding="utf-8"))
-    record = foreseen.tests[LATER].model_dump(mode="json")
+    record = by_test[LATER].model_dump(mode="json")
     summary["tests"][LATER] = {"status": "pending", "kind": "earthquake", "specimen": "prism", "forecast": record}
-    summary["forecasts"] = foreseen.together.model_dump(mode="json")
+    summary["forecasts"] = together.model_dump(mode="json")
     layout.summary_json.write_text(json.dumps(summary), encoding="utf-8")
     return campaign, layout
 

@@ -16,7 +16,7 @@ from colonnade.findings import Finding, Severity, at_stage, in_order, note, warn
 from colonnade.readers.recording import Recording
 from colonnade.store.results import models_of
 from colonnade.workflow.chain import WORKER_LOST
-from colonnade.workflow.executors import spread
+from colonnade.workflow.executors import Counted, spread
 from colonnade.workflow.photos import unshown_photos
 from colonnade.workflow.pooling import with_contradictions
 from colonnade.workflow.raw_files import digests_of_equal_sizes, with_copies
@@ -92,7 +92,7 @@ MANY = 16
 """Files from which starting other processes is sooner done than reading them one after the other."""
 
 
-def check(campaign: Campaign, progress: Callable[[int, int], None] = lambda done, total: None) -> CampaignCheck:
+def check(campaign: Campaign, progress: Counted = lambda done, total: None) -> CampaignCheck:
     """
     Read every raw file of a campaign, and run each test as far as the start of its prediction.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from colonnade.campaign import Campaign
@@ -82,15 +82,8 @@ def is_blind(known: Known, raw: RawFiles) -> bool:
     return not (raw.keys() & there.keys() or content & set(there.values()))
 
 
-@dataclass(frozen=True)
-class Foreseen:
-    """What the summary says of forecasts: by test, and of all together."""
-
-    tests: Mapping[str, TestForecast] = field(default_factory=dict)
-    together: ForecastsSummary | None = None
-
-
-NOTHING_FORESEEN = Foreseen()
+Foreseen = tuple[Mapping[str, TestForecast], ForecastsSummary | None]
+"""What the summary says of forecasts: by test, and of all together."""
 
 
 def finding_of(refused: Refused) -> Finding:
@@ -119,7 +112,7 @@ def foreseen_of(layout: Layout, forecasts: Forecasts, chosen: Chosen, left_out: 
         if scores is not None and "observed_amplitude" in scores:
             scored[test] = scores
         records[test] = _record(known, blind=blind, scores=scored.get(test), reason=reason)
-    return Foreseen(records, _together(forecasts, chosen, scored))
+    return records, _together(forecasts, chosen, scored)
 
 
 def _scores(layout: Layout, test: str, known: Known) -> xr.Dataset | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -33,6 +33,7 @@ from colonnade.interruption import expect_none
 from colonnade.store.forecasts import write_forecast
 from colonnade.store.layout import Layout
 from colonnade.store.results import WITHOUT_PREDICTION
+from colonnade.workflow.executors import Counted
 from colonnade.workflow.motions import AskedMotion, level_of, motion_asked_for
 from colonnade.workflow.pooling import one_specimen, restitution_taken
 from colonnade.workflow.product import Catalogue, stored_attributes
@@ -71,7 +72,7 @@ def foresee(
     test: str | None = None,
     time_scale: float | None = None,
     results: Path | str | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Counted = lambda done, total: None,
 ) -> list[Forecast]:
     """
     Forecast what a specimen does on a base motion, with what is known so far.
@@ -143,8 +144,7 @@ def foresee(
             raw_files=there,
         )
         found.append(Forecast(write_forecast(layout, forecast), forecast))
-        if progress is not None:
-            progress(number, len(wanted))
+        progress(number, len(wanted))
     return found
 
 

@@ -69,11 +69,6 @@ class AskedColumn:
         is_given = bool(self.sizes) or {"critical_angle", "p"} <= self.properties.keys()
         return self.specimen is not None or not is_given
 
-    @property
-    def has_own_size(self) -> bool:
-        """Whether its size is said, but not how many times larger than a specimen that is."""
-        return self.scale is None and (bool(self.sizes) or "p" in self.properties)
-
 
 @dataclass(frozen=True)
 class FoundColumn:
@@ -87,14 +82,14 @@ class FoundColumn:
     inputs : ColumnInputs
     pooled : xr.Dataset
         The e of the model, as of `stages.specimen`.
-    has_own_size : bool
-        Whether its size is said, but not how many times larger than a specimen that is.
+    scale : float or None
+        How many times larger it is than what the campaign tests; None if that is not said.
     """
 
     specimen: str | None
     inputs: ColumnInputs
     pooled: xr.Dataset
-    has_own_size: bool
+    scale: float | None
 
     @cached_property
     def real(self) -> tuple[RealColumn, str]:
@@ -120,11 +115,6 @@ class FoundColumn:
     def restitution(self) -> tuple[float, float]:
         """e of impacts that end an arc at θ < 0, and at θ > 0."""
         return pair(self.real[0].restitution)
-
-    @property
-    def scale(self) -> float | None:
-        """How many times larger it is than what the campaign tests; None if that is not said."""
-        return None if self.has_own_size else self.inputs.scale
 
     @property
     def name(self) -> str:
@@ -200,7 +190,8 @@ def find_column(
         prototype=_prototype(written, asked.properties),
         usual_scatter=campaign.processing.predict.ensemble.restitution,
     )
-    return FoundColumn(name, inputs, restitution_taken(campaign, layout, name), asked.has_own_size)
+    has_own_size = asked.scale is None and "p" in asked.properties
+    return FoundColumn(name, inputs, restitution_taken(campaign, layout, name), None if has_own_size else scale)
 
 
 class Size(Table):
@@ -240,7 +231,7 @@ def _without_specimen(asked: AskedColumn, *, has_campaign: bool) -> FoundColumn:
         prototype = prototype.model_copy(update={"critical_angle": None, "p": None})
     inputs = ColumnInputs(block=block, scale=1.0, prototype=prototype)
     pooled = taken(None, SpecimenInputs(block=block, given=None, level=0.95))
-    return FoundColumn(None, inputs, pooled, asked.has_own_size)
+    return FoundColumn(None, inputs, pooled, asked.scale)
 
 
 def _sized(sizes: Mapping[str, Any]) -> Block:

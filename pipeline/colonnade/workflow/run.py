@@ -26,7 +26,7 @@ from colonnade.workflow.pooling import with_contradictions
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.raw_files import Digests, RawFiles, raw_files, with_copies
 from colonnade.workflow.summary import write_summary
-from colonnade.workflow.walk import Progress, Walk
+from colonnade.workflow.walk import Progress, Walk, unseen
 
 MOST_WORKERS = 10_000
 """Processes; no machine has as many cores."""
@@ -106,7 +106,7 @@ def run(
                 if loaded.left_out(test.id):
                     remove_later(layout, results_of(loaded, test), order=-1)
             graph = Graph(loaded, layout, catalogue, raw)
-            walk = Walk(graph, run_id, start_from, last, workers, scheduler, progress, notices.append)
+            walk = Walk(graph, run_id, start_from, last, workers, scheduler, progress or unseen, notices.append)
             walk.through(tests)
             loaded, outdated, summary = _summed_up(walk, awaiting=awaiting)
             report = None

@@ -16,7 +16,7 @@ from colonnade.store.records.stored import read_test
 from colonnade.store.records.summary import as_csv
 from colonnade.store.records.test import record_of_specimen, record_of_test
 from colonnade.store.results import results_of
-from colonnade.workflow.forecasts import NOTHING_FORESEEN, Foreseen
+from colonnade.workflow.forecasts import Foreseen
 from colonnade.workflow.pooling import restitution_taken
 from colonnade.workflow.product import Catalogue, Contents, Product, brought_up_to_date, stored_attributes
 
@@ -33,7 +33,7 @@ def write_summary(
     failed: Mapping[str, str] | None = None,
     outdated_assessments: Collection[str] = (),
     failed_assessments: Mapping[str, str] | None = None,
-    foreseen: Foreseen = NOTHING_FORESEEN,
+    foreseen: Foreseen = ({}, None),
     workers: int | None = 1,
 ) -> Summary:
     """
@@ -85,11 +85,11 @@ def write_summary(
         },
         tests={
             name: TestSummary.model_validate_json(records[f"record {name}"]).model_copy(
-                update={"forecast": foreseen.tests.get(name)}
+                update={"forecast": foreseen[0].get(name)}
             )
             for name in campaign.tests
         },
-        forecasts=foreseen.together,
+        forecasts=foreseen[1],
         assessments=_assessments(campaign, layout, outdated_assessments, failed_assessments or {}),
     )
     files.write_text(layout.summary_json, summary.text())

@@ -36,6 +36,10 @@ Progress = Callable[[StageRun, int, int], None]
 Phase = Literal["measuring", "predicting"]
 
 
+def unseen(stage: StageRun, done: int, total: int) -> None:
+    """Show no progress."""
+
+
 @dataclass
 class Walk:
     """
@@ -52,7 +56,7 @@ class Walk:
         Last stage.
     workers, scheduler : optional
         Where the work is done, see `spread`.
-    progress : callable or None
+    progress : callable
         Called with each stage of a test that ended, the number of tests done, and their total.
     tell : callable
         Called with a sentence if a worker was stopped.
@@ -68,7 +72,7 @@ class Walk:
     until: str = "report"
     workers: int | None = None
     scheduler: str | None = None
-    progress: Progress | None = None
+    progress: Progress = unseen
     tell: Tell = lambda sentence: None
     stages: list[StageRun] = field(default_factory=list)
     failed: dict[Subject, dict[str, str]] = field(default_factory=lambda: defaultdict(dict))
@@ -190,7 +194,7 @@ class Walk:
                 self.stages.append(stage)
                 if stage.action == "failed":
                     self.failed[stage.of][stage.subject] = stage.reason
-                if self.progress is not None and stage.of == "test":
+                if stage.of == "test":
                     self.progress(stage, done, len(every))
 
     def _ended(self, chains: Iterable[Chain], *, is_here: bool) -> Iterator[list[StageRun]]:
@@ -246,8 +250,7 @@ class Walk:
         return self._known[phase, name]
 
     def _tell_members(self, name: str, done: int, total: int) -> None:
-        if self.progress is not None:
-            self.progress(StageRun(name, "ensemble", "done"), done, total)
+        self.progress(StageRun(name, "ensemble", "done"), done, total)
 
     def _free_vibrations(self, specimens: Collection[str]) -> list[str]:
         tests = {name: self._test(name) for name in self.included}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import product
@@ -25,6 +25,7 @@ from colonnade.store.records.advice import Advice, ranked
 from colonnade.store.records.summary import map_points, read_summary, records_of_tests
 from colonnade.units.text import format_uncertain, interval, number
 from colonnade.workflow.advising.sine import Known, advise_earthquakes, advise_sines
+from colonnade.workflow.executors import Counted
 from colonnade.workflow.pooling import expect_specimens, restitution_taken
 from colonnade.workflow.product import Catalogue, Contents, Product, brought_up_to_date
 
@@ -62,7 +63,7 @@ def advise(
     *,
     specimens: Sequence[str] = (),
     results: Path | str | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Counted = lambda done, total: None,
 ) -> Next:
     """
     Advise the next tests of a campaign, by the results of its last run.
@@ -96,8 +97,7 @@ def advise(
     asked = list(product(specimens or loaded.of_interest, KINDS))
     for done, (name, kind) in enumerate(asked, 1):
         advice += advise_kind(loaded, layout, name, kind, tests)
-        if progress is not None:
-            progress(done, len(asked))
+        progress(done, len(asked))
     return Next(tuple(ranked(advice)), loaded.awaited)
 
 
