@@ -167,14 +167,3 @@ def test_serious_findings_are_in_colour_on_a_terminal(colonnade, with_gain, monk
     assert "\x1b[1;31mserious (gain)\x1b[0m: free-01: " in colonnade("check").stdout
     monkeypatch.setenv("NO_COLOR", "1")
     assert "\x1b[1;31m" not in colonnade("check").stdout
-
-
-def test_tests_that_would_fail_alike_are_counted(colonnade, campaign):
-    entry = '[[tests]]\nid = "lost-{0}"\nkind = "pulse"\nspecimen = "prism"\nsetup = "frame"\nfile = "lost-{0}.csv"\n'
-    with (campaign / "campaign.toml").open("a", encoding="utf-8") as file:
-        file.write("".join(map(entry.format, range(9))))
-    told = colonnade("check")
-    failing = [line for line in told.stdout.splitlines() if line.startswith("would fail")]
-    assert "would fail: lost-0: " in failing[0]
-    assert len(failing) == 4
-    assert failing[-1].startswith("would fail: and 6 more: like these: lost-3, lost-4")

@@ -48,6 +48,8 @@ def test_several_models_and_their_responses_are_written_with_a_picture_together(
     each = {f"prism-{model}{kind}" for model in ("linear", "nonlinear") for kind in kinds}
     assert written == each | {"prism-linear+nonlinear.svg"}
     assert f"together: {maps / 'prism-linear+nonlinear.svg'}" in told.stdout
+    together = (maps / "prism-linear+nonlinear.svg").read_text(encoding="utf-8")
+    assert all(f"{model}: lower limit" in together for model in ("linear", "nonlinear"))
     assert "linear ramps of 1" in (maps / "prism-linear.svg").read_text(encoding="utf-8")
     made = json.loads(colonnade("map", *SMALL, *models, "--ramp", "1", "--json").stdout)
     said = [(each["model"], each["action"], each["responses"]) for each in made]

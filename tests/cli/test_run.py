@@ -86,14 +86,6 @@ def test_identify_stops_with_the_restitution(colonnade, campaign):
 
 
 @pytest.mark.whole
-def test_from_redoes_a_stage_and_what_follows(colonnade, campaign):
-    colonnade("run", "--workers", "1")
-    again = json.loads(colonnade("run", "--workers", "1", "--from", "predict", "--json").stdout)
-    redone = {stage["stage"] for stage in again["stages"] if stage["action"] == "done"}
-    assert redone == {"predict", "ensemble", "compare"}
-
-
-@pytest.mark.whole
 def test_run_prints_the_cause_before_what_follows_from_it(colonnade, with_gain):
     with_gain("10 mm/mm")
     told = colonnade("run", "--workers", "1").stdout

@@ -164,11 +164,6 @@ def test_nothing_is_written_once_the_run_has_ended(layout):
     assert not layout.test("toy").exists()
 
 
-def test_a_second_run_is_refused_by_name(layout):
-    with only_run(layout), pytest.raises(StoreError, match=f"process {os.getpid()} on"), only_run(layout):
-        pass
-
-
 @pytest.mark.whole
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are forked")
 def test_a_run_that_is_killed_loses_nothing(layout):

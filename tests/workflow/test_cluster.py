@@ -116,11 +116,6 @@ def test_a_scheduler_without_workers_is_told_with_what_to_do(scheduler, monkeypa
         list(spread(whose, [1], scheduler=scheduler))
 
 
-def test_a_single_worker_does_the_work_and_not_this_process(scheduler):
-    with working(scheduler, "1") as (worker,):
-        assert {process for _, process in spread(whose, range(3), scheduler=scheduler)} == {worker.pid}
-
-
 def test_a_scheduler_that_is_not_there_is_told(monkeypatch):
     monkeypatch.setattr("colonnade.workflow.cluster._PATIENCE", 1)
     with pytest.raises(ColonnadeError, match="no Dask scheduler answers there"):

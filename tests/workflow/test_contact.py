@@ -44,25 +44,18 @@ def test_a_campaign_is_predicted_by_the_contact_model_beside_the_others(in_space
     np.testing.assert_array_equal(predicted["rocking_angle"].to_numpy(), history.angle)
     np.testing.assert_array_equal(predicted["uplift"].to_numpy(), history.uplift)
     assert predicted.attrs["outcome"] == history.outcome
+    assert 0.0 <= float(predicted["energy_residual"]) < 0.01
+    for told in (law, predicted):
+        np.testing.assert_allclose(told["node_mass"], rigid_body(PRISM).node_mass)
+        assert not told["ring_radius"].any()
+        assert float(told["node_weight"].sum()) == pytest.approx(PRISM.mass * PRISM.gravity, rel=1e-12)
+        assert float(told["effective_damping"]) == law_of(law).effective_damping(rigid_body(PRISM))
 
     summary = in_space.summary()
     for test in ("free-01", "pulse-01"):
         assert set(summary["tests"][test]["predicted"]) == {"nonlinear", "contact"}
     assert not in_space.layout.stage("pulse-01", "ensemble", "contact").exists()
     assert in_space.redone() == {}
-
-
-def test_every_result_of_the_contact_model_tells_its_law_and_its_nodes(in_space):
-    in_space.run()
-    law = files.read(in_space.layout.stage("prism", "contact"))
-    predicted = files.read(in_space.layout.stage("pulse-01", "predict", "contact"))
-    body = rigid_body(PRISM)
-    for told in (law, predicted):
-        np.testing.assert_allclose(told["node_mass"], body.node_mass)
-        assert not told["ring_radius"].any()
-        assert float(told["node_weight"].sum()) == pytest.approx(PRISM.mass * PRISM.gravity, rel=1e-12)
-        assert float(told["effective_damping"]) == law_of(law).effective_damping(body)
-    assert 0.0 <= float(predicted["energy_residual"]) < 0.01
 
 
 def test_an_ensemble_of_the_contact_model_is_compared_and_reported_while_it_is_asked_for(in_space):

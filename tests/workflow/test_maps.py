@@ -96,18 +96,6 @@ def test_several_processes_give_the_same_bit_for_bit(small):
     assert content(small, workers=2) == alone
 
 
-def test_several_models_have_a_map_each_and_a_picture_together(small):
-    both = make_maps(small.folder, asking(models=("linear", "nonlinear")), workers=1)
-    assert [each.model for each in both] == ["linear", "nonlinear"]
-    together = small.layout.together("prism", ("linear", "nonlinear"))
-    assert {each.together for each in both} == {together}
-    drawn = together.read_text(encoding="utf-8")
-    for model in ("linear", "nonlinear"):
-        assert f"{model}: lower limit" in drawn
-        assert small.layout.stage("prism", "map", model).exists()
-    assert made(small).together is None
-
-
 def test_the_table_motion_of_a_sine_test_is_stretched_over_a_map(sine_test):
     (result,) = make_maps(sine_test, asking(motion="sine-01", omega=(2.0, 6.0), points=(5, 13)), workers=1)
     stored = as_map(files.read(result.path))
@@ -134,6 +122,9 @@ def test_a_map_that_is_there_is_not_made_again_until_something_changes(small):
     assert made(small, asking(ramp=1.0)).because == "upstream changed"
 
 
+PULSE = np.array([0.0, 1.0, 0.0])
+
+
 def changed(**change):
     plan = copy(PLAN)
     vars(plan).update(change)
@@ -146,18 +137,14 @@ def changed(**change):
         ({"block": Block.prism(width=0.086, depth=0.086, height=0.457, mass=26.10)}, "block"),
         ({"frequency_ratio": np.array([2.0, 3.1])}, "axes"),
         ({"amplitude_ratio": np.array([1.0, 2.1])}, "axes"),
-        ({"motion": Motion(np.array([0.0, 1.0, 0.0]), 0.01)}, "motion"),
+        ({"motion": Motion(PULSE, 0.01)}, "motion"),
+        ({"motion": Motion(PULSE, 0.03)}, "motion"),
     ],
-    ids=["a block", "other Ω", "other A", "a recorded motion"],
+    ids=["a block", "other Ω", "other A", "a recorded motion", "its step"],
 )
 def test_each_thing_that_a_map_is_made_from_has_its_hash(change, name):
-    before, after = given(PLAN), given(changed(**change))
+    before, after = given(changed(motion=Motion(PULSE, 0.02)) if name == "motion" else PLAN), given(changed(**change))
     assert {key for key in before if before[key] != after[key]} == {name}
-
-
-def test_a_motion_is_known_by_its_step_too():
-    fast, slow = (given(changed(motion=Motion(np.array([0.0, 1.0, 0.0]), dt))) for dt in (0.01, 0.02))
-    assert fast["motion"] != slow["motion"]
 
 
 def test_a_campaign_that_was_never_run_takes_the_rigid_body_and_has_no_points(untouched):

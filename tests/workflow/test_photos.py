@@ -102,22 +102,6 @@ def test_a_photo_that_cannot_be_shown_is_a_warning_about_its_test(folder, tmp_pa
     assert unshown_photos(campaign_with(folder, written, "photos/b.png")) == [found]
 
 
-def test_the_fault_of_the_machine_is_not_remembered(folder, monkeypatch):
-    read = photos.read_photo
-
-    def stopped(path, within):
-        error = photos.ReadError(f"{path.name}: reading it was stopped")
-        error.__cause__ = OSError(12, "out of memory")
-        raise error
-
-    monkeypatch.setattr(photos, "read_photo", stopped)
-    copies, found = brought(folder, "photos/a.jpg")
-    assert (list(copies), len(found)) == ([], 1)
-    monkeypatch.setattr(photos, "read_photo", read)
-    copies, found = brought(folder, "photos/a.jpg")
-    assert (list(copies), found) == (["free-01-1.jpg"], ())
-
-
 def test_a_campaign_without_photos_is_as_it_was(folder):
     campaign = campaign_with(folder)
     layout = Layout(folder)

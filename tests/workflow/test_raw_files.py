@@ -193,15 +193,6 @@ def test_values_that_change_or_go_while_they_are_read_are_told(in_two_parts, mon
         assert "raw/pulse-01.tdx: this file changed while it was being read" in result.stages[0].reason
 
 
-def test_missing_values_are_named_and_taken_up_once_they_are_there(in_two_parts):
-    values = values_of(in_two_parts)
-    away = values.rename(values.with_name("away"))
-    (failed,) = in_two_parts.run(only="pulse-01", until="ingest").stages
-    assert 'its values are in the file "pulse-01.tdx"; they were expected next to it' in failed.reason
-    away.rename(values)
-    assert not in_two_parts.run(only="pulse-01", until="ingest").failed
-
-
 def test_values_that_are_a_link_out_of_the_campaign_are_refused_and_not_hashed(in_two_parts, tmp_path):
     values = values_of(in_two_parts)
     outside = values.rename(tmp_path / "outside")

@@ -109,12 +109,6 @@ def test_results_may_lie_on_another_disk(untouched, undisturbed, tmp_path, capsy
         assert "not run yet" not in capsys.readouterr().out.replace("pending", "not run yet")
 
 
-@pytest.mark.whole
-def test_two_processes_write_to_another_disk_too(untouched, tmp_path):
-    assert not untouched.run(results=tmp_path / "other", workers=2).failed
-    assert sorted(path.name for path in untouched.folder.iterdir()) == ["campaign.toml", "raw"]
-
-
 def test_a_folder_for_results_that_is_a_file_is_told(untouched):
     with pytest.raises(StoreError, match=r"results cannot be written here .* --results"):
         untouched.run(results=untouched.folder / "campaign.toml")

@@ -20,15 +20,6 @@ def mark(size):
     return size, size, 1
 
 
-def test_a_file_that_grows_is_not_finished():
-    arrivals = Arrivals(settle=1.0)
-    for step in range(10):
-        assert not arrivals.look({FILE: mark(step)}, now=0.9 * step)
-    assert arrivals.is_waiting
-    assert arrivals.look({FILE: mark(9)}, now=9.2) == {FILE}
-    assert not arrivals.is_waiting
-
-
 @pytest.fixture
 def knowing():
     """Arrivals that know one file."""
