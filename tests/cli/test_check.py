@@ -3,33 +3,7 @@
 import json
 import re
 
-import numpy as np
 import pytest
-
-SHAKEN = """
-[setups.table.channels]
-ACC = {column = "ACC", quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]}
-
-[[tests]]
-id = "shake-01"
-kind = "pulse"
-specimen = "prism"
-setup = "table"
-file = "raw/shake-01.csv"
-"""
-
-
-@pytest.fixture
-def shaken_campaign(campaign):
-    """The campaign with a test whose table alone is recorded: half a second of a sine of 3 Hz."""
-    time = np.arange(0.0, 8.0, 0.005)
-    values = 1.2 * np.sin(6 * np.pi * time) * ((time > 2.0) & (time < 2.5))
-    values += np.random.default_rng(2).normal(0.0, 1e-3, time.size)
-    rows = [f"{instant:.4f},{value:.5f}" for instant, value in zip(time, values, strict=True)]
-    (campaign / "raw" / "shake-01.csv").write_text("\n".join(["Time [s],ACC [m/s^2]", *rows, ""]), encoding="utf-8")
-    with (campaign / "campaign.toml").open("a", encoding="utf-8") as file:
-        file.write(SHAKEN)
-    return campaign
 
 
 def snapshot(folder):
@@ -53,23 +27,6 @@ def test_check_finds_what_run_finds_in_the_channels(colonnade, with_gain):
     assert colonnade("check", "--strict").returncode == 1
     found = json.loads(colonnade("check", "--json").stdout)["tests"]["free-02"]["warnings"]
     assert [each["kind"] for each in found if each["severity"] == "serious"] == ["gain", "impossible angle"]
-
-
-def test_a_hole_in_the_base_motion_is_a_problem_before_anything_is_predicted(colonnade, shaken_campaign):
-    raw = shaken_campaign / "raw" / "shake-01.csv"
-    lines = raw.read_text(encoding="utf-8").splitlines()
-    for row in range(1002, 1202):
-        lines[row] = lines[row].rpartition(",")[0] + ","
-    raw.write_text("\n".join([*lines, ""]), encoding="utf-8")
-    told = colonnade("check")
-    assert told.returncode == 1
-    verdict, problem, *_ = told.stdout.splitlines()
-    assert verdict == "3 tests: 1 would fail, 2 good. Nothing was written."
-    said = "would fail: shake-01: The base acceleration is missing 200 of 1600 samples, the first at 5.005 s"
-    assert problem.startswith(said)
-    ran = colonnade("predict", "--workers", "1", "--only", "shake-01")
-    assert ran.returncode == 1
-    assert "missing 200 of 1600 samples" in ran.stdout
 
 
 def test_every_missing_file_and_column_is_told_with_the_nearest_name(colonnade, campaign, changed):

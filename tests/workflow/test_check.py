@@ -59,6 +59,16 @@ def test_several_processes_find_the_same(untouched, monkeypatch):
     assert checked(untouched) == alone
 
 
+def test_a_hole_in_the_base_motion_is_a_problem_before_anything_is_predicted(untouched):
+    raw = untouched.raw("pulse-01")
+    lines = raw.read_text(encoding="utf-8").splitlines()
+    lines[300:500] = [line.rpartition(",")[0] + "," for line in lines[300:500]]
+    raw.write_text("\n".join([*lines, ""]), encoding="utf-8")
+    (problem,) = checked(untouched).tests["pulse-01"].problems
+    assert problem.startswith("The base acceleration is missing 200 of 1600 samples, the first at 1.495 s")
+    assert untouched.run(only="pulse-01").failed
+
+
 def test_a_test_that_people_excluded_is_not_read(untouched):
     entry = 'test = "pulse-01"\nwho = "N. N."\nwhen = 2013-04-26\nwhy = "touched by hand"\n'
     (untouched.folder / "review.toml").write_text(f"schema = 1\n[[exclude]]\n{entry}", encoding="utf-8")

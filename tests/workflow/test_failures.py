@@ -11,7 +11,6 @@ from colonnade.readers import registry
 from colonnade.stages import specimen
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.workflow import graph
 
 pytestmark = [pytest.mark.whole, pytest.mark.usefixtures("undrawn")]
 
@@ -102,19 +101,3 @@ def test_a_share_that_drops_while_a_file_is_read_is_not_kept_against_it(untouche
     assert "Input/output error" in told["pulse-01"].reason
     monkeypatch.undo()
     assert not untouched.run().failed
-
-
-def test_a_file_that_changes_while_it_is_read_is_read_again(untouched, monkeypatch):
-    expect = graph.expect_unchanged
-
-    def still_writing(folder, raw):
-        with untouched.raw("pulse-01").open("a", encoding="utf-8") as stream:
-            stream.write("99.0,0.0,0.0\n")
-        expect(folder, raw)
-
-    monkeypatch.setattr(graph, "expect_unchanged", still_writing)
-    told = failures(untouched.run(only="pulse-01"))
-    assert "changed while it was being read" in told["pulse-01"].reason
-    assert not untouched.layout.stage("pulse-01", "ingest").exists()
-    monkeypatch.undo()
-    assert not untouched.run(only="pulse-01").failed

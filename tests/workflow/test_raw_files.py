@@ -14,6 +14,7 @@ from colonnade.workflow import raw_files as module
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.raw_files import digests_of_equal_sizes, raw_files, with_copies
 from every import every
+from raw_files import Column, diadem
 
 
 @pytest.fixture
@@ -125,32 +126,12 @@ def test_only_files_of_the_same_size_are_hashed(small, monkeypatch):
     assert found["free-02"] == {"raw/free-02.csv": "1"}
 
 
-CHANNELS = (("time", "s"), ("top", "mm"), ("table", "m/s^2"))
-
-
-def as_diadem(raw):
-    """Write a raw file of text anew as a DIAdem header with its values beside it; these are returned."""
-    rows = np.loadtxt(raw, delimiter=",", skiprows=1)
-    values = raw.with_suffix(".tdx")
-    blocks, data, size = "", "", len(rows)
-    for number, (name, unit) in enumerate(CHANNELS):
-        place = f'byteOffset="{4 * number * size}" length="{size}"'
-        blocks += f'<block {place} id="i{number}" valueType="eFloat32Usi"/>'
-        data += f'<tdm_channel id="c{number}"><name>{name}</name><unit_string>{unit}</unit_string>'
-        data += f'<local_columns>id("l{number}")</local_columns></tdm_channel>'
-        data += f'<localcolumn id="l{number}"><values>id("s{number}")</values></localcolumn>'
-        data += f'<float_sequence id="s{number}"><values external="i{number}"/></float_sequence>'
-    included = f'<usi:include><file byteOrder="littleEndian" url="{values.name}">{blocks}</file></usi:include>'
-    head = '<?xml version="1.0"?><usi:tdm xmlns:usi="x">'
-    raw.write_text(f"{head}{included}<usi:data>{data}</usi:data></usi:tdm>", encoding="utf-8")
-    values.write_bytes(rows.T.astype("<f4").tobytes())
-    return values
-
-
 @pytest.fixture
 def in_two_parts(untouched):
     """The small campaign with one test whose raw file is in two parts, once run up to ingest."""
-    as_diadem(untouched.raw("pulse-01"))
+    raw = untouched.raw("pulse-01")
+    time, top, table = np.loadtxt(raw, delimiter=",", skiprows=1, unpack=True)
+    diadem(raw, time, [Column("top", "mm", top), Column("table", "m/s^2", table)])
     assert not untouched.run(only="pulse-01", until="ingest").failed
     return untouched
 
@@ -191,6 +172,7 @@ def test_values_that_change_or_go_while_they_are_read_are_told(in_two_parts, mon
             still.setattr(graph, "expect_unchanged", still_copying)
             result = in_two_parts.run(only="pulse-01", until="ingest", start_from="ingest")
         assert "raw/pulse-01.tdx: this file changed while it was being read" in result.stages[0].reason
+        assert not in_two_parts.layout.stage("pulse-01", "ingest").exists()
 
 
 def test_values_that_are_a_link_out_of_the_campaign_are_refused_and_not_hashed(in_two_parts, tmp_path):
