@@ -13,7 +13,7 @@ from colonnade.assessment.cases import CaseOutcomes, Cases, joined, run_cases
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessment import Assessment
 from colonnade.campaign.forms.assessed import AssessmentSummary
-from colonnade.errors import CampaignError, ColonnadeError, ReadError, nearest
+from colonnade.errors import CampaignError, ColonnadeError, ReadError
 from colonnade.readers.files import sha256_of
 from colonnade.readers.ground_motions.record_set import files_of
 from colonnade.store import files
@@ -23,6 +23,7 @@ from colonnade.store.results import ResultId
 from colonnade.workflow.executors import MOST_BLOCKS, Arrays, Where, in_blocks
 from colonnade.workflow.graph import FORMATS, Graph
 from colonnade.workflow.lock import only_run
+from colonnade.workflow.pooling import expect_known
 from colonnade.workflow.product import Catalogue, Product
 from colonnade.workflow.real_column import AskedColumn, checked, find_column
 from colonnade.workflow.walk import Walk
@@ -71,7 +72,8 @@ def assess_campaign(campaign: Campaign, layout: Layout, names: Sequence[str], wh
     StoreError
         If a run is in progress, or a result cannot be written.
     """
-    chosen = {name: _known(campaign, name) for name in names or campaign.assessments}
+    expect_known(campaign, "assessment", names)
+    chosen = {name: campaign.assessments[name] for name in names or campaign.assessments}
     if not chosen:
         raise CampaignError(
             f"{campaign.path.name} has no [assessments.<name>]. Add one, or ask with --specimen ID --records DIR."
@@ -92,13 +94,6 @@ def assess_campaign(campaign: Campaign, layout: Layout, names: Sequence[str], wh
             record = AssessmentSummary.model_validate_json(result.attrs["answer"])
             found.append(Assessed(name, record, result, path))
     return found
-
-
-def _known(campaign: Campaign, name: str) -> Assessment:
-    if name not in campaign.assessments:
-        known = nearest(name, campaign.assessments)
-        raise CampaignError(f'{campaign.path.name} has no assessment "{name}".{known}')
-    return campaign.assessments[name]
 
 
 def assess_own(
@@ -131,7 +126,10 @@ def assess_own(
     """
     from colonnade.stages.assessment_plan import AssessmentInputs
 
-    written = {} if campaign is None or base is None else _known(campaign, base).model_dump(exclude_none=True)
+    written: dict[str, Any] = {}
+    if campaign is not None and base is not None:
+        expect_known(campaign, "assessment", [base])
+        written = campaign.assessments[base].model_dump(exclude_none=True)
     meant = replace(
         column, specimen=column.specimen or written.get("specimen"), scale=column.scale or written.get("scale")
     )
@@ -189,7 +187,7 @@ def _given(asked: Assessment, catalogue: Catalogue) -> dict[str, str | None]:
 
 
 def _digest(catalogue: Catalogue, path: Path) -> str | None:
-    found = catalogue.lookup(path, sha256_of, "ground motion")
+    found = catalogue.entry("raw", path, sha256_of, "ground motion")
     return None if found is None else found[1]
 
 

@@ -13,7 +13,7 @@ from colonnade.store.layout import Layout
 from colonnade.units.text import listed
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
-from colonnade.workflow.pooling import expect_specimens
+from colonnade.workflow.pooling import expect_known
 from colonnade.workflow.product import Catalogue, stored_attributes
 from colonnade.workflow.walk import Walk
 
@@ -65,7 +65,7 @@ def calibrate(
         If a run is in progress, or results cannot be written.
     """
     loaded = load(Path(campaign))
-    expect_specimens(loaded, specimens)
+    expect_known(loaded, "specimen", specimens)
     blocks = [name for name in loaded.of_interest if not loaded.specimens[name].is_assembly]
     layout, chosen = Layout.of(loaded.path, results), list(specimens or blocks)
     several = [name for name in chosen if loaded.specimens[name].is_assembly]

@@ -28,14 +28,14 @@ from colonnade.campaign.forms.forecast import (
 from colonnade.campaign.syntax.fields import PLAIN, outside
 from colonnade.dynamics.models import MODELS
 from colonnade.dynamics.motion import Motion
-from colonnade.errors import CampaignError, nearest
+from colonnade.errors import CampaignError
 from colonnade.interruption import expect_none
 from colonnade.store.forecasts import write_forecast
 from colonnade.store.layout import Layout
 from colonnade.store.results import WITHOUT_PREDICTION
 from colonnade.workflow.executors import Counted
 from colonnade.workflow.motions import AskedMotion, level_of, motion_asked_for
-from colonnade.workflow.pooling import one_specimen, restitution_taken
+from colonnade.workflow.pooling import expect_known, one_specimen, restitution_taken
 from colonnade.workflow.product import Catalogue, stored_attributes
 from colonnade.workflow.raw_files import raw_files
 
@@ -171,11 +171,7 @@ def _models(campaign: Campaign) -> list[str]:
 def _test(campaign: Campaign, name: str | None) -> Test | None:
     if name is None:
         return None
-    if name not in campaign.tests:
-        raise CampaignError(
-            f'{campaign.path.name} has no test "{name}".{nearest(name, campaign.tests)} A test that has yet to be run '
-            "is entered with planned = true."
-        )
+    expect_known(campaign, "test", [name], " A test that has yet to be run is entered with planned = true.")
     test = campaign.tests[name]
     if test.kind in (*WITHOUT_PREDICTION, "free-vibration"):
         raise CampaignError(f"{name} is a {test.kind} test. Forecasts are of tests on a moving table.")

@@ -16,13 +16,14 @@ from colonnade.campaign.syntax.fields import MOST_CYCLES, Limits, MapPoints, Map
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import Sided
 from colonnade.dynamics.models import MODELS, NONLINEAR
-from colonnade.errors import CampaignError, StoreError, nearest
+from colonnade.errors import CampaignError, StoreError
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import map_points, read_summary
 from colonnade.store.results import models_moving
-from colonnade.workflow.pooling import restitution_taken
+from colonnade.workflow.motions import recorded
+from colonnade.workflow.pooling import expect_known, restitution_taken
 
 if TYPE_CHECKING:
     from colonnade.dynamics.maps import InSpace, MapPlan
@@ -186,17 +187,12 @@ def restitution_of(campaign: Campaign, layout: Layout, specimen: str) -> tuple[S
 
 def _recorded(campaign: Campaign, layout: Layout, test: str) -> tuple[Motion, float]:
     """Return the recorded table motion of a sine test, and its frequency (Hz)."""
-    from colonnade.dynamics.motion import Motion
-
-    if test not in campaign.tests:
-        raise CampaignError(f'{campaign.path.name} has no test "{test}".{nearest(test, campaign.tests)}')
-    rocking, compared = (layout.stage(test, stage) for stage in ("rocking", "compare"))
-    base, sine = files.read(rocking), files.read(compared)
+    expect_known(campaign, "test", [test])
+    motion, sine = recorded(layout, campaign.tests[test]), files.read(layout.stage(test, "compare"))
     frequency = float(sine["forcing_frequency"]) if "forcing_frequency" in sine else nan
-    if "base_acceleration" not in base or not isfinite(frequency):
+    if motion is None or not isfinite(frequency):
         raise CampaignError(
             f"{test}: its table motion cannot be stretched over a map. A sine test whose table acceleration is "
             "recorded and steady was expected, as `colonnade show tests` lists them with their Ω."
         )
-    time = base["elapsed"].to_numpy()
-    return Motion(base["base_acceleration"].to_numpy(), float(time[1] - time[0])), frequency
+    return motion, frequency

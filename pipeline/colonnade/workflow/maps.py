@@ -29,7 +29,7 @@ from colonnade.workflow.executors import Arrays, Counted, Where, blocks_of, forg
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.map_plans import Wanted, measured_points, plan_of, restitution_of
-from colonnade.workflow.pooling import expect_specimens
+from colonnade.workflow.pooling import expect_known
 from colonnade.workflow.product import Catalogue, Product, stored_attributes
 from colonnade.workflow.walk import Walk
 
@@ -134,7 +134,7 @@ def make_maps(
         If a run is in progress, or results cannot be written.
     """
     loaded = load(Path(campaign))
-    expect_specimens(loaded, specimens)
+    expect_known(loaded, "specimen", specimens)
     layout, where = Layout.of(loaded.path, results), Where(workers, scheduler, progress)
     with only_run(layout) as run_id:
         walk = Walk(Graph(loaded, layout, Catalogue(layout)), run_id)

@@ -108,7 +108,7 @@ def _upstream(campaign: Campaign, written: str, catalogue: Catalogue) -> dict[st
     """Hash a photo; one that is not there or lies outside is not opened, and refused when it is read."""
     path = campaign.folder / written
     is_inside = path.resolve().is_relative_to(campaign.folder)
-    found = catalogue.lookup(path, sha256_of) if is_inside else None
+    found = catalogue.entry("raw", path, sha256_of) if is_inside else None
     return {written: found[1] if found else None}
 
 

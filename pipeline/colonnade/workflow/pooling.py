@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from math import isclose
 from typing import TYPE_CHECKING
@@ -71,11 +71,12 @@ def _shares(campaign: Campaign, test: Test, other: Test) -> bool:
     return test.specimen == other.specimen and bool(both) and all(same)
 
 
-def expect_specimens(campaign: Campaign, names: Iterable[str]) -> None:
-    """Refuse ids that are of no specimen of a campaign."""
+def expect_known(campaign: Campaign, what: str, names: Iterable[str], more: str = "") -> None:
+    """Refuse ids of a test, a specimen or an assessment that a campaign does not have."""
+    known: Collection[str] = getattr(campaign, f"{what}s")
     for name in names:
-        if name not in campaign.specimens:
-            raise CampaignError(f'{campaign.path.name} has no specimen "{name}".{nearest(name, campaign.specimens)}')
+        if name not in known:
+            raise CampaignError(f'{campaign.path.name} has no {what} "{name}".{nearest(name, known)}{more}')
 
 
 def one_specimen(campaign: Campaign, name: str | None) -> str:
@@ -84,7 +85,7 @@ def one_specimen(campaign: Campaign, name: str | None) -> str:
         listed = nearest("", campaign.of_interest)
         raise CampaignError(f"The campaign has several specimens. Name one with --specimen ID.{listed}")
     chosen = campaign.of_interest[0] if name is None else name
-    expect_specimens(campaign, [chosen])
+    expect_known(campaign, "specimen", [chosen])
     if not campaign.specimens[chosen].is_in_plane:
         raise CampaignError(
             f"{chosen}: {APART}, which the models in the plane move. "

@@ -70,12 +70,14 @@ class Catalogue:
             pass
         self._seen: dict[str, dict[str, Any]] = {kind: {} for kind in _KINDS}
 
-    def lookup(self, path: Path, ask: Callable[[Path], Any], *more: Any) -> tuple[Mark, Any] | None:
+    def entry(self, kind: str, path: Path, ask: Callable[[Path], Any], *more: Any) -> list[Any] | None:
         """
-        Return what a raw file holds; it is opened only if it changed.
+        Return what a file holds; it is opened only if it changed.
 
         Parameters
         ----------
+        kind : str
+            "raw", "results" or "pages".
         path : Path
         ask : callable
             Opens the file and returns what it holds, as JSON can hold it.
@@ -84,14 +86,9 @@ class Catalogue:
 
         Returns
         -------
-        found : (Mark, answer) or None
-            None if there is no such file.
+        entry : list or None
+            Mark and answer, with what else was found out from the answer; None if there is no such file.
         """
-        entry = self._entry("raw", path, ask, *more)
-        return None if entry is None else (tuple(entry[0]), entry[1])
-
-    def _entry(self, kind: str, path: Path, ask: Callable[[Path], Any], *more: Any) -> list[Any] | None:
-        """Return mark and answer, with what else was found out from the answer; None if there is no such file."""
         place = os.fspath(path).removeprefix(self._home)
         if os.path.isabs(place):  # noqa: PTH117
             place = os.path.relpath(path, self._home)  # ten times as slow
@@ -110,13 +107,13 @@ class Catalogue:
 
     def attributes(self, path: Path) -> Mapping[str, Any]:
         """Attributes `KEPT` of a result and its findings; empty if it is missing or damaged."""
-        entry = self._entry("results", path, _kept)
+        entry = self.entry("results", path, _kept)
         kept = entry[1] if entry else {}
         return {**kept, "warnings": from_text(kept["warnings"])} if "warnings" in kept else kept
 
     def stamp(self, page: Path) -> str:
         """Key of what a page shows; empty if it is missing or was altered."""
-        entry = self._entry("pages", page, key_of)
+        entry = self.entry("pages", page, key_of)
         return str(entry[1]) if entry else ""
 
     def code(self, made_by: Sequence[str], model: str | None = None) -> str:
@@ -145,7 +142,7 @@ class Catalogue:
         notices = []
         for path in self._layout.results_there():
             expect_none()
-            entry = self._entry("results", path, _whole)
+            entry = self.entry("results", path, _whole)
             if entry is not None and not entry[1]:
                 files.remove(path)
                 name = path.relative_to(self._layout.home).as_posix()
@@ -154,7 +151,7 @@ class Catalogue:
 
     def content(self, path: Path) -> str | None:
         """Hash of the attributes `KEPT` of a result and its findings; None if it is missing."""
-        entry = self._entry("results", path, _kept)
+        entry = self.entry("results", path, _kept)
         if entry is not None and len(entry) == 2:
             entry.append(hash_of(entry[1]))
         return None if entry is None else str(entry[2])

@@ -90,11 +90,11 @@ def _looked_at(folder: Path, path: Path, how: FileOptions | None, catalogue: Cat
 
     if not path.resolve().is_relative_to(folder):  # reading refuses it
         return RawFile(None), []
-    entry = catalogue.lookup(path, ask, *([] if how is None else [how.model_dump()]))
+    entry = catalogue.entry("raw", path, ask, *([] if how is None else [how.model_dump()]))
     if entry is None or entry[1][0] is None:
         return RawFile(None), []
     mark, (digest, companion_names) = entry
-    return RawFile(digest, mark), companion_names
+    return RawFile(digest, tuple(mark)), companion_names
 
 
 def with_copies(campaign: Campaign, digests: Digests) -> Campaign:

@@ -22,7 +22,7 @@ from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.pages import update_report
 from colonnade.workflow.photos import with_photos
-from colonnade.workflow.pooling import with_contradictions
+from colonnade.workflow.pooling import expect_known, with_contradictions
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.raw_files import Digests, RawFiles, raw_files, with_copies
 from colonnade.workflow.summary import write_summary
@@ -179,9 +179,8 @@ def _last_stage(start_from: str | None, until: str | None) -> str:
 
 
 def _chosen(campaign: Campaign, only: Sequence[str]) -> list[str]:
+    expect_known(campaign, "test", only)
     for name in only:
-        if name not in campaign.tests:
-            raise CampaignError(f'{campaign.path.name} has no test "{name}".{nearest(name, campaign.tests)}')
         if excluded := campaign.review(name).excluded:
             raise CampaignError(f"{name} is {excluded}. To run it again, delete that [[exclude]] from review.toml.")
         if awaited := campaign.left_out(name):

@@ -26,7 +26,7 @@ from colonnade.store.records.summary import map_points, read_summary, records_of
 from colonnade.units.text import format_uncertain, interval, number
 from colonnade.workflow.advising.sine import Known, advise_earthquakes, advise_sines
 from colonnade.workflow.executors import Counted
-from colonnade.workflow.pooling import expect_specimens, restitution_taken
+from colonnade.workflow.pooling import expect_known, restitution_taken
 from colonnade.workflow.product import Catalogue, Contents, Product, brought_up_to_date
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ def advise(
         If the campaign has never been run.
     """
     loaded = load(Path(campaign)).awaiting()
-    expect_specimens(loaded, specimens)
+    expect_known(loaded, "specimen", specimens)
     layout = Layout.of(loaded.path, results)
     summary = read_summary(layout)
     if summary is None:
