@@ -130,10 +130,7 @@ def fit_forcing(time: ArrayLike, motion: ArrayLike) -> Forcing | None:
         if samples < 4 or samples * FEWEST_CYCLES > times.size:
             return None
         turning = values * np.exp(-2j * np.pi * frequency * times)
-        level = 2 * (
-            scipy.ndimage.uniform_filter1d(turning.real, samples, mode="constant")
-            + 1j * scipy.ndimage.uniform_filter1d(turning.imag, samples, mode="constant")
-        )
+        level = 2 * scipy.ndimage.uniform_filter1d(turning, samples, mode="constant")
         steady = _steady_part(np.abs(level), samples)
         if steady.stop - steady.start < FEWEST_CYCLES * samples:
             return None

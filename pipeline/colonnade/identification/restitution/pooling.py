@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 import scipy
@@ -127,77 +126,67 @@ def pool(
         raise ValueError(
             "values and positive standard errors of at least one test, in arrays of one length, were expected"
         )
-    shared = _Shared(np.zeros(2), np.zeros((2, 2)), np.zeros((e.size, 2)))
-    if len(joints) == e.size and e.size > 1:
-        shared, e, error = _share(e, error, joints, np.array(known))
+    z = float(scipy.special.ndtri((1 + level) / 2))
+    if e.size == 1:
+        value, standard_error = float(e[0]), float(error[0])
+        mean, covariance = np.array([np.log(value), 0.0, 0.0]), np.diag([(standard_error / value) ** 2, 0.0, 0.0])
+        if len(joints) == 1:
+            mean, covariance = joints[0].mean, joints[0].covariance
+        half = z * standard_error
+        return Pooled(
+            value, value - half, value + half, standard_error, 0.0, standard_error, level, 1, mean, covariance
+        )
+    mean, covariance, slopes = np.zeros(3), np.zeros((3, 3)), np.zeros((e.size, 2))
+    if len(joints) == e.size:
+        e, error, mean, covariance, slopes = _share(e, error, joints, np.array(known))
     # The scatter of e is the block's: a test that seems to know e far better than the others saw it by chance.
     error = np.maximum(error, LEAST_ERROR * np.median(error))
-    weights = 1 / error**2
-    freedom, between, new_test, by_scatter = e.size - 1, 0.0, float(error[0]), 0.0
-    if freedom:
-        between = _between(e, error)
-        weights = 1 / (error**2 + between)
-    value = float(np.average(e, weights=weights))
-    standard_error = by_weights = float(1 / np.sqrt(weights.sum()))
-    reach = float(scipy.special.stdtrit(freedom or np.inf, (1 + level) / 2))
-    if freedom:
-        by_scatter = float(np.sqrt((weights * (e - value) ** 2).sum() / (freedom * weights.sum())))
-        standard_error = max(by_weights, by_scatter)
-        own = freedom / (freedom + PRIOR_FREEDOM) * float(np.average(error**2, weights=weights))
-        # Tests that agree by chance: the range still holds a standard error of their mean.
-        by_tests = float(np.sqrt(by_scatter**2 + max(e.size * by_scatter**2 - own, 0.0)))
-        new_test = max(by_tests, by_weights / reach)
-    slope = np.average(shared.slopes, axis=0, weights=weights)
-    common = max(float(slope @ shared.covariance @ slope), 0.0) ** 0.5
+    freedom, between = e.size - 1, _between(e, error)
+    weights = 1 / (error**2 + between)
+    value, by_weights = float(np.average(e, weights=weights)), float(1 / np.sqrt(weights.sum()))
+    reach = float(scipy.special.stdtrit(freedom, (1 + level) / 2))
+    by_scatter = float(np.sqrt((weights * (e - value) ** 2).sum() / (freedom * weights.sum())))
+    own = freedom / (freedom + PRIOR_FREEDOM) * float(np.average(error**2, weights=weights))
+    # Tests that agree by chance: the range still holds a standard error of their mean.
+    by_tests = float(np.sqrt(by_scatter**2 + max(e.size * by_scatter**2 - own, 0.0)))
+    standard_error, new_test = max(by_weights, by_scatter), max(by_tests, by_weights / reach)
+    slope = np.average(slopes, axis=0, weights=weights)
+    common = max(float(slope @ covariance[1:, 1:] @ slope), 0.0) ** 0.5
     # The common error is a normal one, however few the tests are.
-    half = float(np.hypot(reach * standard_error, scipy.special.ndtri((1 + level) / 2) * common))
-    covariance = np.zeros((3, 3))
-    covariance[1:, 1:] = shared.covariance
-    covariance[0, 1:] = covariance[1:, 0] = shared.covariance @ slope / value
-    covariance[0, 0] = (standard_error**2 + common**2) / value**2
-    mean = np.array([np.log(value), *shared.mean])
-    if e.size == 1 and len(joints) == 1:
-        mean, covariance = joints[0].mean, joints[0].covariance
+    half = float(np.hypot(reach * standard_error, z * common))
+    covariance[0, 1:] = covariance[1:, 0] = covariance[1:, 1:] @ slope / value
     standard_error, new_test = float(np.hypot(standard_error, common)), float(np.hypot(new_test, common))
-    return Pooled(
-        value, value - half, value + half, standard_error, float(np.sqrt(between)), new_test, level, e.size, mean,
-        covariance,
-    )  # fmt: skip
+    mean[0], covariance[0, 0] = np.log(value), (standard_error / value) ** 2
+    between = float(np.sqrt(between))
+    return Pooled(value, value - half, value + half, standard_error, between, new_test, level, e.size, mean, covariance)
 
 
-class _Shared(NamedTuple):
-    """Of ln α and ln p: mean and covariance by all tests, and how e of each test depends on them, shape (k, 2)."""
+def _share(e: Array, error: Array, joints: Sequence[Joint], known: Array) -> tuple[Array, Array, Array, Array, Array]:
+    """
+    Put together what tests say of α and p.
 
-    mean: Array
-    covariance: Array
-    slopes: Array
-
-
-def _share(e: Array, error: Array, joints: Sequence[Joint], known: Array) -> tuple[_Shared, Array, Array]:
-    """Put together what tests say of α and p; give e of each, and its error, with those."""
-    moved = np.flatnonzero(known > 0)
-    slopes, mean, covariance = np.zeros((e.size, 2)), np.zeros(2), np.zeros((2, 2))
-    if moved.size == 0:
-        return _Shared(mean, covariance, slopes), e, error
-    if not all(joint.covariance[place, place] > 0 for joint in joints for place in 1 + moved):
+    Returns e of each test and its error with those, mean and covariance as of `Pooled`, of which e is left out, and how
+    e of each test depends on ln α and ln p, shape (k, 2).
+    """
+    mean, covariance, slopes = np.zeros(3), np.zeros((3, 3)), np.zeros((e.size, 2))
+    moved = 1 + np.flatnonzero(known > 0)
+    if not all(joint.covariance[place, place] > 0 for joint in joints for place in moved):
         raise ValueError(
             f"known is {tuple(known.tolist())}, but a test took α or p for exact; the same for all tests was expected"
         )
-    beforehand = np.diag(known[moved] ** -2.0)
-    own = [joint.covariance[np.ix_(1 + moved, 1 + moved)] for joint in joints]
+    own = [joint.covariance[np.ix_(moved, moved)] for joint in joints]
     inverses = [np.linalg.inv(each) for each in own]
-    found = np.linalg.inv(np.sum(inverses, axis=0) - (e.size - 1) * beforehand)
-    seen = [each @ joint.mean[1 + moved] for each, joint in zip(inverses, joints, strict=True)]
-    at = found @ np.sum(seen, axis=0)
+    found = np.linalg.inv(np.sum(inverses, axis=0) - (e.size - 1) * np.diag(known[moved - 1] ** -2.0))
+    seen = [each @ joint.mean[moved] for each, joint in zip(inverses, joints, strict=True)]
+    mean[moved], covariance[np.ix_(moved, moved)] = found @ np.sum(seen, axis=0), found
     values, errors = e.copy(), error.copy()
     for place, (joint, inverse) in enumerate(zip(joints, inverses, strict=True)):
-        slope = inverse @ joint.covariance[1 + moved, 0]
-        alone = 1 - float(slope @ joint.covariance[1 + moved, 0]) / float(joint.covariance[0, 0])
-        values[place] += e[place] * float(slope @ (at - joint.mean[1 + moved]))
+        slope = inverse @ joint.covariance[moved, 0]
+        alone = 1 - float(slope @ joint.covariance[moved, 0]) / float(joint.covariance[0, 0])
+        values[place] += e[place] * float(slope @ (mean[moved] - joint.mean[moved]))
         errors[place] *= max(alone, LEAST_ALONE) ** 0.5
-        slopes[place, moved] = e[place] * slope
-    mean[moved], covariance[np.ix_(moved, moved)] = at, found
-    return _Shared(mean, covariance, slopes), values, errors
+        slopes[place, moved - 1] = e[place] * slope
+    return values, errors, mean, covariance, slopes
 
 
 def _between(e: Array, error: Array) -> float:
