@@ -53,7 +53,7 @@ def test_spectra_are_drawn_with_their_median():
 
 def calibration(tests=20):
     values = np.array([0.1, 0.5, 0.9])
-    diagram = Reliability(values, values**2, np.array([5, 7, 8]), values - 0.1, values + 0.1, 0.95)
+    diagram = Reliability(values, values**2, np.array([5, 7, 8]), values - 0.1, values + 0.1)
     return Calibration(diagram, (np.arange(tests) + 0.5) / tests)
 
 

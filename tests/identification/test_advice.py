@@ -23,8 +23,8 @@ def test_the_predicted_half_width_is_that_of_virtual_tests():
 
 
 def test_agreeing_tests_are_enough_and_scattered_ones_are_not():
-    agreeing = advise_free_vibration([0.9760, 0.9761, 0.9759], [2e-4] * 3, [0.6, -0.6, 0.6], **WANTED)
-    scattered = advise_free_vibration([0.974, 0.979, 0.976], [2e-4] * 3, [0.6, -0.6, 0.6], **WANTED)
+    agreeing = advise_free_vibration([0.9760, 0.9761, 0.9759], [2e-4] * 3, [0.6, 0.6, 0.6], **WANTED)
+    scattered = advise_free_vibration([0.974, 0.979, 0.976], [2e-4] * 3, [0.6, 0.6, 0.6], **WANTED)
     assert agreeing.is_enough
     assert agreeing.needed == 0
     assert not scattered.is_enough
@@ -39,16 +39,12 @@ def test_one_test_is_never_enough():
     assert advice.needed >= 1
 
 
-def test_the_release_is_the_largest_allowed_to_the_side_with_fewer_tests():
-    assert advise_free_vibration([0.97, 0.97], [1e-3] * 2, [0.5, 0.5], **WANTED).release_ratio == -0.7
-    assert advise_free_vibration([0.97, 0.97], [1e-3] * 2, [-0.5, 0.5], **WANTED).release_ratio == 0.7
-
-
-def test_a_larger_release_is_expected_to_give_a_smaller_error():
-    small = advise_free_vibration([0.97, 0.97], [1e-3] * 2, [0.3, 0.3], **WANTED)
-    same = advise_free_vibration([0.97, 0.97], [1e-3] * 2, [0.7, 0.7], **WANTED)
-    assert small.test_error < 1e-3
-    assert same.test_error == pytest.approx(1e-3)
+def test_a_larger_release_is_expected_to_give_a_smaller_interval():
+    small, same = (
+        advise_free_vibration([0.97, 0.97], [3e-3] * 2, [release] * 2, **WANTED).predicted_half_width[0]
+        for release in (0.3, 0.7)
+    )
+    assert small < 0.9 * same
 
 
 def test_more_tests_give_a_narrower_interval():
@@ -56,17 +52,8 @@ def test_more_tests_give_a_narrower_interval():
     assert (np.diff(advice.predicted_half_width) < 0).all()
 
 
-@pytest.mark.parametrize(
-    ("release", "largest", "message"),
-    [([0.5], 0.7, "release_ratio"), ([0.5, 1.2], 0.7, "release_ratio"), ([0.5, 0.5], 1.0, "largest_release")],
-)
-def test_what_is_not_a_release_is_refused(release, largest, message):
-    with pytest.raises(ValueError, match=message):
-        advise_free_vibration([0.97, 0.97], [1e-3] * 2, release, wanted_half_width=1e-3, largest_release=largest)
-
-
 SPANS = [1.5, 2.0, 2.5, 3.0]
-ROCKING, OVERTURNING = [0.0, 0.6, 0.8, 0.5], [0.0, 0.0, 0.2, 0.5]
+ROCKING, OVERTURNING = np.array([0.0, 0.6, 0.8, 0.5]), np.array([0.0, 0.0, 0.2, 0.5])
 
 
 def test_the_least_certain_outcome_is_advised():
@@ -77,7 +64,7 @@ def test_the_least_certain_outcome_is_advised():
 
 
 def test_three_possible_outcomes_are_less_certain_than_two():
-    advice = advise_span([1.0, 2.0], [1 / 3, 0.5], [1 / 3, 0.5], largest_risk=1.0)
+    advice = advise_span([1.0, 2.0], np.array([1 / 3, 0.5]), np.array([1 / 3, 0.5]), largest_risk=1.0)
     assert advice.span == 1.0
     assert advice.entropy == pytest.approx(1.585, abs=1e-3)
 
@@ -87,32 +74,19 @@ def test_the_risk_leaves_the_span_below():
 
 
 def test_certain_outcomes_are_enough():
-    assert advise_span([1.0, 2.0], [0.9, 0.0], [0.05, 1.0], largest_risk=1.0).span == 1.0
-    assert advise_span([1.0, 2.0], [1.0, 0.0], [0.0, 1.0], largest_risk=0.5).is_enough
+    assert advise_span([1.0, 2.0], np.array([0.9, 0.0]), np.array([0.05, 1.0]), largest_risk=1.0).span == 1.0
+    assert advise_span([1.0, 2.0], np.array([1.0, 0.0]), np.array([0.0, 1.0]), largest_risk=0.5).is_enough
 
 
 @pytest.mark.parametrize(
     ("overturning", "risk", "is_step"), [([0.0, 0.0], 0.5, True), ([0.0, 0.02], 0.01, False), ([0.0, 1.0], 0.5, False)]
 )
 def test_where_it_surely_stands_at_every_span_the_last_is_a_step(overturning, risk, is_step):
-    rocking = [1.0, 1.0 - overturning[1]]
-    advice = advise_span([1.0, 2.0], rocking, overturning, largest_risk=risk)
+    fell = np.array(overturning)
+    advice = advise_span([1.0, 2.0], np.array([1.0, 1.0 - fell[1]]), fell, largest_risk=risk)
     assert (advice.is_step, advice.is_enough, advice.span) == (is_step, not is_step, 2.0 if is_step else 1.0)
 
 
 def test_where_every_span_is_too_risky_the_least_risky_is_shown_as_such():
-    advice = advise_span([2.0, 3.0], [0.4, 0.1], [0.6, 0.9], largest_risk=0.5)
-    assert (advice.span, advice.is_within_risk, advice.is_enough) == (2.0, False, False)
-
-
-@pytest.mark.parametrize(
-    ("span", "rocking", "overturning", "message"),
-    [
-        ([2.0, 1.0], [0.5, 0.5], [0.0, 0.0], "increase"),
-        ([1.0, 2.0], [0.5, 0.9], [0.0, 0.2], "sum"),
-        ([1.0, 2.0], [0.5], [0.0, 0.2], "shape"),
-    ],
-)
-def test_what_is_not_a_probability_of_each_span_is_refused(span, rocking, overturning, message):
-    with pytest.raises(ValueError, match=message):
-        advise_span(span, rocking, overturning, largest_risk=1.0)
+    advice = advise_span([2.0, 3.0], np.array([0.4, 0.1]), np.array([0.6, 0.9]), largest_risk=0.5)
+    assert (advice.span, advice.is_enough) == (2.0, False)

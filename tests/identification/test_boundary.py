@@ -85,20 +85,6 @@ def test_an_overturning_never_raises_the_boundary(tests, amplitude):
     assert chance_of(after, np.log(amplitude)) >= chance_of(before, np.log(amplitude)) - 1e-9
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        pytest.param((0.0,), "predicted", id="no predicted limit"),
-        pytest.param((1.0, [1.0, 2.0], [True]), "one outcome a test", id="an outcome is missing"),
-        pytest.param((1.0, [-1.0], [True]), "positive", id="a negative amplitude"),
-        pytest.param((1.0, [], [], 2.0), "sensitivity", id="a sensitivity out of range"),
-    ],
-)
-def test_what_is_not_a_series_of_tests_is_refused(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        SineTests.of(*arguments)
-
-
 @pytest.mark.parametrize("tests", [SineTests.of(2.0, [1.9, 2.2], [False, True]), SineTests.of(2.0, [1.9], [False])])
 def test_the_information_is_the_mean_fall_of_the_posteriors_entropy_over_both_outcomes(tests):
     [advice] = advise_sine_tests([tests], wanted_width=0.05, largest_risk=1.0)
@@ -173,14 +159,3 @@ def test_about_as_many_tests_are_left_as_it_says(tests):
             advice = advise(now)
         counts.append(now.overturned.size - tests.overturned.size)
     assert abs(before.left - np.median(counts)) <= 2
-
-
-@pytest.mark.parametrize(("risk", "width", "message"), [(0.0, 0.05, "largest_risk"), (1.0, 0.001, "wanted_width")])
-def test_settings_out_of_range_are_refused(risk, width, message):
-    with pytest.raises(ValueError, match=message):
-        advise(BRACKETED, risk, width)
-
-
-def test_a_discrepancy_out_of_range_is_refused():
-    with pytest.raises(ValueError, match="discrepancy"):
-        find_boundaries([BRACKETED], discrepancy=0.0)

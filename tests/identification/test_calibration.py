@@ -81,11 +81,6 @@ def test_a_campaign_whose_tests_share_their_error_has_a_wider_interval():
     assert alone.high[0] - alone.low[0] < 0.35
 
 
-def test_a_coverage_of_other_tests_is_refused():
-    with pytest.raises(ValueError, match="as many as forecasts"):
-        coverage([0.5, 0.5], [forecast([0.1, 0.2])], [0])
-
-
 RESAMPLED = 100
 
 
@@ -161,8 +156,3 @@ def test_bars_of_campaigns_that_share_their_error_are_wider():
     forecasts = [overturning_forecast(each) for each in common > limits]
     one, many = (reliability(forecasts, seen(np.zeros(30)), groups, bins=1) for groups in (np.zeros(30), np.arange(30)))
     assert one.high[0] - one.low[0] > 2 * (many.high[0] - many.low[0])
-
-
-def test_forecasts_and_tests_that_differ_in_number_are_refused():
-    with pytest.raises(ValueError, match="1 forecasts and 2 tests"):
-        reliability([certain(0.5)], seen([0, 1]), [0])

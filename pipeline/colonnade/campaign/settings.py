@@ -202,7 +202,7 @@ class NextSettings(Table):
     """Largest probability of overturning of a test that is advised."""
     boundary_width: Number = setting(0.05, "of the amplitude", ge=0.02, le=1.0)
     """Wanted width of the 90 % interval of the amplitude at which the specimen overturns half the time."""
-    discrepancy: Number = setting(0.15, "of the amplitude", ge=0.005, le=1.0)
+    discrepancy: Number = setting(0.15, "of the amplitude", ge=0.005, le=0.4)
     """Standard deviation of that amplitude about the one that the models predict."""
     restitution_width: Number = setting(0.005, ge=1e-5, le=0.5)
     """Wanted width of the interval of e."""

@@ -12,16 +12,12 @@ import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
-from colonnade.validation import number, samples
 
 LEVEL = 0.90
 """Of the interval of a boundary."""
 
-NARROWEST = 0.02
-"""Least relative width of an interval that can be asked for."""
-
 STEP, REACH = 0.004, 5.0
-"""Of the grid, in ln A: a fifth of that width; and how many standard deviations of the prior it covers to each side."""
+"""Of the grid, in ln A: a fifth of the least width asked for; how many standard deviations of the prior it covers."""
 
 BETWEEN = 0.025
 """
@@ -72,25 +68,9 @@ class SineTests:
     def of(
         cls, predicted: float, amplitude_ratio: ArrayLike = (), overturned: ArrayLike = (), sensitivity: float = 0.0
     ) -> SineTests:
-        """
-        Check and hold the tests of one frequency.
-
-        Raises
-        ------
-        ValueError
-            If an A is not positive or not every test has one outcome.
-        """
-        number("predicted", predicted, "the positive A of a predicted limit", above=0.0)
-        number("sensitivity", sensitivity, "a change of ln A from -1 to 1", low=-1.0, high=1.0)
-        amplitudes = samples("amplitude_ratio", np.asarray(amplitude_ratio, dtype=np.float64), fewest=0)
-        outcomes = np.asarray(overturned, dtype=bool)
-        if outcomes.shape != amplitudes.shape:
-            raise ValueError(
-                f"overturned has shape {outcomes.shape}; one outcome a test, {amplitudes.shape}, was expected"
-            )
-        if not (amplitudes > 0.0).all():
-            raise ValueError("amplitude_ratio has to be positive throughout")
-        return cls(predicted, amplitudes, outcomes, sensitivity)
+        """Hold the tests of one frequency."""
+        amplitudes = np.asarray(amplitude_ratio, dtype=np.float64)
+        return cls(predicted, amplitudes, np.asarray(overturned, dtype=bool), sensitivity)
 
 
 @dataclass(frozen=True)
@@ -180,11 +160,6 @@ def find_boundaries(tests: Sequence[SineTests], *, discrepancy: float = 0.15) ->
     boundaries : list of Boundary
         In the same order.
 
-    Raises
-    ------
-    ValueError
-        If the discrepancy is out of its range.
-
     Notes
     -----
     A test at A overturns with probability Φ((ln A − μ)/σ), the probit of up-and-down tests (Dixon and Mood 1948). μ is
@@ -197,7 +172,6 @@ def find_boundaries(tests: Sequence[SineTests], *, discrepancy: float = 0.15) ->
     Under many cycles the probability of overturning goes up and down with A over tens of percent; a probit does not
     describe that, and the interval is then of the probit that fits best.
     """
-    number("discrepancy", discrepancy, "a standard deviation in ln A from 0.005 to 0.4", low=0.005, high=0.4)
     offset, _, _ = _grid(ceil(REACH * np.hypot(discrepancy, BETWEEN) / STEP))
     likelihoods = [_likelihood(offset, each) for each in tests]
     # Of an offset at a frequency (second) for each common one (first).
@@ -235,11 +209,6 @@ def advise_sine_tests(
         In the same order. A laboratory that finishes one frequency before the next uses the first that is not enough:
         what is found there makes the others cheaper.
 
-    Raises
-    ------
-    ValueError
-        If an argument is out of its range.
-
     Notes
     -----
     The advised amplitude has the largest expected information (Lindley 1956; as computed by Houlsby et al. 2011). It
@@ -254,9 +223,8 @@ def advise_sine_tests(
     >>> round(advice.amplitude_ratio, 1), round(advice.risk, 1), advice.repeats, advice.is_enough
     (1.9, 0.5, 0, False)
     """
-    wanted = number("wanted_width", wanted_width, f"a relative width from {NARROWEST:g} to 1", low=NARROWEST, high=1.0)
-    largest = number("largest_risk", largest_risk, "a probability above 0 and at most 1", above=0.0, high=1.0)
-    return [_advise(each, wanted, largest) for each in find_boundaries(tests, discrepancy=discrepancy)]
+    boundaries = find_boundaries(tests, discrepancy=discrepancy)
+    return [_advise(each, wanted_width, largest_risk) for each in boundaries]
 
 
 def _advise(boundary: Boundary, wanted_width: float, largest_risk: float) -> SineAdvice:

@@ -9,14 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from colonnade.arrays import Array
-from colonnade.dynamics.ensemble import LARGEST_SEED
 from colonnade.identification.forecasts import OVERTURNED, Forecast, Response
-from colonnade.validation import described, number, samples, whole
 
 FEW, FEW_BINS, BINS = 100, 3, 5
 """Bins of fewer tests than the first number, and of more."""
 
-RESAMPLES, MOST_RESAMPLES = 1000, 100_000
+RESAMPLES = 1000
 
 BANDS = (0.5, 0.8, 0.95)
 """Central bands whose coverage is given."""
@@ -58,43 +56,31 @@ def randomised_pit(forecasts: Sequence[Forecast], observed: Sequence[Response], 
     pit : ndarray, shape (n,)
         Between 0 and 1, and evenly spread if the forecasts are right.
 
-    Raises
-    ------
-    ValueError
-        If the lengths differ.
-
     Notes
     -----
     (b + v (t + 1)) / (m + 1) with b members below, t equal to the observed amplitude, and v even between 0 and 1:
     Czado, Gneiting and Held (2009) for an ensemble of m. If the observed amplitude is drawn as the members are,
     it is exactly even, whatever m and whatever share does not rock (amplitude 0) or overturns (1).
     """
-    random = np.random.default_rng(whole("seed", seed, 0, LARGEST_SEED)).random(len(forecasts))
-    pairs = zip(forecasts, observed, random, strict=True)
-    return np.array([_pit(forecast.amplitudes, response.amplitude, v) for forecast, response, v in pairs])
+    random = np.random.default_rng(seed).random(len(forecasts))
+    found = []
+    for forecast, response, v in zip(forecasts, observed, random, strict=True):
+        below, equal = (np.sum(compared(forecast.amplitudes, response.amplitude)) for compared in (np.less, np.equal))
+        found.append(float(below + v * (equal + 1)) / (forecast.amplitudes.size + 1))
+    return np.array(found)
 
 
-def coverage(
-    pit: ArrayLike,
-    forecasts: Sequence[Forecast],
-    campaigns: ArrayLike,
-    *,
-    bands: Sequence[float] = BANDS,
-    resamples: int = RESAMPLES,
-    seed: int = 0,
-) -> Coverage:
+def coverage(pit: Array, forecasts: Sequence[Forecast], campaigns: ArrayLike) -> Coverage:
     """
     Count the tests whose amplitude is in central bands of their forecasts.
 
     Parameters
     ----------
-    pit : array_like, shape (n,)
+    pit : ndarray, shape (n,)
         As of `randomised_pit`: at the edge of a band that is an atom, its share of the tests counts.
     forecasts : sequence of Forecast, length n
-    campaigns, resamples, seed
+    campaigns : array_like, shape (n,)
         As of `surrogate_members`, for the interval.
-    bands : sequence of float, optional
-        Nominal shares.
 
     Returns
     -------
@@ -105,33 +91,28 @@ def coverage(
     ValueError
         As of `surrogate_members`.
     """
-    nominal, values = samples("bands", bands), samples("pit", pit, each="test")
-    if values.size != len(forecasts):
-        raise ValueError(f"pit has {values.size} tests; {len(forecasts)} were expected, as many as forecasts")
-    members = surrogate_members(forecasts, campaigns, resamples=resamples, seed=seed)
-    random = np.random.default_rng((seed, 1))
+    random = np.random.default_rng((0, 1))
+    members = surrogate_members(forecasts, campaigns)
     drawn = np.column_stack(
         [
             _pits_of_members(forecast.amplitudes, random)[chosen]
             for forecast, chosen in zip(forecasts, members.T, strict=True)
         ]
     )
-    low, high = np.quantile(_shares(drawn, nominal), [0.025, 0.975], axis=0)
-    return Coverage(nominal, _shares(values[None], nominal)[0], low, high)
+    low, high = np.quantile(_shares(drawn), [0.025, 0.975], axis=0)
+    return Coverage(np.array(BANDS), _shares(pit[None])[0], low, high)
 
 
-def _shares(pit: Array, bands: Array) -> Array:
-    """Share of the tests in each band, shape (r, b), of values of shape (r, n)."""
-    return np.asarray(np.mean(np.abs(pit[:, None, :] - 0.5) <= bands[:, None] / 2, axis=2))
-
-
-def _pit(members: Array, value: float, v: float) -> float:
-    return float((np.sum(members < value) + v * (np.sum(members == value) + 1)) / (members.size + 1))
+def _shares(pit: Array) -> Array:
+    """Share of the tests in each of `BANDS`, shape (r, b), of values of shape (r, n)."""
+    return np.asarray(np.mean(np.abs(pit[:, None, :] - 0.5) <= np.array(BANDS)[:, None] / 2, axis=2))
 
 
 def _pits_of_members(members: Array, random: np.random.Generator) -> Array:
     """Of each member among all others, shape (m,)."""
-    return np.array([_pit(np.delete(members, k), members[k], v) for k, v in enumerate(random.random(members.size))])
+    ranked = np.sort(members)
+    below, most = (np.searchsorted(ranked, members, side) for side in ("left", "right"))
+    return np.asarray((below + random.random(members.size) * (most - below)) / members.size)
 
 
 @dataclass(frozen=True)
@@ -147,8 +128,7 @@ class Reliability:
         Share of them that overturned.
     tests : ndarray of int, shape (k,)
     low, high : ndarray, shape (k,)
-        Consistency bar: where the frequency is in 95 % (`level`) of the cases if the forecasts are right.
-    level : float
+        Consistency bar: where the frequency is in 95 % of the cases if the forecasts are right.
     """
 
     probability: Array
@@ -156,7 +136,6 @@ class Reliability:
     tests: NDArray[np.intp]
     low: Array
     high: Array
-    level: float
 
 
 def reliability(
@@ -165,9 +144,7 @@ def reliability(
     campaigns: ArrayLike,
     *,
     bins: int | None = None,
-    level: float = 0.95,
     resamples: int = RESAMPLES,
-    seed: int = 0,
 ) -> Reliability:
     """
     Compare forecast probabilities of overturning with what happened.
@@ -176,21 +153,14 @@ def reliability(
     ----------
     forecasts : sequence of Forecast, length n
     observed : sequence of Response, length n
-    campaigns, resamples, seed
+    campaigns, resamples
         As of `surrogate_members`.
     bins : int, optional
         Of equal width from 0 to 1. Default: `FEW_BINS` for fewer than `FEW` tests, else `BINS`.
-    level : float, optional
-        Of each consistency bar.
 
     Returns
     -------
     diagram : Reliability
-
-    Raises
-    ------
-    ValueError
-        As of `surrogate_members`, or if the lengths differ.
 
     Notes
     -----
@@ -198,11 +168,8 @@ def reliability(
     made, and surrogate observations of one campaign share what is wrong about it (`surrogates`). A member is held
     against the m − 1 others, as an observation is against m members.
     """
-    if len(observed) != len(forecasts):
-        raise ValueError(f"there are {len(forecasts)} forecasts and {len(observed)} tests; as many were expected")
-    level = number("level", level, "a probability between 0 and 1", above=0.0, below=1.0)
-    count = whole("bins", bins, 1, 100) if bins is not None else FEW_BINS if len(forecasts) < FEW else BINS
-    members = surrogate_members(forecasts, campaigns, resamples=resamples, seed=seed)
+    count = bins or (FEW_BINS if len(forecasts) < FEW else BINS)
+    members = surrogate_members(forecasts, campaigns, resamples=resamples)
     probability = np.array([each.overturning_probability for each in forecasts])
     happened = np.array([each.outcome == OVERTURNED for each in observed], dtype=np.float64)
     place = np.minimum((probability * count).astype(np.intp), count - 1)
@@ -216,13 +183,13 @@ def reliability(
         ]
     ) * np.array([each.outcomes.size / (each.outcomes.size - 1) for each in forecasts])
     in_bin = place[:, None] == np.arange(used.size)
-    edges = np.quantile(departures @ in_bin / tests, [(1 - level) / 2, (1 + level) / 2], axis=0)
+    edges = np.quantile(departures @ in_bin / tests, [0.025, 0.975], axis=0)
     low, high = np.clip(mean + edges, 0.0, 1.0)
-    return Reliability(mean, np.bincount(place, weights=happened) / tests, tests, low, high, level)
+    return Reliability(mean, np.bincount(place, weights=happened) / tests, tests, low, high)
 
 
 def surrogate_members(
-    forecasts: Sequence[Forecast], campaigns: ArrayLike, *, resamples: int = RESAMPLES, seed: int = 0
+    forecasts: Sequence[Forecast], campaigns: ArrayLike, *, resamples: int = RESAMPLES
 ) -> NDArray[np.intp]:
     """
     Draw a member of each forecast that is taken as if it had been observed.
@@ -232,29 +199,15 @@ def surrogate_members(
     forecasts : sequence of Forecast, length n
     campaigns : array_like, shape (n,)
         Number of the campaign of each test.
-    resamples, seed : int, optional
-        The same seed draws the same members.
+    resamples : int, optional
 
     Returns
     -------
     members : ndarray of int, shape (resamples, n)
         The same member in all tests of a campaign; if members of two tests share nothing, that is as good as any two.
 
-    Raises
-    ------
-    ValueError
-        If there is no forecast, one has fewer than two members, or `campaigns` does not have one number for each.
     """
-    groups = np.asarray(campaigns)
-    if not forecasts or groups.shape != (len(forecasts),):
-        raise ValueError(
-            f"campaigns is {described(campaigns)} and there are {len(forecasts)} forecasts; at least one forecast, and "
-            "one campaign for each, was expected"
-        )
     sizes = np.array([each.outcomes.size for each in forecasts])
-    if sizes.min() < 2:
-        raise ValueError("a forecast has a single member; at least two were expected, to hold one against the others")
-    names, place = np.unique(groups, return_inverse=True)
-    random = np.random.default_rng(whole("seed", seed, 0, LARGEST_SEED))
-    drawn = random.random((whole("resamples", resamples, 1, MOST_RESAMPLES), names.size))
+    names, place = np.unique(np.asarray(campaigns), return_inverse=True)
+    drawn = np.random.default_rng(0).random((resamples, names.size))
     return np.asarray(drawn[:, place] * sizes, dtype=np.intp)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import log
+from math import log, nan
 from typing import get_args
 
 import numpy as np
@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Codes
 from colonnade.dynamics.history import NO_ROCKING_RATIO, Outcome
-from colonnade.validation import described, number, samples
 
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 """In order: each is more than the one before it."""
@@ -41,22 +40,10 @@ class Response:
     amplitude: float
 
     @classmethod
-    def observed(cls, outcome: str, peak_ratio: float | None = None) -> Response:
-        """
-        Take an outcome and, if the specimen rocked and stands, its max |θ|/α.
-
-        Raises
-        ------
-        ValueError
-            If the outcome is not one of `OUTCOMES`, or the max |θ|/α is needed and missing.
-        """
-        if outcome not in OUTCOMES:
-            raise ValueError(f"outcome is {described(outcome)}; one of {', '.join(OUTCOMES)} was expected")
+    def observed(cls, outcome: str, peak_ratio: float = nan) -> Response:
+        """Take an outcome and, if the specimen rocked and stands, its max |θ|/α."""
         place = OUTCOMES.index(outcome)
-        if place != ROCKING:
-            return cls(place, float(place == OVERTURNED))
-        ratio = number("peak_ratio", peak_ratio, "max |θ|/α, zero or more, of a specimen that rocked", low=0.0)
-        return cls(place, min(ratio, 1.0))
+        return cls(place, min(peak_ratio, 1.0) if place == ROCKING else float(place == OVERTURNED))
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,26 +82,13 @@ def forecast_of(peak_ratio: ArrayLike, overturning_time: ArrayLike) -> Forecast:
     -------
     forecast : Forecast
 
-    Raises
-    ------
-    ValueError
-        If the lengths differ, or a member stands and has no peak.
-
     Examples
     --------
     >>> forecast = forecast_of([0.0002, 0.4, float("nan")], [float("nan"), float("nan"), 3.1])
     >>> forecast.outcomes.tolist(), forecast.amplitudes.tolist()
     ([0, 1, 2], [0.0, 0.4, 1.0])
     """
-    peaks = samples("peak_ratio", peak_ratio, gaps=True, each="member")
-    times = samples("overturning_time", overturning_time, gaps=True, each="member")
-    if peaks.size != times.size:
-        raise ValueError(
-            f"peak_ratio has {peaks.size} members and overturning_time {times.size}; one number was expected"
-        )
-    overturned = np.isfinite(times)
-    if np.isnan(peaks[~overturned]).any():
-        raise ValueError("a member stands and its peak_ratio is NaN; its max |θ|/α was expected")
+    peaks, overturned = np.asarray(peak_ratio, dtype=np.float64), np.isfinite(overturning_time)
     rocked = overturned | (peaks > NO_ROCKING_RATIO)
     outcomes = rocked.astype(np.int8) + overturned
     return Forecast(outcomes, np.where(overturned, 1.0, np.where(rocked, np.minimum(peaks, 1.0), 0.0)))
@@ -146,16 +120,7 @@ def base_rates(observed: Sequence[Response]) -> list[Forecast]:
     -------
     forecasts : list of Forecast, length n
         Of n − 1 members each. The score of their fair form is that of the base rate itself, not of its finite sample.
-
-    Raises
-    ------
-    ValueError
-        If there are fewer than two tests.
     """
-    if len(observed) < 2:
-        raise ValueError(
-            f"observed has {len(observed)} tests; at least two were expected, to forecast one by the others"
-        )
     outcomes = np.array([each.outcome for each in observed], dtype=np.int8)
     amplitudes = np.array([each.amplitude for each in observed])
     return [Forecast(np.delete(outcomes, test), np.delete(amplitudes, test)) for test in range(len(observed))]
@@ -210,11 +175,6 @@ def crps(members: ArrayLike, observed: float) -> float:
         In the unit of the members. A single member, or many equal ones, give |member − observed|. With few members it
         can be slightly negative; its mean over many tests is that of an ensemble without end.
 
-    Raises
-    ------
-    ValueError
-        If a number is not finite.
-
     Notes
     -----
     mean |x − y| − Σᵢ<ⱼ |xᵢ − xⱼ| / (m (m − 1)): the kernel form of Gneiting and Raftery (2007) with m (m − 1)
@@ -225,9 +185,8 @@ def crps(members: ArrayLike, observed: float) -> float:
     >>> crps([0.25, 0.75], 0.5)
     0.0
     """
-    ranked = np.sort(samples("members", members, each="member"))
-    truth = number("observed", observed, "a finite number")
-    error, size = float(np.abs(ranked - truth).mean()), ranked.size
+    ranked = np.sort(members)
+    error, size = float(np.abs(ranked - observed).mean()), ranked.size
     if size == 1:
         return error
     # The gap above the k-th of m members is in the differences of all k (m − k) pairs across it.
@@ -298,26 +257,18 @@ def logarithmic_score(count: int, members: int, *, happened: bool) -> float:
     return -log(probability if happened else 1.0 - probability)
 
 
-def skill(scores: ArrayLike, reference: ArrayLike) -> float:
+def skill(scores: Array, reference: Array) -> float:
     """
     Give the skill of forecasts over that of others for the same tests.
 
     Parameters
     ----------
-    scores, reference : array_like, shape (n,)
+    scores, reference : ndarray, shape (n,)
 
     Returns
     -------
     skill : float
         1 − mean score / mean score of the reference: 1 is perfect, 0 as good as the reference. NaN if the reference
         leaves nothing to improve (its mean is zero or less).
-
-    Raises
-    ------
-    ValueError
-        If a score is not finite or the lengths differ.
     """
-    own, other = samples("scores", scores, each="score"), samples("reference", reference, each="score")
-    if own.size != other.size:
-        raise ValueError(f"scores has {own.size} tests and reference {other.size}; the same tests were expected")
-    return 1.0 - float(own.mean() / other.mean()) if other.mean() > 0.0 else np.nan
+    return 1.0 - float(scores.mean() / reference.mean()) if reference.mean() > 0.0 else nan

@@ -54,7 +54,7 @@ def score_forecast(rocking: xr.Dataset, forecast: ForecastFile, inputs: Forecast
     if "rocking_angle" not in rocking:
         return xr.Dataset(attrs=attributes | {"reason": "its rocking angle was not measured"})
     outcome = str(rocking.attrs["outcome"])
-    observed = Response.observed(outcome, float(rocking["peak_ratio"]) if outcome == "rocking" else None)
+    observed = Response.observed(outcome, float(rocking["peak_ratio"]))
     motion = None
     try:
         time = rocking["elapsed"].to_numpy()

@@ -242,7 +242,7 @@ def advise_free(
     return Advice(
         specimen=specimen,
         kind="free-vibration",
-        test=f"release from {number(abs(advised.release_ratio), 2)} α",  # the records keep no side
+        test=f"release from {number(LARGEST_RELEASE, 2)} α",  # the records keep no side
         is_enough=advised.is_enough,
         reason=known
         + (", as narrow as wanted" if advised.is_enough else f"; one more test: about {after}; limited by {limit}"),
@@ -251,7 +251,7 @@ def advise_free(
             "restitution": advised.pooled.value,
             "half_width": advised.half_width,
             "half_width_after": float(advised.predicted_half_width[0]),
-            "release_ratio": abs(advised.release_ratio),
+            "release_ratio": LARGEST_RELEASE,
         },
     )
 
