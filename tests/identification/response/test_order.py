@@ -144,10 +144,3 @@ def test_missing_samples_are_passed_over():
     time, angle, start, stop = shaken(4.0, 1.4)
     holed = np.where(np.random.default_rng(0).random(angle.size) < 0.02, np.nan, angle)
     assert order_of((time, holed, start, stop), 4.0).order == order_of((time, angle, start, stop), 4.0).order
-
-
-def test_arrays_that_do_not_fit_are_an_error():
-    with pytest.raises(ValueError, match="one length"):
-        response_order([0.0, 1.0], [0.0], 1.0, start=0.0, stop=1.0, threshold=0.0)
-    with pytest.raises(ValueError, match="positive number of hertz"):
-        response_order([0.0, 1.0], [0.0, 0.0], 0.0, start=0.0, stop=1.0, threshold=0.0)

@@ -68,19 +68,6 @@ def test_without_a_rank_there_is_no_verdict():
     assert distances(np.full(60, np.nan), everyone[1:]) is None
 
 
-@pytest.mark.parametrize(
-    ("measured", "members", "message"),
-    [
-        (np.zeros(5), np.zeros((30, 6)), r"measured has shape \(5,\)"),
-        (np.zeros(5), np.full((30, 5), np.nan), "a member is not finite"),
-    ],
-    ids=["shapes", "not finite"],
-)
-def test_what_cannot_be_ranked_is_refused(measured, members, message):
-    with pytest.raises(ValueError, match=message):
-        distances(measured, members)
-
-
 RUNS, LENGTH, INTERVAL = 400, 500, 0.004
 EXACT = Measurement(INTERVAL, gain=0.0, zero=0.0, noise=0.0, drift=np.zeros(LENGTH), cutoff_hz=None)
 TIME = np.arange(LENGTH) * INTERVAL

@@ -93,11 +93,6 @@ def test_the_pooled_value_lies_among_the_tests(rows):
     assert min(values) - 1e-12 <= pool(values, errors).value <= max(values) + 1e-12
 
 
-def test_no_test_is_an_error():
-    with pytest.raises(ValueError, match="at least one test"):
-        pool([], [])
-
-
 def joint(e, alpha, *, width=0.005, slope=0.5, own=1e-4):
     """A test whose ln e goes with its ln α, which it shows as well as `width` was known."""
     alone = width**2 / 2

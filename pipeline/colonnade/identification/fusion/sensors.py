@@ -60,10 +60,6 @@ class Transducer:
     anchor: Vector | None = None
     on_ground: bool = False
 
-    def __post_init__(self) -> None:
-        if self.sensing == "wire" and self.anchor is None:
-            raise ValueError("A wire needs its anchor: the fixed end, in the specimen frame at rest")
-
 
 @dataclass(frozen=True)
 class Gyroscope:

@@ -82,11 +82,6 @@ def response_order(
     -------
     response : Response
 
-    Raises
-    ------
-    ValueError
-        If the arrays differ in shape, or the frequency is not positive.
-
     Notes
     -----
     The misfit of order n is RMS[θ(t + nT) − θ(t)] / (√2 σ), T the period of the table and σ the standard deviation of
@@ -103,12 +98,6 @@ def response_order(
     3
     """
     times, angles = np.asarray(time, dtype=np.float64), np.asarray(angle, dtype=np.float64)
-    if times.ndim != 1 or times.shape != angles.shape:
-        raise ValueError(
-            f"time has shape {times.shape} and angle {angles.shape}; two arrays of one length were expected"
-        )
-    if not frequency > 0:
-        raise ValueError(f"frequency is {frequency}; a positive number of hertz was expected")
     finite = np.isfinite(angles)
     times, angles = times[finite], angles[finite]
     if times.size < 2:

@@ -53,11 +53,6 @@ def distances(measured: ArrayLike, members: ArrayLike) -> tuple[float, Array] | 
         Largest scaled distances from the median; 1 is the edge of the 95 % band of all others. None for fewer than
         `FEWEST` runs, or without a finite sample.
 
-    Raises
-    ------
-    ValueError
-        If the shapes do not belong together or a run is not finite.
-
     Notes
     -----
     Each of the m + 1 histories is measured as if it were the measured one: median and band are those of the m others.
@@ -65,10 +60,6 @@ def distances(measured: ArrayLike, members: ArrayLike) -> tuple[float, Array] | 
     model and the motion (conformal prediction: Vovk, Gammerman & Shafer 2005, ch. 2).
     """
     seen, runs = np.asarray(measured, dtype=np.float64), np.asarray(members, dtype=np.float64)
-    if runs.ndim != 2 or seen.shape != runs.shape[1:]:
-        raise ValueError(f"measured has shape {seen.shape} and members {runs.shape}; (n,) and (m, n) were expected")
-    if not np.isfinite(runs).all():
-        raise ValueError("a member is not finite; finite angles were expected")
     known = np.isfinite(seen)
     if runs.shape[0] < FEWEST or not known.any():
         return None

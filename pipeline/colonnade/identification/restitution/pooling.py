@@ -104,7 +104,7 @@ def pool(
     Raises
     ------
     ValueError
-        If values are missing, an error is not positive, or a test took for exact what is not `known` exactly.
+        If a test took for exact what is not `known` exactly.
 
     Notes
     -----
@@ -122,10 +122,6 @@ def pool(
     (reports/restitution-study.md).
     """
     e, error = np.asarray(values, dtype=np.float64), np.asarray(standard_errors, dtype=np.float64)
-    if e.size == 0 or e.shape != error.shape or not (error > 0).all():
-        raise ValueError(
-            "values and positive standard errors of at least one test, in arrays of one length, were expected"
-        )
     z = float(scipy.special.ndtri((1 + level) / 2))
     if e.size == 1:
         value, standard_error = float(e[0]), float(error[0])
