@@ -91,15 +91,12 @@ class Estimated:
         About the path; unknowns in the order of `names`, as steps from it.
     names : tuple of int
     solved : Solved
-    spectrum : Spectrum or None
-        Of the noise; None where the steps are uneven.
     """
 
     path: Path
     model: LinearModel
     names: tuple[int, ...]
     solved: Solved
-    spectrum: Spectrum | None
 
     @property
     def logarithm_of_path(self) -> float:
@@ -280,13 +277,13 @@ def _estimated(path: Path, priors: Priors, lowpass: float | None) -> Estimated:
     if spectrum is None or not spectrum.may_be_coloured(path.residual):
         return found
     order = [*found.names, *range(FIXED, path.values.size)]
-    transformed, precision = _transformed(path, order, spectrum), priors.precision(path.count, now)[order]
-    knee = find_knee(transformed, precision, found.model.level)
+    precision = priors.precision(path.count, now)[order]
+    knee = find_knee(_transformed(path, order, spectrum), precision, found.model.level)
     return found if knee == 0 else _linear(path, priors, replace(spectrum, knee=knee))
 
 
 def _transformed(path: Path, order: list[int], spectrum: Spectrum) -> Transformed:
-    return spectrum.transformed(np.where(path.counted, path.residual, 0.0), path.columns[order])
+    return spectrum.transformed(path.columns[[0, *(1 + place for place in order)]])
 
 
 def _linear(path: Path, priors: Priors, spectrum: Spectrum | None) -> Estimated:
@@ -294,10 +291,8 @@ def _linear(path: Path, priors: Priors, spectrum: Spectrum | None) -> Estimated:
     order = [*names, *range(FIXED, path.values.size)]
     count = float(path.counted.sum())
     if spectrum is None or (spectrum.knee == 0 and spectrum.cutoff_hz is None):
-        products, gradient = path.products
-        products, gradient = products[np.ix_(order, order)], gradient[order]
-        square = path.power * count
-        both = np.vstack((np.append(square, gradient), np.column_stack((gradient, products))))
+        kept = [0, *(1 + place for place in order)]
+        both = path.products[np.ix_(kept, kept)]
     else:
         transformed = _transformed(path, order, spectrum)
         both, count = transformed.rows @ transformed.rows.T, count * transformed.share
@@ -306,4 +301,4 @@ def _linear(path: Path, priors: Priors, spectrum: Spectrum | None) -> Estimated:
     turn[1 + len(names) :, 0] = path.deviations
     precision = priors.precision(path.count, 1.0)[list(names)]
     model = LinearModel.of(turn.T @ both @ turn, precision, -path.values[list(names)], count, _least(path))
-    return Estimated(path, model, names, model.solved(), spectrum)
+    return Estimated(path, model, names, model.solved())

@@ -215,23 +215,21 @@ def follow(
 
 
 @kernel
-def arc_products(local: Array, residual: Array, arc: NDArray[np.int64], count: int) -> tuple[Array, Array]:
-    """Sums over each arc of products of columns (count, l, l), and with residuals (count, l); NaN is passed over."""
+def arc_products(local: Array, arc: NDArray[np.int64], count: int) -> Array:
+    """Sums over each arc of products of columns, shape (count, l, l); samples of no arc are passed over."""
     size = local.shape[1]
-    products, gradients = np.zeros((count, size, size)), np.zeros((count, size))
-    for i in range(residual.size):
+    products = np.zeros((count, size, size))
+    for i in range(arc.size):
         n = arc[i]
-        if n < 0 or np.isnan(residual[i]):
-            continue
-        for j in range(size):
-            gradients[n, j] += local[i, j] * residual[i]
-            for k in range(j + 1):
-                products[n, j, k] += local[i, j] * local[i, k]
+        if n >= 0:
+            for j in range(size):
+                for k in range(j + 1):
+                    products[n, j, k] += local[i, j] * local[i, k]
     for n in range(count):
         for j in range(size):
             for k in range(j):
                 products[n, k, j] = products[n, j, k]
-    return products, gradients
+    return products
 
 
 @kernel

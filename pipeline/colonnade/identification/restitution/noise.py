@@ -140,11 +140,12 @@ class Spectrum:
     interval: float
     step: float
 
-    def transformed(self, values: Array, columns: Array) -> Transformed:
-        """Turn values that were filtered, shape (n,), and columns that were not, (k, n), into rows with white noise."""
-        size = int(scipy.fft.next_fast_len(2 * values.size, real=True))
-        padded = np.zeros((1 + columns.shape[0], size))
-        padded[0, : values.size], padded[1:, : values.size] = values, columns
+    def transformed(self, columns: Array) -> Transformed:
+        """Turn columns (1 + k, n), the first of values that were filtered, others not, into rows with white noise."""
+        count = columns.shape[1]
+        size = int(scipy.fft.next_fast_len(2 * count, real=True))
+        padded = np.zeros((columns.shape[0], size))
+        padded[:, :count] = columns
         frequency = scipy.fft.rfftfreq(size, self.interval)
         left = passed(frequency, self.cutoff_hz, self.step)
         kept = left**2 > PASSED
@@ -153,7 +154,7 @@ class Spectrum:
         if size % 2 == 0:
             weight[-1] /= 2
         share = float(weight[kept].sum())
-        frequency = np.maximum(frequency, 0.5 / (values.size * self.interval))[kept]
+        frequency = np.maximum(frequency, 0.5 / (count * self.interval))[kept]
         rows = scipy.fft.rfft(padded, overwrite_x=True)[:, kept] * np.sqrt(weight[kept] / (1 + self.knee / frequency))
         # Only the record was filtered: what is taken off it again is white noise, and the sharp columns.
         rows[0] /= left[kept]

@@ -163,31 +163,30 @@ class Path:
 
     @cached_property
     def _by_arc(self) -> tuple[Array, Array]:
-        """Local columns, shape (n, 7), and their derivatives by all unknowns for each arc, shape (m, 7, k)."""
-        followed, gain = self.followed, exp(self.values[GAIN])
-        local = np.empty((followed.angle.size, LOCAL + 3))
-        local[:, :LOCAL], local[:, LOCAL] = gain * followed.local, 1.0
-        local[:, LOCAL + 1], local[:, LOCAL + 2] = self.samples.along, gain * followed.angle
-        arcs, count = np.zeros((self.count, LOCAL + 3, self.values.size)), self.count
-        signs = np.where((self.side + np.arange(count)) % 2, 1.0, -1.0)
-        arcs[:, :2, :BY_IMPACT] = followed.starts[:, :, :BY_IMPACT]
-        arcs[:, :2, FIXED:] = followed.starts[:, :, BY_IMPACT:]
-        arcs[:, :2, MEAN] = followed.starts[:, :, BY_IMPACT:].sum(axis=2)
-        arcs[:, 2, CRITICAL], arcs[:, 2, TILT], arcs[:, 3, P] = 1.0, signs, 1.0
-        arcs[:, LOCAL, ZERO] = arcs[:, LOCAL + 1, DRIFT] = arcs[:, LOCAL + 2, GAIN] = 1.0
+        """Local columns and the residual, (n, 8); residual and derivatives by all unknowns by these, (m, 8, 1 + k)."""
+        followed, gain, samples = self.followed, exp(self.values[GAIN]), self.samples
+        ones = np.ones(followed.angle.size)
+        local = np.column_stack((gain * followed.local, ones, samples.along, gain * followed.angle, self.residual))
+        arcs = np.zeros((self.count, LOCAL + 4, 1 + self.values.size))
+        by = arcs[:, :, 1:]
+        by[:, :2, :BY_IMPACT], by[:, :2, FIXED:] = followed.starts[:, :, :BY_IMPACT], followed.starts[:, :, BY_IMPACT:]
+        by[:, :2, MEAN] = followed.starts[:, :, BY_IMPACT:].sum(axis=2)
+        by[:, 2, CRITICAL] = by[:, 3, P] = by[:, LOCAL, ZERO] = by[:, LOCAL + 1, DRIFT] = by[:, LOCAL + 2, GAIN] = 1.0
+        by[:, 2, TILT] = np.where((self.side + np.arange(self.count)) % 2, 1.0, -1.0)
+        arcs[:, LOCAL + 3, 0] = 1.0
         return local, arcs
 
     @cached_property
-    def products(self) -> tuple[Array, Array]:
-        """Products of the angle's derivatives with each other, (k, k), and with the residual, (k,)."""
+    def products(self) -> Array:
+        """Products of the residual and the angle's derivatives with each other, shape (1 + k, 1 + k)."""
         local, arcs = self._by_arc
-        products, gradients = arc_products(local, self.residual, self.followed.arc, self.count)
-        flat = arcs.reshape(-1, self.values.size)
-        return flat.T @ (products @ arcs).reshape(flat.shape), flat.T @ gradients.ravel()
+        products = arc_products(local, np.where(self.counted, self.followed.arc, -1), self.count)
+        flat = arcs.reshape(-1, arcs.shape[2])
+        return flat.T @ (products @ arcs).reshape(flat.shape)
 
-    @cached_property
+    @property
     def columns(self) -> Array:
-        """Derivatives of the angle by all unknowns, shape (k, n); 0 where not counted."""
+        """Residual and derivatives of the angle by all unknowns, shape (1 + k, n); 0 where not counted."""
         local, arcs = self._by_arc
         return spread_columns(local, np.where(self.counted, self.followed.arc, -1), arcs)
 
@@ -269,9 +268,8 @@ def _objective(path: Path, precision: Array, power: float) -> float:
 
 
 def _step(path: Path, moved: Mask, precision: Array, power: float) -> tuple[Array, float]:
-    products, gradient = path.products
-    matrix = products[np.ix_(moved, moved)] / power + precision[np.ix_(moved, moved)]
-    right = (gradient / power - precision @ path.values)[moved]
+    matrix = (path.products[1:, 1:] / power + precision)[np.ix_(moved, moved)]
+    right = (path.products[1:, 0] / power - precision @ path.values)[moved]
     scale = np.sqrt(np.diag(matrix))
     if not (np.isfinite(scale).all() and (scale > 0).all()):
         raise UnfollowedError("an unknown has no effect")
@@ -295,10 +293,9 @@ def laid_forward(path: Path, priors: Priors, lowest: float) -> Path:
 
 def _foreseen(path: Path, priors: Priors, scatter: float, lowest: float) -> int:
     """How many arcs the record has, and the fit foresees."""
-    moved = priors.moved(path.count)
     # Residuals of filtered noise are correlated over a few samples: twice the error that white noise would give.
-    matrix = path.products[0] / (4 * path.power) + np.diag(priors.precision(path.count, scatter))
-    kept = np.flatnonzero(moved)
+    matrix = path.products[1:, 1:] / (4 * path.power) + np.diag(priors.precision(path.count, scatter))
+    kept = np.flatnonzero(priors.moved(path.count))
     scale = np.sqrt(np.diag(matrix)[kept])
     further = path.with_arcs(max(int(FARTHER * path.count), path.count + 4))
     covariance = np.zeros((further.values.size, further.values.size))
@@ -306,10 +303,7 @@ def _foreseen(path: Path, priors: Priors, scatter: float, lowest: float) -> int:
     covariance[np.ix_(kept, kept)] = inverse
     new = np.arange(path.values.size, further.values.size)
     covariance[new, new] = scatter**2
-    followed = further.followed
-    starts = np.zeros((further.count, further.values.size))
-    starts[:, :BY_IMPACT], starts[:, FIXED:] = followed.starts[:, 0, :BY_IMPACT], followed.starts[:, 0, BY_IMPACT:]
-    starts[:, MEAN] = starts[:, FIXED:].sum(axis=1)
+    followed, starts = further.followed, further._by_arc[1][:, 0, 1:]
     with np.errstate(invalid="ignore", divide="ignore"):
         speeds = np.append(np.inf, followed.speeds[:-1] * further.restitution)
         error = np.sqrt(np.maximum(((starts @ covariance) * starts).sum(axis=1), 0.0)) / speeds
