@@ -184,7 +184,7 @@ def _lifted(time: Array, uplift: Array, block: Block, seen: Seen) -> Departure |
 
 
 def _paused(time: Array, angle: Array, seen: Seen) -> Departure | None:
-    noise = noise_level(angle)
+    noise, step = noise_level(angle), float(np.median(np.diff(time)))
     pauses, errors, limits = [], [], []
     middle, duration = (seen.start + seen.end) / 2, seen.end - seen.start
     for index in (np.flatnonzero(np.diff(seen.number) == 1) + 1).tolist():
@@ -192,7 +192,6 @@ def _paused(time: Array, angle: Array, seen: Seen) -> Departure | None:
         inside = slice(*np.searchsorted(time, (middle[index - 1], middle[index])))
         if low < NOISE_MARGIN * noise or inside.stop - inside.start < 8:
             continue
-        step = float(np.median(np.diff(time[inside])))
         near = float((np.abs(angle[inside]) < low).sum()) * step
         pauses.append(near - sum(_passing(seen, one, low) for one in (index - 1, index)))
         errors.append(float(np.hypot(step, 2 * noise / seen.speed[index])))
