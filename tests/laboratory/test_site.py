@@ -106,6 +106,6 @@ def test_its_records_and_its_hazard_can_be_read(campaign):
     assert len(records.records) == 24
     assert not records.left_out
     assert all(each.magnitude and each.distance for each in records.records)
-    hazard = read_hazard(asked.hazard, measure="pgv", unit="m/s")
+    hazard = read_hazard(asked.hazard, "pgv")
     assert hazard.rate == pytest.approx([site.annual_rate(each) for each in LEVELS], rel=1e-3)
     assert (np.diff(hazard.slopes) >= -0.1).all()

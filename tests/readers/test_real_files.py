@@ -136,21 +136,3 @@ def test_a_k_net_record_has_the_peak_that_its_header_gives(shared_data):
 )
 def test_a_cosmos_record_is_a_base_motion_with_its_headers_peak(shared_data, name, peak):
     assert read_motion(shared_data / "strongmotion" / name).peak == pytest.approx(peak, rel=1e-5)
-
-
-def test_the_damaged_copy_of_el_centro_differs_where_it_is_known_to(shared_data):
-    copy = read(shared_data / "motion" / "elcentro_damaged_copy.txt")
-    whole = read(shared_data / "motion" / "elcentro_chopra_xy.dat").channel("Y").values
-    difference = np.abs(copy.channel(2).values[1:] - whole[:-1])  # one sample late
-    wrong = np.flatnonzero(difference > 1e-9)
-    assert wrong.size == 48
-    assert copy.channel(1).values[wrong[[0, -1]] + 1].tolist() == [24.5, 25.44]
-    assert difference.max() == pytest.approx(0.14, abs=0.005)
-
-
-def test_the_other_digitisation_of_el_centro_has_the_opposite_sign(shared_data):
-    other = read(shared_data / "motion" / "elcentro_s00e_reversed.dat").channel(2).values[:1400]
-    known = read(shared_data / "motion" / "elcentro_chopra_xy.dat").channel("Y").values[:1400]
-    shifted = [np.corrcoef(np.roll(other, -shift), known)[0, 1] for shift in range(-10, 11)]
-    assert min(shifted) < -0.5
-    assert max(shifted) < 0.5

@@ -197,12 +197,12 @@ def _made(
     """Make an assessment; finished blocks of its histories are known again by the code, and kept in `blocks`."""
     import joblib
 
-    from colonnade.readers.ground_motions.hazard import read_hazard_of
+    from colonnade.readers.ground_motions.hazard import read_hazard
     from colonnade.readers.ground_motions.record_set import read_record_set
     from colonnade.stages.assessment import assessment
     from colonnade.stages.assessment_plan import plan_assessment
 
-    hazard = None if asked.hazard is None else read_hazard_of(asked.hazard, asked.measure)
+    hazard = None if asked.hazard is None else read_hazard(asked.hazard, asked.measure)
     plan = plan_assessment(specimen, read_record_set(asked.records), hazard, inputs)
     key = joblib.hash((code, [study.cases for study in plan.studies.values()]))
     outcomes = {

@@ -185,7 +185,7 @@ def _checked(campaign: Campaign, test: Test, reading: Callable[[Path, str, str],
 def _records_checked(campaign: Campaign, asked: Assessment) -> Checked:
     """Read the ground motions and the hazard of an assessment; no history is run."""
     from colonnade.assessment.outcomes import FEWEST
-    from colonnade.readers.ground_motions.hazard import read_hazard_of
+    from colonnade.readers.ground_motions.hazard import read_hazard
     from colonnade.readers.ground_motions.record_set import read_record_set
 
     checked = Checked()
@@ -210,7 +210,7 @@ def _records_checked(campaign: Campaign, asked: Assessment) -> Checked:
             checked.findings += at_stage([_on_contact(asked.specimen, runs)], "assessment")
     if asked.hazard is not None:
         try:
-            read_hazard_of(asked.hazard, asked.measure)
+            read_hazard(asked.hazard, asked.measure)
         except ReadError as error:
             checked.problems.append(str(error))
     return checked

@@ -10,23 +10,23 @@ from colonnade.readers.ground_motions.hazard import read_hazard
 from every import every
 
 
-def read(tmp_path, text, measure="pgv", unit="m/s"):
+def read(tmp_path, text, measure="pgv"):
     path = tmp_path / "hazard.csv"
     path.write_text(text)
-    return read_hazard(path, measure=measure, unit=unit)
+    return read_hazard(path, measure)
 
 
 @every(
-    ("text", "measure", "unit", "factor"),
+    ("text", "measure", "factor"),
     [
-        ("pgv [cm/s],rate [1/year]\n1,0.1\n2,0.01\n", "pgv", "m/s", 0.01),
-        ("PGV [m/s];Annual rate\n1;0,1\n2;0,01\n", "pgv", "m/s", 1.0),
-        ("Sa(0.50 s) [g],rate\n1,0.1\n2,0.01\n", "sa(0.50 s)", "m/s^2", 9.80665),
-        ("# site 1\npga_ratio,rate [1/yr]\n\n1,0.1\n2,0.01\n", "pga_ratio", "1", 1.0),
+        ("pgv [cm/s],rate [1/year]\n1,0.1\n2,0.01\n", "pgv", 0.01),
+        ("PGV [m/s];Annual rate\n1;0,1\n2;0,01\n", "pgv", 1.0),
+        ("Sa(0.5 s) [g],rate\n1,0.1\n2,0.01\n", "sa(0.5 s)", 9.80665),
+        ("# site 1\npga_ratio,rate [1/yr]\n\n1,0.1\n2,0.01\n", "pga_ratio", 1.0),
     ],
 )
-def test_intensity_comes_in_si(tmp_path, text, measure, unit, factor):
-    hazard = read(tmp_path, text, measure, unit)
+def test_intensity_comes_in_si(tmp_path, text, measure, factor):
+    hazard = read(tmp_path, text, measure)
     np.testing.assert_allclose(hazard.intensity, [factor, 2 * factor])
     np.testing.assert_allclose(hazard.rate, [0.1, 0.01])
 

@@ -66,7 +66,7 @@ def read(path: Path, options: Options) -> Recording:
     """
     try:
         with path.open("rb") as stream:
-            version, place = _taken(stream, "hi")
+            _, place = _taken(stream, "hi")  # the first is the version
             headers = _headers(stream)
     except (struct.error, ValueError):
         raise ReadError(
@@ -91,9 +91,7 @@ def read(path: Path, options: Options) -> Recording:
         channels.append(RecordedChannel(header.name, header.unit or None, values))
         if header.step:
             otherwise[number] = even_times(values.size, header.step)
-    sizes = ", ".join(sorted({header.precision[-1] for header in numeric}))
-    notes = [f"catman version {version}, values of {sizes} bytes"]
-    notes += [f'no numbers in "{header.name}": left out' for header in headers if not header.is_numeric]
+    notes = [f'no numbers in "{header.name}": left out' for header in headers if not header.is_numeric]
     start = moment_after(DAY_ZERO, 86400 * numeric[0].date) if numeric and numeric[0].date > 1 else None
     recording = Recording(path, "catman", tuple(channels), start, tuple(notes), tuple(warnings))
     return with_clocks(recording, otherwise=otherwise)

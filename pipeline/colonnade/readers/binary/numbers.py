@@ -180,22 +180,16 @@ def recorded(
     Make a recording of columns of any numbers, on the clocks that they have or that are found.
 
     A column without a name has the last part of its heading, or all of it if another column has that part. Infinite
-    values are missing, with a warning.
+    values are missing.
     """
     last = [column.name or column.heading.rpartition(".")[2] for column in columns]
     counts = Counter(last)
-    channels, warnings = [], []
+    channels = []
     for column, short in zip(columns, last, strict=True):
         values = np.ascontiguousarray(column.values, dtype=np.float64)
-        with np.errstate(all="ignore"):
-            is_finite = np.isfinite(values.sum())  # one pass without a copy: the usual case
-        infinite = np.isinf(values) if not is_finite else np.zeros(0, dtype=bool)
-        if count := int(infinite.sum()):
-            values = np.where(infinite, np.nan, values)
-            what = "1 value is" if count == 1 else f"{count} values are"
-            first = int(np.argmax(infinite)) + 1
-            warnings.append(f"{column.heading}: {what} infinite, the first at sample {first}: taken as missing")
+        if np.isinf(values).any():
+            values = np.where(np.isinf(values), np.nan, values)
         channels.append(replace(column, name=short if counts[short] == 1 else column.heading, values=values))
-    recording = Recording(path, format, tuple(channels), warnings=tuple(warnings))
+    recording = Recording(path, format, tuple(channels))
     given = options or ClockOptions()
     return with_clocks(recording, given.time, given.time_unit, scalars, otherwise)

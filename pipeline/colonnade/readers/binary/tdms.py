@@ -15,7 +15,7 @@ import numpy as np
 from pydantic import Field
 
 from colonnade.arrays import Array
-from colonnade.errors import ReadError, nearest
+from colonnade.errors import ReadError, count, nearest
 from colonnade.readers.binary.numbers import ClockOptions, recorded
 from colonnade.readers.format import Format
 from colonnade.readers.head import by_mark
@@ -91,16 +91,9 @@ def _recording(path: Path, options: TdmsOptions, file: TdmsFile, window: Window 
         columns.append(column)
     # LabVIEW's default step yields to a channel of times, and is all that is known where there is none.
     recording = recorded(path, "tdms", columns, options, otherwise=unsure)
-    clocks = [channel.time for channel in recording.channels if channel.is_clock]
-    for channel in (recording.channels[number] for number in unsure):
-        if not channel.is_clock and any(channel.time is clock for clock in clocks):
-            warnings.append(
-                f'"{channel.heading}" uses the channel of times: the step of exactly 1 s in its properties is '
-                "LabVIEW's default"
-            )
-    for step, count in Counter(own.step for own in waveforms if own is not None).items():
-        what = "1 channel" if count == 1 else f"{count} channels"
-        notes.append(f"clock of {what}: a step of {step:.9g} s ({1 / step:.9g} Hz), by wf_increment")
+    for step, number in Counter(own.step for own in waveforms if own is not None).items():
+        why = "LabVIEW's default, which yields to a channel of times" if step == NO_TIMING else f"{1 / step:.9g} Hz"
+        notes.append(f"clock of {count(number, 'channel')}: a step of {step:.9g} s ({why}), by wf_increment")
     return replace(recording, notes=(*recording.notes, *notes), warnings=(*warnings, *recording.warnings))
 
 

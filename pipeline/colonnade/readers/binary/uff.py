@@ -84,8 +84,6 @@ def read(path: Path, options: Options) -> Recording:
             f"{path.name}: a universal file without functions: it holds data sets {held}, but no data set 58, the one "
             'with recorded histories. Export the time histories ("functions at nodal DOF", data set 58).'
         )
-    if len({channel.name for channel in channels}) < len(channels):
-        notes.append("several functions have the same name: refer to them by number")
     if any(channel.time is not None for channel in channels):
         notes.append("clock: each function's own abscissa")
     return Recording(path, "uff", tuple(channels), notes=tuple(notes), warnings=tuple(warnings))

@@ -55,17 +55,10 @@ class Bounds:
 
 def bounds_of(*paths: Path) -> Bounds:
     """Bounds for a raw file that is in one or several files, by their size; a missing one counts as empty."""
-    size = sum(_size(path) for path in paths)
+    size = sum(path.stat().st_size for path in paths if path.is_file())
     memory = min(MEMORY + MEMORY_RATIO * size, max(MEMORY, int(MEMORY_SHARE * _machine())))
     processor = SECONDS + size // BYTES_PER_SECOND
     return Bounds(memory, processor, PATIENCE * processor)
-
-
-def _size(path: Path) -> int:
-    try:
-        return path.stat().st_size
-    except OSError:
-        return 0
 
 
 def _machine() -> int:

@@ -17,7 +17,7 @@ RATES = ("rate", "annual rate", "annual rate of exceedance")
 PER_YEAR = ("1/year", "1/yr", "1/a", "per year", "/year")
 
 
-def read_hazard(path: Path, *, measure: str, unit: str) -> Hazard:
+def read_hazard(path: Path, measure: str) -> Hazard:
     """
     Read a hazard curve.
 
@@ -27,8 +27,6 @@ def read_hazard(path: Path, *, measure: str, unit: str) -> Hazard:
         CSV with two columns: the measure with its unit, and the annual rate; `pgv [m/s], rate [1/year]`.
     measure : str
         Id of the measure that it has to be of, such as "sa(0.5 s)".
-    unit : str
-        One in which the measure is given; "1" if it has none.
 
     Raises
     ------
@@ -37,7 +35,8 @@ def read_hazard(path: Path, *, measure: str, unit: str) -> Hazard:
         do.
     """
     table = read_table(path, "a hazard curve")
-    factor = _factor(table, measure, unit)
+    known = measure_of(measure)
+    factor = _factor(table, known.id, known.unit or "1")
     if table.faults:
         line, fault = table.faults[0]
         raise ReadError(f"{table.name}, line {line}: {fault}")
@@ -57,12 +56,6 @@ def read_hazard(path: Path, *, measure: str, unit: str) -> Hazard:
         return hazard_curve(values[:, 0] * factor, values[:, 1])
     except ValueError as error:
         raise ReadError(f"{table.name}: {error}") from None
-
-
-def read_hazard_of(path: Path, measure: str) -> Hazard:
-    """Read a hazard curve of a measure by its id, in the unit of the registry; errors as of `read_hazard`."""
-    found = measure_of(measure)
-    return read_hazard(path, measure=found.id, unit=found.unit or "1")
 
 
 def _factor(table: SmallTable, measure: str, unit: str) -> float:

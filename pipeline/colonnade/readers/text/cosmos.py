@@ -57,22 +57,18 @@ def read(path: Path, options: Options) -> Recording:
     lines = Text.of(path).lines()
     starts = [number for number, line in enumerate(lines) if FIRST_LINE.search(line)]
     channels: list[RecordedChannel] = []
-    notes: list[str] = []
     warnings: list[str] = []
     for number, (first, end) in enumerate(pairwise([*starts, len(lines)]), 1):
-        channel, component, note = _channel(path, lines, first, end, warnings)
+        channel, component = _channel(path, lines, first, end, warnings)
         if channel.name in [other.name for other in channels]:
             channel = replace(channel, name=(name := f"{channel.name} {component or number}"), heading=name)
         channels.append(channel)
-        notes.append(f'"{channel.name}": {note}')
     timed, start = on_one_zero(channels)  # a damaged header may lack its zone
-    return Recording(path, "cosmos", timed, start, tuple(notes), tuple(warnings))
+    return Recording(path, "cosmos", timed, start, warnings=tuple(warnings))
 
 
-def _channel(
-    path: Path, lines: list[str], first: int, end: int, warnings: list[str]
-) -> tuple[RecordedChannel, str, str]:
-    """Read the channel between two lines, with its component and a note."""
+def _channel(path: Path, lines: list[str], first: int, end: int, warnings: list[str]) -> tuple[RecordedChannel, str]:
+    """Read the channel between two lines, and name its component."""
     if RAW_COUNTS.match(lines[first]):
         raise ReadError(
             f"{path.name}: this is a COSMOS record of volume 0 (V0): raw counts of the recorder, not "
@@ -111,8 +107,7 @@ def _channel(
     above = lines[first:at]
     component = next((" ".join(found["name"].split()) for text in above if (found := COMPONENT.match(text))), "")
     times, unit, start = even_times(values.size, step), spelled(data["unit"]), _start(above)
-    channel = RecordedChannel(data["quantity"].casefold(), unit, values, times, start=start)
-    return channel, component, f"{points} points, step {step:g} s, {component} (line {at + 1})"
+    return RecordedChannel(data["quantity"].casefold(), unit, values, times, start=start), component
 
 
 def _start(texts: list[str]) -> datetime | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Iterator
 from itertools import islice
 from typing import NamedTuple
@@ -90,9 +90,6 @@ def read_heading(
         notes.append(f"units on line {where[1] + 1}")
     elif united := next((head for head, unit in zip(headings, units, strict=True) if unit), ""):
         notes.append(f'units in the names (as in "{united}")')
-    repeated = sorted(name for name, count in Counter(headings).items() if count > 1)
-    if repeated:
-        warnings.append(f'several columns are called "{repeated[0]}": give the number of the right one')
     # A title above a table fills a cell only; words between single blanks may be a sentence.
     is_named = 2 * sum(bool(name or unit) for name, unit in zip(names_row, units, strict=True)) > width
     if is_named and where[0] is not None and where[1] is None and not is_given and dialect.delimiter == WHITESPACE:

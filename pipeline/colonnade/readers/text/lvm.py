@@ -54,16 +54,15 @@ class Preamble(NamedTuple):
 
 
 class Segment(NamedTuple):
-    """One header, what it says for each column of the table below it, the columns' names and their line."""
+    """One header, what it says for each column of the table below it, and the columns with their names."""
 
     entries: dict[str, list[str]]
     names: list[str]
-    line: int
     columns: list[Array]
 
     def entry(self, key: str, column: int) -> str:
         """What the header says of a column; empty if it says nothing."""
-        return dict(enumerate(self.entries.get(key, ()))).get(column, "")
+        return "".join(self.entries.get(key, [])[column : column + 1])
 
 
 def read_preamble(path: Path, lines: list[str]) -> Preamble:
@@ -120,7 +119,7 @@ def read_segments(path: Path, lines: list[str], preamble: Preamble) -> tuple[lis
             kinds = ("empty" if preamble.clocks == "no" else "number", *["number"] * (len(names) - 1))
             form = RowForm(preamble.dialect, kinds, remark=True, by_instrument=True, ragged=True)
             mended = mend(read_rows(path, pieces_of(lines, at + 1, stop), form), names)
-            segments.append(Segment(entries, names, at + 1, mended.columns))
+            segments.append(Segment(entries, names, mended.columns))
             lengths = zip(names, entries.get("Samples", ()), map(filled_length, mended.columns), strict=False)
             lacking = ((name, said, size) for name, said, size in lengths if said.isdecimal() and int(said) > size)
             warnings += mended.warnings
@@ -173,9 +172,7 @@ def read(path: Path, options: TextOptions) -> Recording:
     first, origin = next(timed, (np.empty(0), None))
     start = moment_after(origin, float(first[0])) if first.size else None
     channels = tuple(_joined(same, origin, preamble) for same in pieces.values())
-    decimal = "comma" if preamble.dialect.decimal == "," else "point"
-    notes = [f"encoding {text.encoding.name}", f"decimal {decimal}, as the header says"]
-    notes.append(CLOCKS.get(preamble.clocks, "clock: X_Value"))
+    notes = [f"encoding {text.encoding.name}", CLOCKS.get(preamble.clocks, "clock: X_Value")]
     if len(segments) > 1:
         notes.append(f"{len(segments)} segments, joined by their dates and times")
     return Recording(path, "lvm", channels, start, tuple(notes), tuple(dict.fromkeys(warnings)))

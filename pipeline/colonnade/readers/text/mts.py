@@ -43,11 +43,6 @@ class Block(NamedTuple):
     columns: list[Array]
     origin: datetime | None
 
-    @property
-    def size(self) -> int:
-        """Number of its rows."""
-        return self.columns[0].size
-
 
 recognise = by_first_line(
     re.compile(r'^"*MTS793\|'),
@@ -72,7 +67,7 @@ def read(path: Path, options: TextOptions) -> Recording:
     text = Text.of(path, options.encoding)
     lines = text.lines()
     dialect, dates = _declared(path, lines[0])
-    blocks = [block for block in _blocks(path, lines, dialect, dates, warnings) if block.size]
+    blocks = [block for block in _blocks(path, lines, dialect, dates, warnings) if block.columns[0].size]
     if not blocks:
         raise ReadError(
             f"{path.name}: no block of numbers was found: a line of names, one of units, then rows of numbers were "
@@ -82,7 +77,7 @@ def read(path: Path, options: TextOptions) -> Recording:
     for block in blocks:
         alike.setdefault((block.names, block.units), []).append(block)
     series = list(alike.values())
-    lengths = [sum(block.size for block in same) for same in series]
+    lengths = [sum(block.columns[0].size for block in same) for same in series]
     longest = lengths.index(max(lengths))
     channels = _channels(series[longest], "")
     clock = next((channel.time for channel in channels if channel.time is not None), None)
@@ -95,7 +90,7 @@ def read(path: Path, options: TextOptions) -> Recording:
             f'{max(lengths)} rows, is used; columns of the others are called "block '
             f'{2 if longest == 0 else 1}: …"'
         )
-    notes = [f"encoding {text.encoding.name}", "delimiter and decimal sign as the first line declares them"]
+    notes = [f"encoding {text.encoding.name}"]
     for number, (same, size) in enumerate(zip(series, lengths, strict=True), 1):
         pieces = f", in {len(same)} pieces of the same columns" if len(same) > 1 else ""
         notes.append(f"block {number}: {size} rows below line {same[0].line + 1}{pieces}")

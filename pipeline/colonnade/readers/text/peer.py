@@ -81,8 +81,7 @@ def read(path: Path, options: Options) -> Recording:
         warnings.append(f"the header gives {points} points, but the file has {values.size}: all of them are read")
     quantity = next((name for word, name in QUANTITIES if word in " ".join(above).upper()), "values")
     unit = next((spelled(found[1]) for each in above if (found := UNITS.search(each))), None)
-    title = " ".join(above[min(1, line - 1)].split())[:80]
-    notes = (f"{points} points, step {step:g} s (line {line})", f'{quantity} in {unit or "an unknown unit"}: "{title}"')
+    notes = (f"{points} points, step {step:g} s (line {line})",)
     channel = RecordedChannel(quantity, unit, values, even_times(values.size, step))
     return Recording(path, "peer", (channel,), notes=notes, warnings=tuple(warnings))
 
