@@ -92,7 +92,7 @@ def test_an_object_and_a_text_are_of_their_kind():
         (np.ma.masked, "masked"),
         (b"ab", "the text b'ab'"),
         ("a" * 99, "the text '" + "a" * 40 + "'"),
-        (np.datetime64("2024-01-01"), "the date or time difference 2024-01-01"),
+        (np.datetime64("2024-01-01"), "2024-01-01"),
         ([[1], [1, 2]], "a ragged list"),
         (10**50, "a int"),
         (None, "None"),

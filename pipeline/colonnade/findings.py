@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 from enum import StrEnum
 from typing import Any
 
@@ -152,8 +152,6 @@ def from_text(text: str) -> list[Finding]:
     >>> from_text('["cut off"]')[0].severity
     <Severity.WARNING: 'warning'>
     """
-    if text == "[]":
-        return []
     try:
         records = json.loads(text or "[]")
     except json.JSONDecodeError:
@@ -164,12 +162,7 @@ def from_text(text: str) -> list[Finding]:
 def _read(record: Any) -> Finding:
     if not isinstance(record, Mapping) or "text" not in record:
         return Finding(record if isinstance(record, str) else json.dumps(record, ensure_ascii=False))
-    known = {str(severity): severity for severity in Severity}
-    return Finding(
-        str(record["text"]),
-        str(record.get("kind", "other")),
-        known.get(str(record.get("severity")), Severity.WARNING),
-        tuple(str(kind) for kind in record.get("follows", ())),
-        str(record.get("stage", "")),
-        str(record.get("about", "")),
-    )
+    given = {field.name: record[field.name] for field in fields(Finding) if field.name in record}
+    severity = record.get("severity")
+    given["severity"] = Severity(severity) if severity in list(Severity) else Severity.WARNING
+    return Finding(**given | {"follows": tuple(record.get("follows", ()))})

@@ -200,16 +200,12 @@ def described(value: Any) -> str:
     Examples
     --------
     >>> described(-1.5), described("x"), described([1.0, 2.0]), described(1j)
-    ('-1.5', "the text 'x'", 'an array of shape (2,)', 'the complex number 1j')
+    ('-1.5', "the text 'x'", 'an array of shape (2,)', '1j')
     """
     if value is np.ma.masked:
         return "masked"
     if isinstance(value, (str, bytes)):
         return f"the text {value[:LONGEST_SHOWN]!r}"
-    if isinstance(value, (complex, np.complexfloating)):
-        return f"the complex number {value}"
-    if isinstance(value, (np.datetime64, np.timedelta64)):
-        return f"the date or time difference {value}"
     if isinstance(value, (np.ndarray, list, tuple)):
         try:
             return f"an array of shape {np.shape(value)}"
