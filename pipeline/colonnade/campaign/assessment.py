@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field
 
 from colonnade import units
 from colonnade.assessment.ground import LARGEST_DRIFT, NONE, correction_of
@@ -13,7 +13,7 @@ from colonnade.campaign.settings import setting
 from colonnade.campaign.syntax import fields
 from colonnade.campaign.syntax.fields import shown
 from colonnade.campaign.syntax.names import Identifier
-from colonnade.campaign.syntax.table import Table, problem, refuse
+from colonnade.campaign.syntax.table import Problems, Table
 from colonnade.campaign.test import MotionPath
 from colonnade.dynamics.models import PLANE_MODELS
 
@@ -57,19 +57,15 @@ class Prototype(Table):
     friction_range: fields.Limits[Friction] | None = None
     """Limits of the coefficient; without them it counts as known."""
 
-    @model_validator(mode="after")
-    def _ranges_hold_values(self) -> Self:
-        problems = []
+    def contradictions(self) -> Problems:
+        """Say which limits do not hold their value, or have none."""
         for name in ("restitution", "critical_angle", "p", "friction"):
             value, limits = getattr(self, name), getattr(self, f"{name}_range")
             if isinstance(value, float) and limits is not None and not limits[0] <= value <= limits[1]:
                 message = f"The limits {limits[0]:g} and {limits[1]:g} (SI) do not hold {name} = {value:g}."
-                problems.append(problem(message, f"{name}_range", value=limits))
+                yield (f"{name}_range",), message
         if self.friction is None and self.friction_range is not None:
-            problems.append(problem("It is missing, though its limits are given.", "friction"))
-        if problems:
-            raise refuse("prototype", problems)
-        return self
+            yield ("friction",), "It is missing, though its limits are given."
 
 
 class Assessment(Table):
@@ -106,13 +102,12 @@ class Assessment(Table):
     seed: fields.Whole = setting(0, ge=0, le=2**31 - 1)
     """Of all that is drawn."""
 
-    @model_validator(mode="after")
-    def _levels_are_of_the_measure(self) -> Self:
+    def contradictions(self) -> Problems:
+        """Say which level is none of the measure."""
         try:
             self.levels_in_si()
         except ValueError as error:
-            raise refuse("assessment", [problem(str(error), "levels", value=self.levels)]) from None
-        return self
+            yield ("levels",), str(error)
 
     def levels_in_si(self) -> tuple[float, ...] | None:
         """Give the levels in SI, rising; None if they are to be chosen."""

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import hypot
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from colonnade import units
 from colonnade.campaign.syntax import fields
 from colonnade.campaign.syntax.fields import CONVERSION, outside, shown
 from colonnade.campaign.syntax.names import Identifier
-from colonnade.campaign.syntax.table import Table, missing, problem, refuse
+from colonnade.campaign.syntax.table import Problems, Table, missing
 from colonnade.errors import UnitError
 
 MAIN = "main"
@@ -102,8 +102,8 @@ class Channel(Table):
     anchor: fields.Position | None = None
     """Fixed end of a "wire"."""
 
-    @model_validator(mode="after")
-    def _fits_together(self) -> Self:
+    def contradictions(self) -> Problems:
+        """Say what is missing or does not fit together."""
         wrong = {} if self.quantity == "other" else self._missing() | self._wrong_sight()
         low, high = CONVERSION
         for key, derived, least in (
@@ -120,9 +120,7 @@ class Channel(Table):
                 continue
             if expected := outside(value, (least, high), self.si_unit):
                 wrong[key] = f"It is {value:g} {self.si_unit}. {expected}"
-        if wrong:
-            raise refuse("Channel", [problem(message, key) for key, message in wrong.items()])
-        return self
+        yield from (((key,), message) for key, message in wrong.items())
 
     def _missing(self) -> dict[str, str]:
         needed = ["unit"]

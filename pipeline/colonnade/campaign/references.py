@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
 from colonnade.campaign.assembly import RESERVED, Whole
 from colonnade.campaign.assessment import Assessment
@@ -12,11 +12,10 @@ from colonnade.campaign.setup import Setup
 from colonnade.campaign.syntax.document import Place, unknown
 from colonnade.campaign.syntax.fields import shown
 from colonnade.campaign.syntax.names import clashes
+from colonnade.campaign.syntax.table import Problems
 
-Problem = tuple[Place, str]
 
-
-def dangling(campaign: CampaignFile) -> Iterator[Problem]:
+def dangling(campaign: CampaignFile) -> Problems:
     """Find names that refer to nothing and ids that clash: the place of each, and what is wrong."""
     for table in ("specimens", "setups", "assessments"):
         yield from _clashing((table,), getattr(campaign, table))
@@ -43,7 +42,7 @@ def dangling(campaign: CampaignFile) -> Iterator[Problem]:
     yield from _faces(campaign)
 
 
-def _assessed(campaign: CampaignFile, name: str, assessment: Assessment) -> Iterator[Problem]:
+def _assessed(campaign: CampaignFile, name: str, assessment: Assessment) -> Problems:
     """Find what an assessment of one block needs, and one of several bodies."""
     specimen, place = assessment.specimen, ("assessments", name)
     if campaign.specimens[specimen].is_in_plane:
@@ -67,13 +66,13 @@ def _assessed(campaign: CampaignFile, name: str, assessment: Assessment) -> Iter
         yield (*place, "levels"), message
 
 
-def _clashing(place: Place, names: Iterable[str], *, as_variables: bool = False) -> Iterator[Problem]:
+def _clashing(place: Place, names: Iterable[str], *, as_variables: bool = False) -> Problems:
     same = "case or in '.', '-' and '_'" if as_variables else "upper and lower case"
     for _, name, earlier in clashes(names, as_variables=as_variables):
         yield (*place, name), f'This id differs from "{earlier}" only in {same}. Choose another.'
 
 
-def _setup(place: Place, setup: Setup, campaign: CampaignFile) -> Iterator[Problem]:
+def _setup(place: Place, setup: Setup, campaign: CampaignFile) -> Problems:
     against = (*SURROUNDINGS, *campaign.bodies)
     bodies = ("specimen", *against)
     yield from _clashing((*place, "channels"), setup.channels, as_variables=True)
@@ -92,7 +91,7 @@ def _setup(place: Place, setup: Setup, campaign: CampaignFile) -> Iterator[Probl
             yield from unknown(where, "channel", linked, own, f' of recorder "{owner}"')
 
 
-def _assemblies(campaign: CampaignFile) -> Iterator[Problem]:
+def _assemblies(campaign: CampaignFile) -> Problems:
     """Find ids of assemblies and bodies that are taken, and bodies of no specimen."""
     specimens = [name for name, each in campaign.specimens.items() if not isinstance(each, Whole)]
     for name, table in campaign.assemblies.items():
@@ -109,7 +108,7 @@ def _assemblies(campaign: CampaignFile) -> Iterator[Problem]:
             yield from unknown((*where, "specimen") if table.bodies else where, "specimen", each.specimen, specimens)
 
 
-def _faces(campaign: CampaignFile) -> Iterator[Problem]:
+def _faces(campaign: CampaignFile) -> Problems:
     """Find transducers that look at the face of a specimen that is not round, without its normal."""
     found: dict[Place, str] = {}
     for test in campaign.tests:

@@ -23,7 +23,7 @@ from colonnade.campaign.channel import MAIN, SURROUNDINGS, Channel, Unit
 from colonnade.campaign.syntax import fields
 from colonnade.campaign.syntax.fields import shown
 from colonnade.campaign.syntax.names import Identifier, identifier
-from colonnade.campaign.syntax.table import Table, missing, problem, refuse
+from colonnade.campaign.syntax.table import Problems, Table, missing, problem, refuse
 from colonnade.errors import UnitError, nearest
 
 
@@ -79,12 +79,12 @@ def _file_options(value: object) -> FileOptions:
     known = formats()
     if name is not None and (not isinstance(name, str) or name not in known):
         hint = retired(name) or nearest(str(name), known)
-        raise refuse("file", [problem(f"Unknown format {shown(name)}.{hint}", "format")])
+        raise refuse([problem(f"Unknown format {shown(name)}.{hint}", "format")])
     chosen = known[name or MOST_GENERAL]
     try:
         chosen.options.model_validate(options)
     except ValidationError as error:
-        raise refuse("file", [_option_problem(each, chosen.options, chosen.name) for each in error.errors()]) from None
+        raise refuse(_option_problem(each, chosen.options, chosen.name) for each in error.errors()) from None
     return FileOptions(format=name, options=options)
 
 
@@ -156,15 +156,14 @@ class Marker(Table):
             for axis, column, direction in zip("xyz", self.columns, tracking.axes, strict=True)
         }  # fmt: skip
 
-    @model_validator(mode="after")
-    def _is_a_length(self) -> Self:
+    def contradictions(self) -> Problems:
+        """Say that it measures no length, or where on its body it is not said."""
         try:
             units.factor_to_si(self.unit, "length")
         except UnitError as error:
-            raise refuse("Marker", [problem(str(error), "unit")]) from None
+            yield ("unit",), str(error)
         if self.at is None and self.on not in SURROUNDINGS:
-            raise refuse("Marker", [problem(missing(Channel, "at"), "at")])
-        return self
+            yield ("at",), missing(Channel, "at")
 
 
 class Setup(Table):
@@ -195,12 +194,12 @@ class Setup(Table):
     @model_validator(mode="after")
     def _with_markers(self) -> Self:
         if not (self.channels or self.markers):
-            raise refuse("Setup", [problem(missing(Setup, "channels"), "channels")])
+            raise refuse([problem(missing(Setup, "channels"), "channels")])
         found: dict[str, Channel] = {}
         for name, marker in self.markers.items():
             found |= marker.channels(name, self.tracking)
         if again := sorted(found.keys() & self.channels.keys()):
-            raise refuse("Setup", [problem("A marker has a channel of this id. Choose another.", "channels", again[0])])
+            raise refuse([problem("A marker has a channel of this id. Choose another.", "channels", again[0])])
         return self.model_copy(update={"channels": self.channels | found}) if found else self
 
     def channels_of(self, specimen: str, bodies: Collection[str] = ()) -> dict[str, Channel]:

@@ -6,13 +6,13 @@ import warnings
 from collections.abc import Callable
 from functools import lru_cache
 from math import cos, tan
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from colonnade.campaign.syntax import fields
 from colonnade.campaign.syntax.fields import FREQUENCY_PARAMETER, outside
-from colonnade.campaign.syntax.table import Table
+from colonnade.campaign.syntax.table import Problems, Table
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
 from colonnade.dynamics.size import UnlikelyBlockWarning, cone_volume, prism_volume
 from colonnade.units.text import format_percent, quantity
@@ -88,17 +88,17 @@ class Specimen(Table):
         """Outer dimensions by their keys, m; none if the specimen has no dimensions."""
         return {name: float(getattr(self, name)) for name in OUTER_DIMENSIONS if hasattr(self, name)}
 
-    @model_validator(mode="after")
-    def _is_a_block(self) -> Self:
+    def contradictions(self) -> Problems:
+        """Say that no block has these numbers."""
         try:
             p = self.block(STANDARD_GRAVITY).p
         except ArithmeticError:
-            raise ValueError("These numbers are too large or too small for a block. Check the units.") from None
+            yield (), "These numbers are too large or too small for a block. Check the units."
         except ValueError as error:
-            raise ValueError(f"No block has these numbers: {error}.") from None
-        if expected := outside(p, FREQUENCY_PARAMETER, "rad/s"):
-            raise ValueError(f"These numbers give a frequency parameter of {p:.3g} rad/s. {expected} Check the units.")
-        return self
+            yield (), f"No block has these numbers: {error}."
+        else:
+            if expected := outside(p, FREQUENCY_PARAMETER, "rad/s"):
+                yield (), f"These numbers give a frequency parameter of {p:.3g} rad/s. {expected} Check the units."
 
     def dimensions(self, gravity: float) -> Block | None:
         """Block of the dimensions alone, or None if the specimen has none."""

@@ -30,7 +30,7 @@ def _files(value: object, info: ValidationInfo) -> dict[str, Path]:
         except ValueError as error:
             problems.append(problem(str(error), str(recorder), value=path))
     if problems:
-        raise refuse("file", problems)
+        raise refuse(problems)
     if MAIN not in paths:
         raise ValueError(
             'A file of each recorder was expected, among them `main`: {main = "raw/a.csv", daq2 = "raw/b.csv"}.'

@@ -54,5 +54,5 @@ def test_keys_have_their_purposes():
 
 
 def test_a_refusal_keeps_the_places_of_its_problems():
-    error = refuse("Box", [problem("Too wide.", "boxes", "a", value=3)])
+    error = refuse([problem("Too wide.", "boxes", "a", value=3)])
     assert [(each["loc"], each["msg"], each["input"]) for each in error.errors()] == [(("boxes", "a"), "Too wide.", 3)]

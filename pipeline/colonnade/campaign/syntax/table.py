@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from math import isnan
 from typing import Annotated, Any, NamedTuple, Self
@@ -21,6 +21,9 @@ from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 from colonnade.campaign.syntax.document import Place
 from colonnade.campaign.syntax.fields import UNITS, shown
 from colonnade.errors import nearest
+
+Problems = Iterator[tuple[Place, str]]
+"""What is wrong: the place of each in the table, and a finished sentence."""
 
 
 class Form(NamedTuple):
@@ -49,9 +52,16 @@ class Table(_Described):
     @classmethod
     def _explain(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
         try:
-            return handler(data)
+            made = handler(data)
         except ValidationError as error:
-            raise refuse(cls.__name__, list(_explained(cls, data, error.errors()))) from None
+            raise refuse(_explained(cls, data, error.errors())) from None
+        if wrong := [problem(message, *place) for place, message in made.contradictions()]:
+            raise refuse(wrong)
+        return made
+
+    def contradictions(self) -> Problems:
+        """Say which values, each right by itself, do not fit together."""
+        return iter(())
 
     @classmethod
     def purposes(cls) -> dict[str, str]:
@@ -90,9 +100,9 @@ def problem(message: str, *place: str | int, value: object = None) -> InitErrorD
     )
 
 
-def refuse(title: str, problems: list[InitErrorDetails]) -> ValidationError:
+def refuse(problems: Iterable[InitErrorDetails]) -> ValidationError:
     """Build the error that carries several problems of one table, each at its own key."""
-    return ValidationError.from_exception_data(title, problems)
+    return ValidationError.from_exception_data("Table", list(problems))
 
 
 _OF_LISTS = ("list_type", "tuple_type", "too_long", "too_short", "missing")
