@@ -36,12 +36,12 @@ def _cosine(one: tuple[float, ...], other: tuple[float, ...]) -> float:
 
 
 def _unit(text: str) -> str:
-    units.normalise_unit(text)
+    units.resolve(text)
     return text
 
 
 def _quantity(text: str) -> str:
-    units.normalise_unit(units.parse(text)[1])
+    units.resolve(units.parse(text)[1])
     return text
 
 
@@ -166,18 +166,15 @@ class Channel(Table):
     def si_unit(self) -> str:
         """Unit of the physical value in the notation of CF, such as "m s-2"."""
         if self.dimension is not None:
-            return units.si_factor(units.DIMENSIONS[self.dimension][0])[1]
-        return units.si_factor(self._physical_unit)[1]
+            return units.DIMENSIONS[self.dimension][0]
+        return (units.resolve(units.parse(self.gain or "1")[1]) * units.resolve(self.unit or "")).si_unit
 
     @cached_property
     def factor(self) -> float:
         """SI value of one recorded unit."""
         recorded = self.unit or ""
-        if self.dimension is None:
-            value = 1.0 if self.gain is None else units.parse(self.gain)[0]
-            return value * units.si_factor(self._physical_unit)[0]
-        if self.gain is not None:
-            return units.gain_to_si(self.gain, recorded, self.dimension)
+        if self.gain is not None or self.dimension is None:
+            return units.gain_to_si(self.gain or "1", recorded, self.dimension)
         try:
             return units.factor_to_si(recorded, self.dimension)
         except UnitError as error:
@@ -198,10 +195,10 @@ class Channel(Table):
         recorded = self.unit or ""
         if units.same_unit(unit, recorded):
             return abs(value)
-        (factor, dimension), (recorded_factor, recorded_dimension) = units.si_factor(unit), units.si_factor(recorded)
-        if dimension != recorded_dimension or dimension == self.si_unit:
+        found, own = units.resolve(unit), units.resolve(recorded)
+        if found.si_unit != own.si_unit or found.si_unit == self.si_unit:
             return None
-        return abs(value) * factor / recorded_factor
+        return abs(value) * found.factor / own.factor
 
     @cached_property
     def full_scale(self) -> float | None:
@@ -215,17 +212,11 @@ class Channel(Table):
         except UnitError as error:
             raise UnitError(f'{error} A range in the recorded unit, "{self.unit or ""}", is also allowed.') from None
 
-    @property
-    def _physical_unit(self) -> str:
-        """Unit of recorded × gain, for a quantity without a dimension of its own."""
-        recorded = f"({self.unit})" if self.unit else "1"
-        return recorded if self.gain is None else f"({units.parse(self.gain)[1] or 1}) * {recorded}"
-
     def _physical(self, text: str) -> float:
         if self.dimension is not None:
             return units.to_si(text, self.dimension)
         value, unit = units.parse(text)
-        factor, found = units.si_factor(unit)
-        if found != self.si_unit:
+        found = units.resolve(unit)
+        if found.si_unit != self.si_unit:
             raise UnitError(f'"{text}" does not have the unit of the physical value, which is {self.si_unit} in SI.')
-        return value * factor
+        return value * found.factor

@@ -162,13 +162,11 @@ def check_flat(time: Array, values: Array, *, duration: float) -> Verdict:
     starts, stops = stretches(values[1:] == values[:-1])
     for run in np.flatnonzero(time[stops] - time[starts] > duration):
         where[starts[run] : stops[run] + 1] = True
-    if not where.any():
-        return Verdict.good(values.size)
-    if where.all():
+    if where.size and where.all():
         reason = f"the channel is dead: every sample is {values[0]:g}"
         return Verdict(Flag.SUSPECT, where, reason, "dead channel", Severity.SERIOUS)
     reason = f"{counted(where)} flat for more than {duration:g} s{first_at(time, where)}"
-    return Verdict(Flag.SUSPECT, where, reason, "flat stretch")
+    return Verdict.of(Flag.SUSPECT, where, reason, "flat stretch")
 
 
 def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
@@ -301,9 +299,8 @@ def check_rails(time: Array, values: Array) -> Verdict:
     if np.isfinite(values).sum() < 4 * FIRST:
         return Verdict.good(values.size)
     filled = filled_in(values)
-    steps = np.abs(np.diff(filled))
     noise = 1.4826 * float(np.median(np.abs(np.diff(filled, 2)))) / np.sqrt(6.0)
-    noise = max(noise, 0.3 * float(steps[steps > 0].min(initial=np.inf)) if steps.any() else 0.0)
+    noise = max(noise, 0.3 * _smallest_step(filled, 0.0))
     resting = np.array([filled[:FIRST].mean(), filled[-FIRST:].mean()])
     for signed, rest in ((filled, resting.max()), (-filled, -resting.min())):
         top = float(signed.max())

@@ -66,8 +66,7 @@ def udunits(unit: str | None) -> str:
         return ""
     if found.symbol in _UDUNITS:
         return found.symbol
-    factor, si_unit = units.si_factor(unit)
-    return si_unit if factor == 1.0 else f"{factor!r} {si_unit}"
+    return found.si_unit if found.factor == 1.0 else f"{found.factor!r} {found.si_unit}"
 
 
 def channel_attributes(channel_id: str, quantity: str, recorded_unit: str | None = None) -> dict[str, Any]:

@@ -107,6 +107,16 @@ class Unit:
     dimension: Mapping[str, int]
     symbol: str
 
+    @property
+    def si_unit(self) -> str:
+        """Its SI unit in the notation of CF, such as "m s-2"; "1" where it has no dimension."""
+        powers = (f"{name}{'' if power == 1 else power}" for name, power in sorted(self.dimension.items()))
+        return " ".join(powers) or "1"
+
+    def __mul__(self, other: Unit) -> Unit:
+        powers = collected((*self.dimension.items(), *other.dimension.items()))
+        return Unit(self.factor * other.factor, powers, f"{self.symbol} {other.symbol}")
+
 
 def parse(text: str) -> tuple[float, str]:
     """
@@ -187,8 +197,8 @@ def factor_to_si(unit: str, dimension: str) -> float:
     (0.001, 9.80665)
     """
     found = resolve(unit, dimension)
-    if not _has(found, dimension):
-        named = next((name for name in DIMENSIONS if _has(found, name)), None)
+    if found.si_unit != DIMENSIONS[dimension][0]:
+        named = next((name for name, (si_unit, _) in DIMENSIONS.items() if si_unit == found.si_unit), None)
         kind = "of another kind" if named is None else f"a unit of {words(named)}"
         raise UnitError(
             f"{quoted(unit)} is {'without dimension' if not found.dimension else kind}. {expected(dimension)}"
@@ -196,7 +206,7 @@ def factor_to_si(unit: str, dimension: str) -> float:
     return found.factor
 
 
-def gain_to_si(gain: str, recorded_unit: str, dimension: str) -> float:
+def gain_to_si(gain: str, recorded_unit: str, dimension: str | None) -> float:
     """
     Give the SI value of one recorded unit, as in the file, after a transducer's gain.
 
@@ -206,8 +216,8 @@ def gain_to_si(gain: str, recorded_unit: str, dimension: str) -> float:
         Physical over recorded, such as ``"10.02 mm/V"``; ``"-1"`` turns the sign of a recorded length.
     recorded_unit : str
         Such as ``"V"`` or ``"mV"``.
-    dimension : str
-        Of the physical quantity, a key of `DIMENSIONS`.
+    dimension : str or None
+        Of the physical quantity, a key of `DIMENSIONS`; None if any will do.
 
     Raises
     ------
@@ -221,7 +231,7 @@ def gain_to_si(gain: str, recorded_unit: str, dimension: str) -> float:
     """
     value, unit = parse(gain)
     per_unit, recorded = resolve(unit), resolve(recorded_unit)
-    if collected((*per_unit.dimension.items(), *recorded.dimension.items())) != _si_unit(dimension).dimension:
+    if dimension and (per_unit * recorded).si_unit != DIMENSIONS[dimension][0]:
         below = f"({recorded.symbol})" if {"/", " "} & set(recorded.symbol) else recorded.symbol
         example = f"{DIMENSIONS[dimension][1]}/{below}" if below else DIMENSIONS[dimension][1]
         doubt = f" Is {quoted(recorded_unit)} the unit of the values in the file?" if "/" in recorded.symbol else ""
@@ -230,39 +240,6 @@ def gain_to_si(gain: str, recorded_unit: str, dimension: str) -> float:
             f'A gain in "{example}" was expected.{doubt}'
         )
     return value * per_unit.factor * recorded.factor
-
-
-def si_factor(unit: str) -> tuple[float, str]:
-    """
-    Convert a unit of any dimension; UnitError if it is not known.
-
-    Returns
-    -------
-    factor : float
-        SI units in one `unit`.
-    si_unit : str
-        In the notation of CF, such as ``"m s-2"``; ``"1"`` where it has no dimension.
-
-    Examples
-    --------
-    >>> si_factor("g"), si_factor("mV")
-    ((9.80665, 'm s-2'), (0.001, 'V'))
-    """
-    found = resolve(unit)
-    powers = (f"{name}{'' if power == 1 else power}" for name, power in sorted(found.dimension.items()))
-    return found.factor, " ".join(powers) or "1"
-
-
-def normalise_unit(text: str) -> str:
-    """
-    Give a unit's usual spelling; UnitError if it is not known.
-
-    Examples
-    --------
-    >>> [normalise_unit(unit) for unit in ("g's", "Volts", "m/sec2", "mm.", "°")]
-    ['g', 'V', 'm/s^2', 'mm', 'deg']
-    """
-    return resolve(text).symbol
 
 
 def find_unit(unit: str) -> Unit | None:
@@ -305,7 +282,7 @@ def is_of(unit: str, dimension: str) -> bool:
     (True, False, False)
     """
     found = find_unit(unit)
-    return found is not None and _has(found, dimension)
+    return found is not None and found.si_unit == DIMENSIONS[dimension][0]
 
 
 def is_physical(unit: str) -> bool:
@@ -319,14 +296,6 @@ def is_physical(unit: str) -> bool:
     """
     found = find_unit(unit)
     return found is not None and bool(found.dimension.keys() - {"count"})
-
-
-def _si_unit(dimension: str) -> Unit:
-    return resolve(DIMENSIONS[dimension][0])
-
-
-def _has(unit: Unit, dimension: str) -> bool:
-    return unit.dimension == _si_unit(dimension).dimension
 
 
 def _times(value: float, factor: float) -> float:

@@ -73,16 +73,16 @@ def _factor(table: SmallTable, measure: str, unit: str) -> float:
         )
     if rate.name.casefold() not in RATES or (rate.unit is not None and rate.unit.casefold() not in PER_YEAR):
         raise ReadError(f'{table.name}: the second column is {quoted(_written(rate))}; "rate [1/year]" was expected.')
-    wanted = units.si_factor(unit)[1]
+    wanted = units.resolve(unit).si_unit
     if intensity.unit is None and wanted != "1":
         raise ReadError(f'{table.name}: {quoted(intensity.name)} has no unit; "{measure} [{unit}]" was expected.')
     try:
-        factor, found = units.si_factor(intensity.unit or "1")
+        found = units.resolve(intensity.unit or "1")
     except UnitError as error:
         raise ReadError(f"{table.name}: {error}") from None
-    if found != wanted:
+    if found.si_unit != wanted:
         raise ReadError(f'{table.name}: {quoted(_written(intensity))} was found; "{measure} [{unit}]" was expected.')
-    return factor
+    return found.factor
 
 
 def _number(table: SmallTable, line: int, cell: str) -> float:
