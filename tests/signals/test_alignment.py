@@ -169,19 +169,15 @@ def _motion(time):
     return 0.5 * total * np.clip(np.minimum(time - 2, 22 - time) / 2, 0, 1)
 
 
-def _record_rate(time, values):
-    return even_record(time, values, np.full(time.size, Flag.GOOD, dtype=np.int8))
-
-
 def _linked_rate(ppm, *, seed, noise=0.02):
     """Two recorders, the second late and of a clock that runs fast by `ppm`."""
     rng = np.random.default_rng(seed)
     first, own = np.arange(0, 25, 1 / 500), np.arange(0, 24.9, 1 / 400)
     records = [
-        _record_rate(time, _motion(true) + rng.normal(0, noise, time.size))
+        _record(time, _motion(true) + rng.normal(0, noise, time.size))
         for time, true in ((first, first), (own, own / (1 + 1e-6 * ppm) + LATE))
     ]
-    return link(*records, quantities=("acceleration", "acceleration"), longest=1.0, sign=1.0)
+    return link(*records, quantities=ACCELERATIONS, longest=1.0, sign=1.0)
 
 
 @pytest.mark.parametrize("ppm", [50.0, -300.0, 1500.0])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import BeforeValidator, Field
 
@@ -116,24 +116,19 @@ class Whole(Specimen):
         Those on bodies that move otherwise, and those between bodies, have no place on it.
         """
         assembly = self.assembly(9.81)
-        together = standing_on(assembly, next(iter(assembly.bodies)))
-        if self.is_in_plane:
+        first, is_one_frame, seen = next(iter(assembly.bodies)), is_frame(assembly), dict(channels)
+        together = standing_on(assembly, first)
+        if is_one_frame:
             together = tuple(name for name, body in assembly.bodies.items() if not body.on)
-        return {name: self._seen(channel, assembly, together) for name, channel in channels.items()}
-
-    def _seen(self, channel: Channel, assembly: Assembly, together: tuple[str, ...]) -> Channel:
-        if channel.on is None or channel.on not in assembly.bodies:
-            return channel
-        changed: dict[str, Any] = {"on": "specimen"}
-        if channel.at is not None:
-            x, y, z = channel.at
-            first = next(iter(assembly.bodies.values()))
-            offset = (0.0, 0.0) if self.is_in_plane else _off(assembly.bodies[channel.on], first)
-            belongs = channel.on in together and channel.relative_to not in assembly.bodies
-            place = (x + offset[0], y + offset[1], z + assembly.levels[channel.on])
-            changed["at"] = place if belongs else None
-        return channel.model_copy(update=changed)
-
-
-def _off(body: Placed, first: Placed) -> tuple[float, float]:
-    return body.position[0] - first.position[0], body.position[1] - first.position[1]
+        for name, channel in channels.items():
+            on, place = channel.on or "", None
+            if on not in assembly.bodies:
+                continue
+            if channel.at is not None and on in together and channel.relative_to not in assembly.bodies:
+                reference = assembly.bodies[on if is_one_frame else first].position
+                along, across = (
+                    own - other for own, other in zip(assembly.bodies[on].position, reference, strict=True)
+                )
+                place = channel.at[0] + along, channel.at[1] + across, channel.at[2] + assembly.levels[on]
+            seen[name] = channel.model_copy(update={"on": "specimen", "at": place})
+        return seen

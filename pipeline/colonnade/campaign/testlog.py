@@ -61,15 +61,15 @@ def _test(cells: dict[str, tuple[int, str]], table: SmallTable) -> dict[str, Any
 
 
 def _value(key: str, index: int, text: str, table: SmallTable) -> Any:
-    form = Test.forms()[key]
-    if form.is_number or form.dimension or form.is_interval:
+    kinds = Test.kinds()[key]
+    if kinds - {"list"}:
         text = table.quantity(index, text)
-    if form.is_number:
+    if "number" in kinds:
         with suppress(ValueError):
             return float(text)
-    if form.is_interval:
+    if "interval" in kinds:
         parts = [part.strip() for part in re.split(r"[;,…]|\.\.\.|\bto\b", text.strip("[]")) if part.strip()]
         return [part.strip("\"'") for part in parts] if len(parts) > 1 else text
-    if form.is_list:
+    if "list" in kinds:
         return [part.strip() for part in re.split("[;,]", text) if part.strip()]
     return text

@@ -30,8 +30,7 @@ _LONGEST = 200
 
 def parts() -> tuple[str, ...]:
     """Parts that a pattern may have: words, keys of a test that are a number or a quantity, and the counter."""
-    keys = Test.forms()
-    return (*WORDS, *(key for key, form in keys.items() if form.is_number or form.dimension), COUNTER)
+    return (*WORDS, *(key for key, kinds in Test.kinds().items() if kinds & {"number", *units.DIMENSIONS}), COUNTER)
 
 
 @dataclass(frozen=True)
@@ -75,7 +74,7 @@ class Pattern:
             yield f"{quoted(self.text)} is not a path from the watched folder."
         names = [name for name, _ in found]
         for name, unit in dict(found).items():
-            dimension = Test.forms()[name].dimension if name in Test.forms() else ""
+            dimension = next(iter(Test.kinds().get(name, set()) & units.DIMENSIONS.keys()), "")
             if name not in parts():
                 yield f"Unknown part {{{name}}}.{nearest(name, parts())}"
             elif names.count(name) > 1:

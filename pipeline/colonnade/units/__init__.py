@@ -343,8 +343,8 @@ def _factors(text: str) -> Iterator[tuple[str, int]]:
     for name, exponent, mark in _TOKEN.findall(spelled):
         if name:
             power = int(exponent or 1)
-            left -= abs(power)
             if name != "1":
+                left -= abs(power)
                 yield _symbol(name, text), groups[-1] * sign * power
             sign, expects = 1, False
         elif mark == "(":

@@ -1,11 +1,9 @@
 """TOML files of a campaign: what is read, and what is said of a file that is not one."""
 
-from dataclasses import replace
-
 import pytest
 
 from colonnade.campaign.review import ReviewFile
-from colonnade.campaign.syntax.document import Source, key_lines, read, refusal, validated
+from colonnade.campaign.syntax.document import key_lines, read, refusal, validated
 from colonnade.errors import CampaignError
 
 
@@ -60,9 +58,6 @@ id = "free-02"
 [tests.file]
 main = "a.csv"
 """
-DOCUMENT = {"tests": [{"id": "free-01"}, {"id": "free-02"}, {"kind": "sine"}]}
-FILE = Source("campaign.toml", DOCUMENT, key_lines(TEXT))
-WITH_LOG = replace(FILE, log="tests.csv", rows=(2, 4, 5))
 
 
 @pytest.mark.parametrize(
@@ -80,32 +75,3 @@ WITH_LOG = replace(FILE, log="tests.csv", rows=(2, 4, 5))
 )
 def test_a_key_has_its_line(place, line):
     assert key_lines(TEXT)[place] == line
-
-
-@pytest.mark.parametrize(
-    ("place", "path"),
-    [
-        (("tests", 1, "kind"), "tests[free-02].kind"),
-        (("tests", 2, "id"), "tests[3].id"),
-        (("specimens", "prism", "width"), "specimens.prism.width"),
-        (("trim", 0, "window"), "trim[1].window"),
-    ],
-)
-def test_a_path_names_a_test_by_its_id(place, path):
-    assert FILE.path(place) == path
-
-
-def test_a_key_inside_a_table_in_one_line_has_the_line_of_the_table():
-    told = FILE.paragraph(("specimens", "prism", "width"), "It is missing.")
-    assert told == "campaign.toml, line 4: specimens.prism.width: It is missing."
-
-
-def test_a_problem_of_the_log_has_its_row_and_column():
-    assert WITH_LOG.paragraph(("tests", 1, "file", "daq2"), "No.") == (
-        'tests.csv, row 4, column "file.daq2": tests[free-02].file.daq2: No.'
-    )
-
-
-def test_problems_are_told_in_the_order_of_the_files():
-    problems = [(("tests", 1, "kind"), "c"), (("specimens", "prism"), "b"), (("schema",), "a")]
-    assert [line[-1] for line in WITH_LOG.paragraphs(problems)] == ["a", "b", "c"]

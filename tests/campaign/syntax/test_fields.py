@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from pydantic import Field, TypeAdapter, ValidationError, create_model
+from pydantic import Field, ValidationError, create_model
 
 from colonnade.campaign import load
 from colonnade.campaign.syntax import fields
@@ -92,12 +92,6 @@ def test_what_does_not_fit_is_refused_with_what_was_expected(kind, value, told):
 )
 def test_a_value_is_repeated_in_short(value, found):
     assert fields.shown(value) == found
-
-
-def test_the_schema_of_a_list_has_its_length():
-    schema = TypeAdapter(fields.Interval).json_schema()
-    assert (schema["type"], [each["type"] for each in schema["prefixItems"]]) == ("array", ["string", "string"])
-    assert (schema["minItems"], schema["maxItems"]) == (2, 2)
 
 
 DAYS = st.dates(date(FIRST_YEAR, 1, 1), date(LAST_YEAR, 12, 31))

@@ -4,7 +4,7 @@ import pytest
 from pydantic import ValidationError
 
 from colonnade.campaign.syntax.fields import Length
-from colonnade.campaign.syntax.table import Table, problem, refuse
+from colonnade.campaign.syntax.table import Table
 
 
 class Box(Table):
@@ -51,8 +51,3 @@ def test_a_value_in_place_of_a_table_or_list_is_refused(table, value, told):
 
 def test_keys_have_their_purposes():
     assert Box.purposes() == {"width": 'Along x, such as "86 mm".', "labels": "Words on it."}
-
-
-def test_a_refusal_keeps_the_places_of_its_problems():
-    error = refuse([problem("Too wide.", "boxes", "a", value=3)])
-    assert [(each["loc"], each["msg"], each["input"]) for each in error.errors()] == [(("boxes", "a"), "Too wide.", 3)]

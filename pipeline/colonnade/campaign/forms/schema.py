@@ -35,28 +35,28 @@ def json_schema(name: str) -> dict[str, Any]:
         If the name is unknown.
     """
     if name == "campaign":
-        return _campaign()
-    if name == "summary":
-        return {"$schema": DIALECT} | Summary.model_json_schema(by_alias=True, mode="serialization")
-    if name == "forecast":
-        written = ForecastFile.model_json_schema(by_alias=True, mode="serialization")
-        written["properties"]["sha256"] = {
+        schema = _campaign()
+    elif name == "summary":
+        schema = Summary.model_json_schema(mode="serialization")
+    elif name == "forecast":
+        schema = ForecastFile.model_json_schema(mode="serialization")
+        schema["properties"]["sha256"] = {
             "type": "string",
             "pattern": "^[0-9a-f]{64}$",
             "description": "Of all the rest, written as JSON with sorted keys, without spaces, in UTF-8.",
         }
-        written["required"] = [*written["required"], "sha256"]
-        return {"$schema": DIALECT} | written
-    if name == "review":
-        schema: dict[str, Any] = _tidied(ReviewFile.model_json_schema(by_alias=True, mode="validation"))
+        schema["required"] = [*schema["required"], "sha256"]
+    elif name == "review":
+        schema = _tidied(ReviewFile.model_json_schema())
         for kind in ("exclude", "trim", "flag", "correct"):
             schema["properties"][kind].pop("default", None)
-        return {"$schema": DIALECT} | schema
-    raise CampaignError(f'Unknown schema "{name}".{nearest(name, NAMES)}')
+    else:
+        raise CampaignError(f'Unknown schema "{name}".{nearest(name, NAMES)}')
+    return {"$schema": DIALECT} | schema
 
 
 def _campaign() -> dict[str, Any]:
-    schema = CampaignFile.model_json_schema(by_alias=True, mode="validation", ref_template="#/$defs/{model}")
+    schema = CampaignFile.model_json_schema()
     tests = schema["properties"]["tests"]
     log = {"type": "string", "description": "path of the test log, CSV or Excel"}
     schema["properties"]["tests"] = {
@@ -67,7 +67,7 @@ def _campaign() -> dict[str, Any]:
         for key in table.get("properties", {}).values():
             _as_written(key)
     tidied: dict[str, Any] = _tidied(schema)
-    return {"$schema": DIALECT} | tidied
+    return tidied
 
 
 def _tidied(node: Any) -> Any:
@@ -77,14 +77,12 @@ def _tidied(node: Any) -> Any:
     if not isinstance(node, dict):
         return node
     tidied = {key: _tidied(value) for key, value in node.items() if not (key == "title" and isinstance(value, str))}
-    choices = tidied.get("anyOf")
-    if isinstance(choices, list):
-        kept = [choice for choice in choices if choice != {"type": "null"}]
-        if len(kept) == 1:
-            tidied.pop("anyOf")
-            tidied = kept[0] | tidied
-        else:
-            tidied["anyOf"] = kept
+    kept = [choice for choice in tidied.get("anyOf", ()) if choice != {"type": "null"}]
+    if len(kept) == 1:
+        del tidied["anyOf"]
+        tidied = kept[0] | tidied
+    elif kept:
+        tidied["anyOf"] = kept
     items = tidied.get("prefixItems", [])
     if items and all(item == items[0] for item in items):
         tidied["items"] = tidied.pop("prefixItems")[0]

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from math import isnan
-from typing import Annotated, Any, NamedTuple, Self
+from typing import Annotated, Any, Self
 
 from pydantic import (
     BaseModel,
@@ -24,15 +24,6 @@ from colonnade.errors import nearest
 
 Problems = Iterator[tuple[Place, str]]
 """What is wrong: the place of each in the table, and a finished sentence."""
-
-
-class Form(NamedTuple):
-    """What a key may be: a number, a quantity of a dimension (or empty), an interval of time, another list."""
-
-    is_number: bool
-    dimension: str
-    is_interval: bool
-    is_list: bool
 
 
 class _Described(BaseModel):
@@ -77,20 +68,16 @@ class Table(_Described):
 
     @classmethod
     @cache
-    def forms(cls) -> dict[str, Form]:
-        """Keys as in the file, with what each may be, by the types of the fields."""
-        return {key: _form(either) for key, either in cls.alternatives().items()}
+    def kinds(cls) -> dict[str, set[str]]:
+        """Keys as in the file, with what each may be: "number", a dimension, "interval" or another "list"."""
+        return {key: {kind for each in either if (kind := _kind(each))} for key, either in cls.alternatives().items()}
 
 
-def _form(either: list[dict[str, Any]]) -> Form:
-    dimensions = {unit: dimension for dimension, unit in UNITS.items()}
-    lists = [each.get("prefixItems", [{}]) for each in either if each.get("type") == "array"]
-    return Form(
-        any(each.get("type") in ("number", "integer") for each in either),
-        next((dimensions[each["unit"]] for each in either if "unit" in each), ""),
-        any("unit" in items[0] for items in lists),
-        any("unit" not in items[0] for items in lists),
-    )
+def _kind(schema: dict[str, Any]) -> str:
+    if schema.get("type") == "array":
+        return "interval" if "unit" in schema.get("prefixItems", [{}])[0] else "list"
+    is_number = schema.get("type") in ("number", "integer")
+    return "number" if is_number else next((name for name, unit in UNITS.items() if unit == schema.get("unit")), "")
 
 
 def problem(message: str, *place: str | int, value: object = None) -> InitErrorDetails:
