@@ -11,7 +11,6 @@ from colonnade.assessment.ground import LARGEST_DRIFT, NONE, correction_of
 from colonnade.assessment.measures import measure_of
 from colonnade.campaign.settings import setting
 from colonnade.campaign.syntax import fields
-from colonnade.campaign.syntax.fields import shown
 from colonnade.campaign.syntax.names import Identifier
 from colonnade.campaign.syntax.table import Problems, Table
 from colonnade.campaign.test import MotionPath
@@ -116,5 +115,5 @@ class Assessment(Table):
         dimension = measure_of(self.measure).dimension
         found = sorted({units.to_si(level, dimension) for level in self.levels})
         if not found[0] > 0.0:
-            raise ValueError(f"{shown(self.levels)} was found. Levels above zero were expected.")
+            raise ValueError(f"{fields.shown(self.levels)} was found. Levels above zero were expected.")
         return tuple(found)

@@ -10,7 +10,6 @@ from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from colonnade import units
 from colonnade.campaign.syntax import fields
-from colonnade.campaign.syntax.fields import CONVERSION, outside, shown
 from colonnade.campaign.syntax.names import Identifier
 from colonnade.campaign.syntax.table import Problems, Table, missing
 from colonnade.errors import UnitError
@@ -47,7 +46,7 @@ def _quantity(text: str) -> str:
 
 def _gain(text: str) -> str:
     if units.parse(text)[0] == 0.0:
-        raise ValueError(f"{shown(text)} was found. A gain of zero would erase the recording.")
+        raise ValueError(f"{fields.shown(text)} was found. A gain of zero would erase the recording.")
     return _quantity(text)
 
 
@@ -105,7 +104,7 @@ class Channel(Table):
     def contradictions(self) -> Problems:
         """Say what is missing or does not fit together."""
         wrong = {} if self.quantity == "other" else self._missing() | self._wrong_sight()
-        low, high = CONVERSION
+        low, high = fields.CONVERSION
         for key, derived, least in (
             ("gain" if self.gain else "unit", "factor", low),
             ("offset", "offset", 0.0),
@@ -118,7 +117,7 @@ class Channel(Table):
             except UnitError as error:
                 wrong[key] = str(error)
                 continue
-            if expected := outside(value, (least, high), self.si_unit):
+            if expected := fields.outside(value, (least, high), self.si_unit):
                 wrong[key] = f"It is {value:g} {self.si_unit}. {expected}"
         yield from (((key,), message) for key, message in wrong.items())
 

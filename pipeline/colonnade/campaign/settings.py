@@ -13,19 +13,7 @@ from typing import Annotated, Any, Literal, cast
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
-from colonnade.campaign.syntax.fields import (
-    STEP,
-    Angle,
-    Coordinate,
-    Deviation,
-    Duration,
-    Frequency,
-    Number,
-    Pressure,
-    Quantity,
-    Whole,
-    shown,
-)
+from colonnade.campaign.syntax import fields
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.contact.body import DEFAULT_STEP, STATIC_PENETRATION
 from colonnade.dynamics.models import MODELS, model_of
@@ -38,14 +26,14 @@ DEFAULT_MODELS = tuple(name for name, model in MODELS.items() if model.is_defaul
 def _models(value: object) -> tuple[str, ...]:
     names = [value] if isinstance(value, str) else value
     if not isinstance(names, (list, tuple)) or not names or len(set(map(str, names))) != len(names):
-        raise ValueError(f'{shown(value)} was found. A list of models was expected, such as ["linear"].')
+        raise ValueError(f'{fields.shown(value)} was found. A list of models was expected, such as ["linear"].')
     for name in names:
         if name not in MODELS:
-            raise ValueError(f"Unknown model {shown(name)}.{nearest(str(name), MODELS)}")
+            raise ValueError(f"Unknown model {fields.shown(name)}.{nearest(str(name), MODELS)}")
     return tuple(names)
 
 
-AutoFrequency = Literal["auto"] | Frequency
+AutoFrequency = Literal["auto"] | fields.Frequency
 _MODELS = {"type": "array", "items": {"enum": list(MODELS)}, "minItems": 1, "uniqueItems": True}
 Models = Annotated[tuple[str, ...], BeforeValidator(_models), WithJsonSchema(_MODELS)]
 
@@ -58,13 +46,13 @@ def setting(default: Any, unit: str = "", **bounds: float) -> Any:
 class QualitySettings(Table):
     """Settings of the quality checks in `ingest`."""
 
-    spike_threshold: Number = setting(8.0, "robust standard deviations", gt=1.0, lt=1000.0)
+    spike_threshold: fields.Number = setting(8.0, "robust standard deviations", gt=1.0, lt=1000.0)
     """A sample that differs from its neighbours by more than this is flagged as a spike and bridged."""
-    flat_duration: Duration = setting(0.5, "s")
+    flat_duration: fields.Duration = setting(0.5, "s")
     """A value that stays exactly the same for longer than this is flagged as flat."""
-    gap: Number = setting(1.5, "sampling intervals", gt=1.0, lt=1000.0)
+    gap: fields.Number = setting(1.5, "sampling intervals", gt=1.0, lt=1000.0)
     """A longer step of the clock is a gap."""
-    jitter: Number = setting(0.05, "sampling intervals", gt=0.0, lt=1.0)
+    jitter: fields.Number = setting(0.05, "sampling intervals", gt=0.0, lt=1.0)
     """A clock whose steps differ by more than this is flagged."""
 
 
@@ -77,20 +65,20 @@ class ConditionSettings(Table):
     """Cut-off of the zero-phase low-pass of channels on the specimen; "auto" chooses it from specimen and rate."""
     base_lowpass: AutoFrequency = setting("auto", "Hz")
     """Cut-off of the zero-phase low-pass of channels on the table; "auto" chooses it from the rate."""
-    filter_order: Whole = setting(4, ge=1, le=10)
+    filter_order: fields.Whole = setting(4, ge=1, le=10)
     """Order of the Butterworth low-pass, before it is run forwards and backwards."""
-    rest_duration: Duration = setting(0.5, "s")
+    rest_duration: fields.Duration = setting(0.5, "s")
     """Shortest quiet stretch that counts as rest."""
-    longest_offset: Duration = setting(1.0, "s")
+    longest_offset: fields.Duration = setting(1.0, "s")
     """Largest delay between two recorders that is searched for."""
 
 
 class RestitutionSettings(Table):
     """Settings of the identification of the coefficient of restitution."""
 
-    lowest_amplitude: Number = setting(0.02, "of α", gt=1e-6, lt=1.0)
+    lowest_amplitude: fields.Number = setting(0.02, "of α", gt=1e-6, lt=1.0)
     """Peaks below this fraction of the critical angle are left out."""
-    level: Number = setting(0.95, gt=0.5, lt=0.999999)
+    level: fields.Number = setting(0.95, gt=0.5, lt=0.999999)
     """Probability of the interval that is given for e."""
 
 
@@ -101,48 +89,48 @@ OVERNIGHT = 40
 class ContactEnsembleSettings(Table):
     """Settings of the contact model's ensembles: the number of runs, and the ranges of its inputs."""
 
-    members: Literal["auto"] | Annotated[Whole, Field(ge=0, le=100_000)] = setting("auto")
+    members: Literal["auto"] | Annotated[fields.Whole, Field(ge=0, le=100_000)] = setting("auto")
     """Runs of the contact model over its unknown inputs, each as long as its prediction; 0 for no ensemble; "auto" is
     40 for an assembly, whose tests so take a night, and 0 for a single body."""
-    friction: Number = setting(0.2, "of the friction", ge=0.0, le=1.0)
+    friction: fields.Number = setting(0.2, "of the friction", ge=0.0, le=1.0)
     """Half of the range of friction, about that of the contact model; all values in it are equally likely."""
-    damping_fraction: Number = setting(0.2, "of the damping fraction", ge=0.0, le=1.0)
+    damping_fraction: fields.Number = setting(0.2, "of the damping fraction", ge=0.0, le=1.0)
     """Half of the range of the contact's damping, about that of the contact model."""
-    out_of_plane: Angle = setting(1e-3, "rad")
+    out_of_plane: fields.Angle = setting(1e-3, "rad")
     """Half of the range of the rotation about x at the start, about that of the contact model."""
-    penetration: Number = setting(0.5, "of the penetration", ge=0.0, lt=1.0)
+    penetration: fields.Number = setting(0.5, "of the penetration", ge=0.0, lt=1.0)
     """Half of the range of how deep the bodies of an assembly sink into their contacts, which sets the stiffness."""
-    misplacement: Coordinate = setting(1e-3, "m")
+    misplacement: fields.Coordinate = setting(1e-3, "m")
     """How far each body of an assembly may stand off its place, along x and along y."""
 
 
 class MeasurementSettings(Table):
     """How well the measured rocking angle is known, and how uncertain a prediction may become."""
 
-    angle_gain: Deviation = setting(0.005, "of the angle")
+    angle_gain: fields.Deviation = setting(0.005, "of the angle")
     """Standard deviation of the calibration of the measured rocking angle."""
-    angle_zero: Number = setting(5e-4, "of α", ge=0.0, le=0.5)
+    angle_zero: fields.Number = setting(5e-4, "of α", ge=0.0, le=0.5)
     """Standard deviation of the zero of the measured rocking angle; that of its drift between the rests, if larger."""
-    horizon: Number = setting(0.2, "of α", gt=0.0, lt=10.0)
+    horizon: fields.Number = setting(0.2, "of α", gt=0.0, lt=10.0)
     """A history is predicted up to the first time at which the 95 % band of its runs is wider than this."""
 
 
 class PlaneEnsembleSettings(Table):
     """Settings of the plane models' ensembles: the number of runs, and how well their inputs are known."""
 
-    members: Whole = setting(100, ge=0, le=1_000_000)
+    members: fields.Whole = setting(100, ge=0, le=1_000_000)
     """Runs of each model over its uncertain inputs; 0 for no ensemble."""
-    restitution: Number = setting(0.005, ge=0.0, le=0.5)
+    restitution: fields.Number = setting(0.005, ge=0.0, le=0.5)
     """Standard deviation of e from test to test if fewer than two free vibrations show it."""
-    critical_angle: Deviation = setting(0.005, "of α")
+    critical_angle: fields.Deviation = setting(0.005, "of α")
     """Standard deviation of the critical angle."""
-    p: Deviation = setting(0.005, "of p")
+    p: fields.Deviation = setting(0.005, "of p")
     """Standard deviation of the frequency parameter."""
-    gain: Number = setting(0.005, "of the acceleration", ge=0.0, le=0.5)
+    gain: fields.Number = setting(0.005, "of the acceleration", ge=0.0, le=0.5)
     """Standard deviation of the calibration of the table's acceleration."""
-    clock: Number = setting(1e-5, "of the sampling interval", ge=0.0, le=0.1)
+    clock: fields.Number = setting(1e-5, "of the sampling interval", ge=0.0, le=0.1)
     """Standard deviation of the recorder's clock rate."""
-    filter: Number = setting(0.1, "of the cut-off", ge=0.0, le=0.5)
+    filter: fields.Number = setting(0.1, "of the cut-off", ge=0.0, le=0.5)
     """Standard deviation of the low-pass cut-off of the table's acceleration: how much its choice matters."""
 
 
@@ -156,22 +144,22 @@ class EnsembleSettings(MeasurementSettings, PlaneEnsembleSettings):
 class ContactSettings(Table):
     """Settings of the contact model."""
 
-    mesh: Literal["rigid"] | Annotated[Whole, Field(ge=100, le=30_000)] = setting("rigid")
+    mesh: Literal["rigid"] | Annotated[fields.Whole, Field(ge=100, le=30_000)] = setting("rigid")
     """Body of the contact model: "rigid" (a round base on whole circles), or elastic with about so many degrees of
     freedom, such as 1224, 5478 or 20322 of the paper's meshes."""
-    step: Annotated[float, Quantity("time", between=STEP, example="10 us")] = setting(DEFAULT_STEP, "s")
+    step: Annotated[float, fields.Quantity("time", between=fields.STEP, example="10 us")] = setting(DEFAULT_STEP, "s")
     """Time step of the contact model; it has to be stable."""
-    damping_fraction: Literal["auto"] | Annotated[Number, Field(ge=0.0, le=10.0)] = setting("auto")
+    damping_fraction: Literal["auto"] | Annotated[fields.Number, Field(ge=0.0, le=10.0)] = setting("auto")
     """Critical damping fraction of the contact; "auto" finds the one that gives the specimen's restitution."""
-    penetration: Number = setting(STATIC_PENETRATION, "of the height of the centre of mass", gt=1e-10, lt=0.01)
+    penetration: fields.Number = setting(STATIC_PENETRATION, "of the height of the centre of mass", gt=1e-10, lt=0.01)
     """How deep the standing specimen sinks into its contact, which sets the contact's stiffness."""
-    friction: Number = setting(0.6, ge=0.0, le=10.0)
+    friction: fields.Number = setting(0.6, ge=0.0, le=10.0)
     """Coulomb's coefficient between specimen and table."""
-    modulus: Pressure = setting(2e11, "Pa")
+    modulus: fields.Pressure = setting(2e11, "Pa")
     """Young's modulus of an elastic specimen."""
-    poisson_ratio: Number = setting(0.3, gt=-0.999, lt=0.4999)
+    poisson_ratio: fields.Number = setting(0.3, gt=-0.999, lt=0.4999)
     """Poisson's ratio of an elastic specimen."""
-    out_of_plane: Angle = setting(0.0, "rad")
+    out_of_plane: fields.Angle = setting(0.0, "rad")
     """Rotation about x at the start of the contact model: a disturbance out of the plane."""
 
 
@@ -180,7 +168,7 @@ class PredictSettings(Table):
 
     models: Models = setting(DEFAULT_MODELS)
     """Models of rocking that are run on the recorded base motion."""
-    rest_angle: Number = setting(1e-6, "of α", gt=1e-10, lt=0.1)
+    rest_angle: fields.Number = setting(1e-6, "of α", gt=1e-10, lt=0.1)
     """An arc after an impact that stays below this fraction of the critical angle counts as rest."""
     ensemble: EnsembleSettings = EnsembleSettings()
     """The ensembles of the predictions."""
@@ -198,13 +186,13 @@ class PredictSettings(Table):
 class NextSettings(Table):
     """Settings of the advice on which test tells most."""
 
-    largest_risk: Number = setting(0.6, gt=0.0, lt=1.0)
+    largest_risk: fields.Number = setting(0.6, gt=0.0, lt=1.0)
     """Largest probability of overturning of a test that is advised."""
-    boundary_width: Number = setting(0.05, "of the amplitude", ge=0.02, le=1.0)
+    boundary_width: fields.Number = setting(0.05, "of the amplitude", ge=0.02, le=1.0)
     """Wanted width of the 90 % interval of the amplitude at which the specimen overturns half the time."""
-    discrepancy: Number = setting(0.15, "of the amplitude", ge=0.005, le=0.4)
+    discrepancy: fields.Number = setting(0.15, "of the amplitude", ge=0.005, le=0.4)
     """Standard deviation of that amplitude about the one that the models predict."""
-    restitution_width: Number = setting(0.005, ge=1e-5, le=0.5)
+    restitution_width: fields.Number = setting(0.005, ge=1e-5, le=0.5)
     """Wanted width of the interval of e."""
 
 

@@ -21,7 +21,6 @@ from pydantic_core import CoreSchema, InitErrorDetails
 from colonnade import units
 from colonnade.campaign.channel import MAIN, SURROUNDINGS, Channel, Unit
 from colonnade.campaign.syntax import fields
-from colonnade.campaign.syntax.fields import shown
 from colonnade.campaign.syntax.names import Identifier, identifier
 from colonnade.campaign.syntax.table import Problems, Table, missing, problem, refuse
 from colonnade.errors import UnitError, nearest
@@ -72,14 +71,14 @@ def _file_options(value: object) -> FileOptions:
 
     if not isinstance(value, Mapping):
         raise ValueError(
-            f'{shown(value)} was found. A table was expected, such as {{format = "delimited", delimiter = ";"}}.'
+            f'{fields.shown(value)} was found. A table was expected, such as {{format = "delimited", delimiter = ";"}}.'
         )
     options = {str(key): each for key, each in value.items() if key != "format"}
     name = value.get("format")
     known = formats()
     if name is not None and (not isinstance(name, str) or name not in known):
         hint = retired(name) or nearest(str(name), known)
-        raise refuse([problem(f"Unknown format {shown(name)}.{hint}", "format")])
+        raise refuse([problem(f"Unknown format {fields.shown(name)}.{hint}", "format")])
     chosen = known[name or MOST_GENERAL]
     try:
         chosen.options.model_validate(options)
@@ -95,7 +94,7 @@ def _option_problem(error: Any, options: type[BaseModel], format_name: str) -> I
             f'Unknown option of format "{format_name}".{nearest(str(place[-1]), options.model_fields)}', *place
         )
     said = str(error["ctx"]["error"]) if error["type"] == "value_error" else error["msg"]
-    return problem(f"{shown(error['input'])} was found: {said.rstrip('.')}.", *place)
+    return problem(f"{fields.shown(error['input'])} was found: {said.rstrip('.')}.", *place)
 
 
 def _recorder_id(value: object) -> str:

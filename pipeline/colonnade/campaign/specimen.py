@@ -11,7 +11,6 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from colonnade.campaign.syntax import fields
-from colonnade.campaign.syntax.fields import FREQUENCY_PARAMETER, outside
 from colonnade.campaign.syntax.table import Problems, Table
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
 from colonnade.dynamics.size import UnlikelyBlockWarning, cone_volume, prism_volume
@@ -97,7 +96,7 @@ class Specimen(Table):
         except ValueError as error:
             yield (), f"No block has these numbers: {error}."
         else:
-            if expected := outside(p, FREQUENCY_PARAMETER, "rad/s"):
+            if expected := fields.outside(p, fields.FREQUENCY_PARAMETER, "rad/s"):
                 yield (), f"These numbers give a frequency parameter of {p:.3g} rad/s. {expected} Check the units."
 
     def dimensions(self, gravity: float) -> Block | None:

@@ -10,7 +10,6 @@ from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, Wit
 
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.syntax import fields
-from colonnade.campaign.syntax.fields import SOME_TEXT, once
 from colonnade.campaign.syntax.names import Identifier, inside
 from colonnade.campaign.syntax.table import Table, problem, refuse
 
@@ -38,7 +37,7 @@ def _files(value: object, info: ValidationInfo) -> dict[str, Path]:
     return paths
 
 
-_FILES = {"anyOf": [SOME_TEXT, {"type": "object", "required": [MAIN], "additionalProperties": SOME_TEXT}]}
+_FILES = {"anyOf": [fields.SOME_TEXT, {"type": "object", "required": [MAIN], "additionalProperties": fields.SOME_TEXT}]}
 Files = Annotated[dict[str, Path], BeforeValidator(_files), WithJsonSchema(_FILES)]
 
 
@@ -78,7 +77,7 @@ class Test(Table):
     """The day of the test, such as 2013-04-26."""
     operator: fields.Text | None = None
     """Who ran it."""
-    photos: Annotated[tuple[fields.Text, ...], AfterValidator(once)] = ()
+    photos: Annotated[tuple[fields.Text, ...], AfterValidator(fields.once)] = ()
     """Photos of it, JPEG or PNG, from the folder of the campaign file."""
     notes: fields.Text | None = None
     """Anything worth keeping."""
@@ -90,7 +89,7 @@ def _path(value: object, info: ValidationInfo) -> Path:
     return inside(info.context["folder"] if info.context else Path.cwd(), value)
 
 
-MotionPath = Annotated[Path, BeforeValidator(_path), WithJsonSchema(SOME_TEXT)]
+MotionPath = Annotated[Path, BeforeValidator(_path), WithJsonSchema(fields.SOME_TEXT)]
 
 
 class ReferenceMotion(Table):
