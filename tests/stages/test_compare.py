@@ -62,11 +62,6 @@ def test_nothing_counts_from_where_either_first_passes_the_critical_angle(measur
     assert float(found["compared_until"]) == TIME[119]
 
 
-def test_the_critical_angle_itself_is_not_passed():
-    found = against(history(np.where(TIME > 3, 0.999999, 0.0)), history(SWING))
-    assert float(found["compared_until"]) == TIME[-1]
-
-
 def test_what_lies_past_the_critical_angle_from_the_start_has_no_nrmse():
     found = against(history(np.full(TIME.size, 1.2)), history(SWING))
     assert np.isnan(found["nrmse"])
@@ -94,13 +89,6 @@ def test_the_measured_angle_counts_about_the_true_zero():
     assert float(found["nrmse"]) == pytest.approx(0.0, abs=1e-12)
     assert float(found["zero_offset"]) == 0.01
     assert float(against(measured, history(SWING))["nrmse"]) == pytest.approx(0.01 / ALPHA)
-
-
-def test_the_measured_angle_is_not_changed_in_place():
-    measured = history(SWING, zero_offset=0.01)
-    before = measured.copy(deep=True)
-    against(measured, history(SWING).assign(zero_offset=0.01))
-    xr.testing.assert_identical(measured, before)
 
 
 def test_models_stand_in_order_each_with_its_own_numbers():
@@ -182,13 +170,6 @@ def test_of_a_free_vibration_the_peak_is_that_of_the_time_that_is_predicted():
     assert float(found["measured_peak_ratio"]) == pytest.approx(0.8 * np.exp(-0.5))
     assert float(found["peak_ratio_error"]) == pytest.approx(0.0, abs=1e-12)
     assert float(against(history(decaying), history(predicted))["measured_peak_ratio"]) == pytest.approx(0.8)
-
-
-def test_the_inputs_are_those_of_the_test(small_campaign):
-    shaken, free = (CompareInputs.of(small_campaign, small_campaign.tests[name]) for name in ("shake-01", "free-01"))
-    assert (shaken.observed_outcome, shaken.free_vibration, shaken.is_sine) == ("not-overturned", False, False)
-    assert (free.observed_outcome, free.free_vibration, free.frequency) == (None, True, None)
-    assert shaken.block.critical_angle == pytest.approx(ALPHA)
 
 
 FREQUENCY, AMPLITUDE = 4.0, 1.7  # of the base motion that `shaken` makes

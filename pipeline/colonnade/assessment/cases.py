@@ -18,7 +18,6 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.reactions import reactions
 from colonnade.dynamics.plane.run import OUTCOMES, OVERTURNS, ends_of, expect_usable
 from colonnade.dynamics.rock import rock
-from colonnade.validation import whole
 
 AXES = ("record", "level", "draw", "sign", "component")
 """Of the arrays of an assessment."""
@@ -31,9 +30,6 @@ NOT_RUN, FALLS_AWAY = -1, -2
 Outcomes of a case without a history: its record has no such component, or is not wanted at this level; its base falls
 faster than the column, so that no plane model holds.
 """
-
-MOST_POWER = 4
-"""Of a measure in the strength of a record; Arias intensity has 2."""
 
 
 @dataclass(frozen=True)
@@ -192,13 +188,7 @@ def factors_at(levels: Array, intensity: Array, power: int = 1) -> Array:
     -------
     factors : ndarray, shape (records, levels, components)
         As of `Cases`; NaN also where the measure is 0.
-
-    Raises
-    ------
-    ValueError
-        If the power is not positive: no factor changes such a measure.
     """
-    whole("power", power, 1, MOST_POWER, "a measure that grows with the record")
     measured = np.where(intensity > 0.0, intensity, np.nan)
     return np.asarray((levels[None, :, None] / measured[:, None, :]) ** (1.0 / power), dtype=np.float64)
 

@@ -36,7 +36,7 @@ class CompareInputs(Inputs):
     def of(cls, campaign: Campaign, test: Test) -> CompareInputs:
         """Gather what `compare` reads for one test."""
         return cls(
-            block=campaign.specimens[test.specimen].block(campaign.gravity),
+            block=campaign.block(test.specimen),
             observed_outcome=test.observed_outcome,
             free_vibration=test.kind == "free-vibration",
             is_sine=test.kind == "sine",

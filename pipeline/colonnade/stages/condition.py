@@ -55,7 +55,7 @@ class ConditionInputs(Inputs):
     links: dict[str, tuple[str, str, float]]
     settings: ConditionSettings
     p: float
-    kind: str
+    free_vibration: bool
     zero: str | tuple[float, float]
     plausibility: PlausibilityInputs
 
@@ -65,19 +65,15 @@ class ConditionInputs(Inputs):
         setup, channels = campaign.setups[test.setup], campaign.channels(test)
         return cls(
             channels={
-                name: ChannelOnClock(
-                    quantity=channel.quantity,
-                    on=channel.on,
-                    recorder=channel.recorder,
-                    delay=channel.delay,
-                    resting=_resting(channel, campaign.gravity),
+                name: ChannelOnClock.model_validate(channel, from_attributes=True).model_copy(
+                    update={"resting": _resting(channel, campaign.gravity)}
                 )
                 for name, channel in channels.items()
             },
             links=find_links(setup.recorders, channels),
             settings=campaign.processing,
-            p=campaign.specimens[test.specimen].block(campaign.gravity).p,
-            kind=test.kind,
+            p=campaign.block(test.specimen).p,
+            free_vibration=test.kind == "free-vibration",
             zero=test.zero,
             plausibility=PlausibilityInputs.of(campaign, test),
         )
@@ -143,9 +139,9 @@ def condition(recorded: xr.Dataset, inputs: ConditionInputs) -> xr.Dataset:
         attributes,
         channels,
         zero=inputs.zero,
-        free_vibration=inputs.kind == "free-vibration",
+        free_vibration=inputs.free_vibration,
         duration=inputs.settings.rest_duration,
-        effects={name: effects[variable_name(name)] for name in channels if variable_name(name) in effects},
+        effects={name: effects[variable_name(name)] for name in values if variable_name(name) in effects},
         warnings=warnings,
     )
     variables: dict[str, Any] = {}

@@ -55,7 +55,7 @@ class PredictInputs(BeginningInputs):
     def of(cls, campaign: Campaign, test: Test, model: str) -> PredictInputs:
         """Gather what `predict` reads for one test and model."""
         return cls(
-            block=campaign.specimens[test.specimen].block(campaign.gravity),
+            block=campaign.block(test.specimen),
             model=model,
             rest_angle=campaign.processing.predict.rest_angle,
             free_vibration=test.kind == "free-vibration",

@@ -72,18 +72,3 @@ def test_a_wrong_height_of_all_drums_is_told_from_joint_to_joint(told):
 def test_axes_that_are_turned_are_told_once(told):
     (text,) = told((r"axes = .*", "axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]"))
     assert re.match(r"At rest \d of 9 markers .* Check the axes of the tracking", text)
-
-
-def test_a_gap_in_the_tracking_stays_a_gap(tmp_path, shaken_drums):
-    drums.write_campaign(tmp_path, shaken_drums[0])
-    path = tmp_path / "raw/quake.csv"
-    rows = path.read_text().splitlines()
-    column = rows[0].split(",").index("3a X")
-    for place in range(300, 400):
-        cells = rows[place].split(",")
-        cells[column : column + 3] = [""] * 3
-        rows[place] = ",".join(cells)
-    path.write_text("\n".join(rows) + "\n")
-    done = run(tmp_path, until="rocking", workers=1)
-    said = [each.text for every in done.findings.values() for each, _ in every]
-    assert any("m3a_x" in text for text in said)

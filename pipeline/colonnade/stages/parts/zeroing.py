@@ -46,8 +46,7 @@ def rest_window(
     noises = {name: (values[name], float(attributes[name]["noise"])) for name in shown}
     window = find_rest(clock, noises, end=end, duration=duration)
     if not window.quiet:
-        known = {name: effect for name, effect in effects.items() if name in values}
-        warnings += find_zero_error(clock, values, known, window, free_vibration=free_vibration)
+        warnings += find_zero_error(clock, values, effects, window, free_vibration=free_vibration)
     return window
 
 
