@@ -71,12 +71,9 @@ def real_column(inputs: ColumnInputs, pooled: xr.Dataset) -> tuple[RealColumn, s
     """
     given = inputs.prototype
     block = inputs.block if inputs.scale == 1.0 else _enlarged(inputs.block, inputs.scale)
-    factors = (
-        (1.0 if given.critical_angle is None else given.critical_angle / block.critical_angle),
-        (1.0 if given.p is None else given.p / block.p),
-    )
-    if factors != (1.0, 1.0):
-        block = member_block(block, *factors)
+    if given.critical_angle is not None or given.p is not None:
+        angle, p = given.critical_angle or block.critical_angle, given.p or block.p
+        block = member_block(block, angle / block.critical_angle, p / block.p)
     restitution, limits, source = _restitution(inputs, block, pooled)
     column = RealColumn(
         block,

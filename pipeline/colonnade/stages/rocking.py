@@ -162,16 +162,13 @@ def _shock(acceleration: Array, time: Array) -> list[Finding]:
     shock = single_shock(acceleration, float(time[1] - time[0]))
     if shock is None:
         return []
-    return [
-        warning(
-            "single shock",
-            f"The base acceleration has a single shock of {shock.peak:.3g} m/s² at {time[0] + shock.time:.4g} s, "
-            f"{1e3 * shock.duration:.2g} ms long; elsewhere it stays below {shock.elsewhere:.3g} m/s². It is the peak "
-            "ground acceleration and drives the prediction. If it is a blow, not a motion of the table, [[flag]] that "
-            "window of the channel as failed in review.toml.",
-            follows=("gain", "unit"),
-        )
-    ]
+    text = (
+        f"The base acceleration has a single shock of {shock.peak:.3g} m/s² at {time[0] + shock.time:.4g} s, "
+        f"{1e3 * shock.duration:.2g} ms long; elsewhere it stays below {shock.elsewhere:.3g} m/s². It is the peak "
+        "ground acceleration and drives the prediction. If it is a blow, not a motion of the table, [[flag]] that "
+        "window of the channel as failed in review.toml."
+    )
+    return [warning("single shock", text, follows=("gain", "unit"))]
 
 
 def _hidden_peak(time: Array, angle: Array, block: Block) -> list[Finding]:
@@ -247,19 +244,11 @@ def _motion_variables(
     time: Array, motion: SpecimenMotion, acceleration: Array | None, inputs: RockingInputs, attributes: dict[str, Any]
 ) -> dict[str, Any]:
     median = {name: float(np.nanmedian(errors)) for name, errors in motion.standard_error.items()}
-    found = angle_features(
-        time,
-        motion.angle,
-        median["rocking_angle"],
-        inputs.block,
-        rest_duration=inputs.rest_duration,
-        catch=inputs.catch,
-    )
+    error, rest = median["rocking_angle"], inputs.rest_duration
+    found = angle_features(time, motion.angle, error, inputs.block, rest_duration=rest, catch=inputs.catch)
     attributes |= {"outcome": found.verdict.outcome, "separation": motion.separation}
-    ended = ending(
-        time, motion.angle, None if inputs.free_vibration else acceleration, found.verdict, inputs.block,
-        error=median["rocking_angle"], duration=inputs.rest_duration, lever=_only_lever(inputs.transducers),
-    )  # fmt: skip
+    moved, lever = None if inputs.free_vibration else acceleration, _only_lever(inputs.transducers)
+    ended = ending(time, motion.angle, moved, found.verdict, inputs.block, error=error, duration=rest, lever=lever)
     # Bodies that slid on each other leave the one block leaning.
     attributes["warnings"] += [ended] if ended and inputs.assembly is None else []
     variables: dict[str, Any] = {f"{name}_standard_error": error for name, error in median.items()}

@@ -90,13 +90,17 @@ def misplaced(conditioned: xr.Dataset, markers: Mapping[str, MarkerInputs], asse
     }
     if len(used) < FEWEST:
         return []
-    declared = np.array([_declared(each, assembly) for each in used.values()])
-    seen = np.array([_seen(each, conditioned) for each in used.values()])
+    bodies = [each.body for each in used.values()]
+    feet = np.array([np.append(assembly.bodies[body].position, assembly.levels[body]) for body in bodies])
+    declared = feet + np.array([each.at for each in used.values()])
+    # What was taken off each channel at rest, along the axes of the table.
+    zeros = [[float(conditioned[name].attrs["zero"]) for name in each.channels] for each in used.values()]
+    seen = np.einsum("mc,mci->mi", zeros, [list(each.channels.values()) for each in used.values()])
     seen = seen - np.median(seen - declared, axis=0)
     off, names = seen - declared, list(used)
     wrong = np.flatnonzero(np.linalg.norm(off, axis=1) > MISPLACED).tolist()
     if 2 * len(wrong) > len(used):
-        if steps := _steps(off, [each.body for each in used.values()], assembly):
+        if steps := _steps(off, bodies, assembly):
             said = listed([f"{body} above {lower} {_along(step)}" for (body, lower), step in steps.items()])
             text = f"At rest bodies are off their places: {said}. Check the heights of the bodies."
             return [serious("geometry", text)]
@@ -105,10 +109,9 @@ def misplaced(conditioned: xr.Dataset, markers: Mapping[str, MarkerInputs], asse
             "`at` put them relative to each other. Check the axes of the tracking, and the unit."
         )
         return [serious("geometry", text)]
-    bodies = dict.fromkeys(used[names[each]].body for each in wrong)
     found = []
-    for body in bodies:
-        own = [each for each, name in enumerate(names) if used[name].body == body]
+    for body in dict.fromkeys(bodies[each] for each in wrong):
+        own = [each for each, other in enumerate(bodies) if other == body]
         mine = [each for each in own if each in wrong]
         together = np.ptp(off[mine], axis=0).max() < MISPLACED
         where = _along(off[mine].mean(axis=0))
@@ -132,17 +135,6 @@ def _steps(off: Array, bodies: Sequence[str], assembly: Assembly) -> dict[tuple[
     pairs = [(body, lower) for body in means for lower in assembly.bodies[body].on[:1] if lower in means]
     steps = {(body, lower): means[body] - means[lower] for body, lower in pairs}
     return {each: step for each, step in steps.items() if np.linalg.norm(step) > MISPLACED}
-
-
-def _declared(marker: MarkerInputs, assembly: Assembly) -> Array:
-    """Where a marker is at rest, in the frame of the table, m."""
-    return np.append(assembly.bodies[marker.body].position, assembly.levels[marker.body]) + marker.at
-
-
-def _seen(marker: MarkerInputs, conditioned: xr.Dataset) -> Array:
-    """Where the cameras see it at rest, along the axes of the table, m."""
-    along = [float(conditioned[name].attrs["zero"]) * np.array(axis) for name, axis in marker.channels.items()]
-    return np.asarray(np.sum(along, axis=0))
 
 
 def _along(off: Array) -> str:
@@ -286,12 +278,11 @@ def _derived(conditioned: xr.Dataset, channels: Transducers, displacement: Array
     cutoff = min(float(conditioned[name].attrs["cutoff_hz"]) for name in channels.displacements if name in conditioned)
     is_meant = not any(abs(direction[0]) >= ALONG for direction in channels.accelerations.values())
     weight = note if is_meant else warning
-    finding = weight(
-        DERIVED,
-        "The base acceleration is the second derivative of the table's displacement, because no table accelerometer "
-        f"is usable. It contains nothing above {cutoff:.3g} Hz.",
+    text = (
+        "The base acceleration is the second derivative of the table's displacement, because no table accelerometer is "
+        f"usable. It contains nothing above {cutoff:.3g} Hz."
     )
-    return second_derivative(displacement, interval, cutoff), finding
+    return second_derivative(displacement, interval, cutoff), weight(DERIVED, text)
 
 
 def _several(what: str, names: list[str], values: Array, mean: Array) -> Finding:
@@ -302,12 +293,11 @@ def _several(what: str, names: list[str], values: Array, mean: Array) -> Finding
     if share <= LARGEST_DIFFERENCE:
         return note("several table channels", f"{text}; they agree to {format_percent(share, 1)}.")
     odd = names[int(off.argmax())]
-    return warning(
-        "several table channels",
-        f"{text}, but they differ: {odd} by {format_percent(share)} of it (RMS). If one of them is wrong or "
-        'is not fixed to the table, change its `on`, or set quantity = "other".',
-        follows=MEASUREMENT,
+    text += (
+        f", but they differ: {odd} by {format_percent(share)} of it (RMS). If one of them is wrong or is not fixed to "
+        'the table, change its `on`, or set quantity = "other".'
     )
+    return warning("several table channels", text, follows=MEASUREMENT)
 
 
 def axes(base: Mapping[str, Array], quantity: str, time: Array) -> Array:
