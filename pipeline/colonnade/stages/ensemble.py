@@ -88,7 +88,7 @@ def ensemble(
     bands : xr.Dataset
         `rocking_angle_band` by `quantile` on the record's clock, from where the prediction starts; the
         `overturning_probability` with its interval; `member_peak_ratio` (NaN if it overturns) and
-        `member_overturning_time`; by `input` its standard deviation and `peak_sensitivity`; what `rank_measured` adds.
+        `member_overturning_time`; by `input` its standard deviation and `peak_sensitivity`; what `describe_bands` adds.
 
     Raises
     ------

@@ -46,25 +46,20 @@ class PredictInputs(BeginningInputs):
     space: ContactInputs | None = None
     assembly: AssemblyInputs | None = None
 
-    @property
-    def is_in_space(self) -> bool:
-        """Whether the model also moves across the plane."""
-        return self.space is not None
-
     @classmethod
     def of(cls, campaign: Campaign, test: Test, model: str) -> PredictInputs:
         """Gather what `predict` reads for one test and model."""
+        along, in_space = transducers(campaign.channels(test)).accelerations.values(), model_of(model).in_space
         return cls(
             block=campaign.block(test.specimen),
             model=model,
             rest_angle=campaign.processing.predict.rest_angle,
             free_vibration=test.kind == "free-vibration",
             tilt=campaign.setups[test.setup].table_tilt or 0.0,
-            has_vertical=any(
-                abs(direction[2]) >= ALONG for direction in transducers(campaign.channels(test)).accelerations.values()
-            ),
-            space=ContactInputs.of(campaign, test.specimen) if model_of(model).in_space else None,
-            assembly=AssemblyInputs.of(campaign, test) if model_of(model).in_space else None,
+            has_vertical=any(abs(direction[2]) >= ALONG for direction in along),
+            is_in_space=in_space,
+            space=ContactInputs.of(campaign, test.specimen) if in_space else None,
+            assembly=AssemblyInputs.of(campaign, test) if in_space else None,
         )
 
 

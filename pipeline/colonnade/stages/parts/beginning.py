@@ -170,17 +170,15 @@ class BeginningInputs(Inputs):
         The table's rotation about +y, rad: with it gravity pulls towards +x.
     has_vertical : bool
         The set-up has an accelerometer of the table along z.
+    is_in_space : bool
+        Whether the model also moves across the plane.
     """
 
     block: Block
     free_vibration: bool
     tilt: float = 0.0
     has_vertical: bool = False
-
-    @property
-    def is_in_space(self) -> bool:
-        """Whether the model also moves across the plane."""
-        return False
+    is_in_space: bool = False
 
 
 @dataclass(frozen=True)
