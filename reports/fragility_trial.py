@@ -76,7 +76,7 @@ def outcomes_of(capacity: Array, intensity: Array) -> Outcomes:
     """Give the outcomes of capacities of shape (records, draws) at intensities."""
     demand = intensity[None, :, None] / capacity[:, None, :]
     names = [f"record {number}" for number in range(len(capacity))]
-    return gather(names, np.tile(intensity, (len(names), 1)), np.where(demand > 1, 2.0, 0.5 * demand))
+    return gather(names, intensity, np.where(demand > 1, 2.0, 0.5 * demand))
 
 
 RESAMPLES = 999

@@ -129,8 +129,7 @@ PEAKS = np.array([[wave.peak, np.nan] for wave in WAVES])
 
 
 def test_the_share_that_overturns_goes_from_none_to_all():
-    levels = default_levels(COLUMN, WAVES, PEAKS, count=8)
-    assert levels.size == 8
+    levels = default_levels(COLUMN, WAVES, PEAKS)
     assert (np.diff(levels) > 0).all()
     np.testing.assert_allclose(np.diff(np.log(levels), 2), 0.0, atol=0.02)
     cases = Cases(COLUMN, np.stack([draw(COLUMN, 0)] * 3), WAVES, factors_at(levels, PEAKS))

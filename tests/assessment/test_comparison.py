@@ -16,7 +16,7 @@ def outcomes():
 @pytest.fixture(scope="module")
 def measures(outcomes):
     noise = np.exp(np.random.default_rng(5).normal(0, 1.2, (30, 1)))
-    own = outcomes.intensity[:, :, 0]
+    own = np.tile(outcomes.levels, (30, 1))
     return {"noisy": own * noise, "pgv": own, "unrelated": np.tile(noise, (1, own.shape[1]))}
 
 

@@ -15,7 +15,7 @@ from virtual_capacities import BETA, MEDIAN, lognormal, names, outcomes_of, two_
 
 def single(peaks, intensity=(1.0, 2.0, 3.0)):
     peaks = np.asarray(peaks, dtype=float)
-    return gather(names(len(peaks)), np.tile(intensity, (len(peaks), 1)), peaks)
+    return gather(names(len(peaks)), intensity, peaks)
 
 
 def test_median_beta_and_probabilities_are_near_the_truth_and_inside_their_intervals():
@@ -104,7 +104,7 @@ def test_one_intensity_gives_no_curve():
 @given(factor=st.floats(1e-6, 1e6))
 def test_the_unit_of_the_intensity_does_not_matter(factor):
     outcomes = lognormal(7)
-    scaled = gather(outcomes.records, outcomes.intensity[:, :, 0] * factor, outcomes.peak)
+    scaled = gather(outcomes.records, outcomes.levels * factor, outcomes.peak)
     one, other = (fit_lognormal(each, Resampling(50)) for each in (outcomes, scaled))
     assert np.array(other.median) == pytest.approx(np.array(one.median) * factor)
     assert np.array(other.beta) == pytest.approx(np.array(one.beta))
@@ -129,18 +129,18 @@ def test_shares_that_rise_are_kept():
     outcomes = lognormal(1)
     curve = fit_isotonic(outcomes, Resampling(50))
     np.testing.assert_allclose(curve.probability.value, outcomes.overturned.mean(axis=(0, 2, 3)))
-    np.testing.assert_allclose(curve.intensity, outcomes.intensity[0, :, 0])
+    np.testing.assert_allclose(curve.intensity, outcomes.levels)
 
 
 def test_neighbours_that_fall_are_pooled():
     peak = np.array([[0.5, 2, 0.5, 2], [0.5, 2, 2, 2], [0.5, 0.5, 0.5, 2], [0.5, 0.5, 0.5, 2]])
-    curve = fit_isotonic(gather(names(4), np.tile([1.0, 2, 3, 4], (4, 1)), peak), Resampling(50))
+    curve = fit_isotonic(gather(names(4), [1.0, 2, 3, 4], peak), Resampling(50))
     np.testing.assert_allclose(curve.probability.value, [0, 0.375, 0.375, 1])
 
 
 def test_of_n_records_the_limits_are_those_of_n_trials():
     peak = np.tile([0.5, 0.5, 2.0], (20, 1))
-    curve = fit_isotonic(gather(names(20), np.tile([1.0, 2, 3], (20, 1)), peak), Resampling(50))
+    curve = fit_isotonic(gather(names(20), [1.0, 2, 3], peak), Resampling(50))
     assert curve.probability.low.tolist() == pytest.approx([0, 0, 0.025 ** (1 / 20)])  # Clopper and Pearson
     assert curve.probability.high.tolist() == pytest.approx([1 - 0.025 ** (1 / 20)] * 2 + [1])
 
@@ -160,18 +160,10 @@ def test_the_intensity_of_a_probability_is_between_its_stripes():
     assert curve.reaches(0.95) == (np.inf, np.inf, np.inf)
 
 
-def test_many_different_intensities_are_binned():
-    outcomes = lognormal(3)
-    own = outcomes.intensity[:, :, 0] * np.exp(np.random.default_rng(4).normal(0, 0.3, (30, 1)))
-    curve = fit_isotonic(gather(outcomes.records, own, outcomes.peak), Resampling(50))
-    assert (curve.intensity.size, (np.diff(curve.intensity) > 0).all()) == (20, True)
-    assert own.min() < curve.intensity[0] < curve.intensity[-1] < own.max()
-
-
 def test_at_the_outermost_levels_of_few_records_the_limits_hold_the_truth():
     """One event of ten, where 1.4 % overturn: the limits of Wilson (1927) missed that, in 16 % of the samples."""
     peak = np.tile([0.5, 2.0], (10, 1))
     peak[0, 0] = 2.0
-    curve = fit_isotonic(gather(names(10), np.tile([1.0, 2.0], (10, 1)), peak), Resampling(500))
+    curve = fit_isotonic(gather(names(10), [1.0, 2.0], peak), Resampling(500))
     exact = stats.binomtest(1, 10).proportion_ci(0.95, method="exact")
     assert (curve.probability.low[0], curve.probability.high[0]) == pytest.approx(tuple(exact), abs=1e-6)

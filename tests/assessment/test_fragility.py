@@ -20,7 +20,7 @@ def test_everything_is_of_the_same_outcomes():
         Resampling(100),
         uplift_varies=False,
         hazard=hazard_curve([0.05, 2.0], [1e-1, 1e-5]),
-        measures={"pgv": outcomes.intensity},
+        measures={"pgv": np.tile(outcomes.levels, (30, 1))},
         magnitude=np.linspace(5, 7, 30),
     )
     assert found.lognormal.median.low < MEDIAN < found.lognormal.median.high
@@ -34,7 +34,7 @@ def test_everything_is_of_the_same_outcomes():
 def test_without_a_threshold_the_start_of_rocking_is_a_curve_of_the_histories_that_rocked():
     peak = np.where(np.random.default_rng(1).normal(2.0, 0.5, (40, 1)) < np.linspace(1, 3, 8), 0.3, 0.0)
     records = [str(number) for number in range(40)]
-    found = summarise(gather(records, np.tile(np.linspace(1, 3, 8), (40, 1)), peak), Resampling(100)).uplift
+    found = summarise(gather(records, np.linspace(1, 3, 8), peak), Resampling(100)).uplift
     assert found.median.low < 2.0 < found.median.high
 
 
@@ -77,7 +77,7 @@ def test_with_fine_levels_they_are_those_of_an_analysis_of_variance():
 
 def test_levels_that_end_below_most_capacities_do_not_mislead_it():
     outcomes = lognormal(3, records=400)
-    low = Outcomes(outcomes.records, outcomes.intensity[:, :5], outcomes.peak[:, :5], outcomes.overturned[:, :5])
+    low = Outcomes(outcomes.records, outcomes.levels[:5], outcomes.peak[:, :5], outcomes.overturned[:, :5])
     assert low.overturned.mean() < 0.25
     assert split(low) == pytest.approx((Population.of_records, Population.of_parameters), rel=0.12)
 
@@ -102,7 +102,7 @@ def test_it_is_the_curve_of_all_other_records():
     found = influence(outcomes, hazard_curve([0.1, 1.0], [1e-2, 1e-5]))
     place = found.records.index("record 3")
     kept = np.arange(30) != 3
-    others = gather(names(29), outcomes.intensity[kept], outcomes.peak[kept], outcomes.overturned[kept])
+    others = gather(names(29), outcomes.levels, outcomes.peak[kept], outcomes.overturned[kept])
     without = fit_lognormal(others, Resampling(2))
     assert found.median[place] == pytest.approx(without.median.value)
     expected = lognormal_rate(hazard_curve([0.1, 1.0], [1e-2, 1e-5]), without.median.value, without.beta.value)

@@ -38,7 +38,7 @@ RESULTS = {
         | channels("elapsed_daq2", 50, "spare", "other", "furlong")
         | channels("elapsed_daq2", 50, "sync", "other", None)
         | channels("elapsed_daq2", 50, "gyro", "angular_velocity", "deg/s"),
-        coords=CLOCK | {"elapsed_daq2": TIME[:50], "time": 1.7e9},
+        coords=CLOCK | {"elapsed_daq2": TIME[:50]},
         attrs={"raw_files": ["raw/a.csv"], "raw_sha256": ["0" * 64], "notes": ["delimiter ';'"], "warnings": ["ö"]},
     ),
     "map": xr.Dataset(
@@ -100,7 +100,7 @@ def test_a_stages_file_has_what_acdd_asks_for_and_a_laboratory_knows(stored):
     unnamed = {"standard_name"} | ({"units"} if stored.stem == "ingest" else set())
     assert set(found.pop(3, [])) <= unnamed
     with xr.open_dataset(stored, decode_times=False) as opened:
-        excused = (GEOSPATIAL, VOCABULARY, *UNKNOWN, *(() if "time" in opened else UNTRIGGERED))
+        excused = (GEOSPATIAL, VOCABULARY, *UNKNOWN, *UNTRIGGERED)
         excused += () if "elapsed" in opened else ("time_coverage",)
     assert [text for text in found.get(2, []) if not any(name in text for name in excused)] == []
 

@@ -264,7 +264,6 @@ def default_levels(
     intensity: Array,
     *,
     power: int = 1,
-    count: int = LEVELS,
     model: str = NONLINEAR.name,
 ) -> Array:
     """
@@ -278,12 +277,11 @@ def default_levels(
         The measure of each as recorded; NaN for a component that is not run.
     power : int, optional
         As of `factors_at`.
-    count : int, optional
     model : str, optional
 
     Returns
     -------
-    levels : ndarray, shape (count,)
+    levels : ndarray, shape (`LEVELS`,)
         Rising, in the unit of the measure; from the last trial below the first that overturns the column, to the first
         from which on every record does, or the largest trial. Rounded to three digits.
 
@@ -303,7 +301,7 @@ def default_levels(
     standing = np.flatnonzero(~every)
     last = min(int(standing[-1]) + 1 if standing.size else 0, TRIALS - 1)
     ends = trials[max(first - 1, 0)], trials[max(last, first, 1)]
-    return np.array([float(f"{level:.3g}") for level in np.geomspace(*ends, count)])
+    return np.array([float(f"{level:.3g}") for level in np.geomspace(*ends, LEVELS)])
 
 
 def _first_uplift(column: RealColumn, motions: Sequence[Motion], intensity: Array, power: int) -> float:

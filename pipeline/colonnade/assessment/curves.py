@@ -20,7 +20,7 @@ from colonnade.assessment.intervals import (
     shows_spread,
     studentised,
 )
-from colonnade.assessment.outcomes import Cells, Outcomes, Stripes, striped, summed
+from colonnade.assessment.outcomes import Cells, Outcomes
 from colonnade.assessment.probit import Parameters, fit_parameters
 from colonnade.units.text import format_percent
 from colonnade.validation import samples
@@ -139,8 +139,8 @@ def fit_lognormal(outcomes: Outcomes, resampling: Resampling, *, event: Mask | N
     parameters, _, reasons = fit_parameters(cells, resampling.weights(len(outcomes.records)))
     all_records, resampled = (Parameters(*(each[part] for each in parameters)) for part in (slice(1), slice(1, None)))
     has_curve = reasons[1:] == ""
-    stripes = striped(cells)
-    shares = stripes.events.sum(axis=0) / stripes.histories.sum(axis=0)
+    counted = cells.histories.any(axis=0)
+    shares = cells.events.sum(axis=0)[counted] / cells.histories.sum(axis=0)[counted]
     mixed = float(np.minimum(shares, 1 - shares).sum())
     shows = len(outcomes.records) >= ENOUGH_RECORDS or mixed >= LEAST_MIXED
     usable = has_curve & (shows and shows_spread(has_curve, len(outcomes.records)))
@@ -214,29 +214,17 @@ def lognormal_misfit(outcomes: Outcomes, resampling: Resampling) -> float:
     The χ² of a deviance does not hold: a record at several levels is one record. The distribution under the curve is
     that of the resamples' departures about the observed ones (centred bootstrap, Hall and Wilson 1991).
     """
-    cells = outcomes.cells()
-    stripes = striped(cells)
-    weights = resampling.weights(len(outcomes.records))
-    parameters, _, reasons = fit_parameters(cells, weights)
-    shares, expected = _shares(cells, stripes, weights, parameters)
-    departures = shares - expected
+    stripes, weights = outcomes.stripes(), resampling.weights(len(outcomes.records))
+    parameters, _, reasons = fit_parameters(outcomes.cells(), weights)
+    of, beta = weights @ stripes.histories, np.exp(parameters.log_beta)[:, None]
+    expected = scipy.special.ndtr((stripes.log_intensity[0] - parameters.log_median[:, None]) / beta)
+    departures = weights @ stripes.events / np.where(of > 0, of, np.nan) - expected
     fitted = reasons == ""
     likely = np.clip(expected[0], 0.5 / len(outcomes.records), 1 - 0.5 / len(outcomes.records))
-    scale = stripes.histories.sum(axis=0) / (likely * (1 - likely))
+    scale = of[0] / (likely * (1 - likely))
     statistic = float((scale * departures[0] ** 2).sum())
     null = (scale * (departures[1:][fitted[1:]] - departures[0]) ** 2).sum(axis=1)
     return float((1 + (null >= statistic).sum()) / (1 + null.size)) if fitted[0] else np.nan
-
-
-def _shares(cells: Cells, stripes: Stripes, weights: Array, parameters: Parameters) -> tuple[Array, Array]:
-    """Shares of the stripes and those expected by each fit, shape (n, k)."""
-    events, histories = weights @ stripes.events, weights @ stripes.histories
-    expected = np.empty_like(events)
-    for n, (mean, log_beta) in enumerate(zip(parameters.log_median, parameters.log_beta, strict=True)):
-        likely = cells.histories * scipy.special.ndtr((cells.log_intensity - mean) / np.exp(log_beta))
-        expected[n] = weights[n] @ summed(likely, stripes.place, stripes.log_intensity.size)
-    of = np.where(histories > 0, histories, np.nan)
-    return events / of, expected / of
 
 
 @dataclass(frozen=True)
@@ -293,17 +281,16 @@ def fit_isotonic(outcomes: Outcomes, resampling: Resampling) -> IsotonicCurve:
     Barlow et al. (1972). Each interval is Clopper and Pearson's (1934), with the number of independent histories that
     gives the bootstrap's variance (Korn and Graubard 1998): near 0 and 1 resamples of few records hardly scatter, and
     their quantiles are too narrow. That number is at most what the variances of all stripes together give, and at least
-    the number of records. If each record has intensities of its own, a stripe is a bin,
-    and the curve is that of its bins.
+    the number of records.
     """
-    stripes, weights = striped(outcomes.cells()), resampling.weights(len(outcomes.records))
+    stripes, weights = outcomes.stripes(), resampling.weights(len(outcomes.records))
     pooled = _pooled(weights @ stripes.events, weights @ stripes.histories)
     value, variance = pooled[0], pooled[1:].var(axis=0)
     of_records = (stripes.histories > 0).sum(axis=0)
     low, high = _limits(value, variance, of_records, resampling.level)
     # A curve that only rises has limits that only rise.
     band = Band(value, np.maximum.accumulate(low), np.minimum.accumulate(high[::-1])[::-1])
-    return IsotonicCurve(np.exp(stripes.log_intensity), band)
+    return IsotonicCurve(np.exp(stripes.log_intensity[0]), band)
 
 
 def _pooled(events: Array, histories: Array) -> Array:

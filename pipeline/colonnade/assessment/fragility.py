@@ -229,8 +229,7 @@ def split_beta(outcomes: Outcomes, fit: LognormalFit) -> Betas:
     pairs, both = histories * (histories - 1), over * (over - 1)
     if fit.reason or not pairs.any():
         return Betas(np.nan, np.nan)
-    y = np.log(np.where(pairs > 0, outcomes.intensity, 1.0))
-    z = (y - fit.fit.log_median[0]) / np.exp(fit.fit.log_beta[0])
+    z = (np.log(outcomes.levels)[:, None] - fit.fit.log_median[0]) / np.exp(fit.fit.log_beta[0])
 
     def excess(rho: float) -> float:
         likely = scipy.special.ndtr(z) - 2 * scipy.special.owens_t(z, np.sqrt((1 - rho) / (1 + rho)))

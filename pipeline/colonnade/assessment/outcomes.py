@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
 from colonnade.errors import count
@@ -41,8 +41,8 @@ class Outcomes:
     ----------
     records : tuple of str, length r
         Their names. A record at many levels is one record: intervals resample records.
-    intensity : ndarray, shape (r, l, 1) or (r, l, c)
-        Of each record at each level, positive and rising; the last axis if directions have intensities of their own.
+    levels : ndarray, shape (l,)
+        Intensities to which all records are scaled, positive and rising.
     peak : ndarray, shape (r, l, d, c)
         max |θ| / α; 0 without uplift, NaN if the history was not run. Axes: record, level, draw, direction (components
         and signs). A draw is the same at all levels of its record. Other records have draws of their own; if all share
@@ -51,7 +51,7 @@ class Outcomes:
     """
 
     records: tuple[str, ...]
-    intensity: Array
+    levels: Array
     peak: Array
     overturned: Mask
 
@@ -72,17 +72,22 @@ class Outcomes:
             Of another measure, positive.
         """
         event = self.overturned if event is None else event
-        intensity = self.intensity if intensity is None else intensity
+        rows = len(self.records)
+        if intensity is None:
+            intensity = np.tile(self.levels[:, None], (rows, 1, 1))
         axes = (2, 3) if intensity.shape[2] == 1 else (2,)
         events = (event & self.was_run).sum(axis=axes, dtype=np.float64)
         histories = self.was_run.sum(axis=axes, dtype=np.float64)
-        rows = len(self.records)
-        # Levels that were not run may have no intensity.
-        known = np.where(histories.reshape(rows, -1) > 0, intensity.reshape(rows, -1), 1.0)
-        return Cells(np.log(known), events.reshape(rows, -1), histories.reshape(rows, -1))
+        return Cells(np.log(intensity).reshape(rows, -1), events.reshape(rows, -1), histories.reshape(rows, -1))
+
+    def stripes(self) -> Cells:
+        """Count overturned histories by record and level, of the levels at which there are histories."""
+        cells = self.cells()
+        counted = cells.histories.any(axis=0)
+        return Cells(*(each[:, counted] for each in cells))
 
 
-def gather(records: Sequence[str], intensity: ArrayLike, peak: ArrayLike, overturned: Mask | None = None) -> Outcomes:
+def gather(records: Sequence[str], levels: ArrayLike, peak: ArrayLike, overturned: Mask | None = None) -> Outcomes:
     """
     Bring outcomes to their axes.
 
@@ -90,8 +95,8 @@ def gather(records: Sequence[str], intensity: ArrayLike, peak: ArrayLike, overtu
     ----------
     records : sequence of str, length r
         Names, each once.
-    intensity : array_like, shape (r, l) or (r, l, c)
-        Positive, in SI, rising along l.
+    levels : array_like, shape (l,)
+        As of `Outcomes`.
     peak : array_like, shape (r, l), (r, l, d) or (r, l, d, c)
         max |θ| / α; NaN if the history was not run. Each record has a history.
     overturned : ndarray of bool, shape of peak, optional
@@ -106,60 +111,13 @@ def gather(records: Sequence[str], intensity: ArrayLike, peak: ArrayLike, overtu
         raise ValueError(f"records has {count(len(records), 'name')}; at least {FEWEST} were expected")
     peaks = with_axes(peak, 4)
     over = peaks > 1.0 if overturned is None else overturned.reshape(peaks.shape)
-    return Outcomes(tuple(records), with_axes(intensity, 3), peaks, over & ~np.isnan(peaks))
+    return Outcomes(tuple(records), np.asarray(levels, dtype=np.float64), peaks, over & ~np.isnan(peaks))
 
 
 def with_axes(values: ArrayLike, axes: int) -> Array:
     """Add axes of length 1 at the end, up to so many in all."""
     array = np.asarray(values, dtype=np.float64)
     return array.reshape(*array.shape, *(1,) * (axes - array.ndim))
-
-
-MOST_STRIPES = 20
-"""Distinct intensities that are stripes of their own; of more, neighbours share one."""
-
-
-class Stripes(NamedTuple):
-    """
-    Histories counted by record and stripe.
-
-    Attributes
-    ----------
-    log_intensity : ndarray, shape (k,)
-        Mean of a stripe, rising.
-    events, histories : ndarray, shape (r, k)
-    place : ndarray of int, shape (r, m)
-        Stripe of each cell.
-    """
-
-    log_intensity: Array
-    events: Array
-    histories: Array
-    place: NDArray[np.intp]
-
-
-def striped(cells: Cells) -> Stripes:
-    """Sort the cells into stripes: one for each intensity, or `MOST_STRIPES` with about as many histories each."""
-    counted = cells.histories > 0
-    y = cells.log_intensity
-    distinct = np.unique(np.round(y[counted], 9))
-    if distinct.size > MOST_STRIPES:
-        distinct = np.unique(np.quantile(y[counted], (np.arange(MOST_STRIPES) + 0.5) / MOST_STRIPES))
-    edges = (distinct[1:] + distinct[:-1]) / 2
-    # Between two quantiles there may be nothing.
-    distinct = np.unique(np.searchsorted(edges, y[counted]))
-    place = np.minimum(np.searchsorted(distinct, np.searchsorted(edges, y)), distinct.size - 1)
-    events, histories, total = (
-        summed(each, place, distinct.size) for each in (cells.events, cells.histories, cells.histories * y)
-    )
-    return Stripes(total.sum(axis=0) / histories.sum(axis=0), events, histories, place)
-
-
-def summed(values: Array, place: NDArray[np.intp], count: int) -> Array:
-    """Add up the values of each record, shape (r, m), that have the same place, shape (r, count)."""
-    rows = len(values)
-    flat = (np.arange(rows)[:, None] * count + place).ravel()
-    return np.asarray(np.bincount(flat, values.ravel(), rows * count).reshape(rows, count), dtype=np.float64)
 
 
 def resurrected(outcomes: Outcomes) -> float:

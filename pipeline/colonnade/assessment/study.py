@@ -231,7 +231,7 @@ def judge(
     peak = np.where(outcomes.is_run & np.isnan(outcomes.peak_ratio), np.inf, outcomes.peak_ratio)
     gathered = gather(
         study.names,
-        np.broadcast_to(study.levels, (records, levels)),
+        study.levels,
         np.where(outcomes.is_run, peak, np.nan)[:, :, drawn].reshape(directions),
         outcomes.exceeds(overturned)[:, :, drawn].reshape(directions),
     )

@@ -12,7 +12,7 @@ import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from datetime import UTC, datetime, timedelta
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -132,8 +132,7 @@ _CIRCUMSTANCES = frozenset(
     {
         *("Conventions", "title", "summary", "keywords", "id", "institution", "project", "processing_level", "source"),
         *("history", "date_created", "standard_name_vocabulary", "colonnade_version", "stage", "test", "specimen"),
-        *("time_coverage_duration", "time_coverage_resolution", "time_coverage_start", "time_coverage_end"),
-        *("status", "key", "ingredients", "settings", "content"),
+        *("time_coverage_duration", "time_coverage_resolution", "status", "key", "ingredients", "settings", "content"),
         *("raw_files", "raw_sha256", "notes", "review", "recorded_at"),
     }
 )
@@ -196,13 +195,7 @@ def coverage(dataset: xr.Dataset) -> dict[str, str]:
         return {}
     elapsed = dataset["elapsed"].to_numpy()
     duration = float(np.nanmax(elapsed) - np.nanmin(elapsed))
-    attributes = {"time_coverage_duration": f"PT{duration:.6g}S", "time_coverage_resolution": _usual_step(elapsed)}
-    if "time" in dataset and dataset["time"].ndim == 0:
-        zero = datetime.fromtimestamp(float(dataset["time"]), tz=UTC)
-        for name, seconds in (("start", np.nanmin(elapsed)), ("end", np.nanmax(elapsed))):
-            instant = zero + timedelta(seconds=float(seconds))
-            attributes[f"time_coverage_{name}"] = instant.isoformat(timespec="milliseconds").replace("+00:00", "Z")
-    return attributes
+    return {"time_coverage_duration": f"PT{duration:.6g}S", "time_coverage_resolution": _usual_step(elapsed)}
 
 
 def _usual_step(elapsed: NDArray[np.float64]) -> str:
