@@ -32,7 +32,7 @@ from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.contact.body import ContactLaw
 from colonnade.dynamics.models import NONLINEAR
 from colonnade.dynamics.motion import Motion
-from colonnade.validation import described, instance, number, samples, text, whole
+from colonnade.validation import described, instance, number, samples, whole
 
 DRAWS = 8
 """Columns that are drawn besides the one with nothing varied."""
@@ -268,8 +268,6 @@ def _left_out(kept: Sequence[str], reasons: Mapping[tuple[str, str], str]) -> di
 
 
 def _corrected(motion: Motion, baseline: str) -> Motion:
-    if text("baseline", baseline, "the name of a correction") == NONE:
-        return motion
     correct = correction_of(baseline)
     others = (None if part is None else correct(part, motion.dt) for part in (motion.vertical, motion.transverse))
     return Motion(correct(motion.acceleration, motion.dt), motion.dt, *others)
