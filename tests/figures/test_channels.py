@@ -32,32 +32,32 @@ def channel(**changed):
 
 
 def spike(name="top"):
-    return Spike(name, 0.5, Curve(TIME[40:60], TIME[40:60]), Curve(TIME[50:51], TIME[50:51]))
+    return Spike(name, Curve(TIME[40:60], TIME[40:60]), Curve(TIME[50:51], TIME[50:51]))
 
 
 def test_a_channel_has_its_physical_scale_and_that_of_its_recorder():
-    history = channels_as_recorded([channel()]).axes[0]
+    history = channels_as_recorded([channel()], []).axes[0]
     assert history.get_ylabel() == "mm"
-    right = {text.get_text(): text.get_position()[1] for text in history.texts}
+    right = {text.get_text(): text.xy[1] for text in history.texts}
     assert "V" in right
     assert right["−1"] == pytest.approx(6.0)  # 10 mm/V turned: −1 V is −5 × −1 + 1 mm
 
 
 def test_a_channel_recorded_in_its_own_unit_has_one_scale():
-    history = channels_as_recorded([channel(recorded=Scale("mm", None, 0.0))]).axes[0]
+    history = channels_as_recorded([channel(recorded=Scale("mm", None, 0.0))], []).axes[0]
     assert [text.get_text() for text in history.texts] == ["top"]
 
 
 def test_flagged_samples_are_marked_where_they_are_and_missing_ones_at_the_foot():
     failed = Curve(np.array([0.5, 0.6]), np.array([90.0, np.nan]))
-    history = channels_as_recorded([channel(failed=failed)]).axes[0]
+    history = channels_as_recorded([channel(failed=failed)], []).axes[0]
     marked = next(line for line in history.lines if line.get_label() == "failed or missing")
     assert marked.get_xdata().tolist() == [0.5, 0.6]
     assert marked.get_ydata().tolist() == [90.0, pytest.approx(0.0)]
 
 
 def test_the_cut_off_is_marked_in_the_spectrum():
-    spectrum = channels_as_recorded([channel()]).axes[1]
+    spectrum = channels_as_recorded([channel()], []).axes[1]
     assert [line.get_label() for line in spectrum.lines] == ["spectrum before the filter", "after it", "cut-off"]
     assert spectrum.lines[2].get_xdata()[0] == 25.0
 
@@ -69,7 +69,7 @@ def test_the_first_spikes_are_enlarged():
 
 
 def test_a_channel_without_samples_enough_has_no_spectrum():
-    figure = channels_as_recorded([channel(before=None, after=None)])
+    figure = channels_as_recorded([channel(before=None, after=None)], [])
     assert [text.get_text() for text in figure.axes[1].texts] == ["no spectrum"]
 
 
@@ -100,7 +100,7 @@ def test(filled_campaign):
 def test_the_recorders_scale_follows_from_the_samples(test):
     history = channels.picture(test, stored()).figure.axes[0]
     assert history.get_ylabel() == "mm"
-    heights = {text.get_text(): text.get_position()[1] for text in history.texts}
+    heights = {text.get_text(): text.xy[1] for text in history.texts}
     assert heights["2"] == pytest.approx(4.5)  # 2 mm/V and 0.5 mm
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from colonnade.figures.forecasts import Calibration, reliability_and_pit
+from colonnade.figures.agreement import Calibration, reliability_and_pit
 from colonnade.figures.fragility import COLUMNS, Curve, fragility, rate_by_intensity, response_spectra, twenty_columns
 from colonnade.identification.calibration import Reliability
 

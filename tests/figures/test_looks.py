@@ -72,7 +72,7 @@ def test_channels():
         Density(frequency, 1 / frequency**2 / (1 + (frequency / 25) ** 8)),
         25.0,
     )
-    spike = Spike("top", 3.0, Curve(TIME[290:312], 30 * SWING.values[290:312]), Curve(TIME[300:302], np.full(2, 25.0)))
+    spike = Spike("top", Curve(TIME[290:312], 30 * SWING.values[290:312]), Curve(TIME[300:302], np.full(2, 25.0)))
     return channels_as_recorded([channel, channel._replace(name="bottom", failed=NONE)], [spike])
 
 

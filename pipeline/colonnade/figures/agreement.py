@@ -1,4 +1,4 @@
-"""Predicted over measured peaks: how far each model agrees with all tests that rocked."""
+"""How good predictions are: peaks over those measured, reliability of the probability of overturning, and PIT."""
 
 from __future__ import annotations
 
@@ -6,13 +6,15 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from colonnade.arrays import Array
 from colonnade.figures.files.output import link_to
-from colonnade.figures.panels.layout import note, plain_decades
-from colonnade.figures.style import LIMIT, model_style, styled, width
+from colonnade.figures.panels.layout import legend_outside, note, plain_decades
+from colonnade.figures.style import LIMIT, SOFT, blank_figure, is_narrow, model_style, styled, width
+from colonnade.identification.calibration import FEW, Reliability
 
 LEAST_SPAN = 0.1, 1.0
 """Of both axes, at least."""
@@ -120,32 +122,26 @@ def _draw(axes: Axes, model: str, points: Sequence[PeakPoint], limits: tuple[flo
         across = np.array([[point.measured, point.measured, np.nan] for point in bars]).ravel()
         ends = [[max(point.low or low, low), point.high or high, np.nan] for point in bars]
         axes.plot(across, np.array(ends).ravel(), color=color, linewidth=0.8, alpha=0.45, zorder=2)
-    marked: dict[str, list[tuple[PeakPoint, float]]] = {"o": [], "^": [], "v": []}
-    for point in points:
-        if point.predicted is None or point.predicted > high:
-            marked["^"].append((point, high / 1.06))
-        elif point.predicted < low:
-            marked["v"].append((point, low * 1.06))
-        else:
-            marked["o"].append((point, point.predicted))
-    for marker, own in marked.items():
-        if own:
+    predicted = np.array([np.inf if point.predicted is None else point.predicted for point in points])
+    heights = np.where(predicted > high, high / 1.06, np.where(predicted < low, low * 1.06, predicted))
+    measured = np.array([point.measured for point in points])
+    for marker, chosen in (("o", heights == predicted), ("^", predicted > high), ("v", predicted < low)):
+        if chosen.any():
+            size = 14 if marker == "o" else 26
             places = axes.scatter(
-                [point.measured for point, _ in own],
-                [height for _, height in own],
-                s=14 if marker == "o" else 26,
+                measured[chosen],
+                heights[chosen],
+                s=size,
                 marker=marker,
-                facecolors="white",
-                edgecolors=color,
                 linewidths=0.9,
                 zorder=3,
+                facecolors="white",
+                edgecolors=color,
             )
-            places.set_urls([link_to(point.test) for point, _ in own])
-    drawn = [each for own in marked.values() for each in own]
-    where = np.log([[point.measured, height] for point, height in drawn])
-    where = (where - np.log(low)) / np.log(high / low) * side
+            places.set_urls([link_to(point.test) for point, is_so in zip(points, chosen, strict=True) if is_so])
+    where = np.log(np.column_stack((measured, heights)) / low) / np.log(high / low) * side
     taken = list(where)
-    for place, (point, height) in zip(where, drawn, strict=True):
+    for place, point, height in zip(where, points, heights.tolist(), strict=True):
         if point.number is None:
             continue
         shift = _free_place(place, np.array(taken), side)
@@ -161,3 +157,85 @@ def _free_place(place: Array, taken: Array, side: float) -> Array:
     free = np.hypot(*(seen[:, None] - taken).transpose(2, 0, 1)).min(axis=1)
     room = np.minimum(free, np.minimum(seen, side - seen).min(axis=1))
     return np.asarray(shifts[np.argmax(np.minimum(room, CLEAR))])
+
+
+FEW_BINS, BINS = 5, 10
+"""Bins of the PIT histogram of fewer than `FEW` tests, and of more."""
+
+
+class Calibration(NamedTuple):
+    """Of the scored forecasts of a model: their reliability diagram, and the PIT of each, shape (n,)."""
+
+    reliability: Reliability
+    pit: Array
+
+
+@styled()
+def reliability_and_pit(models: Mapping[str, Calibration]) -> Figure:
+    """
+    Draw the reliability diagram of overturning and the PIT histogram of the amplitude.
+
+    Parameters
+    ----------
+    models : mapping of str to Calibration
+
+    Returns
+    -------
+    figure : Figure
+
+    Raises
+    ------
+    ValueError
+        If there is no model.
+
+    Notes
+    -----
+    Grey in the histogram: 95 % of the shares if the forecasts are right and the tests share no error.
+    """
+    figure = blank_figure(6.0 if is_narrow() else 3.3)
+    left, right = figure.subplots(2, 1) if is_narrow() else figure.subplots(1, 2)
+    left.plot([0, 1], [0, 1], **LIMIT)
+    for place, (model, each) in enumerate(models.items()):
+        _draw_reliability(left, model, each.reliability, aside=0.012 * (place - (len(models) - 1) / 2))
+    left.set(
+        xlim=(-0.03, 1.03),
+        ylim=(-0.03, 1.03),
+        xlabel="forecast probability of overturning",
+        ylabel="share of the tests that overturned",
+    )
+    _draw_pit(right, models)
+    legend_outside(figure, [left])
+    return figure
+
+
+def _draw_reliability(axes: Axes, model: str, diagram: Reliability, *, aside: float) -> None:
+    style, across = model_style(model), diagram.probability + aside
+    bars = axes.vlines(across, diagram.low, diagram.high, color=style["color"], linewidth=4.0, alpha=0.3)
+    bars.set_gid(f"{model}, consistency bar")
+    axes.plot(
+        across,
+        diagram.frequency,
+        color=style["color"],
+        linestyle="none",
+        marker="o",
+        markersize=4,
+        markerfacecolor="white",
+        label=f"{model} model",
+    )
+    shift, side = ((5.0, 2.0), "left") if aside >= 0 else ((-5.0, 2.0), "right")
+    for place, frequency, tests in zip(across, diagram.frequency, diagram.tests, strict=True):
+        note(axes, str(tests), (place, frequency), shift, ha=side, fontsize=7, color=SOFT)
+
+
+def _draw_pit(axes: Axes, models: Mapping[str, Calibration]) -> None:
+    tests = max(each.pit.size for each in models.values())
+    count = FEW_BINS if tests < FEW else BINS
+    edges = np.linspace(0.0, 1.0, count + 1)
+    low, high = (scipy.stats.binom.ppf(level, tests, 1 / count) / tests for level in (0.025, 0.975))
+    axes.axhspan(low, high, color=SOFT, alpha=0.15, linewidth=0)
+    axes.axhline(1 / count, **LIMIT)
+    for model, each in models.items():
+        shares = np.histogram(each.pit, edges)[0] / each.pit.size
+        axes.stairs(shares, edges, label=f"{model} model", baseline=None, **model_style(model))
+    axes.set(xlim=(0, 1), xlabel="PIT of the measured amplitude", ylabel="share of the tests")
+    axes.set_ylim(0, max(axes.get_ylim()[1], 1.15 * high))

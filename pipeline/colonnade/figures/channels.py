@@ -15,9 +15,10 @@ from colonnade.arrays import Array, Codes, Mask
 from colonnade.campaign import Test
 from colonnade.errors import count
 from colonnade.figures.files.output import Picture
+from colonnade.figures.histories import time_limits
 from colonnade.figures.panels.curve import Curve, draw_curve, envelope
-from colonnade.figures.panels.layout import BOTTOM, TOP, add_panel, leave_scale_to_last, legend_above, margins
-from colonnade.figures.style import FAINT, INK, LIMIT, MEASURED, SOFT, styled, width
+from colonnade.figures.panels.layout import BOTTOM, TOP, add_panel, leave_scale_to_last, legend_above, margins, note
+from colonnade.figures.style import FAINT, LIMIT, MEASURED, SOFT, shortened, styled, width
 from colonnade.signals.metrics import Density, density
 from colonnade.signals.quality import Flag
 from colonnade.store.records.stored import Stored
@@ -63,10 +64,9 @@ class Scale(NamedTuple):
 
 
 class Spike(NamedTuple):
-    """A spike: its channel, time (s), the samples about it, and which of them are flagged."""
+    """A spike: its channel, the samples about it, and those of them that are flagged."""
 
     channel: str
-    time: float
     near: Curve
     flagged: Curve
 
@@ -102,77 +102,51 @@ class Channel(NamedTuple):
 
 
 @styled()
-def channels_as_recorded(channels: Sequence[Channel], spikes: Sequence[Spike] = ()) -> Figure:
-    """
-    Draw a row a channel: as recorded over time, and its spectra; below them the first spikes, enlarged.
-
-    Parameters
-    ----------
-    channels : sequence of Channel
-    spikes : sequence of Spike, optional
-        Those after `MOST_SPIKES` are not drawn.
-
-    Returns
-    -------
-    figure : Figure
-
-    Raises
-    ------
-    ValueError
-        If there is no channel.
-    """
+def channels_as_recorded(channels: Sequence[Channel], spikes: Sequence[Spike]) -> Figure:
+    """Draw a row a channel: as recorded over time, and its spectra; below them the first `MOST_SPIKES`, enlarged."""
     rows = len(channels) * (HEIGHT + GAP) - GAP
     strip = SPIKE_TITLE + SPIKE_HEIGHT if spikes else 0.0
     across, (left, _) = width(), margins()
-    history, spectrum_width = (share * (across - left - RIGHT) for share in (HISTORY, SPECTRUM))
+    room = across - left - RIGHT
     figure = Figure(figsize=(across, TOP + rows + BOTTOM + strip))
     histories: list[Axes] = []
     spectra: list[Axes] = []
-    for index in range(len(channels)):
-        top = TOP + index * (HEIGHT + GAP)
-        histories.append(add_panel(figure, left, top, history, HEIGHT, sharex=_first(histories)))
-        spectra.append(
-            add_panel(figure, across - RIGHT - spectrum_width, top, spectrum_width, HEIGHT, sharex=_first(spectra))
-        )
-    for over_time, over_frequency, channel in zip(histories, spectra, channels, strict=True):
-        _draw_history(over_time, channel)
-        _draw_spectrum(over_frequency, channel)
+    for index, channel in enumerate(channels):
+        top, (first, second) = TOP + index * (HEIGHT + GAP), (histories[0], spectra[0]) if histories else (None, None)
+        histories.append(add_panel(figure, left, top, HISTORY * room, HEIGHT, sharex=first))
+        beside = across - RIGHT - SPECTRUM * room
+        spectra.append(add_panel(figure, beside, top, SPECTRUM * room, HEIGHT, sharex=second))
+        _draw_history(histories[-1], channel)
+        _draw_spectrum(spectra[-1], channel)
     for panels, name in ((histories, "time (s)"), (spectra, "frequency (Hz)")):
         leave_scale_to_last(panels)
         panels[-1].set_xlabel(name)
-    ends = [(channel.curve.time[0], channel.curve.time[-1]) for channel in channels if channel.curve.time.size]
-    if ends:
-        histories[0].set_xlim(min(first for first, _ in ends), max(last for _, last in ends))
+    histories[0].set_xlim(*time_limits(channel.curve for channel in channels))
     _scale_frequencies(spectra[-1])
-    spike_width = SPIKE_WIDTH * (across - left - RIGHT)
     for index, spike in enumerate(spikes[:MOST_SPIKES]):
-        place = left + index * (across - left - RIGHT - spike_width) / (MOST_SPIKES - 1)
-        _draw_spike(
-            add_panel(figure, place, TOP + rows + BOTTOM + SPIKE_TITLE - 0.06, spike_width, SPIKE_HEIGHT), spike
-        )
+        place = left + index * (1 - SPIKE_WIDTH) * room / (MOST_SPIKES - 1)
+        top = TOP + rows + BOTTOM + SPIKE_TITLE - 0.06
+        _draw_spike(add_panel(figure, place, top, SPIKE_WIDTH * room, SPIKE_HEIGHT), spike)
     legend_above(figure, [*histories, *spectra])
     return figure
 
 
-def _first(panels: Sequence[Axes]) -> Axes | None:
-    return panels[0] if panels else None
-
-
 def _draw_history(axes: Axes, channel: Channel) -> None:
     draw_curve(axes, channel.curve, color=MEASURED["color"], linewidth=0.7)
+    known = channel.curve.values[np.isfinite(channel.curve.values)]
+    foot = float(known.min()) if known.size else 0.0
     for flagged, colour, mark, label in (
         (channel.suspect, DOUBTFUL, ".", "suspect"),
         (channel.failed, FAILED, "x", "failed or missing"),
     ):
         if flagged.time.size:
             time, values = envelope(flagged, intervals=INTERVALS)
-            low = float(np.nanmin(channel.curve.values)) if np.isfinite(channel.curve.values).any() else 0.0
-            shown = np.where(np.isfinite(values), values, low)
+            shown = np.where(np.isfinite(values), values, foot)
             axes.plot(time, shown, mark, color=colour, markersize=4, label=label, zorder=3, clip_on=False)
     axes.margins(y=0.08)
     axes.yaxis.set_major_locator(MaxNLocator(nbins=3, steps=[1, 2, 5, 10]))
     axes.set_ylabel(channel.unit)
-    axes.text(0.0, 1.02, channel.name, transform=axes.transAxes, fontsize=8, va="bottom", color=INK, weight="bold")
+    note(axes, channel.name, (0.0, 1.02), xycoords="axes fraction", va="bottom", weight="bold")
     _draw_recorded(axes, channel.recorded)
 
 
@@ -186,19 +160,18 @@ def _draw_recorded(axes: Axes, recorded: Scale) -> None:
         height = recorded.gain * tick + recorded.offset
         if low <= height <= high - UNIT_ROOM * (high - low):
             text = f"{tick:g}".replace("-", "−")
-            axes.text(1.01, height, text, transform=axes.get_yaxis_transform(), fontsize=7.5, va="center", color=SOFT)
-    axes.text(1.01, 1.02, recorded.unit, transform=axes.transAxes, fontsize=8, va="bottom", color=SOFT)
+            place = axes.get_yaxis_transform()
+            note(axes, text, (1.01, height), xycoords=place, fontsize=7.5, va="center", color=SOFT)
+    note(axes, recorded.unit, (1.01, 1.02), xycoords="axes fraction", va="bottom", color=SOFT)
 
 
 def _draw_spectrum(axes: Axes, channel: Channel) -> None:
-    for spectrum, colour, label in (
-        (channel.before, FAINT, "spectrum before the filter"),
-        (channel.after, MEASURED["color"], "after it"),
-    ):
+    drawn = ((channel.before, FAINT, "spectrum before the filter"), (channel.after, MEASURED["color"], "after it"))
+    known = [each for each, *_ in drawn if each is not None and (each.amplitude > 0).any()]
+    for spectrum, colour, label in drawn:
         if spectrum is not None:
             shown = spectrum.amplitude > 0
             axes.plot(spectrum.frequency[shown], spectrum.amplitude[shown], color=colour, linewidth=0.8, label=label)
-    known = [each for each in (channel.before, channel.after) if each is not None and (each.amplitude > 0).any()]
     if not known:
         axes.text(0.5, 0.5, "no spectrum", transform=axes.transAxes, ha="center", va="center", fontsize=8)
         axes.set_yticks([])
@@ -230,8 +203,7 @@ def _draw_spike(axes: Axes, spike: Spike) -> None:
     axes.set_xticks([])
     axes.set_yticks([])
     axes.margins(0.05, 0.12)
-    name = spike.channel if len(spike.channel) <= LONGEST_NAME else f"{spike.channel[: LONGEST_NAME - 1]}…"
-    axes.set_title(f"{name}\n{spike.time:.3f} s", fontsize=7.5, pad=2)
+    axes.set_title(f"{shortened(spike.channel, LONGEST_NAME)}\n{spike.flagged.time[0]:.3f} s", fontsize=7.5, pad=2)
 
 
 def _power_of_ten(value: float, _: int) -> str:
@@ -258,11 +230,9 @@ def picture(test: Test, stored: Stored) -> Picture | None:
     shown = names[:MOST_CHANNELS]
     attributes = {name: stored.channels.get(str(recorded[name].attrs["channel"]), {}) for name in shown}
     channels = [_channel(name, recorded, conditioned, attributes[name]) for name in shown]
-    spikes = [
-        spike
-        for channel, name in zip(channels, shown, strict=True)
-        for spike in _spikes(channel, _flags(recorded, name))
-    ]
+    spikes: list[Spike] = []
+    for channel, name in zip(channels, shown, strict=True):
+        spikes += _spikes(channel, _flags(recorded, name))
     flagged = [f"{each.name}: {count(each.failed.time.size, 'failed or missing sample')}" for each in channels]
     notes = []
     if len(names) > MOST_CHANNELS:
@@ -338,9 +308,4 @@ def _spikes(channel: Channel, flags: Codes) -> Iterator[Spike]:
         if stretch.size <= LONGEST_SPIKE:
             time, values = channel.curve
             near = slice(max(stretch[0] - AROUND, 0), stretch[-1] + AROUND + 1)
-            yield Spike(
-                channel.name,
-                float(time[stretch[0]]),
-                Curve(time[near], values[near]),
-                Curve(time[stretch], values[stretch]),
-            )
+            yield Spike(channel.name, Curve(time[near], values[near]), Curve(time[stretch], values[stretch]))

@@ -8,8 +8,14 @@ from matplotlib.figure import Figure
 
 from colonnade.dynamics.pulses import OverturningSpectrum
 from colonnade.dynamics.spectra import RockingSpectrum
-from colonnade.figures.maps.measured_map import LOGARITHMIC, label_logarithmic, name_axes
-from colonnade.figures.maps.stability_map import OVERTURNED_COLOUR, draw_limits, words_of_restitution
+from colonnade.figures.maps.stability_map import (
+    LOGARITHMIC,
+    OVERTURNED_COLOUR,
+    draw_limits,
+    label_logarithmic,
+    name_axes,
+    words_of_restitution,
+)
 from colonnade.figures.panels.layout import caption, legend_outside
 from colonnade.figures.style import LIMIT, SOFT, LineStyle, blank_figure, styled
 
@@ -86,14 +92,13 @@ def rocking_spectrum(spectrum: RockingSpectrum, *, period: float, title: str) ->
     """Draw a rocking spectrum with its title and legend; `period` is the 2π/p (s) of a column that is marked."""
     figure = blank_figure(3.4)
     axes = figure.subplots()
-    draw_rocking(axes, spectrum)
-    axes.axvline(period, label=f"the column, 2π/p = {period:.3g} s", zorder=1, **LIMIT)
+    draw_rocking(axes, spectrum, period)
     caption(axes, title)
     legend_outside(figure, [axes], below=True)
     return figure
 
 
-def draw_rocking(axes: Axes, spectrum: RockingSpectrum) -> None:
+def draw_rocking(axes: Axes, spectrum: RockingSpectrum, period: float | None = None) -> None:
     """Draw largest angles over size; blocks that overturn have none: the curve breaks, and crosses above show them."""
     highest = float(np.nanmax(spectrum.peak_ratio, initial=0.0))
     top = max(1.0, 1.05 * highest) + 2 * STEP
@@ -114,6 +119,8 @@ def draw_rocking(axes: Axes, spectrum: RockingSpectrum) -> None:
                 label=f"{name}: overturned",
                 zorder=3,
             )
+    if period is not None:
+        axes.axvline(period, label=f"the column, 2π/p = {period:.3g} s", zorder=1, **LIMIT)
     axes.axhline(1.0, color=SOFT, linewidth=0.6, zorder=1, gid="critical angle")
     axes.set_xlim(float(spectrum.period.min()), float(spectrum.period.max()))
     axes.set_ylim(0.0, top + max(1, len(spectrum.critical_angle)) * STEP)

@@ -80,10 +80,9 @@ def name_of(who: str) -> str:
     return who if who in ("", "measured") else f"{who} model"
 
 
-def grid_style() -> dict[str, Any]:
-    """Look of the lines of the grid in the style sheet that is applied."""
-    given = matplotlib.rcParams
-    return {"color": given["grid.color"], "linestyle": "-", "linewidth": given["grid.linewidth"]}
+def shortened(name: str, most: int) -> str:
+    """Cut a name to so many letters."""
+    return name if len(name) <= most else f"{name[: most - 1]}…"
 
 
 @contextmanager

@@ -11,8 +11,8 @@ from colonnade.campaign.forms.forecast import ForecastFile
 from colonnade.campaign.forms.foreseen import ForecastEntry, ForecastOfModel
 from colonnade.campaign.forms.summary import Summary, TestSummary
 from colonnade.errors import StoreError, count
+from colonnade.figures.agreement import Calibration, reliability_and_pit
 from colonnade.figures.files.output import Picture
-from colonnade.figures.forecasts import Calibration, reliability_and_pit
 from colonnade.identification.calibration import reliability
 from colonnade.store import files
 from colonnade.store.forecasts import read_forecasts

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from colonnade.figures.maps.measured_map import measured_map
+from colonnade.figures.maps.stability_map import measured_map
 from colonnade.identification.response.boundaries import MapPoint
 
 POINTS = [

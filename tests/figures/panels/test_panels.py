@@ -117,11 +117,6 @@ def test_a_gap_stays_a_gap():
     assert np.isfinite(thinned.values[~inside]).sum() > 800
 
 
-def test_arrays_of_different_length_are_refused():
-    with pytest.raises(ValueError, match=r"time has shape \(3,\) and values \(2,\)"):
-        envelope(Curve(np.zeros(3), np.zeros(2)))
-
-
 def a_band(samples=5001):
     time = np.linspace(0.0, 10.0, samples)
     centre = 0.4 * np.sin(4 * time)
@@ -133,7 +128,7 @@ def test_thinning_keeps_the_extremes_of_a_band():
     time, below, above = between(given, lowest, highest, intervals=50)
     assert time.size <= 51
     assert (below.min(), above.max()) == (lowest.min(), highest.max())
-    inside = np.searchsorted(np.linspace(0, 10, 51)[1:-1], given, side="right")
+    inside = np.arange(given.size) // -(-given.size // 50)
     assert (below[inside] <= lowest).all()
     assert (above[inside] >= highest).all()
 

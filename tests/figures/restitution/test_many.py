@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow
-from colonnade.figures.restitution.impacts import ImpactSeries, Level
-from colonnade.figures.restitution.many import LINES, impacts_of_many, middle_of, peaks_of_many
-from colonnade.figures.restitution.peaks import PeakSeries
+from colonnade.figures.restitution.impacts import ImpactSeries, Level, impacts_of_many
+from colonnade.figures.restitution.peaks import LINES, PeakSeries, middle_of, peaks_of_many
 from colonnade.figures.stored import restitution as pictures
 from colonnade.identification.restitution.peaks import angle_of_energy
 from prism import PRISM

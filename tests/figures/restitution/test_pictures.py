@@ -9,8 +9,13 @@ from scipy import stats
 from colonnade.dynamics.block import Block
 from colonnade.figures.files.table import columns_of
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
-from colonnade.figures.restitution.history import fitted_history, joint_region
+from colonnade.figures.restitution.estimators import (
+    EstimateGroup,
+    EstimateRow,
+    estimators_side_by_side,
+    fitted_history,
+    joint_region,
+)
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
 from colonnade.figures.restitution.peaks import PeakSeries, draw_marks, peak_decay
 from colonnade.figures.style import MEASURED, model_style

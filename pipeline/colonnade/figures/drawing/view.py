@@ -14,7 +14,7 @@ from matplotlib.patches import Polygon
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.figures.style import INK, SOFT
+from colonnade.figures.style import INK, SOFT, shortened
 
 Point = tuple[float, float, float]
 """x, y, z in m from the centre of the base, or a direction."""
@@ -204,9 +204,8 @@ class View:
             look = {"ha": "left" if sign > 0 else "right"}
             for label, height in zip(labels, heights.tolist(), strict=True):
                 self.line((inner, height), label.spot, color=label.colour, linewidth=0.4, zorder=2)
-                place, name = (inner + sign * 0.03 * self.inch, height), label.name
-                if label.detail and len(name) > most:
-                    name = f"{name[: most - 1]}…"
+                place = (inner + sign * 0.03 * self.inch, height)
+                name = shortened(label.name, most) if label.detail else label.name
                 if label.detail and row > 0.22 * self.inch:
                     self.text(place, name, va="bottom", color=label.colour, fontsize=NORMAL, **look)
                     self.text(place, label.detail, va="top", color=SOFT, fontsize=FINE, **look)

@@ -18,9 +18,10 @@ from colonnade.dynamics.maps import StabilityMap
 from colonnade.dynamics.steady import AT_REST, IRREGULAR, LARGEST_ORDER, OVERTURNED, SteadyResponse
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import SMALLEST_RATIO
-from colonnade.figures.maps.measured_map import draw_points, measured_map
 from colonnade.figures.maps.stability_map import (
     OVERTURNED_COLOUR,
+    draw_points,
+    measured_map,
     scale_axes,
     stability_map,
     words_of_restitution,

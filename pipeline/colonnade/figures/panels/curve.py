@@ -9,7 +9,6 @@ from matplotlib.axes import Axes
 from matplotlib.backend_bases import RendererBase
 from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 
@@ -26,25 +25,20 @@ class Curve(NamedTuple):
 
 def envelope(curve: Curve, *, intervals: int = INTERVALS) -> Curve:
     """
-    Thin a long curve to the lowest and highest value of each time interval, so that no peak is lost.
+    Thin a long curve to the lowest and highest value of each stretch of its samples, so that no peak is lost.
 
     Parameters
     ----------
     curve : Curve
         Times not decreasing.
     intervals : int, optional
-        Equal intervals over the curve's time.
+        Stretches with the same number of samples.
 
     Returns
     -------
     thinned : Curve
-        The curve itself where it has at most two values an interval; else at most two an interval, in their order of
-        time, and the first and last value. An interval without any value gives one NaN, so that gaps stay gaps.
-
-    Raises
-    ------
-    ValueError
-        If times and values differ in shape.
+        The curve itself where it has at most two values a stretch; else at most two a stretch, in their order of time,
+        and the first and last value. A stretch without any value gives one NaN, so that gaps stay gaps.
 
     Examples
     --------
@@ -53,56 +47,25 @@ def envelope(curve: Curve, *, intervals: int = INTERVALS) -> Curve:
     True
     """
     time, values = curve
-    if time.shape != values.shape:
-        raise ValueError(
-            f"time has shape {time.shape} and values {values.shape}; two arrays of one length were expected"
-        )
     if time.size <= 2 * intervals:
         return curve
-    edges = np.linspace(time[0], time[-1], intervals + 1)[1:-1]
-    starts = np.unique(np.concatenate(([0], np.searchsorted(time, edges))))
-    starts = starts[starts < time.size]
-    finite = np.isfinite(values)
-    lowest = _first_equal(np.minimum.reduceat(np.where(finite, values, np.inf), starts), values, starts)
-    highest = _first_equal(np.maximum.reduceat(np.where(finite, values, -np.inf), starts), values, starts)
+    size = -(-time.size // intervals)
+    stretches = np.pad(values, (0, -time.size % size), constant_values=np.nan).reshape(-1, size)
+    known = np.isfinite(stretches)
+    starts = size * np.arange(len(stretches))
+    lowest = starts + np.where(known, stretches, np.inf).argmin(axis=1)
+    highest = starts + np.where(known, stretches, -np.inf).argmax(axis=1)
     index = np.unique(np.concatenate(([0, time.size - 1], lowest, highest)))
     return Curve(time[index], values[index])
 
 
 def between(time: Array, below: Array, above: Array, *, intervals: int = INTERVALS) -> tuple[Array, Array, Array]:
-    """
-    Thin a band to one lowest and one highest value an interval of time, so that nothing inside it is lost.
-
-    Parameters
-    ----------
-    time, below, above : ndarray, shape (n,)
-    intervals : int, optional
-
-    Returns
-    -------
-    time, below, above : ndarray
-        As given where there are at most two samples an interval; else one of each an interval.
-    """
+    """Thin a long band to one lowest and one highest value a stretch of samples, so that nothing inside it is lost."""
     if time.size <= 2 * intervals:
         return time, below, above
-    starts = np.unique(np.searchsorted(time, np.linspace(time[0], time[-1], intervals + 1)[:-1]))
+    starts = np.arange(0, time.size, -(-time.size // intervals))
     ends = np.append(starts[1:], time.size) - 1
-    return (
-        0.5 * (time[starts] + time[ends]),
-        np.fmin.reduceat(below, starts),
-        np.fmax.reduceat(above, starts),
-    )
-
-
-def _first_equal(extremes: Array, values: Array, starts: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Return the index of the first sample of each interval that is its extreme; its start where it has no value."""
-    ends = np.append(starts[1:], values.size)
-    interval = np.repeat(np.arange(starts.size), ends - starts)
-    hits = np.flatnonzero(values == extremes[interval])
-    found = starts.copy()
-    owners, first = np.unique(interval[hits], return_index=True)
-    found[owners] = hits[first]
-    return found
+    return 0.5 * (time[starts] + time[ends]), np.fmin.reduceat(below, starts), np.fmax.reduceat(above, starts)
 
 
 INTERVALS_PER_INCH = 104.0
@@ -131,19 +94,9 @@ class LongLine(Line2D):
 
 class LongBand(PolyCollection):
     """
-    A band over rising times.
+    A band over rising times, a gap where either edge is NaN.
 
-    Parameters
-    ----------
-    time, below, above : ndarray, shape (n,)
-        A gap where either edge is NaN.
-    **look
-        Of the `PolyCollection`.
-
-    Attributes
-    ----------
-    time, below, above : ndarray
-        Every sample, even if it is not drawn.
+    `time`, `below` and `above` keep every sample, even if it is not drawn.
     """
 
     def __init__(self, time: Array, below: Array, above: Array, **look: Any) -> None:
@@ -209,12 +162,5 @@ def _outlines(time: Array, below: Array, above: Array) -> list[Array]:
     """Outline of each stretch in which both edges are known."""
     known = np.concatenate(([False], np.isfinite(below) & np.isfinite(above), [False]))
     bounds = np.flatnonzero(known[1:] != known[:-1]).reshape(-1, 2)
-    return [
-        np.column_stack(
-            (
-                np.concatenate((time[first:last], time[first:last][::-1])),
-                np.concatenate((below[first:last], above[first:last][::-1])),
-            )
-        )
-        for first, last in bounds
-    ]
+    edges = [[np.column_stack((time, edge))[first:last] for edge in (below, above)] for first, last in bounds]
+    return [np.concatenate((low, high[::-1])) for low, high in edges]

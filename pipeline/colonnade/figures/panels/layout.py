@@ -6,17 +6,14 @@ from collections.abc import Mapping, Sequence
 from textwrap import fill
 from typing import Any
 
-import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
 
-from colonnade.figures.style import INK, SOFT, grid_style, is_narrow, legend_columns, width
+from colonnade.figures.style import INK, SOFT, is_narrow, legend_columns, width
 
 LEFT, RIGHT, TOP, BOTTOM, GAP = 0.92, 0.5, 0.34, 0.44, 0.14
 """Room for labels left and right, the legend above, the time axis below, and between panels; inches."""
@@ -83,30 +80,10 @@ def side_by_side(columns: int, heights: Sequence[float], *, title: float = 0.2) 
     return figure, grid
 
 
-class _Rules(Artist):
-    """The grid's vertical lines in a panel whose horizontal axis is not shown."""
-
-    def __init__(self, look: dict[str, Any]) -> None:
-        super().__init__()
-        self.look = look
-        self.set_zorder(0.5)
-
-    def draw(self, renderer: RendererBase) -> None:
-        """Draw them at the places where the axis would have its ticks."""
-        if isinstance(axes := self.axes, Axes):
-            low, high = sorted(axes.get_xlim())
-            at = [place for place in axes.xaxis.get_majorticklocs() if low <= place <= high]
-            where = np.repeat(at, 3), np.tile([0.0, 1.0, np.nan], len(at))
-            rules = Line2D(*where, transform=axes.get_xaxis_transform(), **self.look)
-            rules.set_figure(axes.get_figure(root=True))  # type: ignore[arg-type]
-            rules.draw(renderer)
-
-
 def leave_scale_to_last(panels: Sequence[Axes]) -> None:
-    """Show the horizontal axis below the last panel alone: ticks that nobody sees were a sixth of a page's calls."""
+    """Number the horizontal axis below the last panel alone."""
     for one in panels[:-1]:
-        one.xaxis.set_visible(False)
-        one.add_artist(_Rules(grid_style()))
+        one.tick_params(axis="x", labelbottom=False, length=0)
 
 
 def margins() -> tuple[float, float]:

@@ -12,12 +12,17 @@ from colonnade.dynamics.block import Block
 from colonnade.errors import count
 from colonnade.figures.files.output import Picture
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
-from colonnade.figures.restitution.history import fitted_history, joint_region
-from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
-from colonnade.figures.restitution.many import MIDDLE, MIDDLE_SHARE, impacts_of_many, peaks_of_many
-from colonnade.figures.restitution.peaks import PeakSeries, peak_decay
+from colonnade.figures.restitution.estimators import (
+    EstimateGroup,
+    EstimateRow,
+    estimators_side_by_side,
+    fitted_history,
+    joint_region,
+)
+from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution, impacts_of_many
+from colonnade.figures.restitution.peaks import MIDDLE, MIDDLE_SHARE, PeakSeries, peak_decay, peaks_of_many
 from colonnade.figures.stored.record import measured_ratio
+from colonnade.figures.style import shortened
 from colonnade.identification.restitution.peaks import confidence_band
 from colonnade.store.records.stored import Stored
 from colonnade.units.text import number
@@ -26,6 +31,9 @@ STAGE = "restitution"
 
 LABELS = {"history": "whole history", "peaks": "peaks, a cross-check"}
 """Of the two values of e."""
+
+LONGEST_NAME = 26
+"""Letters of a test's name above a panel."""
 
 MOST_SIDE_BY_SIDE = 12
 """Free vibrations of a specimen that are drawn side by side; more share one panel, where they are summarised."""
@@ -53,8 +61,7 @@ def fitted(test: Test, stored: Stored, block: Block) -> Picture | None:
     residual = Curve(time, stored.array(STAGE, "history_residual") / critical)
     model = stored.text(STAGE, "history_model")
     measured = measured_ratio(stored, block, as_recorded=True)
-    left = residual.values[np.isfinite(residual.values)]
-    rms = float(np.sqrt(np.mean(left**2))) if left.size else np.nan
+    rms = float(np.sqrt(np.nanmean(residual.values**2))) if np.isfinite(residual.values).any() else np.nan
     return Picture(
         fitted_history(measured, Curve(time, angle / critical), residual, model=model),
         f"fitted-{test.id}",
@@ -69,9 +76,8 @@ def peak_series(test: Test, stored: Stored, block: Block) -> PeakSeries | None:
     if not angle.size:
         return None
     used = used == 1
-    return PeakSeries(
-        _short(test.id), angle, error, fit, used, confidence_band(angle, error, used & np.isfinite(fit), block)
-    )
+    band = confidence_band(angle, error, used & np.isfinite(fit), block)
+    return PeakSeries(shortened(test.id, LONGEST_NAME), angle, error, fit, used, band)
 
 
 def peaks(identity: str, series: Sequence[PeakSeries], block: Block) -> Picture | None:
@@ -94,7 +100,7 @@ def impact_series(test: Test, stored: Stored) -> ImpactSeries | None:
     velocity, restitution, error, used = _columns(stored, *(f"impact_{name}" for name in names))
     if not restitution.size:
         return None
-    return ImpactSeries(_short(test.id), velocity, restitution, error, used == 1)
+    return ImpactSeries(shortened(test.id, LONGEST_NAME), velocity, restitution, error, used == 1)
 
 
 def impacts(identity: str, series: Sequence[ImpactSeries], level: Level, rigid: float) -> Picture | None:
@@ -169,7 +175,3 @@ def level_of(stored: Stored, stage: str, name: str) -> Level:
 
 def _columns(stored: Stored, *names: str) -> list[Array]:
     return [stored.array(STAGE, name) for name in names]
-
-
-def _short(name: str, longest: int = 26) -> str:
-    return name if len(name) <= longest else f"{name[: longest - 1]}…"

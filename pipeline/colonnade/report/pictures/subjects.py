@@ -9,7 +9,7 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps import StabilityMap
-from colonnade.figures.forecasts import Calibration
+from colonnade.figures.agreement import Calibration
 from colonnade.figures.restitution.estimators import EstimateRow
 from colonnade.figures.restitution.impacts import ImpactSeries
 from colonnade.figures.restitution.peaks import PeakSeries
