@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from colonnade.dynamics.assembly import Assembly as Assembly
     from colonnade.dynamics.assembly import Placed as Placed
     from colonnade.dynamics.block import Block as Block
-    from colonnade.dynamics.contact.bodies import AssemblyHistory as AssemblyHistory
+    from colonnade.dynamics.contact.history import AssemblyHistory as AssemblyHistory
     from colonnade.dynamics.ensemble import Ensemble as Ensemble
     from colonnade.dynamics.ensemble import ensemble as ensemble
     from colonnade.dynamics.history import History as History

@@ -46,4 +46,4 @@ def test_the_samples_have_the_integrals_of_the_pulse():
 def test_every_pulse_says_what_it_is(name):
     assert pulse_of(name).definition
     assert pulse_of(name).source
-    assert (pulse_of(name).harmonic(2.0) is None) == (name in ("ricker", "mavroeidis-papageorgiou"))
+    assert (pulse_of(name).cycles is None) == (name in ("ricker", "mavroeidis-papageorgiou"))

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from colonnade.dynamics.maps import MapPlan, _fraction, assemble, map_column
-from colonnade.dynamics.plane.harmonic import SAMPLES_A_CYCLE, Harmonic
+from colonnade.dynamics.maps import MapPlan, _fraction, map_part
+from colonnade.dynamics.plane.run import SAMPLES_A_CYCLE, Harmonic
 from colonnade.dynamics.search import limits_of, onset_of
 from prism import PRISM
 
@@ -29,7 +29,7 @@ def column_of(monkeypatch):
     def make(*intervals, width=0.05):
         monkeypatch.setattr("colonnade.dynamics.maps._runs", lambda plan, omega: overturns(*intervals))
         plan = MapPlan(PRISM, frequency_ratio=[2.0], amplitude_ratio=[1.0, 2.0, 3.0], width=width)
-        return map_column(plan, 0)
+        return map_part(plan, [0])
 
     return make
 
@@ -57,15 +57,13 @@ def column_of(monkeypatch):
 )
 def test_limits_follow_their_definition(column_of, intervals, lower, upper):
     column = column_of(*intervals)
-    assert (column.lower, column.upper) == pytest.approx((lower, upper), abs=1e-4, nan_ok=True)
+    assert (column.lower[0], column.upper[0]) == pytest.approx((lower, upper), abs=1e-4, nan_ok=True)
 
 
 def test_islands_are_kept_apart_with_their_share_of_a_cell(column_of):
     column = column_of((1.2, 1.22), (1.5, 9.0))
-    assert column.intervals[0] == pytest.approx([1.2, 1.22], abs=1e-4)
-    assert column.overturning_fraction == pytest.approx([0.04, 1.0, 1.0], abs=1e-3)
-    plan = MapPlan(PRISM, frequency_ratio=[2.0], amplitude_ratio=[1.0, 2.0, 3.0], width=0.05)
-    assert assemble(plan, [column]).islands == pytest.approx(np.array([[2.0, 1.2, 1.22]]), abs=1e-4)
+    assert column.overturning_fraction[0] == pytest.approx([0.04, 1.0, 1.0], abs=1e-3)
+    assert column.islands == pytest.approx(np.array([[2.0, 1.2, 1.22]]), abs=1e-4)
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_run
+from colonnade.dynamics.plane.run import Harmonic, harmonic_run
 from colonnade.dynamics.steady import steady_response
 from prism import PRISM
 

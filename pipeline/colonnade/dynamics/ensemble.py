@@ -30,7 +30,7 @@ from colonnade.units.text import Digested, written
 from colonnade.validation import instance, number, samples, sided, whole
 
 if TYPE_CHECKING:
-    from colonnade.dynamics.contact.bodies import AssemblyHistory
+    from colonnade.dynamics.contact.history import AssemblyHistory
 
 Histories = NDArray[np.float32]
 

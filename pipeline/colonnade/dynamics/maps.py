@@ -17,16 +17,16 @@ from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.history import NO_ROCKING_RATIO, Outcome
 from colonnade.dynamics.models import DEFAULT, model_of, plane_model_of
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic import SAMPLES_A_CYCLE, Harmonic, restitution_up_to
+from colonnade.dynamics.plane.run import SAMPLES_A_CYCLE, Harmonic, restitution_up_to
 from colonnade.dynamics.restitution_law import Given, Restitution, RestitutionLaw
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.dynamics.search import (
-    LARGEST_RATIO,
     MOST_STEPS,
     WIDTH,
     Limits,
     OverFrequency,
     Runs,
+    checked_ratios,
     checked_widths,
     in_threads,
     limits_of,
@@ -36,7 +36,7 @@ from colonnade.dynamics.search import (
     runs_of,
     scan_over,
 )
-from colonnade.validation import instance, number, samples
+from colonnade.validation import instance, number
 
 if TYPE_CHECKING:
     from colonnade.dynamics.contact.body import ContactBody, ContactLaw
@@ -201,64 +201,47 @@ def _frequency(motion: Motion | None, frequency: float | None) -> float | None:
 
 
 def _axis(name: str, values: ArrayLike, fewest: int) -> Array:
-    axis = samples(name, values, fewest=fewest, finite=False)
-    if not (np.isfinite(axis).all() and axis[0] > 0 and (np.diff(axis) > 0).all()):
-        raise ValueError(f"{name} has to be positive, finite and increasing")
-    if not (axis[0] >= 1 / LARGEST_RATIO and axis[-1] <= LARGEST_RATIO):
-        raise ValueError(
-            f"{name} goes from {axis[0]:g} to {axis[-1]:g}; {1 / LARGEST_RATIO:g} to {LARGEST_RATIO:g} was expected"
-        )
+    axis = checked_ratios(name, values, fewest=fewest)
+    if not (np.diff(axis) > 0).all():
+        raise ValueError(f"{name} has to be increasing")
     return axis.copy()
 
 
-@dataclass(frozen=True)
-class MapColumn:
+def map_part(plan: MapPlan, columns: Sequence[int], threads: int = 1) -> StabilityMap:
     """
-    A column.
-
-    Attributes
-    ----------
-    outcome : ndarray of int8, shape (m,)
-        Index into `OUTCOMES` at the A of the map.
-    overturning_fraction : ndarray, shape (m,)
-        Share of the cell around each A, halfway to its neighbours, that overturns.
-    no_rocking, lower, upper : float
-        Limits in A; NaN if the column has none. In space the onset of rocking is searched, to the plan's `edge`.
-    intervals : ndarray, shape (k, 2)
-        Every interval of A that overturns, from and to, with edges to the plan's `edge`.
-    """
-
-    outcome: Codes
-    overturning_fraction: Array
-    no_rocking: float
-    lower: float
-    upper: float
-    intervals: Array
-
-
-def map_column(plan: MapPlan, index: int) -> MapColumn:
-    """
-    Compute one column of a map.
+    Compute some columns of a map.
 
     Parameters
     ----------
     plan : MapPlan
-    index : int
-        Of its Ω in the plan.
+    columns : sequence of int
+        By their Ω in the plan.
+    threads : int, optional
+        Columns computed at a time.
 
     Returns
     -------
-    column : MapColumn
-        The same to the last bit, whatever the order and the process in which columns are computed.
+    chart : StabilityMap
+        Of these Ω; the same to the last bit, whatever the order and the process in which columns are computed.
     """
-    runs = _runs(plan, float(plan.frequency_ratio[index]))
     scan = plan.scan
-    codes = runs(scan)
-    limits = limits_of(scan, codes, runs, width=plan.width, edge=plan.edge)
-    fraction = _fraction(plan.amplitude_ratio, limits.intervals)
     chosen = np.searchsorted(scan, plan.amplitude_ratio)
-    onset = plan.onset if plan.space is None else onset_of(scan, codes, runs, edge=plan.edge)
-    return MapColumn(codes[chosen], fraction, onset, limits.lower, limits.upper, limits.intervals)
+
+    def column(index: int) -> tuple[Codes, float, Limits]:
+        runs = _runs(plan, float(plan.frequency_ratio[index]))
+        codes = runs(scan)
+        onset = plan.onset if plan.space is None else onset_of(scan, codes, runs, edge=plan.edge)
+        return codes[chosen], onset, limits_of(scan, codes, runs, width=plan.width, edge=plan.edge)
+
+    outcomes, onsets, limits = zip(*in_threads(column, columns, threads), strict=True)
+    return StabilityMap(
+        **over_frequency(plan.frequency_ratio[list(columns)], limits),
+        options=plan.options,
+        amplitude_ratio=plan.amplitude_ratio,
+        outcome=np.stack(outcomes),
+        overturning_fraction=np.stack([_fraction(plan.amplitude_ratio, each.intervals) for each in limits]),
+        no_rocking=np.array(onsets),
+    )
 
 
 def _runs(plan: MapPlan, frequency_ratio: float) -> Runs:
@@ -299,8 +282,9 @@ class StabilityMap(OverFrequency):
     overturning_fraction : ndarray, shape (n, m)
         Share of the cell around each A that overturns.
     no_rocking, lower, upper : ndarray, shape (n,)
-        A up to which the block does not uplift; from which it first overturns over at least `width`; up to which it
-        last survives over at least `width`. NaN if there is no such limit up to the largest A.
+        A up to which the block does not uplift, in space searched to the plan's `edge`; from which it first overturns
+        over at least `width`; up to which it last survives over at least `width`. NaN if there is no such limit up to
+        the largest A.
     interval_frequency_ratio, interval_start, interval_end : ndarray, shape (k,)
         Every interval of A that overturns, islands included, by its Ω.
     options : dict
@@ -413,26 +397,4 @@ def stability_map(
         motion=motion,
         motion_frequency=motion_frequency,
     )
-    return assemble(plan, in_threads(partial(map_column, plan), range(plan.frequency_ratio.size), threads))
-
-
-def assemble(plan: MapPlan, columns: Sequence[MapColumn]) -> StabilityMap:
-    """
-    Put the columns of a plan together, in the order of its Ω.
-
-    Raises
-    ------
-    ValueError
-        If there are not as many columns as the plan has Ω.
-    """
-    if len(columns) != plan.frequency_ratio.size:
-        raise ValueError(f"{len(columns)} columns were given; the plan has {plan.frequency_ratio.size}")
-    limits = [Limits(column.lower, column.upper, column.intervals) for column in columns]
-    return StabilityMap(
-        **over_frequency(plan.frequency_ratio, limits),
-        options=plan.options,
-        amplitude_ratio=plan.amplitude_ratio,
-        outcome=np.stack([column.outcome for column in columns]),
-        overturning_fraction=np.stack([column.overturning_fraction for column in columns]),
-        no_rocking=np.array([column.no_rocking for column in columns]),
-    )
+    return map_part(plan, range(plan.frequency_ratio.size), threads)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.models import DEFAULT, plane_model_of
-from colonnade.dynamics.plane.harmonic import Harmonic
+from colonnade.dynamics.plane.run import Harmonic
 from colonnade.dynamics.restitution_law import law_of
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.dynamics.search import (
@@ -21,6 +21,7 @@ from colonnade.dynamics.search import (
     WIDTH,
     Limits,
     OverFrequency,
+    checked_ratios,
     checked_widths,
     in_threads,
     limits_of,
@@ -30,7 +31,7 @@ from colonnade.dynamics.search import (
     scan_over,
 )
 from colonnade.errors import nearest
-from colonnade.validation import instance, number, samples, text
+from colonnade.validation import instance, number, text
 
 SAMPLE = 0.0125
 """In ω t: step of the pulses that are sampled."""
@@ -68,10 +69,11 @@ class PulseKind:
     phase: float = 0.0
     is_constant: bool = False
 
-    def harmonic(self, omega: float) -> Harmonic | None:
-        """Give the pulse at ω (rad/s) as a harmonic motion; None if it is sampled."""
+    def motion(self, omega: float, largest: float, cycles: float, phase: float) -> Harmonic | tuple[Array, float]:
+        """Give the pulse at ω (rad/s), harmonic or sampled with its largest acceleration (m/s²), γ and ν (rad)."""
         if self.cycles is None:
-            return None
+            shape, step = sampled_pulse(self.name, cycles, phase)
+            return largest * shape, step / omega
         length = 2 * pi * self.cycles / omega
         return Harmonic(0.0 if self.is_constant else omega, self.phase, (0.0, length, length))
 
@@ -287,12 +289,7 @@ def overturning_spectrum(
     instance("block", block, Block)
     kind = pulse_of(pulse)
     plane_model_of(model)
-    omegas = samples("frequency_ratio", frequency_ratio, dimensions=(0, 1)).ravel()
-    if not (omegas.min() >= 1 / LARGEST_RATIO and omegas.max() <= LARGEST_RATIO):
-        raise ValueError(
-            f"frequency_ratio goes from {omegas.min():g} to {omegas.max():g}; positive numbers from "
-            f"{1 / LARGEST_RATIO:g} to {LARGEST_RATIO:g} were expected"
-        )
+    omegas = checked_ratios("frequency_ratio", frequency_ratio)
     cycles = number("cycles", cycles, f"a number of cycles from 1 to {MOST_CYCLES:g}", low=1.0, high=MOST_CYCLES)
     phase = number("phase", phase, "a finite angle in rad")
     largest = number("largest", largest, "a positive A", above=0.0, high=LARGEST_RATIO)
@@ -301,11 +298,7 @@ def overturning_spectrum(
     scan = scan_over(np.array([0.0, largest]), width)[1:]
 
     def limits(ratio: float) -> Limits:
-        omega = ratio * block.p
-        motion: Harmonic | tuple[Array, float] | None = kind.harmonic(omega)
-        if motion is None:
-            shape, step = sampled_pulse(pulse, cycles, phase)
-            motion = block.uplift_acceleration * shape, step / omega
+        motion = kind.motion(ratio * block.p, block.uplift_acceleration, cycles, phase)
         runs = runs_of(block, motion, e, model)
         return limits_of(scan, runs(scan), runs, width=width, edge=edge)
 

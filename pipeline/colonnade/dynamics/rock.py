@@ -16,8 +16,8 @@ from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.validation import described, instance, number
 
 if TYPE_CHECKING:
-    from colonnade.dynamics.contact.bodies import AssemblyHistory
     from colonnade.dynamics.contact.body import ContactLaw
+    from colonnade.dynamics.contact.history import AssemblyHistory
 
 
 DEFAULT_REST_ANGLE = 1e-6

@@ -14,16 +14,16 @@ from math import ceil, log2
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Codes, Mask
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import Outcome
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_outcomes
-from colonnade.dynamics.plane.run import OUTCOMES, OVERTURNS, ends_of, expect_usable
+from colonnade.dynamics.plane.run import OUTCOMES, OVERTURNS, Harmonic, ends_of, expect_usable, harmonic_outcomes
 from colonnade.dynamics.restitution_law import Restitution, RestitutionLaw
 from colonnade.units.text import Digested
-from colonnade.validation import number, whole
+from colonnade.validation import number, samples, whole
 
 WIDTH = 0.01
 """In A: narrower intervals of overturning, or of survival, are islands and make no limit."""
@@ -66,6 +66,24 @@ class Limits(NamedTuple):
     lower: float
     upper: float
     intervals: Array
+
+
+def checked_ratios(name: str, values: ArrayLike, *, fewest: int = 1) -> Array:
+    """
+    Check values of Ω or A.
+
+    Raises
+    ------
+    ValueError
+        If one is out of the range of all motions and blocks.
+    """
+    ratios = samples(name, values, dimensions=(0, 1), fewest=fewest).ravel()
+    if not (ratios.min() >= 1 / LARGEST_RATIO and ratios.max() <= LARGEST_RATIO):
+        raise ValueError(
+            f"{name} goes from {ratios.min():g} to {ratios.max():g}; positive numbers from {1 / LARGEST_RATIO:g} to "
+            f"{LARGEST_RATIO:g} were expected"
+        )
+    return ratios
 
 
 def checked_widths(width: float, edge: float, height: float) -> tuple[float, float]:

@@ -11,8 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.models import DEFAULT
-from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_run, restitution_up_to
+from colonnade.dynamics.plane.run import Harmonic, harmonic_run, restitution_up_to
 from colonnade.dynamics.restitution_law import Given
+from colonnade.dynamics.search import checked_ratios
 
 AT_REST, IRREGULAR, OVERTURNED = 0, -1, -2
 """Orders of responses that do not repeat as rocking."""
@@ -91,13 +92,11 @@ def steady_response(
     ValueError
         If an argument is out of its range or the model is not known.
     """
-    omegas = np.atleast_1d(np.asarray(frequency_ratio, dtype=np.float64))
-    amplitudes = np.atleast_1d(np.asarray(amplitude_ratio, dtype=np.float64))
-    if not (omegas > 0).all():
-        raise ValueError("frequency_ratio has to be positive throughout")
+    omegas = checked_ratios("frequency_ratio", frequency_ratio)
+    amplitudes = checked_ratios("amplitude_ratio", amplitude_ratio)
     if settling < 1:
         raise ValueError(f"settling is {settling}; at least one cycle was expected")
-    e = restitution_up_to(block, restitution, float(amplitudes.max(initial=0.0)))
+    e = restitution_up_to(block, restitution, float(amplitudes.max()))
     watched = LARGEST_ORDER * (REPEATS + 1)
     shape = (omegas.size, amplitudes.size)
     order, period, amplitude = np.zeros(shape, dtype=np.int8), np.full(shape, np.nan), np.full(shape, np.nan)

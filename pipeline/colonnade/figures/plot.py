@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from colonnade.assessment.fragility import Fragility
 from colonnade.assessment.measures import measure_of
-from colonnade.dynamics.contact.bodies import AssemblyHistory
+from colonnade.dynamics.contact.history import AssemblyHistory
 from colonnade.dynamics.ensemble import Ensemble
 from colonnade.dynamics.history import History
 from colonnade.dynamics.maps import StabilityMap

@@ -188,7 +188,7 @@ def _whole_body(inputs: ContactInputs) -> ContactBody:
             f"processing.predict.contact.mesh is {settings.mesh}, but this specimen is of shape "
             f'"{inputs.shape}" and has no dimensions to mesh. mesh = "rigid" was expected.'
         )
-    from colonnade.dynamics.contact.elastic.reduction import elastic_body
+    from colonnade.dynamics.contact.elastic import elastic_body
 
     return elastic_body(
         sizes,

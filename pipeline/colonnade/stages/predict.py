@@ -23,7 +23,7 @@ from colonnade.stages.specimen import centre
 if TYPE_CHECKING:
     import xarray as xr
 
-    from colonnade.dynamics.contact.bodies import AssemblyHistory
+    from colonnade.dynamics.contact.history import AssemblyHistory
 
 
 class PredictInputs(BeginningInputs):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from copy import copy
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -308,11 +307,9 @@ def given(plan: MapPlan) -> dict[str, str | None]:
 
 def _columns(plan: MapPlan, indices: range) -> Arrays:
     """Work of a block: some columns of a map, as arrays over Ω."""
-    from colonnade.dynamics.maps import assemble, map_column
+    from colonnade.dynamics.maps import map_part
 
-    part = copy(plan)
-    part.frequency_ratio = plan.frequency_ratio[indices.start : indices.stop]
-    chart = assemble(part, [map_column(plan, index) for index in indices])
+    chart = map_part(plan, indices)
     return {name: each for name, each in vars(chart).items() if name not in ("amplitude_ratio", "options")}
 
 

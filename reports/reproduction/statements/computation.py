@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from colonnade.dynamics.contact.elastic.assembly import STEELS_MODULUS
+from colonnade.dynamics.contact.elastic import STEELS_MODULUS
 from reproduction.printed import CHOSEN_FRACTION, DEGREES_OF_FREEDOM_IN_TEXT, RESTITUTION, TABLE_2
 from reproduction.statement import HISTORIES, Answer, Numbers, Statements, judged
 

@@ -8,9 +8,8 @@ import pytest
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact import simulate as simulation
 from colonnade.dynamics.contact.body import STATIC_PENETRATION, ContactLaw, rigid_body
-from colonnade.dynamics.contact.elastic.assembly import assemble
-from colonnade.dynamics.contact.elastic.mesh import prism_mesh
-from colonnade.dynamics.contact.elastic.reduction import reduce_body, rigid_on_nodes
+from colonnade.dynamics.contact.elastic import assemble, reduce_body, rigid_on_nodes
+from colonnade.dynamics.contact.mesh import prism_mesh
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.stability import (
     FOLLOWED,

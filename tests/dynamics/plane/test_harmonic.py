@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic import (
+from colonnade.dynamics.plane.run import (
     Harmonic,
     harmonic_outcomes,
     harmonic_run,

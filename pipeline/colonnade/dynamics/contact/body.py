@@ -18,7 +18,7 @@ RINGS = 4
 """Whole circles of a round base."""
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False)
 class Nodes:
     """
     Where a body can touch another, or the table.

@@ -9,9 +9,8 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.assembly import Assembly
-from colonnade.dynamics.contact.bodies import AssemblyHistory
 from colonnade.dynamics.contact.body import ContactBody, ContactLaw
-from colonnade.dynamics.contact.history import ContactHistory
+from colonnade.dynamics.contact.history import AssemblyHistory, ContactHistory
 from colonnade.dynamics.contact.simulate import simulate, simulate_assembly
 from colonnade.dynamics.ensemble import Plan
 

@@ -11,9 +11,15 @@ import numpy as np
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
-from colonnade.dynamics.contact.bodies import AssemblyHistory, BodyHistory, Pose
 from colonnade.dynamics.contact.body import DEFAULT_STEP, ContactBody, ContactLaw
-from colonnade.dynamics.contact.history import ContactHistory, EnergyBalance, impacts_of
+from colonnade.dynamics.contact.history import (
+    AssemblyHistory,
+    BodyHistory,
+    ContactHistory,
+    EnergyBalance,
+    Pose,
+    impacts_of,
+)
 from colonnade.dynamics.contact.march import march
 from colonnade.dynamics.contact.stability import longest_step
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing, standing_assembly
@@ -180,9 +186,9 @@ def simulate_assembly(
         number, own = numbers[name], slice(joint, joint + max(1, len(placed.on)))
         place = run.samples[:, number, :3]
         supports = {}
-        for below, sides in zip(placed.on, structure.joints[own], strict=False):
+        for below, resting in zip(placed.on, structure.joints[own], strict=False):
             target, turned = run.samples[:, numbers[below], :3], np.swapaxes(matrices[numbers[below]], 1, 2)
-            apart = np.einsum("nij,nj->ni", turned, place - target) - sides[0].apart
+            apart = np.einsum("nij,nj->ni", turned, place - target) - resting.sides[0].apart
             supports[below] = Pose(**_pose(body, turned @ matrices[number], apart))
         if not placed.on:
             base_force += run.joints[:, joint, 3:6]

@@ -26,8 +26,8 @@ def highest_frequency(structure: Structure) -> float:
     bodies, frequencies = structure.bodies, structure.bodies[0].frequencies
     matrix = np.diag(np.concatenate((np.zeros(6 * len(bodies)), frequencies**2)))
     for side in structure.interfaces:
-        around = AROUND if side.ring_radii.any() else 1
-        places = side.around(around).reshape(-1, 3)
+        around = AROUND if side.at.ring_radii.any() else 1
+        places = side.at.around(around).reshape(-1, 3)
         # What each point moves relative to the target: with the carrier, and against it with the target.
         shapes = np.zeros((len(places), 3, len(matrix)))
         for body, arms, sign in ((side.carrier, places, 1.0), (side.target, places + side.apart, -1.0)):
@@ -38,7 +38,7 @@ def highest_frequency(structure: Structure) -> float:
                 shapes[:, :, first + 3 : first + 6] = sign * turned / np.sqrt(inertia)
         if frequencies.size:
             shapes[:, :, 6:] = np.repeat(bodies[0].modes, around, axis=0)
-        weights = np.sqrt(np.repeat(side.law.node_stiffness(side) / around, around))
+        weights = np.sqrt(np.repeat(side.law.node_stiffness(side.at) / around, around))
         flat = (weights[:, None, None] * shapes).reshape(-1, len(matrix))
         matrix += flat.T @ flat
     return float(np.sqrt(np.linalg.eigvalsh(matrix)[-1]))
@@ -55,7 +55,7 @@ def longest_step(structure: Structure) -> float:
     """
     frequency, damping = highest_frequency(structure), 0.0
     for side in structure.interfaces:
-        slowness = side.law.node_damping(side) / side.law.node_stiffness(side)
+        slowness = side.law.node_damping(side.at) / side.law.node_stiffness(side.at)
         damping = max(damping, 0.5 * frequency * float(slowness.max(initial=0.0)))
     low, high = 0.0, 2.0
     for _ in range(40):

@@ -95,18 +95,19 @@ def standing_assembly(
     level and goes along with the uppermost points of their tops.
     """
     starts: dict[str, Start] = {}
-    joints = iter(zip(structure.joints, structure.loads, strict=True))
+    joints = iter(structure.joints)
     for (name, placed), body in zip(assembly.bodies.items(), structure.bodies, strict=True):
         if not placed.on:
-            (side,), load = next(joints)
-            on_table = standing(body, side.law, assembly.gravity, theta0=theta0, omega0=omega0, weight=load)
+            joint = next(joints)
+            law, gravity = joint.sides[0].law, assembly.gravity
+            on_table = standing(body, law, gravity, theta0=theta0, omega0=omega0, weight=joint.load)
             starts[name] = replace(on_table, position=on_table.position + np.append(placed.position, 0.0))
             continue
         found = []
         for below in placed.on:
-            sides, load = next(joints)
-            bearing = sum(float(side.law.node_stiffness(side) @ on_face(side)) for side in sides)
-            rest = np.array(sides[0].apart) - [0.0, 0.0, load / bearing]
+            joint = next(joints)
+            bearing = sum(float(side.law.node_stiffness(side.at) @ on_face(side)) for side in joint.sides)
+            rest = np.array(joint.sides[0].apart) - [0.0, 0.0, joint.load / bearing]
             found.append(_carried(starts[below], rest, assembly.bodies[below], len(placed.on) == 1))
         starts[name] = Start(
             np.mean([one.position for one in found], axis=0),

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import atan2, inf
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,12 +34,13 @@ SLIDES = 1.5
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Interface(Nodes):
+class Interface:
     """
     Nodes of one body against a face of another, or against the table.
 
     Attributes
     ----------
+    at : Nodes
     carrier, target : int
         Of the bodies; the target may be `TABLE`.
     law : ContactLaw
@@ -54,7 +56,8 @@ class Interface(Nodes):
         From the target's centre of mass to the carrier's at rest, m.
     """
 
-    carrier: int = 0
+    at: Nodes
+    carrier: int
     target: int = TABLE
     law: ContactLaw
     flip: float = 1.0
@@ -63,7 +66,27 @@ class Interface(Nodes):
     apart: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+class Joint(NamedTuple):
+    """
+    Where one body stands on another or on the table.
+
+    Attributes
+    ----------
+    sides : list of Interface
+        Its nodes on what is below, and the nodes of that on its base.
+    pole : tuple of float
+        In the upper body's axes, m: the middle of the contact along x, its half width, and how far the base is below
+        the centre of mass.
+    load : float
+        What it bears at rest, N.
+    """
+
+    sides: list[Interface]
+    pole: tuple[float, float, float]
+    load: float
+
+
+@dataclass(frozen=True, eq=False)
 class Structure:
     """
     What a run is made of.
@@ -74,13 +97,7 @@ class Structure:
         m/s².
     bodies : list of ContactBody
         Their mass and inertia, and on the table their nodes.
-    joints : list of list of Interface
-        Where one body stands on another or on the table: its nodes on what is below, and the nodes of that on its base.
-    poles : list of tuple
-        Of each joint, in the upper body's axes, m: the middle of the contact along x, its half width, and how far the
-        base is below the centre of mass.
-    loads : list of float
-        What each joint bears at rest, N.
+    joints : list of Joint
     together : list of list of int
         The bodies that turn with each: itself and what stands on it alone.
     critical_angles : list of float
@@ -91,73 +108,52 @@ class Structure:
 
     gravity: float
     bodies: list[ContactBody]
-    joints: list[list[Interface]]
-    poles: list[tuple[float, float, float]]
-    loads: list[float]
+    joints: list[Joint]
     together: list[list[int]]
     critical_angles: list[float]
     lowest: list[float]
-    interfaces: list[Interface] = field(init=False)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "interfaces", [side for joint in self.joints for side in joint])
+    @property
+    def interfaces(self) -> list[Interface]:
+        """Of all joints."""
+        return [side for joint in self.joints for side in joint.sides]
 
     @classmethod
     def of_body(cls, body: ContactBody, law: ContactLaw, gravity: float) -> Structure:
         """Let one body stand on the table."""
-        side = _on_table(body, 0, law.bearing(body, gravity))
-        return cls(
-            gravity=gravity,
-            bodies=[body],
-            joints=[[side]],
-            poles=[(0.0, body.half_width, body.height)],
-            loads=[body.mass * gravity],
-            together=[[0]],
-            critical_angles=[atan2(body.half_width, body.height)],
-            lowest=[-inf],
-        )
+        joint = _on_table(body, 0, law.bearing(body, gravity), body.mass * gravity)
+        return cls(gravity, [body], [joint], [[0]], [atan2(body.half_width, body.height)], [-inf])
 
     @classmethod
-    def of_assembly(
-        cls,
-        assembly: Assembly,
-        law: ContactLaw,
-        *,
-        grid: tuple[int, int] = GRID,
-    ) -> Structure:
+    def of_assembly(cls, assembly: Assembly, law: ContactLaw, *, grid: tuple[int, int] = GRID) -> Structure:
         """Let the bodies of an assembly stand on each other, with nodes as `rigid_body` places them."""
         numbers = {name: number for number, name in enumerate(assembly.bodies)}
         bodies = [rigid_body(placed.block, grid=grid) for placed in assembly.bodies.values()]
-        joints, poles, loads = [], [], []
+        joints = []
         for (name, placed), body in zip(assembly.bodies.items(), bodies, strict=True):
             mass, height = carried(assembly, name)
-            for below, share in (supports(assembly, name) or {"": 1.0}).items():
-                loads.append(mass * share * assembly.gravity)
-                if below:
-                    patch = _Patch(placed, assembly.bodies[below], grid)
-                    sides, area = patch.sides(numbers[name], numbers[below], share * body.mass, law)
-                    middle, half = patch.across
-                else:
-                    sides, area = [_on_table(body, numbers[name], law)], float(body.node_area.sum())
-                    middle, half = 0.0, body.half_width
-                poles.append((middle, half, body.height))
-                joints.append([replace(side, law=law.under(loads[-1] / area, height)) for side in sides])
+            weight = mass * assembly.gravity
+            if not placed.on:
+                joints.append(_on_table(body, numbers[name], law.under(weight / body.node_area.sum(), height), weight))
+            for below, share in supports(assembly, name).items():
+                patch, load = _Patch(placed, assembly.bodies[below], grid), mass * share * assembly.gravity
+                sides, area = patch.sides(numbers[name], numbers[below], share * body.mass, law)
+                sides = [replace(side, law=law.under(load / area, height)) for side in sides]
+                joints.append(Joint(sides, (*patch.across, body.height), load))
         return cls(
-            gravity=assembly.gravity,
-            bodies=bodies,
-            joints=joints,
-            poles=poles,
-            loads=loads,
-            together=[[numbers[other] for other in standing_on(assembly, name)] for name in assembly.bodies],
-            critical_angles=list(assembly.critical_angles.values()),
-            lowest=[assembly.levels[name] if placed.on else -inf for name, placed in assembly.bodies.items()],
+            assembly.gravity,
+            bodies,
+            joints,
+            [[numbers[other] for other in standing_on(assembly, name)] for name in assembly.bodies],
+            list(assembly.critical_angles.values()),
+            [assembly.levels[name] if placed.on else -inf for name, placed in assembly.bodies.items()],
         )
 
     def system(self, step: float) -> System:
         """Give the engine's arrays for a step, s."""
         sides = self.interfaces
-        radii = np.concatenate([side.ring_radii for side in sides])
-        nodes = np.concatenate([side.nodes for side in sides])
+        radii = np.concatenate([side.at.ring_radii for side in sides])
+        nodes = np.concatenate([side.at.nodes for side in sides])
         first = self.bodies[0]
         modes = first.modes if first.frequencies.size else np.zeros((len(nodes), 3, 0))
         return System(
@@ -171,16 +167,16 @@ class Structure:
             np.array([side.face for side in sides]),
             np.array([side.outline for side in sides]),
             np.array([side.law.friction for side in sides], dtype=np.float64),
-            _begins([len(side.nodes) for side in sides]),
-            np.array([np.sqrt((side.nodes**2).sum(axis=1)).max(initial=0.0) for side in sides]),
+            _begins([len(side.at.nodes) for side in sides]),
+            np.array([np.sqrt((side.at.nodes**2).sum(axis=1)).max(initial=0.0) for side in sides]),
             np.ascontiguousarray(nodes),
             radii,
             _begins(np.where(radii > 0.0, POINTS, 1)),
-            np.concatenate([side.law.node_stiffness(side) for side in sides]),
-            np.concatenate([side.law.node_damping(side) for side in sides]),
+            np.concatenate([side.law.node_stiffness(side.at) for side in sides]),
+            np.concatenate([side.law.node_damping(side.at) for side in sides]),
             np.array(np.polynomial.legendre.leggauss(POINTS)),
-            _begins([len(joint) for joint in self.joints]),
-            np.array(self.poles),
+            _begins([len(joint.sides) for joint in self.joints]),
+            np.array([joint.pole for joint in self.joints]),
             np.ascontiguousarray(modes),
             first.frequencies,
             propagators(first, 0.5 * step),
@@ -241,10 +237,7 @@ class _Patch:
             heights = np.full(len(nodes), self._depths[which])
             found.append(
                 Interface(
-                    nodes=np.column_stack((nodes, heights)),
-                    node_mass=areas,
-                    node_area=areas,
-                    ring_radii=radii,
+                    at=Nodes(np.column_stack((nodes, heights)), areas, areas, radii),
                     carrier=(upper, lower)[which],
                     target=(lower, upper)[which],
                     law=law,
@@ -254,8 +247,9 @@ class _Patch:
                     apart=tuple((2.0 * which - 1.0) * np.append(self._offset, self._depths[0] - self._depths[1])),
                 )
             )
-        total = sum(float(side.node_area @ on_face(side)) for side in found)
-        return [replace(side, node_mass=mass * side.node_area / total) for side in found], total
+        total = sum(float(side.at.node_area @ on_face(side)) for side in found)
+        massive = [replace(side.at, node_mass=mass * side.at.node_area / total) for side in found]
+        return [replace(side, at=at) for side, at in zip(found, massive, strict=True)], total
 
     def _edges_off(self, which: int) -> tuple[Array, Array]:
         """Give the nodes of a rectangular face's edges that bear only once it has slid onto the other, and areas."""
@@ -277,20 +271,13 @@ class _Patch:
 def on_face(side: Interface) -> Array:
     """Give how much of each node is on the target's face at rest, shape (n,), of a ring in the mean over its circle."""
     if side.target == TABLE:
-        return np.ones(len(side.nodes))
-    places = side.around(64) + side.apart
+        return np.ones(len(side.at.nodes))
+    places = side.at.around(64) + side.apart
     return np.array([np.mean([inside(*side.outline, x, y) for x, y, _ in circle]) for circle in places])
 
 
-def _on_table(body: ContactBody, carrier: int, law: ContactLaw) -> Interface:
-    return Interface(
-        nodes=body.nodes,
-        node_mass=body.node_mass,
-        node_area=body.node_area,
-        ring_radii=body.ring_radii,
-        carrier=carrier,
-        law=law,
-    )
+def _on_table(body: ContactBody, number: int, law: ContactLaw, load: float) -> Joint:
+    return Joint([Interface(at=body, carrier=number, law=law)], (0.0, body.half_width, body.height), load)
 
 
 def _begins(counts: Sequence[int] | NDArray[np.int64]) -> NDArray[np.int64]:

@@ -30,7 +30,7 @@ from colonnade.store.provenance import Inputs
 if TYPE_CHECKING:
     import xarray as xr
 
-    from colonnade.dynamics.contact.bodies import AssemblyHistory
+    from colonnade.dynamics.contact.history import AssemblyHistory
 
 MOTIONS = {
     "angle": "rocking_angle",

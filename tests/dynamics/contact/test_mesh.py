@@ -6,8 +6,8 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactLaw, rigid_body
-from colonnade.dynamics.contact.elastic.assembly import assemble
-from colonnade.dynamics.contact.elastic.mesh import (
+from colonnade.dynamics.contact.elastic import assemble, reduce_body
+from colonnade.dynamics.contact.mesh import (
     mesh_of,
     prism_divisions,
     prism_mesh,
@@ -15,7 +15,6 @@ from colonnade.dynamics.contact.elastic.mesh import (
     round_divisions,
     round_mesh,
 )
-from colonnade.dynamics.contact.elastic.reduction import reduce_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.stability import keep_modes
 

@@ -3,15 +3,166 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.dynamics.contact.body import ContactBody
-from colonnade.dynamics.contact.elastic.assembly import ElasticBody, assemble, rigid_modes
-from colonnade.dynamics.contact.elastic.mesh import mesh_of, refine_rim
+from colonnade.dynamics.contact.mesh import Mesh, mesh_of, refine_rim
+
+STEELS_MODULUS = 200e9
+"""Young's modulus of steel, Pa."""
+
+STEELS_POISSON_RATIO = 0.3
+
+
+@dataclass(frozen=True, eq=False)
+class ElasticBody:
+    """
+    A meshed body: sparse matrices and nodal weights, axes at the centre of mass.
+
+    Attributes
+    ----------
+    density, modulus, dilatation : float
+        kg/m³; Young's modulus, and Lamé's λ + 2µ, Pa.
+    points : ndarray, shape (n, 3)
+        Nodes relative to the centre of mass, m.
+    base : ndarray, shape (b,)
+        Nodes of the base.
+    stiffness : scipy.sparse.csr_array, shape (3n, 3n)
+        N/m; degree of freedom 3 i + k is node i along axis k.
+    node_mass : ndarray, shape (n,)
+        Row sums of the consistent mass, kg.
+    base_area : ndarray, shape (b,)
+        The base's area that each of its nodes stands for, m².
+    volume_rate : scipy.sparse.csr_array, shape (e, 3n)
+        Mean divergence of each brick's nodal velocities, 1/m.
+    volumes : ndarray, shape (e,)
+        m³.
+    element_lengths : ndarray, shape (e,)
+        Each brick's volume over its largest face, m: the shortest way through it.
+    inertia : ndarray, shape (3,)
+        Moments about the centre of mass of the meshed volume (not of the lumped masses), kg m².
+    description : str
+    """
+
+    density: float
+    modulus: float
+    dilatation: float
+    points: Array
+    base: NDArray[np.int64]
+    stiffness: Any
+    node_mass: Array
+    base_area: Array
+    volume_rate: Any
+    volumes: Array
+    element_lengths: Array
+    inertia: Array
+    description: str
+
+
+def assemble(
+    mesh: Mesh, mass: float, *, modulus: float = STEELS_MODULUS, poisson_ratio: float = STEELS_POISSON_RATIO
+) -> ElasticBody:
+    """
+    Assemble the finite elements of a body of uniform density.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        From `prism_mesh` or `round_mesh`.
+    mass : float
+        kg. The density is this mass over the mesh's volume, so that a round body's polygon costs it no mass.
+    modulus : float, optional
+        Young's modulus, Pa.
+    poisson_ratio : float, optional
+
+    Returns
+    -------
+    body : ElasticBody
+
+    Notes
+    -----
+    Trilinear bricks, integrated at 2 × 2 × 2 points (scikit-fem's `intorder=2`; its default takes longer for the same
+    matrix). They bend too stiffly, by a share that falls with the square of their size.
+    """
+    from scipy.sparse import csr_array
+    from skfem import Basis, ElementHex1, ElementVector, FacetBasis, LinearForm, MeshHex
+    from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+    hexahedra = MeshHex(mesh.points.T.copy(), mesh.cells.T.copy())
+    scalar = Basis(hexahedra, ElementHex1(), intorder=2)
+    density, (first, shear) = mass / float(scalar.dx.sum()), lame_parameters(modulus, poisson_ratio)
+    weight = LinearForm(lambda v, _: v)
+    node_mass = density * weight.assemble(scalar)
+    centre = node_mass @ mesh.points / mass
+    points = mesh.points - centre
+
+    vector = Basis(hexahedra, ElementVector(ElementHex1()), intorder=2)
+    order = np.asarray(vector.nodal_dofs).T.ravel()
+    stiffness = csr_array(linear_elasticity(first, shear).assemble(vector))[order][:, order]
+    facets = hexahedra.facets_satisfying(lambda x: np.isclose(x[2], 0.0, atol=1e-9), boundaries_only=True)
+    area = weight.assemble(FacetBasis(hexahedra, ElementHex1(), facets=facets, intorder=2))
+
+    gradients = np.stack([field[0].grad for field in scalar.basis])
+    volumes = scalar.dx.sum(axis=1)
+    means = np.einsum("ciep,ep->eci", gradients, scalar.dx) / volumes[:, None, None]
+    rows = np.repeat(np.arange(len(volumes)), 24)
+    columns = (3 * mesh.cells[:, :, None] + np.arange(3)).ravel()
+    volume_rate = csr_array((means.ravel(), (rows, columns)), shape=(len(volumes), 3 * len(points)))
+
+    where = np.asarray(scalar.global_coordinates()) - centre[:, None, None]
+    squares = density * np.einsum("iep,ep->i", where**2, scalar.dx)
+    return ElasticBody(
+        density=density,
+        modulus=modulus,
+        dilatation=first + 2 * shear,
+        points=points,
+        base=mesh.base,
+        stiffness=stiffness,
+        node_mass=node_mass,
+        base_area=area[mesh.base],
+        volume_rate=volume_rate,
+        volumes=volumes,
+        element_lengths=volumes / _largest_faces(mesh),
+        inertia=squares.sum() - squares,
+        description=mesh.description,
+    )
+
+
+def _largest_faces(mesh: Mesh) -> Array:
+    """Area of the largest face of each brick, from the diagonals of the faces, m²."""
+    from skfem.refdom import RefHex
+
+    corners = mesh.points[mesh.cells[:, np.array(RefHex.facets)]]
+    diagonals = corners[:, :, 2] - corners[:, :, 0], corners[:, :, 3] - corners[:, :, 1]
+    return np.asarray(np.linalg.norm(np.cross(*diagonals), axis=2).max(axis=1) / 2)
+
+
+def rigid_modes(points: Array, node_mass: Array) -> Array:
+    """
+    Translations and rotations of a body, orthonormal to the mass.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 3)
+        Nodes relative to the centre of mass, in principal axes, m.
+    node_mass : ndarray, shape (n,)
+        kg.
+
+    Returns
+    -------
+    modes : ndarray, shape (3n, 6)
+        kg^-½: along x, y, z, then about x, y, z.
+    """
+    axes = np.eye(3)
+    shapes = [np.broadcast_to(axis, points.shape) for axis in axes] + [np.cross(axis, points) for axis in axes]
+    modes = np.stack([shape.ravel() for shape in shapes], axis=1)
+    return np.asarray(modes / np.sqrt(np.repeat(node_mass, 3) @ modes**2))
+
 
 VIBRATION_MODES = 40
 """Free vibration modes kept by default."""
@@ -62,7 +213,7 @@ def reduce_body(body: ElasticBody, *, vibration_modes: int = VIBRATION_MODES) ->
     weights = diags_array(1 / roots)
     scaled = (weights @ body.stiffness @ weights).tocsr()
     rigid = roots[:, None] * rigid_modes(body.points, body.node_mass)
-    shift = SHIFT * body.material.modulus / body.material.density / float(np.ptp(body.points, axis=0).max()) ** 2
+    shift = SHIFT * body.modulus / body.density / float(np.ptp(body.points, axis=0).max()) ** 2
     shifted = (scaled + shift * eye_array(roots.size)).tocsc()
     factors = splu(shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
@@ -160,8 +311,7 @@ def modal_damping(body: ElasticBody, modes: Array, frequencies: Array) -> Array:
     b₁ L ω / 2c; a mode of pure shear or torsion has none. What C couples between modes is left out. It is damping of
     the material and has a share of its own in the balance of energy, apart from that of the contact.
     """
-    first, shear = body.material.lame
-    pressures = LINEAR_VISCOSITY * np.sqrt((first + 2 * shear) * body.material.density) * body.element_lengths
+    pressures = LINEAR_VISCOSITY * np.sqrt(body.dilatation * body.density) * body.element_lengths
     return np.asarray((body.volumes * pressures) @ (body.volume_rate @ modes) ** 2 / (2 * frequencies))
 
 

@@ -1,1 +1,0 @@
-"""The elastic body of the contact model: finite elements, reduced to a few modes."""
