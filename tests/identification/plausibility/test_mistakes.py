@@ -11,7 +11,7 @@ from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.identification.plausibility.mistakes import stuck, undone
-from colonnade.identification.plausibility.rotation import Rotation
+from colonnade.identification.plausibility.rotation import Gauge, Rotation
 from colonnade.identification.plausibility.transducers import base_scale, judge
 from every import every
 from prism import PRISM
@@ -26,7 +26,7 @@ OMEGA = 2 * np.pi * 4.0
 
 @pytest.fixture(scope="module")
 def shaken():
-    """Sound rotation, acceleration and displacement of the table."""
+    """Sound rotation, and displacement of the table."""
     envelope = np.clip(np.minimum(TIME - 1, 8 - TIME), 0, 1)
     base = 1.7 * PRISM.uplift_acceleration * envelope * np.sin(OMEGA * TIME)
     angle = rock(PRISM, Motion(base, INTERVAL), restitution=0.93, model="nonlinear").angle
@@ -34,38 +34,57 @@ def shaken():
     readings = point_displacement(angle, POINTS, PRISM)[..., 0] + noise
     responses = point_displacement(ANGLES, POINTS, PRISM)[..., 0]
     moved = -base / OMEGA**2
-    rotation = Rotation(
-        ("top", "bottom"), readings, responses, ANGLES, *np.full((2, 2), NOISE), refixed=np.array([moved, moved])
+    gauges = (
+        Gauge(name, reading, ANGLES, response, NOISE, NOISE, refixed=moved)
+        for name, reading, response in zip(("top", "bottom"), readings, responses, strict=True)
     )
-    return rotation, base, moved
+    return Rotation(tuple(gauges), PRISM, INTERVAL, base), moved
+
+
+def _read(rotation, change):
+    """The same with the readings of each changed."""
+    return rotation.with_gauges(*(replace(each, reading=change(each.reading)) for each in rotation.gauges))
 
 
 def _changed(rotation, chosen, added):
-    readings = rotation.readings.copy()
-    readings[chosen] += added
-    return replace(rotation, readings=readings)
+    for index in chosen:
+        rotation = rotation.added(rotation.gauges[index], added)
+    return rotation
+
+
+def _alone(rotation):
+    return replace(rotation, gauges=rotation.gauges[:1])
 
 
 def test_sound_transducers_have_nothing_to_undo(shaken):
-    rotation, base, _ = shaken
-    assert undone(INTERVAL, rotation, base, PRISM) is None
+    assert undone(shaken[0]) is None
 
 
 @pytest.mark.parametrize(
     ("chosen", "names"), [([0], "channel top"), ([1], "channel bottom"), ([0, 1], "channels top and bottom")]
 )
 def test_transducers_on_the_wall_that_are_declared_to_the_table_are_named(chosen, names, shaken):
-    rotation, base, moved = shaken
+    rotation, moved = shaken
     wrong = _changed(rotation, chosen, moved)
-    assert undone(INTERVAL, wrong, base, PRISM).text.startswith(f"{names}: `relative_to` is wrong")
-    assert base_scale(judge(INTERVAL, wrong, base, PRISM)) is None  # what it would say is that of the mistake
+    assert undone(wrong).text.startswith(f"{names}: `relative_to` is wrong")
+    assert base_scale(judge(wrong)) is None  # what it would say is that of the mistake
+
+
+def _moved(rotation, angle, noise):
+    """What the same gauges read of another motion."""
+    random = np.random.default_rng(2)
+    return rotation.with_gauges(
+        *(
+            replace(each, reading=np.interp(angle, ANGLES, each.response) + random.normal(0, noise, angle.size))
+            for each in rotation.gauges
+        )
+    )
 
 
 def _coupled(rotation, corner):
     numerator, denominator = scipy.signal.butter(1, corner, "high", fs=1 / INTERVAL)
-    readings = rotation.readings.copy()
-    readings[0] = scipy.signal.lfilter(numerator, denominator, readings[0])
-    return replace(rotation, readings=readings)
+    top = rotation.gauges[0]
+    return rotation.with_gauges(replace(top, reading=scipy.signal.lfilter(numerator, denominator, top.reading)))
 
 
 @pytest.mark.parametrize(
@@ -80,72 +99,71 @@ def _coupled(rotation, corner):
     ids=["0.3 Hz", "0.6 Hz", "2 Hz", "cut while it rocks", "begun while it rocks"],
 )
 def test_a_transducer_behind_a_high_pass_is_named_with_its_corner(corner, part, shaken):
-    rotation, base, _ = shaken
-    coupled = _coupled(rotation, corner)
-    readings = coupled.readings[:, part] - (coupled.readings[:, -100:].mean(axis=1)[:, None] if part.start else 0)
-    found = undone(INTERVAL, replace(coupled, readings=readings, refixed=None), base[part], PRISM)
+    rotation, _ = shaken
+    coupled = _read(
+        _coupled(rotation, corner), lambda reading: reading[part] - (reading[-100:].mean() if part.start else 0)
+    )
+    free = (replace(each, refixed=None) for each in coupled.gauges)
+    found = undone(replace(coupled, gauges=tuple(free), acceleration=rotation.acceleration[part]))
     assert found.text.startswith("channel top does not hold a constant value")
     assert f"{corner:.1g}" in found.text
 
 
 @pytest.mark.parametrize("corner", [0.2, 0.6, 2.0])
 def test_one_alone_behind_a_high_pass_is_named_where_the_table_shakes(corner, shaken):
-    rotation, base, _ = shaken
-    found = undone(INTERVAL, _coupled(rotation, corner).only([0]), base, PRISM)
+    found = undone(_alone(_coupled(shaken[0], corner)))
     assert f"a high-pass of {corner:.1g} Hz" in found.text
 
 
 @pytest.mark.parametrize("corner", [0.1, 0.3, 1.0])
 def test_one_alone_behind_a_high_pass_is_named_in_a_free_vibration(corner, shaken):
-    rotation, _, _ = shaken
+    rotation, _ = shaken
     history = rock(PRISM, restitution=0.93, theta0=0.09, duration=11.0, model="nonlinear")
     held = np.interp(TIME - 1.0, history.time, history.angle)
-    readings = np.interp(held, ANGLES, rotation.responses[0]) + np.random.default_rng(1).normal(0, NOISE, TIME.size)
-    released = replace(rotation.only([0]), readings=readings[None], refixed=None)
-    assert undone(INTERVAL, released, None, PRISM) is None
-    coupled = _coupled(replace(released, readings=released.readings - readings[0]), corner).readings
-    found = undone(INTERVAL, replace(released, readings=coupled - coupled[:, -100:].mean()), None, PRISM)
+    top = rotation.gauges[0]
+    reading = np.interp(held, ANGLES, top.response) + np.random.default_rng(1).normal(0, NOISE, TIME.size)
+    released = Rotation((replace(top, reading=reading, refixed=None),), PRISM, INTERVAL)
+    assert undone(released) is None
+    coupled = _coupled(_read(released, lambda reading: reading - reading[0]), corner)
+    found = undone(_read(coupled, lambda reading: reading - reading[-100:].mean()))
     assert f"a high-pass of {corner:.1g} Hz" in found.text
 
 
 def test_one_alone_that_is_sound_or_under_which_the_block_walks_is_not_behind_a_high_pass(shaken):
-    rotation, base, _ = shaken
     for walked in (0.0, 0.0016, 0.005):
-        moved = _changed(rotation, [0], walked * np.clip((TIME - 2) / 5, 0, 1)).only([0])
-        assert undone(INTERVAL, moved, base, PRISM) is None
+        moved = _changed(shaken[0], [0], walked * np.clip((TIME - 2) / 5, 0, 1))
+        assert undone(_alone(moved)) is None
 
 
 def test_what_hardly_shows_is_not_told(shaken):
-    rotation, base, _ = shaken
-    angle = rotation.angle(0)
-    same = replace(rotation, readings=np.array([np.interp(angle, ANGLES, each) for each in rotation.responses]))
+    rotation, _ = shaken
+    angle = rotation.gauges[0].angle()
+    same = _moved(rotation, angle, 0.0)
     coupled = _coupled(same, 2e-4)
     assert coupled.residual() > 4 * same.residual()
-    assert undone(INTERVAL, coupled, base, PRISM) is None
+    assert undone(coupled) is None
 
 
 @pytest.mark.parametrize(("with_gains", "what"), [(False, "columns"), (True, "places")])
 def test_columns_and_places_that_are_exchanged_are_told_apart(with_gains, what, shaken):
-    rotation, base, _ = shaken
-    swapped = replace(rotation, gains=np.array([5.0, 1.0])).exchanged(0, 1, with_gains=with_gains)
-    found = undone(INTERVAL, swapped, base, PRISM)
+    rotation, _ = shaken
+    top, bottom = (replace(each, gain=gain) for each, gain in zip(rotation.gauges, (5.0, 1.0), strict=True))
+    found = undone(rotation.exchanged(top, bottom, with_gains=with_gains))
     assert found.text.startswith(f"channels top and bottom look swapped: with their {what} exchanged")
 
 
 @pytest.mark.parametrize("walked", [0.0016, 0.005])
 def test_a_block_that_walks_is_no_mistake(walked, shaken):
-    rotation, base, _ = shaken
     walk = walked * np.clip((TIME - 2) / 5, 0, 1)
-    assert undone(INTERVAL, _changed(rotation, [0, 1], walk), base, PRISM) is None
+    assert undone(_changed(shaken[0], [0, 1], walk)) is None
 
 
 @pytest.mark.parametrize("scale", [None, 2.0], ids=["moved by hand", "twice as far as a block"])
 def test_agreement_on_a_motion_that_is_not_this_blocks_proves_no_exchange(scale, shaken):
-    rotation, base, _ = shaken
-    angle = 0.05 * np.sin(1.9 * TIME) ** 3 if scale is None else scale * rotation.angle(0)
-    readings = np.array([np.interp(angle, ANGLES, each) for each in rotation.responses])
-    noisy = replace(rotation, readings=readings + np.random.default_rng(2).normal(0, NOISE, readings.shape))
-    assert undone(INTERVAL, noisy.exchanged(0, 1, with_gains=False), base, PRISM) is None
+    rotation, _ = shaken
+    angle = 0.05 * np.sin(1.9 * TIME) ** 3 if scale is None else scale * rotation.gauges[0].angle()
+    noisy = _moved(rotation, angle, NOISE)
+    assert undone(noisy.exchanged(*noisy.gauges, with_gains=False)) is None
 
 
 LONGER = np.arange(0, 14, INTERVAL)
@@ -154,14 +172,12 @@ HELD = slice(0, 750)
 
 def _stuck(*angles, noise=1e-4, flagged=None):
     """Of inclinometers with noise after whatever happened to their signals; some of it may be flagged before."""
-    count = len(angles)
     noisy = np.array(angles) + np.random.default_rng(0).normal(0, noise, np.shape(angles))
-    names = ("tilt", "other")[:count]
-    rotation = Rotation(
-        names, noisy, np.tile(ANGLES, (count, 1)), ANGLES, np.full(count, noise), np.ones(count), ("angle",) * count,
-        flagged=flagged,
-    )  # fmt: skip
-    return stuck(INTERVAL, rotation, rotation.scales(INTERVAL, None, PRISM), None, PRISM)
+    gauges = (
+        Gauge(name, angle, ANGLES, ANGLES, noise, 1.0, "angle", flagged=flagged)
+        for name, angle in zip(("tilt", "other"), noisy, strict=False)
+    )
+    return stuck(Rotation(tuple(gauges), PRISM, INTERVAL))
 
 
 @pytest.fixture(scope="module")
@@ -183,7 +199,7 @@ def test_a_transducer_that_saturates_at_the_peaks_says_that_they_are_lower_bound
     assert "saturates" in found.text
     assert "The peak is a lower bound" in found.text
     assert float(re.search(r"at -?([\d.]+) mrad", found.text)[1]) == pytest.approx(1e3 * limit, rel=0.01)
-    assert _stuck(np.clip(angle, -limit, limit), flagged=(np.abs(angle) > limit)[None]) == []
+    assert _stuck(np.clip(angle, -limit, limit), flagged=np.abs(angle) > limit) == []
 
 
 @pytest.mark.parametrize("share", [0.3, 0.6, 0.9])

@@ -10,7 +10,7 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
-from colonnade.identification.plausibility.rotation import Rotation
+from colonnade.identification.plausibility.rotation import Gauge, Rotation
 from colonnade.identification.plausibility.transducers import base_scale, judge, suspicions
 from prism import PRISM
 
@@ -20,14 +20,15 @@ ANGLES = np.linspace(-0.4, 0.4, 161)
 NOISE = 2e-5
 
 
-def _rotation(block, angle, heights):
+def _rotation(block, angle, heights, base=None):
     points = [[block.positive.half_width, 0.0, height] for height in heights]
-    rng = np.random.default_rng(0)
-    readings = point_displacement(angle, points, block)[..., 0] + rng.normal(0, NOISE, (len(points), angle.size))
-    responses = point_displacement(ANGLES, points, block)[..., 0]
-    return Rotation(
-        ("top", "bottom", "middle")[: len(points)], readings, responses, ANGLES, *np.full((2, len(points)), NOISE)
+    noise = np.random.default_rng(0).normal(0, NOISE, (len(points), angle.size))
+    readings, responses = (point_displacement(each, points, block)[..., 0] for each in (angle, ANGLES))
+    gauges = (
+        Gauge(name, reading, ANGLES, response, NOISE, NOISE)
+        for name, reading, response in zip(("top", "bottom", "middle"), readings + noise, responses, strict=False)
     )
+    return Rotation(tuple(gauges), block, 1 / RATE, base)
 
 
 def _free(block, heights, *, restitution=0.95, start=0.6, seconds=14):
@@ -36,38 +37,44 @@ def _free(block, heights, *, restitution=0.95, start=0.6, seconds=14):
     history = rock(
         block, restitution=restitution, theta0=start * block.critical_angle, duration=seconds, model="nonlinear"
     )
-    return _rotation(block, np.interp(time - 1.5, history.time, history.angle), heights), None
+    return _rotation(block, np.interp(time - 1.5, history.time, history.angle), heights)
 
 
 def _shaken(block, heights, *, frequency=5.0, amplitude=1.5):
     time = np.arange(0, 10, 1 / RATE)
     base = amplitude * block.uplift_acceleration * np.sin(2 * np.pi * frequency * time)
     base *= np.clip(np.minimum(time - 1, 7 - time), 0, 1)
-    return _rotation(
-        block, rock(block, Motion(base, 1 / RATE), restitution=0.95, model="nonlinear").angle, heights
-    ), base
+    angle = rock(block, Motion(base, 1 / RATE), restitution=0.95, model="nonlinear").angle
+    return _rotation(block, angle, heights, base)
 
 
 @pytest.fixture(scope="module", params=["free", "shaken", "three on a stone"])
 def sound(request):
-    """Rotation, table acceleration or None, block."""
+    """A rotation that is sound."""
     if request.param == "free":
-        return *_free(PRISM, (0.44, 0.04)), PRISM
+        return _free(PRISM, (0.44, 0.04))
     if request.param == "shaken":
-        return *_shaken(PRISM, (0.44, 0.04)), PRISM
-    return *_free(STONE, (1.0, 0.05, 0.5), restitution=0.9, seconds=24), STONE
+        return _shaken(PRISM, (0.44, 0.04))
+    return _free(STONE, (1.0, 0.05, 0.5), restitution=0.9, seconds=24)
+
+
+def _changed(rotation, index, **changed):
+    return rotation.with_gauges(replace(rotation.gauges[index], **changed))
 
 
 def _times(rotation, index, factor):
-    readings, noise = rotation.readings.copy(), rotation.noise.copy()
-    readings[index] *= factor
-    noise[index] *= abs(factor)
-    return replace(rotation, readings=readings, noise=noise)
+    gauge = rotation.gauges[index]
+    return _changed(rotation, index, reading=factor * gauge.reading, noise=abs(factor) * gauge.noise)
 
 
-def _said(sound, change=lambda rotation: rotation):
-    rotation, base, block = sound
-    return list(map(str, suspicions(judge(1 / RATE, change(rotation), base, block))))
+def _all_times(rotation, factor):
+    for index in range(len(rotation.gauges)):
+        rotation = _times(rotation, index, factor)
+    return rotation
+
+
+def _said(rotation):
+    return list(map(str, suspicions(judge(rotation))))
 
 
 def test_a_sound_set_up_is_not_doubted(sound):
@@ -85,71 +92,66 @@ def test_a_sound_set_up_is_not_doubted(sound):
 )
 @pytest.mark.parametrize("index", [0, 1])
 def test_a_wrong_gain_is_named_with_its_channel(sound, index, factor, said):
-    (told,) = _said(sound, lambda rotation: _times(rotation, index, factor))
-    assert told.startswith(f"channel {sound[0].names[index]} shows ")
+    (told,) = _said(_times(sound, index, factor))
+    assert told.startswith(f"channel {sound.gauges[index].name} shows ")
     assert said in told
 
 
 @pytest.mark.parametrize("index", [0, 1])
 def test_a_wrong_sign_is_told_and_where_something_else_turns_its_channel(sound, index):
-    rotation, base, _ = sound
-    (told,) = _said(sound, lambda rotation: _times(rotation, index, -1.0))
+    (told,) = _said(_times(sound, index, -1.0))
     assert "turns opposite to" in told
-    if base is not None or len(rotation.names) > 2:
-        assert f"the sign of {rotation.names[index]} is wrong" in told
+    if sound.acceleration is not None or len(sound.gauges) > 2:
+        assert f"the sign of {sound.gauges[index].name} is wrong" in told
     else:
         assert "the sign of one of the two is wrong" in told
 
 
 def _swapped(rotation, gains):
-    return replace(rotation, gains=np.array(gains)).exchanged(0, 1, with_gains=False)
+    one, other = (replace(rotation.gauges[index], gain=gain) for index, gain in enumerate(gains))
+    return rotation.exchanged(one, other, with_gains=False)
 
 
 def test_swapped_columns_are_named(sound):
-    (told,) = _said(sound, lambda rotation: _swapped(rotation, np.ones(len(rotation.names))))
+    (told,) = _said(_swapped(sound, (1.0, 1.0)))
     assert "channels top and bottom look swapped" in told
     assert "falls from" in told
 
 
 def test_swapped_columns_are_named_even_where_gains_make_up_for_heights():
-    rotation, base = _free(PRISM, (0.44, 0.04))
     # What is left is that the points of a block do not move in straight lines.
-    (told,) = map(str, suspicions(judge(1 / RATE, _swapped(rotation, (11.0, 1.0)), base, PRISM)))
+    (told,) = _said(_swapped(_free(PRISM, (0.44, 0.04)), (11.0, 1.0)))
     assert "look swapped" in told
 
 
 @pytest.mark.parametrize("index", [0, 1])
 def test_a_dead_transducer_is_named(sound, index):
-    def kill(rotation):
-        readings = rotation.readings.copy()
-        readings[index] = np.random.default_rng(1).normal(0, NOISE, readings.shape[1])
-        return replace(rotation, readings=readings)
-
-    (told,) = _said(sound, kill)
-    assert told.startswith(f"channel {sound[0].names[index]} hardly moves")
+    still = np.random.default_rng(1).normal(0, NOISE, sound.gauges[index].reading.size)
+    (told,) = _said(_changed(sound, index, reading=still))
+    assert told.startswith(f"channel {sound.gauges[index].name} hardly moves")
 
 
 def test_all_of_them_wrong_alike_is_told_as_such(sound):
-    (told,) = _said(
-        sound, lambda rotation: replace(rotation, readings=10 * rotation.readings, noise=10 * rotation.noise)
-    )
+    (told,) = _said(_all_times(sound, 10.0))
     assert "all show" in told
     assert "the specimen's dimensions, or the sampling rate" in told
 
 
 @pytest.mark.parametrize(("factor", "found"), [(1.0, 1.0), (9.81, 9.81), (-1.0, -1.0), (1 / 9.81, 1 / 9.81)])
 def test_rocking_tells_how_wrong_the_tables_acceleration_is(factor, found):
-    rotation, base = _shaken(PRISM, (0.44, 0.04))
-    assert base_scale(judge(1 / RATE, rotation, factor * base, PRISM)) == pytest.approx(found, rel=0.08)
-    told = list(map(str, suspicions(judge(1 / RATE, rotation, factor * base, PRISM))))
+    rotation = _shaken(PRISM, (0.44, 0.04))
+    judged = judge(replace(rotation, acceleration=factor * rotation.acceleration))
+    assert base_scale(judged) == pytest.approx(found, rel=0.08)
+    told = list(map(str, suspicions(judged)))
     assert ["opposite to the table's acceleration" in each for each in told] == ([True] if factor < 0 else [])
 
 
 @pytest.mark.parametrize("share", [-0.5, 0.5])
 def test_a_zero_taken_while_the_block_leans_is_no_gain(share):
-    rotation, base = _shaken(PRISM, (0.44, 0.04))
-    leaning = share * PRISM.critical_angle * rotation.levers[:, None]
-    assert suspicions(judge(1 / RATE, replace(rotation, readings=rotation.readings - leaning), base, PRISM)) == []
+    rotation = _shaken(PRISM, (0.44, 0.04))
+    for each in rotation.gauges:
+        rotation = rotation.added(each, np.array(-share * PRISM.critical_angle * each.lever))
+    assert _said(rotation) == []
 
 
 def test_a_gain_is_told_of_a_block_that_falls_onto_its_frame_and_of_a_record_that_is_cut_while_it_rocks():
@@ -157,19 +159,20 @@ def test_a_gain_is_told_of_a_block_that_falls_onto_its_frame_and_of_a_record_tha
     decay = rock(PRISM, restitution=0.95, theta0=0.6 * PRISM.critical_angle, duration=14, model="nonlinear")
     fallen = np.where(time < 8, np.interp(time - 1.5, decay.time, decay.angle), 0.0)
     fallen += np.minimum(1e-3 * np.expm1(PRISM.p * np.clip(time - 8.0, 0, None)), 0.28)
-    rocking, base = _shaken(PRISM, (0.44, 0.04), frequency=4.0, amplitude=2.0)
-    cut = replace(rocking, readings=rocking.readings[:, :1670])
-    for rotation, shaken in ((_rotation(PRISM, fallen, (0.44, 0.04)), None), (cut, base[:1670])):
-        (told,) = _said((_times(rotation, 0, 10.0), shaken, PRISM))
+    rocking = _shaken(PRISM, (0.44, 0.04), frequency=4.0, amplitude=2.0)
+    cut = replace(rocking, acceleration=rocking.acceleration[:1670])
+    cut = cut.with_gauges(*(replace(each, reading=each.reading[:1670]) for each in cut.gauges))
+    for rotation in (_rotation(PRISM, fallen, (0.44, 0.04)), cut):
+        (told,) = _said(_times(rotation, 0, 10.0))
         assert "a gain wrong by a factor of 10" in told
 
 
 def test_of_a_specimen_that_stands_nothing_is_told():
     angle = np.zeros(5000)
-    rotation = _rotation(PRISM, angle, (0.44, 0.04))
     base = 0.5 * PRISM.uplift_acceleration * np.sin(2 * np.pi * 5 * np.arange(5000) / RATE)
-    assert suspicions(judge(1 / RATE, rotation, base, PRISM)) == []
-    assert base_scale(judge(1 / RATE, rotation, base, PRISM)) is None
+    judged = judge(_rotation(PRISM, angle, (0.44, 0.04), base))
+    assert suspicions(judged) == []
+    assert base_scale(judged) is None
 
 
 CORRECT = [1.05, 1.1, 1.4, 0.7]
@@ -178,18 +181,15 @@ CORRECT = [1.05, 1.1, 1.4, 0.7]
 
 @pytest.mark.parametrize("factor", CORRECT)
 def test_gains_that_are_all_wrong_alike_are_named_with_the_factor_that_would_agree(sound, factor):
-    (told,) = _said(
-        sound, lambda rotation: replace(rotation, readings=factor * rotation.readings, noise=factor * rotation.noise)
-    )
+    (told,) = _said(_all_times(sound, factor))
     assert float(re.search(r"all gains × ([\d.]+)", told)[1]) == pytest.approx(1 / factor, rel=0.02)
     assert "a base of" in told
 
 
 @pytest.mark.parametrize("width", [0.0903, 0.0946, 0.120])
 def test_a_wrong_width_is_named_first_where_the_table_shows_that_the_gains_are_right(width):
-    rotation, base = _shaken(PRISM, (0.44, 0.04))
     believed = Block.prism(width=width, depth=0.086, height=0.456, mass=26.10)
-    (told,) = suspicions(judge(1 / RATE, rotation, base, believed))
+    (told,) = suspicions(judge(replace(_shaken(PRISM, (0.44, 0.04)), block=believed)))
     assert told.kind == "specimen"
     found = re.search(r"a base of ([\d.]+) mm for ([\d.]+) mm", told.text)
     assert float(found[1]) == pytest.approx(86.0, rel=0.02)
@@ -198,29 +198,25 @@ def test_a_wrong_width_is_named_first_where_the_table_shows_that_the_gains_are_r
 
 @pytest.mark.parametrize("rate", [0.95, 1.1, 2.0])
 def test_a_wrong_clock_is_named_with_the_sampling_rate_that_would_agree(rate):
-    rotation, base = _free(PRISM, (0.44, 0.04))
-    (told,) = suspicions(judge(rate / RATE, rotation, base, PRISM))
+    (told,) = suspicions(judge(replace(_free(PRISM, (0.44, 0.04)), interval=rate / RATE)))
     assert told.kind == "clock"
     assert float(re.search(r"a sampling rate × ([\d.]+)", told.text)[1]) == pytest.approx(rate, rel=0.02)
 
 
 @pytest.mark.parametrize("height", [0.418, 0.396, 0.300])
 def test_a_wrong_height_is_named_with_the_lever_that_would_agree(sound, height):
-    rotation, base, block = sound
-    if block is not PRISM:
+    if sound.block is not PRISM:
         pytest.skip("its transducers are elsewhere")
-    responses = rotation.responses.copy()
-    responses[0] = point_displacement(ANGLES, [[0.043, 0.0, height]], block)[0, :, 0]
-    (told,) = suspicions(judge(1 / RATE, replace(rotation, responses=responses), base, block))
+    response = point_displacement(ANGLES, [[0.043, 0.0, height]], PRISM)[0, :, 0]
+    (told,) = suspicions(judge(_changed(sound, 0, response=response)))
     assert told.text.startswith("channel top shows")
     assert "and that bottom shows" in told.text
     assert float(re.search(r"whose lever is ([\d.]+) mm", told.text)[1]) == pytest.approx(440, rel=0.01)
 
 
 def test_degrees_read_as_radians_are_named_as_such():
-    rotation, base = _free(PRISM, (0.44,))
-    angle = np.rad2deg(rotation.readings / 0.44)
-    inclinometer = Rotation(("tilt",), angle, ANGLES[None], ANGLES, *np.full((2, 1), 1e-3), ("angle",))
-    (told,) = map(str, suspicions(judge(1 / RATE, inclinometer, base, PRISM)))
+    angle = np.rad2deg(_free(PRISM, (0.44,)).gauges[0].reading / 0.44)
+    inclinometer = Gauge("tilt", angle, ANGLES, ANGLES, 1e-3, 1e-3, "angle")
+    (told,) = _said(Rotation((inclinometer,), PRISM, 1 / RATE))
     assert "degrees read as radians" in told
     assert "volts" not in told

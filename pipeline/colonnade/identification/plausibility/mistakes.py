@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import combinations
 
@@ -12,7 +12,7 @@ import scipy
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.findings import Finding, serious
-from colonnade.identification.plausibility.rotation import Rotation
+from colonnade.identification.plausibility.rotation import Gauge, Rotation
 from colonnade.identification.plausibility.scale import (
     BEYOND,
     CERTAIN,
@@ -59,94 +59,86 @@ FASTEST = 4.0
 """Times p α: no block that stands turns as fast."""
 
 
-def mistakes(
-    interval: float, rotation: Rotation, scales: Sequence[Scale], acceleration: Array | None, block: Block
-) -> list[Finding]:
-    """Name what has to be mended before a scale means anything; see `judge`."""
-    mistake = undone(interval, rotation, acceleration, block)
-    return [mistake] if mistake else stuck(interval, rotation, scales, acceleration, block)
+def mistakes(rotation: Rotation) -> list[Finding]:
+    """Name what has to be mended before a scale means anything."""
+    mistake = undone(rotation)
+    return [mistake] if mistake else stuck(rotation)
 
 
-def undone(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> Finding | None:
-    """Name the one mistake without which transducers agree on one rotation, and far better; see `judge`."""
-    if len(rotation.names) == 1:
-        return _coupled_alone(interval, rotation, acceleration, block)
-    before, moved = rotation.residual(), float(np.nanstd(rotation.readings, axis=1).min())
+def undone(rotation: Rotation) -> Finding | None:
+    """Name the one mistake without which transducers agree on one rotation, and far better."""
+    if len(rotation.gauges) == 1:
+        return _coupled_alone(rotation)
+    before, moved = rotation.residual(), min(float(np.nanstd(each.reading)) for each in rotation.gauges)
     found: dict[float, Finding] = {}
-    for named, changed in (*_exchanged(rotation), *_refixed(rotation), *_coupled(interval, rotation)):
+    for named, changed in (*_exchanged(rotation), *_refixed(rotation), *_coupled(rotation)):
         after = changed.residual()
         if before < LEAST * moved or not before > BETTER * after:
             continue
-        scales = changed.scales(interval, acceleration, block)
         # What agrees by chance, or with a block that walks, does not obey the equation of motion as well.
-        proved = named.kind == "geometry" or all(each.is_known for each in scales)
-        if proved and all(as_expected(each.value) for each in scales if each.is_known):
+        proved = named.kind == "geometry" or all(each.is_known for each in changed.scales)
+        if proved and all(as_expected(each.value) for each in changed.scales if each.is_known):
             fall = f"their residual about one rotation falls from {1e3 * before:.2g} to {1e3 * after:.2g} mm"
             found[after] = replace(named, text=f"{named.text}, {fall}")
     return found[min(found)] if found else None
 
 
 def _exchanged(rotation: Rotation) -> Iterator[tuple[Finding, Rotation]]:
-    for first, second in combinations(range(len(rotation.names)), 2):
+    for first, second in combinations(rotation.gauges, 2):
         for with_gains, what in ((False, "columns"), (True, "places")):
-            names = f"{rotation.names[first]} and {rotation.names[second]}"
-            text = f"channels {names} look swapped: with their {what} exchanged"
+            text = f"channels {first.name} and {second.name} look swapped: with their {what} exchanged"
             yield serious("swapped channels", text), rotation.exchanged(first, second, with_gains=with_gains)
 
 
 def _refixed(rotation: Rotation) -> Iterator[tuple[Finding, Rotation]]:
     """Some of the transducers on the ground and not on the table, or the reverse."""
-    if rotation.refixed is None:
-        return
-    every = range(len(rotation.names))
-    for chosen in (each for count in every for each in combinations(every, count + 1)):
-        readings = rotation.readings.copy()
-        readings[list(chosen)] -= rotation.refixed[list(chosen)]
-        names = " and ".join(rotation.names[index] for index in chosen)
+    moved = {
+        each: replace(each, reading=each.reading - each.refixed) for each in rotation.gauges if each.refixed is not None
+    }
+    for chosen in (some for count in range(len(moved)) for some in combinations(moved, count + 1)):
+        names = " and ".join(each.name for each in chosen)
         text = (
             f"channel{'s' if len(chosen) > 1 else ''} {names}: `relative_to` is wrong, the table for the ground or the "
             "reverse: with the table's displacement taken off or added"
         )
-        yield serious("geometry", text), replace(rotation, readings=readings)
+        yield serious("geometry", text), rotation.with_gauges(*(moved[each] for each in chosen))
 
 
-def _lost(interval: float, reading: Array) -> list[Array]:
+def _lost(rotation: Rotation, gauge: Gauge) -> list[Array]:
     """What a high-pass of the first order takes off, over its ω: the integral, from either end."""
-    integral = np.cumsum(filled_in(reading)) * interval
+    integral = np.cumsum(filled_in(gauge.reading)) * rotation.interval
     return [integral - integral[0], integral - integral[-1]]
 
 
-def _coupled(interval: float, rotation: Rotation) -> Iterator[tuple[Finding, Rotation]]:
+def _coupled(rotation: Rotation) -> Iterator[tuple[Finding, Rotation]]:
     """Each behind a high-pass of the first order, r' = r + ω∫r dt, with the ω that leaves least."""
     misfit = rotation.misfit()
-    for index, name in enumerate(rotation.names):
-        for added in _lost(interval, rotation.readings[index]):
-            lost = np.zeros_like(rotation.readings)
-            lost[index] = added
-            effect = replace(rotation, readings=rotation.readings + lost).misfit() - misfit
+    for gauge in rotation.gauges:
+        for lost in _lost(rotation, gauge):
+            effect = rotation.added(gauge, lost).misfit() - misfit
             corner = -float(np.nansum(effect * misfit) / max(float(np.nansum(effect**2)), 1e-300))
             if corner > 0:
-                text = f"{_cut_off(name, corner / (2 * np.pi))}, which shows as a slide: with that undone"
-                yield serious("AC coupling", text), replace(rotation, readings=rotation.readings + corner * lost)
+                text = f"{_cut_off(gauge, corner / (2 * np.pi))}, which shows as a slide: with that undone"
+                yield serious("AC coupling", text), rotation.added(gauge, corner * lost)
 
 
-def _cut_off(name: str, hertz: float) -> str:
-    return f"channel {name} does not hold a constant value (AC-coupled, or a high-pass of {hertz:.2g} Hz)"
+def _cut_off(gauge: Gauge, hertz: float) -> str:
+    return f"channel {gauge.name} does not hold a constant value (AC-coupled, or a high-pass of {hertz:.2g} Hz)"
 
 
-def _coupled_alone(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> Finding | None:
+def _coupled_alone(rotation: Rotation) -> Finding | None:
     """The same of one transducer, whose record the equation of motion then explains far better."""
-    lost = _lost(interval, rotation.readings[0])
+    (gauge,) = rotation.gauges
+    lost = _lost(rotation, gauge)
 
     def scale(hertz: float) -> Scale:
         """Of the two ends that the high-pass may be undone from, that which follows the equation better."""
-        mended = (replace(rotation, readings=rotation.readings + 2 * np.pi * hertz * each) for each in lost)
-        return min((each.scales(interval, acceleration, block)[0] for each in mended), key=error)
+        return min((rotation.added(gauge, 2 * np.pi * hertz * each).scales[0] for each in lost), key=error)
 
     def error(found: Scale) -> float:
         return found.error / found.value if found.is_known else 1.0
 
-    before = min(error(rotation.scales(interval, acceleration, block)[0]), CERTAIN)
+    before = min(error(rotation.scales[0]), CERTAIN)
     if before < FOLLOWS / BETTER:
         return None
     coarse = [error(scale(hertz)) for hertz in CORNERS]
@@ -161,22 +153,20 @@ def _coupled_alone(interval: float, rotation: Rotation, acceleration: Array | No
     )
     hertz = float(CORNERS[best] * np.exp(near.x))
     found, added = scale(hertz), 2 * np.pi * hertz * float(np.ptp(lost[0]))
-    is_seen = added > LEAST_LOST * float(np.nanmax(np.abs(rotation.readings[0])))
+    is_seen = added > LEAST_LOST * float(np.nanmax(np.abs(gauge.reading)))
     if not (is_seen and error(found) < min(FOLLOWS, before / BETTER) and as_expected(found.value)):
         return None
     return serious(
         "AC coupling",
-        f"{_cut_off(rotation.names[0], hertz)}: with that undone its record follows the equation of motion "
+        f"{_cut_off(gauge, hertz)}: with that undone its record follows the equation of motion "
         f"{before / error(found):.2g} times as closely. What it gives as leaning, or as another zero, is that; peaks "
         "are wrong by up to as much. Record its direct (DC) output",
     )
 
 
-def stuck(
-    interval: float, rotation: Rotation, scales: Sequence[Scale], acceleration: Array | None, block: Block
-) -> list[Finding]:
+def stuck(rotation: Rotation) -> list[Finding]:
     """
-    Name transducers that stand still during an arc, or jump; see `judge` for the arguments.
+    Name transducers that stand still during an arc, or jump.
 
     Notes
     -----
@@ -185,42 +175,35 @@ def stuck(
     Where most of the others come to rest beyond the critical angle, the specimen fell, and what jumps with it did not
     tear: drums of a column fall faster than a block turns.
     """
-    found = []
-    fell = np.array([_lies(rotation.angle(index), block) for index in range(len(rotation.names))])
-    for index, scale in enumerate(scales):
-        name, is_angle, reading = rotation.names[index], rotation.measures_angle(index), rotation.readings[index]
+    found, interval = [], rotation.interval
+    fell = [_lies(each.angle(), rotation.block) for each in rotation.gauges]
+    for gauge, scale, has_fallen in zip(rotation.gauges, rotation.scales, fell, strict=True):
         of_angle = scale.value if scale.is_known else 1.0
         of_table = scale.base / scale.value if scale.is_known and scale.base_is_known else 1.0
-        felt = None if acceleration is None else of_table * acceleration
-        angle = filled_in(rotation.angle(index, of_angle))
-        noise = float(rotation.noise[index] / abs(rotation.levers[index] * of_angle))
-        known = np.zeros(angle.size, dtype=bool) if rotation.flagged is None else rotation.flagged[index]
-        flat = _flat(interval, angle, noise, felt, block)
-        where = [place for place in flat if not known[place].any() and np.isfinite(reading[place]).any()]
+        felt = None if rotation.acceleration is None else of_table * rotation.acceleration
+        angle, noise = filled_in(gauge.angle(of_angle)), gauge.noise / abs(gauge.lever * of_angle)
+        said = np.zeros(angle.size, dtype=bool) if gauge.flagged is None else gauge.flagged
+        flat = _flat(interval, angle, noise, felt, rotation.block)
+        where = [place for place in flat if np.isfinite(gauge.reading[place]).any() and not said[place].any()]
         if where:
             longest = max(where, key=lambda place: place.stop - place.start)
-            level = _written(float(np.nanmedian(reading[longest])), is_angle)
+            level = gauge.written(float(np.nanmedian(gauge.reading[longest])))
             text = (
-                f"channel {name} stands still {f'{len(where)} times' if len(where) > 1 else 'once'}, at {level} for "
-                f"{interval * (longest.stop - longest.start):.2g} s, though the equation of motion turns the specimen "
-                "on: its transducer or recorder saturates, or its core sticks. The peak is a lower bound, and the "
-                "specimen may have overturned. Give the channel's `range`; repeat the test with a larger one"
+                f"channel {gauge.name} stands still {f'{len(where)} times' if len(where) > 1 else 'once'}, at {level} "
+                f"for {interval * (longest.stop - longest.start):.2g} s, though the equation of motion turns the "
+                "specimen on: its transducer or recorder saturates, or its core sticks. The peak is a lower bound, and "
+                "the specimen may have overturned. Give the channel's `range`; repeat the test with a larger one"
             )
             found.append(serious("end of the range", text))
-        elif (fell.sum() - fell[index] <= (fell.size - 1) / 2) and (torn := _torn(interval, angle, noise, block)):
+        elif sum(fell) - has_fallen <= (len(fell) - 1) / 2 and (torn := _torn(rotation, angle, noise)):
             sample, size = torn
             text = (
-                f"channel {name} jumps by {_written(size * abs(rotation.levers[index]), is_angle)} "
-                f"{interval * sample:.4g} s after the start, faster than the specimen can turn, and stands still from "
-                "then on: its cable tore, or its core came off. The peak is a lower bound, and the specimen may have "
-                "overturned"
+                f"channel {gauge.name} jumps by {gauge.written(size * abs(gauge.lever))} {interval * sample:.4g} s "
+                "after the start, faster than the specimen can turn, and stands still from then on: its cable tore, or "
+                "its core came off. The peak is a lower bound, and the specimen may have overturned"
             )
             found.append(serious("dead channel", text))
     return found
-
-
-def _written(value: float, is_angle: bool) -> str:
-    return f"{1e3 * value:.3g} {'mrad' if is_angle else 'mm'}"
 
 
 def _flat(interval: float, angle: Array, noise: float, acceleration: Array | None, block: Block) -> list[slice]:
@@ -261,8 +244,9 @@ def _lies(angle: Array, block: Block) -> bool:
     return bool(known.size and abs(known[-1]) > block.critical_angle)
 
 
-def _torn(interval: float, angle: Array, noise: float, block: Block) -> tuple[int, float] | None:
+def _torn(rotation: Rotation, angle: Array, noise: float) -> tuple[int, float] | None:
     """Sample of a jump that no block makes, after which nothing moves, and its size, rad; None without one."""
+    block, interval = rotation.block, rotation.interval
     standing = np.abs(angle) < BEYOND * block.critical_angle
     fast = np.flatnonzero((np.abs(np.gradient(angle, interval)) > FASTEST * block.p * block.critical_angle) & standing)
     window = max(round(WINDOW / block.p / interval), 3)

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import cos, log, tan
+from typing import NamedTuple
 
 import numpy as np
 
-from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.findings import Finding, serious, warning
 from colonnade.identification.plausibility.mistakes import mistakes
-from colonnade.identification.plausibility.rotation import Rotation
-from colonnade.identification.plausibility.scale import DEAD, STANDING, SURE, UNKNOWN, Scale, as_expected, dead
+from colonnade.identification.plausibility.rotation import Gauge, Rotation
+from colonnade.identification.plausibility.scale import DEAD, STANDING, SURE, UNKNOWN, Scale, as_expected, cause, dead
 from colonnade.signals.samples import filled_in
 
 ALIKE = 0.05
@@ -44,42 +44,25 @@ WANDERED = 0.25
 """Of the largest motion of both tests: a zero that shifts by more wandered."""
 
 
-@dataclass(frozen=True)
-class Judged:
-    """
-    Transducers that were held against the equation of motion.
+Seen = list[tuple[Gauge, Scale]]
+"""Transducers with their scales."""
 
-    Attributes
-    ----------
-    rotation : Rotation
-    block : Block
-    scales : list of Scale
-        Of each transducer.
-    mistakes : list of Finding
-        What has to be mended before a scale means anything.
-    """
+
+class Judged(NamedTuple):
+    """Transducers held against the equation of motion, and what has to be mended before a scale means anything."""
 
     rotation: Rotation
-    block: Block
-    scales: list[Scale]
     mistakes: list[Finding]
 
+    @property
+    def seen(self) -> Seen:
+        """All transducers with their scales."""
+        return list(zip(self.rotation.gauges, self.rotation.scales, strict=True))
 
-def judge(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> Judged:
-    """
-    Hold each transducer against the equation of motion.
 
-    Parameters
-    ----------
-    interval : float
-        Of the record, s.
-    rotation : Rotation
-    acceleration : ndarray, shape (n,), or None
-        Of the table along x, m/s².
-    block : Block
-    """
-    scales = rotation.scales(interval, acceleration, block)
-    return Judged(rotation, block, scales, mistakes(interval, rotation, scales, acceleration, block))
+def judge(rotation: Rotation) -> Judged:
+    """Hold each transducer against the equation of motion."""
+    return Judged(rotation, mistakes(rotation))
 
 
 def suspicions(judged: Judged) -> list[Finding]:
@@ -95,11 +78,10 @@ def suspicions(judged: Judged) -> list[Finding]:
     -----
     Each transducer's scale is found separately, see `scale_of`, so that a wrong one can be named.
     """
-    rotation, scales = judged.rotation, judged.scales
-    known = [index for index, scale in enumerate(scales) if scale.is_known]
+    known = [(each, scale) for each, scale in judged.seen if scale.is_known]
     if judged.mistakes or not known:
         return judged.mistakes
-    return [*_gains(rotation, scales, known, judged.block), *_dead(rotation, scales), *_signs(rotation, scales, known)]
+    return [*_gains(known, judged.rotation.block), *_dead(judged.seen), *_signs(known)]
 
 
 def base_scale(judged: Judged) -> float | None:
@@ -108,33 +90,33 @@ def base_scale(judged: Judged) -> float | None:
 
     Negative where its sign, or that of all transducers, is wrong.
     """
-    found = [
-        each.value / each.base
-        for each in judged.scales
-        if each.is_known and each.base_is_known and as_expected(each.value)
-    ]
+    known = [each for each in judged.rotation.scales if each.is_known and each.base_is_known]
+    found = [each.value / each.base for each in known if as_expected(each.value)]
     if not found or judged.mistakes:
         return None
     # Transducers that turn against each other do not show the sign; see `suspicions`.
     return float(np.median(np.abs(found))) * (-1.0 if max(found) < 0 else 1.0)
 
 
-def _gains(rotation: Rotation, scales: Sequence[Scale], known: list[int], block: Block) -> list[Finding]:
+def _names(gauges: Iterable[Gauge], between: str = ", ") -> str:
+    return between.join(each.name for each in gauges)
+
+
+def _gains(known: Seen, block: Block) -> list[Finding]:
     """Name transducers whose rotation is not that of the equation of motion, or what all of them share."""
-    wrong = [index for index in known if scales[index].differs]
+    wrong = [(each, scale) for each, scale in known if scale.differs]
     if not wrong:
         return []
-    common = scales[min(wrong, key=lambda index: scales[index].error / scales[index].value)]
-    if all(_is_near(scales[index], common.value) for index in known):
-        return [_of_all(rotation, known, common, block)]
-    others = [rotation.names[index] for index in known if index not in wrong]
-    shown = f", and that {', '.join(others)} {'shows' if len(others) == 1 else 'show'}" if others else ""
+    common = min((scale for _, scale in wrong), key=lambda scale: scale.error / scale.value)
+    if all(_is_near(scale, common.value) for _, scale in known):
+        return [_of_all([each for each, _ in known], common, block)]
+    others = [each for each, scale in known if not scale.differs]
+    shown = f", and that {_names(others)} {'shows' if len(others) == 1 else 'show'}" if others else ""
     found = []
-    for index in wrong:
-        value = scales[index].value
-        text = f"channel {rotation.names[index]} shows {value:.3g} times the rotation that the equation of motion gives"
-        build = serious if scales[index].misleads else warning
-        found.append(build("gain", f"{text}{shown}: {_why(rotation, index, value)}", follows=("unit",)))
+    for each, scale in wrong:
+        text = f"channel {each.name} shows {scale.value:.3g} times the rotation that the equation of motion gives"
+        build = serious if scale.misleads else warning
+        found.append(build("gain", f"{text}{shown}: {_why(each, scale.value)}", follows=("unit",)))
     return found
 
 
@@ -144,14 +126,14 @@ def _is_near(scale: Scale, value: float) -> bool:
     return departure < max(ALIKE, SURE * scale.error / scale.value) and departure < abs(scale.value - 1)
 
 
-def _of_all(rotation: Rotation, wrong: list[int], scale: Scale, block: Block) -> Finding:
+def _of_all(wrong: list[Gauge], scale: Scale, block: Block) -> Finding:
     """
     Say what all transducers show, and which mistakes explain it, the likeliest first.
 
     A wrong critical angle leaves alone what the table does to the specimen, a gain does not; a clock changes p, too.
     """
     value, several = scale.value, len(wrong) > 1
-    names = " and ".join(rotation.names[index] for index in wrong)
+    names = _names(wrong, " and ")
     text = (
         f"{f'channels {names} all show' if several else f'channel {names} shows'} {value:.3g} times the rotation that "
         "the equation of motion gives for this specimen: "
@@ -171,9 +153,9 @@ def _of_all(rotation: Rotation, wrong: list[int], scale: Scale, block: Block) ->
     if is_clock and abs(scale.rate - 1) > max(SURE * scale.rate_error, LEAST_RATE):
         clock = f"a sampling rate × {1 / scale.rate:.3g} (all times change alike), or all sizes × {scale.rate**-2:.3g}"
         kind, causes = "clock", (clock, gains, sizes)
-    elif not 1 / FAR < value < FAR or rotation.cause(wrong[0], value) != UNKNOWN:
+    elif not 1 / FAR < value < FAR or cause(value, wrong[0].quantity) != UNKNOWN:
         end = f"{', in all of them' if several else ''}; or the specimen's dimensions, or the sampling rate"
-        likeliest, follows = _why(rotation, wrong[0], value) + end, ("unit", "specimen")
+        likeliest, follows = _why(wrong[0], value) + end, ("unit", "specimen")
     elif scale.base_is_known and scale.base > 0:
         if abs(log(scale.base)) < abs(log(scale.base / value)):
             kind, causes = "specimen", (sizes, f"{gains}, and that of the table's acceleration", causes[2])
@@ -183,53 +165,53 @@ def _of_all(rotation: Rotation, wrong: list[int], scale: Scale, block: Block) ->
     return (serious if scale.misleads else warning)(kind, text + likeliest, follows=follows)
 
 
-def _why(rotation: Rotation, index: int, scale: float) -> str:
+def _why(gauge: Gauge, scale: float) -> str:
     """Probable cause of a scale; an odd one of a channel that is given no gain is that of a transducer in volts."""
-    known, is_angle = rotation.cause(index, scale), rotation.measures_angle(index)
-    unit = PLAIN_UNITS.get(float(rotation.gains[index]))
+    known, is_angle = cause(scale, gauge.quantity), gauge.quantity == "angle"
+    unit = PLAIN_UNITS.get(float(gauge.gain))
     if known != UNKNOWN or not 1 / FAR < scale < FAR:
         is_plain = known == UNKNOWN and unit and not is_angle
         return f"its values are probably not {unit} but volts, and its `gain` is missing" if is_plain else known
-    lever = 1e3 * float(rotation.levers[index])
+    lever = 1e3 * gauge.lever
     place = f", or a place (`at`) whose lever is {scale * lever:.3g} mm and not {lever:.3g} mm,"
     return f"its gain × {1 / scale:.3g}{'' if is_angle else place} would make them agree"
 
 
-def _dead(rotation: Rotation, scales: Sequence[Scale]) -> list[Finding]:
+def _dead(seen: Seen) -> list[Finding]:
     """Name transducers that stand still while others turn."""
-    right = [index for index, scale in enumerate(scales) if scale.is_known and not scale.differs]
+    right = [each for each, scale in seen if scale.is_known and not scale.differs]
     if not right:
         return []
-    levers, found = rotation.levers, []
-    angle = np.median([filled_in(rotation.readings[index]) / levers[index] for index in right], axis=0)
-    by = f"the rotation measured by {', '.join(rotation.names[index] for index in right)}"
-    for index, name in enumerate(rotation.names):
-        due, shown = float(np.std(levers[index] * angle)), float(np.nanstd(rotation.readings[index]))
-        moves = due > STANDING * max(rotation.noise[index], 1e-12)
-        if not scales[index].is_known and moves and shown < DEAD * due:
-            found.append(dead(name, 1e3 * shown, 1e3 * due, "mm", by))
+    found = []
+    angle = np.median([filled_in(each.reading) / each.lever for each in right], axis=0)
+    for each, scale in seen:
+        due, shown = float(np.std(each.lever * angle)), float(np.nanstd(each.reading))
+        if not scale.is_known and due > STANDING * max(each.noise, 1e-12) and shown < DEAD * due:
+            found.append(dead(each.name, 1e3 * shown, 1e3 * due, "mm", f"the rotation measured by {_names(right)}"))
     return found
 
 
-def _signs(rotation: Rotation, scales: Sequence[Scale], known: list[int]) -> list[Finding]:
+def _signs(known: Seen) -> list[Finding]:
     """Name transducers that turn against the others, or all of them if they turn against the table."""
-    sides = _sides(rotation, known)
-    against = {index: scales[index].base < 0 for index in sides if scales[index].base_is_known}
+    groups = _sides(known)
+    turning = groups[0] + groups[1]
+    against = [each for each, scale in turning if scale.base_is_known and scale.base < 0]
+    is_shown = any(scale.base_is_known for _, scale in turning)
     wrong = "(`direction`, or the sign of the gain)"
-    groups = [[index for index in sides if sides[index] == side] for side in (1.0, -1.0)]
     if all(groups):
         # Wrong are those that turn against the table if that is known, else the fewer.
-        fewer, more = sorted(groups, key=len)
+        fewer, more = ([each for each, _ in group] for group in sorted(groups, key=len))
         sure = len(fewer) < len(more)
-        if against:
-            fewer, sure = [index for index in sides if against.get(index)] or fewer, True
-            more = [index for index in sides if index not in fewer]
-        names, others = (", ".join(rotation.names[index] for index in group) for group in (fewer, more))
+        if is_shown:
+            fewer, sure = against or fewer, True
+            more = [each for each, _ in turning if each not in fewer]
+        names, others = _names(fewer), _names(more)
         which = f"the sign of {names} is wrong" if sure else f"the sign of one of the two is wrong, {names} or {others}"
         return [serious("sign", f"channel {names} turns opposite to {others}: {which} {wrong}")]
-    if not against or not all(against.values()):
+    if not against or any(scale.base_is_known and scale.base > 0 for _, scale in turning):
         return []
-    names, several = " and ".join(rotation.names[index] for index in sides), len(sides) > 1
+    several = len(turning) > 1
+    names = _names((each for each, _ in turning), " and ")
     channels = f"channels {names} turn" if several else f"channel {names} turns"
     text = (
         f"{channels} opposite to the table's acceleration: the sign of the table's acceleration is wrong, or that of "
@@ -238,16 +220,16 @@ def _signs(rotation: Rotation, scales: Sequence[Scale], known: list[int]) -> lis
     return [serious("sign", text)]
 
 
-def _sides(rotation: Rotation, known: list[int]) -> dict[int, float]:
-    """Sign with which each transducer that follows the first one turns with it."""
-    angles = rotation.readings / rotation.levers[:, None]
-    leader = known[0]
-    sides = {leader: 1.0}
-    for index in known[1:]:
-        both = np.isfinite(angles[leader]) & np.isfinite(angles[index])
-        agreement = float(np.corrcoef(angles[leader][both], angles[index][both])[0, 1])
+def _sides(known: Seen) -> tuple[Seen, Seen]:
+    """Transducers that turn with the first one, and against it; those that do neither are left out."""
+    leader = known[0][0].reading / known[0][0].lever
+    sides: tuple[Seen, Seen] = [known[0]], []
+    for each, scale in known[1:]:
+        angle = each.reading / each.lever
+        both = np.isfinite(leader) & np.isfinite(angle)
+        agreement = float(np.corrcoef(leader[both], angle[both])[0, 1])
         if abs(agreement) > FOLLOWS:
-            sides[index] = float(np.sign(agreement))
+            sides[int(agreement < 0)].append((each, scale))
     return sides
 
 

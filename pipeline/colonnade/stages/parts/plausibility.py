@@ -17,7 +17,7 @@ from colonnade.dynamics.kinematics import Outline, Pose
 from colonnade.findings import Finding, serious
 from colonnade.identification.fusion.sensors import Transducer, predict
 from colonnade.identification.plausibility import table_motion
-from colonnade.identification.plausibility.rotation import Rotation, lever
+from colonnade.identification.plausibility.rotation import Gauge, Rotation, lever
 from colonnade.identification.plausibility.scale import as_expected, cause
 from colonnade.identification.plausibility.table_motion import TableChannel
 from colonnade.identification.plausibility.transducers import Judged, base_scale, judge, suspicions
@@ -126,11 +126,11 @@ def doubts(conditioned: xr.Dataset, inputs: PlausibilityInputs) -> list[Finding]
         acceleration = accelerations[0].values
     elif displacements:
         acceleration = table_motion.derived(interval, displacements[0])
-    judged = None if rotation is None else judge(interval, rotation, acceleration, block)
+    judged = None if rotation is None else judge(replace(rotation, acceleration=acceleration))
     found, factor = _table(interval, accelerations, displacements, judged) if accelerations else ([], 1.0)
     if acceleration is not None and factor != 1.0:
         acceleration = acceleration / factor
-        judged = None if rotation is None else judge(interval, rotation, acceleration, block)
+        judged = None if rotation is None else judge(replace(rotation, acceleration=acceleration))
     if judged is not None and not any(each.kind in table_motion.MISPLACED for each in found):
         found += suspicions(judged)
     found += [hums for each in accelerations if (hums := table_motion.humming(interval, each))]
@@ -181,33 +181,35 @@ def _rotation(
     names = [name for name in inputs.positions if name in conditioned]
     if not names:
         return None
-    known, responses = [inputs.positions[name] for name in names], _responses(inputs)
-    is_angle = np.array([each.sensing == "angle" for each in known])
-    readings = np.array([conditioned[name].to_numpy() for name in names])
-    refixed = None
-    if displacements:
-        refixed = np.outer([each.direction[0] for each in known] * ~is_angle, displacements[0].values)
-        on_ground = np.array([each.on_ground for each in known])
-        readings[on_ground] -= refixed[on_ground]
-        refixed[on_ground] *= -1
-    seen = Rotation(
-        tuple(conditioned[name].attrs["channel"] for name in names),
-        readings,
-        np.array([responses[name] for name in names]),
-        ANGLES,
-        np.array([float(conditioned[name].attrs.get("noise", 0.0)) for name in names]),
-        np.array([inputs.gains[name] for name in names]),
-        tuple("angle" if each else "displacement" for each in is_angle),
-        refixed,
-        max(0.5 / float(conditioned[name].attrs.get("cutoff_hz", np.inf)) for name in names),
-        np.array([conditioned[f"{name}_quality"].to_numpy() == Flag.SUSPECT for name in names]),
-    )
+    time, responses, gauges = conditioned["elapsed"].to_numpy(), _responses(inputs), []
+    for name in names:
+        known, given, reading = inputs.positions[name], conditioned[name].attrs, conditioned[name].to_numpy()
+        is_angle, refixed = known.sensing == "angle", None
+        if displacements:
+            refixed = displacements[0].values * (0.0 if is_angle else known.direction[0])
+            if known.on_ground:
+                reading, refixed = reading - refixed, -refixed
+        gauges.append(
+            Gauge(
+                given["channel"],
+                reading,
+                ANGLES,
+                responses[name],
+                float(given.get("noise", 0.0)),
+                inputs.gains[name],
+                "angle" if is_angle else "displacement",
+                refixed,
+                conditioned[f"{name}_quality"].to_numpy() == Flag.SUSPECT,
+            )
+        )
+    seen = [each for each in gauges if np.isfinite(each.response).all()]
     # Inclinometers have levers of one, displacements those in m.
-    finite, lengths = np.isfinite(seen.responses).all(axis=1), np.abs(seen.levers)
-    longest = lengths[finite & ~is_angle].max(initial=0.0)
-    is_long = np.where(is_angle, lengths > LEAST_LEVER, (lengths >= LEAST_LEVER * longest) & (longest > 0.0))
-    useful = np.flatnonzero(finite & is_long)
-    return seen.only(useful.tolist()) if useful.size else None
+    longest = max((abs(each.lever) for each in seen if each.quantity == "displacement"), default=0.0)
+    useful = [each for each in seen if abs(each.lever) > LEAST_LEVER * (1.0 if each.quantity == "angle" else longest)]
+    if not useful:
+        return None
+    blur = max(0.5 / float(conditioned[name].attrs.get("cutoff_hz", np.inf)) for name in names)
+    return Rotation(tuple(useful), inputs.block, float(time[1] - time[0]), blur=blur)
 
 
 def _table(
@@ -232,11 +234,9 @@ def _table(
             agree = True
     if judged is None or found:
         return found, 1.0
-    rotation = judged.rotation
-    longest = int(np.abs(rotation.levers).argmax())
-    arm = float(rotation.levers[longest])
-    angle, noise = filled_in(rotation.readings[longest]) / arm, float(rotation.noise[longest]) / abs(arm)
-    misplaced = table_motion.by_rocking(interval, names, accelerations[0].values, angle, noise, judged.block)
+    by = max(judged.rotation.gauges, key=lambda each: abs(each.lever))
+    angle, noise = filled_in(by.reading) / by.lever, by.noise / abs(by.lever)
+    misplaced = table_motion.by_rocking(interval, names, accelerations[0].values, angle, noise, judged.rotation.block)
     if misplaced is not None:
         return [misplaced], 1.0
     if agree or seen is None or as_expected(seen) or not accelerations[0].is_good:
