@@ -46,21 +46,9 @@ _WIRES = ("wire", "seilzug", "stringpot", "string")
 @dataclass(frozen=True)
 class Meaning:
     """
-    What a column measures.
+    What a column measures, None where nothing shows it; what shows it, and how name and unit contradict each other.
 
-    Attributes
-    ----------
-    column : Column
-    quantity, place, axis : str or None
-        None if nothing shows it.
-    because, place_word : str
-        What shows the quantity, and the place.
-    conflict : str
-        How name and unit contradict each other.
-    is_physical : bool
-        Whether its unit is one of the quantity, not of a voltage.
-    recorder, id : str
-        Of the channel.
+    It is physical if its unit is one of the quantity, not of a voltage.
     """
 
     column: Column
@@ -112,20 +100,7 @@ def _from(word: str) -> str:
 
 
 def draft_channels(recorders: Mapping[str, Sequence[Column]]) -> tuple[list[Meaning], dict[str, list[str]]]:
-    """
-    Draft the channels of a setup.
-
-    Parameters
-    ----------
-    recorders : mapping of str to sequence of Column
-        Columns of one file of each recorder, the main one under "main"; a column counts as dead if it is in all.
-
-    Returns
-    -------
-    channels : list of Meaning
-    left_out : dict of str to list of str
-        Headings of the columns that are not channels, by the reason.
-    """
+    """Draft the channels of the columns of each recorder; and the headings of the others by the reason."""
     found = [(recorder, column, meaning(column)) for recorder, columns in recorders.items() for column in columns]
     known = any(isinstance(each, Meaning) and each.quantity is not None for *_, each in found)
     taken: list[Meaning] = []
@@ -232,22 +207,7 @@ def _sensing(name: str) -> Iterator[Line]:
 
 
 def kind_lines(test: Files, channels: Sequence[Meaning], others: Collection[Files]) -> Iterator[Line | str]:
-    """
-    Guess the kind of a test, and what belongs to it.
-
-    Parameters
-    ----------
-    test : dict of str to RawFile
-    channels : sequence of Meaning
-        Of its setup.
-    others : collection
-        All tests of the setup: a table is still if it moves far more in another one.
-
-    Yields
-    ------
-    line : Line or str
-        kind, and frequency, motion or span if they are known.
-    """
+    """Guess the kind of a test, and its frequency, motion or span; `others` are all tests of its setup."""
     name = PurePosixPath(test[MAIN].stem).name
     # Impacts disturb the displacement less than the acceleration.
     table = sorted((each for each in channels if each.is_of_table), key=lambda each: each.quantity != "displacement")

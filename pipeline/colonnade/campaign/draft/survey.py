@@ -52,26 +52,10 @@ QUIET_END = 0.1
 @dataclass(frozen=True)
 class Column:
     """
-    One column of a raw file.
+    One column of a raw file, by its number from 1, and what its signal looks like.
 
-    Attributes
-    ----------
-    number : int
-        From 1.
-    name, heading : str
-    unit : str or None
-        As written in the file.
-    is_clock, has_clock : bool
-        Whether it holds times, and whether its samples have some.
-    spread : float
-        Standard deviation, in the file's unit; NaN if there is no number.
-    counts : bool
-        Whether it rises by one from sample to sample.
-    sine : float or None
-        Frequency of a steady sine, Hz.
-    dies_away : bool
-    hint : str
-        That it may be the clock of a file in which none was found.
+    `spread` is its standard deviation in the file's unit, NaN without a number; `counts`: it rises by one from sample
+    to sample; `sine`: Hz of a steady one; `hint`: it may be the clock of a file in which none was found.
     """
 
     number: int
@@ -89,22 +73,7 @@ class Column:
 
 @dataclass(frozen=True)
 class RawFile:
-    """
-    One raw file that could be read.
-
-    Attributes
-    ----------
-    relative : str
-        Its path from the folder, with / between folders.
-    format : str
-    columns : tuple of Column
-    rate, duration : float or None
-        Hz and s, if it has a clock.
-    warnings : tuple of str
-        Of the reader.
-    day : date or None
-        Of its first sample, if the file gives it.
-    """
+    """A raw file: its path from the folder, with /; Hz and s if it has a clock; the day of its first sample if told."""
 
     relative: str
     format: str
@@ -137,22 +106,7 @@ class RawFile:
 def survey(
     folder: Path, progress: Callable[[int, int], None] | None = None
 ) -> tuple[list[RawFile], list[tuple[str, str]]]:
-    """
-    Read every file of a folder, and of the folders in it.
-
-    Parameters
-    ----------
-    folder : Path
-    progress : callable, optional
-        Called with the number of files examined, and their total.
-
-    Returns
-    -------
-    files : list of RawFile
-        In the order of their names, numbers as numbers.
-    refused : list of (str, str)
-        Files that are not recordings, with the reason.
-    """
+    """Read every file of a folder, and of those in it, in the order of their names; and say why others are not used."""
     folder = folder.resolve()
     found, refused = [], []
     paths = sorted(_candidates(folder), key=lambda path: (natural(path.with_suffix("").as_posix()), path.suffix))
@@ -265,19 +219,7 @@ def arrange(files: Sequence[RawFile]) -> tuple[list[list[Files]], list[tuple[str
 
     Files of the same format and columns are of one recorder. `span-2.csv` and `span-2-daq2.csv`, `x_box1.csv` and
     `x_box2.csv`, or `daq1/x.csv` and `daq2/x.csv` are of two recorders of one test; so are `x.csv` and `x-top.csv`
-    if they have no column in common.
-
-    Parameters
-    ----------
-    files : sequence of RawFile
-        In the order of the tests.
-
-    Returns
-    -------
-    setups : list of list of dict of str to RawFile
-        Tests that were recorded in the same way: of each its files by recorder, the main one first.
-    copies : list of (str, str)
-        Files left out as a second copy of the same recording, with the reason.
+    if they have no column in common. Second copies of a recording are left out, with the reason.
     """
     copies: list[tuple[str, str]] = []
     first: dict[tuple[str, frozenset[str]], str] = {}

@@ -24,18 +24,7 @@ _SHORT_ENDINGS = ("weg", "acc")  # as in Tischweg, tableacc
 
 @dataclass(frozen=True)
 class Line:
-    """
-    One key of the draft.
-
-    Attributes
-    ----------
-    key, value : str
-        As TOML; a person has to replace a "?" in the value.
-    reason : str
-        Reason for the guess; empty if it is obvious.
-    question : str
-        What a person should check; empty if there is no doubt.
-    """
+    """One key of the draft as TOML: a person has to replace a "?" in its value and to check what is in question."""
 
     key: str
     value: str
@@ -83,18 +72,7 @@ def words(name: str) -> list[str]:
 
 def find(name: str, about: str) -> tuple[str, str] | None:
     """
-    Find the first meaning that a part of a name has.
-
-    Parameters
-    ----------
-    name : str
-    about : str
-        A table of words.toml.
-
-    Returns
-    -------
-    found : (str, str) or None
-        The meaning and the part of the name that has it.
+    Find the first meaning that a part of a name has in a table of words.toml; and that part.
 
     Examples
     --------
@@ -134,15 +112,7 @@ def axis(name: str) -> str | None:
 
 def unique(names: Iterable[str], otherwise: str, *, as_variables: bool = False) -> list[str]:
     """
-    Make ids that differ.
-
-    Parameters
-    ----------
-    names : iterable of str
-    otherwise : str
-        What a name becomes if none of its letters and digits can be kept.
-    as_variables : bool, optional
-        Whether they have small Latin letters, digits and ``_`` alone.
+    Make ids that differ: `otherwise` where nothing of a name can be kept; as variables of a-z, 0-9 and _ alone.
 
     Examples
     --------

@@ -181,17 +181,7 @@ def _asked(lines: Lines) -> tuple[list[str], list[Question]]:
 
 
 def written(name: str, setups: Sequence[DraftSetup], refused: Sequence[tuple[str, str]]) -> Lines:
-    """
-    Write out what was found.
-
-    Parameters
-    ----------
-    name : str
-        Id of the campaign.
-    setups : sequence of DraftSetup
-    refused : sequence of (str, str)
-        Files that are left out, with the reason.
-    """
+    """Write out what was found, and the files that are left out with the reason."""
     tests = [test for each in setups for test in each.tests]
     stems = [PurePosixPath(test[MAIN].stem) for test in tests]
     often = Counter(stem.name for stem in stems)
