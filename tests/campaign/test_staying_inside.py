@@ -47,11 +47,6 @@ def test_a_review_that_is_a_link_out_of_the_folder_is_refused(contract, load_tex
         load_text(contract)
 
 
-def test_a_review_that_lies_there_is_read(contract, load_text, tmp_path):
-    (tmp_path / "review.toml").write_text(REVIEW, encoding="utf-8")
-    assert load_text(contract).review("free-01").excluded
-
-
 @pytest.mark.parametrize("named", [".", "campaign.toml"])
 def test_a_campaign_file_that_is_a_link_belongs_to_the_folder_it_stands_in(contract, load_text, tmp_path, named):
     load_text(contract)

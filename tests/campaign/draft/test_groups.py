@@ -65,15 +65,6 @@ def test_a_messy_folder_asks_first_which_files_are_recordings(messy):
     ]
 
 
-def test_check_refuses_nothing_of_it_but_what_it_asks(messy):
-    _, drafted = messy.draft()
-    drafted.path.write_text(drafted.text, encoding="utf-8")
-    with pytest.raises(CampaignError) as told:
-        load(drafted.path)
-    lines = {int(line.partition("line ")[2].partition(":")[0]) for line in str(told.value).splitlines()}
-    assert lines == {question.line for question in drafted.open}
-
-
 def test_a_group_without_its_comment_signs_is_the_draft_of_its_files_alone(messy, tmp_path_factory):
     """What a person does with an editor: keep one group and the head, and answer what is asked."""
     _, drafted = messy.draft()

@@ -39,11 +39,6 @@ def test_a_unit_and_a_name_that_contradict_each_other_are_both_told():
     assert found.conflict == 'its unit "g" says acceleration, its name "lvdt" displacement'
 
 
-def test_a_voltage_is_known_but_not_physical():
-    found = meaning(column("LVDT 1", "V"))
-    assert not found.is_physical
-
-
 @pytest.mark.parametrize(
     ("each", "reason"),
     [
@@ -123,12 +118,6 @@ def test_unknown_columns_alone_are_asked_about_up_to_a_number():
     channels, left_out = draft_channels({"main": columns})
     assert len(channels) == MOST_UNKNOWN
     assert [len(headings) for headings in left_out.values()] == [2]
-
-
-def test_a_channel_of_another_recorder_says_so():
-    columns = [named_column(1, "ACC", "g")]
-    (_, second), _ = draft_channels({"main": [named_column(1, "LVDT 1", "mm")], "daq2": columns})
-    assert 'recorder = "daq2"' in map(str, channel_lines(second, columns))
 
 
 def test_a_letter_that_may_be_a_label_is_asked_about_by_its_gain():
