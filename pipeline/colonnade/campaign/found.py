@@ -31,21 +31,9 @@ UNFINISHED = (".partial", ".part", ".tmp", ".crdownload")
 
 def find_tests(campaign: CampaignFile, folder: Path) -> tuple[tuple[Test, ...], tuple[Finding, ...]]:
     """
-    Find the tests that [watch] describes.
+    Find the tests that [watch] describes, in the order of the names of their files; and tell of files that make none.
 
-    Parameters
-    ----------
-    campaign : CampaignFile
-        An entry of the file or its test log that names a raw file counts alone.
-    folder : Path
-        Of the campaign file.
-
-    Returns
-    -------
-    tests : tuple of Test
-        In the order of the names of their files.
-    findings : tuple of Finding
-        Files that fit a pattern and still make no test, and those that fit none.
+    An entry of the campaign file or its test log that names a raw file counts alone.
     """
     watched, names = campaign.watch, names_in(campaign)
     if not watched.pattern:
@@ -110,14 +98,7 @@ def _test(
     folder: Path,
     taken: Collection[str],
 ) -> Test:
-    """
-    Make a test.
-
-    Raises
-    ------
-    ValueError
-        If the files make none; the message is a sentence.
-    """
+    """Make a test; a ValueError says in a sentence why the files make none."""
     several = next((paths for paths in files.values() if len(paths) > 1), [])
     if several:
         raise ValueError(f"By their names, {' and '.join(several[:3])} are the same test.")

@@ -174,9 +174,7 @@ class Review(BaseModel):
 
 def decided(entries: Iterable[Entry]) -> Review:
     """
-    Gather the decisions about one test.
-
-    Several trims of a test leave their common part; several corrections of a channel multiply.
+    Gather the decisions about one test: trims leave their common part, corrections of a channel multiply.
     """
     excluded, window = "", None
     flags: list[Flagged] = []
@@ -199,26 +197,7 @@ def decided(entries: Iterable[Entry]) -> Review:
 
 
 def read_review(folder: Path, tests: Mapping[str, Test], setups: Mapping[str, Setup]) -> dict[str, Review]:
-    """
-    Read the review of a campaign.
-
-    Parameters
-    ----------
-    folder : Path
-        Folder of the campaign file, which may have a review.toml.
-    tests, setups : mapping
-        Of the campaign, by id.
-
-    Returns
-    -------
-    reviews : dict of str to Review
-        Of the tests that have entries; empty without a review.
-
-    Raises
-    ------
-    CampaignError
-        If the file cannot be used; its text has a line for each problem.
-    """
+    """Read the review.toml of a folder, if there is one, by test; a CampaignError has a line for each problem."""
     path = folder / FILE_NAME
     if not path.exists():
         return {}

@@ -27,16 +27,7 @@ from colonnade.errors import UnitError, nearest
 
 
 class FileOptions(BaseModel):
-    """
-    How a raw file is to be read.
-
-    Attributes
-    ----------
-    format : str or None
-        Name of its format; None if it is recognised from the file.
-    options : dict
-        Options of that format, as written and found valid.
-    """
+    """How a raw file is read: its format, None if it is recognised from the file, and valid options as written."""
 
     model_config = ConfigDict(frozen=True)
 

@@ -118,19 +118,7 @@ class Specimen(Table):
         return None if base is None or top is None else (base + (top - base) * z / sizes["height"]) / 2
 
     def block(self, gravity: float) -> Block:
-        """
-        Build the block that predictions use.
-
-        Parameters
-        ----------
-        gravity : float
-            m/s².
-
-        Returns
-        -------
-        block : Block
-            Of the dimensions, with measured values in their place where given.
-        """
+        """Build the block that predictions use: of the dimensions, with measured values in their place where given."""
         return _block_of(self, gravity)
 
     def deviations(self, gravity: float) -> list[str]:

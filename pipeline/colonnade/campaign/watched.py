@@ -36,14 +36,9 @@ def parts() -> tuple[str, ...]:
 @dataclass(frozen=True)
 class Pattern:
     """
-    A pattern of names of raw files, and what is known of the tests that are named by it.
+    A pattern of names of raw files with parts in braces, and the keys that are given for its tests.
 
-    Attributes
-    ----------
-    text : str
-        As written: a path from the watched folder, with parts in braces.
-    given : dict
-        Keys of these tests as in [[tests]]; text in them may name parts, as in "{specimen}-table".
+    Text in the keys may name parts, as in "{specimen}-table".
 
     Examples
     --------
@@ -87,19 +82,9 @@ class Pattern:
 
     def match(self, path: str, names: Mapping[str, Mapping[str, str]]) -> dict[str, str | float] | None:
         """
-        Read the name of a file.
+        Read the name of a file, from the watched folder: its parts as a test would have them; None if it does not fit.
 
-        Parameters
-        ----------
-        path : str
-            From the watched folder, with ``/``.
-        names : mapping
-            For each part in `WORDS`, what it may be in a name, in lower case, and what that stands for.
-
-        Returns
-        -------
-        parts : dict or None
-            Values as a test in campaign.toml would have them, and `number`; None if the name does not fit.
+        `names` gives for each part in `WORDS` what it may be in a name, in lower case, and what that stands for.
         """
         form = ""
         for before, name, _ in self.parts:

@@ -68,12 +68,7 @@ def refusal(paragraphs: Iterable[str]) -> CampaignError:
 
 def key_lines(text: str) -> dict[Place, int]:
     """
-    Find the lines of the keys of a TOML file, as far as they begin a line.
-
-    Returns
-    -------
-    lines : dict of place to int
-        From 1. A key inside an inline table has the place of the table only.
+    Find the lines, from 1, of the keys that begin one in a TOML file; a key in an inline table has that of the table.
 
     Examples
     --------

@@ -111,12 +111,7 @@ def one_line(message: str) -> str:
 
 def outside(value: float, between: tuple[float, float], unit: str = "") -> str:
     """
-    Say that a number's magnitude is too small or too large.
-
-    Returns
-    -------
-    expected : str
-        A sentence with what was expected; empty if it is between.
+    Say what was expected of a number whose magnitude is too small or too large; empty if it is between.
 
     Examples
     --------
@@ -206,18 +201,9 @@ class OneOf:
 
 def day(value: object) -> date:
     """
-    Take a day.
+    Take a date, or text: ``2013-04-26``, ``26.04.2013`` (day first), or with slashes where one order is possible.
 
-    Parameters
-    ----------
-    value : object
-        A date, or a date with a time of day; or text: ``2013-04-26``, ``26.04.2013`` (day first), or with slashes where
-        only one order is possible: ``26/04/2013``. A time of day after it is ignored.
-
-    Raises
-    ------
-    ValueError
-        If it is not a day between 1900 and 2100, or if it is not clear which number is the day: ``04/05/2013``.
+    A time of day after it is ignored. ValueError if it is not between 1900 and 2100, or not clear: ``04/05/2013``.
 
     Examples
     --------

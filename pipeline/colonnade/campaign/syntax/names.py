@@ -21,14 +21,7 @@ _EXAMPLE = 'A path from the folder of the campaign file was expected, such as "r
 
 
 def identifier(value: object) -> str:
-    """
-    Take an id.
-
-    Raises
-    ------
-    ValueError
-        If it is not text, has characters that a file name may not have everywhere, or is a Windows device's name.
-    """
+    """Take an id; ValueError if it is no text, or a file cannot have that name everywhere."""
     if not isinstance(value, str):
         raise ValueError(f'{shown(value)} was found. An id in quotes was expected, such as "free-01".')
     if not re.fullmatch(ID_PATTERN[1:-1], value):
@@ -47,18 +40,9 @@ def identifier(value: object) -> str:
 
 def clashes(ids: Iterable[str], *, as_variables: bool = False) -> list[tuple[int, str, str]]:
     """
-    Find ids that a file system, or a results file, takes for the same.
+    Find ids that a file system takes for the same, or a results file: as variables ``.``, ``-`` and ``_`` are the same.
 
-    Parameters
-    ----------
-    ids : iterable of str
-    as_variables : bool, optional
-        Whether ``.``, ``-`` and ``_`` count as the same too, as in the name of a variable.
-
-    Returns
-    -------
-    clashes : list of (int, str, str)
-        Index of the later one, the later one, the earlier one.
+    Of each clash the index of the later one, the later one and the earlier one.
 
     Examples
     --------
@@ -83,19 +67,7 @@ def folded(name: str, *, as_variables: bool = False) -> str:
 
 def inside(folder: Path, value: object) -> Path:
     """
-    Resolve a path of the campaign file.
-
-    Parameters
-    ----------
-    folder : Path
-        Folder of the campaign file, absolute and resolved.
-    value : object
-        As written.
-
-    Returns
-    -------
-    path : Path
-        Absolute; the file itself need not exist.
+    Make a path of the campaign file absolute, from its resolved folder; the file itself need not exist.
 
     Raises
     ------
