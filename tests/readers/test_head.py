@@ -49,6 +49,4 @@ def test_the_first_lines_are_text_of_whatever_encoding(tmp_path):
     for encoding in ("utf-8", "utf-8-sig", "utf-16", "cp1252"):
         head = Head(Path("a"), "\r\n".join(lines).encode(encoding))
         assert head.lines == lines[:64]
-        assert head.first_line == lines[0]
     assert Head(Path("a"), b"1" * BYTES).lines == []
-    assert Head(Path("a"), b"").first_line == ""

@@ -66,11 +66,6 @@ class Head:
             return []
         return [line.rstrip("\r\n").replace("\0", "\ufffd") for line in islice(StringIO(text, newline=""), LINES)]
 
-    @property
-    def first_line(self) -> str:
-        """The first line, or an empty string."""
-        return next(iter(self.lines), "")
-
     def look(self) -> str:
         """Say what the file is, in a clause such as "it is a web page …"; empty if nothing is known."""
         first = self.content
@@ -122,15 +117,18 @@ def by_mark(marks: tuple[bytes, ...], expected: str) -> from_head:
     expected : str
         What that is called: `TDSm, as LabVIEW writes it`.
     """
-    return _by(
-        lambda head: head.content.startswith(marks), f"starts with {expected}", f"it does not start with {expected}"
-    )
+    return _by(lambda head: head.content.startswith(marks), expected)
 
 
-def by_first_line(written: re.Pattern[str], yes: str, no: str) -> from_head:
-    """Give what recognises files by what their first line has, with the reasons for and against."""
-    return _by(lambda head: written.search(head.first_line) is not None, yes, no)
+def by_first_line(written: re.Pattern[str], expected: str) -> from_head:
+    """Give what recognises files by what is in their first line, and what that is called."""
+    return _by(lambda head: written.search(next(iter(head.lines), "")) is not None, f"a line with {expected}")
 
 
-def _by(has: Callable[[Head], bool], yes: str, no: str) -> from_head:
-    return from_head(lambda head: Recognition(True, yes) if has(head) else Recognition(False, no))
+def _by(has: Callable[[Head], bool], expected: str) -> from_head:
+    def looks(head: Head) -> Recognition:
+        if has(head):
+            return Recognition(True, f"it starts with {expected}")
+        return Recognition(False, f"it does not start with {expected}")
+
+    return from_head(looks)

@@ -38,11 +38,7 @@ START = re.compile(r"start time\s*:\s*([\d/]+),?\s+([\d:]+)(\.\d*)?\s*(\w*)", re
 COMPONENT = re.compile(r"^Sta\s+Cha\w*[\s:]*(?P<name>.*?)\s*(?:\(Rcrdr|Location|$)", re.IGNORECASE)
 
 
-recognise = by_first_line(
-    FIRST_LINE,
-    "the first line gives a version of the COSMOS format",
-    'the first line does not give "(Format v… with … text lines)"',
-)
+recognise = by_first_line(FIRST_LINE, '"(Format v… with … text lines)"')
 
 
 def read(path: Path, options: Options) -> Recording:

@@ -144,9 +144,7 @@ def _prepare(lines: list[str], rows: range, delimiter: str, width: int) -> None:
         is_special &= not line.startswith("***End")
 
 
-recognise = by_first_line(
-    re.compile(f"^{SIGNATURE}"), f'the first line is "{SIGNATURE}"', f'the first line is not "{SIGNATURE}"'
-)
+recognise = by_first_line(re.compile(f"^{SIGNATURE}"), f'"{SIGNATURE}"')
 
 
 def read(path: Path, options: TextOptions) -> Recording:

@@ -44,11 +44,7 @@ class Block(NamedTuple):
     origin: datetime | None
 
 
-recognise = by_first_line(
-    re.compile(r'^"*MTS793\|'),
-    f'the first line starts with "{SIGNATURE}"',
-    f'the first line does not start with "{SIGNATURE}"',
-)
+recognise = by_first_line(re.compile(r'^"*MTS793\|'), f'"{SIGNATURE}"')
 
 
 def read(path: Path, options: TextOptions) -> Recording:
