@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.motion import read_motion
 from colonnade.readers.registry import read
 
 
@@ -128,11 +127,3 @@ def test_a_k_net_record_has_the_peak_that_its_header_gives(shared_data):
     values = recording.channels[0].values
     assert np.abs(values - values.mean()).max() == pytest.approx(0.04078, abs=5e-6)  # 4.078 gal
     assert recording.start.isoformat() == "2018-01-24T10:51:28+00:00"  # 19:51:43 in Japan, less 15 s of pre-trigger
-
-
-@pytest.mark.parametrize(
-    ("name", "peak"),
-    [("Cosmos12TimeSeriesTest.v1", 1.61962), ("us1000hyfh_akbmrp_AKBMR--n.1000hyfh.BNZ.--.acc.V2c", 0.06851512)],
-)
-def test_a_cosmos_record_is_a_base_motion_with_its_headers_peak(shared_data, name, peak):
-    assert read_motion(shared_data / "strongmotion" / name).peak == pytest.approx(peak, rel=1e-5)

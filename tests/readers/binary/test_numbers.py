@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as some
 from hypothesis.extra.numpy import arrays
 
-from colonnade.readers.binary.numbers import numbers_at, recorded
+from colonnade.readers.binary.numbers import ClockOptions, Told, numbers_at, recorded
 from colonnade.readers.recording import RecordedChannel
 from every import every
 
@@ -19,7 +19,7 @@ COLUMNS = [
 
 
 def test_a_channel_has_the_last_part_of_its_path_for_a_name_if_that_is_clear_and_infinite_values_are_missing():
-    recording = recorded(Path("a.mat"), "matlab", COLUMNS)
+    recording = recorded(Path("a.mat"), "matlab", COLUMNS, Told(), ClockOptions())
     assert [channel.name for channel in recording.channels] == ["t", "run.top", "other.top"]
     assert [channel.heading for channel in recording.channels] == ["run.t", "run.top", "other.top"]
     np.testing.assert_array_equal(recording.channels[1].values, [0, np.nan, 2, 3])
@@ -30,7 +30,7 @@ NUMBERS = some.sampled_from([np.bool_, np.int8, np.uint64, np.float32, np.float6
 
 @given(arrays(NUMBERS, some.integers(0, 50)))
 def test_numbers_of_any_type_are_values_and_only_infinities_are_changed(numbers):
-    recording = recorded(Path("a.mat"), "matlab", [RecordedChannel("a", None, numbers)])
+    recording = recorded(Path("a.mat"), "matlab", [RecordedChannel("a", None, numbers)], Told(), ClockOptions())
     values, infinite = recording.channels[0].values, np.isinf(numbers)
     assert values.dtype == np.float64
     np.testing.assert_array_equal(values[~infinite], numbers[~infinite].astype(float))

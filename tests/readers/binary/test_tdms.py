@@ -207,18 +207,13 @@ def test_a_broken_chain_of_segments_is_refused(path):
 
 
 def test_a_file_without_numbers_says_so(path):
-    with pytest.raises(ReadError, match=r"no channel holds numbers.*it holds text"):
+    with pytest.raises(ReadError, match=r"no column of numbers in it.\n.* it holds text"):
         read(written(path, [ChannelObject("g", "remarks", ["a", "b"])]))
 
 
-def test_a_real_file_of_raw_counts_with_scaling(shared_data):
-    recording = read(shared_data / "tdms" / "raw1.tdms")
-    assert recording.warnings == ()
-    channel = recording.channel("First  Channel")
-    assert np.diff(channel.time) == pytest.approx(2e-5, rel=1e-9)  # 50 kHz
-    assert np.abs(channel.values).max() < 10
+def test_raw_counts_are_scaled_as_the_file_says(shared_data):
+    channel = read(shared_data / "tdms" / "raw1.tdms").channel("First  Channel")
     assert channel.values[0] == pytest.approx(-603 * 0.0003051850947599719, rel=1e-12)  # a 16-bit count of a 10 V range
-    assert recording.start == datetime(2016, 12, 15, 22, 35, 21, tzinfo=UTC)
 
 
 def whole_and_part(path, window, step=0.005):

@@ -5,7 +5,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
 
 from colonnade.errors import ReadError
-from colonnade.readers.text.delimited import DelimitedOptions, TableOptions, read_header
+from colonnade.readers.text.delimited import DelimitedOptions, read_header
 from colonnade.readers.text.encoding import Text
 from every import every
 
@@ -71,20 +71,6 @@ def test_whatever_is_above_the_rows_these_are_found(tmp_path, above, delimiter, 
     found = header(tmp_path / "a.csv", "\n".join([*above, *rows, ""]))
     assert len(found.form.kinds) == width
     assert found.first <= len(above) + 1
-
-
-@every(
-    ("options", "names", "units"),
-    [
-        ({}, 2, 3),
-        ({"names_row": 1}, 0, 3),
-        ({"names_row": 4}, 3, None),
-        ({"units_row": 3}, None, 2),
-        ({"names_row": 0, "units_row": 0}, None, None),
-    ],
-)
-def test_lines_of_names_and_units_are_as_given_else_as_found(options, names, units):
-    assert TableOptions(**options).heading_lines((2, 3)) == (names, units)
 
 
 NAMELESS = ["column 1", "column 2", "column 3"]

@@ -59,12 +59,6 @@ def test_lines_keep_their_numbers_whatever_the_size_of_the_pieces(path, monkeypa
     assert [piece.line for piece in found] == [2 + text.count("\n") for text in before]
 
 
-def test_a_power_failures_zeros_are_unreadable_characters(path):
-    path.write_bytes(b"1;2\n\0\0\0")
-    assert Text.of(path, "utf-8").lines() == ["1;2", "\ufffd\ufffd\ufffd"]
-    assert "".join(piece.text for piece in Text.of(path, "utf-8").pieces(0)) == "1;2\n\ufffd\ufffd\ufffd"
-
-
 def test_lines_come_in_pieces_with_their_numbers(monkeypatch):
     monkeypatch.setattr(encoding, "ROWS_AT_ONCE", 2)
     lines = ["a", "b", "c", "d"]

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from colonnade.errors import ReadError, nearest
-from colonnade.readers.binary.numbers import ClockOptions, Told, UnreadableError, columns_of, member
+from colonnade.readers.binary.numbers import ClockOptions, Told, UnreadableError, columns_of, member, recorded
 from colonnade.readers.clock import RISING_SHARE, rising_share
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import HDF5, Head, from_head
@@ -104,7 +104,7 @@ def read(path: Path, options: MatlabOptions) -> Recording:
             raise ReadError(f'{path.name}: variable "{name}" {reason}{nearest(name, variables)}')
     columns, scalars = find_columns({name: variables[name] for name in options.variables or variables}, told)
     held = ", ".join(list(variables)[:8]) or "no variable"
-    return told.recorded(path, "matlab", columns, options, scalars, f"in it; it holds {held}")
+    return recorded(path, "matlab", columns, told, options, scalars, where=f"in it; it holds {held}")
 
 
 def read_v5(path: Path, told: Told) -> dict[str, Node]:

@@ -16,7 +16,7 @@ from pydantic import Field
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.binary.numbers import DAMAGE, ClockOptions, Told, UnreadableError, columns_of, member
+from colonnade.readers.binary.numbers import DAMAGE, ClockOptions, Told, UnreadableError, columns_of, member, recorded
 from colonnade.readers.format import Format
 from colonnade.readers.head import HDF5, NETCDF, by_mark
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
@@ -67,7 +67,7 @@ def read(path: Path, options: NetcdfOptions) -> Recording:
     }
     scalars |= {name: float(value) for name, value in attributes.items() if _is_number(value)}
     where = "in it" if options.group is None else f'in group "{options.group}"'
-    return told.recorded(path, "netcdf", columns, options, scalars, where)
+    return recorded(path, "netcdf", columns, told, options, scalars, where=where)
 
 
 def read_hdf5(path: Path, told: Told) -> tuple[list[Variable], dict[str, Any]]:

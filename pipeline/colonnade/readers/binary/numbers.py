@@ -58,24 +58,6 @@ class Told:
         read_parts = {key: self.guarded(path, read, part, path, self) for key, (path, part) in parts.items()}
         return {key: each for key, each in read_parts.items() if each is not None}
 
-    def recorded(
-        self,
-        path: Path,
-        format: str,
-        columns: Sequence[RecordedChannel],
-        options: ClockOptions,
-        scalars: Mapping[str, float],
-        where: str,
-    ) -> Recording:
-        """Make a recording with all that is said; ReadError with it if there is no column `where` it was looked for."""
-        left_out = [f"{place} is left out: {why}" for place, why in self.left_out.items()]
-        if not columns:
-            message = f"{path.name}: no column of numbers {where}."
-            raise ReadError("\n  ".join([message, *self.warnings, *left_out]))
-        found = recorded(path, format, columns, options, scalars)
-        notes = (*self.notes, *found.notes, *left_out)
-        return replace(found, notes=notes, warnings=(*self.warnings, *found.warnings))
-
 
 def columns_of(table: NDArray[Any]) -> list[NDArray[Any]]:
     """Columns of a matrix; UnreadableError if it is no set of channels."""
@@ -172,16 +154,27 @@ def recorded(
     path: Path,
     format: str,
     columns: Sequence[RecordedChannel],
-    options: ClockOptions | None = None,
+    told: Told,
+    options: ClockOptions,
     scalars: Mapping[str, float] | None = None,
     otherwise: Mapping[int, Array] | None = None,
+    where: str = "in it",
 ) -> Recording:
     """
-    Make a recording of columns of any numbers, on the clocks that they have or that are found.
+    Make a recording of columns of any numbers, on the clocks that they have or that are found, with what is said.
 
     A column without a name has the last part of its heading, or all of it if another column has that part. Infinite
     values are missing.
+
+    Raises
+    ------
+    ReadError
+        If there is no column `where` they were looked for, with all that is said.
     """
+    left_out = [f"{place} is left out: {why}" for place, why in told.left_out.items()]
+    if not columns:
+        message = f"{path.name}: no column of numbers {where}."
+        raise ReadError("\n  ".join([message, *told.warnings, *left_out]))
     last = [column.name or column.heading.rpartition(".")[2] for column in columns]
     counts = Counter(last)
     channels = []
@@ -190,6 +183,6 @@ def recorded(
         if np.isinf(values).any():
             values = np.where(np.isinf(values), np.nan, values)
         channels.append(replace(column, name=short if counts[short] == 1 else column.heading, values=values))
-    recording = Recording(path, format, tuple(channels))
-    given = options or ClockOptions()
-    return with_clocks(recording, given.time, given.time_unit, scalars, otherwise)
+    recording = Recording(path, format, tuple(channels), warnings=tuple(told.warnings))
+    found = with_clocks(recording, options.time, options.time_unit, scalars, otherwise)
+    return replace(found, notes=(*told.notes, *found.notes, *left_out))

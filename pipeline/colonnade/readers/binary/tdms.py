@@ -16,7 +16,7 @@ from pydantic import Field
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError, count, nearest
-from colonnade.readers.binary.numbers import ClockOptions, recorded
+from colonnade.readers.binary.numbers import ClockOptions, Told, recorded
 from colonnade.readers.format import Format
 from colonnade.readers.head import by_mark
 from colonnade.readers.recording import RecordedChannel, Recording, Window
@@ -65,17 +65,19 @@ def read(path: Path, options: TdmsOptions, window: Window | None = None) -> Reco
     with path.open("rb") as stream:  # by its path, npTDMS would use a .tdms_index next to it, be it another file's
         if window is not None and options.time is None:
             file = TdmsFile.open(stream)
-            if all(_is_timed(channel) for channel in _channels(path, file, options.group)[0]):
+            if all(_is_timed(channel) for channel in _channels(path, file, options.group, Told())):
                 return _recording(path, options, file, window)
             stream.seek(0)
         return _recording(path, options, TdmsFile.read(stream), None)
 
 
 def _recording(path: Path, options: TdmsOptions, file: TdmsFile, window: Window | None) -> Recording:
-    channels, notes = _channels(path, file, options.group)
+    told = Told()
+    channels = _channels(path, file, options.group, told)
+    told.warnings += cut_off(path, channels)
     waveforms = [_waveform(channel) for channel in channels]
     zero = min((own.start for own in waveforms if own is not None and own.start is not None), default=None)
-    warnings, columns = cut_off(path, channels), []
+    columns = []
     shared: dict[object, Array] = {}  # channels with the same properties share their times
     unsure: dict[int, Array] = {}
     for number, (channel, own) in enumerate(zip(channels, waveforms, strict=True)):
@@ -89,12 +91,11 @@ def _recording(path: Path, options: TdmsOptions, file: TdmsFile, window: Window 
             column = replace(column, start=own.start, time=None if own.step == NO_TIMING else times)
             unsure |= {number: times} if own.step == NO_TIMING else {}
         columns.append(column)
-    # LabVIEW's default step yields to a channel of times, and is all that is known where there is none.
-    recording = recorded(path, "tdms", columns, options, otherwise=unsure)
     for step, number in Counter(own.step for own in waveforms if own is not None).items():
         why = "LabVIEW's default, which yields to a channel of times" if step == NO_TIMING else f"{1 / step:.9g} Hz"
-        notes.append(f"clock of {count(number, 'channel')}: a step of {step:.9g} s ({why}), by wf_increment")
-    return replace(recording, notes=(*recording.notes, *notes), warnings=(*warnings, *recording.warnings))
+        told.notes.append(f"clock of {count(number, 'channel')}: a step of {step:.9g} s ({why}), by wf_increment")
+    # LabVIEW's default step yields to a channel of times, and is all that is known where there is none.
+    return recorded(path, "tdms", columns, told, options, otherwise=unsure)
 
 
 def cut_off(path: Path, channels: list[TdmsChannel]) -> list[str]:
@@ -122,19 +123,19 @@ def cut_off(path: Path, channels: list[TdmsChannel]) -> list[str]:
     ]
 
 
-def _channels(path: Path, file: TdmsFile, only: str | None) -> tuple[list[TdmsChannel], list[str]]:
-    """Find the channels of numbers, with notes on those that are none."""
+def _channels(path: Path, file: TdmsFile, only: str | None, told: Told) -> list[TdmsChannel]:
+    """Find the channels of numbers; others are left out."""
     if only is not None and only not in file:
         raise ReadError(f'{path.name}: group "{only}" not found.{nearest(only, file)}')
-    channels, notes = [], []
+    channels = []
     for channel in (each for group in file.groups() if only in (None, group.name) for each in group.channels()):
         kind = channel.dtype.kind
         if len(channel) and kind in "fiubM":
             channels.append(channel)
         else:
             reason = NOT_NUMBERS.get(kind, "its samples are not numbers") if len(channel) else "it holds no samples"
-            notes.append(f'"{channel.group_name}/{channel.name}" is left out: {reason}')
-    return channels, notes
+            told.left_out[f'"{channel.group_name}/{channel.name}"'] = reason
+    return channels
 
 
 @dataclass(frozen=True)
