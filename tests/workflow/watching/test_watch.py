@@ -53,10 +53,10 @@ def test_arriving_files_become_lines_and_the_rest_follows(small, tmp_path, monke
     assert small.contents() == before
 
 
-def watched(small):
+def watched(small, **options):
     """Watch once; the exit code and what is said."""
     said = []
-    return watch(small.folder, once=True, show=lambda line: None, say=said.append), said
+    return watch(small.folder, once=True, show=lambda line: None, say=said.append, **options), said
 
 
 @dataclass
@@ -101,11 +101,14 @@ def test_a_crash_of_the_run_behind_is_said_once_and_waits_for_the_next_file(smal
     assert "Traceback" in small.layout.watch_log.read_text(encoding="utf-8")
 
 
-def test_a_run_behind_that_is_refused_is_tried_again(small, crashing, monkeypatch):
+def test_a_run_behind_that_is_refused_is_tried_again_and_a_share_that_is_gone_is_said_once(
+    small, crashing, monkeypatch
+):
     monkeypatch.setattr(module, "AGAIN", 0.1)
     crashing.ends = [Ended(1, (), was_refused=True, problem=""), Ended(0, (), was_refused=False, problem="")]
-    code, said = watched(small)
-    assert (code, crashing.starts, len(said)) == (0, 2, 1)
+    code, said = watched(small, share=small.folder / "gone")
+    assert (code, crashing.starts, len(said)) == (0, 2, 2)
+    assert "this folder cannot be seen" in said[0]
 
 
 def test_a_watch_for_once_ends_if_results_cannot_be_written(small, crashing, monkeypatch):

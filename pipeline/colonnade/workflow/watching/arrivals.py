@@ -111,23 +111,16 @@ class Share:
     source: Path
     target: Path
     arrivals: Arrivals
-    _said: set[str] = field(default_factory=set)
 
     def copy_finished(self, now: float) -> Iterator[str]:
         """Copy what has been finished since the last call; give a sentence on each file that could not be copied."""
         names = {self.source / name: name for name in files_in(self.source)}
         if not names and not self.source.is_dir():
-            yield from self._once(f"{self.source}: this folder cannot be seen. Is the share connected?")
+            yield f"{self.source}: this folder cannot be seen. Is the share connected?"
             return
         for path in sorted(self.arrivals.look(marks_of(names), now) & names.keys()):
-            problem = _copy(path, self.target / names[path])
-            if problem:
-                yield from self._once(problem)
-
-    def _once(self, sentence: str) -> Iterator[str]:
-        if sentence not in self._said:
-            self._said.add(sentence)
-            yield sentence
+            if problem := _copy(path, self.target / names[path]):
+                yield problem
 
 
 def _copy(source: Path, target: Path) -> str:

@@ -17,7 +17,6 @@ from colonnade.campaign.forms.summary import RestitutionSummary, TestSummary, Wa
 from colonnade.errors import CampaignError, StoreError
 from colonnade.findings import Finding, Severity, as_record
 from colonnade.identification.plausibility.transducers import ChannelState, changes
-from colonnade.report.interactive.scripts import state_script
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import Failure, Stored, as_map
@@ -267,17 +266,6 @@ def notify(command: Sequence[str], line: Mapping[str, Any]) -> str:
         said = (done.stderr or "").strip().splitlines()
         return f"{command[0]} ended with {done.returncode}{f': {said[-1][:200]}' if said else ''}."
     return ""
-
-
-def write_state(
-    layout: Layout, *, is_watched: bool, shown: str = "", line: str = "", line_written: float = 0.0
-) -> None:
-    """Write the state script, see `state_script`, as a sign of life of now."""
-    text = state_script(is_watched=is_watched, written=time.time(), shown=shown, line=line, line_written=line_written)
-    try:
-        files.write_text(layout.state, text)
-    except StoreError:  # the watch goes on; a page that is open keeps what it shows
-        return
 
 
 def shown_now(layout: Layout) -> str:

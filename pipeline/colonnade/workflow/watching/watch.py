@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
@@ -16,14 +16,15 @@ from colonnade.campaign.forms.summary import TestSummary
 from colonnade.campaign.found import WITHOUT_TEST, files_in
 from colonnade.errors import CampaignError, StoreError
 from colonnade.interruption import expect_none
-from colonnade.report.interactive.scripts import EVERY
+from colonnade.report.interactive.scripts import EVERY, state_script
+from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.workflow.advising.next import advise_after
 from colonnade.workflow.lock import is_refusal, only_watch
 from colonnade.workflow.watching.arrivals import Arrivals, Bell, Share, last_change, listening, marks_of
 from colonnade.workflow.watching.behind import Behind
-from colonnade.workflow.watching.measure import Line, measure, measured, notify, shown_now, write_state
+from colonnade.workflow.watching.measure import Line, measure, measured, notify, shown_now
 
 TEXTS = ("review.toml", "tests.csv", "tests.xlsx")
 """Files next to the campaign file that people change while it is watched."""
@@ -92,9 +93,9 @@ def watch(
     """
     loaded = load(Path(campaign)).awaiting()
     layout = Layout.of(loaded.path, results)
-    with only_watch(layout), _logged(layout, say) as log, listening(loaded.folder / loaded.watch.folder) as bell:
+    with only_watch(layout), _logged(layout) as log, listening(loaded.folder / loaded.watch.folder) as bell:
         behind = Behind(loaded.path, layout.results, workers)
-        watching = _Watching(loaded, layout, bell, behind, command, show, log, once)
+        watching = _Watching(loaded, layout, bell, behind, command, show, say, log, once)
         if share is not None:
             watching.share = Share(share, loaded.folder / loaded.watch.folder, Arrivals(loaded.watch.settle))
         try:
@@ -105,29 +106,16 @@ def watch(
 
 
 @contextmanager
-def _logged(layout: Layout, say: Say) -> Iterator[logging.Logger]:
-    """Give a logger whose warnings are said too; all goes into the campaign's log file."""
+def _logged(layout: Layout) -> Iterator[logging.Logger]:
+    """Give a logger into the campaign's log file."""
     log = logging.Logger("colonnade.watch", logging.INFO)
     file = RotatingFileHandler(layout.watch_log, maxBytes=LARGEST_LOG, backupCount=1, encoding="utf-8", delay=True)
     file.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
-    said = _Said(say)
     log.addHandler(file)
-    log.addHandler(said)
     try:
         yield log
     finally:
         file.close()
-
-
-class _Said(logging.Handler):
-    """Says warnings to whoever runs the watch."""
-
-    def __init__(self, say: Say) -> None:
-        super().__init__(logging.WARNING)
-        self._say = say
-
-    def emit(self, record: logging.LogRecord) -> None:
-        self._say(record.getMessage())
 
 
 @dataclass
@@ -140,6 +128,7 @@ class _Watching:
     behind: Behind
     command: Sequence[str]
     show: Show
+    say: Say
     log: logging.Logger
     is_once: bool
     share: Share | None = None
@@ -166,7 +155,7 @@ class _Watching:
         """Watch until a signal ends it or, if it is only asked for once, until nothing is left to do."""
         self._look()
         if self.is_once and not (self._arrivals.is_waiting or self._due):
-            self.log.warning("No new file. Results and report are brought up to date.")
+            self._say_once("No new file. Results and report are brought up to date.")
         while True:
             is_busy = self._arrivals.is_waiting or self._due or self.behind.is_running
             if self.is_once and not (is_busy or self._is_outdated):
@@ -177,15 +166,22 @@ class _Watching:
     def tell_pages(self, *, is_watched: bool = True) -> None:
         """Give a sign of life to open pages."""
         self._alive = time.monotonic()
-        shown, line, line_written = shown_now(self.layout), self._line, self._line_written
-        write_state(self.layout, is_watched=is_watched, shown=shown, line=line, line_written=line_written)
+        text = state_script(
+            is_watched=is_watched,
+            written=time.time(),
+            shown=shown_now(self.layout),
+            line=self._line,
+            line_written=self._line_written,
+        )
+        with suppress(StoreError):  # the watch goes on; a page that is open keeps what it shows
+            files.write_text(self.layout.state, text)
 
     def _look(self) -> None:
         """Look once at what arrived, and go on with what is to be done."""
         expect_none()
         now = time.monotonic()
         for problem in () if self.share is None else self.share.copy_finished(now):
-            self.log.warning(problem)
+            self._say_once(problem)
         finished = self._arrivals.look(marks_of(self._watched()), now)
         texts = self._marks_of_texts()
         if finished or texts != self._texts:
@@ -222,7 +218,7 @@ class _Watching:
         self.show(line)
         self.tell_pages()
         if self.command and (problem := notify(self.command, line.as_json())):
-            self.log.warning(f"--notify: {problem}")
+            self._tell(f"--notify: {problem}")
         if line.record.status == "done":
             self._measured[name] = line.record
             for advice in advise_after(self.campaign, self.layout, name, self._measured):
@@ -262,10 +258,14 @@ class _Watching:
             if found.kind == WITHOUT_TEST:
                 self._say_once(str(found))
 
+    def _tell(self, sentence: str) -> None:
+        self.say(sentence)
+        self.log.warning(sentence)
+
     def _say_once(self, sentence: str) -> None:
         if sentence not in self._said:
             self._said.add(sentence)
-            self.log.warning(sentence)
+            self._tell(sentence)
 
     def _files(self, name: str) -> list[Path]:
         return [*self.campaign.tests[name].files.values()]
