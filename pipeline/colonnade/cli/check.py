@@ -65,17 +65,13 @@ def _draw(campaign: Campaign, path: Path) -> None:
 
 
 def _record(checked: CampaignCheck) -> dict[str, object]:
-    tests = {
-        name: {"problems": each.problems, "warnings": records_of(each.findings, each.concerning)}
-        for name, each in checked.tests.items()
-    }
-    assessments = {
-        name: {"problems": each.problems, "warnings": records_of(each.findings)}
-        for name, each in checked.assessments.items()
-    }
-    campaign = checked.campaign
-    warnings = records_of(campaign.warnings)
-    return {"campaign": campaign.path, "warnings": warnings, "tests": tests, "assessments": assessments}
+    found: dict[str, object] = {"campaign": checked.campaign.path, "warnings": records_of(checked.campaign.warnings)}
+    for kind, subjects in (("tests", checked.tests), ("assessments", checked.assessments)):
+        found[kind] = {
+            name: {"problems": each.problems, "warnings": records_of(each.findings, each.concerning)}
+            for name, each in subjects.items()
+        }
+    return found
 
 
 def _show(checked: CampaignCheck, drawing: Path | None) -> None:

@@ -193,11 +193,10 @@ def _assessed(
     from colonnade.campaign import load
     from colonnade.store.layout import Layout
     from colonnade.workflow.assessing import assess_campaign, assess_own
-    from colonnade.workflow.real_column import AskedColumn
+    from colonnade.workflow.real_column import AskedColumn, given_of
 
     column = AskedColumn.of(options)
-    given = {key: value for key, value in options.items() if value is not None and value != ()}
-    asked = {key: list(value) if isinstance(value, tuple) else value for key, value in given.items()}
+    asked = {key: list(each) if isinstance(each, tuple) else each for key, each in given_of(options).items()}
     if not names and not column.needs_specimen:
         return [assess_own(None, None, None, column, asked, where)]
     loaded = load(path)

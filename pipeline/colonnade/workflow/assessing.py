@@ -25,7 +25,7 @@ from colonnade.workflow.graph import FORMATS, Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import expect_known
 from colonnade.workflow.product import Catalogue, Product
-from colonnade.workflow.real_column import AskedColumn, checked, find_column
+from colonnade.workflow.real_column import AskedColumn, checked, find_column, given_of
 from colonnade.workflow.walk import Walk
 
 if TYPE_CHECKING:
@@ -135,7 +135,7 @@ def assess_own(
     )
     found = find_column(meant, campaign, layout, is_real=True)
     name = found.specimen or OWN
-    asked = _asked(written | {"specimen": name, "scale": found.inputs.scale}, options)
+    asked = _asked(written | {"specimen": name, "scale": found.inputs.scale}, given_of(options))
     inputs = AssessmentInputs(**dict(found.inputs), specimen=name, asked=asked)
     with tempfile.TemporaryDirectory(prefix="colonnade-") as blocks:
         try:
@@ -145,20 +145,17 @@ def assess_own(
     return Assessed(OWN, AssessmentSummary.model_validate_json(result.attrs["answer"]), result)
 
 
-def _asked(written: dict[str, Any], options: Mapping[str, Any]) -> Assessment:
+def _asked(written: dict[str, Any], given: Mapping[str, Any]) -> Assessment:
     """Put options over the keys of an assessment; their files may be anywhere."""
-    if options.get("measure") not in (None, written.get("measure")):
+    if given.get("measure", written.get("measure")) != written.get("measure"):
         # Levels and hazard are of another measure.
         written = {key: value for key, value in written.items() if key not in ("levels", "hazard")}
-    paths = {key: Path(options[key]) for key in ("records", "hazard") if options.get(key) is not None}
-    paths = {key: written.pop(key) for key in ("records", "hazard") if key in written} | paths
+    keys = written | {key: given[key] for key in given.keys() & Assessment.model_fields.keys() - {"specimen", "scale"}}
+    # The model keeps paths inside a campaign's folder; here they may be anywhere, so they are put in afterwards.
+    paths: dict[str, Path] = {key: Path(keys.pop(key)) for key in ("records", "hazard") if key in keys}
     if "records" not in paths:
         raise CampaignError("Say which ground motions are run, with --records DIR or a CSV list of them.")
-    keys = Assessment.model_fields.keys() - {"records", "hazard", "specimen", "scale"}
-    given = {key: value for key, value in options.items() if key in keys and value is not None}
-    # The model keeps paths inside a campaign's folder; here they may be anywhere, so they are put in afterwards.
-    asked = checked(Assessment, {**written, **given, "records": "records"}, OPTIONS)
-    return asked.model_copy(update=paths)
+    return checked(Assessment, keys | {"records": "records"}, OPTIONS).model_copy(update=paths)
 
 
 def _failed(specimen: str, measure: str, reason: str) -> AssessmentSummary:

@@ -58,7 +58,7 @@ class AskedColumn:
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> AskedColumn:
         """Pick from the options of a command those that are about the column; None and () are not given."""
-        given = {key: value for key, value in options.items() if value is not None and value != ()}
+        given = given_of(options)
         properties = {key: _with_number(key, given[key]) for key in Prototype.model_fields if key in given}
         sizes = {key: given[key] for key in ("shape", *OUTER_DIMENSIONS) if key in given}
         return cls(given.get("specimen"), given.get("scale"), properties, sizes)
@@ -279,9 +279,14 @@ def checked(model: type[Written], written: Mapping[str, Any], names: Mapping[str
         raise CampaignError("\n".join(problems)) from None
 
 
+def given_of(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Take from the options of a command those that are given: neither None nor ()."""
+    return {key: value for key, value in options.items() if value is not None and value != ()}
+
+
 def picked(model: type[Written], options: Mapping[str, Any]) -> Written:
-    """Pick from the options of a command those that are keys of a table; None and () are not given; as `checked`."""
-    return checked(model, {key: options[key] for key in model.model_fields if options.get(key) not in (None, ())})
+    """Pick from the options of a command those that are given and keys of a table; as `checked`."""
+    return checked(model, {key: value for key, value in given_of(options).items() if key in model.model_fields})
 
 
 def _with_number(key: str, value: Any) -> Any:
