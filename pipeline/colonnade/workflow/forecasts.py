@@ -15,11 +15,10 @@ from colonnade.campaign.forms.foreseen import (
     ForecastsSummary,
     TestForecast,
 )
-from colonnade.errors import StoreError
 from colonnade.findings import Finding, warning
-from colonnade.store import files
 from colonnade.store.forecasts import Forecasts, Known, Refused
 from colonnade.store.layout import Layout
+from colonnade.workflow.product import read_done
 from colonnade.workflow.raw_files import RawFiles
 
 if TYPE_CHECKING:
@@ -117,12 +116,8 @@ def foreseen_of(layout: Layout, forecasts: Forecasts, chosen: Chosen, left_out: 
 
 def _scores(layout: Layout, test: str, known: Known) -> xr.Dataset | None:
     """Read the scores of a forecast; None if there are none, or those of another."""
-    try:
-        scores = files.read(layout.stage(test, "forecast"))
-    except StoreError:
-        return None
-    is_usable = scores.attrs["status"] == "done" and scores.attrs["file"] == known.name
-    return scores if is_usable else None
+    scores = read_done(layout.stage(test, "forecast"))
+    return None if scores is None or scores.attrs["file"] != known.name else scores
 
 
 def _record(known: Known, *, blind: bool, scores: xr.Dataset | None, reason: str) -> TestForecast:

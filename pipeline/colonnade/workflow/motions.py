@@ -15,10 +15,10 @@ from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.syntax.fields import PLAIN, Quantity, outside
 from colonnade.dynamics.motion import Motion
-from colonnade.errors import CampaignError, ReadError, StoreError, nearest
+from colonnade.errors import CampaignError, ReadError, nearest
 from colonnade.findings import Finding
-from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.workflow.product import read_done
 
 _FACTOR = re.compile(r"\s*([0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?)\s*[x×]\s*", re.IGNORECASE)
 
@@ -138,11 +138,8 @@ def _strongest(campaign: Campaign, layout: Layout, name: str) -> tuple[Test, Mot
 
 def recorded(layout: Layout, test: Test) -> Motion | None:
     """Return the table motion of a test along x, None if it is not known throughout."""
-    try:
-        rocking = files.read(layout.stage(test.id, "rocking"))
-    except StoreError:
-        return None
-    if "base_acceleration" not in rocking:
+    rocking = read_done(layout.stage(test.id, "rocking"))
+    if rocking is None or "base_acceleration" not in rocking:
         return None
     base: Array = rocking["base_acceleration"].to_numpy()
     time = rocking["elapsed"].to_numpy()

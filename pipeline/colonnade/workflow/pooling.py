@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.assembly import APART
-from colonnade.errors import CampaignError, StoreError, nearest
+from colonnade.errors import CampaignError, nearest
 from colonnade.findings import Finding, Severity
-from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.workflow.product import read_done
 from colonnade.workflow.raw_files import listed
 
 if TYPE_CHECKING:
@@ -105,10 +105,4 @@ def restitution_taken(campaign: Campaign, layout: Layout, specimen: str) -> xr.D
     """
     from colonnade.stages.specimen import SpecimenInputs, taken
 
-    try:
-        stored = files.read(layout.stage(specimen, "specimen"))
-    except StoreError:
-        stored = None
-    if stored is not None and stored.attrs["status"] != "done":
-        stored = None
-    return taken(stored, SpecimenInputs.of(campaign, specimen))
+    return taken(read_done(layout.stage(specimen, "specimen")), SpecimenInputs.of(campaign, specimen))

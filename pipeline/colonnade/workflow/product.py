@@ -13,7 +13,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from colonnade.dynamics.models import MODELS
 from colonnade.errors import ReadError, StoreError
@@ -25,6 +25,9 @@ from colonnade.store.layout import Layout
 from colonnade.store.provenance import Recipe, hash_of, key_of, stamped
 from colonnade.store.results import ResultId
 from colonnade.workflow.executors import spread
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 KEPT = ("key", "status", "reason", "content", "ingredients")
 """Attributes of a result that decide whether it, and what follows from it, is up to date."""
@@ -188,6 +191,15 @@ def stored_attributes(path: Path) -> dict[str, Any]:
         return files.read_attributes(path)
     except StoreError:
         return {}
+
+
+def read_done(path: Path) -> xr.Dataset | None:
+    """Read a result; None if it is missing or damaged, or there is none as it failed."""
+    try:
+        result = files.read(path)
+    except StoreError:
+        return None
+    return result if result.attrs["status"] == "done" else None
 
 
 def _whole(path: Path) -> dict[str, str]:

@@ -26,7 +26,7 @@ from colonnade.units.text import interval, listed, number
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import restitution_taken
-from colonnade.workflow.product import Catalogue
+from colonnade.workflow.product import Catalogue, read_done
 from colonnade.workflow.raw_files import raw_files
 from colonnade.workflow.walk import Walk
 from colonnade.workflow.watching.arrivals import last_change
@@ -189,15 +189,16 @@ def _changes(campaign: Campaign, layout: Layout, test: Test) -> Iterator[Finding
 
 
 def _states(layout: Layout, name: str) -> dict[str, ChannelState]:
-    try:
-        conditioned = files.read(layout.stage(name, "condition"))
-    except StoreError:
-        return {}
-    return {
-        str(variable): ChannelState(float(values.attrs["zero"]), float(values.attrs["noise"]), motion)
-        for variable, values in conditioned.data_vars.items()
-        if {"zero", "noise"} <= values.attrs.keys() and np.isfinite(motion := float(np.abs(values).max()))
-    }
+    conditioned = read_done(layout.stage(name, "condition"))
+    return (
+        {}
+        if conditioned is None
+        else {
+            str(variable): ChannelState(float(values.attrs["zero"]), float(values.attrs["noise"]), motion)
+            for variable, values in conditioned.data_vars.items()
+            if {"zero", "noise"} <= values.attrs.keys() and np.isfinite(motion := float(np.abs(values).max()))
+        }
+    )
 
 
 def _limits(layout: Layout, specimen: str, record: TestSummary) -> dict[str, float]:
