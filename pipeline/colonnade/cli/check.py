@@ -10,7 +10,7 @@ import rich_click as click
 
 from colonnade.cli.common.console import say_marked, show_json, work_progress
 from colonnade.cli.common.findings import STYLES, alike, probable_cause, records_of, show_by_kind
-from colonnade.cli.common.options import FILE, campaign_argument, json_option, strict_option
+from colonnade.cli.common.options import campaign_argument, file_option, json_option, strict_option
 from colonnade.errors import count
 from colonnade.findings import Severity
 
@@ -21,12 +21,7 @@ if TYPE_CHECKING:
 
 @click.command(epilog="Example: colonnade check demo")
 @campaign_argument
-@click.option(
-    "--drawing",
-    type=FILE,
-    metavar="FILE",
-    help="Draw specimens and transducers to this file: .svg, .pdf or .png.",
-)
+@file_option("--drawing", "Draw specimens and transducers to this file: .svg, .pdf or .png.")
 @strict_option
 @json_option
 def check(campaign: Path, drawing: Path | None, strict: bool, as_json: bool) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 import rich_click as click
 
 from colonnade.cli.common.console import say, say_drawn, show_json, show_table
-from colonnade.cli.common.options import FILE, campaign_and_id, campaign_and_id_argument, result_options
+from colonnade.cli.common.options import campaign_and_id, campaign_and_id_argument, file_option, result_options
 
 
 @click.command(
@@ -15,13 +15,10 @@ from colonnade.cli.common.options import FILE, campaign_and_id, campaign_and_id_
 )
 @click.argument("name", required=False)
 @campaign_and_id_argument
-@click.option(
-    "--out",
-    type=FILE,
-    metavar="FILE",
-    help="Where to write it: .svg, .pdf, .png, or .csv for its data. By default NAME-ID.svg in the current folder.",
+@file_option(
+    "--out", "Where to write it: .svg, .pdf, .png, or .csv for its data. By default NAME-ID.svg in the current folder."
 )
-@click.option("--data", type=FILE, metavar="FILE", help="Also write its data, as a .csv table.")
+@file_option("--data", "Also write its data, as a .csv table.")
 @click.option(
     "--width",
     type=click.Choice(("single", "double")),

@@ -10,11 +10,11 @@ import rich_click as click
 
 from colonnade.cli.common.console import complain, say, say_drawn, show_fields, show_json, show_table, work_progress
 from colonnade.cli.common.options import (
-    FILE,
     WithKeys,
     campaign_argument,
     column_keys,
     data_option,
+    file_option,
     one_specimen_option,
     options_of,
     result_options,
@@ -51,7 +51,7 @@ def _spectrum_keys() -> list[click.Option]:
 @campaign_argument
 @click.option("--motion", metavar="FILE|NAME", help="A file, a test that recorded it, or one of [motions].")
 @one_specimen_option
-@click.option("--out", type=FILE, metavar="FILE", help="Draw it: .svg, .pdf or .png.")
+@file_option("--out", "Draw it: .svg, .pdf or .png.")
 @data_option
 @result_options
 def spectrum(
@@ -151,7 +151,7 @@ def _fragility_keys() -> list[click.Option]:
 @campaign_argument
 @click.option("--name", multiple=True, metavar="NAME", help="Only this assessment of the campaign; may be repeated.")
 @one_specimen_option
-@click.option("--out", type=FILE, metavar="FILE", help="Draw the curve: .svg, .pdf or .png.")
+@file_option("--out", "Draw the curve: .svg, .pdf or .png.")
 @data_option
 @workers_option
 @scheduler_option

@@ -127,7 +127,12 @@ def column_keys(*more: str) -> list[click.Option]:
     return options_of(Size.model_fields | sizes | prototype)
 
 
-data_option = click.option("--data", type=FILE, metavar="FILE", help="Write what is drawn as a .csv table.")
+def file_option(flag: str, help: str) -> Callable[[Command], Command]:
+    """Make an option that names a file to write."""
+    return click.option(flag, type=FILE, metavar="FILE", help=help)
+
+
+data_option = file_option("--data", "Write what is drawn as a .csv table.")
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
 
