@@ -12,7 +12,6 @@ from colonnade.signals.quality import Flag
 from colonnade.store.records.stored import Stored
 
 TIME = np.arange(0, 2, 0.01)
-NONE = Curve(np.empty(0), np.empty(0))
 FREQUENCY = np.geomspace(1, 50, 20)
 
 
@@ -22,8 +21,7 @@ def channel(**changed):
         "unit": "mm",
         "curve": Curve(TIME, 10 * np.sin(TIME)),
         "recorded": Scale("V", -5.0, 1.0),
-        "failed": NONE,
-        "suspect": NONE,
+        "flags": np.full(TIME.size, Flag.GOOD),
         "before": Density(FREQUENCY, 1 / FREQUENCY),
         "after": Density(FREQUENCY, FREQUENCY**-3),
         "cutoff": 25.0,
@@ -49,8 +47,9 @@ def test_a_channel_recorded_in_its_own_unit_has_one_scale():
 
 
 def test_flagged_samples_are_marked_where_they_are_and_missing_ones_at_the_foot():
-    failed = Curve(np.array([0.5, 0.6]), np.array([90.0, np.nan]))
-    history = channels_as_recorded([channel(failed=failed)], []).axes[0]
+    values, flags = 10 * np.sin(TIME), np.full(TIME.size, Flag.GOOD)
+    values[50:61:10], flags[50], flags[60] = [90.0, np.nan], Flag.FAIL, Flag.MISSING
+    history = channels_as_recorded([channel(curve=Curve(TIME, values), flags=flags)], []).axes[0]
     marked = next(line for line in history.lines if line.get_label() == "failed or missing")
     assert marked.get_xdata().tolist() == [0.5, 0.6]
     assert marked.get_ydata().tolist() == [90.0, pytest.approx(0.0)]

@@ -58,15 +58,6 @@ def test_the_widest_band_of_an_ensemble_is_shaded_below_the_lines():
     assert mark.xy[0] == 3.0
 
 
-def test_a_model_without_a_style_is_refused():
-    with pytest.raises(ValueError, match='Unknown model "clay"'):
-        model_style("clay")
-
-
-def test_what_was_not_measured_is_not_named():
-    assert drawn({"linear": swing(0.3)}).get_legend_handles_labels()[1] == ["linear model"]
-
-
 def test_without_any_angle_the_panel_says_so():
     assert "no rocking angle" in drawn({}).texts[0].get_text()
 
@@ -140,14 +131,6 @@ def test_each_model_has_a_panel_with_its_bands_and_the_measured_angle():
     assert figure.axes[0].collections[0].get_facecolor()[0, :3] != pytest.approx(
         figure.axes[1].collections[0].get_facecolor()[0, :3]
     )
-
-
-def test_the_widest_band_holds_the_inner_one():
-    (axes,) = bands_over_time({}, {"linear": spread()}).axes
-    assert [band.get_label() for band in axes.collections] == ["linear 90\u00a0% band", "linear 50\u00a0% band"]
-    wide, narrow = (np.ptp(outline[:, 1]) for outline in shades(axes))
-    assert wide > narrow
-    assert narrow == pytest.approx(0.8 + 0.1, abs=0.02)
 
 
 def test_the_probability_of_overturning_is_written_where_there_is_one():

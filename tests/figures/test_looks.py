@@ -18,6 +18,7 @@ from colonnade.figures.stored.record import whole_record
 from colonnade.figures.style import STYLE_FILE
 from colonnade.identification.restitution.peaks import angle_of_energy
 from colonnade.signals.metrics import Density
+from colonnade.signals.quality import Flag
 from prism import PRISM
 
 TIME = np.arange(0, 8, 0.01)
@@ -31,7 +32,6 @@ SPREAD = Spread(
     0.04,
     5.5,
 )
-NONE = Curve(np.empty(0), np.empty(0))
 
 looks = pytest.mark.mpl_image_compare(
     style=str(STYLE_FILE), savefig_kwargs={"dpi": 60, "facecolor": "white"}, tolerance=4
@@ -60,20 +60,22 @@ def test_bands():
 
 @looks
 def test_channels():
-    frequency = np.geomspace(0.5, 50, 60)
+    frequency, values, flags = np.geomspace(0.5, 50, 60), 30 * SWING.values, np.full(TIME.size, Flag.GOOD)
+    values[300:302], flags[300:302], flags[500:540] = 25.0, Flag.FAIL, Flag.SUSPECT
     channel = Channel(
         "top",
         "mm",
-        Curve(TIME, 30 * SWING.values),
+        Curve(TIME, values),
+        flags,
         Scale("V", 10.0, -0.2),
-        Curve(TIME[300:302], np.array([25.0, 24.0])),
-        Curve(TIME[500:540], 30 * SWING.values[500:540]),
         Density(frequency, 1e-3 + 1 / frequency**2),
         Density(frequency, 1 / frequency**2 / (1 + (frequency / 25) ** 8)),
         25.0,
     )
-    spike = Spike("top", Curve(TIME[290:312], 30 * SWING.values[290:312]), Curve(TIME[300:302], np.full(2, 25.0)))
-    return channels_as_recorded([channel, channel._replace(name="bottom", failed=NONE)], [spike])
+    spike = Spike("top", Curve(TIME[290:312], values[290:312]), Curve(TIME[300:302], np.full(2, 25.0)))
+    return channels_as_recorded(
+        [channel, channel._replace(name="bottom", flags=np.full(TIME.size, Flag.GOOD))], [spike]
+    )
 
 
 @looks

@@ -37,10 +37,6 @@ def test_each_quantity_has_a_panel_below_the_angle_in_the_order_given():
     assert figure.axes[-1].get_xlabel() == "time (s)"
 
 
-def test_a_free_vibration_without_misfit_is_one_panel():
-    assert labels(whole()) == ["θ / α"]
-
-
 @pytest.mark.parametrize(("level", "lines"), [(1.5, 3), (5.0, 1), (None, 1)], ids=["within", "beyond", "not known"])
 def test_the_uplift_acceleration_is_drawn_where_the_motion_reaches_it(level, lines):
     figure = whole(Panel("base", {"": swing(2.0)}, level, "g tan α"))

@@ -4,8 +4,7 @@ from pathlib import Path
 import matplotlib
 import pytest
 
-from colonnade.dynamics.models import MODELS
-from colonnade.figures.style import WIDTH, blank_figure, journal, model_style, styled
+from colonnade.figures.style import WIDTH, blank_figure, journal, styled
 
 PROJECT = Path(__file__).resolve().parents[2]
 OUTPUT = {"savefig": "figures/files/output.py", "rcParams": "figures/style.py", "rc_context": "figures/style.py"}
@@ -22,16 +21,6 @@ def test_pyplot_with_its_state_is_used_only_for_a_figure_that_a_person_shows():
     sources = [*(PROJECT / "pipeline").rglob("*.py"), *(PROJECT / "reports").rglob("*.py")]
     users = [path for path in sources if "pyplot" in path.read_text(encoding="utf-8")]
     assert users == [PROJECT / "pipeline/colonnade/figures/plot.py"]
-
-
-def test_each_model_has_a_line_of_its_own():
-    lines = [model_style(model) for model in MODELS]
-    assert len({line["color"] for line in lines}) == len({str(line["linestyle"]) for line in lines}) == len(lines)
-
-
-def test_a_thinner_line_keeps_colour_and_dash():
-    usual, thin = model_style("linear"), model_style("linear", 0.5)
-    assert thin == usual | {"linewidth": 0.5 * usual["linewidth"]}
 
 
 def test_the_style_holds_while_drawing_and_not_after():

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, MaxNLocator, NullLocator, StrMethodFormatter
+from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
@@ -18,7 +18,7 @@ from colonnade.dynamics.spectra import DAMPING, response_spectrum
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import draw_limit, largest_of, scale_symmetric, time_limits
 from colonnade.figures.panels.curve import Curve, draw_curve
-from colonnade.figures.panels.layout import BOTTOM, TOP, add_row, legend_above
+from colonnade.figures.panels.layout import BOTTOM, TOP, add_row, legend_above, plain_decades
 from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, is_narrow, styled, width
 from colonnade.signals.named_motion import Laid, Series, laid_on
 from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load, reference_files
@@ -33,9 +33,6 @@ APART = 0.8
 
 TARGET: dict[str, Any] = {"color": FIT["color"], "linewidth": 2.6, "alpha": 0.45}
 """A broad line below the thin one of what was achieved: both are seen where they agree."""
-
-DECADES = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
-"""Periods that an axis names, s."""
 
 LEAST_RATIO, LARGEST_RATIO = 0.2, 1.0
 """How far the axis of the ratio reaches to either side of 1, at least and at most."""
@@ -97,9 +94,7 @@ def _draw_ratio(axes: Axes, period: Array, ratio: Array) -> None:
 
 def _scale_periods(axes: Axes, period: Array) -> None:
     axes.set(xscale="log", xlim=(float(period[0]), float(period[-1])))
-    axes.xaxis.set_major_locator(FixedLocator([each for each in DECADES if period[0] <= each <= period[-1]]))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    plain_decades(axes.xaxis)
     axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
     axes.set_xlabel("period of the oscillator (s)")
 
@@ -170,11 +165,12 @@ def _spectra(base: BaseMotion) -> BaseSpectra:
     length = base.interval * base.time.size
     shortest = max(SHORTEST, FEWEST * base.interval)
     period = np.geomspace(shortest, max(min(LONGEST, length / 4), 2 * shortest), PERIODS)
-    achieved = response_spectrum(base.acceleration, base.interval, period).pseudo_acceleration
-    if base.target is None:
-        return BaseSpectra(period, achieved, None)
-    target = response_spectrum(base.target.acceleration, base.interval, period).pseudo_acceleration
-    return BaseSpectra(period, achieved, target)
+
+    def spectrum(acceleration: Array) -> Array:
+        return response_spectrum(acceleration, base.interval, period).pseudo_acceleration
+
+    target = None if base.target is None else spectrum(base.target.acceleration)
+    return BaseSpectra(period, spectrum(base.acceleration), target)
 
 
 def _reference(campaign: Campaign, motion: str | None) -> Series | None:

@@ -17,7 +17,16 @@ from colonnade.errors import count
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import time_limits
 from colonnade.figures.panels.curve import Curve, draw_curve, envelope
-from colonnade.figures.panels.layout import BOTTOM, TOP, add_panel, leave_scale_to_last, legend_above, margins, note
+from colonnade.figures.panels.layout import (
+    BOTTOM,
+    TOP,
+    add_panel,
+    leave_scale_to_last,
+    legend_above,
+    margins,
+    note,
+    plain_decades,
+)
 from colonnade.figures.style import FAINT, LIMIT, MEASURED, SOFT, shortened, styled, width
 from colonnade.signals.metrics import Density, density
 from colonnade.signals.quality import Flag
@@ -80,10 +89,10 @@ class Channel(NamedTuple):
     name, unit : str
     curve : Curve
         As recorded, in its physical unit.
+    flags : ndarray of int8
+        `Flag` of each sample.
     recorded : Scale
         The scale of the recorder.
-    failed, suspect : Curve
-        The samples that carry these flags; missing ones count as failed, without a value.
     before, after : Density or None
         Spectra before and after the filter, in the unit per √Hz.
     cutoff : float
@@ -93,12 +102,16 @@ class Channel(NamedTuple):
     name: str
     unit: str
     curve: Curve
+    flags: Codes
     recorded: Scale
-    failed: Curve
-    suspect: Curve
     before: Density | None
     after: Density | None
     cutoff: float
+
+    def flagged(self, *flags: Flag) -> Curve:
+        """Return the samples that carry one of these flags."""
+        chosen = np.isin(self.flags, flags)
+        return Curve(self.curve.time[chosen], self.curve.values[chosen])
 
 
 @styled()
@@ -122,7 +135,8 @@ def channels_as_recorded(channels: Sequence[Channel], spikes: Sequence[Spike]) -
         leave_scale_to_last(panels)
         panels[-1].set_xlabel(name)
     histories[0].set_xlim(*time_limits(channel.curve for channel in channels))
-    _scale_frequencies(spectra[-1])
+    if spectra[-1].get_xscale() == "log":
+        plain_decades(spectra[-1].xaxis, subs=(1.0,))
     for index, spike in enumerate(spikes[:MOST_SPIKES]):
         place = left + index * (1 - SPIKE_WIDTH) * room / (MOST_SPIKES - 1)
         top = TOP + rows + BOTTOM + SPIKE_TITLE - 0.06
@@ -135,10 +149,11 @@ def _draw_history(axes: Axes, channel: Channel) -> None:
     draw_curve(axes, channel.curve, color=MEASURED["color"], linewidth=0.7)
     known = channel.curve.values[np.isfinite(channel.curve.values)]
     foot = float(known.min()) if known.size else 0.0
-    for flagged, colour, mark, label in (
-        (channel.suspect, DOUBTFUL, ".", "suspect"),
-        (channel.failed, FAILED, "x", "failed or missing"),
+    for flags, colour, mark, label in (
+        ((Flag.SUSPECT,), DOUBTFUL, ".", "suspect"),
+        ((Flag.FAIL, Flag.MISSING), FAILED, "x", "failed or missing"),
     ):
+        flagged = channel.flagged(*flags)
         if flagged.time.size:
             time, values = envelope(flagged, intervals=INTERVALS)
             shown = np.where(np.isfinite(values), values, foot)
@@ -190,13 +205,6 @@ def _draw_spectrum(axes: Axes, channel: Channel) -> None:
         axes.axvline(channel.cutoff, label="cut-off", **LIMIT)
 
 
-def _scale_frequencies(axes: Axes) -> None:
-    if axes.get_xscale() == "log":
-        axes.xaxis.set_major_locator(LogLocator(numticks=5))
-        axes.xaxis.set_minor_locator(NullLocator())
-        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-
-
 def _draw_spike(axes: Axes, spike: Spike) -> None:
     axes.plot(*spike.near, ".-", color=MEASURED["color"], linewidth=0.7, markersize=2.5)
     axes.plot(*spike.flagged, "x", color=FAILED, markersize=5)
@@ -230,10 +238,9 @@ def picture(test: Test, stored: Stored) -> Picture | None:
     shown = names[:MOST_CHANNELS]
     attributes = {name: stored.channels.get(str(recorded[name].attrs["channel"]), {}) for name in shown}
     channels = [_channel(name, recorded, conditioned, attributes[name]) for name in shown]
-    spikes: list[Spike] = []
-    for channel, name in zip(channels, shown, strict=True):
-        spikes += _spikes(channel, _flags(recorded, name))
-    flagged = [f"{each.name}: {count(each.failed.time.size, 'failed or missing sample')}" for each in channels]
+    spikes = [spike for channel in channels for spike in _spikes(channel)]
+    failed = {channel.name: channel.flagged(Flag.FAIL, Flag.MISSING).time.size for channel in channels}
+    flagged = [f"{name}: {count(number, 'failed or missing sample')}" for name, number in failed.items()]
     notes = []
     if len(names) > MOST_CHANNELS:
         notes.append(f"{MOST_CHANNELS} of {len(names)} channels are drawn.")
@@ -249,49 +256,41 @@ def picture(test: Test, stored: Stored) -> Picture | None:
 
 
 def _channel(name: str, recorded: xr.Dataset, conditioned: xr.Dataset | None, given: Mapping[str, Any]) -> Channel:
-    variable = recorded[name]
-    unit = CHANNEL_UNITS.get(str(given.get("quantity", "")), str(given.get("recorded_unit", "")))
-    factor = from_si(1.0, unit) if str(given.get("quantity", "")) in CHANNEL_UNITS else 1.0
+    variable, quantity = recorded[name], str(given.get("quantity", ""))
+    recorder = str(given.get("recorded_unit", ""))
+    unit = CHANNEL_UNITS.get(quantity, recorder)
+    factor = from_si(1.0, unit) if quantity in CHANNEL_UNITS else 1.0
     time, values = recorded[str(variable.dims[0])].to_numpy(), factor * variable.to_numpy()
-    flags = _flags(recorded, name)
-    failed, suspect = np.isin(flags, (Flag.FAIL, Flag.MISSING)), flags == Flag.SUSPECT
+    quality, raw = recorded.get(f"{name}_quality"), recorded.get(f"{name}_recorded")
+    flags = np.full(time.size, Flag.GOOD, np.int8) if quality is None else quality.to_numpy()
+    after = None
+    if conditioned is not None and name in conditioned:
+        kept = factor * conditioned[name].to_numpy()
+        after = _density(conditioned[str(conditioned[name].dims[0])].to_numpy(), kept, np.isfinite(kept))
     cutoff = given.get("cutoff_hz", np.nan)
     return Channel(
         str(variable.attrs["channel"]),
         unit or "–",
         Curve(time, values),
-        _scale(values, recorded.get(f"{name}_recorded"), str(given.get("recorded_unit", "")), unit),
-        Curve(time[failed], values[failed]),
-        Curve(time[suspect], values[suspect]),
-        _density(time, values, ~failed),
-        None if conditioned is None or name not in conditioned else _conditioned(conditioned, name, factor),
+        flags,
+        Scale(recorder, None, 0.0) if raw is None else _scale(values, raw.to_numpy(), recorder, unit),
+        _density(time, values, ~np.isin(flags, (Flag.FAIL, Flag.MISSING))),
+        after,
         float(cutoff) if isinstance(cutoff, (int, float)) else np.nan,
     )
 
 
-def _flags(recorded: xr.Dataset, name: str) -> Codes:
-    flags = recorded.get(f"{name}_quality")
-    return np.full(recorded[name].size, Flag.GOOD, np.int8) if flags is None else flags.to_numpy()
-
-
-def _scale(values: Array, recorded: xr.DataArray | None, unit: str, physical: str) -> Scale:
+def _scale(values: Array, recorded: Array, unit: str, physical: str) -> Scale:
     """Return the recorder's scale from two of its samples: physical values follow from recorded ones by a line."""
-    if recorded is None:
+    known = np.isfinite(recorded) & np.isfinite(values)
+    raw, shown = recorded[known], values[known]
+    if not raw.size or np.ptp(raw) == 0:
         return Scale(unit, None, 0.0)
-    raw = recorded.to_numpy()
-    known = np.flatnonzero(np.isfinite(raw) & np.isfinite(values))
-    if not known.size or raw[known].min() == raw[known].max():
-        return Scale(unit, None, 0.0)
-    low, high = known[np.argmin(raw[known])], known[np.argmax(raw[known])]
-    gain = float((values[high] - values[low]) / (raw[high] - raw[low]))
-    offset = float(values[low] - gain * raw[low])
-    same = unit == physical and np.isclose(gain, 1.0) and abs(offset) < 1e-9 * max(abs(float(values[high])), 1e-12)
+    low, high = raw.argmin(), raw.argmax()
+    gain = float((shown[high] - shown[low]) / (raw[high] - raw[low]))
+    offset = float(shown[low] - gain * raw[low])
+    same = unit == physical and np.isclose(gain, 1.0) and abs(offset) < 1e-9 * max(abs(float(shown[high])), 1e-12)
     return Scale(unit, None if same or gain == 0.0 else gain, offset)
-
-
-def _conditioned(conditioned: xr.Dataset, name: str, factor: float) -> Density | None:
-    values = factor * conditioned[name].to_numpy()
-    return _density(conditioned[str(conditioned[name].dims[0])].to_numpy(), values, np.isfinite(values))
 
 
 def _density(time: Array, values: Array, usable: Mask) -> Density | None:
@@ -299,13 +298,10 @@ def _density(time: Array, values: Array, usable: Mask) -> Density | None:
     return density(values, interval, usable)
 
 
-def _spikes(channel: Channel, flags: Codes) -> Iterator[Spike]:
+def _spikes(channel: Channel) -> Iterator[Spike]:
     """Yield short stretches of failed samples with what is around them."""
-    at = np.flatnonzero(flags == Flag.FAIL)
-    if not at.size:
-        return
+    at, (time, values) = np.flatnonzero(channel.flags == Flag.FAIL), channel.curve
     for stretch in np.split(at, np.flatnonzero(np.diff(at) > 1) + 1):
-        if stretch.size <= LONGEST_SPIKE:
-            time, values = channel.curve
+        if 0 < stretch.size <= LONGEST_SPIKE:
             near = slice(max(stretch[0] - AROUND, 0), stretch[-1] + AROUND + 1)
             yield Spike(channel.name, Curve(time[near], values[near]), Curve(time[stretch], values[stretch]))

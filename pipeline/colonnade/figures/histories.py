@@ -116,7 +116,7 @@ def draw_angle(
         Written beside the line of the critical angle, which is drawn where the axis reaches it.
     """
     for model, spread in (spreads or {}).items():
-        _shade(axes, model, spread, 1)
+        shade(axes, spread, 1, model_style(model)["color"], f"{model} ")
     draw_curves(axes, curves, thinness)
     if limit > 1.0:
         draw_limit(axes, 1.0, limit_name)
@@ -126,14 +126,13 @@ def draw_angle(
         axes.text(0.5, 0.5, said, transform=axes.transAxes, ha="center", va="center")
 
 
-def _shade(axes: Axes, model: str, spread: Spread, count: int) -> None:
+def shade(axes: Axes, spread: Spread, count: int, colour: str, prefix: str = "") -> None:
     """Shade the widest bands of an ensemble; mark the model's horizon, unless it is the end of the record."""
-    colour = model_style(model)["color"]
     for index in range(count):
-        label = f"{model} {format_percent(spread.share(index))} band"
-        shade = SHADES[min(index, len(SHADES) - 1)]
+        label = f"{prefix}{format_percent(spread.share(index))} band"
+        opacity = SHADES[min(index, len(SHADES) - 1)]
         low, high = spread.bands[index], spread.bands[-1 - index]
-        draw_band(axes, spread.time, low, high, color=colour, alpha=shade, label=label, zorder=0.5)
+        draw_band(axes, spread.time, low, high, color=colour, alpha=opacity, label=label, zorder=0.5)
     if spread.horizon < spread.time[-1]:
         axes.axvline(spread.horizon, color=colour, linewidth=0.9, linestyle=(0, (1, 1.5)))
         is_late = spread.horizon > 0.5 * (spread.time[0] + spread.time[-1])
@@ -202,7 +201,7 @@ def bands_over_time(measured: Mapping[str, Curve], spreads: Mapping[str, Spread]
     limit = limit_of(curves)
     for panel, (model, spread) in zip(axes, spreads.items(), strict=True):
         count = int((spread.levels < 0.5).sum())
-        _shade(panel, model, spread, count)
+        shade(panel, spread, count, model_style(model)["color"], f"{model} ")
         draw_angle(panel, measured, limit)
         shares = " and ".join(format_percent(spread.share(index)) for index in range(count))
         said = f"measured, and bands of {shares} of the {model} model's runs"

@@ -22,15 +22,14 @@ from colonnade.dynamics.spectra import RockingSpectrum
 from colonnade.figures import fragility
 from colonnade.figures.drawing.view import Rocking
 from colonnade.figures.files.output import Movie
-from colonnade.figures.histories import SHADES, draw_angle, limit_of
+from colonnade.figures.histories import Spread, draw_angle, limit_of, shade
 from colonnade.figures.maps.stability_map import draw_map
 from colonnade.figures.moving import SIZE, moving_bodies, rocking_block
-from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
+from colonnade.figures.panels.curve import Curve, draw_curve
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, draw_impacts
 from colonnade.figures.spectra import draw_overturning, draw_rocking
 from colonnade.figures.style import MEASURED, model_style, styled
 from colonnade.identification.restitution.result import Restitution
-from colonnade.units.text import format_percent
 from colonnade.validation import described, instance
 
 KINDS = "a History, an AssemblyHistory, a Restitution, a StabilityMap, an Ensemble, a spectrum or a Fragility"
@@ -107,12 +106,8 @@ def _draw_restitution(axes: Axes, result: Restitution) -> None:
 
 
 def _draw_ensemble(axes: Axes, result: Ensemble) -> None:
-    colour = model_style("nonlinear")["color"]
-    for index in range(int((result.levels < 0.5).sum())):
-        low, high = result.bands[index], result.bands[-1 - index]
-        share = f"{format_percent(1 - 2 * result.levels[index])} of the runs"
-        shade = SHADES[min(index, len(SHADES) - 1)]
-        draw_band(axes, result.time, low, high, color=colour, alpha=shade, label=share)
+    spread = Spread(result.time, result.levels, result.bands, 0.0, np.inf)
+    shade(axes, spread, result.levels.size // 2, model_style("nonlinear")["color"])
     draw_curve(axes, Curve(result.time, result.central), label="nothing varied", **MEASURED)
     axes.set(xlabel="time (s)", ylabel="θ (rad)")
 

@@ -35,12 +35,12 @@ def draw_overturning(axes: Axes, spectrum: OverturningSpectrum) -> None:
     """Shade every amplitude that overturns, islands too, and draw both limits; an absent limit breaks its line."""
     ratios, largest = spectrum.frequency_ratio, spectrum.options["largest"]
     half = 0.5 * np.diff(ratios, prepend=ratios[:1], append=ratios[-1:])
-    left, right = dict(zip(ratios, half[:-1], strict=True)), dict(zip(ratios, half[1:], strict=True))
     starts, ends, places = spectrum.interval_start, spectrum.interval_end, spectrum.interval_frequency_ratio
+    own = np.searchsorted(ratios, places)
     axes.bar(
-        [place - left[place] for place in places],
+        places - half[own],
         ends - starts,
-        [left[place] + right[place] for place in places],
+        half[own] + half[own + 1],
         starts,
         align="edge",
         color=OVERTURNED_COLOUR,
@@ -48,16 +48,8 @@ def draw_overturning(axes: Axes, spectrum: OverturningSpectrum) -> None:
         label="overturns",
         zorder=0,
     )
-    axes.plot(
-        np.tile(places, 2),
-        np.concatenate([starts, ends]),
-        linestyle="none",
-        marker=".",
-        markersize=1.2,
-        color=SOFT,
-        zorder=1,
-        gid="edges of the intervals that overturn",
-    )
+    edges, name = np.concatenate([starts, ends]), "edges of the intervals that overturn"
+    axes.plot(np.tile(places, 2), edges, ".", markersize=1.2, color=SOFT, zorder=1, gid=name)
     draw_limits(axes, spectrum, spectrum.model)
     axes.grid(False)
     axes.set_xlim(float(ratios.min()), float(ratios.max()))
@@ -109,16 +101,9 @@ def draw_rocking(axes: Axes, spectrum: RockingSpectrum, period: float | None = N
         # With dots: a single size that stands between others that overturn has no line.
         axes.plot(spectrum.period, peak, label=name, zorder=3, marker=".", markersize=3.0, **style)
         if fell.any():
-            axes.plot(
-                spectrum.period[fell],
-                np.full(int(fell.sum()), top + number * STEP),
-                linestyle="none",
-                marker="x",
-                markersize=3.5,
-                color=style["color"],
-                label=f"{name}: overturned",
-                zorder=3,
-            )
+            row, colour = np.full(int(fell.sum()), top + number * STEP), style["color"]
+            named = f"{name}: overturned"
+            axes.plot(spectrum.period[fell], row, "x", markersize=3.5, color=colour, label=named, zorder=3)
     if period is not None:
         axes.axvline(period, label=f"the column, 2π/p = {period:.3g} s", zorder=1, **LIMIT)
     axes.axhline(1.0, color=SOFT, linewidth=0.6, zorder=1, gid="critical angle")

@@ -18,6 +18,8 @@ from matplotlib.textpath import text_to_path
 from colonnade.dynamics.models import model_of
 
 STYLE_FILE = Path(__file__).with_name("colonnade.mplstyle")
+NARROW_FILE = Path(__file__).with_name("narrow.mplstyle")
+"""Style of every figure, and what is smaller in a narrow one."""
 
 WIDTH = 7.2
 """Width of every figure of a page, inches."""
@@ -27,17 +29,6 @@ COLUMNS = {"single": 90 / 25.4, "double": 190 / 25.4}
 
 NARROW = 4.0
 """A figure narrower than this, inches, has smaller text, and its parts stand below each other."""
-
-SMALL_TEXT: Any = {
-    "font.size": 7.5,
-    "axes.labelsize": 7.5,
-    "axes.titlesize": 7.5,
-    "xtick.labelsize": 7.0,
-    "ytick.labelsize": 7.0,
-    "legend.fontsize": 7.0,
-    "legend.handlelength": 2.0,
-}
-"""Settings of a narrow figure: points and lines of an 8-point text beside it."""
 
 _column: ContextVar[str] = ContextVar("column", default="")
 
@@ -116,9 +107,7 @@ def styled() -> Iterator[None]:
         yield
         return
     with matplotlib.rc_context():
-        matplotlib.rcParams.update(_settings())
-        if is_narrow():
-            matplotlib.rcParams.update(SMALL_TEXT)
+        matplotlib.rcParams.update(_settings(is_narrow()))
         before = _applied.set(is_narrow())
         try:
             yield
@@ -127,11 +116,12 @@ def styled() -> Iterator[None]:
 
 
 @cache
-def _settings() -> Any:
-    """Return defaults and style sheet, read once; the backend is no matter of style."""
+def _settings(narrow: bool) -> Any:
+    """Return defaults and style sheets, read once; the backend is no matter of style."""
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
-        matplotlib.rc_file(STYLE_FILE, use_default_template=False)
+        for file in (STYLE_FILE, NARROW_FILE)[: 1 + narrow]:
+            matplotlib.rc_file(file, use_default_template=False)
         settings = matplotlib.rcParams.copy()
     return {name: settings[name] for name in settings if name != "backend"}
 

@@ -99,26 +99,6 @@ def test_the_other_views_mark_the_centre_of_mass_alone(orientation, place):
     assert written(one) == set()
 
 
-def test_the_table_is_below_the_base_and_from_above_a_square():
-    one = view()
-    drawing.draw_table(one, 0.15)
-    (table,) = outlines(one)
-    assert (table[:, 1].max(), table[:, 1].min()) == pytest.approx((0.0, -drawing.TABLE * 0.2))
-    above = view(PLAN)
-    drawing.draw_table(above, 0.15)
-    (square,) = outlines(above)
-    assert np.abs(square).tolist() == [[0.15, 0.15]] * 4
-
-
-def test_arrows_say_which_way_is_positive():
-    one = view()
-    drawing.draw_senses(one, PRISM, 0.15)
-    assert {"θ > 0", "a > 0", "table"} <= written(one)
-    arrows = [text for text in one.axes.texts if text.get_text() == ""]
-    assert len(arrows) == 2
-    assert all(arrow.xy[0] > arrow.xyann[0] for arrow in arrows)
-
-
 @pytest.mark.parametrize(
     ("orientation", "names"), [(ELEVATION, "xzy"), (SIDE, "yzx"), (PLAN, "xyz")], ids=["elevation", "side", "plan"]
 )

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from colonnade.campaign.channel import Channel
 from colonnade.figures.drawing.body import GAP, TABLE
-from colonnade.figures.drawing.setup import ARROW, COLOURS, ELEVATION, SHORT, SIDE, draw_transducer, places_of
+from colonnade.figures.drawing.setup import ARROW, COLOURS, ELEVATION, SIDE, draw_transducer, places_of
 from colonnade.figures.drawing.view import Body, View
 
 BODY = Body("rectangle", (0.086, 0.086), (0.06, 0.06), 0.456, True, None)
@@ -37,10 +37,6 @@ def without_place(*, on, quantity="displacement", number=1):
     return dict.fromkeys(map(str, range(number)), one)
 
 
-def test_a_given_place_is_kept():
-    assert places_of({"top": TOP}, BODY, 0.15, INCH) == {"top": TOP.at}
-
-
 def test_on_the_specimen_they_are_one_below_the_other_on_its_face():
     places = places_of(without_place(on="specimen", number=2), BODY, 0.15, INCH)
     assert places["0"] == pytest.approx((0.043, 0.0, 0.75 * 0.456))
@@ -58,12 +54,6 @@ def test_on_the_table_accelerometers_are_on_top_of_it_and_others_on_its_face():
 def test_on_the_ground_they_are_below_the_table():
     ((_, _, low),) = places_of(without_place(on="ground", quantity="acceleration"), BODY, 0.15, INCH).values()
     assert low == pytest.approx(-(TABLE + GAP) * INCH)
-
-
-@pytest.mark.parametrize(("named", "length"), [(True, ARROW), (False, SHORT)], ids=["elevation", "other view"])
-def test_the_arrow_has_the_direction_of_a_positive_reading(named, length):
-    (arrow,) = arrows(drawn(changed(direction=(-1.0, 0.0, 0.0)), named=named))
-    assert arrow == pytest.approx((-length * INCH, 0.0))
 
 
 def test_a_direction_out_of_the_paper_is_shorter_and_one_at_right_angles_is_a_mark():

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from colonnade.figures.files.output import to_png, to_svg
 from colonnade.figures.panels.curve import Curve, between, draw_band, draw_curve, envelope
-from colonnade.figures.panels.layout import COLUMNS, add_panel, legend_above, side_by_side, stacked_panels
+from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side, stacked_panels
 from colonnade.figures.style import styled, width
 
 
@@ -19,11 +19,6 @@ def test_stacked_panels_share_their_time_and_only_the_lowest_has_its_numbers():
     assert heights == pytest.approx([2.0, 0.8, 0.8])
 
 
-def test_panels_do_not_overlap():
-    _, axes = stacked_panels([1.0, 1.0])
-    assert axes[0].get_position().y0 > axes[1].get_position().y1
-
-
 def test_more_columns_than_fit_are_continued_below():
     _, grid = side_by_side(COLUMNS + 1, [1.0, 0.5])
     assert len(grid) == COLUMNS + 1
@@ -31,14 +26,6 @@ def test_more_columns_than_fit_are_continued_below():
     assert grid[COLUMNS][0].get_position().y1 < grid[0][1].get_position().y0
     grid[0][0].set_ylim(-3, 3)
     assert grid[COLUMNS][0].get_ylim() == (-3, 3)
-
-
-def test_a_legend_names_each_line_once():
-    figure, axes = stacked_panels([1.0, 1.0])
-    for one in axes:
-        one.plot([0, 1], [0, 1], label="measured")
-    legend_above(figure, axes)
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["measured"]
 
 
 def test_without_a_name_there_is_no_legend():
@@ -65,12 +52,6 @@ def test_an_upper_panel_has_the_upright_grid_of_the_lowest_one_without_its_numbe
     assert ink[: int(lower.bbox.y0) - 3, left:right].any()
 
 
-def test_a_panel_is_where_it_was_asked_for():
-    figure = Figure(figsize=(4.0, 3.0))
-    box = add_panel(figure, 1.0, 0.5, 2.5, 2.0).get_position()
-    assert np.array(box.bounds) == pytest.approx([1 / 4, 0.5 / 3, 2.5 / 4, 2 / 3])
-
-
 def noisy(samples=60_000):
     return Curve(np.arange(samples) / 1000, np.random.default_rng(3).normal(size=samples))
 
@@ -93,18 +74,6 @@ def test_every_interval_of_time_keeps_its_lowest_and_highest_value():
         kept = thinned.values[(thinned.time >= curve.time[start]) & (thinned.time <= curve.time[end - 1])]
         assert kept.max() == pytest.approx(part.max(), abs=0.05)
         assert kept.min() == pytest.approx(part.min(), abs=0.05)
-
-
-def test_a_short_curve_is_left_as_it_is():
-    curve = noisy(500)
-    assert envelope(curve) is curve
-
-
-def test_a_spike_of_one_sample_is_not_lost():
-    curve = Curve(np.arange(100_000) / 1000, np.zeros(100_000))
-    curve.values[43_217] = 1.0
-    thinned = envelope(curve)
-    assert thinned.time[thinned.values == 1.0].tolist() == [43.217]
 
 
 def test_a_gap_stays_a_gap():
@@ -131,11 +100,6 @@ def test_thinning_keeps_the_extremes_of_a_band():
     inside = np.arange(given.size) // -(-given.size // 50)
     assert (below[inside] <= lowest).all()
     assert (above[inside] >= highest).all()
-
-
-def test_a_short_band_is_drawn_as_it_is():
-    time, below, above = a_band(10)
-    assert between(time, below, above)[0].tolist() == time.tolist()
 
 
 TIME = np.arange(50_000) / 1000

@@ -149,12 +149,6 @@ def test_peaks_left_out_are_told_from_peaks_used():
     assert drawn["peak used"].get_markerfacecolor() != drawn["peak left out"].get_markerfacecolor()
 
 
-def test_a_refused_identification_has_peaks_and_no_line():
-    axes = peak_decay([decay(used=0)], PRISM).axes[0]
-    assert "fit" not in axes.get_legend_handles_labels()[1]
-    assert axes.get_legend_handles_labels()[1] == ["peak left out"]
-
-
 def test_tests_side_by_side_have_the_same_scales():
     figure = peak_decay([decay(f"free-{k}", count=10 + 10 * k) for k in range(4)], PRISM)
     assert len({(axes.get_xlim(), axes.get_ylim()) for axes in figure.axes}) == 1
@@ -247,9 +241,3 @@ def test_bars_go_as_far_down_and_up_as_they_say():
 def test_an_unknown_error_has_no_bar():
     (container,) = drawn(np.array([np.nan, 1.0, 1.0, 1.0]))
     assert ends(container)[0] == (10.0, 10.0)
-
-
-def test_what_is_not_shown_is_not_there():
-    assert drawn(np.zeros(4), shown=~ALL) == []
-    (container,) = drawn(np.zeros(4), shown=X > 2)
-    assert list(container.lines[0].get_xdata()) == [3.0]

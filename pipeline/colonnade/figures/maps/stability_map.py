@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -38,8 +38,6 @@ MARKERS: dict[str, dict[str, Any]] = {
     "overturned": {"marker": "X", "facecolors": "#d1490f", "edgecolors": "#d1490f"},
 }
 """Told apart by shape on a grey print, and by colour to colour-blind readers."""
-
-NAMES = {"no-rocking": "no rocking", "rocking": "rocking", "overturned": "overturned"}
 
 BOUNDARIES: tuple[tuple[str, str, LineStyle], ...] = (
     ("rocking", "rocking begins", {"color": SOFT, "linestyle": (0, (4.0, 2.0)), "linewidth": 0.9}),
@@ -82,7 +80,7 @@ def draw_points(axes: Axes, points: Sequence[MapPoint], *, prefix: str = "", lin
                 [point.amplitude_ratio for point in chosen],
                 s=12 if is_narrow() else 26,
                 linewidths=0.9,
-                label=f"{prefix}{NAMES[outcome]}",
+                label=f"{prefix}{outcome.replace('-', ' ')}",
                 zorder=4,
                 **look,
             )
@@ -120,24 +118,16 @@ def name_axes(axes: Axes) -> None:
 
 
 def _draw_boundary(axes: Axes, boundaries: Sequence[Boundaries], name: str, label: str, style: LineStyle) -> None:
-    brackets: list[tuple[float, Bracket]] = [(each.frequency_ratio, getattr(each, name)) for each in boundaries]
-    found = [(ratio, bracket) for ratio, bracket in brackets if bracket.middle is not None]
-    if not found:
-        return
+    brackets: list[Bracket] = [getattr(each, name) for each in boundaries]
+    ratios = np.array([each.frequency_ratio for each in boundaries])
     # Where a frequency has no bracket the line breaks: nothing is known there.
-    middles = [np.nan if bracket.middle is None else bracket.middle for _, bracket in brackets]
-    ratios = [ratio for ratio, _ in brackets]
-    axes.plot(ratios, middles, label=label, zorder=2, **style)
-    axes.vlines(
-        [ratio for ratio, _ in found],
-        [cast(float, bracket.below) for _, bracket in found],
-        [cast(float, bracket.above) for _, bracket in found],
-        color=style["color"],
-        linewidth=4.0,
-        alpha=0.45,
-        zorder=1,
-        gid=f"{label}, between",
-    )
+    ends = [(each.below, each.middle, each.above) for each in brackets]
+    below, middles, above = np.array(ends, dtype=np.float64).T
+    known = np.isfinite(middles)
+    if known.any():
+        axes.plot(ratios, middles, label=label, zorder=2, **style)
+        bars = axes.vlines(ratios[known], below[known], above[known], color=style["color"], linewidth=4.0, alpha=0.45)
+        bars.set(zorder=1, gid=f"{label}, between")
 
 
 OVERTURNED_COLOUR = "#eec9b4"

@@ -71,16 +71,13 @@ def _joints(stored: Stored, names: list[str]) -> Figure:
 
 def plan(test: Test, stored: Stored, assembly: Assembly) -> Picture | None:
     """Draw the base of each body from above, to scale: at rest, at the end, and as predicted; None without bodies."""
-    records = {
-        name: {"measured": record} | dict(record.predicted)
-        for name, record in bodies_of(stored).items()
-        if record.outcome != "overturned"
-    }
-    moved = {
-        name: {who: each for who, each in every.items() if each.residual_x is not None and each.outcome != "overturned"}
-        for name, every in records.items()
-    }
-    shown = {name: every for name, every in moved.items() if every}
+    shown: dict[str, dict[str, BodyPrediction]] = {}
+    for name, record in bodies_of(stored).items():
+        every = {"measured": record, **record.predicted}
+        stands = {who: each for who, each in every.items() if each.outcome != "overturned"}
+        ended = {who: each for who, each in stands.items() if each.residual_x is not None}
+        if ended and record.outcome != "overturned":
+            shown[name] = ended
     if not shown:
         return None
     far = {name: quantity(1e-3 * _distance(next(iter(every.values()))), "mm") for name, every in shown.items()}
