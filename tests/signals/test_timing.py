@@ -123,6 +123,7 @@ def test_a_missing_time_is_no_gap():
     stamps[[0, 70, 71]] = np.nan
     assert _reasons(stamps) == ["", "", ""]
     assert np.isnan(read_clock(np.array([1.0, np.nan, 1.0])).interval)
+    assert _reasons(np.empty(0)) == ["", "", ""]
 
 
 def test_the_interval_is_that_of_the_even_steps():

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from colonnade.arrays import Array, Codes, Mask
 from colonnade.errors import count
 from colonnade.findings import Finding, Severity
-from colonnade.signals.samples import BLOCK, blocks, filled_in, is_finite, stretches
+from colonnade.signals.samples import BLOCK, blocks, filled_in, stretches
 
 ENOUGH = 100_000
 """Number of samples that is enough for a median."""
@@ -118,10 +118,9 @@ def combine(verdicts: Iterable[Verdict], size: int) -> tuple[Codes, list[Finding
 
 def check_missing(time: Array, values: Array) -> Verdict:
     """Flag samples without a value or a time."""
-    if is_finite(values) and is_finite(time):
-        return Verdict.good(values.size)
     where = ~(np.isfinite(values) & np.isfinite(time))
-    return Verdict(Flag.MISSING, where, f"{counted(where)} without a value{first_at(time, where)}", "missing samples")
+    reason = f"{counted(where)} without a value{first_at(time, where)}"
+    return Verdict.of(Flag.MISSING, where, reason, "missing samples")
 
 
 def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
@@ -272,13 +271,12 @@ def check_dead(values: Array, reference: Array, *, share: float) -> Verdict:
         Smallest standard deviation over that of the reference.
     """
     deviation, expected = float(np.nanstd(values)), float(np.nanstd(reference))
-    if not deviation < share * expected:
-        return Verdict.good(values.size)
+    where = np.full(values.size, deviation < share * expected)
     reason = (
         f"the channel is practically dead: its standard deviation is {deviation:.3g}, that of the table's "
         f"{expected:.3g} in the same unit; check its cable, sensor and range"
     )
-    return Verdict(Flag.SUSPECT, np.ones(values.size, dtype=bool), reason, "dead channel", Severity.SERIOUS)
+    return Verdict.of(Flag.SUSPECT, where, reason, "dead channel", Severity.SERIOUS)
 
 
 def check_rails(time: Array, values: Array) -> Verdict:

@@ -52,12 +52,6 @@ def filled_in(values: Array) -> Array:
     return values if finite.all() else np.interp(np.arange(values.size), np.flatnonzero(finite), values[finite])
 
 
-def is_finite(values: Array) -> bool:
-    """Whether all values are finite; their sum shows it at once, except for very large ones."""
-    with np.errstate(all="ignore"):
-        return bool(np.isfinite(values.sum())) or bool(np.isfinite(values).all())
-
-
 def blocks(size: int, length: int = BLOCK) -> Iterator[slice]:
     """
     Go through an array piece by piece.

@@ -96,12 +96,14 @@ def read_clock(stamps: Array) -> Clock:
 def check_order(stamps: Array, clock: Clock) -> Verdict:
     """Flag samples whose stamp does not fit in with the others."""
     where = np.isfinite(stamps) & ~np.isfinite(clock.time)
+    if not where.any():
+        return Verdict.good(stamps.size)
     first = f"the first is sample {int(np.argmax(where)) + 1}"
     back = np.flatnonzero(np.diff(stamps) <= 0)
     if back.size:
         at, then = stamps[back[0] : back[0] + 2]
         first = f"the clock goes from {at:.6g} to {then:.6g} s at sample {back[0] + 2:,}"
-    return Verdict.of(Flag.FAIL, where, f"{counted(where)} whose time is out of order; {first}", "time column")
+    return Verdict(Flag.FAIL, where, f"{counted(where)} whose time is out of order; {first}", "time column")
 
 
 def loses_motion(values: Array, where: Mask) -> bool:
