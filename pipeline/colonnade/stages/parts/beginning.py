@@ -72,23 +72,10 @@ def _missing(values: Array, rocking: xr.Dataset) -> str:
 
 def vertical_acceleration(rocking: xr.Dataset, *, gravity: float, expected: bool) -> tuple[Array | None, list[Finding]]:
     """
-    Return the acceleration of the base along z, as far as a prediction can take it.
+    Return the acceleration of the base along z, m/s² upwards, as far as a prediction can take it, and why it is None.
 
-    Parameters
-    ----------
-    rocking : xr.Dataset
-        Result of `rocking`.
-    gravity : float
-        m/s².
-    expected : bool
-        The set-up has an accelerometer of the table along z.
-
-    Returns
-    -------
-    vertical : ndarray, shape (n,), or None
-        m/s², positive upwards; None if it is not known throughout, or lets go of the specimen.
-    warnings : list of Finding
-        Why it is None although there is a channel.
+    It is None if it is not known throughout, or lets go of the specimen; without a channel there is nothing to say
+    unless the set-up has one, so that it was `expected`.
     """
     if "vertical_base_acceleration" not in rocking:
         reason = "No channel of the table's vertical acceleration is usable: predicted without it."

@@ -123,16 +123,7 @@ class Measured:
 
 
 def measure(conditioned: xr.Dataset, inputs: AssemblyInputs, test: Circumstances) -> Measured:
-    """
-    Fuse what is on each body into its motion relative to the table.
-
-    Parameters
-    ----------
-    conditioned : xr.Dataset
-        Result of `condition`.
-    inputs : AssemblyInputs
-    test : Circumstances
-    """
+    """Fuse what is on each body into its motion relative to the table."""
     motions: dict[str, SpecimenMotion] = {}
     reasons: dict[str, str] = {}
     for name, body in inputs.bodies.items():
@@ -222,18 +213,7 @@ def _placed(motion: SpecimenMotion, block: Block) -> tuple[Array, Array]:
 def measured_variables(
     time: Array, found: Measured, inputs: AssemblyInputs, warnings: list[Finding]
 ) -> tuple[dict[str, Any], str]:
-    """
-    Describe the bodies in a result of `rocking`; return its variables, and the outcome of all.
-
-    Parameters
-    ----------
-    time : ndarray, shape (n,)
-        s.
-    found : Measured
-    inputs : AssemblyInputs
-    warnings : list of Finding
-        Bodies without a motion are added.
-    """
+    """Describe the bodies in a result of `rocking`, and the outcome of all; those without a motion are warned of."""
     fallen: set[str] = set()
     rows = []
     for name, placed in inputs.assembly.bodies.items():

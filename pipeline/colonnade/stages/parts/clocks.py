@@ -196,14 +196,8 @@ def cut_short(
     """
     Say that a recorder begins late or ends early while something moves that another one shows.
 
-    Parameters
-    ----------
-    records, offsets, channels
-        As of `common_clock`.
-    smooth : mapping of str to (ndarray, float)
-        Values of each record on its own clock, and the standard deviation of their noise, SI.
-    clock : ndarray, shape (n,)
-        What the channels share, s.
+    `records`, `offsets` and `channels` are as of `common_clock`; `smooth` has the values of each on its own clock
+    and the standard deviation of their noise, SI; `clock` is what the channels share, s.
     """
     found = []
     for edge, place, sign, words in ((clock[0], 0, -1.0, "begins only at"), (clock[-1], -1, 1.0, "ends already at")):

@@ -102,20 +102,7 @@ class PlausibilityInputs(Inputs):
 
 
 def doubts(conditioned: xr.Dataset, inputs: PlausibilityInputs) -> list[Finding]:
-    """
-    Say which of a test's channels cannot be right, with the probable cause.
-
-    Parameters
-    ----------
-    conditioned : xr.Dataset
-        Channels in SI on the clock `elapsed`, zeroed.
-    inputs : PlausibilityInputs
-
-    Returns
-    -------
-    doubts : list of Finding
-        Empty if all agree.
-    """
+    """Say which of a test's channels, zeroed on the clock `elapsed`, cannot be right, with the probable cause."""
     time, block = conditioned["elapsed"].to_numpy(), inputs.block
     interval = float(time[1] - time[0])
     accelerations = _along_x(conditioned, inputs.accelerations)

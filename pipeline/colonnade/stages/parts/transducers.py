@@ -71,15 +71,6 @@ def misplaced(conditioned: xr.Dataset, markers: Mapping[str, MarkerInputs], asse
     """
     Find markers that are not, at rest, where their `on` and `at` put them relative to each other.
 
-    Parameters
-    ----------
-    conditioned : xr.Dataset
-        Result of `condition`: what was taken off each channel at rest is where the marker was.
-    markers : mapping of str to MarkerInputs
-    assembly : Assembly
-
-    Notes
-    -----
     Where the cameras have their origin is not known: the median over all markers is taken for it.
     """
     used = {
@@ -250,11 +241,8 @@ def base_motion(conditioned: xr.Dataset, channels: Transducers, warnings: list[F
     """
     Average the table's channels along each axis; without an accelerometer along x, differentiate its displacement.
 
-    Returns
-    -------
-    base : dict of str to ndarray, shape (n,)
-        As far as they were recorded: `base_acceleration` and `base_displacement`, and these with `transverse_` and
-        `vertical_` before; m/s² and m.
+    By name, as far as they were recorded: `base_acceleration` and `base_displacement`, m/s² and m, and these with
+    `transverse_` and `vertical_` before.
     """
     base: dict[str, Array] = {}
     for quantity, table in (("acceleration", channels.accelerations), ("displacement", channels.displacements)):
