@@ -258,12 +258,6 @@ def test_samples_of_a_record_and_a_smooth_sine_give_the_same_truth():
     np.testing.assert_allclose(linear.angle, smooth.angle, atol=2e-3 * PRISM.critical_angle)
 
 
-@pytest.mark.parametrize(("change", "said"), [({"restitution": 1.2}, "1.2"), ({"theta0": 2.0}, "within the catch")])
-def test_impossible_blocks_are_refused(change, said):
-    with pytest.raises(ValueError, match=said):
-        simulate(PRISM, [1.0], **{"restitution": 0.9, **change})
-
-
 def test_each_number_has_its_truth_next_to_it(tmp_path):
     true = {"outcome": "rocking", "peak_ratio": 0.4, "release_ratio": 0.5}
     truth = {"specimens": {"prism": {"restitution": 0.95}}, "tests": {"free-01": true}}

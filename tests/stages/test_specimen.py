@@ -79,11 +79,6 @@ def test_the_method_names_that_of_the_tests_and_their_number(count, words):
     assert found.attrs["restitution_source"] == "identified"
 
 
-def test_the_order_of_the_tests_does_not_matter():
-    tests = {"b": identified(0.92), "a": identified(0.93, 0.003), "c": refused("x")}
-    xr.testing.assert_identical(specimen(tests, inputs()), specimen(dict(reversed(tests.items())), inputs()))
-
-
 @pytest.mark.parametrize(("given_e", "sides"), [(0.9, [0.9, 0.9]), ((0.9, 0.8), [0.9, 0.8])])
 def test_a_given_e_comes_first_and_what_was_identified_is_kept(given_e, sides):
     found = specimen({"a": identified(0.93), "b": refused("no arc")}, inputs(given_e))

@@ -130,21 +130,12 @@ def simulate(
     theta0, omega0 : float, optional
         Angle at which the block is held until `release` (s), and angular velocity with which it leaves, rad and rad/s.
     catch : float, optional
-        |θ| at which the safety frame catches the block, which then stays there, rad.
+        |θ| at which the safety frame catches the block, which then stays there, rad; more than |theta0|.
 
     Returns
     -------
     truth : Truth
-
-    Raises
-    ------
-    ValueError
-        If e is not between 0 and 1, or the block is not released between the frame and its catch.
     """
-    if not 0.0 <= restitution <= 1.0:
-        raise ValueError(f"restitution is {restitution}; a number between 0 and 1 was expected")
-    if not abs(theta0) < catch:
-        raise ValueError(f"theta0 is {theta0} rad; an angle within the catch of {catch} rad was expected")
     run = Integration(block, np.atleast_1d(np.asarray(time, dtype=np.float64)), restitution, catch, theta0)
     run.move_to(release)
     run.release(theta0, omega0)
