@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
@@ -85,7 +87,7 @@ def contact(specimen: xr.Dataset, inputs: ContactInputs) -> xr.Dataset:
         friction=settings.friction,
         penetration=settings.penetration,
     )
-    try:
+    with refusals():
         found = calibrate(
             body,
             law,
@@ -95,8 +97,6 @@ def contact(specimen: xr.Dataset, inputs: ContactInputs) -> xr.Dataset:
             fractions=(law.damping_fraction,) if given else FRACTIONS,
             identify=partial(identified, lowest_amplitude=inputs.lowest_amplitude),
         )
-    except ValueError as error:
-        raise StageError(f"processing.predict.contact: {error}") from error
     return xr.Dataset(
         {
             "contact_restitution": found.restitution,
@@ -171,10 +171,17 @@ def body_of(inputs: ContactInputs, law: ContactLaw) -> ContactBody:
     StageError
         If a body without dimensions is to be meshed, or the step is too long for the law.
     """
-    try:
+    with refusals("processing.predict.contact.step"):
         return keep_modes_for_step(_whole_body(inputs), law, inputs.settings.step)
+
+
+@contextmanager
+def refusals(key: str = "processing.predict.contact") -> Iterator[None]:
+    """Tell what the contact model refuses as an error about a key of the campaign file."""
+    try:
+        yield
     except ValueError as error:
-        raise StageError(f"processing.predict.contact.step: {error}") from error
+        raise StageError(f"{key}: {error}") from error
 
 
 @lru_cache(maxsize=4)

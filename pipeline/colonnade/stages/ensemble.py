@@ -20,8 +20,7 @@ from colonnade.dynamics.contact.simulate import plane_block
 from colonnade.dynamics.ensemble import Plan, PlanePlan
 from colonnade.dynamics.models import CONTACT
 from colonnade.dynamics.uncertainty import INPUTS
-from colonnade.errors import StageError
-from colonnade.stages.contact import assembly_law, body_of, law_of
+from colonnade.stages.contact import assembly_law, body_of, law_of, refusals
 from colonnade.stages.parts.beginning import RECORDED, begin
 from colonnade.stages.parts.rank import MeasurementInputs, describe_bands, measurement_errors
 from colonnade.stages.parts.transducers import transducers
@@ -241,11 +240,9 @@ def contact_ensemble(
         misplacement=abs(ranges.misplacement),
         step=space.settings.step,
     )
-    try:
+    with refusals():
         central = plan.central_angle()
         parts = run(plan, central)
-    except ValueError as error:
-        raise StageError(f"processing.predict.contact: {error}") from error
     found = plan.gather(central, parts)
     middles = {name: getattr(law, name, 1.0) or 1.0 for name in varied}
     deviations = {name: np.ptp(varied[name]) / np.sqrt(12.0) / middles[name] for name in varied}

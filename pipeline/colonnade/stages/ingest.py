@@ -183,9 +183,10 @@ def _judged(
     """Variables of a channel, and all its findings but those of its clock."""
     channel, values, physical = track.channel, track.values, track.physical
     verdicts = channel_verdicts(time, values, physical, channel, inputs.settings)
-    references = [other.physical for other in table if _same_axis(channel, other.channel)]
-    if channel.on == "specimen" and channel.quantity == "acceleration" and references:
-        verdicts.append(quality.check_dead(physical, max(references, key=np.nanstd), share=DEAD_SHARE))
+    if channel.on == "specimen" and channel.quantity == "acceleration":
+        along = [other.physical for other in table if _same_axis(channel, other.channel)]
+        if along:
+            verdicts.append(quality.check_dead(physical, max(along, key=np.nanstd), share=DEAD_SHARE))
     flags, found = quality.combine([*timed, *verdicts], values.size)
     seen, decisions = quality.combine(reviewed(track.name, time, inputs.review), values.size)
     variable = variable_name(track.name)

@@ -12,9 +12,8 @@ from colonnade.campaign.channel import ALONG
 from colonnade.dynamics.history import History, amplitude
 from colonnade.dynamics.models import model_of
 from colonnade.dynamics.rock import rock
-from colonnade.errors import StageError
 from colonnade.findings import serious
-from colonnade.stages.contact import ContactInputs, assembly_law, body_of, law_of, law_variables
+from colonnade.stages.contact import ContactInputs, assembly_law, body_of, law_of, law_variables, refusals
 from colonnade.stages.parts.beginning import Beginning, BeginningInputs, begin
 from colonnade.stages.parts.bodies import AssemblyInputs, predicted_variables
 from colonnade.stages.parts.transducers import transducers
@@ -137,13 +136,15 @@ def _in_space(
     settings, motion = space.settings, beginning.motion
     theta0, omega0 = beginning.theta0, beginning.omega0
     law = assembly_law(settings) if contact is None else law_of(contact)
-    try:
-        if inputs.assembly is not None:
-            bodies = inputs.assembly.assembly
+    if inputs.assembly is not None:
+        bodies = inputs.assembly.assembly
+        with refusals():
             together = simulate_assembly(bodies, motion, law=law, theta0=theta0, omega0=omega0)
-            return _of_assembly(together, time, beginning, inputs, inputs.assembly)
+        return _of_assembly(together, time, beginning, inputs, inputs.assembly)
+    body = body_of(space, law)
+    with refusals():
         moved = simulate(
-            body_of(space, law),
+            body,
             motion,
             law=law,
             gravity=space.block.gravity,
@@ -152,8 +153,6 @@ def _in_space(
             omega0=omega0,
             out_of_plane=settings.out_of_plane,
         )
-    except ValueError as error:
-        raise StageError(f"processing.predict.contact: {error}") from error
     over_time = {
         "slide": moved.slide[:, 0],
         "transverse_slide": moved.slide[:, 1],
