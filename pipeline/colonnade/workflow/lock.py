@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 import os
 import platform
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 from uuid import uuid4
 
 from filelock import FileLock, Timeout
@@ -79,7 +80,7 @@ def _held(layout: Layout, path: Path, holder: Path, refusal: str, *, sweeps: boo
         lock = FileLock(path)
         lock.acquire(timeout=0)
     except Timeout:
-        raise StoreError(refusal.format(holder=_named(holder))) from None
+        raise StoreError(refusal.format(holder=_named(_who(holder)))) from None
     except OSError as error:
         raise StoreError(
             f"{layout.processed}: results cannot be written here ({error.strerror or error}). A writable folder with "
@@ -138,11 +139,7 @@ def expect_run(layout: Layout, run_id: str) -> None:
     RunEndedError
         If it has ended, or another has begun.
     """
-    try:
-        holder = json.loads(layout.lock_holder.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        holder = None
-    if not isinstance(holder, dict) or holder.get("run") != run_id:
+    if _who(layout.lock_holder).get("run") != run_id:
         raise RunEndedError(f"{layout.home}: the run that asked for this has ended; nothing more is written for it.")
 
 
@@ -155,9 +152,15 @@ def _remove(paths: Iterable[Path]) -> None:
         remove(path)
 
 
-def _named(holder: Path) -> str:
+def _who(holder: Path) -> dict[str, Any]:
+    """Read who holds a lock; empty if that is not known."""
     try:
         who = json.loads(holder.read_text(encoding="utf-8"))
-        return f"process {who['process']} on {who['host']}, since {who['since']}"
-    except (OSError, ValueError, KeyError, TypeError):
-        return "another process"
+    except (OSError, ValueError):
+        return {}
+    return who if isinstance(who, dict) else {}
+
+
+def _named(who: Mapping[str, Any]) -> str:
+    is_known = {"process", "host", "since"} <= who.keys()
+    return "process {process} on {host}, since {since}".format_map(who) if is_known else "another process"

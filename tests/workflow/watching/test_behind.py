@@ -56,8 +56,7 @@ def test_the_line_that_says_what_happened_is_found(said, headline):
 def test_a_run_that_is_killed_says_so(small):
     behind = Behind(small.folder / "campaign.toml", None, 1)
     behind.start()
-    assert behind._process is not None
-    behind._process.kill()
+    behind._running[0].kill()
     found = wait_until(behind.ended)
     assert (found.was_refused, found.headline) == (False, "It ended with exit code -9.")
 

@@ -9,8 +9,7 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
@@ -71,63 +70,55 @@ class Behind:
     campaign_file: Path
     results: Path | None
     workers: int | None
-    _process: subprocess.Popen[bytes] | None = None
-    _output: IO[bytes] | None = field(default=None, repr=False)
-    _complaints: IO[bytes] | None = field(default=None, repr=False)
+    _running: tuple[subprocess.Popen[bytes], IO[bytes], IO[bytes]] | None = None  # with its stdout and stderr
 
     def start(self) -> None:
         """Begin a run."""
-        self._output, self._complaints = (tempfile.TemporaryFile() for _ in range(2))  # noqa: SIM115 — `_end` closes
+        output, complaints = (tempfile.TemporaryFile() for _ in range(2))  # noqa: SIM115 — `_end` closes
         command = [sys.executable, "-m", orphans.__name__, str(os.getpid())]
         command += ["run", str(self.campaign_file), "--await", "--json"]
         command += [] if self.results is None else ["--results", str(self.results)]
         command += [] if self.workers is None else ["--workers", str(self.workers)]
         options = {"process_group": 0} if os.name == "posix" else {"creationflags": _windows_flags()}
-        self._process = subprocess.Popen(  # type: ignore[call-overload]
-            command, stdin=subprocess.DEVNULL, stdout=self._output, stderr=self._complaints, **options
+        process: subprocess.Popen[bytes] = subprocess.Popen(  # type: ignore[call-overload]
+            command, stdin=subprocess.DEVNULL, stdout=output, stderr=complaints, **options
         )
+        self._running = process, output, complaints
         if os.name == "posix":
             with contextlib.suppress(OSError):
-                os.setpriority(os.PRIO_PGRP, self._process.pid, NICENESS)
+                os.setpriority(os.PRIO_PGRP, process.pid, NICENESS)
 
     @property
     def is_running(self) -> bool:
         """Whether it has been started, and its end not been taken note of."""
-        return self._process is not None
+        return self._running is not None
 
     def ended(self) -> Ended | None:
         """Return how a run has ended by itself, once; else None."""
-        if self._process is None or self._process.poll() is None:
-            return None
-        return self._end()
+        return None if self._running is None or self._running[0].poll() is None else self._end(*self._running)
 
     def give_way(self) -> None:
         """Stop it: what it finished is kept, the rest is done by the next."""
-        if self._process is None:
+        if self._running is None:
             return
-        self._process.terminate()
-        until = time.monotonic() + PATIENCE
-        while self._process.poll() is None and time.monotonic() < until:
-            time.sleep(0.02)
-        if self._process.poll() is None:
-            _kill(self._process)
-        self._end()
+        process, *_ = self._running
+        process.terminate()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(PATIENCE)
+        if process.poll() is None:
+            _kill(process)
+        self._end(*self._running)
 
-    def _end(self) -> Ended:
-        assert self._process is not None
-        assert self._output is not None
-        assert self._complaints is not None
-        code = self._process.wait()
-        for stream in (self._output, self._complaints):
-            stream.seek(0)
-        said = self._complaints.read().decode(errors="replace").strip()
-        try:
-            stages = json.loads(self._output.read() or b"{}").get("stages")
-        except (ValueError, RecursionError):
-            stages = None
-        self._output.close()
-        self._complaints.close()
-        self._process = self._output = self._complaints = None
+    def _end(self, process: subprocess.Popen[bytes], output: IO[bytes], complaints: IO[bytes]) -> Ended:
+        code, self._running = process.wait(), None
+        with output, complaints:
+            for stream in (output, complaints):
+                stream.seek(0)
+            said = complaints.read().decode(errors="replace").strip()
+            try:
+                stages = json.loads(output.read() or b"{}").get("stages")
+            except (ValueError, RecursionError):
+                stages = None
         was_refused = stages is None and is_refusal(said)
         problem = "" if was_refused or stages is not None else said or f"It ended with exit code {code}."
         failed = [each for each in stages or () if each["action"] == "failed"]
