@@ -99,7 +99,7 @@ def test_closer_look():
         "nonlinear": Phase(0.44 * np.sin(turn), 0.52 * np.cos(turn)),
     }
     curves = {"measured": cycles, "nonlinear": once}
-    enlarged = Enlarged("phase of the base (periods)", curves, "last 2 periods of the steady part")
+    enlarged = Enlarged("phase of the base (periods)", curves, "last 2 periods of the steady part", (0.0, 1.0))
     return closer_look(phases, separatrix(PRISM), enlarged)
 
 

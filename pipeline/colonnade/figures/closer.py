@@ -27,9 +27,6 @@ HEIGHT, APART = 2.5, 0.75
 
 SEPARATRIX: LineStyle = {**LIMIT, "color": SOFT}
 
-Stretch = tuple[float, float]
-"""Of time: from, to; s."""
-
 THINNESS = 0.7
 """Of the models' lines beside their usual width."""
 
@@ -46,12 +43,13 @@ class Enlarged(NamedTuple):
     A part of the motion, enlarged.
 
     `curves` are θ/α as "measured" and by model over what `label` says, cycles on each other with gaps between them:
-    one path, however many they are. `remark` is written into the panel.
+    one path, however many they are. `remark` is written into the panel. `stretch` is the time (s), from and to.
     """
 
     label: str
     curves: Mapping[str, Curve]
     remark: str
+    stretch: tuple[float, float]
 
 
 @styled()
@@ -115,12 +113,9 @@ def picture(test: Test, record: TestSummary, stored: Stored, block: Block) -> Pi
     curves = ratios(stored, block)
     if record.outcome == "no-rocking" or not curves:
         return None
-    enlarged: Enlarged | None = None
-    if stretch := _steady_stretch(record, stored):
-        enlarged = _steady(record, stored, stretch, curves)
-    elif stretch := _about_peak(record, curves, block):
-        enlarged = _in_time(record, stretch, curves)
-    phases = {who: _phase(curve, block, stretch) for who, curve in curves.items()}
+    enlarged = _steady(record, stored, curves) or _about_peak(record, curves, block)
+    first, last = (-np.inf, np.inf) if enlarged is None else enlarged.stretch
+    phases = {who: _phase(curve.within(first, last), block) for who, curve in curves.items()}
     phases = {who: phase for who, phase in phases.items() if phase.ratio.size > 2}
     if not phases:
         return None
@@ -144,10 +139,9 @@ def separatrix(block: Block) -> Phase:
     return Phase(ratio, np.sqrt(2 * (1 - np.cos(critical * (1 - np.abs(ratio))))) / critical)
 
 
-def _phase(curve: Curve, block: Block, stretch: Stretch | None) -> Phase:
-    """Return angle and angular velocity over p and α within a stretch of time, thinned."""
-    first, last = stretch or (-np.inf, np.inf)
-    known = np.flatnonzero(np.isfinite(curve.values) & (curve.time >= first) & (curve.time <= last))
+def _phase(curve: Curve, block: Block) -> Phase:
+    """Return angle and angular velocity over p and α, thinned."""
+    known = np.flatnonzero(np.isfinite(curve.values))
     if known.size < 3:
         return Phase(np.empty(0), np.empty(0))
     inside = slice(int(known[0]), int(known[-1]) + 1)
@@ -156,60 +150,46 @@ def _phase(curve: Curve, block: Block, stretch: Stretch | None) -> Phase:
     return Phase(ratio[::step], (np.gradient(ratio, time) / block.p)[::step])
 
 
-def _steady_stretch(record: TestSummary, stored: Stored) -> Stretch | None:
-    """Return the last periods of the steady part of a sine, s."""
+def _steady(record: TestSummary, stored: Stored, curves: Mapping[str, Curve]) -> Enlarged | None:
+    """Return the last responses of the steady part of a sine on each other, over the phase of the base."""
     frequency, start, stop = (
         stored.value("compare", name) for name in ("forcing_frequency", "steady_start", "steady_stop")
     )
     if record.outcome == "overturned" or not np.isfinite((frequency, start, stop)).all():
         return None
-    order = _order(record)
+    order = record.order if isinstance(record.order, int) else 1
     periods = min(order * CYCLES, int((stop - start) * frequency) // order * order)
-    return (stop - periods / frequency, stop) if periods >= order else None
-
-
-def _order(record: TestSummary) -> int:
-    return record.order if isinstance(record.order, int) else 1
-
-
-def _steady(record: TestSummary, stored: Stored, stretch: Stretch, curves: Mapping[str, Curve]) -> Enlarged:
-    """Return the last responses of the steady part of a sine on each other, over the phase of the base."""
-    (first, stop), order, frequency = stretch, _order(record), stored.value("compare", "forcing_frequency")
-    time, base = (stored.array("rocking", name) for name in ("elapsed", "base_acceleration"))
-    zero = _rising(time, base, frequency, first, stop)
+    if periods < order:
+        return None
+    first = stop - periods / frequency
+    base = Curve(*(stored.array("rocking", name) for name in ("elapsed", "base_acceleration"))).within(first, stop)
+    zero = _rising(base, frequency)
 
     def cycles(curve: Curve) -> Curve:
-        inside = (curve.time >= first) & (curve.time <= stop)
-        phase, values = (curve.time[inside] - zero) * frequency, curve.values[inside]
+        phase = (curve.time - zero) * frequency
         turn = np.floor(phase / order)
         begins = np.flatnonzero(np.diff(turn)) + 1
-        return Curve(np.insert(phase - order * turn, begins, np.nan), np.insert(values, begins, np.nan))
+        return Curve(np.insert(phase - order * turn, begins, np.nan), np.insert(curve.values, begins, np.nan))
 
-    return Enlarged(
-        "phase of the base (periods)",
-        {who: cycles(curve) for who, curve in curves.items()},
-        f"last {round((stop - first) * frequency)} periods of the steady part",
-    )
+    steady = {who: cycles(curve.within(first, stop)) for who, curve in curves.items()}
+    remark = f"last {periods} periods of the steady part"
+    return Enlarged("phase of the base (periods)", steady, remark, (first, stop))
 
 
-def _rising(time: Array, base: Array, frequency: float, first: float, stop: float) -> float:
-    """Return a time (s) at which the sine in the base acceleration rises through zero."""
-    inside = (time >= first) & (time <= stop) & np.isfinite(base)
-    amplitude = np.mean(base[inside] * np.exp(-2j * np.pi * frequency * (time[inside] - first)))
-    return float(first - (np.angle(amplitude) + np.pi / 2) / (2 * np.pi * frequency))
+def _rising(base: Curve, frequency: float) -> float:
+    """Return a time (s) at which the sine in a base acceleration rises through zero."""
+    known = np.isfinite(base.values)
+    turns = np.exp(-2j * np.pi * frequency * (base.time[known] - base.time[0]))
+    angle = np.angle(np.mean(base.values[known] * turns))
+    return float(base.time[0] - (angle + np.pi / 2) / (2 * np.pi * frequency))
 
 
-def _about_peak(record: TestSummary, curves: Mapping[str, Curve], block: Block) -> Stretch | None:
-    """Return the time about the largest measured angle, s."""
+def _about_peak(record: TestSummary, curves: Mapping[str, Curve], block: Block) -> Enlarged | None:
+    """Return the motion about the largest measured angle."""
     if record.peak_time is None or "measured" not in curves:
         return None
     reach = AROUND * 2 * np.pi / block.p
-    return record.peak_time - reach, record.peak_time + reach
-
-
-def _in_time(record: TestSummary, stretch: Stretch, curves: Mapping[str, Curve]) -> Enlarged:
-    first, last = stretch
-    inside = {who: (curve.time >= first) & (curve.time <= last) for who, curve in curves.items()}
-    near = {who: Curve(curve.time[inside[who]], curve.values[inside[who]]) for who, curve in curves.items()}
+    stretch = record.peak_time - reach, record.peak_time + reach
+    near = {who: curve.within(*stretch) for who, curve in curves.items()}
     name = "overturning" if record.outcome == "overturned" else "the largest angle"
-    return Enlarged("time (s)", near, f"about {name}")
+    return Enlarged("time (s)", near, f"about {name}", stretch)

@@ -10,6 +10,7 @@ from colonnade.campaign import Test
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.figures import closer
 from colonnade.figures.moving import animation
+from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored.record import measured_ratio
 from colonnade.store.records.stored import Stored
 from prism import PRISM
@@ -62,7 +63,7 @@ def test_a_steady_sine_is_drawn_over_the_phase_of_the_base():
 def test_the_base_rises_through_zero_at_phase_zero():
     time = np.arange(0, 10, 0.002)
     base = 3 * np.sin(2 * np.pi * 2.0 * (time - 0.123))
-    zero = closer._rising(time, base, 2.0, 4.0, 9.0)
+    zero = closer._rising(Curve(time, base).within(4.0, 9.0), 2.0)
     assert (zero - 0.123) * 2.0 == pytest.approx(round((zero - 0.123) * 2.0), abs=1e-3)
 
 

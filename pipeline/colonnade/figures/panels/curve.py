@@ -22,6 +22,11 @@ class Curve(NamedTuple):
     time: Array
     values: Array
 
+    def within(self, first: float, last: float) -> Curve:
+        """Return its part between two times, s."""
+        inside = (self.time >= first) & (self.time <= last)
+        return Curve(self.time[inside], self.values[inside])
+
 
 def envelope(curve: Curve, *, intervals: int = INTERVALS) -> Curve:
     """

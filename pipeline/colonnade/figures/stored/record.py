@@ -85,8 +85,7 @@ def misfits(stored: Stored, curves: Mapping[str, Curve]) -> dict[str, Curve]:
     for model, curve in curves.items():
         until = stored.compared("compared_until", model)
         if measured is not None and curve.values.shape == measured.values.shape and np.isfinite(until):
-            within = curve.time <= until
-            found[model] = Curve(curve.time[within], (curve.values - measured.values)[within])
+            found[model] = Curve(curve.time, curve.values - measured.values).within(-np.inf, until)
     return found
 
 
