@@ -73,15 +73,19 @@ def _record(time, values):
     return even_record(time, values, np.full(time.size, Flag.GOOD, dtype=np.int8))
 
 
+def _pair(motion, delay, *, seed=0, sign=1.0):
+    """A motion as two recorders have it, the second late and perhaps with the other sign."""
+    rng = np.random.default_rng(seed)
+    return [
+        _record(time, factor * motion(time - late) + rng.normal(0, 0.01, time.size))
+        for time, late, factor in ((np.arange(0, 12, 1 / 500), 0.0, 1.0), (np.arange(0, 12, 1 / 400), delay, sign))
+    ]
+
+
 @every("delay", [0.02, -0.15, 0.2])
 @every("frequency", [1.0, 3.0, 7.0])
 def test_a_steady_sine_has_a_rival_one_period_off(delay, frequency):
-    rng = np.random.default_rng(0)
-    first, second = np.arange(0, 12, 1 / 500), np.arange(0, 12, 1 / 400)
-    records = [
-        _record(time, 2 * np.sin(2 * np.pi * frequency * (time - late)) + rng.normal(0, 0.01, time.size))
-        for time, late in ((first, 0.0), (second, delay))
-    ]
+    records = _pair(lambda time: 2 * np.sin(2 * np.pi * frequency * time), delay)
     found = link(*records, quantities=ACCELERATIONS, longest=1.1, sign=1.0)
     assert found.rival is not None
     assert "fits as well as" in found.doubt
@@ -92,15 +96,7 @@ def test_a_steady_sine_has_a_rival_one_period_off(delay, frequency):
 
 @pytest.mark.parametrize("seed", range(5))
 def test_a_sine_that_begins_has_no_rival(seed):
-    rng = np.random.default_rng(seed)
-    first, second = np.arange(0, 12, 1 / 500), np.arange(0, 12, 1 / 400)
-    records = [
-        _record(
-            time,
-            2 * np.sin(6 * np.pi * (time - late)) * np.clip(time - late - 1, 0, 1) + rng.normal(0, 0.01, time.size),
-        )
-        for time, late in ((first, 0.0), (second, 0.2))
-    ]
+    records = _pair(lambda time: 2 * np.sin(6 * np.pi * time) * np.clip(time - 1, 0, 1), 0.2, seed=seed)
     found = link(*records, quantities=ACCELERATIONS, longest=1.0, sign=1.0)
     assert found.rival is None
     assert found.doubt == ""
@@ -122,13 +118,8 @@ def test_records_that_share_no_time_are_refused():
 
 
 def _linked(delay, *, sign=1.0, longest=1.0, frequency=None):
-    rng = np.random.default_rng(1)
-    first, second = np.arange(0, 12, 1 / 500), np.arange(0, 12, 1 / 400)
-    motion = _ramped(frequency) if frequency else lambda time: np.interp(time, TIME, SHAKEN)
-    records = [
-        _record(time, factor * motion(time - late) + 0.3 + rng.normal(0, 0.01, time.size))
-        for time, late, factor in ((first, 0.0, 1.0), (second, delay, sign))
-    ]
+    motion = _ramped(frequency) if frequency else lambda time: 0.3 + np.interp(time, TIME, SHAKEN)
+    records = _pair(motion, delay, seed=1, sign=sign)
     return link(*records, quantities=ACCELERATIONS, longest=longest, sign=1.0)
 
 
