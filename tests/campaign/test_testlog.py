@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from colonnade.campaign import load
 from colonnade.errors import CampaignError
+from workbooks import xlsx
 
 CONTRACT = Path(__file__).with_name("contract.toml").read_text(encoding="utf-8")
 HEADS = [
@@ -43,33 +44,11 @@ def with_rows(folder, rows):
 
 
 def workbook(rows):
-    """Write a minimal xlsx: text as inline strings, numbers as numbers."""
-    cells = []
-    for number, row in enumerate(rows, 1):
-        line = ""
-        for column, cell in enumerate(row):
-            place = f"{chr(65 + column)}{number}"
-            if re.fullmatch(r"[0-9.]+", cell):
-                line += f'<c r="{place}"><v>{cell}</v></c>'
-            elif cell:
-                line += f'<c r="{place}" t="inlineStr"><is><t>{cell}</t></is></c>'
-        cells.append(f'<row r="{number}">{line}</row>')
-    main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
-    kind = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
-    link = '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" '
-    sheets = '<sheets><sheet name="log" sheetId="1" r:id="r1"/></sheets>'
-    parts = {
-        "[Content_Types].xml": "<Types/>",
-        "_rels/.rels": f'{link}Type="{kind}/officeDocument" Target="xl/workbook.xml"/></Relationships>',
-        "xl/workbook.xml": f'<workbook xmlns="{main}" xmlns:r="{kind}">{sheets}</workbook>',
-        "xl/_rels/workbook.xml.rels": f'{link}Type="{kind}/worksheet" Target="worksheets/sheet1.xml"/></Relationships>',
-        "xl/worksheets/sheet1.xml": f'<worksheet xmlns="{main}"><sheetData>{"".join(cells)}</sheetData></worksheet>',
-    }
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w") as archive:
-        for name, text in parts.items():
-            archive.writestr(name, text)
-    return buffer.getvalue()
+    """Write an xlsx: text as text, numbers as numbers."""
+    written = io.BytesIO()
+    typed = [[float(cell) if re.fullmatch(r"[0-9.]+", cell) else cell or None for cell in row] for row in rows]
+    xlsx(written, log=typed)
+    return written.getvalue()
 
 
 LOGS = {
