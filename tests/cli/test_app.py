@@ -16,9 +16,6 @@ def test_commands_are_listed_in_the_order_in_which_they_are_met(colonnade):
     places = [told.index(f"│ {command.name} ") for command in COMMANDS]
     assert places == sorted(places)
     assert list(app.commands) == [command.name for command in COMMANDS]
-
-
-def test_every_command_says_in_a_line_what_it_does():
     assert all(command.get_short_help_str(200).rstrip(".") for command in COMMANDS)
 
 

@@ -19,9 +19,10 @@ posix = pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POS
 
 
 @pytest.mark.smoke
-def test_help_is_a_success(process):
+def test_a_process_ends_with_the_code_of_its_command_and_help_is_a_success(process):
     told = process("--help")
     assert (told.returncode, told.stderr) == (0, "")
+    assert [process(*arguments).returncode for arguments in ((), ("rnu",))] == [2, 2]
 
 
 @pytest.mark.parametrize("command", [command.name for command in COMMANDS])
@@ -63,11 +64,6 @@ def test_what_cannot_be_done_is_said_and_leaves_campaign_files(colonnade, campai
     assert said in " ".join(told.stderr.split())
     assert "Traceback" not in told.stderr
     assert {path: path.read_bytes() for path in campaign.rglob("*.toml")} == before
-
-
-@pytest.mark.smoke
-def test_a_process_ends_with_the_code_of_its_command(process):
-    assert [process(*arguments).returncode for arguments in ((), ("rnu",))] == [2, 2]
 
 
 @posix

@@ -32,12 +32,6 @@ def test_a_restitution_is_needed(untouched):
         calibrate(untouched.folder)
 
 
-def test_an_unknown_specimen_is_refused_with_the_nearest(untouched):
-    with pytest.raises(CampaignError, match=r'no specimen "prysm".*Did you mean "prism"'):
-        calibrate(untouched.folder, specimens=("prysm",))
-    assert not untouched.layout.processed.exists()
-
-
 def test_a_given_restitution_is_known_without_any_run_and_a_stored_law_is_not_found_again(untouched, monkeypatch):
     give(untouched)
     (made,) = calibrate(untouched.folder, workers=1)

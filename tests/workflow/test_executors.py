@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from colonnade.errors import ColonnadeError
-from colonnade.workflow.executors import spread, stopped
+from colonnade.workflow.executors import spread
 
 
 def whose(number):
@@ -49,13 +49,11 @@ def test_the_caller_may_use_joblib_afterwards_and_we_after_it():
     assert ended.stdout == "[1, 2, 3] [4, 5]\n" * 2, ended.stderr
 
 
-@pytest.mark.parametrize(("items", "workers"), [([3, 1, 2], 1), ([3], 4)], ids=["one worker", "one item"])
+@pytest.mark.parametrize(
+    ("items", "workers"), [([3, 1, 2], 1), ([3], 4), ([], 4)], ids=["one worker", "one item", "nothing"]
+)
 def test_one_worker_or_one_item_is_done_here_and_in_order(items, workers):
     assert list(spread(whose, items, workers=workers)) == [(item**2, os.getpid()) for item in items]
-
-
-def test_nothing_to_do_gives_nothing():
-    assert list(spread(whose, [])) == []
 
 
 def test_two_workers_do_each_item_once_and_not_here():
@@ -86,14 +84,3 @@ def test_what_a_stopped_worker_did_is_done_again(tmp_path):
 def test_a_worker_that_is_stopped_is_an_error_with_what_to_do():
     with pytest.raises(ColonnadeError, match=r"A worker process was stopped.*Run again with fewer workers"):
         list(spread(die, range(2), workers=2))
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("The exit codes of the workers are {SIGKILL(-9)}", "A worker process was stopped (SIGKILL(-9))"),
-        ("of unknown cause", "A worker process was stopped"),
-    ],
-)
-def test_how_a_worker_ended_is_said_where_it_is_known(text, said):
-    assert stopped(RuntimeError(text)) == said

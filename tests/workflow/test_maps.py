@@ -147,11 +147,6 @@ def test_each_thing_that_a_map_is_made_from_has_its_hash(change, name):
     assert {key for key in before if before[key] != after[key]} == {name}
 
 
-def test_a_campaign_that_was_never_run_takes_the_rigid_body_and_has_no_points(untouched):
-    result = made(untouched)
-    assert (result.restitution_source, result.measured) == ("rigid-body", 0)
-
-
 def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
     summary = small.summary()
     summary["tests"]["pulse-01"] |= {"frequency_ratio": 6.0, "amplitude_ratio": 4.0, "outcome": "overturned"}

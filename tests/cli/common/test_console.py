@@ -53,11 +53,6 @@ def test_fields_are_under_each_other(capsys):
     assert capsys.readouterr().out == "id       a\noutcome  rocking\n"
 
 
-def test_what_went_wrong_is_no_result(capsys):
-    console.complain("No.")
-    assert (capsys.readouterr()) == ("", "No.\n")
-
-
 @pytest.fixture
 def lines(monkeypatch, capsys):
     """Wait until some lines of progress were written; return them."""
