@@ -102,8 +102,9 @@ def test_curves_and_peaks_come_back_to_the_last_bit(filled_campaign, monkeypatch
         _, channels, thumbnail, panel, _, free, used = kept["given"]
         assert (back.channels, back.thumbnail, back.used) == (channels, thumbnail, used)
         if panel is not None:
-            assert back.span.panel.predicted.keys() == panel.predicted.keys()
-            assert np.array_equal(back.span.panel.measured.values, panel.measured.values, equal_nan=True)
+            found = back.span.panel.curves
+            assert found.keys() == panel.curves.keys()
+            assert np.array_equal(found["measured"].values, panel.curves["measured"].values, equal_nan=True)
         else:
             assert np.array_equal(back.free_vibration.drawn.peaks.angle, free.drawn.peaks.angle)
             assert back.free_vibration.drawn.peaks.used.dtype == np.bool_
