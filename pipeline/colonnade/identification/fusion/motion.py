@@ -82,12 +82,10 @@ def specimen_motion(
     Positions are fitted sample by sample. Gyroscopes are integrated, their drift held by that angle or, without one, by
     the rests. Accelerometers give the angle if nothing else does; otherwise they are compared with it.
     """
-    still = np.zeros(test.displacement.shape[1])
-    motion = SpecimenMotion({}, {}, np.full_like(positions.values, np.nan), Pose(*[still] * 6), "")
-    refusal, notes, is_fitted = UnseenRotationError("No transducer on the specimen measures its rotation"), [], False
+    fitted, refusal = None, UnseenRotationError("No transducer on the specimen measures its rotation")
     if positions.sensors:
         try:
-            motion = fit_pose(
+            fitted = fit_pose(
                 positions.values,
                 positions.sensors,
                 block,
@@ -95,51 +93,48 @@ def specimen_motion(
                 outline=outline,
                 base=test.displacement,
             )
-            is_fitted, notes = True, [motion.separation]
         except UnseenRotationError as error:
             refusal = error
-    entered = [np.full(len(each.sensors), False) for each in (positions, gyroscopes, accelerometers)]
-    entered[0][:] = is_fitted
+    notes = [] if fitted is None else [fitted.separation]
     turning = np.array([abs(each.direction[1]) > SEEN for each in gyroscopes.sensors], dtype=np.bool_)
     found: Angle | None = None
     if turning.any():
         tracked = None
-        if is_fitted:
+        if fitted is not None:
             # Its error were its noise white.
             kept = min(2 * float(positions.cutoff_hz.min()) * test.interval, 1.0)
-            tracked = motion.angle, motion.standard_error["rocking_angle"] / np.sqrt(kept)
+            tracked = fitted.angle, fitted.standard_error["rocking_angle"] / np.sqrt(kept)
         found, text = _from_rates(gyroscopes.only(turning), tracked, block, test)
-        entered[1][:] = turning & (found is not None)
         notes.append(text)
-    elif not is_fitted and accelerometers.sensors:
+    elif fitted is None and accelerometers.sensors:
         found = _from_accelerometers(accelerometers, block, test)
-        entered[2][:] = True
         notes.append(
             f"angle only, from {len(accelerometers.sensors)} accelerometers: differences for the rotation, gravity for "
             "the tilt; slide cannot be separated from tilt and is taken as zero"
         )
+    if fitted is None:
+        if found is None:
+            raise refusal
+        still = np.zeros(test.displacement.shape[1])
+        fitted = SpecimenMotion({}, {}, np.full_like(positions.values, np.nan), Pose(*[still] * 6), "")
+        if positions.sensors:
+            notes.append(f"the displacement transducers are not used: {refusal}")
+    values, errors, pose = fitted.values, fitted.standard_error, fitted.pose
     if found is not None:
-        values, errors = (
-            motion.values | {"rocking_angle": found[0]},
-            motion.standard_error | {"rocking_angle": found[1]},
-        )
-        motion = replace(motion, values=values, standard_error=errors, pose=replace(motion.pose, angle=found[0]))
-    if not motion.values:
-        raise refusal
-    if positions.sensors and not is_fitted:
-        notes.append(f"the displacement transducers are not used: {refusal}")
-    rates = gyroscopes.values - angular_velocity(gyroscopes.sensors, motion.pose, test.interval)
+        values, errors = values | {"rocking_angle": found[0]}, errors | {"rocking_angle": found[1]}
+        pose = replace(pose, angle=found[0])
+    rates = gyroscopes.values - angular_velocity(gyroscopes.sensors, pose, test.interval)
     forces = np.full_like(accelerometers.values, np.nan)
     if test.acceleration is not None:
-        forces = specific_force(accelerometers.sensors, motion.pose, test.acceleration, test.interval, block)
+        forces = specific_force(accelerometers.sensors, pose, test.acceleration, test.interval, block)
         forces = accelerometers.values - forces
-    return replace(
-        motion,
-        residual=np.concatenate((motion.residual, rates, forces)),
-        separation="; ".join(notes),
-        entered=np.concatenate(entered),
-        is_integrated=found is not None,
+    entered = (
+        np.full(len(positions.sensors), bool(fitted.values)),
+        turning & (found is not None),
+        np.full(len(accelerometers.sensors), found is not None and not turning.any()),
     )
+    residual, separation = np.concatenate((fitted.residual, rates, forces)), "; ".join(notes)
+    return SpecimenMotion(values, errors, residual, pose, separation, np.concatenate(entered), found is not None)
 
 
 def _from_rates(
