@@ -51,17 +51,17 @@ def started(empty_campaign, tmp_path_factory):
 )
 def test_a_test_is_part_of_the_pages_of_its_kind(started, test, has_span, has_free_vibration):
     _, part = part_of(*started, test)
-    assert (part.span is not None, part.free_vibration is not None) == (has_span, has_free_vibration)
+    assert (part.span is not None, part.kept.free_vibration is not None) == (has_span, has_free_vibration)
     if has_span:
         assert part.span.row is part.row
     if has_free_vibration:
-        assert part.free_vibration.test == test
-        assert part.free_vibration.e
+        assert part.kept.free_vibration.test == test
+        assert part.kept.free_vibration.e
 
 
 def test_results_that_are_out_of_date_are_not_read(started):
     text, part = part_of(*started, outdated={SHAKEN})
-    assert (part.span, part.channels, part.used.values) == (None, (), {})
+    assert (part.span, part.kept.channels, part.kept.used.values) == (None, (), {})
     assert "<svg" not in text
     assert "<svg" in part_of(*started)[0]
 
@@ -100,14 +100,14 @@ def test_curves_and_peaks_come_back_to_the_last_bit(filled_campaign, monkeypatch
         monkeypatch.undo()
         back = Part.of(wanted, text)
         _, channels, thumbnail, panel, _, free, used = kept["given"]
-        assert (back.channels, back.thumbnail, back.used) == (channels, thumbnail, used)
+        assert (back.kept.channels, back.kept.thumbnail, back.kept.used) == (channels, thumbnail, used)
         if panel is not None:
             found = back.span.panel.curves
             assert found.keys() == panel.curves.keys()
             assert np.array_equal(found["measured"].values, panel.curves["measured"].values, equal_nan=True)
         else:
-            assert np.array_equal(back.free_vibration.drawn.peaks.angle, free.drawn.peaks.angle)
-            assert back.free_vibration.drawn.peaks.used.dtype == np.bool_
+            assert np.array_equal(back.kept.free_vibration.drawn.peaks.angle, free.drawn.peaks.angle)
+            assert back.kept.free_vibration.drawn.peaks.used.dtype == np.bool_
         monkeypatch.setattr("colonnade.report.parts.Kept", lambda *given: kept.setdefault("given", given))
 
 

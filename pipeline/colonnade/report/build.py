@@ -20,11 +20,10 @@ from colonnade.report.overview_page import groups
 from colonnade.report.overview_page.agreement import confusions, peak_points, peaks_picture, worst
 from colonnade.report.overview_page.attention import attention, warning_groups
 from colonnade.report.parts import Part
-from colonnade.report.specimens_page import SpecimenPage
+from colonnade.report.pictures import subjects
 from colonnade.store.layout import Layout
 from colonnade.store.records import advice as advising
 from colonnade.store.records.advice import Advice
-from colonnade.store.records.stored import read_specimen
 from colonnade.store.records.summary import read_summary
 from colonnade.store.records.wording import agreement
 from colonnade.store.results import models_moving, models_shown
@@ -36,10 +35,10 @@ Pages = Iterator[tuple[str, str]]
 
 def specimen_page(campaign: Campaign, layout: Layout, name: str, parts: Sequence[Part]) -> Pages:
     """Give the data and the page of a specimen, whose tests are among those of `parts`."""
-    own = [part for part in parts if part.row.test.specimen == name]
-    shown = _tests(campaign, layout, own) | {
-        "specimen": _specimen(campaign, layout, name, own),
+    shown = {
+        "specimen": _specimen(campaign, layout, name, parts),
         "models": models_moving(campaign, name, models_shown(campaign)),
+        "thumbnails": {part.row.id: part.kept.thumbnail for part in parts},
     }
     yield from _page(pages.renderer_of(campaign), "specimen", addresses.of_specimen(name), shown)
 
@@ -61,9 +60,9 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
     renderer, used = pages.renderer_of(campaign), Used()
     specimens = [_specimen(campaign, layout, name, parts) for name in campaign.of_interest]
     for part in parts:
-        used.add(part.used)
-    for page in specimens:
-        used.versions |= page.subject.pooled.versions
+        used.add(part.kept.used)
+    for specimen in specimens:
+        used.versions |= specimen["subject"].pooled.versions
     yield from scripts().items()
     summary, rows = read_summary(layout), [part.row for part in parts]
     foreseen, assessed = forecasts_page(layout, summary), assessments_page(campaign, layout, summary)
@@ -71,10 +70,12 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
     # Bodies that do not rock as one block are predicted by one model alone, whatever is asked for.
     models = [model for model in asked if any(row.predicted(model).outcome for row in rows)] or asked
     warned = [(row.id, found) for row in rows for found in row.record.warnings]
-    warned += [(f"specimen {specimen.id}", found) for specimen in specimens for found in specimen.warnings]
+    warned += [(f"specimen {one['id']}", found) for one in specimens for found in one["warnings"]]
     warned += [(f"assessment {one.name}", found) for one in assessed for found in one.warned()]
     warnings, mistaken, furthest = warning_groups(warned), confusions(rows, models), worst(rows, models)
-    shown = _tests(campaign, layout, parts) | {
+    shown = {
+        "tests": rows,
+        "thumbnails": {part.row.id: part.kept.thumbnail for part in parts},
         "models": models,
         "specimens": specimens,
         "warnings": warnings,
@@ -84,9 +85,9 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
         "peaks": peaks_picture(peak_points(rows, models, furthest)),
         "spans": groups.span_groups([part.span for part in parts if part.span is not None]),
         "agreement": agreement({row.id: row.record.model_dump() for row in rows}),
-        "channels": {part.row.id: part.channels for part in parts},
+        "channels": {part.row.id: part.kept.channels for part in parts},
         "doubtful": [
-            (part.row.id, bad) for part in parts if (bad := [one for one in part.channels if not one.is_good])
+            (part.row.id, bad) for part in parts if (bad := [one for one in part.kept.channels if not one.is_good])
         ],
         "used": used,
         "settings": list(settings(campaign.processing, campaign.next)),
@@ -108,20 +109,12 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
         yield from _page(renderer, template, address, shown)
 
 
-def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[Part]) -> SpecimenPage:
-    free = [part.free_vibration for part in parts if part.row.test.specimen == name and part.free_vibration]
-    return specimens_page.of_specimen(campaign, name, read_specimen(campaign, layout, name), free)
-
-
-def _tests(campaign: Campaign, layout: Layout, parts: Sequence[Part]) -> dict[str, Any]:
-    """Give what tables and maps of tests show."""
-    rows = [part.row for part in parts]
-    return {
-        "tests": rows,
-        "thumbnails": {part.row.id: part.thumbnail for part in parts},
-        "ladders": groups.ladders(campaign, rows),
-        "maps": groups.measured_maps(campaign, layout, rows),
-    }
+def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[Part]) -> dict[str, Any]:
+    own = [part for part in parts if part.row.test.specimen == name]
+    rows, free = [part.row for part in own], [part.kept.free_vibration for part in own if part.kept.free_vibration]
+    records, decays = {row.id: row.record for row in rows}, [each.drawn for each in free]
+    subject = subjects.of_specimen(campaign, layout, name, records, decays, [part.span for part in own if part.span])
+    return specimens_page.of_specimen(subject, rows, free)
 
 
 def _page(renderer: pages.Renderer, template: str, address: str, shown: Mapping[str, Any]) -> Pages:

@@ -7,7 +7,6 @@ import json
 from base64 import b64decode, b64encode
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -60,38 +59,19 @@ def _with_array(given: dict[str, Any]) -> Any:
     return np.frombuffer(b64decode(given["bytes"]), dtype=given["dtype"]) if is_array else given
 
 
-@dataclass(frozen=True)
-class Part:
-    """
-    A test on the pages about all tests.
-
-    Attributes
-    ----------
-    row : TestRow
-    channels : tuple of ChannelRow
-    thumbnail : str
-        Its measured rocking angle as a polyline.
-    span : SpanTest or None
-        Of an earthquake test with a Span.
-    free_vibration : FreeVibration or None
-    used : Used
-        What its results were made with.
-    """
+class Part(NamedTuple):
+    """A test on the pages about all tests: its row, what is kept of it, and of an earthquake its Span."""
 
     row: TestRow
-    channels: tuple[ChannelRow, ...]
-    thumbnail: str
+    kept: Kept
     span: SpanTest | None
-    free_vibration: FreeVibration | None
-    used: Used
 
     @classmethod
     def of(cls, asked: Asked, text: str) -> Part:
         """Read a part from the text that `drawn` gave."""
         kept = _KEPT.validate_python(json.loads(text, object_hook=_with_array))
         row = TestRow.known(asked.campaign, asked.campaign.tests[asked.test], asked.record, kept.failures)
-        span = None if kept.panel is None else SpanTest(row, kept.panel, kept.described)
-        return cls(row, kept.channels, kept.thumbnail, span, kept.free_vibration, kept.used)
+        return cls(row, kept, None if kept.panel is None else SpanTest(row, kept.panel, kept.described))
 
 
 def drawn(layout: Layout, asked: Asked) -> tuple[list[str], str]:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
-from math import isfinite, tan
-from typing import NamedTuple
+from math import isfinite, nan, tan
+from typing import Any, NamedTuple
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign
@@ -18,11 +17,13 @@ from colonnade.figures.drawing import described
 from colonnade.figures.stored.restitution import STAGE
 from colonnade.findings import in_order
 from colonnade.report import addresses
+from colonnade.report.overview_page import groups
 from colonnade.report.pictures.subjects import Decaying, OfSpecimen, OfTest
+from colonnade.report.rows import TestRow
 from colonnade.report.test_page import restitution
-from colonnade.report.test_page.facts import Fact, known
+from colonnade.report.test_page.facts import known
 from colonnade.report.test_page.restitution import EstimateText
-from colonnade.store.records.stored import Failure, Stored
+from colonnade.store.records.stored import Stored
 from colonnade.units.text import NOTHING, acceleration, interval, listed, number, percent, quantity
 
 BOUNDS = ("restitution_low", "restitution_high", "level")
@@ -40,22 +41,18 @@ _CONTACT_SOURCES = {
 
 _DIMENSIONS = ("width", "depth", "height", "diameter", "base_diameter", "top_diameter")
 
+_OF_A_SIDE = (
+    ("critical angle α", "rad", "angle", "critical_angle"),
+    ("pole distance R", "mm", "length", "pole_distance"),
+    ("inertia about the pole I₀", "kg m²", "inertia", "inertia"),
+)
+
 _DERIVED: tuple[tuple[str, str, str, Callable[[Block], float]], ...] = (
     ("tan α", "", "angle", lambda block: tan(block.critical_angle)),
     ("frequency parameter p", "rad/s", "frequency", lambda block: block.p),
     ("uplift acceleration g tan α", "m/s²", "acceleration", lambda block: block.uplift_acceleration),
     ("rigid-body e", "", "angle", lambda block: block.restitution),
 )
-
-
-class Property(NamedTuple):
-    """A property: as given, as it follows from the dimensions, as used, and at prototype scale; text for the page."""
-
-    name: str
-    given: str
-    derived: str
-    used: str
-    prototype: str
 
 
 class FreeVibration(NamedTuple):
@@ -67,34 +64,6 @@ class FreeVibration(NamedTuple):
     departures: list[str]
     reason: str
     drawn: Decaying
-
-
-@dataclass(frozen=True)
-class SpecimenPage:
-    """
-    What the page of a specimen shows; its pictures are of `subject`.
-
-    `e` is the value that predictions use, with its interval, and `restitution` what is known of it; `contact` the law
-    of the contact model, name and value; `bodies` those of an assembly, from the bottom to the top.
-    """
-
-    id: str
-    shape: str
-    scale: str
-    answer: str
-    bodies: list[tuple[str, ...]]
-    properties: list[Property]
-    drawings: list[Drawing]
-    deviations: list[str]
-    e: str
-    source: str
-    rigid: str
-    restitution: list[Fact]
-    contact: list[tuple[str, str]]
-    warnings: list[Warned]
-    failures: list[Failure]
-    free_vibrations: Sequence[FreeVibration]
-    subject: OfSpecimen = field(repr=False)
 
 
 def free_vibration(subject: OfTest) -> FreeVibration:
@@ -111,51 +80,59 @@ def free_vibration(subject: OfTest) -> FreeVibration:
 
 
 def of_specimen(
-    campaign: Campaign, name: str, pooled: Stored, free_vibrations: Sequence[FreeVibration]
-) -> SpecimenPage:
-    """Put a specimen into words; `free_vibrations` are those of its tests."""
-    specimen, block = campaign.specimens[name], campaign.block(name)
-    value, low, high, level = (pooled.value("specimen", each) for each in ("restitution", *BOUNDS))
-    unknown = "failed" if pooled.failures else "not yet known"
-    e, rigid = interval(value, low, high, level), number(block.restitution, 4)
-    source = SOURCES.get(pooled.text("specimen", "restitution_source"), unknown)
-    page = SpecimenPage(
-        id=name,
-        shape=specimen.shape,
-        scale="" if specimen.scale is None else f"1:{specimen.scale:g}",
-        answer=f"e {e}, {source}",
-        bodies=[],
-        properties=_properties(specimen, block, campaign.gravity),
-        drawings=drawings_of(campaign, name),
-        deviations=list(specimen.deviations(campaign.gravity)),
-        e=e,
-        source=source,
-        rigid=rigid,
-        restitution=known(
+    subject: OfSpecimen, tests: Sequence[TestRow], free_vibrations: Sequence[FreeVibration]
+) -> dict[str, Any]:
+    """Put a specimen into words, by the names that templates use; its pictures are of `subject`."""
+    campaign, name, pooled = subject.campaign, subject.name, subject.pooled
+    specimen, block = campaign.specimens[name], subject.block
+    bodies: list[tuple[str, ...]] = []
+    deviations = list(specimen.deviations(campaign.gravity))
+    e, source, rigid, answer = NOTHING, f"as {APART}", "", ""
+    if isinstance(specimen, Whole):
+        answer, bodies = _bodies(specimen, campaign.gravity)
+        parts = {specimen.placed[name].specimen: made for name, made in specimen.made.items()}
+        deviations = [f"{part}: {said}" for part, made in parts.items() for said in made.deviations(campaign.gravity)]
+    if not isinstance(specimen, Whole) or specimen.is_in_plane:
+        e, rigid = _interval(pooled), number(block.restitution, 4)
+        unknown = "failed" if pooled.failures else "not yet known"
+        source = SOURCES.get(pooled.text("specimen", "restitution_source"), unknown)
+        answer = f"e {e}, {source}"
+    over_rigid = pooled.value("specimen", "restitution") / block.restitution if block.restitution else nan
+    return {
+        "id": name,
+        "subject": subject,
+        "tests": tests,
+        "ladder": groups.ladder(tests),
+        "boundaries": groups.boundaries_of(subject.points),
+        "shape": specimen.shape,
+        "scale": f"1:{specimen.scale:g}" if specimen.scale else "",
+        "answer": answer,
+        "bodies": bodies,
+        "properties": _properties(specimen, block, campaign.gravity),
+        "drawings": [drawing_of(campaign, *pair) for pair in campaign.combinations if pair[0] == name],
+        "deviations": deviations,
+        "e": e,
+        "source": source,
+        "rigid": rigid,
+        "restitution": known(
             [
-                ("e", f"{e}, {source}"),
+                ("e", answer.removeprefix("e ")),
                 ("rigid-body e, without bounce", rigid),
-                ("e over rigid-body e", number(value / block.restitution, 4) if block.restitution else NOTHING),
+                ("e over rigid-body e", number(over_rigid, 4)),
                 ("scatter between tests", _between(pooled)),
                 ("method", pooled.text("specimen", "method")),
                 ("remark", pooled.text("specimen", "reason")),
             ]
         ),
-        contact=_contact(pooled),
-        warnings=[Warned.of(found, explained=explained) for found, explained in in_order(pooled.findings)],
-        failures=pooled.failures,
-        free_vibrations=free_vibrations,
-        subject=OfSpecimen(campaign, name, pooled, [each.drawn for each in free_vibrations]),
-    )
-    if not isinstance(specimen, Whole):
-        return page
-    first, bodies = _bodies(specimen, campaign.gravity)
-    parts = {specimen.placed[name].specimen: made for name, made in specimen.made.items()}
-    deviations = [f"{part}: {said}" for part, made in parts.items() for said in made.deviations(campaign.gravity)]
-    page = replace(page, bodies=bodies, deviations=deviations)
-    if specimen.is_in_plane:
-        return page
-    return replace(page, answer=first, e=NOTHING, source=f"as {APART}", rigid="")
+        "contact": _contact(pooled),
+        "warnings": [Warned.of(found, explained=explained) for found, explained in in_order(pooled.findings)],
+        "failures": pooled.failures,
+        "free_vibrations": free_vibrations,
+    }
+
+
+def _interval(pooled: Stored) -> str:
+    return interval(*(pooled.value("specimen", each) for each in ("restitution", *BOUNDS)))
 
 
 def _bodies(whole: Whole, gravity: float) -> tuple[str, list[tuple[str, ...]]]:
@@ -220,45 +197,34 @@ def _range(values: Array, unit: str) -> str:
     return f"{low} {unit}" if low == high else f"{low} to {high} {unit}"
 
 
-def _properties(specimen: Specimen, block: Block, gravity: float) -> list[Property]:
-    derived, side = specimen.dimensions(gravity), block.governing
-    scale = specimen.scale
-    rows = [_property("mass m", "kg", "mass", specimen.mass, None, specimen.mass, scale)]
+def _properties(specimen: Specimen, block: Block, gravity: float) -> list[tuple[str, ...]]:
+    """Give each property: as given, as it follows from the dimensions, as used, and at prototype scale."""
+    derived, side, rows = specimen.dimensions(gravity), block.governing, list[tuple[str, ...]]()
+
+    def add(
+        name: str,
+        unit: str,
+        dimension: str,
+        used: float,
+        given: float | tuple[float, float] | None,
+        other: float | None,
+    ) -> None:
+        sides = [] if given is None else dict.fromkeys(pair(given))
+        at_scale = at_prototype(dimension, used, specimen.scale) if specimen.scale else None
+        said = " and ".join(_written(each, unit) for each in sides)
+        rows.append((name, said, *(_written(value, unit) for value in (other, used, at_scale))))
+
+    add("mass m", "kg", "mass", specimen.mass, specimen.mass, None)
     for name in _DIMENSIONS:
         length = getattr(specimen, name, None)
         if length is not None:
-            rows.append(_property(name.replace("_", " "), "mm", "length", length, None, length, scale))
-    for label, unit, dimension, name in (
-        ("critical angle α", "rad", "angle", "critical_angle"),
-        ("pole distance R", "mm", "length", "pole_distance"),
-        ("inertia about the pole I₀", "kg m²", "inertia", "inertia"),
-    ):
-        given = getattr(specimen, name)
-        from_dimensions = None if derived is None else float(getattr(derived, name))
-        rows.append(_property(label, unit, dimension, given, from_dimensions, float(getattr(side, name)), scale))
+            add(name.replace("_", " "), "mm", "length", length, length, None)
+    for label, unit, dimension, name in _OF_A_SIDE:
+        other = None if derived is None else float(getattr(derived, name))
+        add(label, unit, dimension, float(getattr(side, name)), getattr(specimen, name), other)
     for label, unit, dimension, value in _DERIVED:
-        other = None if derived is None else value(derived)
-        rows.append(_property(label, unit, dimension, None, other, value(block), scale))
+        add(label, unit, dimension, value(block), None, None if derived is None else value(derived))
     return rows
-
-
-def _property(
-    name: str,
-    unit: str,
-    dimension: str,
-    given: float | tuple[float, float] | None,
-    derived: float | None,
-    used: float,
-    scale: float | None,
-) -> Property:
-    sides = [] if given is None else list(dict.fromkeys(pair(given)))
-    return Property(
-        name,
-        " and ".join(_written(side, unit) for side in sides) or NOTHING,
-        _written(derived, unit),
-        _written(used, unit),
-        NOTHING if scale is None else _written(at_prototype(dimension, used, scale), unit),
-    )
 
 
 def _written(value: float | None, unit: str) -> str:
@@ -284,11 +250,6 @@ def drawing_of(campaign: Campaign, specimen: str, setup: str) -> Drawing:
     tests = listed(campaign.combinations[specimen, setup])
     said = described.said_of(campaign, specimen, setup)
     return Drawing(specimen, setup, tests, addresses.of_setup(specimen, setup), said)
-
-
-def drawings_of(campaign: Campaign, specimen: str) -> list[Drawing]:
-    """Name the drawings of a specimen."""
-    return [drawing_of(campaign, *pair) for pair in campaign.combinations if pair[0] == specimen]
 
 
 def drawing_svg(campaign: Campaign, specimen: str, setup: str) -> str:

@@ -14,16 +14,16 @@ from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored import record
 from colonnade.report.overview_page import agreement, groups
 from colonnade.report.overview_page.groups import SpanTest
+from colonnade.report.pictures.registry import picture
+from colonnade.report.pictures.subjects import of_specimen
 from colonnade.report.rows import HEIGHT, WIDTH, polyline
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import as_dataset
 
 
-def test_sines_of_known_amplitude_are_in_the_ladder_of_their_specimen(rows, filled_campaign):
-    (ladder,) = groups.ladders(filled_campaign[0], rows)
-    assert (ladder.specimen, ladder.steps) == ("prism", 1)
-    found = {frequency: [row.id for row in tests] for frequency, tests in ladder.sines.items()}
+def test_sines_of_known_amplitude_are_in_the_ladder(rows):
+    found = {frequency: [row.id for row in tests] for frequency, tests in groups.ladder(rows).items()}
     assert found == {"3 Hz": ["sine-3hz-too-strong-for-the-block-1"]}
 
 
@@ -44,11 +44,17 @@ def with_another(rows, frequency_ratio):
     return [*rows, replace(row, test=row.test.model_copy(update={"id": "another"}), record=record)]
 
 
+def with_records(campaign, layout, rows):
+    """The prism with these tests."""
+    return of_specimen(campaign, layout, "prism", {row.id: row.record for row in rows}, [], [])
+
+
 def test_two_frequencies_make_a_map_whose_marks_lead_to_their_tests(rows, filled_campaign):
-    (drawn,) = groups.measured_maps(*filled_campaign, with_another(rows, 5.0))
-    assert drawn.computed is None
-    assert [f'href="test:{name}"' in drawn.measured.svg for name in (STRONG, "another")] == [True, True]
-    assert len(drawn.boundaries) == 2
+    subject = with_records(*filled_campaign, with_another(rows, 5.0))
+    assert picture("map", subject) is None
+    drawn = picture("measured-map", subject)
+    assert [f'href="test:{name}"' in drawn.svg for name in (STRONG, "another")] == [True, True]
+    assert len(groups.boundaries_of(subject.points)) == 2
 
 
 def test_computed_maps_are_drawn_with_the_tests_and_a_failed_one_is_not(rows, filled_campaign, tmp_path):
@@ -64,10 +70,10 @@ def test_computed_maps_are_drawn_with_the_tests_and_a_failed_one_is_not(rows, fi
     attributes = {"stage": "map", "settings": json.dumps(chart.options)}
     files.write_failed(layout.stage("prism", "map", "linear"), "no", attributes=attributes)
     files.write(as_dataset(chart), layout.stage("prism", "map", "nonlinear"), attributes=attributes)
-    (drawn,) = groups.measured_maps(campaign, layout, with_another(rows, 5.0))
-    assert "nonlinear: lower limit" in drawn.computed.svg
-    assert ">linear: lower limit" not in drawn.computed.svg
-    assert 'href="test:another"' in drawn.computed.svg
+    drawn = picture("map", with_records(campaign, layout, with_another(rows, 5.0)))
+    assert "nonlinear: lower limit" in drawn.svg
+    assert ">linear: lower limit" not in drawn.svg
+    assert 'href="test:another"' in drawn.svg
 
 
 MODELS = ("linear", "nonlinear")

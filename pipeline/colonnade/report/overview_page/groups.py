@@ -12,43 +12,23 @@ from colonnade.dynamics.maps import StabilityMap
 from colonnade.dynamics.models import MODELS
 from colonnade.errors import StoreError
 from colonnade.figures.files.output import Picture
-from colonnade.figures.maps import response_orders
 from colonnade.figures.stored import record
 from colonnade.figures.stored.record import SpanPanel
-from colonnade.identification.response.boundaries import Boundaries, Bracket, MapPoint, bracket_boundaries, makes_map
+from colonnade.identification.response.boundaries import Bracket, MapPoint, bracket_boundaries
 from colonnade.report.rows import TestRow
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import as_map
-from colonnade.store.records.summary import map_points
 from colonnade.units.text import NOTHING, number, quantity
 
 
-class Ladder(NamedTuple):
-    """Sine tests of one specimen with known Ω and A: by rising frequency, and of each frequency by rising amplitude."""
-
-    specimen: str
-    sines: dict[str, list[TestRow]]
-
-    @property
-    def steps(self) -> int:
-        """Largest number of tests of one frequency."""
-        return max(map(len, self.sines.values()))
-
-
-def ladders(campaign: Campaign, tests: Sequence[TestRow]) -> list[Ladder]:
-    """Lay out the sine tests of each specimen that has any."""
-    known = [row for row in tests if row.frequency is not None and row.record.amplitude_ratio is not None]
-    known.sort(key=lambda row: (row.frequency or 0.0, row.record.amplitude_ratio or 0.0, row.id))
-    found = []
-    for specimen in campaign.specimens:
-        sines: dict[str, list[TestRow]] = defaultdict(list)
-        for row in known:
-            if row.test.specimen == specimen:
-                sines[quantity(row.frequency, "Hz")].append(row)
-        if sines:
-            found.append(Ladder(specimen, sines))
-    return found
+def ladder(tests: Sequence[TestRow]) -> dict[str, list[TestRow]]:
+    """Lay out the sine tests of a specimen with known Ω and A: by rising frequency, of each by rising amplitude."""
+    sines: dict[str, list[TestRow]] = defaultdict(list)
+    for row in sorted(tests, key=lambda row: (row.frequency or 0.0, row.record.amplitude_ratio or 0.0, row.id)):
+        if row.frequency is not None and row.record.amplitude_ratio is not None:
+            sines[quantity(row.frequency, "Hz")].append(row)
+    return sines
 
 
 class SpanTest(NamedTuple):
@@ -85,43 +65,6 @@ def span_groups(drawn: Sequence[SpanTest]) -> list[SpanGroup]:
     return groups
 
 
-class MeasuredMap(NamedTuple):
-    """
-    The sine tests of a specimen over Ω and A.
-
-    Attributes
-    ----------
-    specimen : str
-    computed : Picture or None
-        Stability map by each model in the plane that has one, with the tests; None without a computed map.
-    measured : Picture or None
-        The tests and the boundaries that they bracket; None if they are at one frequency, which makes no map.
-    boundaries : tuple
-        Ω, brackets of rocking and of overturning, notes.
-    """
-
-    specimen: str
-    computed: Picture | None
-    measured: Picture | None
-    boundaries: tuple[tuple[str, str, str, str], ...]
-
-
-def measured_maps(campaign: Campaign, layout: Layout, tests: Sequence[TestRow]) -> list[MeasuredMap]:
-    """Draw the maps of each specimen that has a sine test of known Ω, A and outcome."""
-    records = {row.id: row.record for row in tests}
-    found = {specimen: map_points(records, specimen) for specimen in campaign.specimens}
-    return [_map(campaign, layout, specimen, points) for specimen, points in found.items() if points]
-
-
-def _map(campaign: Campaign, layout: Layout, specimen: str, points: Sequence[MapPoint]) -> MeasuredMap:
-    boundaries = tuple(map(_boundary, bracket_boundaries(points)))
-    if not makes_map(points):
-        return MeasuredMap(specimen, None, None, boundaries)
-    charts = charts_of(campaign, layout, specimen)
-    computed = response_orders.computed(specimen, charts, points, linked=True) if charts else None
-    return MeasuredMap(specimen, computed, response_orders.tested(f"map-{specimen}", points), boundaries)
-
-
 def charts_of(campaign: Campaign, layout: Layout, specimen: str) -> list[StabilityMap]:
     """Read the stability maps of a specimen by the campaign's models in the plane, which a run keeps up to date."""
     found = []
@@ -133,9 +76,12 @@ def charts_of(campaign: Campaign, layout: Layout, specimen: str) -> list[Stabili
     return [as_map(stored) for stored in found if stored.attrs.get("status") == "done"]
 
 
-def _boundary(found: Boundaries) -> tuple[str, str, str, str]:
-    ratio = number(found.frequency_ratio, 4)
-    return ratio, _bracket(found.rocking), _bracket(found.overturning), "; ".join(found.notes) or NOTHING
+def boundaries_of(points: Sequence[MapPoint]) -> list[tuple[str, str, str, str]]:
+    """Write what sine tests bracket: Ω, the brackets of rocking and of overturning, notes."""
+    return [
+        (number(each.frequency_ratio, 4), _bracket(each.rocking), _bracket(each.overturning), "; ".join(each.notes))
+        for each in bracket_boundaries(points)
+    ]
 
 
 def _bracket(bracket: Bracket) -> str:

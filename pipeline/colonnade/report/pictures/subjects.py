@@ -135,15 +135,21 @@ def read_of_specimen(campaign: Campaign, layout: Layout, specimen: str) -> OfSpe
     known = records_of_tests(campaign, read_summary(layout))
     records = {name: known[name] for name, test in campaign.tests.items() if test.specimen == specimen}
     tests = [_of_test(campaign, layout, name, each, with_samples=False) for name, each in records.items()]
-    return OfSpecimen(
-        campaign,
-        specimen,
-        read_specimen(campaign, layout, specimen),
-        [Decaying.of(each) for each in tests if each.stored.has(restitution.STAGE)],
-        map_points(records, specimen),
-        charts_of(campaign, layout, specimen),
-        [span_of(each) for each in tests if has_span(each)],
-    )
+    decays = [Decaying.of(each) for each in tests if each.stored.has(restitution.STAGE)]
+    return of_specimen(campaign, layout, specimen, records, decays, [span_of(each) for each in tests if has_span(each)])
+
+
+def of_specimen(
+    campaign: Campaign,
+    layout: Layout,
+    specimen: str,
+    records: Mapping[str, TestSummary],
+    decays: Sequence[Decaying],
+    spans: Sequence[SpanTest],
+) -> OfSpecimen:
+    """Lay what is stored of a specimen next to what is known of its tests."""
+    pooled, points = read_specimen(campaign, layout, specimen), map_points(records, specimen)
+    return OfSpecimen(campaign, specimen, pooled, decays, points, charts_of(campaign, layout, specimen), spans)
 
 
 def read_of_campaign(campaign: Campaign, layout: Layout) -> OfCampaign:
