@@ -49,7 +49,7 @@ def kernel(function: Function) -> Function:
     numba sees when a kernel's own file changes, but not when a kernel that it calls changes in another file. So the
     machine code is kept in a folder named by the hash of all sources that kernels are made of.
     """
-    return _compiled(function, _OPTIONS)
+    return _compiled(function)
 
 
 def kernel_in_place(function: Function) -> Function:
@@ -59,7 +59,7 @@ def kernel_in_place(function: Function) -> Function:
     No references to arrays are counted then: a run on contact takes less than half as long, and so does its
     compilation; a history in the plane is a twentieth faster.
     """
-    return _compiled(function, _OPTIONS | {"_nrt": False})
+    return _compiled(function, _nrt=False)
 
 
 def kernel_fused(function: Function) -> Function:
@@ -68,22 +68,19 @@ def kernel_fused(function: Function) -> Function:
 
     Chains of a polynomial then take half the time; the closed form of an arc is mostly these.
     """
-    return _compiled(function, _OPTIONS | {"fastmath": {"contract"}, "_nrt": False})
+    return _compiled(function, _nrt=False, fastmath={"contract"})
 
 
-def _compiled(function: Function, options: Any) -> Function:
-    folder = _cache_folder()
-    if folder is None:
-        return cast("Function", numba.njit(**options)(function))
-    with _DECORATING:
-        # numba reads its setting when a function is decorated; kernels of other packages keep theirs.
-        theirs, _SETTINGS.CACHE_DIR = _SETTINGS.CACHE_DIR, str(folder)
-        try:
-            return cast("Function", numba.njit(cache=True, **options)(function))
-        except RuntimeError:  # no source file, as in a frozen program
-            return cast("Function", numba.njit(**options)(function))
-        finally:
+def _compiled(function: Function, **options: Any) -> Function:
+    compiled, folder = numba.njit(**_OPTIONS, **options)(function), _cache_folder()
+    if folder is not None:
+        with _DECORATING:
+            # numba reads its setting here; kernels of other packages keep theirs.
+            theirs, _SETTINGS.CACHE_DIR = _SETTINGS.CACHE_DIR, str(folder)
+            with suppress(RuntimeError):  # no source file, as in a frozen program
+                compiled.enable_caching()
             _SETTINGS.CACHE_DIR = theirs
+    return cast("Function", compiled)
 
 
 @cache

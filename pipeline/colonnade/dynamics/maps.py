@@ -153,15 +153,15 @@ class MapPlan:
     @property
     def onset(self) -> float:
         """A up to which an undisturbed block does not uplift: 1, but α / tan α for the linear model."""
-        positive, negative = 1.0, 1.0
+        # What uplifts to θ < 0 is the largest acceleration to +x, and the reverse.
+        shares = [1.0, 1.0]
         if self.motion is not None:
-            positive = max(float(self.motion.acceleration.max()), 0.0) / self.motion.peak
-            negative = max(-float(self.motion.acceleration.min()), 0.0) / self.motion.peak
-        limits = []
-        for side, share in ((self.block.negative, positive), (self.block.positive, negative)):
-            threshold = model_of(self.model).uplift_threshold(side.critical_angle)
-            limits.append(threshold / share if share > 0 else np.inf)
-        return float(min(limits) / tan(self.block.critical_angle))
+            shares = [
+                float(each.max()) / self.motion.peak for each in (self.motion.acceleration, -self.motion.acceleration)
+            ]
+        thresholds = [model_of(self.model).uplift_threshold(side.critical_angle) for side in self.block.sides]
+        limits = [threshold / share for threshold, share in zip(thresholds, shares, strict=True) if share > 0]
+        return min(limits) / tan(self.block.critical_angle)
 
     @property
     def options(self) -> dict[str, Any]:

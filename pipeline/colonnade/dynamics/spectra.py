@@ -244,7 +244,9 @@ def response_spectrum(
     for index, each in enumerate(periods.ravel()):
         parts = max(ceil(FEWEST_PER_PERIOD * interval / each), 1)
         if parts not in finer:
-            finer[parts] = _subdivided(from_zero, parts)
+            # Further samples on the motion's own lines.
+            fine = np.arange((from_zero.size - 1) * parts + 1) / parts
+            finer[parts] = np.interp(fine, np.arange(from_zero.size), from_zero)
         numerator, denominator = _recursion(2 * pi / each, damping, interval / parts)
         response = scipy.signal.lfilter(numerator, denominator, finer[parts])
         largest.flat[index] = np.abs(response).max(initial=0.0)
@@ -257,11 +259,3 @@ def _recursion(omega: float, damping: float, step: float) -> tuple[Array, Array]
     continuous = system, np.array([[0.0], [-1.0]]), np.array([[1.0, 0.0]]), np.zeros((1, 1))
     numerator, denominator = scipy.signal.ss2tf(*scipy.signal.cont2discrete(continuous, step, method="foh")[:4])
     return numerator[0], denominator
-
-
-def _subdivided(values: Array, parts: int) -> Array:
-    """Return the motion with `parts` samples an interval on its own lines."""
-    if parts == 1:
-        return values
-    fine = np.arange((values.size - 1) * parts + 1) / parts
-    return np.asarray(np.interp(fine, np.arange(values.size), values))

@@ -97,33 +97,23 @@ def steady_response(
     if settling < 1:
         raise ValueError(f"settling is {settling}; at least one cycle was expected")
     e = restitution_up_to(block, restitution, float(amplitudes.max()))
-    watched = LARGEST_ORDER * (REPEATS + 1)
-    shape = (omegas.size, amplitudes.size)
-    order, period, amplitude = np.zeros(shape, dtype=np.int8), np.full(shape, np.nan), np.full(shape, np.nan)
+    first = round(ramp) + settling
+    count, cycles = first + LARGEST_ORDER * (REPEATS + 1), 2 * pi / (omegas * block.p)
+    order = np.zeros((omegas.size, amplitudes.size), dtype=np.int8)
+    amplitude = np.full(order.shape, np.nan)
     for row, omega in enumerate(omegas * block.p):
         cycle = 2 * pi / omega
-        first = round(ramp) + settling
-        edges = (ramp * cycle, (first + watched) * cycle, (first + watched) * cycle)
-        motion = Harmonic(omega, phase, edges)
-        for column, level in enumerate(amplitudes):
-            run = harmonic_run(
-                block,
-                motion,
-                float(level),
-                e,
-                model=model,
-                samples=first + watched,
-                interval=cycle,
-                peaks_from=(first + LARGEST_ORDER) * cycle,
-            )
+        motion = Harmonic(omega, phase, (ramp * cycle, count * cycle, count * cycle))
+        watched = {"samples": count, "interval": cycle, "peaks_from": (first + LARGEST_ORDER) * cycle}
+        for column, level in enumerate(amplitudes.tolist()):
+            run = harmonic_run(block, motion, level, e, model=model, **watched)
             if run.outcome == "overturned":
                 order[row, column] = OVERTURNED
                 continue
             amplitude[row, column] = run.peak_ratio
             states = np.column_stack([run.angle, run.angular_velocity / block.p])[first:] / block.critical_angle
             order[row, column] = AT_REST if run.peak_ratio == 0.0 else _order(states)
-            if order[row, column] > 0:
-                period[row, column] = order[row, column] * cycle
+    period = np.where(order > 0, order * cycles[:, None], np.nan)
     return SteadyResponse(omegas, amplitudes, order, period, amplitude)
 
 
