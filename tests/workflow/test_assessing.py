@@ -173,7 +173,10 @@ def test_a_failure_is_told_and_stops_nothing(assessed_copy):
     page, *others = (unescape((assessed_copy / "report" / name).read_text(encoding="utf-8")) for name in names)
     assert "There is no answer" in page
     for text in others:
-        assert 'the hazard is given for "pga"' in text[text.index("Assessment site failed") :][:600]
+        assert (
+            'the hazard is given for "pga"'
+            in text[text.index('Assessment <a href="assessments.html#assessment-site">site</a> failed') :][:600]
+        )
 
 
 def test_files_of_one_name_in_two_folders_are_two_files(assessed_copy):
