@@ -57,8 +57,7 @@ def toys(layout, *, value=120, code="one", make=None):
 
 
 def chain(layout, run_id, products, **more):
-    results = [product.result for product in products]
-    return Chain(products, results, layout, layout.folder / "campaign.toml", Origin("toy", "Toy", None), run_id, **more)
+    return Chain(products, layout, Origin("toy", "Toy", None), run_id, **more)
 
 
 def ran(layout, *, start_from=None, **given):

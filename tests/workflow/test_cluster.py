@@ -164,11 +164,12 @@ def ingesting(small, run):
     test = campaign.tests["pulse-01"]
     graph = Graph(campaign, small.layout, catalogue, {test.id: raw_files(campaign, test, catalogue)})
     walk = Walk(graph, run)
-    return walk.chain(graph.measuring(test)[:1])
+    return walk.chain(graph.of_test(test)[:1])
 
 
 def test_workers_that_do_not_see_the_campaign_are_told(cluster, untouched):
-    elsewhere = replace(ingesting(untouched, "this one"), campaign_file=untouched.folder / "elsewhere.toml")
+    here = ingesting(untouched, "this one")
+    elsewhere = replace(here, layout=replace(here.layout, file="elsewhere.toml"))
     with pytest.raises(ColonnadeError, match="does not see this file"):
         list(spread(on_a_cluster, [elsewhere], scheduler=cluster))
 

@@ -25,7 +25,7 @@ def graph(small):
 @pytest.mark.parametrize("name", ["free-01", "pulse-01"])
 def test_the_steps_of_a_test_make_its_results_in_their_order(graph, name):
     test = graph.campaign.tests[name]
-    steps = [*graph.measuring(test), *graph.predicting(test)]
+    steps = graph.of_test(test)
     assert [step.result for step in steps] == results_of(graph.campaign, test)
     made = {graph.layout.stage(test.specimen, "specimen")}
     for step in steps:
@@ -34,10 +34,8 @@ def test_the_steps_of_a_test_make_its_results_in_their_order(graph, name):
 
 
 def test_each_stage_has_code_of_its_own_that_the_models_of_the_plane_share(graph):
-    steps = [step for name in ("free-01", "pulse-01") for step in graph.measuring(graph.campaign.tests[name])]
-    steps += graph.predicting(graph.campaign.tests["pulse-01"])
     of_stage = {}
-    for step in steps:
+    for step in (step for name in ("free-01", "pulse-01") for step in graph.of_test(graph.campaign.tests[name])):
         of_stage.setdefault(step.result.stage, set()).add(step.code)
     assert all(len(codes) == 1 for codes in of_stage.values())
     assert len(set.union(*of_stage.values())) == len(of_stage) > 4
@@ -45,14 +43,14 @@ def test_each_stage_has_code_of_its_own_that_the_models_of_the_plane_share(graph
 
 def test_the_code_is_hashed_again_only_if_a_source_changed(graph, monkeypatch):
     test = graph.campaign.tests["pulse-01"]
-    before = [step.code for step in graph.predicting(test)]
+    before = [step.code for step in graph.of_test(test)]
     graph.catalogue.save()
     monkeypatch.setattr("colonnade.workflow.product.code_hash", lambda *given, **more: "parsed again")
     again = Graph(graph.campaign, graph.layout, Catalogue(graph.layout), graph.raw)
-    assert [step.code for step in again.predicting(test)] == before
+    assert [step.code for step in again.of_test(test)] == before
     monkeypatch.setattr("colonnade.workflow.product.package_hash", lambda: "other sources")
     again = Graph(graph.campaign, graph.layout, Catalogue(graph.layout), graph.raw)
-    assert {step.code for step in again.predicting(test)} == {"parsed again"}
+    assert {step.code for step in again.of_test(test)} == {"parsed again"}
 
 
 def types(dataset):

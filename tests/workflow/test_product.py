@@ -1,8 +1,6 @@
 """Products that are no results, on toys: pages with a stamp and kept text are made once, and come back if they go."""
 
 import json
-import time
-from functools import partial
 
 import pytest
 
@@ -35,7 +33,7 @@ class Toy:
         """Bring it up to date as a run does; give whether it was made, and what is kept."""
         catalogue, before = catalogue or Catalogue(self.layout), self.made
         product = Product("toy 1", inputs, {"up": upstream}, code, self.make, (self.page, self.script), keeps=True)
-        (made,) = brought_up_to_date([product], catalogue)
+        made = brought_up_to_date([product], catalogue)["toy 1"]
         assert known(product, catalogue) == made or self.error is not None
         catalogue.save()
         return self.made > before, made.text or made.reason
@@ -162,16 +160,3 @@ def test_what_is_gone_from_the_campaign_is_forgotten(small):
     tests = small.summary()["tests"]
     expected = {f"{kind} {name}" for kind in ("record", "page") for name in tests}
     assert set(known["kept"]) == expected | {"specimen-record prism"}
-
-
-def slow_first(number):
-    time.sleep(0.5 if number == 0 else 0.0)
-    return [f"{number}\n"], ""
-
-
-def test_what_is_named_last_is_written_last_whatever_takes_longest(layout):
-    pages = [layout.report.parent / f"{number}.html" for number in range(5)]
-    asked = [Product(page.stem, "", {}, "", partial(slow_first, int(page.stem)), (page,)) for page in pages]
-    for number, made in enumerate(brought_up_to_date(asked, Catalogue(layout), workers=2)):
-        assert made.product.id == str(number)
-        assert [page.is_file() for page in pages] == [place <= number for place in range(5)]

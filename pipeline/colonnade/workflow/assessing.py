@@ -169,7 +169,8 @@ def assessing(graph: Graph, name: str, asked: Assessment, where: Where) -> Produ
     result, code = ResultId(name, "assessment"), graph.catalogue.code((*MADE_BY, FORMATS))
     upstream = {"specimen": ResultId(asked.specimen, "specimen"), **_given(asked, graph.catalogue)}
     work = partial(_made, asked, where, graph.layout.blocks(result), code)
-    return graph.product(result, AssessmentInputs.of(graph.campaign, asked), upstream, work, *MADE_BY, FORMATS)
+    product = graph.product(result, AssessmentInputs.of(graph.campaign, asked), upstream, work, *MADE_BY, FORMATS)
+    return replace(product, is_shared=True)
 
 
 def _given(asked: Assessment, catalogue: Catalogue) -> dict[str, str | None]:

@@ -17,8 +17,8 @@ from colonnade.interruption import expect_none
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import NEVER_RUN, Origin, Recipe, global_attributes
-from colonnade.store.results import RUN_STAGES, ResultId, Subject
-from colonnade.workflow.executors import WorkersEndedError
+from colonnade.store.results import RUN_STAGES, STAGES, ResultId, Subject
+from colonnade.workflow.executors import WorkersEndedError, forget
 from colonnade.workflow.lock import expect_run
 from colonnade.workflow.product import Look, Product, stored_attributes
 
@@ -144,10 +144,7 @@ class Chain:
     ----------
     products : sequence of Product
         At least one; each is a result.
-    results : sequence of ResultId
-        All results of the test: those that follow a failed one are removed.
     layout : Layout
-    campaign_file : Path
     origin : Origin
         The campaign, as each result names it.
     run_id : str
@@ -157,9 +154,7 @@ class Chain:
     """
 
     products: Sequence[Product]
-    results: Sequence[ResultId]
     layout: Layout
-    campaign_file: Path
     origin: Origin
     run_id: str
     start_from: str | None = None
@@ -194,7 +189,8 @@ def bring_up_to_date(chain: Chain) -> list[StageRun]:
 
 def on_a_cluster(chain: Chain) -> list[StageRun]:
     """Bring a chain up to date on a worker of a cluster, which has to see the campaign's folder."""
-    seen = {chain.campaign_file: "put the campaign there", chain.layout.processed: "give another one with --results"}
+    layout = chain.layout
+    seen = {layout.folder / layout.file: "put the campaign there", layout.processed: "give another one with --results"}
     for path, advice in seen.items():
         if not path.exists():
             raise ColonnadeError(
@@ -232,15 +228,17 @@ def worker_lost(chain: Chain) -> list[StageRun]:
     """Report a chain whose process was stopped; no failure is stored, so that the next run tries again."""
     late = (product for product in chain.products if chain.why(product, stored_attributes))
     stopped = next(late, chain.products[-1]).result
-    remove_later(chain.layout, chain.results, stopped.order - 1)
+    remove_later(chain.layout, stopped, itself=True)
     return [StageRun(stopped.subject, stopped.stage, "failed", stopped.model, WORKER_LOST)]
 
 
-def remove_later(layout: Layout, results: Sequence[ResultId], order: int) -> None:
-    """Remove a test's results of stages after the one of this order: nothing may follow from a failure."""
-    for result in results:
-        if result.order > order:
-            files.remove(layout.path(result))
+def remove_later(layout: Layout, result: ResultId, *, itself: bool = False) -> None:
+    """Remove the results of a test of later stages, or of its own stage too: nothing may follow from a failure."""
+    for stage, each in STAGES.items() if result.of == "test" else ():
+        of_stage = ResultId(result.subject, stage, model="*")
+        if each.of == "test" and of_stage.order >= result.order + (not itself):
+            for path in layout.processed.glob(of_stage.file):
+                files.remove(path)
 
 
 def _runs(chain: Chain) -> Iterator[StageRun]:
@@ -250,7 +248,7 @@ def _runs(chain: Chain) -> Iterator[StageRun]:
         run = _run(chain, product, made)
         yield run
         if run.action == "failed":
-            remove_later(chain.layout, chain.results, product.result.order)
+            remove_later(chain.layout, product.result)
             return
         wanted = {path for later in chain.products[number + 1 :] for path in later.upstream.values()}
         for path in made.keys() - wanted:
@@ -275,9 +273,9 @@ def _run(chain: Chain, product: Product, made: dict[Path, xr.Dataset]) -> StageR
         read = {name: each for name, each in product.upstream.items() if isinstance(each, Path)}
         for each in read.values():
             made[each] = made[each] if each in made else files.read(each)
-        made[path] = files.write(
-            product.make({name: made[each] for name, each in read.items()}), path, attributes=attributes
-        )
+        dataset = product.make({name: made[each] for name, each in read.items()})
+        made[path] = files.write(dataset, path, attributes=attributes)
+        forget(chain.layout.blocks(result))
     except RunEndedError:
         raise
     except Exception as error:

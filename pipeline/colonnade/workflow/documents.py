@@ -57,7 +57,7 @@ def write_pdf(campaign: Path | str, *, appendix: bool = True, results: Path | st
     layout = Layout.of(loaded.path, results)
     with only_run(layout):
         catalogue = Catalogue(layout)
-        list(brought_up_to_date([_pdf(loaded, layout, _there(layout), catalogue, appendix)], catalogue))
+        brought_up_to_date([_pdf(loaded, layout, _there(layout), catalogue, appendix)], catalogue)
     return layout.pdf
 
 

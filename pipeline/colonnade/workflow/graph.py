@@ -57,8 +57,15 @@ class Graph:
     catalogue: Catalogue
     raw: Mapping[str, RawFiles] = field(default_factory=dict)
 
-    def measuring(self, test: Test) -> list[Product]:
-        """Return the results of a test from its raw files to what was measured."""
+    def of_test(self, test: Test, where: Where | None = None) -> list[Product]:
+        """
+        Return the results of a test, in the order in which they are made.
+
+        `where` is where members of the contact model's ensembles are run; in their own process without it.
+        """
+        return [*self._measuring(test), *self._predicting(test, where)]
+
+    def _measuring(self, test: Test) -> list[Product]:
         from colonnade.stages import condition, ingest, restitution, rocking
 
         recorded, conditioned, measured, identified = (
@@ -86,7 +93,8 @@ class Graph:
         identified = {name: ResultId(name, "restitution") for name in tests}
         inputs = specimen.SpecimenInputs.of(self.campaign, specimen_id)
         pooled = self.product(ResultId(specimen_id, "specimen"), inputs, identified, specimen.specimen)
-        return replace(pooled, make=partial(specimen.specimen, inputs=inputs))  # a test may be called like an argument
+        # A test may be called like an argument. It is sooner done than handed to a worker.
+        return replace(pooled, make=partial(specimen.specimen, inputs=inputs), is_shared=True)
 
     def calibrating(self, specimen_id: str) -> Product:
         """Return the law of contact with which a specimen has its restitution."""
@@ -95,12 +103,7 @@ class Graph:
         inputs, upstream = contact.ContactInputs.of(self.campaign, specimen_id), ResultId(specimen_id, "specimen")
         return self.product(ResultId(specimen_id, "contact"), inputs, {"specimen": upstream}, contact.contact)
 
-    def predicting(self, test: Test, where: Where | None = None) -> list[Product]:
-        """
-        Return the results of a test from its predictions to the comparison with them.
-
-        `where` is where members of the contact model's ensembles are run; in their own process without it.
-        """
+    def _predicting(self, test: Test, where: Where | None) -> list[Product]:
         from colonnade.stages import compare, ensemble, predict
 
         conditioned, rocking = ({name: ResultId(test.id, stage)} for name, stage in _MEASURED.items())
@@ -121,7 +124,8 @@ class Graph:
                 in_space = ensemble.ContactEnsembleInputs.of(self.campaign, test)
                 run = ensemble.all_at_once if where is None else partial(_members, self.layout.blocks(result), where)
                 work = partial(ensemble.contact_ensemble, run=run)
-                ensembles.append(self.product(result, in_space, upstream | law, work))
+                members = self.product(result, in_space, upstream | law, work)
+                ensembles.append(replace(members, is_shared=where is not None))
             else:
                 in_plane = ensemble.EnsembleInputs.of(self.campaign, test, model)
                 ensembles.append(self.product(result, in_plane, upstream | specimen, ensemble.ensemble))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,7 +24,7 @@ from colonnade.store.provenance import hash_of
 from colonnade.store.records.stored import as_dataset, as_map
 from colonnade.store.records.summary import map_points
 from colonnade.store.results import ResultId, models_moving
-from colonnade.workflow.executors import Arrays, Counted, Where, blocks_of, forget, in_blocks
+from colonnade.workflow.executors import Arrays, Counted, Where, blocks_of, in_blocks
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.map_plans import Wanted, measured_points, plan_of, restitution_of
@@ -235,11 +235,10 @@ def _made(
 
 def _brought(walk: Walk, product: Product) -> tuple[xr.Dataset, str]:
     """Bring one map or the responses up to date here; give it, and why it was made."""
-    walk.follow([[product]], is_here=True)
+    walk.follow([[product]])
     made = walk.stages[-1]
     if made.action == "failed":
         raise StoreError(made.reason)
-    forget(walk.graph.layout.blocks(product.result))
     return files.read(product.paths[0]), made.because
 
 
@@ -277,7 +276,8 @@ def _product(
 ) -> Product:
     code = graph.catalogue.code(MADE_BY, result.model)
     work = partial(_in_blocks, plan, columns, make, graph.layout.blocks(result), code, where)
-    return graph.product(result, Options(dict(settings)), given(plan), work, *MADE_BY)
+    product = graph.product(result, Options(dict(settings)), given(plan), work, *MADE_BY)
+    return replace(product, is_shared=where is not None)
 
 
 def _in_blocks(

@@ -72,11 +72,10 @@ def update_report(
         files.write_text(layout.state, UNWATCHED)
     there: set[Path] = set()
     # The overview is written last: its change tells open pages that all are there.
-    alone, of_several = chain(report.drawings(), report.tests()), chain(report.specimens(), report.whole(forecasts))
-    for products in (alone, of_several):
-        for made in brought_up_to_date(products, catalogue, workers=workers):
-            report.made[str(made.product.id)] = made
-            there |= set(made.product.paths)
+    for asked in (chain(report.drawings(), report.tests()), report.specimens(), report.whole(forecasts)):
+        products = list(asked)
+        report.made |= brought_up_to_date(products, catalogue, workers=workers)
+        there |= {path for product in products for path in product.paths}
     for stale in {path for pattern in OWN for path in layout.report.parent.glob(pattern)} - there:
         files.remove(stale)
     return layout.report

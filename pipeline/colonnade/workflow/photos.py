@@ -57,13 +57,13 @@ def with_photos(campaign: Campaign, layout: Layout, catalogue: Catalogue) -> tup
         for name, (_, written, address) in asked.items()
         for make in [partial(_copied, campaign.folder, written)]
     ]
-    reasons = {str(made.product.id): made.reason for made in brought_up_to_date(products, catalogue)}
+    made = brought_up_to_date(products, catalogue)
     for stale in set(folder.glob("photos/*.jpg")) - {path for each in products for path in each.paths}:
         files.remove(stale)
     found, photos = [], dict[str, Photos]()
     for name, (test, written, address) in asked.items():
         before, number = photos.get(test, Photos()), address.rpartition("-")[2].removesuffix(".jpg")
-        if reason := reasons[name]:
+        if reason := made[name].reason:
             files.remove(folder / address)
             found.append(finding_of(test, reason))
             photos[test] = replace(before, problems=(*before.problems, found[-1].text))

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -247,6 +247,8 @@ class Product:
         Its files: of a result one.
     keeps : bool
         Whether the catalogue keeps a text of it.
+    is_shared : bool
+        Whether several workers share in making it: it is asked for in the process of the run.
     """
 
     id: ResultId | str
@@ -256,6 +258,7 @@ class Product:
     make: Callable[..., Any]
     paths: tuple[Path, ...] = ()
     keeps: bool = False
+    is_shared: bool = False
 
     @property
     def result(self) -> ResultId:
@@ -275,7 +278,6 @@ class Product:
 class Made(NamedTuple):
     """A product that is up to date: its key, the text that is kept of it, and why there is none of it."""
 
-    product: Product
     key: str
     text: str
     reason: str
@@ -287,12 +289,14 @@ def known(product: Product, catalogue: Catalogue) -> Made | None:
     entry = catalogue.kept(str(product.id), key)
     text, reason = entry or ("", "")
     is_there = (entry is not None or not product.keeps) and all(catalogue.stamp(path) == key for path in product.paths)
-    return Made(product, key, text, reason) if reason or is_there else None
+    return Made(key, text, reason) if reason or is_there else None
 
 
-def brought_up_to_date(products: Iterable[Product], catalogue: Catalogue, *, workers: int | None = 1) -> Iterator[Made]:
+def brought_up_to_date(
+    products: Iterable[Product], catalogue: Catalogue, *, workers: int | None = 1
+) -> dict[str, Made]:
     """
-    Make those of some products that are out of date, and write them in their order; none is a result.
+    Make those of some products that are out of date, and write each as it ends; none is a result.
 
     Parameters
     ----------
@@ -302,44 +306,33 @@ def brought_up_to_date(products: Iterable[Product], catalogue: Catalogue, *, wor
     workers : int or None, optional
         Processes; None for one a core.
 
-    Yields
-    ------
-    made : Made
-        First those that were up to date. Data that cannot be read are a reason, which is kept as what is made is.
+    Returns
+    -------
+    made : dict of str to Made
+        By id. Data that cannot be read are a reason, which is kept as what is made is.
 
     Raises
     ------
     StoreError
         If a file cannot be written.
     """
-    waiting = []
+    found, waiting = dict[str, Made](), []
     for product in products:
         expect_none()
         if (there := known(product, catalogue)) is not None:
-            yield there
+            found[str(product.id)] = there
         else:
             waiting.append(product)
     processes = workers if len(waiting) >= WORTH_A_PROCESS else 1
-    made = spread(_make, list(enumerate(waiting)), workers=processes)
-    for number, (contents, text), reason, is_lasting in _in_order(made):
+    for number, (contents, text), reason, is_lasting in spread(_make, list(enumerate(waiting)), workers=processes):
         product, key = waiting[number], waiting[number].recipe().key
         for path, data in zip(product.paths, contents, strict=False):
             files.write_changed(path, stamped(data.encode() if isinstance(data, str) else data, key, path.suffix))
             catalogue.stamp(path)
         if is_lasting:
             catalogue.keep(str(product.id), key, text, reason)
-        yield Made(product, key, text, reason)
-
-
-def _in_order(made: Iterable[tuple[int, Contents, str, bool]]) -> Iterator[tuple[int, Contents, str, bool]]:
-    """Give what workers made by its numbers: what is named last is written when all else is there."""
-    early: dict[int, tuple[int, Contents, str, bool]] = {}
-    following = 0
-    for each in made:
-        early[each[0]] = each
-        while following in early:
-            yield early.pop(following)
-            following += 1
+        found[str(product.id)] = Made(key, text, reason)
+    return found
 
 
 def _make(numbered: tuple[int, Product]) -> tuple[int, Contents, str, bool]:

@@ -14,7 +14,7 @@ from colonnade.errors import CampaignError, StoreError, nearest
 from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
-from colonnade.store.results import RUN_STAGES, results_of
+from colonnade.store.results import RUN_STAGES, ResultId
 from colonnade.validation import described, whole
 from colonnade.workflow.chain import RunResult, remove_later
 from colonnade.workflow.forecasts import choose, finding_of, foreseen_of
@@ -104,7 +104,7 @@ def run(
             loaded = with_copies(loaded, _digests(loaded, raw))
             for test in loaded.tests.values():
                 if loaded.left_out(test.id):
-                    remove_later(layout, results_of(loaded, test), order=-1)
+                    remove_later(layout, ResultId(test.id, "ingest"), itself=True)
             graph = Graph(loaded, layout, catalogue, raw)
             walk = Walk(graph, run_id, start_from, last, workers, scheduler, progress or unseen, notices.append)
             walk.through(tests)

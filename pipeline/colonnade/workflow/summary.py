@@ -75,16 +75,16 @@ def write_summary(
         for name, test in light.tests.items()
     )
     specimens = (_of_specimen(campaign, layout, catalogue, name) for name in campaign.specimens)
-    made = brought_up_to_date(specimens, catalogue), brought_up_to_date(tests, catalogue, workers=workers)
-    records = {str(each.product.id): each.text for group in made for each in group}
+    records = brought_up_to_date(specimens, catalogue) | brought_up_to_date(tests, catalogue, workers=workers)
     summary = Summary(
         campaign=campaign.campaign,
         colonnade=colonnade.__version__,
         specimens={
-            name: SpecimenSummary.model_validate_json(records[f"specimen-record {name}"]) for name in campaign.specimens
+            name: SpecimenSummary.model_validate_json(records[f"specimen-record {name}"].text)
+            for name in campaign.specimens
         },
         tests={
-            name: TestSummary.model_validate_json(records[f"record {name}"]).model_copy(
+            name: TestSummary.model_validate_json(records[f"record {name}"].text).model_copy(
                 update={"forecast": foreseen[0].get(name)}
             )
             for name in campaign.tests

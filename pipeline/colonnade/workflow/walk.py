@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Literal
+from itertools import takewhile
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.assessment import Assessment
@@ -16,7 +16,7 @@ from colonnade.interruption import expect_none
 from colonnade.store import files
 from colonnade.store.forecasts import Known
 from colonnade.store.provenance import Origin
-from colonnade.store.results import RUN_STAGES, ResultId, Subject, models_of, results_of
+from colonnade.store.results import RUN_STAGES, ResultId, Subject, models_of
 from colonnade.workflow.chain import (
     Chain,
     StageRun,
@@ -27,13 +27,11 @@ from colonnade.workflow.chain import (
     why_pending,
     worker_lost,
 )
-from colonnade.workflow.executors import Counted, Tell, Where, forget, spread
+from colonnade.workflow.executors import Counted, Tell, Where, spread
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.product import Product
 
 Progress = Callable[[StageRun, int, int], None]
-
-Phase = Literal["measuring", "predicting"]
 
 
 def unseen(stage: StageRun, done: int, total: int) -> None:
@@ -76,49 +74,36 @@ class Walk:
     tell: Tell = lambda sentence: None
     stages: list[StageRun] = field(default_factory=list)
     failed: dict[Subject, dict[str, str]] = field(default_factory=lambda: defaultdict(dict))
-    _known: dict[tuple[Phase, str], list[Product]] = field(default_factory=dict)
+    _known: dict[str, list[Product]] = field(default_factory=dict)
     _fresh: set[str] = field(default_factory=set)  # tests that were brought up to date to their last result
 
     def through(self, tests: Sequence[str]) -> None:
         """Bring tests up to date, and the specimens that they need."""
-        self.follow(self._products("measuring", name) for name in tests)
+        self.follow(self._products(name, until="restitution") for name in tests)
         if self._asks_for("predict"):
             needed = {self._test(name).specimen for name in tests}
             free = (name for name in self._free_vibrations(needed) if name not in tests)
-            self.follow(self._products("measuring", name) for name in free)
+            self.follow(self._products(name, until="restitution") for name in free)
         if self._asks_for("restitution"):
             self.pool()
         if self._asks_for("predict"):
             self.calibrate({self._test(name).specimen for name in tests if self._is_in_space(self._test(name))})
-            self._predict([name for name in tests if self._can_be_predicted(name)])
+            self.follow(self._products(name, since="predict") for name in tests if self._can_be_predicted(name))
         if self._asks_for("compare"):
             self._fresh |= {name for name in tests if name not in self.failed["test"]}
-
-    def _predict(self, tests: Sequence[str]) -> None:
-        """Bring predictions up to date; members of an ensemble on contact, minutes each, spread over all workers."""
-        products = {name: self._products("predicting", name) for name in tests}
-        long = {name: own for name, own in products.items() if any(_is_long(each.result) for each in own)}
-        self.follow(own for name, own in products.items() if name not in long)
-        self.follow([each for each in own if not _is_last(each.result)] for own in long.values())
-        for product in (each for own in long.values() for each in own if _is_long(each.result)):
-            if product.result.subject not in self.failed["test"]:
-                self.follow([[product]], is_here=True)
-                forget(self.graph.layout.blocks(product.result))
-        if self._asks_for("compare"):
-            self.follow(own[-1:] for name, own in long.items() if name not in self.failed["test"])
 
     def at_once(self, name: str) -> list[ResultId]:
         """
         Bring one test up to date as far as it takes seconds: to the predictions by the models in the plane, with the e
         that is known so far. Return the results that are there then.
         """
-        products = self._products("measuring", name)
+        products = self._products(name, until="restitution")
         self.follow([products])
         self.pool([self._test(name).specimen])
         if name not in self.failed["test"] and self._test(name).specimen not in self.failed["specimen"]:
-            fast = [each for each in self._products("predicting", name) if each.result.stage == "predict"]
-            fast = [each for each in fast if not MODELS[str(each.result.model)].in_space]
-            self.follow([fast] if fast else [])
+            predicted = self._products(name, since="predict", until="predict")
+            fast = [each for each in predicted if not MODELS[str(each.result.model)].in_space]
+            self.follow([fast])
             products = [*products, *fast]
         return [product.result for product in products if product.paths[0].exists()]
 
@@ -128,7 +113,7 @@ class Walk:
         for specimen in self._campaign.specimens if specimens is None else specimens:
             free = self._free_vibrations({specimen})
             done = [name for name in free if look(layout.stage(name, "restitution")).get("status") == "done"]
-            self.follow([[self.graph.pooling(specimen, done)]], is_here=True)  # faster than in a worker
+            self.follow([[self.graph.pooling(specimen, done)]])
 
     def calibrate(self, specimens: Collection[str]) -> None:
         """Bring the laws of contact of specimens up to date."""
@@ -154,8 +139,7 @@ class Walk:
                 files.remove(product.paths[0])
                 self.failed["assessment"][name] = f"specimen {asked.specimen}: {reason}"
             else:
-                self.follow([[product]], is_here=True)
-                forget(self.graph.layout.blocks(product.result))
+                self.follow([[product]])
 
     def stale_assessments(self) -> set[str]:
         """Names of the assessments whose result is missing or outdated."""
@@ -171,25 +155,43 @@ class Walk:
             files.remove(self.graph.layout.stage(name, "forecast"))
         self.follow([self.graph.scoring(self._test(name), forecasts[name])] for name in measured)
 
-    def stale(self, *phases: Phase) -> dict[str, str]:
-        """Ids of the tests that have a missing or outdated result, of these phases or of any, and what to say of it."""
-        every: tuple[Phase, ...] = phases or ("measuring", "predicting")
-        names = [name for name in self.included if name not in self._fresh]
-        products = {name: [one for phase in every for one in self._all(phase, name)] for name in names}
-        whys = {
-            name: why_pending(self.chain(each, redo=False), self.graph.catalogue.attributes)
-            for name, each in products.items()
-        }
-        return {name: why for name, why in whys.items() if why is not None}
+    def stale(self, *, until: str = "compare") -> dict[str, str]:
+        """Ids of the tests that have a missing or outdated result up to a stage, and what to say of it."""
+        look, whys = self.graph.catalogue.attributes, dict[str, str]()
+        for name in self.included:
+            if name not in self._fresh:
+                products = [each for each in self._all(name) if each.result.order <= RUN_STAGES.index(until)]
+                why = why_pending(self.chain(products, redo=False), look)
+                whys |= {} if why is None else {name: why}
+        return whys
 
-    def follow(self, chains: Iterable[Sequence[Product]], *, is_here: bool = False) -> None:
+    def follow(self, chains: Iterable[Sequence[Product]]) -> None:
         """
         Bring chains of results up to date that do not depend on each other.
 
-        Those with nothing to do end here; the others are worked on by workers, unless that `is_here` too.
+        Those with nothing to do end here; the others are worked on by workers, but for results that several workers
+        share in: those are made one after the other when what is before them is there.
         """
+        every = [list(products) for products in chains if products]
+        alone = [list(takewhile(lambda product: not product.is_shared, products)) for products in every]
+        self._bring([products for products in alone if products], self.workers, self.scheduler)
+        later = []
+        for before, products in zip(alone, every, strict=True):
+            shared, rest = products[len(before) : len(before) + 1], products[len(before) + 1 :]
+            if self._is_standing(shared):
+                self._bring([shared], workers=1)
+            if self._is_standing(rest):
+                later.append(rest)
+        if later:
+            self.follow(later)
+
+    def _is_standing(self, products: Sequence[Product]) -> bool:
+        """Whether there are any, and what they are of has not failed."""
+        return any(each.result.subject not in self.failed[each.result.of] for each in products)
+
+    def _bring(self, chains: Sequence[Sequence[Product]], workers: int | None, scheduler: str | None = None) -> None:
         every = [self.chain(products) for products in chains]
-        for done, runs in enumerate(self._ended(every, is_here=is_here), 1):
+        for done, runs in enumerate(self._ended(every, workers, scheduler), 1):
             for stage in runs:
                 self.stages.append(stage)
                 if stage.action == "failed":
@@ -197,7 +199,7 @@ class Walk:
                 if stage.of == "test":
                     self.progress(stage, done, len(every))
 
-    def _ended(self, chains: Iterable[Chain], *, is_here: bool) -> Iterator[list[StageRun]]:
+    def _ended(self, chains: Iterable[Chain], workers: int | None, scheduler: str | None) -> Iterator[list[StageRun]]:
         waiting = []
         for chain in chains:
             expect_none()
@@ -206,11 +208,10 @@ class Walk:
                 waiting.append(chain)
             else:
                 yield standing
-        scheduler = None if is_here else self.scheduler
         yield from spread(
             bring_up_to_date if scheduler is None else on_a_cluster,
             waiting,
-            workers=1 if is_here else self.workers,
+            workers=workers,
             scheduler=scheduler,
             tell=self.tell,
             lost=worker_lost,
@@ -219,16 +220,8 @@ class Walk:
 
     def chain(self, products: Sequence[Product], *, redo: bool = True) -> Chain:
         """Return the chain of some results of one test or specimen; without `redo`, ignore `start_from`."""
-        first = products[0].result
-        return Chain(
-            products,
-            results_of(self._campaign, self._test(first.subject)) if first.of == "test" else [],
-            self.graph.layout,
-            self._campaign.path,
-            Origin.of(self._campaign),
-            self.run_id,
-            self.start_from if redo else None,
-        )
+        start_from = self.start_from if redo else None
+        return Chain(products, self.graph.layout, Origin.of(self._campaign), self.run_id, start_from)
 
     @property
     def included(self) -> list[str]:
@@ -238,16 +231,17 @@ class Walk:
     def _asks_for(self, stage: str) -> bool:
         return RUN_STAGES.index(self.until) >= RUN_STAGES.index(stage)
 
-    def _products(self, phase: Phase, name: str) -> list[Product]:
-        return [product for product in self._all(phase, name) if self._asks_for(product.result.stage)]
+    def _products(self, name: str, since: str = "ingest", until: str = "compare") -> list[Product]:
+        """Return the results of a test from one stage to another, as far as the run goes."""
+        first, *last = (RUN_STAGES.index(stage) for stage in (since, until, self.until))
+        return [product for product in self._all(name) if first <= product.result.order <= min(last)]
 
-    def _all(self, phase: Phase, name: str) -> list[Product]:
+    def _all(self, name: str) -> list[Product]:
         """Return the results of a test, made once: gathering what they read of the campaign takes time."""
-        if (phase, name) not in self._known:
-            test, where = self._test(name), Where(self.workers, self.scheduler, partial(self._tell_members, name))
-            made = self.graph.measuring(test) if phase == "measuring" else self.graph.predicting(test, where)
-            self._known[phase, name] = made
-        return self._known[phase, name]
+        if name not in self._known:
+            where = Where(self.workers, self.scheduler, partial(self._tell_members, name))
+            self._known[name] = self.graph.of_test(self._test(name), where)
+        return self._known[name]
 
     def _tell_members(self, name: str, done: int, total: int) -> None:
         self.progress(StageRun(name, "ensemble", "done"), done, total)
@@ -264,7 +258,7 @@ class Walk:
         """Whether neither a test nor its specimen failed; nothing may follow from a specimen that did."""
         test = self._test(name)
         if reason := self.failed["specimen"].get(test.specimen):
-            remove_later(self.graph.layout, results_of(self._campaign, test), RUN_STAGES.index("restitution"))
+            remove_later(self.graph.layout, ResultId(name, "restitution"))
             self.failed["test"].setdefault(name, f"specimen {test.specimen}: {reason}")
         return name not in self.failed["test"]
 
@@ -279,13 +273,3 @@ class Walk:
 
     def _test(self, name: str) -> Test:
         return self._campaign.tests[name]
-
-
-def _is_long(result: ResultId) -> bool:
-    """Whether a result is an ensemble on contact."""
-    return result.stage == "ensemble" and MODELS[str(result.model)].in_space
-
-
-def _is_last(result: ResultId) -> bool:
-    """Whether a result is made after the others of its test, where that has an ensemble on contact."""
-    return _is_long(result) or result.stage == "compare"

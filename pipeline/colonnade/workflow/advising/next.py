@@ -160,8 +160,8 @@ def advice_shown(
     tests, code = records_of_tests(campaign, summary), catalogue.code(MADE_BY)
     asked = [(name, kind) for name in campaign.of_interest for kind in KINDS]
     products = (_advice(campaign, layout, catalogue, name, kind, tests, code) for name, kind in asked)
-    made = {str(each.product.id): each.text for each in brought_up_to_date(products, catalogue, workers=workers)}
-    return [each for name, kind in asked for each in _ADVICE.validate_json(made[f"advice {name} {kind}"])]
+    made = brought_up_to_date(products, catalogue, workers=workers)
+    return [each for name, kind in asked for each in _ADVICE.validate_json(made[f"advice {name} {kind}"].text)]
 
 
 def _advice(

@@ -164,7 +164,7 @@ def measured(campaign: Campaign, layout: Layout) -> set[str]:
     catalogue = Catalogue(layout)
     raw = {test.id: raw_files(campaign, test, catalogue) for test in campaign.tests.values()}
     walk = Walk(Graph(campaign, layout, catalogue, raw), "")
-    return set(campaign.tests) - walk.stale("measuring").keys()
+    return set(campaign.tests) - walk.stale(until="restitution").keys()
 
 
 def _compare(campaign: Campaign, test: Test, stored: Stored) -> None:
