@@ -16,7 +16,6 @@ collect_ignore = [
     "fuzz.py",
     "read_damaged.py",
     "victim.py",
-    "watcher.py",
     "whole_files.py",
 ]
 
