@@ -11,15 +11,13 @@ import shutil
 from pathlib import Path
 
 from colonnade import Block, Motion
-from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
-from colonnade.laboratory.files import COMMAS, GERMAN
-from colonnade.laboratory.programme import frame, table_acceleration, table_displacement
+from colonnade.laboratory.files import GERMAN
+from colonnade.laboratory.plan import Plan, Recorder, Trial
 from colonnade.laboratory.runs import write
 from colonnade.laboratory.site import synthetic_records
 from colonnade.laboratory.table import ramped_sine, recorded
 
 RESTITUTION = 0.94
-RANGES = (0.150, 0.015)  # m at 10 V, of LVDT 1 and LVDT 2
 SCALE = 10
 QUIET = 1.5  # s before the table moves
 SHEET = """\
@@ -33,11 +31,33 @@ Tischweg   displacement of the table                               5 mm/V     10
 ACC        accelerometer on the table, second recorder             0.2 g/V    10 V
 """
 
+VOLTS = 'unit = "V", range = "10 V", direction = [1, 0, 0]'
+SEEN = f'quantity = "displacement", on = "specimen", relative_to = "table", {VOLTS}'
+SHAKEN = f'quantity = "acceleration", on = "table", {VOLTS}'
+FRAME = f"""
+top = {{column = "LVDT 1", gain = "15 mm/V", at = ["50 mm", "0 mm", "440 mm"], {SEEN}}}
+bottom = {{column = "LVDT 2", gain = "1.5 mm/V", at = ["50 mm", "0 mm", "40 mm"], {SEEN}}}
+"""
+TRUE = f"""
+schema = 1
+campaign = "morning"
+title = "A morning at the shake table"
+
+[specimens]
+prism = {{shape = "prism", width = "100 mm", depth = "100 mm", height = "500 mm", mass = "11.50 kg"}}
+
+[setups.bench.channels]{FRAME}
+[setups.table]
+catch = "0.35 rad"
+recorders.daq2.clock.align = ["table_displacement", "table_acceleration"]
+
+[setups.table.channels]{FRAME}
+table_displacement = {{column = "Tischweg", gain = "5 mm/V", quantity = "displacement", on = "table", {VOLTS}}}
+table_acceleration = {{column = "ACC", recorder = "daq2", gain = "0.2 g/V", {SHAKEN}}}
+"""
+
 block = Block.prism(width=0.100, depth=0.100, height=0.500, mass=11.50)
-on_specimen, position, acceleration = frame((0.050, 0.050), RANGES), table_displacement(0.050), table_acceleration()
-bench = Setup({MAIN: Recorder(on_specimen, 500.0, GERMAN)})
-daq2 = Recorder((acceleration,), 400.0, COMMAS, late=0.3, align=(position.channel, acceleration.channel))
-table = Setup({MAIN: Recorder((*on_specimen, position), 500.0, GERMAN), "daq2": daq2}, catch=0.35)
+main, daq2 = Recorder(500.0, GERMAN), Recorder(400.0, late=0.3)
 
 
 def free(number, ratio):
@@ -62,11 +82,10 @@ def quake(number, motion, peak):
 
 valley = synthetic_records(count=2)[1].motion
 plan = Plan(
-    campaign="morning",
-    title="A morning at the shake table",
-    specimens={"prism": Specimen({"shape": "prism"}, block, RESTITUTION)},
-    setups={"bench": bench, "table": table},
-    trials=(free(1, 0.6), free(2, -0.5), free(3, 0.7), sine(3, 1.6), sine(5, 1.6), quake(1, valley, 3.5)),
+    TRUE,
+    {"prism": RESTITUTION},
+    {"bench": {"main": main}, "table": {"main": main, "daq2": daq2}},
+    (free(1, 0.6), free(2, -0.5), free(3, 0.7), sine(3, 1.6), sine(5, 1.6), quake(1, valley, 3.5)),
 )
 write(plan, "virtual", seed=1)
 shutil.copytree("virtual/raw", "morning/raw", dirs_exist_ok=True)

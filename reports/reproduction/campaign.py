@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from colonnade.arrays import Array
+from colonnade.campaign import FILE_NAME, load
 from colonnade.cli.common.console import complain, work_progress
 from colonnade.cli.run import run_with_progress
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory import paper_programme, write_campaign
-from colonnade.laboratory.campaign_file import FILE_NAME
-from colonnade.laboratory.experiment import Plan
-from colonnade.laboratory.programme import LADDERS, LASTING, RAMP, sine
+from colonnade.laboratory.plan import Plan
+from colonnade.laboratory.programme import COLUMNS, LADDERS, LASTING, RAMP, sine
 from colonnade.store.files import write_text
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import make_maps
@@ -53,7 +53,7 @@ MAP_POINTS = 49
 def programme(name: str, record: Motion, *, seed: int = SEED) -> Plan:
     """Plan the demo's programme and, at its end, the histories that the paper shows and the demo leaves out."""
     plan = paper_programme(name, record, seed=seed)
-    block, table = plan.specimens[SPECIMEN].block, f"{SPECIMEN}-table"
+    block, table = load(COLUMNS).block(SPECIMEN), f"{SPECIMEN}-table"
     missing = [level for level in SHOWN if level not in LADDERS["prism"][SHOWN_FREQUENCY]]
     added = (
         sine(block, f"sine-{SHOWN_FREQUENCY:g}Hz-{level:.2f}", SHOWN_FREQUENCY, level, cycles=LASTING, ramp=RAMP)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
-from colonnade.campaign import Campaign
+from colonnade.campaign import Campaign, load
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.simulate import simulate
@@ -19,7 +19,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.run import OUTCOMES
 from colonnade.dynamics.rock import rock
 from colonnade.identification.response.boundaries import SAME_FREQUENCY, MapPoint, bracket_boundaries
-from colonnade.laboratory.programme import RIGS
+from colonnade.laboratory.programme import COLUMNS
 from colonnade.signals.metrics import nrmse
 from colonnade.stages.contact import ContactInputs, body_of, law_of
 from colonnade.store import files
@@ -166,7 +166,7 @@ def in_space(campaign: Campaign, layout: Layout, motions: Mapping[str, Motion]) 
 def _last_stage(history: ContactHistory) -> Numbers:
     """Give the largest slide and rotations up to the angle at which the frame catches the block."""
     alpha = history.block.critical_angle
-    caught = np.abs(history.angle) >= RIGS["prism"].catch
+    caught = np.abs(history.angle) >= load(COLUMNS).setups[f"{SPECIMEN}-table"].catch
     standing = np.arange(caught.size) < (np.argmax(caught) if caught.any() else caught.size)
     slide: Array = np.hypot(history.slide[:, 0], history.slide[:, 1])
     return {

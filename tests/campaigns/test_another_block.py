@@ -7,63 +7,60 @@ import json
 
 import pytest
 
+from colonnade.campaign.channel import MAIN
 from colonnade.dynamics.block import Block
-from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import Flavour
+from colonnade.laboratory.plan import Plan, Recorder, Trial
 from colonnade.laboratory.runs import write
-from colonnade.laboratory.table import Transducer, ramped_sine
+from colonnade.laboratory.table import ramped_sine
 from colonnade.workflow import run
 
 STONE = Block.prism(width=0.25, depth=0.30, height=1.10, mass=180.0)
 RESTITUTION = 0.93
-CATCH = 0.35
-SHAPE = {"shape": "prism", "width": "250 mm", "depth": "300 mm", "height": "1.1 m", "mass": "180 kg"}
+
+CAMPAIGN = """
+schema = 1
+campaign = "stone-block"
+title = "Rocking of a stone block"
+
+[specimens]
+stone = {shape = "prism", width = "250 mm", depth = "300 mm", height = "1.1 m", mass = "180 kg"}
+
+[setups.frame]
+catch = "0.35 rad"
+
+[setups.frame.channels]
+"""
+VOLTS = 'unit = "V", range = "10 V", direction = [1, 0, 0]'
+SEEN = f'{VOLTS}, quantity = "displacement", on = "specimen", relative_to = "ground"'
+ON_TABLE = f'{VOLTS}, on = "table"'
+CHANNELS = {
+    "head": f'column = "Weg oben", gain = "50 mm/V", offset = "12 mm", at = ["-125 mm", "0 mm", "1 m"], {SEEN}',
+    "waist": f'column = "Weg Mitte", gain = "30 mm/V", offset = "-4 mm", at = ["-125 mm", "0 mm", "500 mm"], {SEEN}',
+    "foot": f'column = "Weg unten", gain = "12 mm/V", at = ["-125 mm", "0 mm", "50 mm"], {SEEN}',
+    "table": f'column = "Tisch", quantity = "displacement", gain = "10 mm/V", offset = "1.5 mm", {ON_TABLE}',
+    "shaking": f'column = "Beschl", quantity = "acceleration", gain = "0.2 g/V", offset = "0.1 m/s^2", {ON_TABLE}',
+}
 
 pytestmark = pytest.mark.whole
 
 
-def _displacement(channel, column, full_scale, offset, height):
-    return Transducer(
-        channel,
-        column,
-        "displacement",
-        "specimen",
-        full_scale,
-        "mm",
-        offset=offset,
-        at=(-0.125, 0.0, height),
-        direction=(1.0, 0.0, 0.0),
-        relative_to="ground",
-    )
-
-
 def _plan():
     flavour = Flavour(delimiter=";", decimal=",", encoding="utf-16", time_name="Zeit", units_in_names=True)
-    transducers = (
-        _displacement("head", "Weg oben", 0.500, 0.012, 1.00),
-        _displacement("waist", "Weg Mitte", 0.300, -0.004, 0.50),
-        _displacement("foot", "Weg unten", 0.120, 0.0, 0.05),
-        Transducer("table", "Tisch", "displacement", "table", 0.100, "mm", offset=0.0015),
-        Transducer("shaking", "Beschl", "acceleration", "table", 19.6133, "g", offset=0.1),
-    )
     sine = {"frequency": 1.5, "start": 1.5, "ramp": 2}
     rocks = ramped_sine(acceleration=1.5 * STONE.uplift_acceleration, cycles=8, **sine)
     falls = ramped_sine(acceleration=3.5 * STONE.uplift_acceleration, cycles=8, **sine)
     return Plan(
-        campaign="stone-block",
-        title="Rocking of a stone block",
-        specimens={"stone": Specimen(SHAPE, STONE, RESTITUTION)},
-        setups={"frame": Setup({MAIN: Recorder(transducers, 250.0, flavour)}, catch=CATCH)},
-        trials=(
+        CAMPAIGN + "\n".join(f"{name} = {{{keys}}}" for name, keys in CHANNELS.items()),
+        {"stone": RESTITUTION},
+        {"frame": {MAIN: Recorder(250.0, flavour)}},
+        (
             Trial("let-go", "free-vibration", "frame", 24.0, theta0=-0.6 * STONE.critical_angle, release=2.0),
             Trial("let-go.2", "free-vibration", "frame", 24.0, theta0=0.5 * STONE.critical_angle, release=1.2),
             Trial("rocks", "sine", "frame", rocks.stop + 8.0, table=rocks, entry={"frequency": "1.5 Hz"}),
             Trial("falls", "sine", "frame", falls.stop + 8.0, table=falls, entry={"frequency": "1.5 Hz"}),
         ),
     )
-
-
-pytestmark = pytest.mark.whole
 
 
 @pytest.fixture(scope="module")

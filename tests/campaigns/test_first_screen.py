@@ -7,22 +7,45 @@ import numpy as np
 import pytest
 import scipy
 
+from colonnade.campaign.channel import MAIN
 from colonnade.cli import invoke
 from colonnade.dynamics.motion import Motion
-from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
-from colonnade.laboratory.files import COMMAS
+from colonnade.laboratory.plan import Plan, Recorder, Trial
 from colonnade.laboratory.runs import write
-from colonnade.laboratory.table import Transducer, recorded
+from colonnade.laboratory.table import recorded
 from colonnade.signals.filters import lowpass
 from faults.fault import TIME, TOP, both, in_campaign, in_file, swapped
 from prism import PRISM
+from prism import SPECIMEN as PRISM_LINE
 
 pytestmark = pytest.mark.whole
 
 SCREEN = 24
 """Lines."""
 
-SHAPE = {"shape": "prism", "width": "86 mm", "depth": "86 mm", "height": "456 mm", "mass": "26.10 kg"}
+VOLTS = 'unit = "V", gain ='
+ON_TABLE = 'range = "10 V", on = "table", direction = [1, 0, 0]'
+AT = 'range = "10 V", on = "specimen", direction = [1, 0, 0], relative_to = "table", at ='
+CAMPAIGN = f"""
+schema = 1
+campaign = "sound"
+title = "Without a mistake"
+
+[specimens]
+{PRISM_LINE}
+
+[motions]
+"Valley NS" = "valley-ns.csv"
+"Valley EW" = "valley-ew.csv"
+
+[setups.rig]
+
+[setups.rig.channels]
+top = {{column = "LVDT 1", quantity = "displacement", {VOLTS} "15 mm/V", {AT} ["43 mm", "0 mm", "440 mm"]}}
+bottom = {{column = "LVDT 2", quantity = "displacement", {VOLTS} "5 mm/V", {AT} ["43 mm", "0 mm", "40 mm"]}}
+table = {{column = "ACT", quantity = "displacement", {VOLTS} "5 mm/V", {ON_TABLE}}}
+acceleration = {{column = "ACC", quantity = "acceleration", {VOLTS} "2 m/s^2/V", {ON_TABLE}}}
+"""
 
 
 def _component(seed):
@@ -43,18 +66,11 @@ def sound(tmp_path_factory):
     """A free vibration and an earthquake, without a mistake; the record's other component is known too."""
     folder = tmp_path_factory.mktemp("sound")
     shaken = recorded(_component(1), start=1.5)
-    transducers = (
-        Transducer("top", "LVDT 1", "displacement", "specimen", 0.150, "mm", at=(0.043, 0.0, 0.440)),
-        Transducer("bottom", "LVDT 2", "displacement", "specimen", 0.05, "mm", at=(0.043, 0.0, 0.04)),
-        Transducer("table", "ACT", "displacement", "table", 0.050, "mm"),
-        Transducer("acceleration", "ACC", "acceleration", "table", 20.0, "m/s^2"),
-    )
     plan = Plan(
-        campaign="sound",
-        title="Without a mistake",
-        specimens={"prism": Specimen(SHAPE, PRISM, 0.976)},
-        setups={"rig": Setup({MAIN: Recorder(transducers, 250.0, COMMAS)})},
-        trials=(
+        CAMPAIGN,
+        {"prism": 0.976},
+        {"rig": {MAIN: Recorder(250.0)}},
+        (
             Trial("free", "free-vibration", "rig", 16.0, theta0=0.55 * PRISM.critical_angle, release=1.5),
             Trial("quake", "earthquake", "rig", shaken.stop + 2.0, table=shaken, entry={"motion": "Valley NS"}),
         ),
@@ -62,9 +78,6 @@ def sound(tmp_path_factory):
     write(plan, folder, seed=3)
     for name, seed in (("ns", 1), ("ew", 2)):
         _write_motion(folder / f"valley-{name}.csv", _component(seed))
-    motions = '\n[motions]\n"Valley NS" = "valley-ns.csv"\n"Valley EW" = "valley-ew.csv"\n\n[setups.'
-    path = folder / "campaign.toml"
-    path.write_text(path.read_text(encoding="utf-8").replace("\n[setups.", motions, 1), encoding="utf-8")
     return folder
 
 

@@ -1,56 +1,23 @@
 """A small virtual campaign with all that a report can meet, and its results from one real run."""
 
+from pathlib import Path
+
 import numpy as np
 from scipy.signal import butter, sosfiltfilt
 
 from colonnade.campaign import load
-from colonnade.dynamics.block import Block
+from colonnade.campaign.channel import MAIN
 from colonnade.dynamics.motion import Motion
-from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
+from colonnade.laboratory.plan import Plan, Recorder, Trial
 from colonnade.laboratory.runs import write
-from colonnade.laboratory.table import Transducer, ramped_sine, recorded, still
+from colonnade.laboratory.table import ramped_sine, recorded, still
 from colonnade.workflow import run
 from prism import PRISM
 
-SCRIPT = "<script>alert('title')</script>"
 MARKUP = '<img src=x onerror="alert(1)"> & 5 < 6'
 STRONG = "sine-3hz-too-strong-for-the-block-1"
 LATER = "later"
-RATE = 250.0
-
-STATUE = Block.measured(mass=80.0, pole_distance=0.61, critical_angle=(0.21, 0.23), inertia=41.2)
-SPECIMENS = {
-    "prism": Specimen(
-        {"shape": "prism", "width": "86 mm", "depth": "86 mm", "height": "456 mm", "mass": "26.10 kg", "scale": 20},
-        PRISM,
-        0.93,
-    ),
-    "statue": Specimen(
-        {
-            "shape": "measured",
-            "mass": "80 kg",
-            "pole_distance": "610 mm",
-            "critical_angle": ["0.21 rad", "0.23 rad"],
-            "inertia": "41.2 kg m^2",
-            "restitution": 0.9,
-        },
-        STATUE,
-        0.9,
-    ),
-}
-ON_SPECIMEN = (
-    Transducer("top", "LVDT <1>", "displacement", "specimen", 0.100, "mm", at=(0.043, 0.0, 0.440)),
-    Transducer("bottom", "LVDT 2", "displacement", "specimen", 0.010, "mm", at=(0.043, 0.0, 0.020)),
-)
-ON_TABLE = (Transducer("table_acceleration", "ACC", "acceleration", "table", 19.6133, "m/s^2"),)
-SETTINGS = """
-[processing]
-lowpass = "25 Hz"
-
-[processing.predict.ensemble]
-restitution = 0.0005
-members = 20
-"""
+HEAD = Path(__file__).with_name("small_campaign.toml")
 REVIEW = f"""
 schema = 1
 
@@ -74,8 +41,6 @@ def _shaking(strength):
 
 
 def _plan():
-    frame = Setup({MAIN: Recorder((*ON_SPECIMEN, *ON_TABLE), RATE)})
-    watched = Setup({MAIN: Recorder(ON_TABLE, RATE)})
     free = [
         Trial(
             name,
@@ -84,7 +49,6 @@ def _plan():
             9.0,
             theta0=share * PRISM.critical_angle,
             release=1.0,
-            specimen="prism",
             table=table,
         )
         for name, share, table in (("free-01", 0.5, still()), ("free-refused", 0.45, _shaking(0.15)))
@@ -98,31 +62,28 @@ def _plan():
             table=_shaking(1.35 * span),
             spikes=3 if span == 2.0 else 0,
             entry={"span": span, "motion": f"El Centro 1940 NS {MARKUP}", "time_scale": 0.2236},
-            specimen="prism",
         )
         for span in (2.0, 2.5, 3.0)
     ]
     sine = ramped_sine(3.0, 7.0, start=1.0, cycles=12, ramp=2)
     sines = [
-        Trial(name, "sine", "frame", 6.5, table=sine, entry={"frequency": "3 Hz", **entry}, specimen="prism")
+        Trial(name, "sine", "frame", 6.5, table=sine, entry={"frequency": "3 Hz", **entry})
         for name, entry in ((STRONG, {"notes": MARKUP, "zero": "start"}), ("sine-dead", {}), (LATER, {}))
     ]
     seen = {"observed_outcome": "not-overturned"}
     statue = Trial("watched", "earthquake", "watched", 6.5, table=_shaking(2.0), entry=seen, specimen="statue")
+    recorder = {MAIN: Recorder(250.0)}
     return Plan(
-        campaign="prism-2013",
-        title=f"Rocking of a solid steel prism {SCRIPT}",
-        specimens=SPECIMENS,
-        setups={"frame": frame, "watched": watched},
-        trials=(*free, *spans, *sines, statue),
+        HEAD.read_text(encoding="utf-8"),
+        {"prism": 0.93, "statue": 0.9},
+        {"frame": recorder, "watched": recorder},
+        (*free, *spans, *sines, statue),
     )
 
 
 def write_small_campaign(folder):
     """Shake the virtual table; one raw file is empty, and in one the accelerometer is the wrong way round."""
     write(_plan(), folder)
-    with (folder / "campaign.toml").open("a", encoding="utf-8") as campaign_file:
-        campaign_file.write(SETTINGS)
     (folder / "review.toml").write_text(REVIEW, encoding="utf-8")
     (folder / "raw" / "sine-dead.csv").write_text("", encoding="utf-8")
     _turn_accelerometer(folder / "raw" / "free-refused.csv")

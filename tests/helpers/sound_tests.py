@@ -4,12 +4,12 @@ import re
 
 import numpy as np
 
+from colonnade.campaign.channel import MAIN
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
-from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
-from colonnade.laboratory.files import COMMAS
+from colonnade.laboratory.plan import Plan, Recorder, Trial
 from colonnade.laboratory.runs import write
-from colonnade.laboratory.table import Imperfections, Transducer, ramped_sine, recorded, still
+from colonnade.laboratory.table import Imperfections, ramped_sine, recorded, still
 from colonnade.signals.filters import lowpass
 
 KINDS = ("free-vibration", "sine", "earthquake", "pulse")
@@ -20,6 +20,23 @@ CALIBRATION = 0.005
 """Standard deviation of a gain, relative, as a calibrated chain has it."""
 
 
+SIZES = ("width", "depth", "height")
+
+HEAD = """
+schema = 1
+campaign = "sound-{}"
+title = "Nothing is wrong"
+
+[specimens]
+"""
+
+ALIGNED = """
+[setups.rig.recorders.daq2]
+clock = {align = ["table_displacement", "table_acceleration"]}
+
+"""
+
+
 def write_sound(folder, seed):
     """Write a campaign of a block's four tests, one of each kind, on the rig of this seed."""
     rng = np.random.default_rng([26, seed])
@@ -27,17 +44,13 @@ def write_sound(folder, seed):
     width = height * rng.uniform(0.16, 0.3)
     mass = rng.uniform(1500.0, 7800.0) * width**2 * height
     block = Block.prism(width=width, depth=width, height=height, mass=mass)
-    sizes = {"width": width, "depth": width, "height": height}
-    shape = {"shape": "prism", **{name: f"{1e3 * size:.6g} mm" for name, size in sizes.items()}, "mass": f"{mass:g} kg"}
     trials = tuple(_trial(kind, block, rng) for kind in KINDS)
-    plan = Plan(
-        campaign=f"sound-{seed}",
-        title="Nothing is wrong",
-        specimens={"block": Specimen(shape, block, rng.uniform(0.9, 0.985))},
-        setups=_setups(RIGS[seed % len(RIGS)], trials, block, height, width, rng),
-        trials=trials,
-        imperfections=Imperfections(noise=10 ** rng.uniform(-4.0, -3.0), drift=rng.uniform(0.0, 0.001)),
-    )
+    restitution = {"block": rng.uniform(0.9, 0.985)}
+    setups, recorders = _rig(RIGS[seed % len(RIGS)], trials, block, height, width, rng)
+    sizes = ", ".join(f'{key} = "{1e3 * size:.6g} mm"' for key, size in zip(SIZES, (width, width, height), strict=True))
+    head = f'{HEAD.format(seed)}block = {{shape = "prism", {sizes}, mass = "{mass:g} kg"}}\n{setups}'
+    imperfections = Imperfections(noise=10 ** rng.uniform(-4.0, -3.0), drift=rng.uniform(0.0, 0.001))
+    plan = Plan(head, restitution, recorders, trials, imperfections)
     path = write(plan, folder, seed=seed).path
     text = re.sub(
         r'(gain = ")([\d.e+-]+)',
@@ -75,36 +88,35 @@ def _earthquake(peak, p, rng):
     return Motion(peak * values / np.abs(values).max(), interval)
 
 
-def _setups(name, trials, block, height, width, rng):
+def _rig(name, trials, block, height, width, rng):
+    """Set-ups and their recorders, each channel with room to spare."""
     moves = [_range(trial.table) for trial in trials]
     spare = rng.uniform(1.2, 2.5)
     moved, shaken = (spare * max(each) for each in zip(*moves, strict=True))
     catch = rng.uniform(1.2, 1.6) * block.critical_angle
     fixed = "ground" if name == "ground" else "table"
-    frame = tuple(
-        Transducer(
-            channel,
-            column,
-            "displacement",
-            "specimen",
-            spare * height * place * catch + (moved if fixed == "ground" else 0.0) + 0.15 * width,
-            "mm",
-            at=(width / 2, 0.0, height * place),
-            relative_to=fixed,
-        )
-        for channel, column, place in (("top", "LVDT 1", 0.95), ("bottom", "LVDT 2", rng.uniform(0.08, 0.5)))
-    )
-    displacement = Transducer("table_displacement", "ACT", "displacement", "table", moved, "mm")
-    acceleration = Transducer("table_acceleration", "ACC", "acceleration", "table", shaken, "m/s^2")
-    rate = float(rng.choice([200.0, 250.0, 500.0]))
-    bench = Setup({MAIN: Recorder(frame, rate, COMMAS)}, catch=catch)
+    frame = ""
+    for channel, column, place in (("top", "LVDT 1", 0.95), ("bottom", "LVDT 2", rng.uniform(0.08, 0.5))):
+        most = spare * height * place * catch + (moved if fixed == "ground" else 0.0) + 0.15 * width
+        at = f'at = ["{500 * width:.10g} mm", "0 mm", "{1e3 * height * place:.10g} mm"], relative_to = "{fixed}"'
+        frame += _channel(channel, column, "displacement", f"{100 * most:.10g} mm/V", f'on = "specimen", {at}')
+    on_table = 'on = "table"' + (', recorder = "daq2"' if name == "two" else "")
+    displacement = _channel("table_displacement", "ACT", "displacement", f"{100 * moved:.10g} mm/V", 'on = "table"')
+    acceleration = _channel("table_acceleration", "ACC", "acceleration", f"{shaken / 10:.10g} m/s^2/V", on_table)
+    recorders = {MAIN: Recorder(float(rng.choice([200.0, 250.0, 500.0])))}
+    bench, rig = (f'\n[setups.{key}]\ncatch = "{catch:g} rad"\n' for key in ("bench", "rig"))
+    text = f"{bench}[setups.bench.channels]\n{frame}{rig}"
+    both = recorders
     if name == "two":
-        second = Recorder((acceleration,), 400.0, COMMAS, late=0.02, align=(displacement.channel, acceleration.channel))
-        recorders = {MAIN: Recorder((*frame, displacement), rate, COMMAS), "daq2": second}
-    else:
-        table = {"acceleration": (acceleration,), "displacement": (displacement,)}
-        recorders = {MAIN: Recorder((*frame, *table.get(name, (displacement, acceleration))), rate, COMMAS)}
-    return {"bench": bench, "rig": Setup(recorders, catch=catch)}
+        text += ALIGNED
+        both = recorders | {"daq2": Recorder(400.0, late=0.02)}
+    table = {"acceleration": acceleration, "displacement": displacement}.get(name, displacement + acceleration)
+    return f"{text}[setups.rig.channels]\n{frame}{table}", {"bench": recorders, "rig": both}
+
+
+def _channel(name, column, quantity, gain, place):
+    kept = f'unit = "V", gain = "{gain}", range = "10 V", direction = [1, 0, 0]'
+    return f'{name} = {{column = "{column}", quantity = "{quantity}", {kept}, {place}}}\n'
 
 
 def _range(table):

@@ -8,7 +8,10 @@ import pytest
 from colonnade.laboratory.files import Matlab, Sheet, Tdms
 from colonnade.readers.registry import read
 
-FORMATS = [pytest.param(Tdms(), "V", id="TDMS"), pytest.param(Matlab(), None, id="MATLAB")]
+FORMATS = [
+    pytest.param(Tdms(), {"group": "Messung"}, "V", id="tdms"),
+    pytest.param(Matlab(), {"time": "time"}, None, id="matlab"),
+]
 
 
 def sheet():
@@ -17,12 +20,11 @@ def sheet():
     return Sheet(clock, 400.0, columns, np.datetime64("2013-05-14T09:00:00", "us"))
 
 
-@pytest.mark.parametrize(("flavour", "unit"), FORMATS)
-def test_what_was_written_is_read_with_its_clock(flavour, unit, tmp_path):
+@pytest.mark.parametrize(("flavour", "options", "unit"), FORMATS)
+def test_what_was_written_is_read_with_its_clock(flavour, options, unit, tmp_path):
     path = tmp_path / f"record{flavour.suffix}"
     path.write_bytes(flavour.content(sheet()))
-    declared = dict(flavour.declaration())
-    recording = read(path, declared.pop("format"), declared)
+    recording = read(path, type(flavour).__name__.lower(), options)
     assert recording.warnings == ()
     for name, (_, values) in sheet().columns.items():
         channel = recording.channel(name)
@@ -31,15 +33,15 @@ def test_what_was_written_is_read_with_its_clock(flavour, unit, tmp_path):
         assert channel.unit == unit
 
 
-@pytest.mark.parametrize(("flavour", "unit"), FORMATS)
-def test_its_format_is_recognised_without_being_told(flavour, unit, tmp_path):
+@pytest.mark.parametrize(("flavour", "options", "unit"), FORMATS)
+def test_its_format_is_recognised_without_being_told(flavour, options, unit, tmp_path):
     path = tmp_path / "record.dat"
     path.write_bytes(flavour.content(sheet()))
     np.testing.assert_array_equal(read(path).channel("lvdt_top").values, sheet().columns["lvdt_top"][1])
 
 
-@pytest.mark.parametrize(("flavour", "unit"), FORMATS)
-def test_the_same_sheet_gives_the_same_bytes_at_another_time(flavour, unit, monkeypatch):
+@pytest.mark.parametrize(("flavour", "options", "unit"), FORMATS)
+def test_the_same_sheet_gives_the_same_bytes_at_another_time(flavour, options, unit, monkeypatch):
     first = flavour.content(sheet())
     monkeypatch.setattr(time, "asctime", lambda *_: "Thu Jan  1 00:00:00 1970")
     assert flavour.content(sheet()) == first

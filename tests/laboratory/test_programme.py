@@ -10,8 +10,8 @@ import pytest
 from colonnade import campaign
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import ReadError
-from colonnade.laboratory.experiment import TESTS_A_DAY, begun
 from colonnade.laboratory.programme import (
+    COLUMNS,
     QUIET,
     RELEASES,
     SPANS,
@@ -89,21 +89,13 @@ def test_an_earthquake_is_played_at_three_spans_and_in_the_models_time():
         assert trial.spikes == 3
 
 
-def test_tests_follow_each_other_on_working_days_between_nine_and_four():
-    moments = [begun(position) for position in range(10 * TESTS_A_DAY)]
-    assert moments == sorted(set(moments))
-    assert len({moment.date() for moment in moments}) == 10
-    assert np.is_busday([moment.date() for moment in moments]).all()
-    assert {moment.hour for moment in moments} == set(range(9, 16))
-
-
 @pytest.fixture(scope="module")
 def plan():
     return paper_programme("a wave", RECORD, seed=3)
 
 
 def test_every_specimen_has_three_free_vibrations_three_spans_and_sines(plan):
-    counted = Counter((plan.specimen_of(trial), trial.kind) for trial in plan.trials)
+    counted = Counter((trial.specimen, trial.kind) for trial in plan.trials)
     for specimen in ("prism", "cylinder", "cone"):
         assert counted[specimen, "free-vibration"] == counted[specimen, "earthquake"] == 3
         assert counted[specimen, "sine"] >= 7
@@ -116,7 +108,7 @@ def test_a_sine_is_steady_while_it_says_so(plan, frequency):
     trial = next(each for each in plan.trials if each.entry.get("frequency") == f"{frequency:g} Hz")
     start, stop = trial.steady
     times = np.arange(start, stop, 1e-3)
-    amplitude = float(trial.name.rsplit("-", 1)[1]) * plan.specimens["prism"].block.uplift_acceleration
+    amplitude = float(trial.name.rsplit("-", 1)[1]) * campaign.load(COLUMNS).block("prism").uplift_acceleration
     expected = amplitude * np.sin(2 * pi * frequency * (times - 1.5))
     np.testing.assert_allclose(trial.table.acceleration(times), expected, atol=1e-9)
 

@@ -7,26 +7,44 @@ import numpy as np
 import pytest
 
 from colonnade import campaign
+from colonnade.campaign.channel import MAIN
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.errors import CampaignError, StoreError
 from colonnade.laboratory import write_campaign
-from colonnade.laboratory.campaign_file import OPERATOR
-from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import GERMAN, FileFormat, Sheet
-from colonnade.laboratory.programme import CYCLES, LADDERS, LASTING, MARGIN, RAMP, RAMPS, SPECIMENS, sine
+from colonnade.laboratory.plan import OPERATOR, Plan, Recorder, Trial
+from colonnade.laboratory.programme import COLUMNS, CYCLES, LADDERS, LASTING, MARGIN, RAMP, RAMPS, RESTITUTION, sine
 from colonnade.laboratory.runs import START_SCATTER, run_test, truth_of, with_its_truth, write
-from colonnade.laboratory.table import Imperfections, Transducer, ramped_sine
+from colonnade.laboratory.table import Imperfections, ramped_sine
 from colonnade.laboratory.truth import simulate
 from colonnade.workflow import executors
 from prism import PRISM
+from prism import SPECIMEN as PRISM_LINE
 from written_files import assert_sound, columns
 
 pytestmark = pytest.mark.whole
 
-TOP = Transducer("top", "Top", "displacement", "specimen", 0.15, "mm", at=(0.043, 0.0, 0.44))
-TABLE = Transducer("table", "Table", "acceleration", "table", 20.0, "m/s^2")
+ALONG = "direction = [1, 0, 0]"
+VOLTS = f'unit = "V", range = "10 V", {ALONG}'
+AT = 'on = "specimen", relative_to = "table", at = ["43 mm", "0 mm", "440 mm"]'
+HEAD = f"""
+schema = 1
+campaign = "c"
+title = "C"
+
+[specimens]
+{PRISM_LINE}
+
+[setups.both]
+catch = "0.28 rad"
+recorders.daq2 = {{}}
+
+[setups.both.channels]
+top = {{column = "Top", quantity = "displacement", gain = "15 mm/V", {AT}, {VOLTS}}}
+table = {{column = "Table", recorder = "daq2", quantity = "acceleration", gain = "2 m/s^2/V", on = "table", {VOLTS}}}
+"""
 LATE = 0.3
 SHAKEN = ramped_sine(2.0, 1.2 * PRISM.uplift_acceleration, start=0.5, cycles=2, ramp=1)
 PERFECT = Imperfections(noise=0.0, drift=0.0, zero=0.0)
@@ -52,18 +70,22 @@ def formats():
 @pytest.fixture
 def plan(formats):
     main, second = formats
-    recorders = {MAIN: Recorder((TOP,), 500.0, main), "daq2": Recorder((TABLE,), 400.0, second, late=LATE)}
+    recorders = {MAIN: Recorder(500.0, main), "daq2": Recorder(400.0, second, LATE)}
     trials = (
         Trial("free", "free-vibration", "both", duration=2.0, theta0=0.1, release=0.5),
         Trial("sine", "sine", "both", duration=3.0, table=SHAKEN, spikes=6, steady=(1.0, 2.0)),
         Trial("rest", "sine", "both", duration=1.0),
     )
-    shape = {"shape": "prism"}
-    return Plan("c", "C", {"prism": Specimen(shape, PRISM, 0.97)}, {"both": Setup(recorders, 0.28)}, trials, PERFECT)
+    return Plan(HEAD, {"prism": 0.97}, {"both": recorders}, trials, PERFECT)
+
+
+def loaded(plan, folder):
+    (folder / "campaign.toml").write_text(plan.campaign_text(), encoding="utf-8")
+    return campaign.load(folder)
 
 
 def run(plan, number, folder, seed=4):
-    return run_test(plan, plan.trials[number], folder, np.random.SeedSequence(seed))
+    return run_test(plan, loaded(plan, folder), plan.trials[number], np.random.SeedSequence(seed))
 
 
 def test_each_recorder_has_a_clock_that_begins_at_its_own_start(plan, formats, tmp_path):
@@ -139,7 +161,7 @@ def test_the_largest_acceleration_is_that_of_the_table(plan, tmp_path):
 
 def test_the_truth_holds_specimens_errors_and_tests_and_reads_back(plan, tmp_path):
     records = {"rest": run(plan, 2, tmp_path)}
-    truth = with_its_truth(tmp_path, truth_of(plan, records, 11)).truth
+    truth = with_its_truth(tmp_path, truth_of(plan, loaded(plan, tmp_path), records, 11)).truth
     assert json.loads((tmp_path / "truth" / "truth.json").read_text("utf-8")) == truth
     assert truth["seed"] == 11
     assert truth["tests"] == records
@@ -157,25 +179,36 @@ def prism(tmp_path_factory):
     return write_campaign(tmp_path_factory.mktemp("prism"), seed=0)
 
 
+SEEN = 'quantity = "displacement", on = "specimen", relative_to = "ground"'
+STATUE = f"""
+schema = 1
+campaign = "statue-1"
+title = 'A "statue", shaken'
+gravity = "9.8 m/s^2"
+
+[specimens]
+"statue.a" = {{shape = "cylinder", diameter = "120 mm", height = "500 mm", mass = "40 kg"}}
+
+[setups.frame]
+catch = "0.4 rad"
+
+[setups.frame.channels]
+upper = {{column = "Oben", gain = "30 mm/V", offset = "-0.13 mm", at = ["-60 mm", "0 mm", "480 mm"], {SEEN}, {VOLTS}}}
+lower = {{column = "Unten", unit = "mm", range = "100 mm", at = ["-60 mm", "0 mm", "100 mm"], {SEEN}, {ALONG}}}
+shaking = {{column = "Tisch", quantity = "displacement", gain = "10 mm/V", on = "table", {VOLTS}}}
+pushing = {{column = "Beschl.", quantity = "acceleration", unit = "m/s^2", range = "20 m/s^2", on = "table", {ALONG}}}
+"""
+
+
 def statue_plan():
     """Another block, ground-relative volts with gain and offset, decimal commas, an overturned and a tilted test."""
     block = Block.cylinder(diameter=0.12, height=0.5, mass=40.0, gravity=9.8)
-    shape = {"shape": "cylinder", "diameter": "120 mm", "height": "500 mm", "mass": "40 kg"}
-    upper = {"offset": -0.00013, "at": (-0.06, 0.0, 0.48), "relative_to": "ground"}
-    lower = {"at": (-0.06, 0.0, 0.1), "relative_to": "ground"}
-    transducers = (
-        Transducer("upper", "Oben", "displacement", "specimen", 0.3, "mm", **upper),
-        Transducer("lower", "Unten", "displacement", "specimen", 0.1, "mm", "mm", **lower),
-        Transducer("shaking", "Tisch", "displacement", "table", 0.1, "mm"),
-        Transducer("pushing", "Beschl.", "acceleration", "table", 20.0, "m/s^2", "m/s^2"),
-    )
-    setups = {"frame": Setup({"main": Recorder(transducers, 250.0, GERMAN)}, catch=0.4)}
     shaking = ramped_sine(1.5, 1.8 * block.uplift_acceleration, start=1.5, cycles=6, ramp=3)
     trials = (
         Trial("tilted", "free-vibration", "frame", 12.0, theta0=0.5 * block.critical_angle, release=1.2),
         Trial("fallen", "sine", "frame", 10.0, shaking, entry={"frequency": "1.5 Hz"}),
     )
-    return Plan("statue-1", 'A "statue", shaken', {"statue.a": Specimen(shape, block, 0.93)}, setups, trials)
+    return Plan(STATUE, {"statue.a": 0.93}, {"frame": {MAIN: Recorder(250.0, GERMAN)}}, trials)
 
 
 def physical(written, name, channel):
@@ -265,7 +298,6 @@ def test_a_campaign_of_ones_own_reads_back_in_si(tmp_path):
     loaded = campaign.load(written.path)
     assert loaded.gravity == 9.8
     assert loaded.title == 'A "statue", shaken'
-    assert loaded.block("statue.a").p == pytest.approx(statue_plan().specimens["statue.a"].block.p, rel=1e-12)
     assert written.truth["tests"]["fallen"]["outcome"] == "overturned"
     assert written.truth["tests"]["tilted"]["outcome"] == "rocking"
     table = statue_plan().trials[1].table
@@ -316,15 +348,15 @@ RUNGS = [(name, frequency) for name, steps in LADDERS.items() for frequency in s
 
 def outcomes(name, frequency, looks, samples_per_cycle):
     """Outcomes around each step, by the nonlinear model: not the integrator that makes the truth."""
-    specimen, steps = SPECIMENS[name], LADDERS[name]
+    block, steps = campaign.load(COLUMNS).block(name), LADDERS[name]
     cycles, ramp = CYCLES.get(frequency, LASTING), RAMPS.get(frequency, RAMP)
-    table = sine(specimen.block, "sine", frequency, 1.0, cycles=cycles, ramp=ramp).table
+    table = sine(block, "sine", frequency, 1.0, cycles=cycles, ramp=ramp).table
     dt = 1 / (frequency * samples_per_cycle)
     unit = table.acceleration(np.arange(0.0, table.stop + 1.0, dt))
 
     def outcome(amplitude):
         motion = Motion(amplitude * unit, dt)
-        return rock(specimen.block, motion, restitution=specimen.restitution, model="nonlinear").outcome
+        return rock(block, motion, restitution=RESTITUTION[name], model="nonlinear").outcome
 
     around = np.linspace(1 - MARGIN, 1 + MARGIN, looks)
     return [set(map(outcome, step * around)) for step in steps[frequency]]

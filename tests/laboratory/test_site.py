@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from colonnade.assessment.measures import intensity_measures
-from colonnade.campaign import load
+from colonnade.campaign import FILE_NAME, load
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory import site
-from colonnade.laboratory.campaign_file import FILE_NAME, campaign_text
 from colonnade.laboratory.programme import prism_programme
 from colonnade.laboratory.site import LEVELS, LIST, LOWEST, broad_band, synthetic_records
 from colonnade.readers.ground_motions.hazard import read_hazard
@@ -88,8 +87,8 @@ def test_the_files_and_their_list_are_read_back(suite, tmp_path):
 def campaign(tmp_path_factory):
     folder = tmp_path_factory.mktemp("site")
     plan = prism_programme("pulse", Motion(np.sin(np.linspace(0.0, 6.0, 600)), 0.01))
-    (folder / FILE_NAME).write_text(campaign_text(plan), encoding="utf-8")
-    site.add_site(plan, folder / FILE_NAME, seed=3)
+    (folder / FILE_NAME).write_text(plan.campaign_text(), encoding="utf-8")
+    site.add_site(folder / FILE_NAME, seed=3)
     return load(folder)
 
 

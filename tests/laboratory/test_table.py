@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from colonnade.campaign import Channel, load
 from colonnade.dynamics.motion import Motion
-from colonnade.laboratory.experiment import MAIN
-from colonnade.laboratory.programme import RIGS, setups
-from colonnade.laboratory.table import STEP, Imperfections, Transducer, measure, ramped_sine, recorded, still
+from colonnade.laboratory.programme import PRISM as PRISMS_FILE
+from colonnade.laboratory.table import STEP, Imperfections, measure, ramped_sine, recorded, sense, still
 from colonnade.readers.motion import el_centro
 from every import every
 from prism import PRISM
@@ -67,7 +67,14 @@ def test_a_table_that_stands_still_has_no_motion():
     assert not still().displacement(time).any()
 
 
-LVDT = Transducer("top", "LVDT 1", "displacement", "specimen", 0.150, "mm", at=(0.043, 0.0, 0.440))
+def transducer(**changed):
+    """A displacement transducer at the top of the specimen, with 15 mm a volt."""
+    entry = {"column": "LVDT 1", "quantity": "displacement", "unit": "V", "gain": "15 mm/V", "range": "10 V"}
+    place = {"on": "specimen", "relative_to": "table", "at": ["0 mm", "0 mm", "400 mm"], "direction": [1, 0, 0]}
+    return Channel.model_validate(entry | place | changed)
+
+
+LVDT = transducer()
 PERFECT = Imperfections(noise=0.0, drift=0.0, zero=0.0)
 
 
@@ -79,8 +86,8 @@ def rotated(point, pole, angle):
 @every("angle", [-0.28, -1e-3, 1e-3, 0.1, 0.28])
 @every(("direction", "part"), [((1.0, 0.0, 0.0), "real"), ((0.0, 0.0, 1.0), "imag"), ((-1.0, 0.0, 0.0), "back")])
 def test_a_transducer_reads_the_exact_rotation_of_its_point(angle, direction, part):
-    transducer = Transducer("c", "C", "displacement", "specimen", 0.2, "mm", at=(0.03, 0.01, 0.4), direction=direction)
-    reading = transducer.sense(PRISM, still(), np.zeros(1), np.array([angle]))[0]
+    along = transducer(at=["30 mm", "10 mm", "400 mm"], direction=direction)
+    reading = sense(along, PRISM, still(), np.zeros(1), np.array([angle]))[0]
     point, pole = 0.03 + 0.4j, np.copysign(0.043, angle)
     moved = rotated(point, pole, angle) - point
     assert reading == pytest.approx({"real": moved.real, "imag": moved.imag, "back": -moved.real}[part], abs=1e-15)
@@ -90,22 +97,22 @@ def test_a_transducer_on_the_ground_sees_the_table_too():
     table = ramped_sine(2.0, 3.0, start=0.0, cycles=3, ramp=2)
     time = np.linspace(0.0, 2.0, 50)
     angle = 0.1 * np.sin(time)
-    on_ground = Transducer("top", "C", "displacement", "specimen", 0.2, "mm", at=(0.0, 0.0, 0.4), relative_to="ground")
-    on_table = Transducer("top", "C", "displacement", "specimen", 0.2, "mm", at=(0.0, 0.0, 0.4))
-    difference = on_ground.sense(PRISM, table, time, angle) - on_table.sense(PRISM, table, time, angle)
-    np.testing.assert_allclose(difference, table.displacement(time), atol=1e-15)
+    on_ground, on_table = (
+        sense(transducer(relative_to=fixed), PRISM, table, time, angle) for fixed in ("ground", "table")
+    )
+    np.testing.assert_allclose(on_ground - on_table, table.displacement(time), atol=1e-15)
 
 
 def test_an_accelerometer_on_the_specimen_is_not_at_hand():
-    transducer = Transducer("a", "A", "acceleration", "specimen", 20.0, "g", at=(0.0, 0.0, 0.4))
+    accelerometer = transducer(quantity="acceleration", gain="2 g/V")
     with pytest.raises(ValueError, match="acceleration at"):
-        transducer.sense(PRISM, still(), np.zeros(1), np.zeros(1))
+        sense(accelerometer, PRISM, still(), np.zeros(1), np.zeros(1))
 
 
 def test_a_perfect_chain_differs_by_half_a_step_at_most():
     value = np.linspace(-0.149, 0.149, 10001)
     volts, _ = measure(value, LVDT, PERFECT, np.random.default_rng(1))
-    assert np.abs(volts - value / 0.150 * 10).max() <= STEP / 2 * (1 + 1e-9)
+    assert np.abs(volts - value / 0.015).max() <= STEP / 2 * (1 + 1e-9)
     assert pytest.approx(20 / 65536) == STEP
     np.testing.assert_allclose(volts / STEP, np.rint(volts / STEP), atol=1e-9)
 
@@ -131,17 +138,17 @@ def test_what_is_beyond_the_range_is_clipped_to_it():
 
 
 def test_gain_and_offset_give_the_physical_value_back():
-    transducer = Transducer("t", "C", "displacement", "specimen", 0.1, "mm", offset=-0.00013, at=(0.0, 0.0, 0.4))
-    volts, _ = measure(np.array([0.05]), transducer, PERFECT, np.random.default_rng(5))
-    assert volts[0] * 0.1 / 10 - 0.00013 == pytest.approx(0.05, abs=2e-6)
-    in_millimetres = Transducer("t", "C", "displacement", "specimen", 0.1, "mm", "mm", -0.00013, at=(0.0, 0.0, 0.4))
-    assert in_millimetres.written(volts)[0] == pytest.approx(50.0, abs=2e-3)
+    volts, _ = measure(np.array([0.05]), transducer(offset="-0.13 mm"), PERFECT, np.random.default_rng(5))
+    assert volts[0] * 0.015 - 0.00013 == pytest.approx(0.05, abs=3e-6)
+    direct = transducer(unit="mm", gain=None, range="100 mm")
+    assert measure(np.array([0.05]), direct, PERFECT, np.random.default_rng(5))[0][0] == pytest.approx(50.0, abs=2e-3)
 
 
 def test_no_transducer_on_the_prism_reaches_its_range_before_the_catch():
-    assert RIGS["prism"].catch / PRISM.critical_angle == pytest.approx(1.5, rel=0.02)
-    angle = np.linspace(-RIGS["prism"].catch, RIGS["prism"].catch, 101)
-    for transducer in setups(RIGS["prism"], table_range=0.050)["bench"].recorders[MAIN].transducers:
-        read = transducer.sense(PRISM, still(), np.zeros(angle.size), angle)
+    setup = load(PRISMS_FILE).setups["table"]
+    assert setup.catch / PRISM.critical_angle == pytest.approx(1.5, rel=0.02)
+    angle = np.linspace(-setup.catch, setup.catch, 101)
+    for channel in (setup.channels["top"], setup.channels["bottom"]):
+        read = sense(channel, PRISM, still(), np.zeros(angle.size), angle)
         # Its zero may be off by 2 % of the range; much more room than that would waste resolution.
-        assert 0.5 < np.abs(read).max() / transducer.full_scale < 0.97
+        assert 0.5 < np.abs(read).max() / channel.full_scale < 0.97

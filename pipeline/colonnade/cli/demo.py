@@ -50,11 +50,11 @@ def demo(
     default demo/, is created. If it holds an earlier demo, that is rewritten. Open DIR/report/index.html afterwards,
     and look at DIR/campaign.toml: your own will look like it.
     """
+    from colonnade.campaign import FILE_NAME
     from colonnade.errors import ReadError
     from colonnade.laboratory import paper_programme, prism_programme, write_campaign
     from colonnade.laboratory.assemblies import with_truth as with_several
     from colonnade.laboratory.assemblies import write_assemblies
-    from colonnade.laboratory.campaign_file import FILE_NAME
     from colonnade.laboratory.runs import with_truth
 
     if folder.is_dir() and any(folder.iterdir()) and not (folder / FILE_NAME).is_file():

@@ -17,12 +17,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.campaign import Campaign, load
+from colonnade.campaign import FILE_NAME, Campaign, load
 from colonnade.campaign.assembly import Whole
 from colonnade.campaign.channel import MAIN
 from colonnade.dynamics.assembly import Assembly, Placed
-from colonnade.laboratory.campaign_file import FILE_NAME, refuse_foreign
 from colonnade.laboratory.files import put
+from colonnade.laboratory.plan import claim
 from colonnade.laboratory.runs import WrittenCampaign, spread_over, with_its_truth
 from colonnade.laboratory.table import ramped_sine
 from colonnade.laboratory.truth import NO_ROCKING_RATIO
@@ -105,7 +105,7 @@ def write_assemblies(folder: Path, *, seed: int = 0, workers: int | None = 1) ->
     CampaignError
         If the folder holds a campaign that the laboratory did not write.
     """
-    refuse_foreign(folder)
+    claim(folder)
     put(folder / FILE_NAME, (resources("colonnade.laboratory") / "assemblies.toml").read_bytes())
     campaign = load(folder.absolute())  # as workers may have started in another folder
     seeds = np.random.SeedSequence(seed).spawn(len(SHAKEN))

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
@@ -42,10 +43,6 @@ class FileFormat(ABC):
 
     suffix: ClassVar[str]
 
-    def declaration(self) -> Mapping[str, str]:
-        """Keys of `file` in the campaign file; none where it is left to be sniffed."""
-        return {}
-
     @abstractmethod
     def content(self, sheet: Sheet) -> bytes:
         """Bytes of a file; the same sheet gives the same bytes."""
@@ -65,8 +62,6 @@ class Flavour(FileFormat):
         Lines above the names.
     units_in_names : bool
         Names such as `LVDT 1 [V]`; else the units have a row of their own.
-    declared : bool
-        Whether the campaign file says all this; else it is left to be sniffed.
     """
 
     delimiter: str = ","
@@ -75,14 +70,8 @@ class Flavour(FileFormat):
     time_name: str = "Time"
     preamble: tuple[str, ...] = ()
     units_in_names: bool = False
-    declared: bool = False
 
     suffix: ClassVar[str] = ".csv"
-
-    def declaration(self) -> Mapping[str, str]:
-        """Keys of `file` in the campaign file; none where it is left to be sniffed."""
-        said = {"format": "delimited", "delimiter": self.delimiter, "decimal": self.decimal, "encoding": self.encoding}
-        return said | {"time": self.heading(self.time_name, "s")} if self.declared else {}
 
     def content(self, sheet: Sheet) -> bytes:
         """Bytes of a file; four decimals of the times are written, six of the values."""
@@ -109,9 +98,8 @@ GERMAN = Flavour(
     time_name="Zeit",
     preamble=("Messdatei des Rütteltischs", "Messbereich ±10 V; 16 bit", "Kanäle gemäß Belegungsplan"),
     units_in_names=True,
-    declared=True,
 )
-"""Semicolons, decimal commas, Latin-1 and a preamble, all of it given in the campaign file."""
+"""Semicolons, decimal commas, Latin-1 and a preamble."""
 
 COMMAS = Flavour()
 """Comma-separated, names above a row of units."""
@@ -120,21 +108,17 @@ TABS = Flavour(delimiter="\t", preamble=("Data logger export",))
 """Tab-separated, names above a row of units, below one line of text."""
 
 
+GROUP = "Messung"
+"""Of the channels in a TDMS file."""
+
 MATLAB_HEADER = b"MATLAB 5.0 MAT-file, Platform: virtual shake table"
 """First bytes of a MATLAB file; scipy would put the time of writing there, and no two files would be alike."""
 
 
-@dataclass(frozen=True)
 class Tdms(FileFormat):
     """LabVIEW's TDMS: one group, each channel with its unit and the properties of a waveform."""
 
-    group: str = "Messung"
-
     suffix: ClassVar[str] = ".tdms"
-
-    def declaration(self) -> Mapping[str, str]:
-        """Return the keys of `file` in the campaign file."""
-        return {"format": "tdms", "group": self.group}
 
     def content(self, sheet: Sheet) -> bytes:
         """Return the bytes of a file."""
@@ -147,32 +131,25 @@ class Tdms(FileFormat):
             "wf_samples": sheet.time.size,
         }
         channels = [
-            ChannelObject(self.group, name, values, properties={**waveform, "unit_string": unit})
+            ChannelObject(GROUP, name, values, properties={**waveform, "unit_string": unit})
             for name, (unit, values) in sheet.columns.items()
         ]
         stream = BytesIO()
         with TdmsWriter(stream) as writer:
-            writer.write_segment([RootObject(), GroupObject(self.group), *channels])
+            writer.write_segment([RootObject(), GroupObject(GROUP), *channels])
         return stream.getvalue()
 
 
-@dataclass(frozen=True)
 class Matlab(FileFormat):
     """MATLAB's own files, version 5: the clock and each column a variable; it has no place for units."""
 
-    time_name: str = "time"
-
     suffix: ClassVar[str] = ".mat"
-
-    def declaration(self) -> Mapping[str, str]:
-        """Return the keys of `file` in the campaign file."""
-        return {"format": "matlab", "time": self.time_name}
 
     def content(self, sheet: Sheet) -> bytes:
         """Return the bytes of a file."""
         from scipy.io import savemat
 
-        variables = {self.time_name: sheet.time} | {name: values for name, (_, values) in sheet.columns.items()}
+        variables = {"time": sheet.time} | {name: values for name, (_, values) in sheet.columns.items()}
         stream = BytesIO()
         savemat(stream, variables, do_compression=True, oned_as="column")
         written = stream.getvalue()
@@ -188,11 +165,18 @@ def put(path: Path, data: bytes) -> None:
     StoreError
         If it cannot be written.
     """
-    try:
+    with writing(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         if path.is_symlink():  # what it leads to is not ours
             path.unlink()
         if not path.is_file() or path.read_bytes() != data:
             path.write_bytes(data)
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Tell why a file or folder of a virtual campaign cannot be written."""
+    try:
+        yield
     except OSError as error:
         raise StoreError(f"{path}: the virtual campaign cannot be written here ({error.strerror}).") from error

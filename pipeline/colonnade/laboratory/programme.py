@@ -10,21 +10,21 @@ sub-harmonic, and beyond the first overturning amplitude islands are survived: o
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from math import sqrt
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
-from colonnade import units
+from colonnade.campaign import load
+from colonnade.campaign.channel import MAIN
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import ReadError
-from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import COMMAS, GERMAN, TABS, FileFormat, Matlab, Tdms
-from colonnade.laboratory.table import Transducer, ramped_sine, recorded
+from colonnade.laboratory.plan import Plan, Recorder, Trial
+from colonnade.laboratory.table import ramped_sine, recorded
 from colonnade.readers.motion import EL_CENTRO, el_centro
 from colonnade.units.text import format_percent
 
@@ -44,9 +44,6 @@ QUIET = 1.5
 
 LATE = 0.020
 """The second recorder starts this much after the main one, about, s."""
-
-TOP, BOTTOM = 0.440, 0.040
-"""Heights of the two displacement transducers on the specimen, m."""
 
 SINES = (("sine-3Hz", 3.0, 0.80), ("sine-5Hz", 5.0, 1.50), ("sine-4Hz", 4.0, 1.80), ("sine-2Hz", 2.0, 1.80))
 """Of the ten tests: id, Hz, A: no rocking, rocking twice, overturning. Each outcome holds for 15 % less and more A."""
@@ -91,57 +88,17 @@ LADDERS: dict[str, Ladder] = {
 """By specimen, for its e."""
 
 
-def _specimen(shape: str, restitution: float, mass: float, **millimetres: float) -> Specimen:
-    sizes = {name: f"{size:g} mm" for name, size in millimetres.items()}
-    return Specimen(
-        {"shape": shape, **sizes, "mass": f"{mass:.2f} kg", "scale": LENGTH_SCALE},
-        getattr(Block, shape)(mass=mass, **{name: size / 1000 for name, size in millimetres.items()}),
-        restitution,
-    )
-
-
-SPECIMENS = {
-    "prism": _specimen("prism", 0.976, 26.10, width=86, depth=86, height=456),
-    "cylinder": _specimen("cylinder", 0.970, 26.30, diameter=97, height=455),
-    "cone": _specimen("cone", 0.962, 21.94, base_diameter=97, top_diameter=75.5, height=480),
-}
+RESTITUTION = {"prism": 0.976, "cylinder": 0.970, "cone": 0.962}
 """
-The paper's, with its e of the prism. It gives none of the others: the cylinder's loses the same share, 0.47, of what a
+The true e: of the prism the paper's. It gives none of the others: the cylinder's loses the same share, 0.47, of what a
 rigid body would lose as the prism does, the cone's 0.57, so that the three cannot be taken for each other.
 """
 
+FORMATS = {"prism": (TABS, GERMAN, COMMAS), "cylinder": (Tdms(), Tdms(), COMMAS), "cone": (Matlab(), Matlab(), Tdms())}
+"""Of the recorder on the bench, of the main one on the table and of its second one: text, LabVIEW's and MATLAB's."""
 
-class Rig(NamedTuple):
-    """
-    How a specimen is recorded.
-
-    Attributes
-    ----------
-    radii, ranges : pair of float
-        Of the transducers at `TOP` and `BOTTOM`: half width of the specimen, and physical value that gives 10 V, m.
-    writers : three FileFormat
-        Of the recorder on the bench, of the main one on the table and of its second one.
-    catch : float
-        Where the safety frame catches it, rad, about 1.4 to 1.5 α.
-    columns : four str
-        Names in the raw files: of the two transducers, of the table's displacement and of its acceleration.
-    """
-
-    radii: tuple[float, float]
-    ranges: tuple[float, float]
-    writers: tuple[FileFormat, FileFormat, FileFormat]
-    catch: float
-    columns: tuple[str, str, str, str] = ("LVDT 1", "LVDT 2", "Tischweg", "ACC")
-
-
-CONE_COLUMNS = ("lvdt_top", "lvdt_bottom", "table_disp", "table_acc")
-
-RIGS = {
-    "prism": Rig((0.043, 0.043), (0.150, 0.015), (TABS, GERMAN, COMMAS), 0.28),
-    "cylinder": Rig((0.0485, 0.0485), (0.150, 0.020), (Tdms(), Tdms(), COMMAS), 0.30),
-    "cone": Rig((0.03865, 0.04760), (0.150, 0.020), (Matlab(), Matlab(), Tdms()), 0.30, CONE_COLUMNS),
-}
-"""The prism's recorders write text, the others' LabVIEW's and MATLAB's; a wider base asks for a wider range."""
+PRISM, COLUMNS = (Path(__file__).with_name(name) for name in ("prism.toml", "columns.toml"))
+"""The campaign files of the programmes but for their tests: specimens and set-ups."""
 
 
 def load_record(path: Path | None) -> tuple[str, Motion]:
@@ -228,15 +185,14 @@ def prism_programme(name: str, record: Motion, *, seed: int = 0) -> Plan:
     seed : int, optional
         Of the exact releases.
     """
-    prism = SPECIMENS["prism"]
-    sines = (sine(prism.block, *each, cycles=round(4 * each[1]), ramp=RAMP) for each in SINES)
+    block = load(PRISM).block("prism")
+    sines = (sine(block, *each, cycles=round(4 * each[1]), ramp=RAMP) for each in SINES)
     generator = np.random.default_rng(seed)
     return Plan(
-        campaign="virtual-prism",
-        title="Rocking of a solid steel prism on a virtual shake table",
-        specimens={"prism": prism},
-        setups=setups(RIGS["prism"], table_range=0.050),
-        trials=(*free_vibrations(prism.block, generator), *sines, *earthquakes(name, record)),
+        PRISM.read_text(encoding="utf-8"),
+        {"prism": RESTITUTION["prism"]},
+        recorders(*FORMATS["prism"]),
+        (*free_vibrations(block, generator), *sines, *earthquakes(name, record)),
     )
 
 
@@ -256,74 +212,29 @@ def paper_programme(name: str, record: Motion, *, seed: int = 0) -> Plan:
     seed : int, optional
         Of the exact releases.
     """
-    generator = np.random.default_rng(seed)
+    generator, columns = np.random.default_rng(seed), load(COLUMNS)
     trials: list[Trial] = []
-    wired: dict[str, Setup] = {}
-    for key, specimen in SPECIMENS.items():
-        own = (*free_vibrations(specimen.block, generator), *_climbed(key), *earthquakes(name, record))
+    wired: dict[str, Mapping[str, Recorder]] = {}
+    for key in RESTITUTION:
+        block = columns.block(key)
+        own = (*free_vibrations(block, generator), *_climbed(key, block), *earthquakes(name, record))
         prefix = "" if key == "prism" else f"{key}-"
         trials += (replace(each, name=prefix + each.name, setup=f"{key}-{each.setup}", specimen=key) for each in own)
-        # At 1 Hz the table goes 61 mm.
-        wired |= {f"{key}-{place}": setup for place, setup in setups(RIGS[key], table_range=0.100).items()}
-    return Plan(
-        campaign="virtual-columns",
-        title="Rocking of three solid steel specimens on a virtual shake table",
-        specimens=SPECIMENS,
-        setups=wired,
-        trials=tuple(trials),
-    )
+        wired |= {f"{key}-{place}": each for place, each in recorders(*FORMATS[key]).items()}
+    return Plan(COLUMNS.read_text(encoding="utf-8"), RESTITUTION, wired, tuple(trials))
 
 
-def _climbed(specimen: str) -> Iterator[Trial]:
+def _climbed(specimen: str, block: Block) -> Iterator[Trial]:
     for frequency, amplitudes in LADDERS[specimen].items():
         cycles, ramp = CYCLES.get(frequency, LASTING), RAMPS.get(frequency, RAMP)
         for amplitude in amplitudes:
             name = f"sine-{frequency:g}Hz-{amplitude:.3f}".removesuffix("0")
-            yield sine(SPECIMENS[specimen].block, name, frequency, amplitude, cycles=cycles, ramp=ramp)
+            yield sine(block, name, frequency, amplitude, cycles=cycles, ramp=ramp)
 
 
-def setups(rig: Rig, *, table_range: float) -> dict[str, Setup]:
-    """
-    Set up the bench for free vibrations and the table, with two recorders of their own rates and starts.
-
-    `table_range` is that of the table's displacement, m.
-    """
-    transducers, (alone, main, second) = frame(rig.radii, rig.ranges, rig.columns[:2]), rig.writers
-    displacement, acceleration = table_displacement(table_range, rig.columns[2]), table_acceleration(rig.columns[3])
-    own = Recorder((*transducers, displacement), 500.0, main)
-    later = Recorder((acceleration,), 400.0, second, late=LATE, align=(displacement.channel, acceleration.channel))
-    said = "Table tests: a second recorder for the accelerometer, at its own rate, started a little later."
+def recorders(alone: FileFormat, main: FileFormat, second: FileFormat) -> dict[str, Mapping[str, Recorder]]:
+    """Give the recorder of the bench and the two of the table, with rates and starts of their own."""
     return {
-        "bench": Setup(
-            {MAIN: Recorder(transducers, 500.0, alone)},
-            comment="Free vibrations: the specimen on the table at rest, one recorder.",
-        ),
-        "table": Setup({MAIN: own, "daq2": later}, rig.catch, said),
+        "bench": {MAIN: Recorder(500.0, alone)},
+        "table": {MAIN: Recorder(500.0, main), "daq2": Recorder(400.0, second, LATE)},
     }
-
-
-def frame(
-    radii: tuple[float, float], ranges: tuple[float, float], columns: tuple[str, str] = ("LVDT 1", "LVDT 2")
-) -> tuple[Transducer, ...]:
-    """
-    Wire two displacement transducers, fixed to the table's frame, to the specimen's side at `TOP` and `BOTTOM`.
-
-    `radii` are the half widths of the specimen there, `ranges` the physical values that give 10 V, m.
-    """
-    return tuple(
-        Transducer(channel, column, "displacement", "specimen", full_scale, "mm", at=(radius, 0.0, height))
-        for channel, column, full_scale, radius, height in zip(
-            ("top", "bottom"), columns, ranges, radii, (TOP, BOTTOM), strict=True
-        )
-    )
-
-
-def table_displacement(full_scale: float, column: str = "Tischweg") -> Transducer:
-    """Wire the actuator's displacement transducer."""
-    return Transducer("table_displacement", column, "displacement", "table", full_scale, "mm")
-
-
-def table_acceleration(column: str = "ACC") -> Transducer:
-    """Wire an accelerometer of ±2 g on the table."""
-    full_scale = 2.0 * units.factor_to_si("g", "acceleration")
-    return Transducer("table_acceleration", column, "acceleration", "table", full_scale, "g")

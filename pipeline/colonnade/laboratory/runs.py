@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 from math import pi
@@ -13,12 +13,13 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.laboratory.campaign_file import FILE_NAME, campaign_text, refuse_foreign
-from colonnade.laboratory.experiment import MAIN, Plan, Setup, Trial, begun, raw_path
+from colonnade.campaign import FILE_NAME, Campaign, load
+from colonnade.campaign.channel import MAIN
 from colonnade.laboratory.files import Sheet, put
+from colonnade.laboratory.plan import Plan, Trial, begun, claim
 from colonnade.laboratory.programme import load_record, prism_programme
 from colonnade.laboratory.site import add_site
-from colonnade.laboratory.table import measure
+from colonnade.laboratory.table import measure, sense
 from colonnade.laboratory.truth import Truth, simulate
 
 Result = TypeVar("Result")
@@ -89,31 +90,26 @@ def write_campaign(
     plan = (programme or prism_programme)(name, record, seed=seed)
     written = write(plan, folder, seed=seed, workers=workers)
     if site:
-        add_site(plan, written.path, seed=seed)
+        add_site(written.path, seed=seed)
     return written
 
 
 def write(plan: Plan, folder: Path | str, *, seed: int = 0, workers: int | None = 1) -> WrittenCampaign:
-    """Run a plan: write its raw files, its truth and its campaign file; see `write_campaign`."""
+    """Run a plan: write its campaign file, its raw files and its truth; see `write_campaign`."""
     folder = Path(folder)
-    refuse_foreign(folder)
-    truth = truth_of(plan, run_tests(plan, folder, seed, workers), seed)
-    put(folder / FILE_NAME, campaign_text(plan).encode())
-    return with_its_truth(folder, truth)
+    claim(folder)
+    put(folder / FILE_NAME, plan.campaign_text().encode())
+    campaign = load(folder.absolute())  # as workers that were left waiting may have started in another folder
+    seeds = np.random.SeedSequence(seed).spawn(len(plan.trials))
+    done = spread_over(workers, partial(run_test, plan, campaign), plan.trials, seeds)
+    records = {trial.name: record for trial, record in zip(plan.trials, done, strict=True)}
+    return with_its_truth(folder, truth_of(plan, campaign, records, seed))
 
 
 def with_its_truth(folder: Path, truth: dict[str, Any]) -> WrittenCampaign:
     """Write truth/truth.json next to a campaign that was written."""
     put(folder / "truth" / "truth.json", (json.dumps(truth, indent=1, ensure_ascii=False) + "\n").encode())
     return WrittenCampaign(folder / FILE_NAME, truth)
-
-
-def run_tests(plan: Plan, folder: Path, seed: int, workers: int | None) -> dict[str, dict[str, Any]]:
-    """Run all tests of a plan, each with a seed of its own, in so many processes; return records by test."""
-    seeds = np.random.SeedSequence(seed).spawn(len(plan.trials))
-    # Workers that were left waiting may have started in another folder.
-    done = spread_over(workers, partial(run_test, plan), plan.trials, [folder.absolute()] * len(seeds), seeds)
-    return {trial.name: record for trial, record in zip(plan.trials, done, strict=True)}
 
 
 def spread_over(workers: int | None, function: Callable[..., Result], *arguments: Collection[Any]) -> Iterable[Result]:
@@ -125,31 +121,30 @@ def spread_over(workers: int | None, function: Callable[..., Result], *arguments
     return cast(list[Result], Parallel(count, max_nbytes=None)(calls))
 
 
-def run_test(plan: Plan, trial: Trial, folder: Path, seed: np.random.SeedSequence) -> dict[str, Any]:
+def run_test(plan: Plan, campaign: Campaign, trial: Trial, seed: np.random.SeedSequence) -> dict[str, Any]:
     """Run one test: write its raw files and its true angle; return what is true of it, for truth.json."""
-    generator = np.random.default_rng(seed)
-    setup, specimen = plan.setups[trial.setup], plan.specimens[plan.specimen_of(trial)]
+    generator, test = np.random.default_rng(seed), campaign.tests[trial.name]
     starts, clocks = {}, {}
-    for name, recorder in setup.recorders.items():
+    for name, recorder in plan.recorders[trial.setup].items():
         scatter = generator.uniform(-START_SCATTER, START_SCATTER) if recorder.late else 0.0
         starts[name], rate = recorder.late + scatter, recorder.sampling_rate_hz
         clocks[name] = starts[name] + np.arange(int((trial.duration - starts[name]) * rate)) / rate
     truth = simulate(
-        specimen.block,
+        campaign.block(test.specimen),
         np.unique(np.concatenate(list(clocks.values()))),
         trial.table,
-        restitution=specimen.restitution,
+        restitution=plan.restitution[test.specimen],
         theta0=trial.theta0,
         release=trial.release,
-        catch=setup.catch or pi / 2,
+        catch=campaign.setups[trial.setup].catch or pi / 2,
     )
-    errors = _record(plan, trial, truth, starts, clocks, folder, generator)
+    errors = _record(plan, campaign, trial, truth, starts, clocks, generator)
     main = np.searchsorted(truth.time, clocks[MAIN])
     rows = "".join(f"{time:.6f},{angle:.9g}\n" for time, angle in zip(clocks[MAIN], truth.angle[main], strict=True))
-    put(folder / "truth" / f"{trial.name}.csv", ("time_s,angle_rad\n" + rows).encode())
+    put(campaign.folder / "truth" / f"{trial.name}.csv", ("time_s,angle_rad\n" + rows).encode())
     return {
         "kind": trial.kind,
-        "specimen": plan.specimen_of(trial),
+        "specimen": test.specimen,
         "outcome": truth.outcome,
         "peak_ratio": truth.peak_ratio,
         "peak_time": truth.peak_time,
@@ -167,54 +162,52 @@ def run_test(plan: Plan, trial: Trial, folder: Path, seed: np.random.SeedSequenc
 
 def _record(
     plan: Plan,
+    campaign: Campaign,
     trial: Trial,
     truth: Truth,
     starts: Mapping[str, float],
     clocks: Mapping[str, Array],
-    folder: Path,
     generator: np.random.Generator,
 ) -> dict[str, dict[str, Any]]:
     """Write what each recorder saw, each on its own clock; return the errors of its channels."""
-    setup = plan.setups[trial.setup]
-    spikes = _draw_spikes(trial, setup, clocks, generator)
+    test = campaign.tests[trial.name]
+    channels = campaign.channels(test)
+    wired = [(name, clocks[channel.recorder].size) for name, channel in channels.items()]
+    spikes = _draw_spikes(trial.spikes, wired, generator)
     start = np.datetime64(begun(plan.trials.index(trial)), "us")
     errors = {}
-    for name, recorder in setup.recorders.items():
-        angle = truth.angle[np.searchsorted(truth.time, clocks[name])]
-        columns = {}
-        for transducer in recorder.transducers:
-            value = transducer.sense(truth.block, trial.table, clocks[name], angle)
-            struck = spikes.get(transducer.channel, ())
-            volts, errors[transducer.channel] = measure(value, transducer, plan.imperfections, generator, struck)
-            columns[transducer.column] = (transducer.recorded_unit, transducer.written(volts))
+    for name, recorder in plan.recorders[trial.setup].items():
+        angle, columns = truth.angle[np.searchsorted(truth.time, clocks[name])], {}
+        for key, channel in channels.items():
+            if channel.recorder == name:
+                value = sense(channel, truth.block, trial.table, clocks[name], angle)
+                written, errors[key] = measure(value, channel, plan.imperfections, generator, spikes.get(key, ()))
+                columns[str(channel.column)] = (channel.unit or "", written)
         sheet = Sheet(clocks[name] - starts[name], recorder.sampling_rate_hz, columns, start)
-        put(folder / raw_path(trial, name, recorder), recorder.flavour.content(sheet))
+        put(test.files[name], recorder.format.content(sheet))
     return errors
 
 
 def _draw_spikes(
-    trial: Trial, setup: Setup, clocks: Mapping[str, Array], generator: np.random.Generator
+    count: int, wired: Sequence[tuple[str, int]], generator: np.random.Generator
 ) -> dict[str, tuple[int, ...]]:
     """Samples with a spike, by channel: one in each of equal parts of the record, away from its ends."""
-    wired = [
-        (each.channel, clocks[name].size) for name, recorder in setup.recorders.items() for each in recorder.transducers
-    ]
     drawn: dict[str, tuple[int, ...]] = {}
-    for part in range(trial.spikes):
+    for part in range(count):
         channel, size = wired[int(generator.integers(len(wired)))]
-        sample = int((part + generator.uniform(0.1, 0.9)) / trial.spikes * size)
+        sample = int((part + generator.uniform(0.1, 0.9)) / count * size)
         drawn[channel] = (*drawn.get(channel, ()), sample)
     return drawn
 
 
-def truth_of(plan: Plan, records: Mapping[str, Mapping[str, Any]], seed: int) -> dict[str, Any]:
+def truth_of(plan: Plan, campaign: Campaign, records: Mapping[str, Mapping[str, Any]], seed: int) -> dict[str, Any]:
     """Gather what is true: e and properties of each specimen, and of each test."""
     names = ("critical_angle", "pole_distance", "inertia", "p")
     return {
         "seed": seed,
         "specimens": {
-            name: {"restitution": specimen.restitution} | {key: getattr(specimen.block, key) for key in names}
-            for name, specimen in plan.specimens.items()
+            name: {"restitution": restitution} | {key: getattr(campaign.block(name), key) for key in names}
+            for name, restitution in plan.restitution.items()
         },
         "imperfections": asdict(plan.imperfections),
         "tests": dict(records),

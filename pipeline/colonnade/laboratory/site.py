@@ -10,13 +10,13 @@ import numpy as np
 import scipy
 
 from colonnade.arrays import Array
+from colonnade.campaign import load
 from colonnade.campaign.syntax.document import toml_key
-from colonnade.dynamics.block import STANDARD_GRAVITY
+from colonnade.dynamics.block import STANDARD_GRAVITY, Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.pulses import mavroeidis_papageorgiou
-from colonnade.laboratory.campaign_file import entries
-from colonnade.laboratory.experiment import Plan, Specimen
 from colonnade.laboratory.files import put
+from colonnade.laboratory.plan import entries
 
 INTERVAL = 0.01
 """s."""
@@ -157,23 +157,23 @@ def annual_rate(velocity: float) -> float:
     return float(0.01 * np.exp(-1.7 * steps - 0.2 * steps**2))
 
 
-def add_site(plan: Plan, campaign_file: Path, *, seed: int) -> None:
+def add_site(campaign_file: Path, *, seed: int) -> None:
     """Add the real columns, the ground motions (drawn by `seed`) and the hazard to a campaign that was written."""
-    folder = campaign_file.parent
+    folder, campaign = campaign_file.parent, load(campaign_file)
     write_suite(folder / FOLDER, synthetic_records(seed=seed))
     rows = [f"{level:.4g}, {annual_rate(level):.4g}" for level in LEVELS.tolist()]
     put(folder / HAZARD, "\n".join(["pgv [m/s], rate [1/year]", *rows, ""]).encode())
     lines = [_HEAD.rstrip()]
-    for name, specimen in plan.specimens.items():
+    for name, specimen in campaign.specimens.items():
         asked = {"specimen": name, "records": f"{FOLDER}/{LIST}", "measure": "pgv", "hazard": HAZARD}
-        for table, said in (("prototype", _column(specimen)), ("assessments", asked)):
+        for table, said in (("prototype", _column(campaign.block(name), specimen.scale)), ("assessments", asked)):
             lines += ["", f"[{table}.{toml_key(name)}]", *entries(said)]
     put(campaign_file, campaign_file.read_bytes() + "\n".join([*lines, ""]).encode())
 
 
-def _column(specimen: Specimen) -> dict[str, object]:
-    block, changes = specimen.block, np.array([1 - KNOWN_WITHIN, 1 + KNOWN_WITHIN])
-    angles, rates = block.critical_angle * changes, block.p / sqrt(float(specimen.shape["scale"])) * changes
+def _column(block: Block, scale: float | None) -> dict[str, object]:
+    changes = np.array([1 - KNOWN_WITHIN, 1 + KNOWN_WITHIN])
+    angles, rates = block.critical_angle * changes, block.p / sqrt(scale or 1.0) * changes
     return {
         "restitution": "identified",
         "restitution_range": list(RESTITUTION),

@@ -1,4 +1,4 @@
-"""The table's motion, the transducers of the virtual laboratory and the errors of their measuring chains."""
+"""The table's motion, what the channels of the virtual laboratory see, and the errors of their chains."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import copysign, cos, pi, sin
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from colonnade import units
-from colonnade.arrays import Array, Vector
+from colonnade.arrays import Array
+from colonnade.campaign import Channel
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
@@ -167,70 +167,19 @@ STEP = 2 * VOLTS / 2**BITS
 """Smallest step of the converter, V."""
 
 
-@dataclass(frozen=True)
-class Transducer:
-    """
-    A measuring chain, from the physical quantity to a column of a raw file.
-
-    Attributes
-    ----------
-    channel, column : str
-        Its id in the campaign, and the name of its column.
-    quantity, on : str
-    full_scale : float
-        Physical value, less `offset`, that gives 10 V; m or m/s².
-    physical_unit : str
-        In which the campaign gives gain and offset, such as "mm".
-    recorded_unit : str
-        "V", or a unit in which the recorder has written the physical value already.
-    offset : float
-        Physical value of 0 V, known from calibration and given in the campaign; m or m/s².
-    at : tuple of float or None
-        Material point on the specimen, m.
-    direction : tuple of float
-        Unit vector of a positive reading.
-    relative_to : {"table", "ground"}
-        What a displacement transducer on the specimen is fixed to.
-    """
-
-    channel: str
-    column: str
-    quantity: Literal["displacement", "acceleration"]
-    on: Literal["specimen", "table"]
-    full_scale: float
-    physical_unit: str
-    recorded_unit: str = "V"
-    offset: float = 0.0
-    at: Vector | None = None
-    direction: Vector = (1.0, 0.0, 0.0)
-    relative_to: Literal["table", "ground"] = "table"
-
-    @property
-    def dimension(self) -> str:
-        """Dimension of the quantity, as `units` calls it."""
-        return "length" if self.quantity == "displacement" else "acceleration"
-
-    def sense(self, block: Block, table: TableMotion, time: Array, angle: Array) -> Array:
-        """Physical value along `direction` without any error, m or m/s², at times (s) with their angles."""
-        if self.on == "table":
-            motion = table.displacement(time) if self.quantity == "displacement" else table.acceleration(time)
-            return motion * self.direction[0]
-        if self.quantity != "displacement" or self.at is None:
-            raise ValueError(
-                f"{self.channel}: on the specimen, the virtual laboratory has only displacement transducers with a "
-                f"point `at`; {self.quantity} at {self.at} was asked for"
-            )
-        moved = point_displacement(angle, self.at, block)[0] @ np.array(self.direction)
-        return np.asarray(
-            moved + (table.displacement(time) * self.direction[0] if self.relative_to == "ground" else 0.0)
+def sense(channel: Channel, block: Block, table: TableMotion, time: Array, angle: Array) -> Array:
+    """Physical value of a channel without any error, m or m/s², at times (s) with the angles of the block."""
+    along = np.array(channel.direction)
+    if channel.on == "table":
+        motion = table.displacement(time) if channel.quantity == "displacement" else table.acceleration(time)
+        return np.asarray(motion * along[0])
+    if channel.quantity != "displacement" or channel.at is None:
+        raise ValueError(
+            f"{channel.column}: on the specimen, the virtual laboratory has only displacement transducers with a "
+            f"point `at`; {channel.quantity} at {channel.at} was asked for"
         )
-
-    def written(self, volts: Array) -> Array:
-        """Values as the recorder writes them, of shape (n,), from volts."""
-        if self.recorded_unit == "V":
-            return volts
-        physical = volts * self.full_scale / VOLTS + self.offset
-        return physical / units.factor_to_si(self.recorded_unit, self.dimension)
+    moved = point_displacement(angle, channel.at, block)[0] @ along
+    return np.asarray(moved + (table.displacement(time) * along[0] if channel.relative_to == "ground" else 0.0))
 
 
 @dataclass(frozen=True)
@@ -255,23 +204,24 @@ class Imperfections:
 
 def measure(
     value: Array,
-    transducer: Transducer,
+    channel: Channel,
     imperfections: Imperfections,
     generator: np.random.Generator,
     spikes: tuple[int, ...] = (),
 ) -> tuple[Array, dict[str, Any]]:
     """
-    Turn a physical value into volts as the recorder's converter sees them.
+    Turn a physical value (SI) into what the recorder writes: its converter has ±10 V for the range of the channel.
 
     At `spikes`, samples, a pulse of 2 to 5 V comes on top, towards the middle of the range. The errors are those of
     truth.json: `zero_volts`, `drift_volts` over the record, and `spikes`.
     """
     zero = VOLTS * imperfections.zero * generator.uniform(-1.0, 1.0)
     drift = VOLTS * imperfections.drift * generator.choice([-1.0, 1.0])
-    volts = (value - transducer.offset) / transducer.full_scale * VOLTS
+    a_volt = (channel.range_recorded or VOLTS) / VOLTS
+    volts = (value - channel.offset) / channel.factor / a_volt
     volts = volts + zero + drift * np.linspace(0.0, 1.0, value.size)
     volts += VOLTS * imperfections.noise * generator.standard_normal(value.size)
     for sample in spikes:
         volts[sample] -= np.copysign(generator.uniform(2.0, 5.0), volts[sample])
     codes = np.clip(np.rint(volts / STEP), -(2 ** (BITS - 1)), 2 ** (BITS - 1) - 1)
-    return codes * STEP, {"zero_volts": float(zero), "drift_volts": float(drift), "spikes": list(spikes)}
+    return codes * STEP * a_volt, {"zero_volts": float(zero), "drift_volts": float(drift), "spikes": list(spikes)}
