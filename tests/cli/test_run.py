@@ -7,7 +7,8 @@ import zipfile
 import pytest
 
 from colonnade.campaign.forms.summary import Summary
-from colonnade.cli.run import lines_of_tests
+from colonnade.cli.common.console import show_rows
+from colonnade.cli.run import rows_of_tests
 
 
 def times(folder):
@@ -42,7 +43,7 @@ def test_run_gives_a_line_a_redone_test_then_agreement_and_says_where_the_report
     assert {stage["stage"] for stage in redone if stage["subject"] == "free-01"} <= {"predict", "ensemble", "compare"}
 
 
-def test_a_line_has_what_was_measured_and_each_prediction_with_its_verdict():
+def test_a_line_has_what_was_measured_and_each_prediction_with_its_verdict(capsys):
     models = {
         "linear": {"outcome": "rocking", "peak_ratio": 0.298, "within_spread": 0.97},
         "nonlinear": {"outcome": "rocking", "peak_ratio": 0.275, "within_spread": 0.4},
@@ -60,7 +61,8 @@ def test_a_line_has_what_was_measured_and_each_prediction_with_its_verdict():
     prism = {"critical_angle": 0.1864, "p": 5.631, "pole_distance": 0.232, "inertia": 1.9, "restitution": e}
     known = {"schema": 1, "campaign": "a", "colonnade": "1", "specimens": {"prism": prism}, "tests": tests}
     last = {"later": "ingest"} | dict.fromkeys(("span-2.5", "free-01", "span-3.0"), "compare")
-    assert lines_of_tests(Summary.model_validate(known), last) == [
+    show_rows(rows_of_tests(Summary.model_validate(known), last))
+    assert capsys.readouterr().out.splitlines() == [
         "free-01   e 0.9760 ± 0.0004",
         "span-2.5  rocking 0.281 α     nonlinear 0.275 ✓           linear 0.298 ≠",
         "span-3.0  overturned          nonlinear rocking 0.275 ≠   linear rocking 0.298 ≠",

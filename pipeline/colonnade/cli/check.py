@@ -12,10 +12,9 @@ from colonnade.cli.common.console import say_marked, show_json, work_progress
 from colonnade.cli.common.findings import STYLES, alike, probable_cause, records_of, show_by_kind
 from colonnade.cli.common.options import campaign_argument, file_option, json_option, strict_option
 from colonnade.errors import count
-from colonnade.findings import Severity
+from colonnade.findings import Severity, in_order
 
 if TYPE_CHECKING:
-    from colonnade.campaign import Campaign
     from colonnade.workflow.check import CampaignCheck
 
 
@@ -41,7 +40,11 @@ def check(campaign: Path, drawing: Path | None, strict: bool, as_json: bool) -> 
 
     loaded = load(campaign)
     if drawing is not None:
-        _draw(loaded, drawing)
+        from colonnade.figures.drawing.described import of_campaign
+        from colonnade.figures.files.saving import expect_place, save
+
+        expect_place(drawing)
+        save(of_campaign(loaded), drawing)
     with work_progress("Reading raw files") as progress:
         checked = check_campaign(loaded, progress)
     if as_json:
@@ -51,19 +54,14 @@ def check(campaign: Path, drawing: Path | None, strict: bool, as_json: bool) -> 
     return int(checked.fails or (strict and checked.has_warnings))
 
 
-def _draw(campaign: Campaign, path: Path) -> None:
-    from colonnade.figures.drawing.described import of_campaign
-    from colonnade.figures.files.saving import PICTURES, expect_place, save
-
-    expect_place(path, PICTURES)
-    save(of_campaign(campaign), path)
-
-
 def _record(checked: CampaignCheck) -> dict[str, object]:
-    found: dict[str, object] = {"campaign": checked.campaign.path, "warnings": records_of(checked.campaign.warnings)}
+    found: dict[str, object] = {
+        "campaign": checked.campaign.path,
+        "warnings": records_of(in_order(checked.campaign.warnings)),
+    }
     for kind, subjects in (("tests", checked.tests), ("assessments", checked.assessments)):
         found[kind] = {
-            name: {"problems": each.problems, "warnings": records_of(each.findings, each.concerning)}
+            name: {"problems": each.problems, "warnings": records_of(in_order(each.findings, each.concerning))}
             for name, each in subjects.items()
         }
     return found

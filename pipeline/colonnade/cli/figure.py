@@ -43,7 +43,7 @@ def figure(
     if listed or name is None:
         return _list(as_json=as_json)
     from colonnade.campaign import load
-    from colonnade.figures.files.saving import MOVIE, PICTURES, TABLE, expect_place, save
+    from colonnade.figures.files.saving import MOVIE, PICTURES, TABLE, expect_places, save
     from colonnade.figures.style import journal
     from colonnade.workflow.documents import chosen, draw
 
@@ -54,9 +54,7 @@ def figure(
     target = out or (None if data else Path(f"{'-'.join(filter(None, (name, subject)))}{MOVIE if moves else '.svg'}"))
     if moves and data is not None:
         raise click.UsageError('An animation has no table. Use the figure "angle" with --data.')
-    for place, endings in ((target, (MOVIE,) if moves else (*PICTURES, TABLE)), (data, (TABLE,))):
-        if place is not None:
-            expect_place(place, endings)
+    expect_places(target, data, (MOVIE,) if moves else (*PICTURES, TABLE))
     if width == "single" and not entry.is_narrow:
         raise click.UsageError(f'"{name}" is not legible in a single column. Use --width double.')
     with journal(width):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import say, show_fields, show_json, show_table, work_progress
+from colonnade.cli.common.console import say, show_json, show_rows, show_table, work_progress
 from colonnade.cli.common.options import (
     WithKeys,
     campaign_argument,
@@ -83,7 +83,7 @@ def _show_limits(made: MapMade) -> None:
     why = "computed" if made.because == NEVER_RUN else why
     say(f"{made.specimen}, {made.model} model: {measured}, e {made.restitution_source}; {why}")
     limits = (("lower", made.lower), ("upper", made.upper))
-    show_fields([(f"{name} limit − measured", _misfit(misfit)) for name, misfit in limits if misfit is not None])
+    show_rows([(f"{name} limit − measured", _misfit(misfit)) for name, misfit in limits if misfit is not None])
 
 
 def _misfit(misfit: Misfit) -> str:
@@ -131,10 +131,10 @@ def calibrate(
             number(each["damping_fraction"]),
             number(each["effective_damping"]),
             written(each["stiffness"] and 1e-9 * each["stiffness"], "N/mm³", 3),
-            _e(each["restitution"]),
+            number(each["restitution"], 4),
             each["source"] or NOTHING,
-            _e(each["target"]),
-            _e(each["velocity_ratio"]),
+            number(each["target"], 4),
+            number(each["velocity_ratio"], 4),
         )
         for each in made
     ]
@@ -145,7 +145,3 @@ def calibrate(
         if each["path"] is not None:
             say("law: {path}".format_map(each))
     return int(any(each["restitution"] is None for each in made))
-
-
-def _e(value: float | None) -> str:
-    return "–" if value is None else f"{value:.4f}"

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
-from itertools import groupby, zip_longest
+from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import run_progress, say, show_json, show_table
-from colonnade.cli.common.findings import alike, all_records, probable_cause, show_by_kind
+from colonnade.cli.common.console import say, show_json, show_rows, show_table, step_progress
+from colonnade.cli.common.findings import alike, probable_cause, records_of, show_by_kind
 from colonnade.cli.common.options import CAMPAIGN, campaign_argument, work_options
 from colonnade.store.results import RUN_STAGES
 
@@ -126,7 +126,11 @@ def run_with_progress(campaign: Path, **choices: Any) -> RunResult:
     """Run a campaign with a bar on stderr."""
     from colonnade.workflow import run
 
-    with run_progress() as progress:
+    with step_progress("Looking for what is out of date") as show:
+
+        def progress(stage: StageRun, done: int, total: int) -> None:
+            show(f"{stage.subject} {stage.stage}", done, total)
+
         return run(campaign, progress=progress, **choices)
 
 
@@ -139,9 +143,9 @@ def _show_result(result: RunResult, *, verbose: bool) -> None:
     if verbose:
         show_table(("redone", "stages", "why", "seconds"), list(_grouped(redone)))
     known = Summary.model_validate_json(result.summary.read_bytes())
-    for line in lines_of_tests(known, {stage.subject: stage.stage for stage in redone if stage.of == "test"}):
-        say(line)
-    if any(predicted(known.tests[stage.subject]) for stage in redone if stage.of == "test"):
+    tests = {stage.subject: stage.stage for stage in redone if stage.of == "test"}
+    show_rows(rows_of_tests(known, tests))
+    if any(predicted(known.tests[name]) for name in tests):
         say(LEGEND)
     # Bodies of an assembly, and what they are made as, have no e of their own that a model takes.
     alone = {test.specimen for test in known.tests.values() if not test.bodies}
@@ -164,8 +168,8 @@ def _show_result(result: RunResult, *, verbose: bool) -> None:
         say(f"report: {result.report}")
 
 
-def lines_of_tests(summary: Summary, last: Mapping[str, str]) -> list[str]:
-    """Write what each redone test gave, in columns; of a test that is not complete, the last stage that ran."""
+def rows_of_tests(summary: Summary, last: Mapping[str, str]) -> list[list[str]]:
+    """Write what each redone test gave; of a test that is not complete, the last stage that ran."""
     from colonnade.store.records.wording import measured, predicted
 
     rows = []
@@ -173,16 +177,11 @@ def lines_of_tests(summary: Summary, last: Mapping[str, str]) -> list[str]:
         if name not in last:
             continue
         found = measured(test, summary.specimens[test.specimen].restitution.level)
+        if found == test.status == "pending":
+            found = f"done up to {last[name]}"
         models = {} if test.restitution else predicted(test)
-        rows.append(
-            [
-                f"{name}  ",
-                f"done up to {last[name]}" if found == test.status == "pending" else found,
-                *(f"   {model} {said}" for model, said in models.items()),
-            ]
-        )
-    widths = [max(map(len, column)) for column in zip_longest(*rows, fillvalue="")]
-    return ["".join(map(str.ljust, row, widths)).rstrip() for row in rows]
+        rows.append([name, found, *(f" {model} {said}" for model, said in models.items())])
+    return rows
 
 
 def failed_rows(result: RunResult) -> list[tuple[str, str, str]]:
@@ -209,7 +208,11 @@ def _record(result: RunResult) -> dict[str, Any]:
         "failed": result.failed,
         "summary": result.summary,
         "report": result.report,
-        "warnings": all_records(result.findings),
+        "warnings": [
+            {"subject": subject, **vars(record)}
+            for subject, ordered in result.findings.items()
+            for record in records_of(ordered)
+        ],
         "notices": result.notices,
         "stages": [
             {name: value for name, value in vars(stage).items() if name != "findings"} for stage in result.stages

@@ -10,9 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import say, show_fields, show_json, show_table, shown
+from colonnade.cli.common.console import say, show_json, show_rows, show_table, shown
 from colonnade.cli.common.findings import counted, line_of
-from colonnade.cli.common.options import FILE, campaign_and_id, campaign_and_id_argument, json_option, result_options
+from colonnade.cli.common.options import (
+    FILE,
+    campaign_and_id,
+    campaign_and_id_argument,
+    json_option,
+    opened,
+    result_options,
+)
 from colonnade.findings import Severity
 
 if TYPE_CHECKING:
@@ -131,13 +138,11 @@ def formats(as_json: bool) -> int:
 
 
 def _known(path: Path, results: Path | None) -> tuple[Campaign, Summary | None]:
-    """Read a campaign and the summary of its last run, in the folder of results if one is given; nothing is run."""
-    from colonnade.campaign import load
-    from colonnade.store.layout import Layout
+    """Read a campaign and the summary of its last run; nothing is run."""
     from colonnade.store.records.summary import read_summary
 
-    campaign = load(path)
-    return campaign, read_summary(Layout.of(campaign.path, results))
+    campaign, layout = opened(path, results)
+    return campaign, read_summary(layout)
 
 
 def _show_records(
@@ -158,7 +163,7 @@ def _show_records(
     elif identifier is None:
         show_table(heads, rows)
     else:
-        show_fields([(what, identifier), *_flat(records[identifier])])
+        show_rows([(what, identifier), *_flat(records[identifier])])
     return 0
 
 
@@ -210,14 +215,12 @@ def _with_unit(key: str, value: object) -> str:
 @cache
 def _units() -> dict[str, str]:
     """Give the units of keys of the summary; all other numbers have none."""
-    from colonnade.campaign.forms import summary as forms
+    from colonnade.campaign.forms.schema import json_schema
     from colonnade.campaign.specimen import OUTER_DIMENSIONS
-    from colonnade.campaign.syntax.table import Record as Form
 
-    models = [each for each in vars(forms).values() if isinstance(each, type) and issubclass(each, Form)]
-    said = {key: field.json_schema_extra for model in models for key, field in model.model_fields.items()}
-    found = {key: str(extra["unit"]) for key, extra in said.items() if isinstance(extra, dict) and "unit" in extra}
-    return found | dict.fromkeys(OUTER_DIMENSIONS, "m")
+    forms = json_schema("summary")["$defs"].values()
+    said = {key: field for form in forms for key, field in form.get("properties", {}).items() if "unit" in field}
+    return {key: field["unit"] for key, field in said.items()} | dict.fromkeys(OUTER_DIMENSIONS, "m")
 
 
 @click.command(epilog="Example: colonnade schema campaign > campaign.schema.json")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import complain, say, say_drawn, show_fields, show_json, show_table, work_progress
+from colonnade.cli.common.console import complain, say, say_drawn, show_json, show_rows, show_table, work_progress
 from colonnade.cli.common.options import (
     WithKeys,
     campaign_argument,
@@ -16,6 +16,7 @@ from colonnade.cli.common.options import (
     data_option,
     file_option,
     one_specimen_option,
+    opened,
     options_of,
     result_options,
     scheduler_option,
@@ -23,18 +24,16 @@ from colonnade.cli.common.options import (
 )
 
 if TYPE_CHECKING:
-    from colonnade.campaign import Campaign
     from colonnade.figures.files.output import Picture
-    from colonnade.store.layout import Layout
     from colonnade.workflow.assessing import Assessed
     from colonnade.workflow.executors import Where
 
-OF_MOTION = ("unit", "interval", "column", "peak", "baseline", "drift", "slenderness", "periods")
-OF_PULSE = ("omega", "cycles", "phase", "largest", "least_width")
-"""Options that say nothing with the other of --motion and --pulse, and are refused there."""
-
-SHAPE = ("cycles", "phase")
-"""Those of one pulse alone."""
+ONLY_FOR = {
+    "--motion": ("unit", "interval", "column", "peak", "baseline", "drift", "slenderness", "periods"),
+    "--pulse": ("omega", "cycles", "phase", "largest", "least_width"),
+    "--pulse mavroeidis-papageorgiou": ("cycles", "phase"),
+}
+"""Options that say nothing without another, and are then refused."""
 
 
 def _spectrum_keys() -> list[click.Option]:
@@ -72,14 +71,17 @@ def spectrum(
     pulse = options["pulse"]
     if (motion is None) == (pulse is None):
         raise click.UsageError("Give either --motion or --pulse.")
-    _refuse(options, OF_MOTION if pulse else OF_PULSE, "--motion" if pulse else "--pulse")
-    if pulse != "mavroeidis-papageorgiou":
-        _refuse(options, SHAPE, "--pulse mavroeidis-papageorgiou")
+    asked_for = ("--motion",) if pulse is None else ("--pulse", f"--pulse {pulse}")
+    for other, names in ONLY_FOR.items():
+        for name in names:
+            if other not in asked_for and options[name] not in (None, ()):
+                raise click.UsageError(f"--{name.replace('_', '-')} is only for {other}.")
     from colonnade.workflow.real_column import AskedColumn, picked
     from colonnade.workflow.spectrum import AskedSpectrum, Overturning, Rocking, overturning_of, rocking_of
 
     _expect_places(out, data)
-    known, layout = _campaign(campaign, results)
+    is_here = campaign != Path() or Path("campaign.toml").is_file()
+    known, layout = opened(campaign, results) if is_here else (None, None)
     column, asked = AskedColumn.of(options), picked(AskedSpectrum, options)
     found: Rocking | Overturning
     if motion is not None:
@@ -91,7 +93,7 @@ def spectrum(
         show_json(found.record() | {"figure": out, "data": data})
         return 0
     say(found.verdict())
-    show_fields(found.fields())
+    show_rows(found.fields())
     for heads, rows in found.tables():
         say()
         show_table(heads, rows)
@@ -99,12 +101,12 @@ def spectrum(
     return 0
 
 
-def _expect_places(*places: Path | None) -> None:
+def _expect_places(out: Path | None, data: Path | None) -> None:
     """Refuse places for a picture and its table before the work is done; the module of figures loads matplotlib."""
-    if any(places):
+    if out or data:
         from colonnade.figures.files.saving import expect_places
 
-        expect_places(*places)
+        expect_places(out, data)
 
 
 def _saved(draw: Callable[[], Picture], *places: Path | None) -> list[Path]:
@@ -115,24 +117,6 @@ def _saved(draw: Callable[[], Picture], *places: Path | None) -> list[Path]:
 
     picture = draw()
     return [save(picture, place) for place in places if place is not None]
-
-
-def _refuse(options: Mapping[str, Any], names: Iterable[str], only: str) -> None:
-    """Refuse options that are given but say nothing."""
-    for name in names:
-        if options[name] not in (None, ()):
-            raise click.UsageError(f"--{name.replace('_', '-')} is only for {only}.")
-
-
-def _campaign(path: Path, results: Path | None) -> tuple[Campaign | None, Layout | None]:
-    """Load the campaign if one is named, or if the current folder is one."""
-    if path == Path() and not Path("campaign.toml").is_file():
-        return None, None
-    from colonnade.campaign import load
-    from colonnade.store.layout import Layout
-
-    campaign = load(path)
-    return campaign, Layout.of(campaign.path, results)
 
 
 def _fragility_keys() -> list[click.Option]:
@@ -190,8 +174,6 @@ def fragility(campaign: Path, name: tuple[str, ...], results: Path | None, as_js
 def _assessed(
     path: Path, names: tuple[str, ...], options: dict[str, Any], results: Path | None, where: Where
 ) -> list[Assessed]:
-    from colonnade.campaign import load
-    from colonnade.store.layout import Layout
     from colonnade.workflow.assessing import assess_campaign, assess_own
     from colonnade.workflow.real_column import AskedColumn, given_of
 
@@ -199,8 +181,7 @@ def _assessed(
     asked = {key: list(each) if isinstance(each, tuple) else each for key, each in given_of(options).items()}
     if not names and not column.needs_specimen:
         return [assess_own(None, None, None, column, asked, where)]
-    loaded = load(path)
-    layout = Layout.of(loaded.path, results)
+    loaded, layout = opened(path, results)
     if not asked:
         return assess_campaign(loaded, layout, names, where)
     if len(names) > 1:

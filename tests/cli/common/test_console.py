@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 from colonnade.cli.common import console
-from colonnade.workflow import StageRun
 
 
 @dataclass
@@ -49,7 +48,7 @@ def test_a_row_is_one_line_whatever_its_length_and_a_table_without_rows_is_nothi
 
 
 def test_fields_are_under_each_other(capsys):
-    console.show_fields([("id", "a"), ("outcome", "rocking")])
+    console.show_rows([("id", "a"), ("outcome", "rocking")])
     assert capsys.readouterr().out == "id       a\noutcome  rocking\n"
 
 
@@ -77,9 +76,9 @@ def test_a_line_comes_every_few_seconds_also_while_nothing_ends(lines):
         assert "3 of 3 done, finishing, after 0 s" in lines(3)
 
 
-def test_a_run_names_the_test_and_the_stage(lines):
-    with console.run_progress() as show:
-        show(StageRun("free-01", "rocking", "done"), 4, 20)
+def test_progress_names_what_is_done(lines):
+    with console.step_progress("Looking") as show:
+        show("free-01 rocking", 4, 20)
         assert any(line.startswith("free-01 rocking: 4 of 20, after ") for line in lines(3))
 
 

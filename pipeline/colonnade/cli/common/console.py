@@ -9,17 +9,14 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from itertools import zip_longest
 from pathlib import Path
 from textwrap import fill as wrap
-from typing import TYPE_CHECKING
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 from rich.text import Text
-
-if TYPE_CHECKING:
-    from colonnade.workflow import StageRun
 
 
 class _Output(Console):
@@ -103,12 +100,11 @@ def show_paragraph(text: str, bullet: str = "") -> None:
     say(wrap(text, width, initial_indent=bullet, subsequent_indent=" " * len(bullet)))
 
 
-def show_fields(fields: Iterable[tuple[str, str]]) -> None:
-    """Write names and values under each other."""
-    pairs = list(fields)
-    width = max((len(name) for name, _ in pairs), default=0)
-    for name, value in pairs:
-        say(f"{name:<{width}}  {value}")
+def show_rows(rows: Sequence[Sequence[str]]) -> None:
+    """Write rows without heads, such as names and values, in columns; each is one line."""
+    widths = [max(map(len, column)) for column in zip_longest(*rows, fillvalue="")]
+    for row in rows:
+        say("  ".join(map(str.ljust, row, widths)).rstrip())
 
 
 def shown(value: object) -> str:
@@ -137,19 +133,12 @@ FIRST, EVERY = 3.0, 10.0
 @contextmanager
 def work_progress(what: str) -> Iterator[Callable[[int, int], None]]:
     """Show the progress of some work; the callable takes how much is done, and the total."""
-    with _shown(what) as show:
+    with step_progress(what) as show:
         yield lambda done, total: show(what, done, total)
 
 
 @contextmanager
-def run_progress() -> Iterator[Callable[[StageRun, int, int], None]]:
-    """Show the progress of a run; the callable takes each stage that ended, the number of tests done, and the total."""
-    with _shown("Looking for what is out of date") as show:
-        yield lambda stage, done, total: show(f"{stage.subject} {stage.stage}", done, total)
-
-
-@contextmanager
-def _shown(what: str) -> Iterator[Callable[[str, int, int], None]]:
+def step_progress(what: str) -> Iterator[Callable[[str, int, int], None]]:
     """Show a bar or lines; the callable takes the present item, how much is done, and the total."""
     console = messages()
     if not console.is_terminal:

@@ -5,12 +5,15 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from colonnade.cli.common.console import say, say_marked
 from colonnade.errors import count
-from colonnade.findings import Finding, Severity, in_order
+from colonnade.findings import Finding, Severity
 from colonnade.units.text import listed
+
+if TYPE_CHECKING:
+    from colonnade.campaign.forms.summary import Warned
 
 IN_FULL = 3
 """Findings of one kind that are written in full; of the others only their subjects."""
@@ -28,23 +31,11 @@ Findings = Mapping[str, Sequence[tuple[Finding, bool]]]
 """By subject, in order, each with whether it follows from one before it."""
 
 
-def records_of(findings: Iterable[Finding], known: Iterable[Finding] = ()) -> list[dict[str, Any]]:
-    """Give findings as JSON shows them, in order: severity, kind, text, and whether one before explains it."""
-    return [_record(each, explained) for each, explained in in_order(findings, known)]
+def records_of(ordered: Iterable[tuple[Finding, bool]]) -> list[Warned]:
+    """Give findings as JSON shows them: the records of the summary."""
+    from colonnade.campaign.forms.summary import Warned
 
-
-def all_records(findings: Findings) -> list[dict[str, Any]]:
-    """Give the findings of many subjects as JSON shows them."""
-    return [
-        {"subject": subject, **_record(each, explained)}
-        for subject, ordered in findings.items()
-        for each, explained in ordered
-    ]
-
-
-def _record(finding: Finding, explained: bool) -> dict[str, Any]:
-    record = {"severity": str(finding.severity), "kind": finding.kind, "text": finding.text}
-    return record | ({"stage": finding.stage} if finding.stage else {}) | {"explained": explained}
+    return [Warned.of(each, explained=explained) for each, explained in ordered]
 
 
 def line_of(record: Mapping[str, Any]) -> str:

@@ -11,6 +11,9 @@ import rich_click as click
 if TYPE_CHECKING:
     from pydantic.fields import FieldInfo
 
+    from colonnade.campaign import Campaign
+    from colonnade.store.layout import Layout
+
 
 class WithKeys(click.RichCommand):
     """A command with options that `keys` gives, made only when it is used: a table loads pydantic."""
@@ -104,6 +107,15 @@ def campaign_and_id(arguments: tuple[str, ...]) -> tuple[Path, str | None]:
     return Path(*arguments), None
 
 
+def opened(path: Path, results: Path | None) -> tuple[Campaign, Layout]:
+    """Load a campaign, and find the places of its results."""
+    from colonnade.campaign import load
+    from colonnade.store.layout import Layout
+
+    campaign = load(path)
+    return campaign, Layout.of(campaign.path, results)
+
+
 specimen_option = click.option(
     "--specimen", multiple=True, metavar="ID", help="Only this specimen. Repeat the option for several."
 )
@@ -119,10 +131,8 @@ def column_keys(*more: str) -> list[click.Option]:
     from colonnade.campaign.specimen import SIZED
     from colonnade.workflow.real_column import Size
 
-    sizes: dict[str, FieldInfo] = {}
-    for model in SIZED.values():
-        sizes |= model.model_fields
-    sizes = {key: sizes[key] for key in ("width", "diameter", "base_diameter", "top_diameter", "height")}
+    known = {key: field for model in SIZED.values() for key, field in model.model_fields.items()}
+    sizes = {key: known[key] for key in ("width", "diameter", "base_diameter", "top_diameter", "height")}
     prototype = {key: Prototype.model_fields[key] for key in ("critical_angle", "p", "restitution", *more)}
     return options_of(Size.model_fields | sizes | prototype)
 

@@ -51,11 +51,11 @@ def expect_place(path: Path, endings: Sequence[str] = PICTURES) -> None:
         )
 
 
-def expect_places(picture: Path | None, table: Path | None) -> None:
-    """Refuse places for a picture and its table, if they are asked for; errors as of `expect_place`."""
-    for place, endings in ((picture, PICTURES), (table, (TABLE,))):
+def expect_places(picture: Path | None, table: Path | None, endings: Sequence[str] = PICTURES) -> None:
+    """Refuse places for a picture and its table, if they are asked for; arguments and errors as of `expect_place`."""
+    for place, possible in ((picture, endings), (table, (TABLE,))):
         if place is not None:
-            expect_place(place, endings)
+            expect_place(place, possible)
 
 
 def save(picture: Picture | Movie, path: Path) -> Path:
