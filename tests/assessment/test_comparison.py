@@ -15,14 +15,14 @@ def outcomes():
 
 @pytest.fixture(scope="module")
 def measures(outcomes):
-    noise = np.exp(np.random.default_rng(5).normal(0, 1.2, (30, 1)))
-    own = np.tile(outcomes.levels, (30, 1))
-    return {"noisy": own * noise, "pgv": own, "unrelated": np.tile(noise, (1, own.shape[1]))}
+    noise = np.exp(np.random.default_rng(5).normal(0, 1.2, (30, 1, 1)))
+    own = np.tile(outcomes.levels[:, None], (30, 1, 1))
+    return {"noisy": own * noise, "pgv": own, "unrelated": np.tile(noise, (1, own.shape[1], 1))}
 
 
 def test_the_measure_that_decides_comes_first_by_every_criterion(outcomes, measures):
     scores = compare_measures(outcomes, measures, Resampling(200))
-    assert [each.name for each in scores] == ["pgv", "noisy", "unrelated"]
+    assert [each.measure for each in scores] == ["pgv", "noisy", "unrelated"]
     best = scores[0]
     assert best.best > 0.8
     assert scores[0].auc > scores[1].auc > 0.5
@@ -38,7 +38,7 @@ def test_two_measures_that_say_the_same_share_the_first_place(outcomes, measures
 
 def test_the_auc_is_the_share_of_pairs_in_their_order(outcomes, measures):
     found = compare_measures(outcomes, {"noisy": measures["noisy"]}, Resampling(2))[0].auc
-    x = np.broadcast_to(measures["noisy"][:, :, None, None], outcomes.peak.shape)
+    x = np.broadcast_to(measures["noisy"][:, :, None], outcomes.peak.shape)
     fell, stood = x[outcomes.overturned], x[~outcomes.overturned]
     assert found == pytest.approx(np.mean((fell[:, None] > stood) + 0.5 * (fell[:, None] == stood)))
 
@@ -46,7 +46,7 @@ def test_the_auc_is_the_share_of_pairs_in_their_order(outcomes, measures):
 def test_the_scatter_is_that_of_a_straight_line(outcomes, measures):
     found = compare_measures(outcomes, {"noisy": measures["noisy"]}, Resampling(2))[0].scatter
     stood = ~outcomes.overturned
-    x = np.log(np.broadcast_to(measures["noisy"][:, :, None, None], outcomes.peak.shape)[stood])
+    x = np.log(np.broadcast_to(measures["noisy"][:, :, None], outcomes.peak.shape)[stood])
     y = np.log(outcomes.peak[stood])
     left = y - np.polyval(np.polyfit(x, y, 1), x)
     assert found == pytest.approx(np.sqrt((left**2).sum() / (left.size - 2)))
@@ -54,9 +54,9 @@ def test_the_scatter_is_that_of_a_straight_line(outcomes, measures):
 
 def test_a_measure_that_leaves_magnitude_to_explain_is_not_sufficient(outcomes, measures):
     magnitude = np.random.default_rng(6).uniform(5, 7.5, 30)
-    without = measures["pgv"] * np.exp(-0.8 * (magnitude - 6))[:, None]
+    without = measures["pgv"] * np.exp(-0.8 * (magnitude - 6))[:, None, None]
     both = {"pgv": measures["pgv"], "without": without}
     scores = compare_measures(outcomes, both, Resampling(2), magnitude=magnitude)
-    by_name = {each.name: each for each in scores}
-    assert by_name["without"].on_magnitude < 0.02 < by_name["pgv"].on_magnitude
-    assert by_name["pgv"].on_log_distance is None
+    by_name = {each.measure: each for each in scores}
+    assert by_name["without"].magnitude < 0.02 < by_name["pgv"].magnitude
+    assert by_name["pgv"].distance is None

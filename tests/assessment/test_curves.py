@@ -30,12 +30,10 @@ def test_median_beta_and_probabilities_are_near_the_truth_and_inside_their_inter
 
 def test_the_intensity_of_a_probability_has_that_probability():
     fit = fit_lognormal(lognormal(5), Resampling(100))
-    found = fit.intensity([0.05, 0.5, 0.95])
-    assert fit.probability(found.value).value == pytest.approx([0.05, 0.5, 0.95])
-    assert (found.low[1], found.high[1]) == pytest.approx((fit.median.low, fit.median.high))
-    assert (found.low < found.value).all()
-    with pytest.raises(ValueError, match="between 0 and 1"):
-        fit.intensity([1.0])
+    found = [fit.reaches(each) for each in (0.05, 0.5, 0.95)]
+    assert fit.probability([each.value for each in found]).value == pytest.approx([0.05, 0.5, 0.95])
+    assert found[1] == pytest.approx(fit.median)
+    assert all(each.low < each.value for each in found)
 
 
 def test_a_record_at_more_levels_or_draws_does_not_narrow_the_interval_as_more_records_do():

@@ -20,14 +20,14 @@ def test_everything_is_of_the_same_outcomes():
         Resampling(100),
         uplift_varies=False,
         hazard=hazard_curve([0.05, 2.0], [1e-1, 1e-5]),
-        measures={"pgv": np.tile(outcomes.levels, (30, 1))},
+        measures={"pgv": np.tile(outcomes.levels[:, None], (30, 1, 1))},
         magnitude=np.linspace(5, 7, 30),
     )
     assert found.lognormal.median.low < MEDIAN < found.lognormal.median.high
     total = np.hypot(*found.betas)
     assert total == pytest.approx(found.lognormal.beta.value)
     assert found.rate.rate.low < found.influence.rate.mean() < found.rate.rate.high
-    assert (found.uplift, found.resurrected, found.measures[0].name) == (None, 0.0, "pgv")
+    assert (found.uplift, found.resurrected, found.measures[0].measure) == (None, 0.0, "pgv")
     assert found.misfit > 0.05
 
 

@@ -97,8 +97,7 @@ def test_the_interval_holds_the_true_rate(found):
 
 
 def test_its_contributions_and_what_is_outside_add_up(found):
-    inside = 1 - found.below_hazard - found.above_hazard
-    assert found.contributions.sum() == pytest.approx(inside)
+    assert found.contributions.sum() == pytest.approx(1 - found.outside_hazard)
     assert (found.edges[0], found.edges[-1]) == pytest.approx((LEVELS_OF_RATE[0], LEVELS_OF_RATE[-1]))
     peak = found.edges[np.argmax(found.contributions)]
     assert MEDIAN * np.exp(-3 * BETA) < peak < MEDIAN
@@ -111,9 +110,9 @@ def test_without_a_distribution_it_is_about_the_same(found):
 def test_a_hazard_curve_that_ends_too_early_is_seen():
     x = np.array([0.05, 0.3])
     found = rate_of(lognormal(4), hazard_curve(x, 1e-4 * x**-2))
-    assert (found.above_hazard > 0.3, found.is_extrapolated) == (True, True)
+    assert (found.outside_hazard > 0.3, found.is_extrapolated) == (True, True)
 
 
 def test_a_steep_hazard_far_below_the_levels_is_seen():
     found = rate_of(lognormal(4), hazard_curve(LEVELS_OF_RATE, 1e-4 * LEVELS_OF_RATE**-6))
-    assert (found.below_levels > 0.5, found.below_hazard < 0.05, found.is_extrapolated) == (True, True, True)
+    assert (found.outside_levels > 0.5, found.outside_hazard < 0.05, found.is_extrapolated) == (True, True, True)

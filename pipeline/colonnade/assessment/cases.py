@@ -63,9 +63,8 @@ class OnContact:
 
         law = self.law if np.isnan(friction) else replace(self.law, friction=friction)
         history = simulate_assembly(self.assembly, motion, law=law)
-        if history.peak_ratio is None:
-            return OVERTURNS, np.nan
-        if max(float(np.hypot(x, y)) for x, y, _ in history.residuals.values()) > self.displaced:
+        farthest = max(float(np.hypot(x, y)) for x, y, _ in history.residuals.values())
+        if history.peak_ratio is None or farthest > self.displaced:
             return OVERTURNS, np.nan
         return OUTCOMES.index(history.outcome), history.peak_ratio
 
@@ -227,15 +226,12 @@ def run_cases(cases: Cases) -> CaseOutcomes:
             if _falls_away(plane, gravity):
                 found.outcome[here] = FALLS_AWAY
                 continue
-            if cases.several is not None:
-                for number_, friction in enumerate(cases.drawn("friction")[record].tolist()):
-                    end = cases.several.end(plane, friction)
-                    for values, value in zip(vars(found).values(), end, strict=True):
-                        values[record, level, number_, side, place] = value
-                continue
-            ends = ends_of(plane, columns, gravity=gravity, model=cases.model)
-            for name, values in vars(found).items():
-                values[here] = getattr(ends, name)
+            if cases.several is None:
+                ends = ends_of(plane, columns, gravity=gravity, model=cases.model)
+                found.outcome[here], found.peak_ratio[here] = ends.outcome, ends.peak_ratio
+            else:
+                several = [cases.several.end(plane, friction) for friction in cases.drawn("friction")[record].tolist()]
+                found.outcome[here], found.peak_ratio[here] = zip(*several, strict=True)
     return found
 
 

@@ -7,13 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
 from colonnade.assessment.intervals import Resampling
-from colonnade.assessment.outcomes import Outcomes, with_axes
+from colonnade.assessment.outcomes import Outcomes
 from colonnade.assessment.probit import fit_parameters
-from colonnade.validation import samples
 
 
 @dataclass(frozen=True)
@@ -23,7 +21,8 @@ class MeasureScore:
 
     Attributes
     ----------
-    name : str
+    measure : str
+        Its id.
     deviance : float
         −2 log-likelihood per history of the best curve Φ(a + b ln x), which may also fall; 0 is perfect.
     best : float
@@ -32,27 +31,27 @@ class MeasureScore:
         Probability that a history that overturned had more of it than one that did not; ties count half.
     scatter : float
         Standard deviation of ln peak about its regression on ln x, of histories that rocked and did not overturn.
-    on_magnitude, on_log_distance : float or None
+    magnitude, distance : float or None
         Sufficiency (Luco and Cornell 2007): p of magnitude and ln distance explaining nothing of what is left of the
         records' mean ln peak (Student's t). None if they are not known of three records.
     """
 
-    name: str
+    measure: str
     deviance: float
     best: float
     auc: float
     scatter: float
-    on_magnitude: float | None
-    on_log_distance: float | None
+    magnitude: float | None
+    distance: float | None
 
 
 def compare_measures(
     outcomes: Outcomes,
-    measures: Mapping[str, ArrayLike],
+    measures: Mapping[str, Array],
     resampling: Resampling,
     *,
-    magnitude: ArrayLike | None = None,
-    distance: ArrayLike | None = None,
+    magnitude: Array | None = None,
+    distance: Array | None = None,
 ) -> tuple[MeasureScore, ...]:
     """
     Compare measures on the same histories, the best by deviance first.
@@ -60,26 +59,22 @@ def compare_measures(
     Parameters
     ----------
     outcomes : Outcomes
-    measures : mapping of str to array_like, shape (r, l) or (r, l, c)
+    measures : mapping of str to ndarray, shape (r, l, 1) or (r, l, c)
         Positive values of each measure for the scaled records: such that all records have.
     resampling : Resampling
-    magnitude, distance : array_like, shape (r,), optional
+    magnitude, distance : ndarray, shape (r,), optional
         Of the records; distances positive. NaN if not known.
     """
     if not measures:
         return ()
-    arrays = {name: with_axes(values, 3) for name, values in measures.items()}
     weights, was_run = resampling.weights(len(outcomes.records)), outcomes.was_run
-    deviances = np.array([_deviances(outcomes, each, weights) for each in arrays.values()])
+    deviances = np.array([_deviances(outcomes, each, weights) for each in measures.values()])
     resampled = deviances[:, 1:][:, ~np.isnan(deviances[:, 1:]).any(axis=0)]
     first = resampled <= resampled.min(axis=0, initial=np.inf) + 1e-12
-    best = (first / first.sum(axis=0)).mean(axis=1) if resampled.size else np.full(len(arrays), np.nan)
-    covariates = [
-        None if magnitude is None else samples("magnitude", magnitude, gaps=True),
-        None if distance is None else np.log(samples("distance", distance, gaps=True)),
-    ]
+    best = (first / first.sum(axis=0)).mean(axis=1) if resampled.size else np.full(len(measures), np.nan)
+    covariates = magnitude, None if distance is None else np.log(distance)
     scores = []
-    for place, (name, intensity) in enumerate(arrays.items()):
+    for place, (name, intensity) in enumerate(measures.items()):
         x, fell = _histories(outcomes, intensity, was_run), outcomes.overturned[was_run]
         scatter, left = _regressed(outcomes, intensity)
         p_values = [None if each is None else _p_of_trend(each, left) for each in covariates]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, cast
 
 import numpy as np
@@ -47,8 +48,6 @@ class LognormalFit:
     rises : tuple of float
         Up to the first intensity nothing overturned, from the second on everything: the curve rises between them.
         If the outcomes are separated, that is all that is known. 0 or inf if there is no such intensity.
-    median, beta : Interval
-        NaN if there is no curve; their limits also if `no_interval` says why.
     level : float
         Of the intervals.
     records : int
@@ -61,13 +60,21 @@ class LognormalFit:
 
     reason: Reason
     rises: tuple[float, float]
-    median: Interval
-    beta: Interval
     level: float
     records: int
     degenerate: float
     fit: Parameters
     resampled: Parameters
+
+    @cached_property
+    def median(self) -> Interval:
+        """NaN if there is no curve; its limits also if `no_interval` says why."""
+        return self.interval(lambda mean, log_beta: mean)
+
+    @cached_property
+    def beta(self) -> Interval:
+        """As `median`."""
+        return self.interval(lambda mean, log_beta: log_beta)
 
     @property
     def no_interval(self) -> str:
@@ -90,10 +97,15 @@ class LognormalFit:
         band = self.band(lambda mean, log_beta: (x - mean) / np.exp(log_beta))
         return Band(*(scipy.special.ndtr(each) for each in band))
 
-    def intensity(self, probability: ArrayLike) -> Band:
-        """Give the intensities at which P is `probability`, shape (k,), with intervals; NaN if there is no curve."""
-        z = scipy.special.ndtri(_probabilities(probability))
-        return Band(*(np.exp(each) for each in self.band(lambda mean, log_beta: mean + z * np.exp(log_beta))))
+    def reaches(self, probability: float) -> Interval:
+        """Give the intensity at which the curve reaches a probability, with its interval; NaN if there is no curve."""
+        z = float(scipy.special.ndtri(probability))
+        return self.interval(lambda mean, log_beta: mean + z * np.exp(log_beta))
+
+    @np.errstate(over="ignore", invalid="ignore")  # of few records a limit may be as good as infinite
+    def interval(self, log_value: Callable[[Array, Array], Array]) -> Interval:
+        """Give a number that follows from the curve, with its interval; `log_value` is its logarithm, as of `band`."""
+        return Interval(*(float(np.exp(each[0])) for each in self.band(log_value)))
 
     def band(self, function: Callable[[Array, Array], Array]) -> Band:
         """
@@ -135,48 +147,23 @@ def fit_lognormal(outcomes: Outcomes, resampling: Resampling, *, event: Mask | N
     one record are not independent, so the standard errors are those of records (sandwich) and the intervals are
     studentised, of ln median and ln β.
     """
-    cells, level = outcomes.cells(event), resampling.level
+    cells = outcomes.cells(event)
     parameters, _, reasons = fit_parameters(cells, resampling.weights(len(outcomes.records)))
-    all_records, resampled = (Parameters(*(each[part] for each in parameters)) for part in (slice(1), slice(1, None)))
     has_curve = reasons[1:] == ""
     counted = cells.histories.any(axis=0)
     shares = cells.events.sum(axis=0)[counted] / cells.histories.sum(axis=0)[counted]
     mixed = float(np.minimum(shares, 1 - shares).sum())
     shows = len(outcomes.records) >= ENOUGH_RECORDS or mixed >= LEAST_MIXED
     usable = has_curve & (shows and shows_spread(has_curve, len(outcomes.records)))
-    resampled = Parameters(*(each[usable] for each in resampled))
-    median, beta = _intervals(all_records, resampled, level, len(outcomes.records))
     return LognormalFit(
         cast("Reason", str(reasons[0])),
         _rises(cells),
-        median,
-        beta,
-        level,
+        resampling.level,
         len(outcomes.records),
         float(1 - has_curve.mean()),
-        all_records,
-        resampled,
+        Parameters(*(each[:1] for each in parameters)),
+        Parameters(*(each[1:][usable] for each in parameters)),
     )
-
-
-def _probabilities(values: ArrayLike) -> Array:
-    given = samples("probability", values)
-    if not ((given > 0) & (given < 1)).all():
-        raise ValueError("probability is not between 0 and 1; the curve reaches 0 and 1 nowhere")
-    return given
-
-
-@np.errstate(over="ignore", invalid="ignore")  # of few records a limit may be as good as infinite
-def _intervals(fit: Parameters, resampled: Parameters, level: float, records: int) -> tuple[Interval, Interval]:
-    """Of median and β."""
-    found = []
-    for value, variance, values, variances in (
-        (fit.log_median, fit.mm, resampled.log_median, resampled.mm),
-        (fit.log_beta, fit.bb, resampled.log_beta, resampled.bb),
-    ):
-        band = studentised(value, np.sqrt(variance), values[:, None], np.sqrt(variances)[:, None], level, records)
-        found.append(Interval(*(float(np.exp(each[0])) for each in band)))
-    return found[0], found[1]
 
 
 def _with_errors(function: Callable[[Array, Array], Array], at: Parameters) -> tuple[Array, Array]:

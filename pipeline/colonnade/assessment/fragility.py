@@ -8,7 +8,6 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
 from colonnade.assessment.comparison import MeasureScore, compare_measures
@@ -110,9 +109,7 @@ class Fragility(Digested):
             If the probability is not between 0 and 1.
         """
         number("probability", probability, "a number between 0 and 1", above=0.0, below=1.0)
-        if self.taken == "isotonic":
-            return self.isotonic.reaches(probability)
-        return Interval(*(float(each[0]) for each in self.lognormal.intensity([probability])))
+        return (self.isotonic if self.taken == "isotonic" else self.lognormal).reaches(probability)
 
     def digest(self) -> dict[str, str]:
         """
@@ -145,9 +142,9 @@ def summarise(
     *,
     uplift_varies: bool = True,
     hazard: Hazard | None = None,
-    measures: Mapping[str, ArrayLike] | None = None,
-    magnitude: ArrayLike | None = None,
-    distance: ArrayLike | None = None,
+    measures: Mapping[str, Array] | None = None,
+    magnitude: Array | None = None,
+    distance: Array | None = None,
     measure: str = "",
 ) -> Fragility:
     """
@@ -267,11 +264,7 @@ def influence(outcomes: Outcomes, hazard: Hazard | None = None) -> Influence:
     weights = np.vstack((np.ones(rows), 1.0 - np.eye(rows)))
     parameters = fit_parameters(outcomes.cells(), weights)[0]
     median, beta = np.exp(parameters.log_median), np.exp(parameters.log_beta)
-    rate = None
-    if hazard is not None:
-        known = np.isfinite(median)
-        rate = np.full(median.size, np.nan)
-        rate[known] = lognormal_rate(hazard, median[known], beta[known])
+    rate = None if hazard is None else lognormal_rate(hazard, median, beta)
     decides = median if rate is None else rate
     change = np.abs(np.log(decides[1:] / decides[0]))
     order = np.argsort(-np.where(np.isnan(change), np.inf, change), kind="stable")

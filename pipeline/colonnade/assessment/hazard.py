@@ -163,12 +163,10 @@ class AnnualRate:
     ----------
     rate, in_50_years : Interval
         Per year; probability of at least once in `YEARS`, 1 − exp(−λ t).
-    below_hazard, above_hazard : float
-        Shares of the rate from below the first point of the hazard curve and above its last, which is extrapolated.
-    below_levels, above_levels : float
-        Shares from below the lowest level and above the highest, where nothing was computed.
-    is_extrapolated : bool
-        Whether more than `LARGEST_SHARE` is from outside either.
+    outside_hazard : float
+        Share of the rate from below the first point of the hazard curve and above its last, which is extrapolated.
+    outside_levels : float
+        Share from below the lowest level and above the highest, where nothing was computed.
     edges, contributions : ndarray, shape (n + 1,) and (n,)
         Disaggregation: shares of the rate between intensities.
     isotonic : float
@@ -177,14 +175,16 @@ class AnnualRate:
 
     rate: Interval
     in_50_years: Interval
-    below_hazard: float
-    above_hazard: float
-    below_levels: float
-    above_levels: float
-    is_extrapolated: bool
+    outside_hazard: float
+    outside_levels: float
     edges: Array
     contributions: Array
     isotonic: float
+
+    @property
+    def is_extrapolated(self) -> bool:
+        """Whether more than `LARGEST_SHARE` is from outside either."""
+        return max(self.outside_hazard, self.outside_levels) > LARGEST_SHARE
 
 
 @np.errstate(over="ignore", divide="ignore", invalid="ignore")  # of few records a resample may be nearly flat
@@ -208,23 +208,22 @@ def annual_rate(hazard: Hazard, fit: LognormalFit, isotonic: IsotonicCurve) -> A
     def log_rate(mean: Array, log_beta: Array) -> Array:
         return np.log(lognormal_rate(hazard, np.exp(mean[:, 0]), np.exp(log_beta[:, 0])))[:, None]
 
-    rate = Interval(*(float(np.exp(each[0])) for each in fit.band(log_rate)))
+    rate = fit.interval(log_rate)
 
     def share(low: float, high: float) -> float:
         return float(lognormal_rate(hazard, fit.median.value, fit.beta.value, low=low, high=high)[0]) / rate.value
 
-    first, last = float(isotonic.intensity[0]), float(isotonic.intensity[-1])
-    below_hazard, above_hazard = share(0.0, hazard.intensity[0]), share(hazard.intensity[-1], np.inf)
-    below_levels, above_levels = share(0.0, first), share(last, np.inf)
-    edges = np.geomspace(min(hazard.intensity[0], first), max(hazard.intensity[-1], last), BINS + 1)
+    def outside(known: Array) -> float:
+        return share(0.0, known[0]) + share(known[-1], np.inf)
+
+    levels = isotonic.intensity
+    ends = min(hazard.intensity[0], levels[0]), max(hazard.intensity[-1], levels[-1])
+    edges = np.geomspace(*ends, BINS + 1)
     return AnnualRate(
         rate,
         Interval(*(float(-np.expm1(-YEARS * each)) for each in rate)),
-        below_hazard,
-        above_hazard,
-        below_levels,
-        above_levels,
-        max(below_hazard + above_hazard, below_levels + above_levels) > LARGEST_SHARE,
+        outside(hazard.intensity),
+        outside(levels),
         edges,
         np.array([share(low, high) for low, high in pairwise(edges)]),
         isotonic_rate(hazard, isotonic.intensity, isotonic.probability.value),

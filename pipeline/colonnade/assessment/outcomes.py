@@ -109,15 +109,10 @@ def gather(records: Sequence[str], levels: ArrayLike, peak: ArrayLike, overturne
     """
     if len(records) < FEWEST:
         raise ValueError(f"records has {count(len(records), 'name')}; at least {FEWEST} were expected")
-    peaks = with_axes(peak, 4)
+    peaks = np.asarray(peak, dtype=np.float64)
+    peaks = peaks.reshape(*peaks.shape, *(1,) * (4 - peaks.ndim))
     over = peaks > 1.0 if overturned is None else overturned.reshape(peaks.shape)
     return Outcomes(tuple(records), np.asarray(levels, dtype=np.float64), peaks, over & ~np.isnan(peaks))
-
-
-def with_axes(values: ArrayLike, axes: int) -> Array:
-    """Add axes of length 1 at the end, up to so many in all."""
-    array = np.asarray(values, dtype=np.float64)
-    return array.reshape(*array.shape, *(1,) * (axes - array.ndim))
 
 
 def resurrected(outcomes: Outcomes) -> float:

@@ -139,12 +139,14 @@ def plan_study(
         why = next(iter(reasons.values()), "there is no record")
         raise ValueError(f"No record has a {scaled_over.name}: {why}")
     intensity, power = values[scaled_over.id][usable], scaled_over.power
-    if levels is None and several is not None:
-        raise ValueError(f"levels are needed for several bodies: levels of the {scaled_over.name} were expected")
-    if levels is None:
+    if levels is not None:
+        found = np.unique(samples("levels", levels))
+        if not found[0] > 0.0:
+            raise ValueError(f"levels begin at {found[0]:g}; positive levels of the {scaled_over.name} were expected")
+    elif several is None:
         found = default_levels(column, [recorded[row] for row in usable], intensity, power=power, model=model)
     else:
-        found = _checked_levels(levels, scaled_over)
+        raise ValueError(f"levels are needed for several bodies: levels of the {scaled_over.name} were expected")
     factors = factors_at(found, intensity, power)
     runs = np.array(
         [_has_history(recorded[row], each, block.gravity) for row, each in zip(usable, factors, strict=True)]
@@ -181,14 +183,6 @@ def _measured(
     return values, drifts, reasons
 
 
-def _checked_levels(levels: ArrayLike, measure: Measure) -> Array:
-    """Return levels, rising and each once."""
-    found = np.unique(samples("levels", levels))
-    if not found[0] > 0.0:
-        raise ValueError(f"levels begin at {found[0]:g}; positive levels of the {measure.name} were expected")
-    return found
-
-
 def judge(
     study: Study,
     outcomes: CaseOutcomes,
@@ -196,8 +190,8 @@ def judge(
     *,
     overturned: float = 1.0,
     hazard: Hazard | None = None,
-    magnitude: ArrayLike | None = None,
-    distance: ArrayLike | None = None,
+    magnitude: Array | None = None,
+    distance: Array | None = None,
 ) -> Fragility:
     """
     Judge the outcomes of a study.
@@ -212,7 +206,7 @@ def judge(
         A largest |θ|/α above this counts as overturned.
     hazard : Hazard, optional
         Of the study's measure.
-    magnitude, distance : array_like, shape (records,), optional
+    magnitude, distance : ndarray, shape (records,), optional
         Of the earthquakes; NaN if not known.
 
     Returns

@@ -186,9 +186,9 @@ def _answer(
             "annual_rate": _estimate(rate.rate),
             "probability_50_years": _estimate(rate.in_50_years),
             "annual_rate_isotonic": rate.isotonic,
-            "rate_outside": rate.below_hazard + rate.above_hazard,
+            "rate_outside": rate.outside_hazard,
         }
-    measures = _measures(found)
+    measures = tuple(JudgedMeasure(**vars(each)) for each in found.measures)
     # Nobody asked for measures that are compared by default.
     missing = [name for name in study.values if name not in {each.measure for each in measures}]
     left_out = _left_out(plan)
@@ -235,21 +235,6 @@ def _answer(
     )
 
 
-def _measures(found: Fragility) -> tuple[JudgedMeasure, ...]:
-    return tuple(
-        JudgedMeasure(
-            measure=each.name,
-            deviance=each.deviance,
-            auc=each.auc,
-            scatter=each.scatter,
-            best=each.best,
-            magnitude=each.on_magnitude,
-            distance=each.on_log_distance,
-        )
-        for each in found.measures
-    )
-
-
 def _both(column: RealColumn) -> float:
     """The mean e of its sides."""
     return float(np.mean(pair(column.restitution)))
@@ -281,8 +266,7 @@ def _variants(plan: Plan, fragilities: Mapping[str, Fragility]) -> Iterator[Vari
         if fit.reason:
             yield Variant(**common, reason=NO_CURVE[fit.reason])
         else:
-            five = Interval(*(float(each[0]) for each in fit.intensity([0.05])))
-            yield Variant(**common, median=_estimate(fit.median), five_percent=_estimate(five))
+            yield Variant(**common, median=_estimate(fit.median), five_percent=_estimate(fit.reaches(0.05)))
     if plan.without_correction:
         e = _both(plan.studies[ASSUMED].cases.column)
         yield Variant(name=UNCORRECTED, restitution=e, reason=plan.without_correction)
@@ -350,8 +334,8 @@ def _doubts(
         yield found.lognormal.no_interval
     if rate is not None and rate.is_extrapolated:
         yield (
-            f"{format_percent(rate.below_hazard + rate.above_hazard)} of the annual rate is from outside the hazard "
-            f"curve, and {format_percent(rate.below_levels + rate.above_levels)} from outside the levels."
+            f"{format_percent(rate.outside_hazard)} of the annual rate is from outside the hazard curve, and "
+            f"{format_percent(rate.outside_levels)} from outside the levels."
         )
     if rate is not None and found.misfit < MISFITS:
         yield (
