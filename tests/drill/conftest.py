@@ -16,6 +16,7 @@ collect_ignore = [
     "fuzz.py",
     "read_damaged.py",
     "victim.py",
+    "watcher.py",
     "whole_files.py",
 ]
 

@@ -34,10 +34,10 @@ PATIENCE = 180.0
 class Watch:
     """A watch in a process of its own, and the lines that it gives."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, *, polled=False):
         self.lines: list[tuple[float, dict[str, Any]]] = []
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "colonnade", "watch", str(folder), "--json", "--workers", "2"],
+            [sys.executable, str(Path(__file__).with_name("watcher.py")), str(folder), str(int(polled))],
             stdout=subprocess.PIPE,
             stderr=(folder / "complaints.txt").open("w"),
             text=True,
@@ -86,8 +86,8 @@ class Watch:
 
 
 @contextmanager
-def watching(folder):
-    watch = Watch(folder)
+def watching(folder, *, polled=False):
+    watch = Watch(folder, polled=polled)
     try:
         yield watch
     finally:
@@ -137,9 +137,10 @@ def deliver(folder, count, chance):
     return closed, broken
 
 
-def test_files_that_arrive_in_all_ways_get_their_lines(tmp_path, capsys):
+@pytest.mark.parametrize("polled", [False, True], ids=["events", "polled"])
+def test_files_that_arrive_in_all_ways_get_their_lines(polled, tmp_path, capsys):
     folder, chance = begun(tmp_path / "campaign"), random.Random(SEED)
-    with watching(folder) as watch:
+    with watching(folder, polled=polled) as watch:
         time.sleep(10)
         before = watch.processor_time
         time.sleep(20)
@@ -164,9 +165,9 @@ def test_files_that_arrive_in_all_ways_get_their_lines(tmp_path, capsys):
     assert all(stage.action != "done" for stage in ended.stages)
     with capsys.disabled():
         print(
-            f"\n{FILES} files, from close to line: median {statistics.median(seconds):.1f} s, worst "
-            f"{seconds[-1]:.1f} s; {len(broken)} broken, {len(failures)} called failed too early; idle "
-            f"{100 * idle:.2f} % of a core; {memory:.0f} MB"
+            f"\n{FILES} files ({'polled' if polled else 'events'}), from close to line: median "
+            f"{statistics.median(seconds):.1f} s, worst {seconds[-1]:.1f} s; {len(broken)} broken, {len(failures)} "
+            f"called failed too early; idle {100 * idle:.2f} % of a core; {memory:.0f} MB"
         )
     assert not failures
     assert idle < 0.01

@@ -1,13 +1,15 @@
-"""Files copied from a share, and the command that is told of each."""
+"""A watched folder: its bell, files copied from a share, and the command that is told of each."""
 
 import json
 import sys
+import time
 
 import pytest
 
 from colonnade.errors import CampaignError
+from colonnade.workflow.watching import arrivals as folders
 from colonnade.workflow.watching import measure as module
-from colonnade.workflow.watching.arrivals import Arrivals, Share
+from colonnade.workflow.watching.arrivals import Arrivals, Bell, Share, listening
 from colonnade.workflow.watching.measure import command_of, notify
 
 
@@ -57,6 +59,33 @@ def test_a_share_that_is_gone_is_said_and_may_come_back(share):
     (share.source / "a.csv").write_bytes(b"1\n")
     assert not twice(share, 5.0)
     assert (share.target / "a.csv").exists()
+
+
+def test_a_file_that_is_written_rings(tmp_path):
+    with listening(tmp_path) as bell:
+        if not bell.has_events:
+            pytest.skip("this system gives no events")
+        (tmp_path / "a.csv").write_text("1\n")
+        began = time.monotonic()
+        bell.wait()
+        assert time.monotonic() - began < folders.REST / 2
+
+
+def test_a_folder_that_is_not_there_is_polled(tmp_path):
+    with listening(tmp_path / "none") as bell:
+        assert not bell.has_events
+
+
+def test_a_remote_folder_is_polled(tmp_path, monkeypatch):
+    monkeypatch.setattr(folders, "_is_remote", lambda folder: True)
+    with listening(tmp_path) as bell:
+        assert not bell.has_events
+
+
+def test_a_wait_ends_when_it_is_due():
+    began = time.monotonic()
+    Bell(has_events=False).wait(0.05)
+    assert 0.04 < time.monotonic() - began < 1.0
 
 
 LINE = {"test": "säule-01", "outcome": "rocking"}

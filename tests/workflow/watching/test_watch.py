@@ -10,6 +10,7 @@ from colonnade.errors import StoreError
 from colonnade.store.records.advice import Advice
 from colonnade.workflow.lock import only_watch
 from colonnade.workflow.watching import watch as module
+from colonnade.workflow.watching.arrivals import Bell
 from colonnade.workflow.watching.behind import Ended
 from colonnade.workflow.watching.measure import Line
 from colonnade.workflow.watching.watch import watch
@@ -124,17 +125,16 @@ def test_a_deleted_file_starts_the_run_behind(small, crashing, monkeypatch):
     crashing.ends = [Ended(0, (), was_refused=False, problem="")]
     starts = []
 
-    def wait(seconds):
+    def wait(bell, longest=None):
         starts.append(crashing.starts)
         if len(starts) == 3:
             small.raw("pulse-02").unlink()
         if crashing.starts == 2:
             raise KeyboardInterrupt
         assert len(starts) < 100
-        sleep(0.05)
+        time.sleep(0.05)
 
-    sleep = time.sleep
-    monkeypatch.setattr(module.time, "sleep", wait)
+    monkeypatch.setattr(Bell, "wait", wait)
     with pytest.raises(KeyboardInterrupt):
         watch(small.folder, show=lambda line: None, say=lambda sentence: None)
     assert starts[:3] == [1, 1, 1]

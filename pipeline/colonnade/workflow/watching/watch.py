@@ -22,7 +22,7 @@ from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.workflow.advising.next import advise_after
 from colonnade.workflow.lock import is_refusal, only_watch
-from colonnade.workflow.watching.arrivals import Arrivals, Share, last_change, marks_of
+from colonnade.workflow.watching.arrivals import Arrivals, Bell, Share, last_change, listening, marks_of
 from colonnade.workflow.watching.behind import Behind
 from colonnade.workflow.watching.measure import Line, measure, measured, notify, shown_now
 
@@ -35,8 +35,8 @@ AGAIN = 2.0
 GRACE = 10.0
 """Seconds without a change after which a file that cannot be used is called a failure."""
 
-POLL, BUSY = 1.0, 0.2
-"""Seconds between two looks, and while something goes on; a folder on another machine gives no events to wait for."""
+BUSY = 0.2
+"""Seconds between two looks while something goes on."""
 
 WRONG_CAMPAIGN = 2
 """Exit code of a run that cannot use the campaign file; the watch says so itself when the file is changed."""
@@ -93,9 +93,9 @@ def watch(
     """
     loaded = load(Path(campaign)).awaiting()
     layout = Layout.of(loaded.path, results)
-    with only_watch(layout), _logged(layout) as log:
+    with only_watch(layout), _logged(layout) as log, listening(loaded.folder / loaded.watch.folder) as bell:
         behind = Behind(loaded.path, layout.results, workers)
-        watching = _Watching(loaded, layout, behind, command, show, say, log, once)
+        watching = _Watching(loaded, layout, bell, behind, command, show, say, log, once)
         if share is not None:
             watching.share = Share(share, loaded.folder / loaded.watch.folder, Arrivals(loaded.watch.settle))
         try:
@@ -124,6 +124,7 @@ class _Watching:
 
     campaign: Campaign
     layout: Layout
+    bell: Bell
     behind: Behind
     command: Sequence[str]
     show: Show
@@ -159,7 +160,7 @@ class _Watching:
             is_busy = self._arrivals.is_waiting or self._due or self.behind.is_running
             if self.is_once and not (is_busy or self._is_outdated):
                 return self._code
-            time.sleep(BUSY if is_busy or self.is_once else POLL)
+            self.bell.wait(BUSY if is_busy or self.is_once else None)
             self._look()
 
     def tell_pages(self, *, is_watched: bool = True) -> None:
