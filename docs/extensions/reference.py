@@ -10,7 +10,7 @@ from pathlib import Path
 
 import colonnade
 import contract
-from colonnade.store.description import FLAG_MEANINGS, FLAG_VALUES, VARIABLES
+from colonnade.store.description import QUALITY_FLAGS, VARIABLES
 from colonnade.store.results import STAGES
 from myst import code, contents, table, target
 
@@ -120,10 +120,8 @@ def pages_of_results():
         parts.append(CHANNELS if name in ("ingest", "condition") else "")
         rows = [row(each) for each, entry in VARIABLES.items() if name in entry.stages]
         parts.append(table(("variable", "unit", "what it is"), rows))
-    flags = zip(FLAG_VALUES, FLAG_MEANINGS.split(), strict=True)
-    parts.append(
-        "## Quality flags\n\n" + table(("flag", "means"), ((value, word.replace("_", " ")) for value, word in flags))
-    )
+    flags = (flag.replace("_", " ").split("=") for flag in QUALITY_FLAGS.split())
+    parts.append("## Quality flags\n\n" + table(("flag", "means"), flags))
     return {"files.md": "".join(parts)}
 
 

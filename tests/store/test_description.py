@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from colonnade.dynamics.models import MODELS
 from colonnade.errors import StoreError
-from colonnade.store.description import VARIABLES, channel_attributes, describe, udunits, variable_name
+from colonnade.store.description import VARIABLES, describe, udunits, variable_name
 from colonnade.store.results import STAGES
 
 CHANNEL_IDS = st.from_regex(r"[A-Za-z0-9][A-Za-z0-9._-]{0,8}((_channel)|(_quality)|(_recorded)){0,2}", fullmatch=True)
@@ -88,11 +88,6 @@ def test_a_model_is_not_called_a_measurement():
 def test_a_variable_that_nobody_describes_is_refused_with_the_nearest_name():
     with pytest.raises(StoreError, match=r"'rocking_angel'.*Did you mean \"rocking_angle\""):
         describe(xr.Dataset({"rocking_angel": ("elapsed", np.zeros(2))}))
-
-
-def test_an_unknown_quantity_is_refused():
-    with pytest.raises(StoreError, match="channel top: 'displacment' is not a quantity"):
-        channel_attributes("top", "displacment")
 
 
 def test_every_unit_of_the_table_is_one_that_udunits_reads():

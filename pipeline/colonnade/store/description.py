@@ -7,21 +7,19 @@ undescribed.
 
 from __future__ import annotations
 
-import csv
 import re
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from colonnade import units
 from colonnade.errors import StoreError, nearest
+from colonnade.store.results import rows
 
 if TYPE_CHECKING:
     import xarray as xr
 
-FLAG_VALUES = (1, 2, 3, 4, 9)
-FLAG_MEANINGS = "good not_evaluated suspect fail missing"
+QUALITY_FLAGS = "1=good 2=not_evaluated 3=suspect 4=fail 9=missing"
 MODEL_STAGES = frozenset({"contact", "predict", "ensemble", "map"})
 
 _UDUNITS = frozenset({"V", "mV", "A", "mA", "m", "cm", "mm", "um", "s", "ms", "Hz", "kHz", "N", "kN", "rad", "mrad"})
@@ -69,36 +67,6 @@ def udunits(unit: str | None) -> str:
     return found.si_unit if found.factor == 1.0 else f"{found.factor!r} {found.si_unit}"
 
 
-def channel_attributes(channel_id: str, quantity: str, recorded_unit: str | None = None) -> dict[str, Any]:
-    """
-    Attributes of a channel's values in SI.
-
-    Parameters
-    ----------
-    channel_id : str
-        As in campaign.toml.
-    quantity : str
-        displacement, velocity, acceleration, angle, angular_velocity, force (stored in SI) or other (stored in the
-        unit of the recording, if that is one that CF can spell).
-    recorded_unit : str, optional
-        As in the file.
-
-    Raises
-    ------
-    StoreError
-        If the quantity is none of these.
-    """
-    if quantity not in units.QUANTITY_DIMENSIONS:
-        raise StoreError(
-            f"channel {channel_id}: '{quantity}' is not a quantity that can be stored."
-            + nearest(quantity, units.QUANTITY_DIMENSIONS)
-        )
-    dimension = units.QUANTITY_DIMENSIONS[quantity]
-    unit = "N" if dimension == "force" else units.DIMENSIONS[dimension][0] if dimension else udunits(recorded_unit)
-    words = "" if quantity == "other" else f"{quantity.replace('_', ' ')}, "
-    return Variable(f"{words}channel {channel_id}", unit, MEASURED).attributes()
-
-
 def describe(dataset: xr.Dataset, stage: str = "") -> xr.Dataset:
     """
     Attach CF and ACDD attributes to every variable of a stage's result.
@@ -123,50 +91,47 @@ def describe(dataset: xr.Dataset, stage: str = "") -> xr.Dataset:
     """
     described = {}
     for name, variable in ((str(name), variable) for name, variable in dataset.variables.items()):
-        attributes, dtype = _attributes(name, dataset)
+        entry = _entry(name, dataset)
+        attributes = entry.attributes()
         if stage in MODEL_STAGES and attributes.get("coverage_content_type") == MEASURED:
             attributes["coverage_content_type"] = MODELLED
         companions = [companion for companion in (f"{name}_quality", f"{name}_standard_error") if companion in dataset]
         if companions:
             attributes["ancillary_variables"] = " ".join(companions)
-        if dtype != "str" and variable.dtype != np.dtype(dtype):
-            variable = variable.astype(dtype)
+        if entry.dtype != "str" and variable.dtype != np.dtype(entry.dtype):
+            variable = variable.astype(entry.dtype)
         own = {key: value for key, value in variable.attrs.items() if value is not None and value != ""}
         described[name] = (variable.dims, variable.data, attributes | own)
     return dataset.assign(described)
 
 
-def _attributes(name: str, dataset: xr.Dataset) -> tuple[dict[str, Any], str]:
+def _entry(name: str, dataset: xr.Dataset) -> Variable:
     if name in VARIABLES:
-        entry = VARIABLES[name]
-        return entry.attributes() | (_flag_attributes(name) if entry.dtype == "int8" else {}), entry.dtype
+        return VARIABLES[name]
     if name.startswith("elapsed_"):
-        clock = name.removeprefix("elapsed_")
-        return Variable(f"time since the zero of clock {clock}", "s", COORDINATE).attributes(), "float64"
+        return Variable(f"time since the zero of clock {name.removeprefix('elapsed_')}", "s", COORDINATE)
     own = dataset.variables[name].attrs
     if "channel" in own and "quantity" in own:
-        return channel_attributes(own["channel"], own["quantity"], own.get("recorded_unit")), "float64"
+        return _of_channel(**{key: own.get(key) for key in ("channel", "quantity", "recorded_unit")})
     base, _, form = name.rpartition("_")
-    channel = dataset.variables[base].attrs.get("channel") if base in dataset else None
-    if channel is not None and form == "recorded":
-        unit = own.get("recorded_unit") or dataset.variables[base].attrs.get("recorded_unit")
-        recorded = Variable(f"as in the file, channel {channel}", udunits(unit), MEASURED)
-        return recorded.attributes() | ({"recorded_unit": unit} if unit else {}), "float64"
-    if channel is not None and form == "quality":
-        quality = Variable(f"quality of channel {channel}", "", QUALITY, "quality_flag", "int8")
-        return quality.attributes() | _flag_attributes(name), "int8"
+    beside = dataset.variables[base].attrs if base in dataset else {}
+    if "channel" in beside and form == "recorded":
+        return Variable(f"as in the file, channel {beside['channel']}", udunits(beside.get("recorded_unit")), MEASURED)
+    if "channel" in beside and form == "quality":
+        said = f"quality of channel {beside['channel']}"
+        return Variable(said, "", QUALITY, "quality_flag", "int8", flags=QUALITY_FLAGS)
     raise StoreError(
         f"variable '{name}' of {dict(dataset[name].sizes)} is not described: it is not in the table of variables, and "
         f"without the attributes `channel` and `quantity` it is not a channel either." + nearest(name, VARIABLES)
     )
 
 
-def _flag_attributes(name: str) -> dict[str, Any]:
-    if name in ("peak_used", "impact_used"):
-        return {"flag_values": np.array([0, 1], dtype=np.int8), "flag_meanings": "left_out used"}
-    if name == "outcome":
-        return {"flag_values": np.array([0, 1, 2], dtype=np.int8), "flag_meanings": "no_rocking rocking overturned"}
-    return {"flag_values": np.array(FLAG_VALUES, dtype=np.int8), "flag_meanings": FLAG_MEANINGS}
+def _of_channel(channel: str, quantity: str, recorded_unit: str | None) -> Variable:
+    """Describe a channel's values in SI; those of the quantity "other" have the unit of the recording if CF spells it."""
+    dimension = units.QUANTITY_DIMENSIONS[quantity]
+    unit = "N" if dimension == "force" else units.DIMENSIONS[dimension][0] if dimension else udunits(recorded_unit)
+    words = "" if quantity == "other" else f"{quantity.replace('_', ' ')}, "
+    return Variable(f"{words}channel {channel}", unit, MEASURED)
 
 
 MEASURED = "physicalMeasurement"
@@ -196,6 +161,8 @@ class Variable(NamedTuple):
         Sign, frame or definition, where the name does not say it.
     stages : tuple of str
         Whose results may have it.
+    flags : str
+        What its values mean, as ``0=left_out 1=used``.
     """
 
     long_name: str
@@ -205,18 +172,21 @@ class Variable(NamedTuple):
     dtype: str = "float64"
     comment: str = ""
     stages: tuple[str, ...] = ()
+    flags: str = ""
 
     def attributes(self) -> dict[str, Any]:
         """CF and ACDD attributes, those that are not given left out."""
         given = self._asdict() | {"coverage_content_type": self.content}
         names = ("long_name", "standard_name", "units", "coverage_content_type", "comment")
-        return {name: given[name] for name in names if given[name]}
+        attributes = {name: given[name] for name in names if given[name]}
+        if self.flags:
+            values, meanings = zip(*(flag.split("=") for flag in self.flags.split()), strict=True)
+            attributes |= {"flag_values": np.array(values, dtype=np.int8), "flag_meanings": " ".join(meanings)}
+        return attributes
 
 
-def _table() -> dict[str, Variable]:
-    with Path(__file__).with_name("variables.csv").open(encoding="utf-8", newline="") as stream:
-        rows: list[dict[str, Any]] = list(csv.DictReader(stream))
-    return {row.pop("name"): Variable(**row | {"stages": tuple(row["stages"].split())}) for row in rows}
+def _variable(row: dict[str, str]) -> Variable:
+    return Variable(**row | {"stages": tuple(row["stages"].split())})
 
 
-VARIABLES = _table()
+VARIABLES = {row.pop("name"): _variable(row) for row in rows("variables.csv")}

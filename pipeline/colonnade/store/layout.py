@@ -17,6 +17,11 @@ STATE = "state.js"
 """Name of the state script in the report's folder."""
 
 
+def _in(folder: str, name: str) -> cached_property[Path]:
+    """Make a path in a folder of the layout, put together when it is first asked for."""
+    return cached_property(lambda layout: getattr(layout, folder) / name)
+
+
 @dataclass(frozen=True)
 class Layout:
     """
@@ -61,80 +66,36 @@ class Layout:
         """Folder that holds `processed` and `report`."""
         return self.folder if self.results is None else self.results
 
-    @cached_property
-    def processed(self) -> Path:
-        """Folder of all results."""
-        return self.home / "processed"
-
-    @property
-    def tests(self) -> Path:
-        """Folder of the tests' folders."""
-        return self.processed / "tests"
-
-    @property
-    def report(self) -> Path:
-        """The report's page."""
-        return self.home / "report" / "index.html"
-
-    @property
-    def pdf(self) -> Path:
-        """The report on paper."""
-        return self.report.with_name("report.pdf")
-
-    @property
-    def forecasts(self) -> Path:
-        """Folder of the forecasts, which are no results: nothing removes or replaces them."""
-        return self.home / "forecasts"
-
-    @property
-    def summary_json(self) -> Path:
-        """A record a test, for machines."""
-        return self.processed / "summary.json"
-
-    @property
-    def summary_csv(self) -> Path:
-        """A row a test, for spreadsheets."""
-        return self.processed / "summary.csv"
-
-    @property
-    def catalogue(self) -> Path:
-        """What raw files, results and pages say of themselves, as last seen."""
-        return self.processed / "catalogue.json"
-
-    @property
-    def lock(self) -> Path:
-        """Locked while a run writes."""
-        return self.processed / ".lock"
-
-    @property
-    def lock_holder(self) -> Path:
-        """Who holds the lock."""
-        return self.processed / ".lock-holder.json"
-
-    @property
-    def owner(self) -> Path:
-        """The campaign file whose results these are: its name if they are in its own folder, else its path."""
-        return self.processed / ".campaign"
-
-    @property
-    def watch_lock(self) -> Path:
-        """Locked while somebody watches the raw folder."""
-        return self.processed / ".watch-lock"
-
-    @property
-    def watcher(self) -> Path:
-        """Who watches."""
-        return self.processed / ".watcher.json"
-
-    @property
-    def watch_log(self) -> Path:
-        """What `watch` said and did."""
-        return self.processed / "watch.log"
-
-    @property
-    def state(self) -> Path:
-        """The script by which an open page of the report learns that something changed."""
-        return self.report.with_name(STATE)
+    processed = _in("home", "processed")
+    """Folder of all results."""
+    tests = _in("processed", "tests")
+    """Folder of the tests' folders."""
+    summary_json = _in("processed", "summary.json")
+    """A record a test, for machines."""
+    summary_csv = _in("processed", "summary.csv")
+    """A row a test, for spreadsheets."""
+    catalogue = _in("processed", "catalogue.json")
+    """What raw files, results and pages say of themselves, as last seen."""
+    lock = _in("processed", ".lock")
+    """Locked while a run writes."""
+    lock_holder = _in("processed", ".lock-holder.json")
+    """Who holds the lock."""
+    owner = _in("processed", ".campaign")
+    """The campaign file whose results these are: its name if they are in its own folder, else its path."""
+    watch_lock = _in("processed", ".watch-lock")
+    """Locked while somebody watches the raw folder."""
+    watcher = _in("processed", ".watcher.json")
+    """Who watches."""
+    watch_log = _in("processed", "watch.log")
+    """What `watch` said and did."""
+    report = _in("home", "report/index.html")
+    """The report's page."""
+    pdf = _in("home", "report/report.pdf")
+    """The report on paper."""
+    state = _in("home", f"report/{STATE}")
+    """The script by which an open page of the report learns that something changed."""
+    forecasts = _in("home", "forecasts")
+    """Folder of the forecasts, which are no results: nothing removes or replaces them."""
 
     def test(self, test_id: str) -> Path:
         """Folder of a test's results."""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign, Test
@@ -17,105 +19,41 @@ Subject = Literal["test", "specimen", "assessment"]
 """What a result is about."""
 
 
-@dataclass(frozen=True)
-class Stage:
+class Stage(NamedTuple):
     """
     A stage, the step from earlier results to one of the next kind.
 
     Attributes
     ----------
+    name : str
+    of : str
+        What its subject is: a test, a specimen or an assessment.
+    goes_with : str
+        Stage of `RUN_STAGES` that a run names for this one; empty if it is its own. Scores of forecasts and maps count
+        with the report, after everything else; a run makes the maps by the models in the plane, no steady responses.
     file : str
         Path of its result within `processed`, without suffix, by subject and model.
     summary : str
         What its result holds, for the file's own description.
     source : str
         What the result was made from, as ACDD asks.
-    of : str
-        What its subject is: a test, a specimen or an assessment.
-    goes_with : str
-        Stage of `RUN_STAGES` that a run names for this one; empty if it is its own. Scores of forecasts and maps count
-        with the report, after everything else; a run makes the maps by the models in the plane, no steady responses.
     """
 
+    name: str
+    of: Subject
+    goes_with: str
     file: str
     summary: str
-    source: str = "recordings of a shake-table test, processed"
-    of: Subject = "test"
-    goes_with: str = ""
+    source: str
 
 
-_ON_RECORDED_MOTION = "numerical model of a rocking block on a recorded base motion"
+def rows(table: str) -> list[dict[str, Any]]:
+    """Return the rows of a table of this room."""
+    with Path(__file__).with_name(table).open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
 
-STAGES = {
-    "ingest": Stage(
-        "tests/{subject}/recorded",
-        "Channels of a shake-table test as recorded and in SI, with quality flags.",
-        "recordings of a shake-table test",
-    ),
-    "condition": Stage(
-        "tests/{subject}/conditioned",
-        "Channels of a shake-table test on one uniform clock, de-spiked, low-pass filtered, zeroed at rest.",
-    ),
-    "rocking": Stage(
-        "tests/{subject}/rocking",
-        "Rocking angle of a free-standing specimen and motion of its base, from the conditioned transducers.",
-    ),
-    "restitution": Stage(
-        "tests/{subject}/restitution",
-        "Peaks of a free vibration and the coefficient of restitution identified from them.",
-    ),
-    "specimen": Stage(
-        "specimens/{subject}",
-        "Properties of a specimen and the coefficient of restitution of all its free vibrations together.",
-        of="specimen",
-        goes_with="restitution",
-    ),
-    "contact": Stage(
-        "contact/{subject}",
-        "Law of contact that gives a freely rocking specimen its restitution.",
-        "numerical model of a rocking block",
-        of="specimen",
-        goes_with="predict",
-    ),
-    "predict": Stage(
-        "tests/{subject}/predicted-{model}",
-        "Rocking angle of a model on the recorded base motion.",
-        _ON_RECORDED_MOTION,
-    ),
-    "ensemble": Stage(
-        "tests/{subject}/ensemble-{model}",
-        "Bands of a model's predictions on the recorded base motion, over what is not known exactly.",
-        f"{_ON_RECORDED_MOTION}, many times",
-    ),
-    "compare": Stage("tests/{subject}/compared", "Measured against predicted rocking, in numbers."),
-    "forecast": Stage(
-        "tests/{subject}/forecast",
-        "Scores of a forecast that was made before the test.",
-        "a forecast of a shake-table test, and its recordings, processed",
-        goes_with="report",
-    ),
-    "map": Stage(
-        "maps/{subject}-{model}",
-        "Outcomes of a rocking block over frequency and amplitude of its base motion, and the limits between them.",
-        "numerical model of a rocking block",
-        of="specimen",
-        goes_with="report",
-    ),
-    "responses": Stage(
-        "maps/{subject}-{model}-response",
-        "Steady responses of a rocking block over frequency and amplitude of its base motion.",
-        "numerical model of a rocking block",
-        of="specimen",
-        goes_with="report",
-    ),
-    "assessment": Stage(
-        "assessments/{subject}",
-        "Outcomes of a real column on scaled ground motions, and how probably it overturns.",
-        "numerical model of a rocking block on recorded ground motions, many times",
-        of="assessment",
-        goes_with="report",
-    ),
-}
+
+STAGES = {row["name"]: Stage(**row) for row in rows("stages.csv")}
 """All stages, in their order."""
 
 RUN_STAGES = (*(name for name, stage in STAGES.items() if not stage.goes_with), "report")
