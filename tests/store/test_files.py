@@ -189,7 +189,7 @@ def test_what_is_not_a_folder_holds_no_files(results, name):
     assert own_files(results.parent / name) == []
 
 
-@pytest.mark.parametrize("target", ["thesis.txt", "gone"])
+@pytest.mark.parametrize("target", ["thesis.txt", "gone", "../processed/tests/link"])
 def test_a_link_to_a_file_or_to_nothing_is_listed_itself(results, elsewhere, target):
     (results / "tests" / "link").symlink_to(elsewhere / target)
     assert "tests/link" in names(results)
@@ -197,8 +197,8 @@ def test_a_link_to_a_file_or_to_nothing_is_listed_itself(results, elsewhere, tar
 
 @pytest.mark.parametrize(
     ("place", "target"),
-    [("link", ""), ("tests/free-02/link", ""), ("link", "../processed/link"), ("link", "pipe")],
-    ids=["to a folder", "to a folder, deeper", "to itself", "to a pipe"],
+    [("link", ""), ("tests/free-02/link", ""), ("link", "pipe")],
+    ids=["to a folder", "to a folder, deeper", "to a pipe"],
 )
 def test_a_link_that_is_not_to_a_file_is_refused_with_where_it_leads(results, elsewhere, place, target):
     os.mkfifo(elsewhere / "pipe")

@@ -112,7 +112,7 @@ def _entry(name: str, dataset: xr.Dataset) -> Variable:
         return Variable(f"time since the zero of clock {name.removeprefix('elapsed_')}", "s", COORDINATE)
     own = dataset.variables[name].attrs
     if "channel" in own and "quantity" in own:
-        return _of_channel(**{key: own.get(key) for key in ("channel", "quantity", "recorded_unit")})
+        return _of_channel(own["channel"], own["quantity"], own.get("recorded_unit"))
     base, _, form = name.rpartition("_")
     beside = dataset.variables[base].attrs if base in dataset else {}
     if "channel" in beside and form == "recorded":
@@ -127,7 +127,7 @@ def _entry(name: str, dataset: xr.Dataset) -> Variable:
 
 
 def _of_channel(channel: str, quantity: str, recorded_unit: str | None) -> Variable:
-    """Describe a channel's values in SI; those of the quantity "other" have the unit of the recording if CF spells it."""
+    """Describe a channel's values in SI; of the quantity "other" in the unit of the recording if CF spells it."""
     dimension = units.QUANTITY_DIMENSIONS[quantity]
     unit = "N" if dimension == "force" else units.DIMENSIONS[dimension][0] if dimension else udunits(recorded_unit)
     words = "" if quantity == "other" else f"{quantity.replace('_', ' ')}, "
@@ -185,7 +185,7 @@ class Variable(NamedTuple):
         return attributes
 
 
-def _variable(row: dict[str, str]) -> Variable:
+def _variable(row: dict[str, Any]) -> Variable:
     return Variable(**row | {"stages": tuple(row["stages"].split())})
 
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 import errno
 import os
 import shutil
-import stat
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -287,36 +286,24 @@ def own_files(folder: Path) -> list[Path]:
     """
     if folder.is_symlink():
         raise _refused(folder)
-    found, waiting = [], [folder]
-    while waiting:
-        try:
-            with os.scandir(waiting.pop()) as entries:
-                for entry in entries:
-                    if entry.is_dir(follow_symlinks=False):
-                        waiting.append(Path(entry.path))
-                    elif entry.is_file(follow_symlinks=False) or _leads_to_a_file(entry):
-                        found.append(Path(entry.path))
-                    else:
-                        raise _refused(Path(entry.path))
-        except (FileNotFoundError, NotADirectoryError):  # not made yet, or taken away by a run that ends
-            continue
-        except OSError as error:
-            raise StoreError(
-                f"{error.filename}: this folder of results cannot be read ({error.strerror}). Check its permissions."
-            ) from error
+    found = []
+    for root, folders, names in os.walk(folder, onerror=_expect_gone):
+        paths = [Path(root, name) for name in names]
+        links = [path for path in (Path(root, name) for name in folders) if path.is_symlink()]
+        # What a link leads to may be missing; a pipe or a device would be waited for.
+        strange = links + [path for path in paths if path.exists() and not path.is_file()]
+        if strange:
+            raise _refused(strange[0])
+        found += paths
     return found
 
 
-def _leads_to_a_file(link: os.DirEntry[str]) -> bool:
-    """Whether a link is one to a file, or to nothing; a pipe or a device would be waited for."""
-    if not link.is_symlink():
-        return False
-    try:
-        return stat.S_ISREG(link.stat().st_mode)
-    except FileNotFoundError:
-        return True
-    except OSError:
-        return False
+def _expect_gone(error: OSError) -> None:
+    """Pass over a folder that is not made yet, or was taken away by a run that ends; refuse one that cannot be read."""
+    if not isinstance(error, (FileNotFoundError, NotADirectoryError)):
+        raise StoreError(
+            f"{error.filename}: this folder of results cannot be read ({error.strerror}). Check its permissions."
+        ) from error
 
 
 def _refused(path: Path) -> StoreError:

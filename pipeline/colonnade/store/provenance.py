@@ -194,15 +194,8 @@ def coverage(dataset: xr.Dataset) -> dict[str, str]:
     if "elapsed" not in dataset or dataset["elapsed"].size < 2:
         return {}
     elapsed = dataset["elapsed"].to_numpy()
-    duration = float(np.nanmax(elapsed) - np.nanmin(elapsed))
-    return {"time_coverage_duration": f"PT{duration:.6g}S", "time_coverage_resolution": _usual_step(elapsed)}
-
-
-def _usual_step(elapsed: NDArray[np.float64]) -> str:
-    """Median step of a clock, as a duration; found at once where all steps are written alike."""
-    steps = np.diff(elapsed)
-    shortest, longest = (f"PT{float(step):.6g}S" for step in (steps.min(), steps.max()))
-    return shortest if shortest == longest != "PTnanS" else f"PT{float(np.nanmedian(steps)):.6g}S"
+    duration, step = float(np.nanmax(elapsed) - np.nanmin(elapsed)), float(np.nanmedian(np.diff(elapsed)))
+    return {"time_coverage_duration": f"PT{duration:.6g}S", "time_coverage_resolution": f"PT{step:.6g}S"}
 
 
 def content_hash(dataset: xr.Dataset) -> str:

@@ -69,11 +69,9 @@ def written_results(written, tmp_path):
     return write
 
 
-def test_results_are_read_with_their_keys_settings_and_findings(written_results):
+def test_results_are_read_with_their_settings_and_findings(written_results):
     found = written_results("rocking", "compare", warnings=[warning("gap", "a gap.")])()
     assert set(found.datasets) == {("rocking", None), ("compare", None)}
-    assert list(found.keys) == ["rocking", "compare"]
-    assert all(found.keys[stage].startswith(f"key of {stage} ") for stage in found.keys)
     assert found.settings["rocking", None] == {"a": 1}
     assert [(each.text, each.severity) for each in found.findings] == [("a gap.", Severity.WARNING)] * 2
 

@@ -75,8 +75,6 @@ class Stored:
         Of each channel as recorded, by its id.
     settings : dict of (str, str or None) to mapping
         What each stage read of the campaign, as stored with its result.
-    keys : dict of str to str
-        Of each result, by its name, what identifies it: its key and the hash of its content.
     outdated : str
         Why the stored results are out of date or not complete, and so not read; empty if nothing is known of that.
     with_samples : bool
@@ -91,7 +89,6 @@ class Stored:
     channels: dict[str, dict[str, Any]] = field(default_factory=dict)
     samples: dict[str, Samples] = field(default_factory=dict)
     settings: dict[Made, Mapping[str, Any]] = field(default_factory=dict)
-    keys: dict[str, str] = field(default_factory=dict)
     outdated: str = ""
     with_samples: bool = False
 
@@ -147,7 +144,7 @@ class Stored:
     def texts(self, stage: str, name: str) -> list[str]:
         """Return an attribute that is a list of text, empty if it is missing."""
         dataset = self.datasets.get((stage, None))
-        return [] if dataset is None else _listed(dataset.attrs.get(name))
+        return [] if dataset is None else list(dataset.attrs.get(name, ()))
 
     def add(self, result: ResultId, path: Path) -> None:
         """Read one result; a damaged file counts as a failure of its stage."""
@@ -159,11 +156,9 @@ class Stored:
             return
         attributes = dataset.attrs
         self.findings += at_stage(attributes.get("warnings", []), name)
-        names, hashes = (_listed(attributes.get(key)) for key in ("raw_files", "raw_sha256"))
-        self.raw_files |= dict(zip(names, hashes, strict=False))
+        self.raw_files |= dict(zip(*(attributes.get(key, ()) for key in ("raw_files", "raw_sha256")), strict=False))
         if "colonnade_version" in attributes:
             self.versions[str(attributes["colonnade_version"])] = None
-        self.keys[name] = f"{attributes.get('key')} {attributes.get('content')}"
         self.settings[made] = _settings(attributes.get("settings"))
         if attributes.get("status") == "failed":
             self.failures.append(Failure(name, str(attributes.get("reason") or "no reason was stored")))
@@ -246,27 +241,26 @@ def _settings(stored: object) -> Mapping[str, Any]:
     return settings if isinstance(settings, dict) else {}
 
 
-def _listed(attribute: object) -> list[str]:
-    """Return a list of text that was stored as an attribute; by default an empty one."""
-    if not attribute:
-        return []
-    return [str(item) for item in attribute] if isinstance(attribute, (list, tuple)) else [str(attribute)]
+_AXES = ("frequency_ratio", "amplitude_ratio")
 
+_OVER = {
+    **dict.fromkeys(("outcome", "overturning_fraction"), _AXES),
+    **dict.fromkeys(("no_rocking", "lower", "upper"), "frequency_ratio"),
+    **dict.fromkeys(("interval_frequency_ratio", "interval_start", "interval_end"), "interval"),
+}
+"""Fields of a map with the dimensions that each is stored over."""
 
-CELLS = {"outcome": "outcome", "overturning_fraction": "overturning_fraction"}
-LIMITS = {"no_rocking_limit": "no_rocking", "lower_limit": "lower", "upper_limit": "upper"}
-INTERVALS = {name: name for name in ("interval_frequency_ratio", "interval_start", "interval_end")}
-"""Stored variables over Ω and A, over Ω, and of intervals, with the field of the map that each holds."""
+_LIMITS = {name: f"{name}_limit" for name in ("no_rocking", "lower", "upper")}
+"""Fields that are stored under another name."""
 
 
 def as_dataset(chart: StabilityMap) -> xr.Dataset:
     """Return a map in its stored form: outcomes over Ω and A, limits over Ω, the options as attributes."""
     import xarray as xr
 
-    shapes = {("frequency_ratio", "amplitude_ratio"): CELLS, "frequency_ratio": LIMITS, "interval": INTERVALS}
     return xr.Dataset(
-        {name: (over, getattr(chart, own)) for over, names in shapes.items() for name, own in names.items()},
-        coords={"frequency_ratio": chart.frequency_ratio, "amplitude_ratio": chart.amplitude_ratio},
+        {_LIMITS.get(name, name): (over, getattr(chart, name)) for name, over in _OVER.items()},
+        coords={name: getattr(chart, name) for name in _AXES},
         attrs=chart.options,
     )
 
@@ -275,6 +269,5 @@ def as_map(stored: xr.Dataset) -> StabilityMap:
     """Return a stored map as the library gives it."""
     from colonnade.dynamics.maps import StabilityMap
 
-    names = CELLS | LIMITS | INTERVALS | {name: name for name in ("frequency_ratio", "amplitude_ratio")}
-    values = {own: stored[name].to_numpy() for name, own in names.items()}
+    values = {name: stored[_LIMITS.get(name, name)].to_numpy() for name in (*_OVER, *_AXES)}
     return StabilityMap(**values, options=json.loads(stored.attrs["settings"]))

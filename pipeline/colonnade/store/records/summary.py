@@ -57,16 +57,12 @@ def records_of_specimens(campaign: Campaign, summary: Summary | None) -> dict[st
     records = {}
     for name, specimen in campaign.specimens.items():
         block = campaign.block(name)
-        unknown = {"value": None, "low": None, "high": None, "level": None, "source": None, "reason": "not run yet"}
         records[name] = {
             "shape": specimen.shape,
             "mass": specimen.mass,
             "rigid_restitution": block.restitution if specimen.is_in_plane else None,
-            "critical_angle": block.critical_angle,
-            "pole_distance": block.pole_distance,
-            "inertia": block.inertia,
-            "p": block.p,
-            "restitution": unknown,
+            **{key: getattr(block, key) for key in ("critical_angle", "pole_distance", "inertia", "p")},
+            "restitution": dict.fromkeys(("value", "low", "high", "level", "source")) | {"reason": "not run yet"},
         }
         if summary is not None and name in summary.specimens:
             records[name] |= summary.specimens[name].model_dump(mode="json")
