@@ -66,7 +66,7 @@ def test_what_is_written_is_read(tmp_path):
         (signed(CONTENT)[:-40], "damaged"),
         (json.dumps(CONTENT), "altered"),
         (signed(CONTENT).replace("0.3 g", "0.4 g"), "altered"),
-        (signed(CONTENT).replace("0.4, null", "NaN, null"), "damaged"),
+        (signed(CONTENT).replace("0.4, null", "NaN, null"), "altered"),
         ('{"test": "\\ud800"}', "damaged"),
         (changed(schema=2), "schema"),
         (changed(more=1), "more"),

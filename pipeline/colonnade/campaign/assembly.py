@@ -19,16 +19,12 @@ RESERVED = ("specimen", "table", "ground")
 """What a body or an assembly cannot be called."""
 
 
-def _several(value: object) -> object:
-    return (value,) if isinstance(value, str) else value
-
-
 class Body(Table):
     """One body of an assembly."""
 
     specimen: Identifier
     """Id of the specimen that it is made as."""
-    on: Annotated[tuple[Identifier, ...], BeforeValidator(_several)] = ()
+    on: Annotated[tuple[Identifier, ...], BeforeValidator(fields.listed)] = ()
     """The body or bodies that it stands on, such as ["left", "right"]; the table if it is not given."""
     position: tuple[fields.Coordinate, fields.Coordinate] = (0.0, 0.0)
     """Of the middle of its base, along x and y of the table, such as ["-500 mm", "0 mm"]."""

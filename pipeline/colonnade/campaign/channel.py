@@ -87,11 +87,13 @@ class Channel(Table):
     on: Identifier | None = None
     """What it is fixed to or looks at: "specimen", "table", "ground", or the id of one specimen among several."""
     at: fields.Position | None = None
-    """Its material point from the centre of the specimen's base, such as ["43 mm", "0 mm", "440 mm"]."""
+    """Its material point from the centre of the specimen's base, x along the shaking, y across, z up, such as
+    ["43 mm", "0 mm", "440 mm"]."""
     direction: fields.Direction | None = None
     """Direction of a positive reading, such as [1, 0, 0]; for angles the axis, right-handed."""
     relative_to: Identifier | None = None
-    """What a displacement of the specimen is measured against: "table", "ground", or another body of the assembly."""
+    """What a displacement of the specimen is measured against: "table" if the transducer moves with the table, else
+    "ground", or another body of the assembly."""
     delay: fields.Delay = 0.0
     """How late its values are, such as "2 ms"."""
     sensing: Literal["point", "surface", "wire"] = "point"

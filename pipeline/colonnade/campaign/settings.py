@@ -11,31 +11,20 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, cast
 
-from pydantic import BeforeValidator, Field, WithJsonSchema
+from pydantic import AfterValidator, BeforeValidator, Field
 
 from colonnade.campaign.syntax import fields
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.contact.body import DEFAULT_STEP, STATIC_PENETRATION
 from colonnade.dynamics.models import MODELS, model_of
-from colonnade.errors import nearest
 
 DEFAULT_MODELS = tuple(name for name, model in MODELS.items() if model.is_default)
 """Models that `predict` runs unless the campaign names others."""
 
 
-def _models(value: object) -> tuple[str, ...]:
-    names = [value] if isinstance(value, str) else value
-    if not isinstance(names, (list, tuple)) or not names or len(set(map(str, names))) != len(names):
-        raise ValueError(f'{fields.shown(value)} was found. A list of models was expected, such as ["linear"].')
-    for name in names:
-        if name not in MODELS:
-            raise ValueError(f"Unknown model {fields.shown(name)}.{nearest(str(name), MODELS)}")
-    return tuple(names)
-
-
 AutoFrequency = Literal["auto"] | fields.Frequency
-_MODELS = {"type": "array", "items": {"enum": list(MODELS)}, "minItems": 1, "uniqueItems": True}
-Models = Annotated[tuple[str, ...], BeforeValidator(_models), WithJsonSchema(_MODELS)]
+Model = Annotated[str, fields.OneOf(tuple(MODELS))]
+Models = Annotated[tuple[Model, ...], Field(min_length=1), BeforeValidator(fields.listed), AfterValidator(fields.once)]
 
 
 def setting(default: Any, unit: str = "", **bounds: float) -> Any:
@@ -229,5 +218,4 @@ def _settings(table: Table, prefix: str) -> Iterator[Setting]:
             yield from _settings(value, key)
         else:
             extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
-            description = " ".join((field.description or "").split())
-            yield Setting(key, value, field.default, str(extra.get("unit", "")), description)
+            yield Setting(key, value, field.default, str(extra.get("unit", "")), type(table).purposes()[name])

@@ -57,7 +57,8 @@ class Specimen(Table):
     """The base of every specimen; a measured value overrides the one from the dimensions."""
 
     shape: str
-    """Its shape: "prism", "cylinder", "cone" or "measured"."""
+    """Its shape: "prism" (width, depth, height), "cylinder" (diameter, height), "cone" (base_diameter, top_diameter,
+    height) or "measured" (critical_angle, pole_distance, inertia)."""
     mass: fields.Mass
     """Mass, such as "26.10 kg"."""
     scale: fields.Scale | None = None

@@ -9,7 +9,7 @@ import stat
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -136,7 +136,7 @@ def _read(path: Path) -> Known | Refused:
             return Refused(path.name, "it is a link or no file; forecasts are not read through links.")
         if status.st_size > LARGEST:
             return Refused(path.name, f"it has {status.st_size / 1e6:.0f} MB; no forecast is as large.")
-        content = dict(json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse_constant))
+        content = dict(json.loads(path.read_text(encoding="utf-8")))
         digest = content.pop(HASH, None)
         if digest != hash_of(content):
             return Refused(path.name, "it was altered after it was made: its hash is another.")
@@ -151,7 +151,3 @@ def _read(path: Path) -> Known | Refused:
         return Refused(path.name, why)
     except (ValueError, TypeError, RecursionError):  # not JSON, no object, or text that has no UTF-8
         return Refused(path.name, "it is damaged: it is not the JSON that was written.")
-
-
-def _refuse_constant(text: str) -> NoReturn:
-    raise ValueError(text)

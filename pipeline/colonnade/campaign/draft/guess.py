@@ -9,11 +9,12 @@ from dataclasses import dataclass, replace
 from pathlib import PurePosixPath
 
 from colonnade import units
-from colonnade.campaign.channel import MAIN
+from colonnade.campaign.channel import MAIN, Channel
 from colonnade.campaign.draft.survey import Column, Files
-from colonnade.campaign.draft.words import AXES, Line, axis, comment, find, plain, unique, words
+from colonnade.campaign.draft.words import AXES, Line, asked, axis, comment, find, plain, unique
+from colonnade.campaign.setup import Marker
 from colonnade.campaign.syntax.document import toml_value
-from colonnade.campaign.test import KINDS
+from colonnade.campaign.test import Test
 
 MOST_UNKNOWN = 12
 """Unknown columns are asked about one by one up to this many."""
@@ -33,14 +34,7 @@ _MARKER = re.compile(r"(.+?)[ _.:-]*([xyz])", re.IGNORECASE)
 _SPAN = re.compile(r"(?<![a-z])span[ _=-]?(\d{1,6}(?:[.,p]\d{1,6})?)(?![\d.,])")
 
 _USUAL_PLACE = {"displacement": "specimen", "acceleration": "table", "velocity": "table"}
-_POINT = (
-    "the point that it follows, [x, y, z] from the centre of the specimen's base: "
-    'x along the shaking, y across, z up, such as ["43 mm", "0 mm", "440 mm"]'
-)
-_FIXED = 'where it is fixed: "table" if it moves with the table, else "ground"'
-_OF_BODY = 'the body that it is fixed to: "specimen", a body of an assembly, or "table"'
-_ON_BODY = "where it is on that body, [x, y, z] from the centre of its base"
-_WIRES = ("wire", "seilzug", "stringpot", "string")
+_BY_SIGNAL = "guessed from its signal"
 
 
 @dataclass(frozen=True)
@@ -131,11 +125,9 @@ def markers_of(channels: Sequence[Meaning]) -> dict[str, list[Meaning]]:
 def marker_lines(marker: Sequence[Meaning], others: Sequence[Column]) -> Iterator[Line]:
     """Give the lines of a marker's keys; `others` are the columns of its recorder."""
     yield Line("columns", toml_value([_named(each.column, others) for each in marker]))
-    if marker[0].recorder != MAIN:
-        yield Line("recorder", toml_value(marker[0].recorder))
-    yield from _unit(marker[0])
-    yield Line("on", '"?"', question=_OF_BODY)
-    yield Line("at", '["? mm", "? mm", "? mm"]', question=_ON_BODY)
+    yield from _recorder_and_unit(marker[0])
+    yield asked(Marker, "on", '"?"')
+    yield asked(Marker, "at", '["? mm", "? mm", "? mm"]')
 
 
 def _named(column: Column, others: Sequence[Column]) -> str | int:
@@ -146,28 +138,21 @@ def _named(column: Column, others: Sequence[Column]) -> str | int:
 
 def channel_lines(each: Meaning, others: Sequence[Column]) -> Iterator[Line | str]:
     """Give the lines of a channel's keys; `others` are the columns of its recorder."""
-    column, quantity = each.column, each.quantity
-    yield Line("column", toml_value(_named(column, others)))
-    if each.recorder != MAIN:
-        yield Line("recorder", toml_value(each.recorder))
+    quantity, name = each.quantity, each.column.name
+    yield Line("column", toml_value(_named(each.column, others)))
     if quantity is None:
-        choices = ", ".join(map(toml_value, units.QUANTITY_DIMENSIONS))
-        yield Line("quantity", '"?"', question=f"what it measures: {choices}; or delete these lines")
+        yield asked(Channel, "quantity", '"?"')
     else:
         yield Line("quantity", toml_value(quantity), each.because, each.conflict)
-    yield from _unit(each)
+    yield from _recorder_and_unit(each)
     if quantity == "force":
         return
-    place = each.place or (_USUAL_PLACE.get(quantity, "specimen") if quantity else None)
-    if place is None:
-        yield Line("on", '"?"', question='what it is fixed to or looks at: "specimen", "table" or "ground"')
-    else:
-        doubt = 'or "table", "ground"' if place == "specimen" else 'or "specimen", "ground"'
-        yield Line("on", toml_value(place), each.place_word, "" if each.place else doubt)
+    place = each.place or (_USUAL_PLACE.get(quantity, "specimen") if quantity else "?")
+    yield Line("on", toml_value(place), each.place_word, "" if each.place else asked(Channel, "on", "").question)
     follows = quantity == "displacement" and place == "specimen"
     if follows:
-        yield Line("at", '["? mm", "0 mm", "? mm"]', question=_POINT)
-        yield Line("relative_to", '"?"', question=_FIXED)
+        yield asked(Channel, "at", '["? mm", "0 mm", "? mm"]')
+        yield asked(Channel, "relative_to", '"?"')
     if quantity == "acceleration" and place == "specimen":
         where = "where it is fixed; two or more along x at different heights improve the angle"
         yield comment(f'at = ["43 mm", "0 mm", "440 mm"]      {where}')
@@ -175,11 +160,18 @@ def channel_lines(each: Meaning, others: Sequence[Column]) -> Iterator[Line | st
     reverse = toml_value([-part or 0 for part in direction])
     reason = "from its name" if each.axis else ""
     yield Line("direction", toml_value(direction), reason, f"of a positive reading; {reverse} if it is reversed")
-    if follows:
-        yield from _sensing(column.name)
+    sensing, word = (find(name, "sensing") if follows else None) or ("point", "")
+    if sensing != "point":
+        yield Line("sensing", toml_value(sensing), _from(word))
+    if sensing == "surface":
+        yield asked(Channel, "normal", '"?"')
+    elif sensing == "wire":
+        yield asked(Channel, "anchor", '["? mm", "0 mm", "? mm"]')
 
 
-def _unit(each: Meaning) -> Iterator[Line]:
+def _recorder_and_unit(each: Meaning) -> Iterator[Line]:
+    if each.recorder != MAIN:
+        yield Line("recorder", toml_value(each.recorder))
     unit, dimension = each.column.unit, units.QUANTITY_DIMENSIONS[each.quantity or "other"]
     usual = units.DIMENSIONS[dimension or "length"][1]
     if not unit:
@@ -194,18 +186,6 @@ def _unit(each: Meaning) -> Iterator[Line]:
             yield Line("gain", toml_value(f"? {usual}/{below}"), question="from its calibration sheet")
 
 
-def _sensing(name: str) -> Iterator[Line]:
-    """Give the lines of a transducer whose name says that it follows no material point."""
-    part = next((part for part in words(name) if part == "laser" or part in _WIRES), "")
-    if part == "laser":
-        yield Line("sensing", '"surface"', f'from "{part}" in its name: it follows its line of sight')
-        normal = "outward normal of the face that it looks at, such as [1, 0, 0]; none for a round specimen"
-        yield Line("normal", '"?"', question=normal)
-    elif part:
-        yield Line("sensing", '"wire"', f'from "{part}" in its name: it follows its wire')
-        yield Line("anchor", '["? mm", "0 mm", "? mm"]', question="the fixed end of the wire")
-
-
 def kind_lines(test: Files, channels: Sequence[Meaning], others: Collection[Files]) -> Iterator[Line | str]:
     """Guess the kind of a test, and its frequency, motion or span; `others` are all tests of its setup."""
     name = PurePosixPath(test[MAIN].stem).name
@@ -218,22 +198,20 @@ def kind_lines(test: Files, channels: Sequence[Meaning], others: Collection[File
     angles = [each for each in channels if each.quantity in ("displacement", "angle") and each not in table]
     named = _number(_FREQUENCY, name)
     kind, word = find(name, "kinds") or (("sine", f"{named:g} Hz") if named else ("", ""))
-    doubt = ""
-    if recorded is not None and kind in ("free-vibration", "earthquake", "noise"):
+    reason, doubt = _from(word), ""
+    if not kind and recorded is not None:
+        kind, reason, doubt = "sine", "the table moves as a steady sine", _BY_SIGNAL
+    elif not kind and still and any(each.of(test).dies_away for each in angles):
+        kind, reason = "free-vibration", "the table does not move and the specimen comes to rest"
+        doubt = _BY_SIGNAL
+    elif not kind:
+        what_was_done = asked(Test, "kind", "").question
+        kind, doubt = "other", f'neither name nor signal shows {what_was_done}; "other" has no prediction'
+    elif recorded is not None and kind in ("free-vibration", "earthquake", "noise"):
         doubt = f"the table moves as a steady sine of {recorded:.3g} Hz"
     elif still and kind in ("earthquake", "noise", "sine", "pulse"):
         doubt = "the table hardly moves in this test"
-    if kind:
-        yield Line("kind", toml_value(kind), _from(word), doubt)
-    elif recorded is not None:
-        kind = "sine"
-        yield Line("kind", '"sine"', "the table moves as a steady sine", "guessed from its signal")
-    elif still and any(each.of(test).dies_away for each in angles):
-        reason = "the table does not move and the specimen comes to rest"
-        yield Line("kind", '"free-vibration"', reason, "guessed from its signal")
-    else:
-        choices = ", ".join(f'"{kind}"' for kind in KINDS if kind != "other")
-        yield Line("kind", '"other"', "", f'neither name nor signal shows it: {choices}; "other" has no prediction')
+    yield Line("kind", toml_value(kind), reason, doubt)
     if kind in ("sine", "pulse"):
         recorded = recorded if kind == "sine" else None
         if named is not None:
@@ -242,7 +220,7 @@ def kind_lines(test: Files, channels: Sequence[Meaning], others: Collection[File
             yield Line("frequency", toml_value(f"{named:g} Hz"), "from its name", doubt)
         elif recorded is not None:
             guessed = toml_value(f"{recorded:.3g} Hz")
-            yield Line("frequency", guessed, "of the table's motion", "guessed from its signal")
+            yield Line("frequency", guessed, "of the table's motion", _BY_SIGNAL)
         else:
             yield comment('frequency = "3 Hz"      if it is known')
     elif kind == "earthquake":

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from colonnade.campaign.syntax.fields import one_line
 from colonnade.campaign.syntax.names import folded, identifier
+from colonnade.campaign.syntax.table import Table, purpose
 
 WORDS: dict[str, dict[str, str]] = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
 """Words in the names of columns and files, by what they are about and what they mean."""
@@ -37,6 +38,11 @@ class Line:
         if self.question and self.reason:
             said = f"? {self.question} ({self.reason})"
         return f"{self.key} = {self.value}" + (f"    # {one_line(said)}" if said else "")
+
+
+def asked(table: type[Table], key: str, value: str) -> Line:
+    """Ask for a key by what its model says of it."""
+    return Line(key, value, question=purpose(table, key).rstrip("."))
 
 
 def comment(text: str) -> str:

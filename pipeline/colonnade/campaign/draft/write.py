@@ -12,9 +12,10 @@ from colonnade.campaign.campaign import SCHEMA
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.draft.guess import channel_lines, draft_channels, kind_lines, marker_lines, markers_of
 from colonnade.campaign.draft.survey import Column, Files, arrange, survey
-from colonnade.campaign.draft.words import Line, as_id, comment, find, unique
+from colonnade.campaign.draft.words import Line, as_id, asked, comment, find, unique
 from colonnade.campaign.loading import FILE_NAME
-from colonnade.campaign.specimen import OUTER_DIMENSIONS, SIZED
+from colonnade.campaign.setup import Tracking
+from colonnade.campaign.specimen import OUTER_DIMENSIONS, SIZED, Specimen
 from colonnade.campaign.syntax.document import toml_key, toml_value
 from colonnade.errors import CampaignError
 from colonnade.readers.files import irregular
@@ -27,10 +28,6 @@ MOST_TOLD = 5
 MOST_SETUPS = 5
 """Largest usual number of ways of recording in one campaign; with more, most files are something else."""
 
-_SHAPES = (
-    'or "cylinder" (diameter, height), "cone" (base_diameter, top_diameter, height), "measured" (critical_angle, '
-    "pole_distance, inertia)"
-)
 _FIRST_LINES = (
     comment("Drafted by `colonnade init` from the raw files. The text after each # says why a value was chosen."),
     comment('Fill in each "?" in a value before the first run; check each guess that is marked "# ?".'),
@@ -48,10 +45,7 @@ _GROUPED = (
 _STACK = comment(
     'bodies on each other are an assembly: [assemblies.column] stack = ["specimen", "specimen"], with bodies "1", "2"'
 )
-_TRACKING = (
-    Line("axes", "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]", "", "X, Y and Z of the optical system in the axes of the table"),
-    Line("relative_to", '"?"', question='what its cameras stand on: "ground" or "table"'),
-)
+_TRACKING = (asked(Tracking, "axes", "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"), asked(Tracking, "relative_to", '"?"'))
 
 Lines = list[Line | str]
 
@@ -215,12 +209,12 @@ def written(name: str, setups: Sequence[DraftSetup], refused: Sequence[tuple[str
 
 
 def _specimen(shape: str) -> Lines:
-    first = Line("shape", '"prism"', "", _SHAPES)
+    first = asked(Specimen, "shape", '"prism"')
     if shape:
         first = Line("shape", toml_value(shape), "from the names of files")
-    purposes = SIZED[shape or "prism"].purposes()
-    sizes = [Line(size, '"? mm"', question=purposes[size].lower()) for size in OUTER_DIMENSIONS if size in purposes]
-    return ["", f"[specimens.{shape or 'specimen'}]", first, *sizes, Line("mass", '"? kg"', question="weighed")]
+    keys = SIZED[shape or "prism"]
+    sizes = [asked(keys, size, '"? mm"') for size in OUTER_DIMENSIONS if size in keys.model_fields]
+    return ["", f"[specimens.{shape or 'specimen'}]", first, *sizes, asked(keys, "mass", '"? kg"')]
 
 
 class DraftSetup:

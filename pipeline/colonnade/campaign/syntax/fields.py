@@ -73,11 +73,11 @@ _QUANTITY_PATTERN = rf"^\s*{units.NUMBER_PATTERN}\s*[^\s0-9.,].*$"
 FIRST_YEAR, LAST_YEAR = 1900, 2100
 """Years between which a test was done; another is a slip of the pen."""
 
-_DATE = re.compile(
-    r"(\d{4}|\d{1,2})([-/.])\s?(\d{1,2})\2\s?(\d{4}|\d{1,2})"
-    r"(?:[T ]\s*\d{1,2}:\d{2}(?::\d{2}(?:\.\d+)?)?\s*(?:Z|[+-]\d{2}:?\d{2})?)?"
+_DAYS = (
+    *("%Y-%m-%d", "%Y/%m/%d", "%Y.%m.%d", "%d.%m.%Y"),
+    *("%d/%m/%Y", "%m/%d/%Y", "%d-%m-%Y", "%m-%d-%Y"),
 )
-"""A date, followed by nothing but a time of day."""
+_TIME_OF_DAY = re.compile(r"[T ]\s*\d{1,2}:\d{2}(?::\d{2}(?:\.\d+)?)?\s*(?:Z|[+-]\d{2}:?\d{2})?$")
 
 
 def shown(value: object) -> str:
@@ -222,25 +222,16 @@ def day(value: object) -> date:
 
 def _written(text: str) -> date | None:
     """Read a day from text; None if it is not one."""
-    found = _DATE.fullmatch(text)
-    if found is None or (len(found[1]) == 4) == (len(found[4]) == 4):
-        return None
-    first, second, third = (int(found[number]) for number in (1, 3, 4))
-    orders = [(third, second, first), (third, first, second)]
-    if len(found[1]) == 4:
-        orders = [(first, second, third)]
-    elif found[2] == ".":
-        orders = orders[:1]
-    days: list[date] = []
-    for order in orders:
+    alone, days = re.sub(r"(?<=[-/.]) ", "", _TIME_OF_DAY.sub("", text)), dict[date, None]()
+    for form in _DAYS:
         with suppress(ValueError):
-            days.append(date(*order))
-    if len(set(days)) > 1:
+            days[datetime.strptime(alone, form).date()] = None
+    if len(days) > 1:
         raise ValueError(
-            f"{shown(text)} is {days[0]} or {days[1]}: it is not clear which number is the day. Write the "
+            f"{shown(text)} is {' or '.join(map(str, days))}: it is not clear which number is the day. Write the "
             "year first, such as 2013-04-26."
         )
-    return days[0] if days else None
+    return next(iter(days), None)
 
 
 def _filled(value: str) -> str:
@@ -249,7 +240,8 @@ def _filled(value: str) -> str:
     return value
 
 
-def _listed(value: object) -> object:
+def listed(value: object) -> object:
+    """Take one value as a list of it alone."""
     return value if isinstance(value, (list, tuple)) else [value]
 
 
@@ -288,7 +280,7 @@ Number = Annotated[float, Strict(), AllowInfNan(False)]
 Whole = Annotated[int, Strict()]
 Text = Annotated[str, Field(min_length=1), AfterValidator(_filled)]
 Several = Annotated[
-    tuple[Text, ...], Field(min_length=1, max_length=MOST_TEXTS), BeforeValidator(_listed), AfterValidator(once)
+    tuple[Text, ...], Field(min_length=1, max_length=MOST_TEXTS), BeforeValidator(listed), AfterValidator(once)
 ]
 """A list of texts, or one of them; each once."""
 Column = Text | Annotated[Whole, Field(ge=1)]

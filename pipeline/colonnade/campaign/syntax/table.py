@@ -50,7 +50,8 @@ class Table(_Described):
     @classmethod
     def purposes(cls) -> dict[str, str]:
         """Keys as in the file, with the purpose of each."""
-        return {field.alias or name: field.description or "" for name, field in cls.model_fields.items()}
+        keys = {field.alias or name: field for name, field in cls.model_fields.items()}
+        return {key: " ".join((field.description or "").split()) for key, field in keys.items()}
 
     @classmethod
     @cache
@@ -106,7 +107,7 @@ def _explained(table: type[Table], data: Any, errors: list[ErrorDetails]) -> Ite
         others = [each for each in meant if each[1] not in words]
         is_vague = len(others) > 1 or (words and others[0][1]["type"] == "problem")
         if is_vague and all(place == (key,) for place, _ in others):  # none of them says all that is possible
-            yield problem(f"{_found(others[0][1])} Expected: {_purpose(table, (key,))}", key)
+            yield problem(f"{_found(others[0][1])} Expected: {purpose(table, key)}", key)
             continue
         ending = f" Or {', '.join(map(shown, _words(words[0])))}." if words else ""
         for place, error in others:
@@ -157,7 +158,7 @@ def _sentence(table: type[Table], place: Place, error: ErrorDetails) -> str:
     either = table.alternatives().get(str(place[0]), []) if place else []
     if kind in _OF_LISTS or kind in _TEXT:
         said = _list(either) if kind in _OF_LISTS else "Text in quotes"
-        return f"{found} {said} was expected: {_purpose(table, place)}"
+        return f"{found} {said} was expected: {purpose(table, place[0] if place else '')}"
     return f"{found} {_number(either) if kind in _BOUNDS else _WANTED.get(kind, error['msg'] + '.')}"
 
 
@@ -186,13 +187,13 @@ def _number(either: list[dict[str, Any]]) -> str:
 
 def missing(table: type[Table], key: str) -> str:
     """Say that a key is missing, and what it is for."""
-    return f"It is missing. Expected: {_purpose(table, (key,))}"
+    return f"It is missing. Expected: {purpose(table, key)}"
 
 
-def _purpose(table: type[Table], place: Place) -> str:
+def purpose(table: type[Table], key: str | int) -> str:
     """Say what a key is for, to follow a colon."""
-    purpose = table.purposes().get(str(place[0]), "") if place else ""
-    return f"{purpose[0].lower()}{purpose[1:]}" if purpose else "see `colonnade schema campaign`."
+    said = table.purposes().get(str(key), "")
+    return f"{said[0].lower()}{said[1:]}" if said else "see `colonnade schema campaign`."
 
 
 def _known(value: Any) -> Any:
