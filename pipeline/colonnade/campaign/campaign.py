@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, GetPydanticSchema
 
 from colonnade.campaign.assembly import AssemblyTable, Whole
 from colonnade.campaign.assessment import Assessment, Prototype
@@ -23,10 +23,8 @@ from colonnade.campaign.watched import Watched
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
 from colonnade.findings import Finding
 
-if TYPE_CHECKING:
-    Known = Specimen
-else:  # as written; assemblies join them as wholes
-    Known = AnySpecimen
+Known = Annotated[Specimen, GetPydanticSchema(lambda _, handler: handler.generate_schema(AnySpecimen))]
+"""A specimen as it is written; assemblies join them as wholes."""
 
 SCHEMA = 1
 """Version of the contract of campaign.toml."""
@@ -114,20 +112,9 @@ class Campaign(CampaignKeys):
         """Return the campaign with some attributes changed."""
         return self.model_copy(update=changed)
 
-    def with_relative_paths(self) -> Campaign:
-        """Return the campaign with paths relative to its folder, so that a copy elsewhere gives the same."""
-
-        def within(value: Any) -> Any:
-            if isinstance(value, Path):
-                return value.relative_to(self.folder)
-            if isinstance(value, dict):
-                return {key: within(each) for key, each in value.items()}
-            if isinstance(value, Table):
-                return value.model_copy(update={name: within(each) for name, each in value})
-            return value
-
-        paths = {name: within(getattr(self, name)) for name in ("path", "folder", "tests", "motions", "assessments")}
-        return self.but(**paths)
+    def told(self, value: object) -> str:
+        """Write a part of the campaign as text, without its folder, so that a copy elsewhere gives the same."""
+        return repr(value).replace(self.folder.as_posix(), ".")
 
     def review(self, test: str) -> Review:
         """Decisions of the manual review about a test; empty ones if it has none."""

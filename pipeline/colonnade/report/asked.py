@@ -62,14 +62,16 @@ def asked_of(
     campaign: Campaign, layout: Layout, outdated: Collection[str] = (), photos: Mapping[str, Photos] | None = None
 ) -> Iterator[Asked]:
     """Ask for the page of each test: with its record and its neighbours."""
-    ids, light = [None, *campaign.tests, None], campaign.with_relative_paths()
+    ids = [None, *campaign.tests, None]
     records = records_of_tests(campaign, read_summary(layout))
     place = (campaign.title, campaign.facility, campaign.gravity, campaign.of_interest)
-    specimens, setups = ({name: repr(each) for name, each in of.items()} for of in (light.specimens, light.setups))
+    specimens, setups = (
+        {name: repr(each) for name, each in of.items()} for of in (campaign.specimens, campaign.setups)
+    )
     for before, (name, test), after in zip(ids, campaign.tests.items(), ids[2:], strict=False):
         alone = campaign.but(tests={name: test})
         # Forecasts have a page of their own: one that is added redoes no other.
         record = records[name].model_copy(update={"forecast": None})
-        own = (light.tests[name], specimens[test.specimen], setups[test.setup], campaign.review(name))
+        own = (test, specimens[test.specimen], setups[test.setup], campaign.review(name))
         given = (before, after, record, name in outdated, (photos or {}).get(name, NO_PHOTOS))
-        yield Asked(alone, name, *given, repr((place, models_shown(alone), own, given)))
+        yield Asked(alone, name, *given, campaign.told((place, models_shown(alone), own, given)))

@@ -132,7 +132,7 @@ class _Report:
         optional = {addresses.ASSESSMENTS: bool(self.campaign.assessments), addresses.FORECASTS: forecasts is not None}
         places = addresses.of_campaign([page for page, is_there in optional.items() if is_there])
         foreseen = [] if forecasts is None else [forecasts.model_dump_json()]
-        shows = [repr(self.campaign.with_relative_paths()), sorted(self.outdated), *foreseen, *map(repr, self.advice)]
+        shows = [self.campaign.told(self.campaign), sorted(self.outdated), *foreseen, *map(repr, self.advice)]
         there = {str(path.relative_to(self.layout.processed)): path for path in self.layout.results_there()}
         contents = {name: self.catalogue.content(path) for name, path in there.items()}
         make = partial(_whole, self.campaign, self.layout, self._parts(self._asked), self.advice, places)

@@ -67,12 +67,10 @@ def write_summary(
     StoreError
         If a file cannot be written.
     """
-    light = campaign.with_relative_paths()
+    reasons, failures = outdated or {}, failed or {}
     tests = (
-        _of_test(
-            light.but(tests={name: test}), layout, catalogue, test, (outdated or {}).get(name), (failed or {}).get(name)
-        )
-        for name, test in light.tests.items()
+        _of_test(campaign.but(tests={name: test}), layout, catalogue, test, reasons.get(name), failures.get(name))
+        for name, test in campaign.tests.items()
     )
     specimens = (_of_specimen(campaign, layout, catalogue, name) for name in campaign.specimens)
     records = brought_up_to_date(specimens, catalogue) | brought_up_to_date(tests, catalogue, workers=workers)
@@ -115,7 +113,7 @@ def _of_test(
     campaign: Campaign, layout: Layout, catalogue: Catalogue, test: Test, outdated: str | None, failure: str | None
 ) -> Product:
     """Give the record of a test; the campaign holds this test alone."""
-    entry = [repr(test), repr(campaign.specimens[test.specimen]), campaign.gravity, campaign.left_out(test.id)]
+    entry = [campaign.told(test), repr(campaign.specimens[test.specimen]), campaign.gravity, campaign.left_out(test.id)]
     entry += [repr(campaign.concerning(test.id)), outdated, failure]
     upstream = {str(result): catalogue.content(layout.path(result)) for result in results_of(campaign, test)}
     make = partial(_test, campaign, layout, test, outdated, failure)

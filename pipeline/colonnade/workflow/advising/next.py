@@ -174,13 +174,13 @@ def _advice(
     code: str,
 ) -> Product:
     """Give the advice on one kind of test of a specimen."""
-    light, own = campaign.with_relative_paths(), {}
-    for name, test in light.tests.items():
+    own = {}
+    for name, test in campaign.tests.items():
         if (test.specimen, test.kind) == (specimen, kind):
             record = tests[name].model_dump_json() if name in tests else None
-            tilt = light.setups[test.setup].table_tilt
-            own[name] = [repr(test), record, tilt, catalogue.content(layout.stage(name, "rocking"))]
-    read = [light.specimens[specimen], light.gravity, light.processing, light.next, light.table]
+            tilt = campaign.setups[test.setup].table_tilt
+            own[name] = [campaign.told(test), record, tilt, catalogue.content(layout.stage(name, "rocking"))]
+    read = [campaign.specimens[specimen], campaign.gravity, campaign.processing, campaign.next, campaign.table]
     upstream = {"specimen": catalogue.content(layout.stage(specimen, "specimen"))}
     make = partial(_advised, campaign, layout, specimen, kind, tests)
     entry = json.dumps([*map(repr, read), own])
