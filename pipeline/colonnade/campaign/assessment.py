@@ -13,7 +13,7 @@ from colonnade.campaign.settings import setting
 from colonnade.campaign.syntax import fields
 from colonnade.campaign.syntax.names import Identifier
 from colonnade.campaign.syntax.table import Problems, Table
-from colonnade.campaign.test import MotionPath
+from colonnade.campaign.test import CampaignPath
 from colonnade.dynamics.models import PLANE_MODELS
 
 
@@ -72,7 +72,7 @@ class Assessment(Table):
 
     specimen: Identifier
     """Id of the specimen; [prototype.<specimen>] says what the real column is."""
-    records: MotionPath
+    records: CampaignPath
     """A folder of ground motions, or a CSV list of them."""
     scale: fields.Scale | None = None
     """How many times larger the column is; the scale of the specimen if it is not given."""
@@ -82,7 +82,7 @@ class Assessment(Table):
     """Levels of the measure, such as "0.4 m/s"; if not given, chosen so that shares run from 0 to 1."""
     measures: Annotated[fields.Several, AfterValidator(_measures)] | None = None
     """Measures that are compared with it; all that the records have if not given."""
-    hazard: MotionPath | None = None
+    hazard: CampaignPath | None = None
     """CSV file with annual rates of exceedance of the measure at the site."""
     overturned: fields.Number = setting(1.0, "of α", ge=0.05, le=1.0)
     """A largest rotation beyond this fraction of the critical angle counts as overturned."""

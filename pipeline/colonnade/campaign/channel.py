@@ -6,7 +6,7 @@ from functools import cached_property
 from math import hypot
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
+from pydantic import AfterValidator, Field, WithJsonSchema
 
 from colonnade import units
 from colonnade.campaign.syntax import fields
@@ -50,13 +50,9 @@ def _gain(text: str) -> str:
     return _quantity(text)
 
 
-def _as_text(value: object) -> object:
-    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
-
-
 _QUANTITY_SCHEMA: dict[str, Any] = {"type": "string", "pattern": rf"^\s*{units.NUMBER_PATTERN}"}
 _GAIN_SCHEMA = {"anyOf": [_QUANTITY_SCHEMA | {"examples": ["10 mm/V"]}, {"type": "number"}]}
-Gain = Annotated[str, AfterValidator(_gain), BeforeValidator(_as_text), WithJsonSchema(_GAIN_SCHEMA)]
+Gain = Annotated[str, Field(coerce_numbers_to_str=True), AfterValidator(_gain), WithJsonSchema(_GAIN_SCHEMA)]
 Unit = Annotated[str, AfterValidator(_unit), WithJsonSchema({"type": "string", "examples": ["V", "mm", "g"]})]
 QuantityText = Annotated[str, AfterValidator(_quantity), WithJsonSchema(_QUANTITY_SCHEMA)]
 

@@ -11,25 +11,22 @@ from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, Wit
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.syntax import fields
 from colonnade.campaign.syntax.names import Identifier, inside
-from colonnade.campaign.syntax.table import Table, problem, refuse
+from colonnade.campaign.syntax.table import Table
 
 Kind = Literal["free-vibration", "sine", "earthquake", "pulse", "noise", "tilt", "other"]
 KINDS: tuple[str, ...] = get_args(Kind)
 Outcome = Literal["overturned", "not-overturned", "no-rocking", "rocking"]
 
 
-def _files(value: object, info: ValidationInfo) -> dict[str, Path]:
-    folder = info.context["folder"] if info.context else Path.cwd()
-    if not isinstance(value, Mapping):
-        return {MAIN: inside(folder, value)}
-    paths, problems = {}, []
-    for recorder, path in value.items():
-        try:
-            paths[str(recorder)] = inside(folder, path)
-        except ValueError as error:
-            problems.append(problem(str(error), str(recorder), value=path))
-    if problems:
-        raise refuse(problems)
+def _path(value: object, info: ValidationInfo) -> Path:
+    return inside(info.context["folder"] if info.context else Path.cwd(), value)
+
+
+def _by_recorder(value: object) -> object:
+    return value if isinstance(value, Mapping) else {MAIN: value}
+
+
+def _with_main(paths: dict[str, Path]) -> dict[str, Path]:
     if MAIN not in paths:
         raise ValueError(
             'A file of each recorder was expected, among them `main`: {main = "raw/a.csv", daq2 = "raw/b.csv"}.'
@@ -37,8 +34,11 @@ def _files(value: object, info: ValidationInfo) -> dict[str, Path]:
     return paths
 
 
+CampaignPath = Annotated[Path, BeforeValidator(_path), WithJsonSchema(fields.SOME_TEXT)]
 _FILES = {"anyOf": [fields.SOME_TEXT, {"type": "object", "required": [MAIN], "additionalProperties": fields.SOME_TEXT}]}
-Files = Annotated[dict[str, Path], BeforeValidator(_files), WithJsonSchema(_FILES)]
+Files = Annotated[
+    dict[str, CampaignPath], BeforeValidator(_by_recorder), AfterValidator(_with_main), WithJsonSchema(_FILES)
+]
 
 
 Zero = Literal["auto", "start", "end", "none"] | fields.Interval
@@ -85,17 +85,10 @@ class Test(Table):
     """Whether it may still have to be run: until its raw file is there it is pending, not failed."""
 
 
-def _path(value: object, info: ValidationInfo) -> Path:
-    return inside(info.context["folder"] if info.context else Path.cwd(), value)
-
-
-MotionPath = Annotated[Path, BeforeValidator(_path), WithJsonSchema(fields.SOME_TEXT)]
-
-
 class ReferenceMotion(Table):
     """A base motion as published: a text file; only the shape of the motion counts. A bare path is its `file`."""
 
-    file: MotionPath
+    file: CampaignPath
     """Its file, from the folder of the campaign file."""
     interval: fields.Duration | None = None
     """Its sampling interval, such as "0.02 s", if the file does not give it."""

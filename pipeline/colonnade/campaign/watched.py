@@ -12,7 +12,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, WithJsonSchema
 
 from colonnade import units
-from colonnade.campaign.syntax.fields import SOME_TEXT, Duration, Text, shown
+from colonnade.campaign.syntax.fields import SOME_TEXT, Duration, Text, listed, shown
 from colonnade.campaign.syntax.names import inside
 from colonnade.campaign.syntax.table import Table
 from colonnade.campaign.test import Test
@@ -119,10 +119,6 @@ def _folder(folder: str, info: ValidationInfo) -> str:
     return folder.strip("/")
 
 
-def _patterns(value: object) -> tuple[Pattern, ...]:
-    return tuple(map(_named, value if isinstance(value, (list, tuple)) else [value]))
-
-
 def _named(value: object) -> Pattern:
     given = dict(value) if isinstance(value, Mapping) else {"file": value}
     written = given.pop("file", None)
@@ -138,10 +134,6 @@ def _named(value: object) -> Pattern:
     return pattern
 
 
-def _words(words: dict[str, str]) -> dict[str, str]:
-    return {word.casefold(): meaning for word, meaning in words.items()}
-
-
 _TABLE = {"type": "object", "required": ["file"], "properties": {"file": SOME_TEXT}}
 _ENTRY = {"anyOf": [SOME_TEXT, _TABLE]}
 _ENTRIES = {"anyOf": [*_ENTRY["anyOf"], {"type": "array", "items": _ENTRY}]}
@@ -154,8 +146,10 @@ class Watched(Table):
     """Folder in which raw files appear, from the folder of the campaign file."""
     settle: Duration = 1.0
     """A file is finished when its size and time have not changed for this long."""
-    pattern: Annotated[tuple[Pattern, ...], BeforeValidator(_patterns), WithJsonSchema(_ENTRIES)] = ()
+    pattern: Annotated[
+        tuple[Annotated[Pattern, BeforeValidator(_named)], ...], BeforeValidator(listed), WithJsonSchema(_ENTRIES)
+    ] = ()
     """Names of raw files, such as "{specimen}-{kind}-{number}.csv", each file a test; or a list of them, each with
     keys of its tests: {file = "{specimen}-free-{number}.csv", kind = "free-vibration", setup = "bench"}."""
-    words: Annotated[dict[str, str], AfterValidator(_words)] = Field(default={})
+    words: dict[Annotated[str, AfterValidator(str.casefold)], str] = Field(default={})
     """What words in the names stand for, such as {free = "free-vibration"}."""

@@ -63,7 +63,7 @@ def test_what_is_written_becomes_its_si_value(kind, value, found):
         (fields.Interval, ["14 s", "2 s"], "The second has to be the larger one."),
         (fields.Interval, "2 s", "A list of 2 was expected: what it is for."),
         (fields.Column, 0, "Expected: what it is for."),
-        (fields.Text, "  ", "It is empty. Text was expected."),
+        (fields.Text, "  ", "Text in quotes was expected: what it is for."),
         (fields.PositiveNumber, "20", "A plain number was expected, without quotes"),
         (fields.PositiveNumber, True, "A plain number was expected"),
         (fields.PositiveNumber, 10**400, "a whole number of very many digits was found."),

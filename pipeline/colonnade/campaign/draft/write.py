@@ -182,27 +182,26 @@ def written(name: str, setups: Sequence[DraftSetup], refused: Sequence[tuple[str
     names = [stem.name if often[stem.name] == 1 else "-".join(stem.parts[-2:]) for stem in stems]
     shapes = [found[0] if (found := find(test[MAIN].stem, "shapes")) else "" for test in tests]
     entries = iter(zip(unique(names, "test"), shapes, strict=True))
-    of_tests = [[line for test in each.tests for line in each.test(test, *next(entries))] for each in setups]
-    specimens = [line for shape in dict.fromkeys(shapes) for line in _specimen(shape)]
     lines: Lines = [
         *_FIRST_LINES,
         Line("schema", str(SCHEMA)),
         Line("campaign", toml_value(name), "from the name of the folder"),
         Line("title", toml_value(f"Campaign {name}"), "title of the report; write a better one"),
         comment('facility = "…"         the laboratory and its table'),
+        *(line for shape in dict.fromkeys(shapes) for line in _specimen(shape)),
     ]
-    lines += specimens
     lines += [_STACK] if any(each.markers for each in setups) else []
     if len(setups) > MOST_SETUPS:
         files = sum(len(test) for test in tests)
         lines += ["", comment(f"{files} files of {len(setups)} kinds were found."), *_GROUPED]
-    for number, (each, own) in enumerate(zip(setups, of_tests, strict=True), start=1):
+    for number, each in enumerate(setups, start=1):
+        own = each.lines() + [line for test in each.tests for line in each.test(test, *next(entries))]
         if len(setups) > MOST_SETUPS:
             lines += ["", comment(f"==== Group {number} of {len(setups)}: {each.some}")]
-            lines += [f"# {line}".rstrip() for line in (*each.lines(), *own)]
+            lines += [f"# {line}".rstrip() for line in own]
         else:
             how_many = "1 test" if len(each.tests) == 1 else f"{len(each.tests)} tests, all recorded in the same way"
-            lines += ["", comment(f"The set-up of {how_many}: {each.some}"), *each.lines(), *own]
+            lines += ["", comment(f"The set-up of {how_many}: {each.some}"), *own]
     if refused:
         lines += ["", comment("Files that are not used:"), *(comment(f"{file}: {why}") for file, why in refused)]
     return lines

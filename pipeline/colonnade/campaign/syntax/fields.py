@@ -234,12 +234,6 @@ def _written(text: str) -> date | None:
     return next(iter(days), None)
 
 
-def _filled(value: str) -> str:
-    if not value.strip():
-        raise ValueError("It is empty. Text was expected.")
-    return value
-
-
 def listed(value: object) -> object:
     """Take one value as a list of it alone."""
     return value if isinstance(value, (list, tuple)) else [value]
@@ -278,7 +272,7 @@ _DAY = {"type": "string", "format": "date", "description": "a date of TOML, or t
 
 Number = Annotated[float, Strict(), AllowInfNan(False)]
 Whole = Annotated[int, Strict()]
-Text = Annotated[str, Field(min_length=1), AfterValidator(_filled)]
+Text = Annotated[str, Field(pattern=r"\S")]
 Several = Annotated[
     tuple[Text, ...], Field(min_length=1, max_length=MOST_TEXTS), BeforeValidator(listed), AfterValidator(once)
 ]

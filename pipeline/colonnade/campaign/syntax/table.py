@@ -87,7 +87,7 @@ def refuse(problems: Iterable[InitErrorDetails]) -> ValidationError:
 
 
 _OF_LISTS = ("list_type", "tuple_type", "too_long", "too_short", "missing")
-_TEXT = ("string_type", "string_too_short")
+_TEXT = ("string_type", "string_pattern_mismatch")
 _BOUNDS = ("int_type", "int_from_float", "greater_than", "greater_than_equal", "less_than", "less_than_equal")
 _WANTED = {
     "float_type": "A plain number was expected, without quotes and without a unit.",
