@@ -18,7 +18,7 @@ from colonnade.identification.restitution.follower import (
 ALPHA, RATE = np.array([0.186, 0.19]), np.array([5.6, 5.5])
 TIMES = np.arange(0, 14, 0.02 / 5.6)
 SHAKEN = 0.02 * np.sin(7 * TIMES)
-AT_REST = np.empty(0)
+AT_REST = np.zeros(TIMES.size)
 E = 0.95 + 0.005 * np.sin(np.arange(29))
 
 

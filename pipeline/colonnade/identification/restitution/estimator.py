@@ -11,16 +11,8 @@ import scipy
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.follower import CRITICAL, PEAK, TILT, TIME, P
-from colonnade.identification.restitution.noise import (
-    FINEST_CUTOFF,
-    Spectrum,
-    Transformed,
-    filter_of,
-    find_cutoff,
-    find_knee,
-)
+from colonnade.identification.restitution.noise import FINEST_CUTOFF, Spectrum, filter_of, find_cutoff, find_knee
 from colonnade.identification.restitution.path import (
-    DRIFT,
     FIRST_ARCS,
     FIXED,
     GAIN,
@@ -28,7 +20,6 @@ from colonnade.identification.restitution.path import (
     MEAN,
     ZERO,
     Path,
-    Priors,
     UnfollowedError,
     from_release,
     laid,
@@ -54,10 +45,6 @@ MOST_LAID = 4
 
 ODD_RELEASE = 2.0
 """Times as much residual power after the release as later, from which the block was not released from rest."""
-
-ORDER = (MEAN, CRITICAL, P, GAIN, TILT, PEAK, TIME, ZERO, DRIFT)
-"""Unknowns in the order in which the linear model has them, as far as they are moved."""
-
 
 SURE_TREND = 0.003
 """Probability of a change of e with the speed of impact by chance, below which the mean is that at the mean speed."""
@@ -88,14 +75,12 @@ class Estimated:
     ----------
     path : Path
     model : LinearModel
-        About the path; unknowns in the order of `names`, as steps from it.
-    names : tuple of int
+        About the path; unknowns in the order of `path.names`, as steps from it.
     solved : Solved
     """
 
     path: Path
     model: LinearModel
-    names: tuple[int, ...]
     solved: Solved
 
     @property
@@ -150,7 +135,7 @@ class Estimated:
     @cached_property
     def posterior(self) -> tuple[Array, Array]:
         """Mean and covariance of the unknowns before the impacts' departures, shapes (9,) and (9, 9)."""
-        solved, moved = self.answer, list(self.names)
+        solved, moved = self.answer, self.path.names
         mean, covariance = self.path.values[:FIXED].copy(), np.zeros((FIXED, FIXED))
         mean[moved] += solved.mean[: len(moved)]
         covariance[np.ix_(moved, moved)] = solved.covariance[: len(moved), : len(moved)]
@@ -175,7 +160,7 @@ class Estimated:
         return float(solved.mean[-1]), float(np.sqrt(solved.covariance[-1, -1]))
 
 
-def first_path(samples: AngleSamples, block: Block, peaks: Array, times: Array) -> Path:
+def first_path(samples: AngleSamples, block: Block, widths: Array, peaks: Array, times: Array) -> Path:
     """
     Return the path of a run of arcs on alternating sides, by their peaks.
 
@@ -183,6 +168,8 @@ def first_path(samples: AngleSamples, block: Block, peaks: Array, times: Array) 
     ----------
     samples : AngleSamples
     block : Block
+    widths : ndarray, shape (9,)
+        As of `prior_widths`.
     peaks, times : ndarray, shape (n,)
         Peaks, rad, signed; s.
 
@@ -198,10 +185,10 @@ def first_path(samples: AngleSamples, block: Block, peaks: Array, times: Array) 
     slope, _ = np.polyfit(np.arange(peaks.size), np.log(energies), 1, w=np.abs(peaks))
     values = np.zeros(FIXED)
     values[[PEAK, TIME, MEAN]] = abs(peaks[0]), times[0], np.clip(slope / 2, np.log(0.3), np.log(0.9999))
-    return Path(block, samples, int(peaks[0] > 0), values).with_arcs(min(peaks.size, FIRST_ARCS))
+    return Path(block, samples, widths, int(peaks[0] > 0), values).with_arcs(min(peaks.size, FIRST_ARCS))
 
 
-def estimate(path: Path, priors: Priors, lowpass: float | None, lowest: float, *, whole: bool) -> Estimated:
+def estimate(path: Path, lowpass: float | None, lowest: float, *, whole: bool) -> Estimated:
     """
     Follow a record from a first path on, and say what is known of the unknowns then.
 
@@ -209,7 +196,6 @@ def estimate(path: Path, priors: Priors, lowpass: float | None, lowest: float, *
     ----------
     path : Path
         Of its first arcs.
-    priors : Priors
     lowpass : float or None
         Hz, of the record; found from the residual if None.
     lowest : float
@@ -223,11 +209,11 @@ def estimate(path: Path, priors: Priors, lowpass: float | None, lowest: float, *
         If no path follows the record, or the record does not separate the unknowns.
     """
     try:
-        path = laid_forward(path, priors, lowest)
+        path = laid_forward(path, lowest)
         before = from_release(path) if whole else None
         if before is not None:
             try:
-                found = _estimated(before, priors, lowpass)
+                found = _estimated(before, lowpass)
                 # On a table that moves, a release at rest may lead astray.
                 if found.path.power < MISFIT * path.power:
                     if not _is_odd(found.path):
@@ -235,7 +221,7 @@ def estimate(path: Path, priors: Priors, lowpass: float | None, lowest: float, *
                     path = without_first(found.path)
             except UnfollowedError:
                 pass
-        return _estimated(path, priors, lowpass)
+        return _estimated(path, lowpass)
     except np.linalg.LinAlgError as error:
         raise UnfollowedError(str(error)) from error
 
@@ -253,12 +239,12 @@ def _least(path: Path) -> float:
     return float((LEAST_NOISE * path.sides[0].min()) ** 2)
 
 
-def _estimated(path: Path, priors: Priors, lowpass: float | None) -> Estimated:
+def _estimated(path: Path, lowpass: float | None) -> Estimated:
     if path.count < FEWEST_ARCS:
         raise UnfollowedError(f"{FEWEST_ARCS} arcs are needed, and {path.count} could be followed")
     samples, scatter, trend = path.samples, LIKELY_SCATTER, None
     if lowpass is None and samples.is_even:
-        path = laid(path, priors, scatter)
+        path = laid(path, scatter)
         lowpass = find_cutoff(path.residual, samples.interval, samples.step)
         rounded = replace(path, passed=filter_of(lowpass, samples.step, samples.group))
         if lowpass is not None and rounded.power > MISFIT * path.power:
@@ -268,37 +254,29 @@ def _estimated(path: Path, priors: Priors, lowpass: float | None) -> Estimated:
     path = replace(path, passed=filter_of(lowpass, samples.step, samples.group))
     spectrum = Spectrum(0.0, lowpass, samples.interval, samples.step) if samples.is_even else None
     for _ in range(MOST_LAID):
-        path = laid(path, priors, scatter, trend)
-        found = _linear(path, priors, spectrum)
+        path = laid(path, scatter, trend)
+        found = _linear(path, spectrum)
         now, trend = max(found.answer.scatter, 1e-6), found.speeds if found.has_trend else None
         if abs(now - scatter) < 0.1 * scatter:
             break
         scatter = now
     if spectrum is None or not spectrum.may_be_coloured(path.residual):
         return found
-    order = [*found.names, *range(FIXED, path.values.size)]
-    precision = priors.precision(path.count, now)[order]
-    knee = find_knee(_transformed(path, order, spectrum), precision, found.model.level)
-    return found if knee == 0 else _linear(path, priors, replace(spectrum, knee=knee))
+    transformed = spectrum.transformed(path.columns)
+    knee = find_knee(transformed, path.precision(now)[path.order], found.model.level)
+    return found if knee == 0 else _linear(path, replace(spectrum, knee=knee))
 
 
-def _transformed(path: Path, order: list[int], spectrum: Spectrum) -> Transformed:
-    return spectrum.transformed(path.columns[[0, *(1 + place for place in order)]])
-
-
-def _linear(path: Path, priors: Priors, spectrum: Spectrum | None) -> Estimated:
-    names = tuple(name for name in ORDER if priors.widths[name] > 0)
-    order = [*names, *range(FIXED, path.values.size)]
-    count = float(path.counted.sum())
+def _linear(path: Path, spectrum: Spectrum | None) -> Estimated:
+    names, count = path.names, float(path.counted.sum())
     if spectrum is None or (spectrum.knee == 0 and spectrum.cutoff_hz is None):
-        kept = [0, *(1 + place for place in order)]
+        kept = np.append(0, 1 + path.order)
         both = path.products[np.ix_(kept, kept)]
     else:
-        transformed = _transformed(path, order, spectrum)
+        transformed = spectrum.transformed(path.columns)
         both, count = transformed.rows @ transformed.rows.T, count * transformed.share
     # As seen from the mean: what the impacts' own departures explain is left in the values.
     turn = np.eye(both.shape[0])
     turn[1 + len(names) :, 0] = path.deviations
-    precision = priors.precision(path.count, 1.0)[list(names)]
-    model = LinearModel.of(turn.T @ both @ turn, precision, -path.values[list(names)], count, _least(path))
-    return Estimated(path, model, names, model.solved())
+    model = LinearModel.of(turn.T @ both @ turn, path.precision(1.0)[names], -path.values[names], count, _least(path))
+    return Estimated(path, model, model.solved())

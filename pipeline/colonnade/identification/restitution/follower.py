@@ -4,7 +4,7 @@ Rocking after a release, arc by arc, with its derivatives by all that is unknown
     θ̈ = −p² [ sin(α − |θ|) + s (a/g) cos(α − |θ|) ] s,  s = sgn θ
 
 by Runge and Kutta's fourth-order method from sample to sample; the derivatives are those of the same steps. An impact
-multiplies the angular velocity by e. The base acceleration a is linear between samples; a table at rest has none.
+multiplies the angular velocity by e. The base acceleration a is linear between samples, 0 of a table at rest.
 """
 
 from __future__ import annotations
@@ -132,7 +132,7 @@ def follow(
     time : ndarray, shape (n,)
         s, increasing.
     base : ndarray, shape (n,)
-        Base acceleration over gravity at these times, or empty for a table at rest.
+        Base acceleration over gravity at these times.
     peak, peak_time : float
         |θ| (rad) and time (s) of the first peak.
     first_side : int
@@ -147,7 +147,6 @@ def follow(
     starts, varied = np.zeros((m, 2, BY_IMPACT + m - 1)), np.zeros((LOCAL, 2))
     peaks, times = np.full(m, np.nan), np.full(m, np.nan)
     ends, speeds = np.full(m, np.nan), np.full(m, np.nan)
-    at_rest = base.size == 0
     begin = int(np.searchsorted(time, peak_time))
     for way in (-1, 1):
         side, now, height, speed, number = first_side, peak_time, peak, 0.0, 0
@@ -155,12 +154,10 @@ def follow(
         varied[:, :] = 0.0
         varied[0, 0] = varied[1, 1] = 1.0
         i = begin if way > 0 else begin - 1
-        push = 0.0
-        if not at_rest:
-            # np.interp alone takes two seconds to compile.
-            before = min(max(begin, 1), n - 1) - 1
-            share = min(max((now - time[before]) / (time[before + 1] - time[before]), 0.0), 1.0)
-            push = sign * (base[before] + share * (base[before + 1] - base[before]))
+        # np.interp alone takes two seconds to compile.
+        before = min(max(begin, 1), n - 1) - 1
+        share = min(max((now - time[before]) / (time[before + 1] - time[before]), 0.0), 1.0)
+        push = sign * (base[before] + share * (base[before + 1] - base[before]))
         if way > 0:
             starts[0, 0, PEAK] = 1.0
             starts[0, 1, TIME] = square * (sin(alpha - peak) + push * cos(alpha - peak))
@@ -170,9 +167,7 @@ def follow(
             if abs(length) > longest:
                 parts = np.ceil(abs(length) / longest)
                 length, ends_at_sample = length / parts, parts < 1.5
-            next_push = 0.0
-            if not at_rest:
-                next_push = push + (sign * base[i] - push) * (length / (time[i] - now) if time[i] != now else 1.0)
+            next_push = push + (sign * base[i] - push) * (length / (time[i] - now) if time[i] != now else 1.0)
             higher, faster, accelerations, by = _step(height, speed, length, alpha, square, push, next_push)
             landed = way > 0 and higher <= 0.0 and faster < 0.0
             if landed:

@@ -15,7 +15,7 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.uncertainty import Uncertainty
 from colonnade.identification.restitution import departures, peaks
 from colonnade.identification.restitution.estimator import ASSUMPTIONS, METHOD, Estimated, estimate, first_path
-from colonnade.identification.restitution.path import Priors, UnfollowedError
+from colonnade.identification.restitution.path import UnfollowedError, prior_widths
 from colonnade.identification.restitution.record import Record, Seen, moving_base, objection, thinned
 from colonnade.identification.restitution.result import (
     NO_IMPACTS,
@@ -131,7 +131,7 @@ def identify_restitution(
     record = Record.seen(thinned(times, angles, block), block, lowest_amplitude, noise)
     if reason := _no_free_rocking(record):
         return _refused(reason + _in_other_units(times, angles, block), level, record.peaks)
-    known = Priors.of(uncertainty.critical_angle, uncertainty.p, uncertainty.angle_gain)
+    known = prior_widths(uncertainty)
     found, why = _followed(record, known, lowpass)
     try:
         base = moving_base(times, measured["base_acceleration"], block) if "base_acceleration" in measured else None
@@ -158,12 +158,12 @@ def identify_restitution(
 
 
 def _followed(
-    record: Record, known: Priors, lowpass: float | None, *, left_out: int = 0
+    record: Record, known: Array, lowpass: float | None, *, left_out: int = 0
 ) -> tuple[Estimated | None, str]:
     """Follow a record from the first arc that enters; what is found, or why nothing is."""
     try:
-        path = first_path(record.samples, record.block, *record.run(left_out))
-        return estimate(path, known, lowpass, record.least, whole=left_out == 0), ""
+        path = first_path(record.samples, record.block, known, *record.run(left_out))
+        return estimate(path, lowpass, record.least, whole=left_out == 0), ""
     except UnfollowedError as error:
         return None, f"No simulated history follows the record: {error}."
 
@@ -172,7 +172,7 @@ def _departed(
     record: Record,
     found: Estimated | None,
     why: str,
-    known: Priors,
+    known: Array,
     lowpass: float | None,
     times: Array,
     measured: dict[str, Array],

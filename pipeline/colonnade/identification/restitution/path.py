@@ -7,9 +7,11 @@ from functools import cached_property
 from math import exp, sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
+from colonnade.dynamics.uncertainty import Uncertainty
 from colonnade.identification.restitution.follower import (
     BY_IMPACT,
     CRITICAL,
@@ -32,6 +34,9 @@ ZERO, DRIFT, GAIN, MEAN = range(BY_IMPACT, BY_IMPACT + 4)
 
 FIXED = MEAN + 1
 """Number of unknowns before the departure of ln e at each impact from its mean."""
+
+ORDER = (MEAN, CRITICAL, P, GAIN, TILT, PEAK, TIME, ZERO, DRIFT)
+"""The same in the order in which the linear model has them, as far as they are moved."""
 
 BLURRED = 0.08
 """Over p: margin about impacts while the record's low-pass is not known; 1 / (2 × default cut-off)."""
@@ -73,6 +78,8 @@ class Path:
     ----------
     block : Block
     samples : AngleSamples
+    widths : ndarray, shape (9,)
+        What is known of `PEAK`, …, `MEAN` beforehand, as of `prior_widths`.
     side : int
         Of the first peak: 0 for θ < 0, 1 for θ > 0.
     values : ndarray, shape (9 + m − 1,)
@@ -85,6 +92,7 @@ class Path:
 
     block: Block
     samples: AngleSamples
+    widths: Array
     side: int
     values: Array
     from_release: bool = False
@@ -111,6 +119,21 @@ class Path:
         tilt, sides = self.values[TILT] * np.array([-1.0, 1.0]), self.block.sides
         critical = np.array([side.critical_angle for side in sides]) * np.exp(self.values[CRITICAL] + tilt)
         return critical, np.array([self.block.side_p(side) for side in sides]) * exp(self.values[P])
+
+    @property
+    def names(self) -> list[int]:
+        """Those of `ORDER` that are moved."""
+        return [name for name in ORDER if self.widths[name] > 0]
+
+    @property
+    def order(self) -> NDArray[np.int64]:
+        """All unknowns that are moved, those of the impacts last."""
+        return np.append(self.names, np.arange(FIXED, self.values.size))
+
+    def precision(self, scatter: float) -> Array:
+        """1 / variance of each unknown beforehand, with this scatter of ln e; of those not moved it means nothing."""
+        known = np.where(self.widths > 0, self.widths, 1.0) ** -2.0
+        return np.append(known, np.full(self.count - 1, scatter**-2.0))
 
     def with_arcs(self, count: int) -> Path:
         """Return the path with as many arcs; new impacts have the mean e."""
@@ -186,42 +209,20 @@ class Path:
 
     @property
     def columns(self) -> Array:
-        """Residual and derivatives of the angle by all unknowns, shape (1 + k, n); 0 where not counted."""
+        """Residual and derivatives of the angle by the unknowns in `order`, shape (1 + k, n); 0 where not counted."""
         local, arcs = self._by_arc
-        return spread_columns(local, np.where(self.counted, self.followed.arc, -1), arcs)
+        by_unknown = np.take(arcs, np.append(0, 1 + self.order), axis=2)
+        return spread_columns(local, np.where(self.counted, self.followed.arc, -1), by_unknown)
 
 
-@dataclass(frozen=True)
-class Priors:
-    """
-    What is known of the unknowns beforehand.
-
-    Attributes
-    ----------
-    widths : ndarray, shape (9,)
-        Standard deviation of each unknown about 0; infinite if nothing is known, 0 if it is not moved.
-    """
-
-    widths: Array
-
-    @classmethod
-    def of(cls, critical_angle: float, p: float, angle_gain: float) -> Priors:
-        """Know α, p and the gain of the angle as well as this (relative); of the others nothing, of a tilt little."""
-        widths = np.full(FIXED, np.inf)
-        widths[[CRITICAL, P, GAIN, TILT]] = critical_angle, p, angle_gain, LARGEST_TILT
-        return cls(widths)
-
-    def moved(self, count: int) -> Mask:
-        """Which of the unknowns of so many arcs are moved."""
-        return np.append(self.widths > 0, np.ones(count - 1, dtype=bool))
-
-    def precision(self, count: int, scatter: float) -> Array:
-        """1 / variance of each unknown of so many arcs."""
-        with np.errstate(divide="ignore"):
-            return np.append(np.where(self.widths > 0, self.widths, 1.0) ** -2.0, np.full(count - 1, scatter**-2.0))
+def prior_widths(known: Uncertainty) -> Array:
+    """Standard deviation of each of the first unknowns about 0; infinite if nothing is known, 0 if it is not moved."""
+    widths = np.full(FIXED, np.inf)
+    widths[[CRITICAL, P, GAIN, TILT]] = known.critical_angle, known.p, known.angle_gain, LARGEST_TILT
+    return widths
 
 
-def laid(path: Path, priors: Priors, scatter: float, free: Array | None = None) -> Path:
+def laid(path: Path, scatter: float, free: Array | None = None) -> Path:
     """
     Move a path to where it is closest to the record, with departures of ln e that a scatter allows, and any along
     `free`, shape (m − 1,).
@@ -235,7 +236,7 @@ def laid(path: Path, priors: Priors, scatter: float, free: Array | None = None) 
     -----
     Least squares by Gauss and Newton, with (value / width)² of each unknown added; noise as the residuals show.
     """
-    moved, precision = priors.moved(path.count), np.diag(priors.precision(path.count, scatter))
+    moved, precision = np.sort(path.order), np.diag(path.precision(scatter))
     if free is not None:
         precision[FIXED:, FIXED:] -= np.outer(free, free) / (free @ free * scatter**2)
     power = path.power
@@ -267,7 +268,7 @@ def _objective(path: Path, precision: Array, power: float) -> float:
     return float(counted @ counted / power + path.values @ precision @ path.values)
 
 
-def _step(path: Path, moved: Mask, precision: Array, power: float) -> tuple[Array, float]:
+def _step(path: Path, moved: NDArray[np.int64], precision: Array, power: float) -> tuple[Array, float]:
     matrix = (path.products[1:, 1:] / power + precision)[np.ix_(moved, moved)]
     right = (path.products[1:, 0] / power - precision @ path.values)[moved]
     scale = np.sqrt(np.diag(matrix))
@@ -278,24 +279,24 @@ def _step(path: Path, moved: Mask, precision: Array, power: float) -> tuple[Arra
     return step, float(right @ step[moved])
 
 
-def laid_forward(path: Path, priors: Priors, lowest: float) -> Path:
+def laid_forward(path: Path, lowest: float) -> Path:
     """Follow a path forward: the first arcs, then as many more as are foreseen, to the record's end or lowest peak."""
     scatter = LIKELY_SCATTER
     while True:
-        path = laid(path, priors, scatter)
+        path = laid(path, scatter)
         if path.count > 5:
             scatter = float(np.clip(1.5 * np.std(path.deviations), *SCATTERS))
-        count = _foreseen(path, priors, scatter, lowest)
+        count = _foreseen(path, scatter, lowest)
         if count <= path.count:
             return path
         path = path.with_arcs(count)
 
 
-def _foreseen(path: Path, priors: Priors, scatter: float, lowest: float) -> int:
+def _foreseen(path: Path, scatter: float, lowest: float) -> int:
     """How many arcs the record has, and the fit foresees."""
     # Residuals of filtered noise are correlated over a few samples: twice the error that white noise would give.
-    matrix = path.products[1:, 1:] / (4 * path.power) + np.diag(priors.precision(path.count, scatter))
-    kept = np.flatnonzero(priors.moved(path.count))
+    matrix = path.products[1:, 1:] / (4 * path.power) + np.diag(path.precision(scatter))
+    kept = np.sort(path.order)
     scale = np.sqrt(np.diag(matrix)[kept])
     further = path.with_arcs(max(int(FARTHER * path.count), path.count + 4))
     covariance = np.zeros((further.values.size, further.values.size))
@@ -326,7 +327,7 @@ def from_release(path: Path) -> Path | None:
     values = np.concatenate((path.values[:FIXED], [0.0], path.deviations))
     values[PEAK], values[TIME] = height, 0.0
     probe = np.linspace(0.0, 8.0 / float(p[side]), 400)
-    fall = follow(probe, np.empty(0), height, 0.0, side, np.empty(0), critical, p).ends[0]
+    fall = follow(probe, np.zeros(400), height, 0.0, side, np.empty(0), critical, p).ends[0]
     if not np.isfinite(fall) or path.samples.time[0] > impact - 0.1 * fall:
         return None
     values[TIME] = impact - fall

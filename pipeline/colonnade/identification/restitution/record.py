@@ -65,8 +65,8 @@ class AngleSamples:
         s, increasing; rad, NaN where missing.
     along : ndarray, shape (n,)
         Share of the record, from −1/2 to 1/2.
-    base : ndarray, shape (n,) or (0,)
-        Base acceleration over gravity; empty if the table is at rest.
+    base : ndarray, shape (n,)
+        Base acceleration over gravity; zeros if the table is at rest.
     interval : float
         s, the mean of steps that are uneven.
     is_even : bool
@@ -107,7 +107,7 @@ def thinned(time: Array, angle: Array, block: Block, base: Array | None = None) 
     """
     steps = np.diff(time)
     interval = float(time[-1] - time[0]) / max(steps.size, 1)
-    base = np.empty(0) if base is None else base
+    base = np.zeros(time.size) if base is None else base
     is_even = bool(np.abs(steps - interval).max(initial=0.0) <= UNEVEN * interval)
     fine = STEP / max(map(block.side_p, block.sides))
     group = max(min(int(fine / interval), time.size // 8), 1) if is_even else 1
