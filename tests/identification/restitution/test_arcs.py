@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.identification.restitution.arcs import find_arcs, find_impacts, noise_level
+from colonnade.identification.restitution.arcs import arcs_between, find_impacts, noise_level
 from colonnade.identification.restitution.peaks import angle_of_energy, energy_slope, lift, released_energy
 
 TIME = np.arange(0, 4, 0.002)
@@ -34,7 +34,7 @@ def test_a_peak_is_fitted_better_than_the_highest_sample():
     arc = alpha - (alpha - height) * np.cosh(p * (time - middle))
     angle = np.where(np.abs(time - middle) < half, arc, -0.03)
     noisy = angle + np.random.default_rng(1).normal(0, 5e-4, time.size)
-    arcs = find_arcs(time, noisy, p, lowest=0.01)
+    arcs = arcs_between(find_impacts(time, noisy, lowest=0.01), time, noisy, p)
     assert arcs.peak_angle.size == 1
     assert abs(arcs.peak_angle[0] - height) < 4 * arcs.peak_standard_error[0]
     assert arcs.peak_standard_error[0] < 3e-4
@@ -45,13 +45,14 @@ def test_a_peak_is_fitted_better_than_the_highest_sample():
 def test_an_arc_with_samples_missing_keeps_its_place_without_a_peak():
     angle = 0.1 * np.sin(2 * np.pi * TIME)
     angle[(TIME > 1.2) & (TIME < 1.22)] = np.nan
-    arcs = find_arcs(TIME, angle, 5.6, lowest=0.01)
+    arcs = arcs_between(find_impacts(TIME, angle, lowest=0.01), TIME, angle, 5.6)
     assert np.flatnonzero(np.isnan(arcs.peak_angle)).tolist() == [1]
     assert arcs.peak_angle.size == 6
 
 
 def test_arcs_by_a_clock_in_the_wrong_unit_have_no_fit():
-    arcs = find_arcs(1000 * TIME, 0.1 * np.sin(2 * np.pi * TIME), 5.6, lowest=0.01)
+    time, angle = 1000 * TIME, 0.1 * np.sin(2 * np.pi * TIME)
+    arcs = arcs_between(find_impacts(time, angle, lowest=0.01), time, angle, 5.6)
     assert arcs.peak_angle.size == 6
     assert np.isnan(arcs.peak_standard_error).all()
 

@@ -124,33 +124,25 @@ def find_impacts(time: Array, angle: Array, *, lowest: float) -> Array:
     return np.array(impacts, dtype=np.float64)
 
 
-def find_arcs(time: Array, angle: Array, p: float, *, lowest: float) -> Arcs:
+def arcs_between(impacts: Array, time: Array, angle: Array, p: float, *, critical: float | None = None) -> Arcs:
     """
-    Find the arcs that lie between two impacts and rise above a level.
+    Fit the arc between each pair of neighbouring impacts.
 
     Parameters
     ----------
+    impacts : ndarray, shape (m + 1,)
+        s. Release and a record's start and end are no impacts: the first and last piece of a history are not arcs.
     time, angle : ndarray, shape (n,)
         s, rad; about true zero.
     p : float
         Frequency parameter, rad/s: the shape of the fit.
-    lowest : float
-        rad; lower arcs, such as those of noise, are left out.
+    critical : float, optional
+        α, rad: with it p is that of the equation linearised about the middle of an arc, p sqrt(cos(α − 2|θ|/3)).
 
     Returns
     -------
     arcs : Arcs
-        Release and a record's start and end are no impacts, so the first and last piece of a history are not arcs.
         An arc with samples missing, or with fewer than three, has a peak of NaN, so that counting goes on.
-    """
-    return arcs_between(find_impacts(time, angle, lowest=lowest), time, angle, p)
-
-
-def arcs_between(impacts: Array, time: Array, angle: Array, p: float, *, critical: float | None = None) -> Arcs:
-    """
-    Fit the arc between each pair of neighbouring impacts, shape (m + 1,), s; other arguments as for `find_arcs`.
-
-    With α (`critical`, rad) p is that of the equation linearised about the middle of an arc, p sqrt(cos(α − 2|θ|/3)).
 
     Notes
     -----

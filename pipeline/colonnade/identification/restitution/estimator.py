@@ -262,8 +262,8 @@ def _estimated(path: Path, lowpass: float | None) -> Estimated:
         scatter = now
     if spectrum is None or not spectrum.may_be_coloured(path.residual):
         return found
-    transformed = spectrum.transformed(path.columns)
-    knee = find_knee(transformed, path.precision(now)[path.order], found.model.level)
+    rows, frequency, _ = spectrum.transformed(path.columns)
+    knee = find_knee(rows, frequency, path.precision(now)[path.order], found.model.level)
     return found if knee == 0 else _linear(path, replace(spectrum, knee=knee))
 
 
@@ -273,8 +273,8 @@ def _linear(path: Path, spectrum: Spectrum | None) -> Estimated:
         kept = np.append(0, 1 + path.order)
         both = path.products[np.ix_(kept, kept)]
     else:
-        transformed = spectrum.transformed(path.columns)
-        both, count = transformed.rows @ transformed.rows.T, count * transformed.share
+        rows, _, share = spectrum.transformed(path.columns)
+        both, count = rows @ rows.T, count * share
     # As seen from the mean: what the impacts' own departures explain is left in the values.
     turn = np.eye(both.shape[0])
     turn[1 + len(names) :, 0] = path.deviations

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 import scipy
 
 from colonnade.arrays import Array
 from colonnade.dynamics.kernel import kernel
-from colonnade.identification.restitution.follower import Followed
 
 ORDER = 4
 """Of the Butterworth filter, run forwards and backwards."""
@@ -89,24 +87,11 @@ def filter_of(cutoff_hz: float | None, step: float, group: int) -> Filter:
     return Filter(cutoff_hz, time, of_speed, of_acceleration - np.where(time > 0, of_acceleration[-1], 0.0))
 
 
-def corner_response(
-    rounding: Filter, time: Array, followed: Followed, critical: Array, p: Array, side: int, e: Array
-) -> Array:
-    """Filtered less unfiltered angle at times (s), rad; impacts as followed, the last with the e of the one before."""
-    at_rest = np.append(e, e[-1:] if e.size else 1.0)
-    signs = np.where((side + np.arange(at_rest.size)) % 2, 1.0, -1.0)
-    # Where the first arc was seen from its start on, it began with an impact too.
-    ends = np.append(2 * followed.times[0] - followed.ends[0], followed.ends)
-    jumps = signs * followed.speeds * (1 - at_rest)
-    jumps = np.append(-jumps[0] / at_rest[0], jumps)
-    bends = np.append(-signs[0], signs) * float((p**2 * np.sin(critical)).sum())
-    return _corners(time, ends, jumps, bends, rounding.time, rounding.of_speed, rounding.of_acceleration)
-
-
 @kernel
-def _corners(
+def corners(
     time: Array, ends: Array, jumps: Array, bends: Array, offsets: Array, of_speed: Array, of_acceleration: Array
 ) -> Array:
+    """Filtered less unfiltered angle (rad) at times (s), of impacts with jumps of the velocity and acceleration."""
     total = np.zeros(time.size)
     reach, fine = offsets[-1], offsets[1] - offsets[0]
     for k in range(ends.size):
@@ -140,8 +125,17 @@ class Spectrum:
     interval: float
     step: float
 
-    def transformed(self, columns: Array) -> Transformed:
-        """Turn columns (1 + k, n), the first of values that were filtered, others not, into rows with white noise."""
+    def transformed(self, columns: Array) -> tuple[Array, Array, float]:
+        """
+        Turn columns (1 + k, n), the first of values that were filtered, others not, into rows with white noise.
+
+        Returns
+        -------
+        rows, frequency : ndarray, shape (1 + k, 2 f), (f,)
+            Hz.
+        share : float
+            Of the samples that count as independent.
+        """
         count = columns.shape[1]
         size = int(scipy.fft.next_fast_len(2 * count, real=True))
         padded = np.zeros((columns.shape[0], size))
@@ -158,7 +152,7 @@ class Spectrum:
         rows = scipy.fft.rfft(padded, overwrite_x=True)[:, kept] * np.sqrt(weight[kept] / (1 + self.knee / frequency))
         # Only the record was filtered: what is taken off it again is white noise, and the sharp columns.
         rows[0] /= left[kept]
-        return Transformed(np.ascontiguousarray(rows).view(np.float64), frequency, share)
+        return np.ascontiguousarray(rows).view(np.float64), frequency, share
 
     def bands(self, residual: Array) -> _Bands | None:
         """Average the power of a residual, NaN where not counted, before its low-pass; None of too few samples."""
@@ -177,14 +171,6 @@ class Spectrum:
         return bands is not None and int(np.argmax(bands.likelihoods())) > 0
 
 
-class Transformed(NamedTuple):
-    """Rows with white noise, (1 + k, 2 f); frequencies (Hz, (f,)); share of the samples that count as independent."""
-
-    rows: Array
-    frequency: Array
-    share: float
-
-
 def find_cutoff(residual: Array, interval: float, step: float) -> float | None:
     """Cut-off (Hz) of the low-pass that a residual, NaN where not counted, went through; None if it shows none."""
     bands = Spectrum(0.0, None, interval, step).bands(residual)
@@ -197,20 +183,20 @@ def find_cutoff(residual: Array, interval: float, step: float) -> float | None:
     return float(cutoffs[best]) if found[best] > bands.likelihoods().max() + SURE else None
 
 
-def find_knee(transformed: Transformed, precision: Array, level: float) -> float:
+def find_knee(rows: Array, frequency: Array, precision: Array, level: float) -> float:
     """
     Find the knee (Hz) of the residual in the first of the rows, or 0 for white noise.
 
     Parameters
     ----------
-    transformed : Transformed
-        As of white noise: residual, and columns that were fitted to it.
+    rows, frequency : ndarray, shape (1 + k, 2 f), (f,)
+        As transformed of white noise: residual, and columns that were fitted to it.
     precision : ndarray, shape (k,)
         1 / variance of what multiplies the columns.
     level : float
         Variance of the noise.
     """
-    rows, columns = transformed.rows, transformed.rows[1:]
+    columns = rows[1:]
     normal = columns @ columns.T / level + np.diag(precision)
     size = np.sqrt(np.diag(normal))
     # A fit takes up noise as well as signal, mostly of low frequencies.
@@ -218,7 +204,7 @@ def find_knee(transformed: Transformed, precision: Array, level: float) -> float
     taken = (solved / size[:, None] * columns).sum(axis=0) / level
     power = (rows[0] ** 2).reshape(-1, 2).sum(axis=1)
     freedom = np.maximum(1 - taken.reshape(-1, 2).sum(axis=1), 1e-3)
-    bands = _Bands.of(transformed.frequency, power, freedom)
+    bands = _Bands.of(frequency, power, freedom)
     found = bands.likelihoods()
     best = int(np.argmax(found))
     # White noise is as likely beforehand as all others together.

@@ -25,7 +25,7 @@ from colonnade.identification.restitution.follower import (
     follow,
     spread_columns,
 )
-from colonnade.identification.restitution.noise import Filter, corner_response
+from colonnade.identification.restitution.noise import Filter, corners
 from colonnade.identification.restitution.peaks import angle_of_energy, lift
 from colonnade.identification.restitution.record import AngleSamples
 
@@ -151,11 +151,20 @@ class Path:
         """Angle as the record shows it, rad; NaN where it is not followed."""
         angle = self.followed.angle
         if self.passed is not None:
-            shown = corner_response(
-                self.passed, self.samples.time, self.followed, *self.sides, self.side, self.restitution
-            )
-            angle = angle + shown
+            angle = angle + self._rounding(self.passed)
         return np.asarray(exp(self.values[GAIN]) * angle + self.values[ZERO] + self.values[DRIFT] * self.samples.along)
+
+    def _rounding(self, passed: Filter) -> Array:
+        """What the low-pass changes at corners, rad; the last impact has the e of the one before."""
+        followed, e, (critical, p) = self.followed, self.restitution, self.sides
+        e = np.append(e, e[-1:] if e.size else 1.0)
+        signs = np.where((self.side + np.arange(e.size)) % 2, 1.0, -1.0)
+        # Where the first arc was seen from its start on, it began with an impact too.
+        ends = np.append(2 * followed.times[0] - followed.ends[0], followed.ends)
+        jumps = signs * followed.speeds * (1 - e)
+        jumps = np.append(-jumps[0] / e[0], jumps)
+        bends = np.append(-signs[0], signs) * float((p**2 * np.sin(critical)).sum())
+        return corners(self.samples.time, ends, jumps, bends, passed.time, passed.of_speed, passed.of_acceleration)
 
     @cached_property
     def residual(self) -> Array:

@@ -14,7 +14,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.errors import StageError
 from colonnade.findings import MEASUREMENT, Finding, serious, warning
 from colonnade.identification.response.base_motion import LEAST_MOTION, table_moves
-from colonnade.identification.restitution.arcs import find_arcs
+from colonnade.identification.restitution.arcs import arcs_between, find_impacts
 from colonnade.stages.parts.transducers import DERIVED
 from colonnade.store.provenance import Inputs
 from colonnade.units.text import format_percent
@@ -285,7 +285,8 @@ def _start(rocking: xr.Dataset, block: Block, zero_offset: float, angle_gain: fl
     if "rocking_angle" not in rocking:
         raise StageError("A free vibration without a measured angle has no release to start a prediction from.")
     time, angle = rocking["elapsed"].to_numpy(), (rocking["rocking_angle"].to_numpy() - zero_offset) / angle_gain
-    arcs = find_arcs(time, angle, block.p, lowest=float(rocking["noise_threshold"]))
+    impacts = find_impacts(time, angle, lowest=float(rocking["noise_threshold"]))
+    arcs = arcs_between(impacts, time, angle, block.p)
     whole = np.flatnonzero(np.isfinite(arcs.peak_angle))
     if whole.size == 0:
         raise StageError(
