@@ -147,22 +147,6 @@ def test_a_transducer_that_shows_rocking_as_slide_is_no_sliding():
     assert record.departures(slide=slide) == {}
 
 
-def test_a_pause_after_an_impact_is_a_bounce():
-    record = Record()
-    pause = 0.08
-    late = record.time > record.impacts[3]
-    for name in ("time", "impacts"):
-        values = getattr(record, name)
-        setattr(record, name, np.where(values > record.impacts[3], values + pause, values))
-    filling = np.arange(1, int(pause / STEP)) * STEP + record.time[~late][-1]
-    record.angle = np.insert(record.angle, (~late).sum(), NOISE * record.random.normal(size=filling.size))
-    record.time = np.insert(record.time, (~late).sum(), filling)
-    departure = record.departures()["bouncing"]
-    assert departure.unit == "s"
-    assert beyond(departure, pause) < 4
-    assert "1 of" in departure.sentence
-
-
 def test_a_base_in_the_air_after_an_impact_is_a_bounce():
     record = Record()
     height = 0.002 * np.exp(-(((record.time - record.impacts[2] - 0.02) / 0.01) ** 2))

@@ -8,14 +8,13 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arcs import noise_level
 from colonnade.identification.restitution.estimator import Estimated
-from colonnade.identification.restitution.peaks import lift
 from colonnade.identification.restitution.record import Seen
 from colonnade.identification.restitution.result import Departure
 from colonnade.identification.restitution.scatter import SCATTERS
 from colonnade.units.text import format_percent
 
 NOISE_MARGIN = 5.0
-"""Standard errors from which on a rotation, a slide, an uplift or a pause is one."""
+"""Standard errors from which on a rotation, a slide or an uplift is one."""
 
 LARGEST_SHARE = 0.1
 """Of |θ|, up to which a rotation out of the plane is let pass."""
@@ -31,12 +30,6 @@ LEAST_LOSS = 0.15
 
 BETTER = 6.0
 """... and a step explains it better by this, in χ², than a change with the speed of impact."""
-
-LOW = 0.15
-"""Share of an arc's peak below which a block is near upright."""
-
-LONGEST_PAUSE = 0.15
-"""Share of the arc that follows, up to which a block may stay near upright longer than it needs to pass."""
 
 LEAST_LIFT = 0.02
 """Share of the half-width by which the base is lifted off both edges in a bounce."""
@@ -161,15 +154,8 @@ def find_sliding(time: Array, angle: Array, slide: Array, block: Block, seen: Se
     )  # fmt: skip
 
 
-def find_bouncing(time: Array, angle: Array, uplift: Array | None, block: Block, seen: Seen) -> Departure | None:
-    """Look for impacts with more than one contact: by the height of the base (m) if measured, else by pauses of θ."""
-    if uplift is not None and np.isfinite(uplift).any():
-        return _lifted(time, uplift, block, seen)
-    finite = np.isfinite(angle)
-    return _paused(time[finite], angle[finite], seen)
-
-
-def _lifted(time: Array, uplift: Array, block: Block, seen: Seen) -> Departure | None:
+def find_bouncing(time: Array, uplift: Array, block: Block, seen: Seen) -> Departure | None:
+    """Look for impacts after which the base (height in m) is in the air."""
     noise = noise_level(uplift[np.isfinite(uplift)])
     threshold = max(LEAST_LIFT * block.governing.half_width, NOISE_MARGIN * noise)
     lifts = np.array([np.nanmax(uplift[piece], initial=0.0) for piece in seen.pieces(time, 0.0, 0.4)])
@@ -181,38 +167,6 @@ def _lifted(time: Array, uplift: Array, block: Block, seen: Seen) -> Departure |
         f"The base leaves the table after {count} of {seen.number.size} impacts, by up to {1e3 * size:.3g} ± "
         f"{1e3 * noise:.1g} mm: the block bounces, and e includes that loss.",
     )  # fmt: skip
-
-
-def _paused(time: Array, angle: Array, seen: Seen) -> Departure | None:
-    noise, step = noise_level(angle), float(np.median(np.diff(time)))
-    pauses, errors, limits = [], [], []
-    middle, duration = (seen.start + seen.end) / 2, seen.end - seen.start
-    for index in (np.flatnonzero(np.diff(seen.number) == 1) + 1).tolist():
-        low = LOW * float(seen.peak[index])
-        inside = slice(*np.searchsorted(time, (middle[index - 1], middle[index])))
-        if low < NOISE_MARGIN * noise or inside.stop - inside.start < 8:
-            continue
-        near = float((np.abs(angle[inside]) < low).sum()) * step
-        pauses.append(near - sum(_passing(seen, one, low) for one in (index - 1, index)))
-        errors.append(float(np.hypot(step, 2 * noise / seen.speed[index])))
-        limits.append(LONGEST_PAUSE * float(duration[index]))
-    found = np.array(pauses)
-    large = (found > np.array(limits)) & (found > NOISE_MARGIN * np.array(errors))
-    if not large.any():
-        return None
-    longest = int(np.argmax(np.where(large, found, -np.inf)))
-    return Departure(
-        "bouncing", pauses[longest], errors[longest], "s",
-        f"After {int(large.sum())} of {found.size} impacts the angle stays near zero, by up to "
-        f"{1e3 * pauses[longest]:.3g} ± {1e3 * errors[longest]:.1g} ms longer than a single impact takes: there is "
-        "more than one contact; e includes that loss.",
-    )  # fmt: skip
-
-
-def _passing(seen: Seen, index: int, low: float) -> float:
-    """Time from upright to an angle `low` (rad) along an arc, s: ω falls as the block rises."""
-    left = 1 - float(lift(low, seen.critical[index]) / lift(seen.peak[index], seen.critical[index]))
-    return float(2 * low / (seen.speed[index] * (1 + np.sqrt(max(left, 0.0)))))
 
 
 def unequal_sides(found: Estimated) -> Departure | None:

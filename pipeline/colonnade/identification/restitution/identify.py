@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from math import exp, hypot, log
 from typing import Any
 
@@ -32,8 +34,8 @@ from colonnade.identification.restitution.scatter import Solved
 from colonnade.units.text import format_percent
 from colonnade.validation import instance, number, samples
 
-FEWEST_SAMPLES, FEWEST_ARCS, FEWEST_SEEN = 8, 2, 3
-"""Samples of a record; arcs for a value; arcs in which departures are looked for."""
+FEWEST_SAMPLES, FEWEST_SEEN = 8, 3
+"""Samples of a record; arcs in which departures are looked for."""
 
 LARGEST_ERROR = 0.01
 """Standard error of e above which no value is given."""
@@ -52,6 +54,10 @@ FAR = 2.0
 
 KNOWN = Uncertainty(critical_angle=0.005, p=0.005, angle_gain=0.005)
 """How well a laboratory knows its specimen if it does not say."""
+
+
+Attempt = tuple[Estimated | None, str]
+"""What following a record gives, or why it gives nothing."""
 
 
 def identify_restitution(
@@ -129,10 +135,10 @@ def identify_restitution(
     if np.isfinite(angles).sum() < FEWEST_SAMPLES:
         return _refused(f"The record holds fewer than {FEWEST_SAMPLES} values.", level, NO_PEAKS)
     record = Record.seen(thinned(times, angles, block), block, lowest_amplitude, noise)
-    if reason := _no_free_rocking(record):
+    if reason := objection(record):
         return _refused(reason + _in_other_units(times, angles, block), level, record.peaks)
-    known = prior_widths(uncertainty)
-    found, why = _followed(record, known, lowpass)
+    follow = partial(_followed, widths=prior_widths(uncertainty), lowpass=lowpass)
+    found, why = follow(record)
     try:
         base = moving_base(times, measured["base_acceleration"], block) if "base_acceleration" in measured else None
     except ValueError as error:
@@ -140,8 +146,7 @@ def identify_restitution(
     driven, turned = False, list[Departure]()
     if base is not None:
         (recorded, why_not), (otherwise, _) = (
-            _followed(replace(record, samples=thinned(times, angles, block, sign * base)), known, lowpass)
-            for sign in (1.0, -1.0)
+            follow(replace(record, samples=thinned(times, angles, block, sign * base))) for sign in (1.0, -1.0)
         )
         turned = departures.find_turned(otherwise, recorded, found)
         # An accelerometer may have more noise than a table at rest may move.
@@ -150,66 +155,50 @@ def identify_restitution(
         found, why = (recorded, why_not) if driven else (found, why)
     seen = turned
     if not driven:
-        record, found, why, seen = _departed(record, found, why, known, lowpass, times, measured)
+        record, found, why, seen = _departed(record, found, why, follow, times, measured)
     if found is not None and not turned and (by_impact := departures.found_by_impact(found, driven=driven)) is not None:
         seen.append(by_impact)
     moves = driven if "base_acceleration" in measured else None
     return replace(_result(record, found, why, uncertainty, level, seen, driven=driven), table_moves=moves)
 
 
-def _followed(
-    record: Record, known: Array, lowpass: float | None, *, left_out: int = 0
-) -> tuple[Estimated | None, str]:
+def _followed(record: Record, left_out: int = 0, *, widths: Array, lowpass: float | None) -> Attempt:
     """Follow a record from the first arc that enters; what is found, or why nothing is."""
     try:
-        path = first_path(record.samples, record.block, known, *record.run(left_out))
+        path = first_path(record.samples, record.block, widths, *record.run(left_out))
         return estimate(path, lowpass, record.least, whole=left_out == 0), ""
     except UnfollowedError as error:
         return None, f"No simulated history follows the record: {error}."
 
 
 def _departed(
-    record: Record,
-    found: Estimated | None,
-    why: str,
-    known: Array,
-    lowpass: float | None,
-    times: Array,
+    record: Record, found: Estimated | None, why: str, follow: Callable[[Record, int], Attempt], times: Array,
     measured: dict[str, Array],
-) -> tuple[Record, Estimated | None, str, list[Departure]]:
+) -> tuple[Record, Estimated | None, str, list[Departure]]:  # fmt: skip
     """Find departures from plane rocking on a table at rest, and leave out the arcs that they spoil."""
-    block, fit = record.block, None
-    if found is None:
-        fit = peaks.fit_peaks(record.peaks, block, record.noise, (0.0, 0.0))
-    zero = found.zero if found is not None else 0.0 if fit is None else fit.offset
+    if found is not None:
+        zero = found.zero
+    else:
+        fit = peaks.fit_peaks(record.peaks, record.block, record.noise, (0.0, 0.0))
+        zero = 0.0 if fit is None else fit.offset
     record = record.about(zero)
     seen = Seen.of(record)
     if seen.number.size < FEWEST_SEEN:
         return record, found, why, []
-    spatial, sliding, angle = None, None, measured["angle"] - zero
+    spatial = sliding = bouncing = None
     if "out_of_plane" in measured:
         spatial = departures.find_rotation(times, measured["out_of_plane"], seen)
     elif found is not None:
         spatial = departures.find_first_loss(found, seen)
     if "slide" in measured:
-        sliding = departures.find_sliding(times, angle, measured["slide"], block, seen)
-    bouncing = departures.find_bouncing(times, angle, measured.get("uplift"), block, seen)
+        sliding = departures.find_sliding(times, measured["angle"] - zero, measured["slide"], record.block, seen)
+    if "uplift" in measured:
+        bouncing = departures.find_bouncing(times, measured["uplift"], record.block, seen)
     if spatial is not None:
         record = replace(record, usable=record.usable & (np.arange(record.usable.size) >= spatial.left_out))
-        found, why = _followed(record, known, lowpass, left_out=spatial.left_out)
+        found, why = follow(record, spatial.left_out)
     sides = None if found is None else departures.unequal_sides(found)
     return record, found, why, [each for each in (spatial, sliding, bouncing, sides) if each is not None]
-
-
-def _no_free_rocking(record: Record) -> str:
-    """Why the record is not a free rocking of the block from which e could be found; empty if it is."""
-    count = int(record.usable.sum())
-    if count >= FEWEST_ARCS:
-        return objection(record)
-    return (
-        f"At least {FEWEST_ARCS} peaks between two impacts, above "
-        f"{record.lowest / record.block.critical_angle:.2g} of the critical angle, are needed; the record has {count}."
-    )
 
 
 def _in_other_units(times: Array, angles: Array, block: Block) -> str:

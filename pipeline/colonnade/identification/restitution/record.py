@@ -17,6 +17,9 @@ from colonnade.identification.restitution.peaks import lift
 from colonnade.identification.restitution.result import Peaks
 from colonnade.units.text import format_percent
 
+FEWEST_ARCS = 2
+"""For a value."""
+
 STEP = 0.02
 """Longest step of the samples fitted, in p t: the lowest arc of interest, of 0.02 α, has twenty."""
 
@@ -290,7 +293,7 @@ def half_duration(peak: Array, critical: Array) -> Array:
 
 def objection(record: Record) -> str:
     """
-    Say why the arcs are not those of free rocking of this block; empty if they are.
+    Say why the record is no free rocking of this block from which e could be found; empty if it is.
 
     Notes
     -----
@@ -298,6 +301,12 @@ def objection(record: Record) -> str:
     its change with the peak and what the middle of an arc says of its ends are held against the equation of motion.
     """
     arcs, usable, seen = record.arcs, record.usable, Seen.of(record)
+    if seen.number.size < FEWEST_ARCS:
+        return (
+            f"At least {FEWEST_ARCS} peaks between two impacts, above "
+            f"{record.lowest / record.block.critical_angle:.2g} of the critical angle, are needed; the record has "
+            f"{seen.number.size}."
+        )
     peak, critical, p = seen.peak, seen.critical, record.block.p_at(seen.side)
     expected, duration = 2 * half_duration(peak, critical) / p, seen.end - seen.start
     excess = float(np.median(duration / expected)) - 1
