@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, Pose, lowest_rise, pole_position
-from colonnade.identification.fusion.sensors import UNKNOWNS, Separation, Transducer, is_separated, predict, separate
+from colonnade.identification.fusion.sensors import UNKNOWNS, Transducer, is_separated, predict, separate
 from colonnade.validation import instance, samples
 
 ITERATIONS = 12
@@ -193,9 +193,8 @@ def fit_pose(
         lost = ~np.isfinite(base).all(axis=0) & np.array([[each.on_ground] for each in transducers])
         values, base = np.where(lost, np.nan, values), np.nan_to_num(base)
     sigma = np.ones(len(transducers)) if noise is None else np.maximum(np.asarray(noise, dtype=np.float64), 1e-12)
-    separation = separate(transducers, sigma, block, outline)
-    chosen = [UNKNOWNS.index(name) for name in separation.unknowns]
-    weights = _weights(values, sigma, separation)
+    chosen, designs, separation = separate(transducers, sigma, block, outline)
+    weights = _weights(values, sigma, designs)
     pieces = []
     for start in range(0, values.shape[1], CHUNK):
         part = slice(start, start + CHUNK)
@@ -206,20 +205,21 @@ def fit_pose(
 
     errors = np.sqrt(variance) * _widening(residual, weights, len(chosen), given=noise is not None)
     pose = _pose(whole)
-    fitted = dict(zip(separation.unknowns, whole[chosen], strict=True))
+    names = [UNKNOWNS[index] for index in chosen]
+    fitted = dict(zip(names, whole[chosen], strict=True))
     if "uplift" in fitted:
         fitted["uplift"] = lowest_rise(pose, side, block, outline)
-    return SpecimenMotion(fitted, dict(zip(separation.unknowns, errors, strict=True)), residual, pose, separation.text)
+    return SpecimenMotion(fitted, dict(zip(names, errors, strict=True)), residual, pose, separation)
 
 
-def _weights(values: Array, sigma: Array, separation: Separation) -> Array:
+def _weights(values: Array, sigma: Array, designs: Array) -> Array:
     """Inverse variances, zero of a missing reading and of all in a sample that does not separate the unknowns."""
     present = np.isfinite(values)
     weights = np.where(present, 1.0 / sigma[:, None] ** 2, 0.0)
     patterns, which = np.unique(present, axis=1, return_inverse=True)
     for index, pattern in enumerate(patterns.T):
         known = np.where(pattern, sigma, np.inf)
-        if not pattern.all() and not (pattern.any() and is_separated(separation.designs, known)):
+        if not pattern.all() and not (pattern.any() and is_separated(designs, known)):
             weights[:, np.ravel(which) == index] = 0.0
     return weights
 

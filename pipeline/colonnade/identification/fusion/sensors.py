@@ -305,27 +305,9 @@ class UnseenRotationError(ValueError):
     """The transducers on a specimen do not see its rotation; the message says what would."""
 
 
-@dataclass(frozen=True)
-class Separation:
-    """
-    What is fitted.
-
-    Attributes
-    ----------
-    unknowns : tuple of str
-        Of `UNKNOWNS`, in that order; the rocking angle always.
-    designs : ndarray, shape (2, m, k)
-        Derivatives of the readings by the unknowns at rest, about the pole of θ < 0 and of θ > 0.
-    text : str
-        What is separated and what is not, for the report.
-    """
-
-    unknowns: tuple[str, ...]
-    designs: Array
-    text: str
-
-
-def separate(transducers: list[Transducer], sigma: Array, block: Block, outline: Outline) -> Separation:
+def separate(
+    transducers: list[Transducer], sigma: Array, block: Block, outline: Outline
+) -> tuple[list[int], Array, str]:
     """
     Decide which unknowns of a pose are fitted.
 
@@ -339,7 +321,12 @@ def separate(transducers: list[Transducer], sigma: Array, block: Block, outline:
 
     Returns
     -------
-    separation : Separation
+    fitted : list of int
+        Of `UNKNOWNS`, in that order; the rocking angle always.
+    designs : ndarray, shape (2, m, k)
+        Derivatives of the readings by these at rest, about the pole of θ < 0 and of θ > 0.
+    text : str
+        What is separated and what is not, for the report.
 
     Raises
     ------
@@ -363,8 +350,7 @@ def separate(transducers: list[Transducer], sigma: Array, block: Block, outline:
         is_fitted = enough and is_separated(designs[:, :, [*fitted, index]], sigma)
         (fitted if is_fitted else mixed).append(index)
     unseen = [index for index in range(1, len(UNKNOWNS)) if not seen_by[index]]
-    names = tuple(UNKNOWNS[index] for index in fitted)
-    return Separation(names, designs[:, :, fitted], _text(names, mixed, unseen, transducers))
+    return fitted, designs[:, :, fitted], _text(fitted, mixed, unseen, transducers)
 
 
 def design_at_rest(transducers: list[Transducer], block: Block, outline: Outline) -> Array:
@@ -401,11 +387,11 @@ def _refuse_unseen(rotation: Array) -> None:
         )
 
 
-def _text(names: tuple[str, ...], mixed: list[int], unseen: list[int], transducers: list[Transducer]) -> str:
-    fitted = f"{_WORDS[names[0]]} only" if len(names) == 1 else joined([_WORDS[name] for name in names])
+def _text(fitted: list[int], mixed: list[int], unseen: list[int], transducers: list[Transducer]) -> str:
+    names, others, missed = ([_WORDS[UNKNOWNS[index]] for index in each] for each in (fitted, mixed, unseen))
     kind = "transducer" if any(each.sensing == "angle" for each in transducers) else "displacement transducer"
-    text = f"{fitted}, from {f'one {kind}' if len(transducers) == 1 else f'{len(transducers)} {kind}s'}"
-    others, missed = ([_WORDS[UNKNOWNS[index]] for index in each] for each in (mixed, unseen))
+    text = f"{f'{names[0]} only' if len(names) == 1 else joined(names)}, from "
+    text += f"one {kind}" if len(transducers) == 1 else f"{len(transducers)} {kind}s"
     if others:
         it, verb = "it" if len(names) == 1 else "these", "is" if len(others) == 1 else "are"
         text += f"; {joined(others)} cannot be separated from {it} and {verb} taken as zero"

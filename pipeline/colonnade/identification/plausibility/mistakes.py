@@ -59,12 +59,6 @@ FASTEST = 4.0
 """Times p α: no block that stands turns as fast."""
 
 
-def mistakes(rotation: Rotation) -> list[Finding]:
-    """Name what has to be mended before a scale means anything."""
-    mistake = undone(rotation)
-    return [mistake] if mistake else stuck(rotation)
-
-
 def undone(rotation: Rotation) -> Finding | None:
     """Name the one mistake without which transducers agree on one rotation, and far better."""
     if len(rotation.gauges) == 1:

@@ -11,7 +11,7 @@ import numpy as np
 
 from colonnade.dynamics.block import Block
 from colonnade.findings import Finding, serious, warning
-from colonnade.identification.plausibility.mistakes import mistakes
+from colonnade.identification.plausibility.mistakes import stuck, undone
 from colonnade.identification.plausibility.rotation import Gauge, Rotation
 from colonnade.identification.plausibility.scale import DEAD, STANDING, SURE, UNKNOWN, Scale, as_expected, cause, dead
 from colonnade.signals.samples import filled_in
@@ -62,7 +62,8 @@ class Judged(NamedTuple):
 
 def judge(rotation: Rotation) -> Judged:
     """Hold each transducer against the equation of motion."""
-    return Judged(rotation, mistakes(rotation))
+    mistake = undone(rotation)
+    return Judged(rotation, [mistake] if mistake else stuck(rotation))
 
 
 def suspicions(judged: Judged) -> list[Finding]:
