@@ -109,12 +109,12 @@ def test_a_night_of_runs_is_the_default_of_several_bodies_and_check_says_so(edit
     campaign = edited(("members = 0\n", ""))
     quake = campaign.tests["quake"]
     assert campaign.members(quake, "contact") == 40
-    said = [found.text for found in check(campaign).campaign.warnings if found.kind == "runs on contact"]
+    said = [found.text for found in check(campaign).of_campaign if found.kind == "runs on contact"]
     assert len(said) == 1
     assert "moves the bodies of 1 test 40 times, over what is not known." in said[0]
     campaign = edited()
     assert campaign.members(quake, "contact") == 0
-    assert "runs on contact" not in [found.kind for found in check(campaign).campaign.warnings]
+    assert "runs on contact" not in [found.kind for found in check(campaign).of_campaign]
 
 
 def test_one_body_is_not_repeated_on_contact_unless_asked(edited):

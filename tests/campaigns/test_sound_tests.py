@@ -16,11 +16,11 @@ def _doubted(folder, seeds):
     said = {}
     for seed in seeds:
         checked = check(load(write_sound(folder / str(seed), seed)))
-        for test, findings in checked.findings.items():
-            above = [finding.text for finding, _ in findings if finding.severity is not Severity.NOTE]
-            above += checked.tests[test].problems if test in checked.tests else []
-            if above:
-                said[seed, test] = above
+        found = [(test, finding) for test, findings in checked.findings.items() for finding, _ in findings]
+        above = [(test, finding.text) for test, finding in found if finding.severity is not Severity.NOTE]
+        above += [(stage.subject, stage.reason) for stage in checked.stages if stage.action == "failed"]
+        for test, text in above:
+            said.setdefault((seed, test), []).append(text)
     return said
 
 

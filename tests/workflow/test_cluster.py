@@ -130,8 +130,8 @@ def test_what_is_no_address_is_told(address):
 
 def test_all_workers_of_the_cluster_work_and_none_of_this_machine(cluster):
     results = list(spread(whose, range(12), scheduler=cluster))
-    assert sorted(square for square, _ in results) == [number**2 for number in range(12)]
-    processes = {process for _, process in results}
+    assert sorted(square for _, (square, _) in results) == [number**2 for number in range(12)]
+    processes = {process for _, (_, process) in results}
     assert len(processes) == 2
     assert os.getpid() not in processes
 
@@ -207,9 +207,9 @@ def test_a_worker_of_the_cluster_that_is_stopped_is_named_and_its_work_is_done_b
     told = []
     with working(another_scheduler, "1", "1") as (worker, _):
         results = spread(whose, range(30), scheduler=another_scheduler, tell=told.append)
-        squares = [next(results)[0]]
+        first = next(results)
         worker.kill()
-        squares += [square for square, _ in results]
+        squares = [square for _, (square, _) in (first, *results)]
     assert sorted(squares) == [number**2 for number in range(30)]
     (sentence,) = told
     assert f"this worker (process {worker.pid} on " in sentence

@@ -42,7 +42,7 @@ def test_the_caller_may_use_joblib_afterwards_and_we_after_it():
         "from joblib import Parallel, delayed\n"
         "from colonnade.workflow.executors import spread\n"
         "for _ in range(2):\n"
-        "    found = sorted(spread(abs, [-1, -2, -3], workers=2))\n"
+        "    found = [value for _, value in sorted(spread(abs, [-1, -2, -3], workers=2))]\n"
         "    print(found, Parallel(2)(delayed(abs)(value) for value in (-4, -5)))\n"
     )
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
@@ -53,13 +53,14 @@ def test_the_caller_may_use_joblib_afterwards_and_we_after_it():
     ("items", "workers"), [([3, 1, 2], 1), ([3], 4), ([], 4)], ids=["one worker", "one item", "nothing"]
 )
 def test_one_worker_or_one_item_is_done_here_and_in_order(items, workers):
-    assert list(spread(whose, items, workers=workers)) == [(item**2, os.getpid()) for item in items]
+    expected = [(place, (item**2, os.getpid())) for place, item in enumerate(items)]
+    assert list(spread(whose, items, workers=workers)) == expected
 
 
 def test_two_workers_do_each_item_once_and_not_here():
     found = list(spread(whose, range(9), workers=2))
-    assert sorted(square for square, _ in found) == [number**2 for number in range(9)]
-    assert os.getpid() not in {process for _, process in found}
+    assert sorted((place, square) for place, (square, _) in found) == [(number, number**2) for number in range(9)]
+    assert os.getpid() not in {process for _, (_, process) in found}
 
 
 @pytest.mark.parametrize("workers", [1, 2])
@@ -74,7 +75,7 @@ def test_what_a_stopped_worker_did_is_done_again(tmp_path):
     (tmp_path / "second").touch()
     told = []
     found = spread(die_once, [str(tmp_path / name) for name in ("first", "second")], workers=2, tell=told.append)
-    assert sorted(found) == ["first", "second"]
+    assert sorted(found) == [(0, "first"), (1, "second")]
     assert len(told) == 1
     assert "tried again alone" in told[0]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
@@ -12,10 +12,13 @@ from colonnade.cli.common.console import say_marked, show_json, work_progress
 from colonnade.cli.common.findings import STYLES, alike, probable_cause, records_of, show_by_kind
 from colonnade.cli.common.options import campaign_argument, file_option, json_option, strict_option
 from colonnade.errors import count
-from colonnade.findings import Severity, in_order
+from colonnade.findings import Severity
 
 if TYPE_CHECKING:
-    from colonnade.workflow.check import CampaignCheck
+    from colonnade.campaign import Campaign
+    from colonnade.workflow import RunResult, StageRun
+
+WRONG = "would give wrong results"
 
 
 @click.command(epilog="Example: colonnade check demo")
@@ -48,49 +51,56 @@ def check(campaign: Path, drawing: Path | None, strict: bool, as_json: bool) -> 
     with work_progress("Reading raw files") as progress:
         checked = check_campaign(loaded, progress)
     if as_json:
-        show_json(_record(checked) | ({} if drawing is None else {"drawing": drawing}))
+        show_json(_record(loaded, checked) | ({} if drawing is None else {"drawing": drawing}))
     else:
         _show(checked, drawing)
-    return int(checked.fails or (strict and checked.has_warnings))
+    return int(checked.failed or (strict and checked.has_warnings))
 
 
-def _record(checked: CampaignCheck) -> dict[str, object]:
-    found: dict[str, object] = {
-        "campaign": checked.campaign.path,
-        "warnings": records_of(in_order(checked.campaign.warnings)),
-    }
-    for kind, subjects in (("tests", checked.tests), ("assessments", checked.assessments)):
-        found[kind] = {
-            name: {"problems": each.problems, "warnings": records_of(in_order(each.findings, each.concerning))}
-            for name, each in subjects.items()
-        }
+def _record(campaign: Campaign, checked: RunResult) -> dict[str, Any]:
+    findings = checked.findings
+    found: dict[str, Any] = {"campaign": campaign.path, "warnings": records_of(findings.get("campaign file", ()))}
+    found |= {"tests": {}, "assessments": {}}
+    for stage in checked.stages:
+        nothing = {"problems": [], "warnings": records_of(findings.get(stage.heading, ()))}
+        own = found[f"{stage.of}s"].setdefault(stage.subject, nothing)
+        own["problems"] += [stage.reason] if stage.action == "failed" else []
     return found
 
 
-def _show(checked: CampaignCheck, drawing: Path | None) -> None:
+def _show(checked: RunResult, drawing: Path | None) -> None:
     findings = checked.findings
     say_marked(*_verdict(checked), f" Nothing was written{'.' if drawing is None else f' but {drawing}.'}")
-    failing = [*checked.tests.items(), *((f"assessment {name}", each) for name, each in checked.assessments.items())]
     problems = [
-        (name, probable_cause(findings[name], where="below") + problem.replace("\n", "\n  "))
-        for name, each in failing
-        for problem in each.problems
+        (
+            stage.heading,
+            probable_cause(findings.get(stage.heading, ()), where="below") + stage.reason.replace("\n", "\n  "),
+        )
+        for stage in checked.stages
+        if stage.action == "failed"
     ]
     for name, said in alike(problems):
         say_marked("would fail", STYLES[Severity.SERIOUS], f": {name}: {said}")
     show_by_kind(findings)
 
 
-def _verdict(checked: CampaignCheck) -> tuple[str, str]:
+def _verdict(checked: RunResult) -> tuple[str, str]:
     """Say in a line how many tests are good, and give its colour."""
-    tests = count(len(checked.tests), "test")
-    statuses = Counter(each.status for each in checked.tests.values())
-    words = {"would fail": "would fail", "doubtful": "would give wrong results", "good": "good"}
-    parts = [f"{statuses[each]} {said}" for each, said in words.items() if statuses[each]]
-    if unanswered := sum(bool(each.problems) for each in checked.assessments.values()):
+    failing = dict.fromkeys((stage.of, stage.subject) for stage in checked.stages if stage.action == "failed")
+    whole = [stage for stage in checked.stages if stage.action == "done" and stage.of == "test"]
+    statuses = Counter("would fail" if (each.of, each.subject) in failing else _good(checked, each) for each in whole)
+    tests = count(len(whole), "test")
+    parts = [f"{statuses[each]} {each}" for each in ("would fail", WRONG, "good") if statuses[each]]
+    if unanswered := sum(of == "assessment" for of, _ in failing):
         parts.append(f"{count(unanswered, 'assessment')} would fail")
-    if checked.fails or statuses["doubtful"]:
+    if failing or statuses[WRONG]:
         return f"{tests}: {', '.join(parts)}.", STYLES[Severity.SERIOUS]
     if checked.has_warnings:
         return f"No test would fail, but see the findings: {', '.join(parts)}.", STYLES[Severity.WARNING]
     return f"All good: {tests}.", "bold green"
+
+
+def _good(checked: RunResult, stage: StageRun) -> str:
+    """Say whether the results of a test would be wrong, by what was found of it and of its specimen and set-up."""
+    found = (*stage.findings, *checked.concerning[stage.subject])
+    return WRONG if any(each.severity is Severity.SERIOUS for each in found) else "good"

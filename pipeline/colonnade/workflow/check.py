@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from itertools import groupby
 from pathlib import Path
@@ -12,87 +11,22 @@ from colonnade.campaign import Campaign, Test
 from colonnade.campaign.assessment import Assessment
 from colonnade.dynamics.models import CONTACT
 from colonnade.errors import ReadError, StageError, count
-from colonnade.findings import Finding, Severity, at_stage, in_order, note, warning
+from colonnade.findings import Finding, at_stage, note, warning
 from colonnade.readers.recording import Recording
+from colonnade.store.layout import Layout
 from colonnade.store.results import models_of
-from colonnade.workflow.chain import WORKER_LOST
+from colonnade.workflow.chain import WORKER_LOST, RunResult, StageRun
 from colonnade.workflow.executors import Counted, spread
 from colonnade.workflow.photos import unshown_photos
 from colonnade.workflow.pooling import with_contradictions
-from colonnade.workflow.raw_files import digests_of_equal_sizes, with_copies
-
-
-@dataclass
-class Checked:
-    """
-    The problems and findings of one test.
-
-    Attributes
-    ----------
-    problems : list of str
-        Why it would fail.
-    findings : list of Finding
-        What a run would warn of, without identification and prediction.
-    concerning : tuple of Finding
-        Findings on its specimen and set-up in the campaign file.
-    """
-
-    problems: list[str] = field(default_factory=list)
-    findings: list[Finding] = field(default_factory=list)
-    concerning: tuple[Finding, ...] = ()
-
-    @property
-    def status(self) -> str:
-        """In a word: would fail, doubtful (results would be wrong) or good."""
-        if self.problems:
-            return "would fail"
-        is_doubtful = any(found.severity is Severity.SERIOUS for found in (*self.findings, *self.concerning))
-        return "doubtful" if is_doubtful else "good"
-
-
-@dataclass(frozen=True)
-class CampaignCheck:
-    """
-    The problems and findings of a campaign.
-
-    Attributes
-    ----------
-    campaign : Campaign
-        With a warning of raw files that are copies, and of free vibrations that contradict what shaken tests use.
-    tests : dict of str to Checked
-    assessments : dict of str to Checked
-    """
-
-    campaign: Campaign
-    tests: dict[str, Checked]
-    assessments: dict[str, Checked] = field(default_factory=dict)
-
-    @property
-    def fails(self) -> bool:
-        """Whether a test or an assessment would fail."""
-        return any(each.problems for each in (*self.tests.values(), *self.assessments.values()))
-
-    @property
-    def has_warnings(self) -> bool:
-        """Whether any finding is more serious than a note."""
-        findings = [*self.campaign.warnings, *(found for _, each in self._subjects() for found in each.findings)]
-        return any(found.severity is not Severity.NOTE for found in findings)
-
-    @property
-    def findings(self) -> dict[str, list[tuple[Finding, bool]]]:
-        """What was found, by test, assessment or "campaign file", each put in order by `in_order`."""
-        ordered = {"campaign file": in_order(self.campaign.warnings)}
-        return ordered | {name: in_order(each.findings, each.concerning) for name, each in self._subjects()}
-
-    def _subjects(self) -> list[tuple[str, Checked]]:
-        return [*self.tests.items(), *((f"assessment {name}", each) for name, each in self.assessments.items())]
-
+from colonnade.workflow.product import Catalogue
+from colonnade.workflow.raw_files import raw_files, with_copies
 
 MANY = 16
 """Files from which starting other processes is sooner done than reading them one after the other."""
 
 
-def check(campaign: Campaign, progress: Counted = lambda done, total: None) -> CampaignCheck:
+def check(campaign: Campaign, progress: Counted = lambda done, total: None) -> RunResult:
     """
     Read every raw file of a campaign, and run each test as far as the start of its prediction.
 
@@ -104,30 +38,40 @@ def check(campaign: Campaign, progress: Counted = lambda done, total: None) -> C
 
     Returns
     -------
-    checked : CampaignCheck
+    checked : RunResult
+        As of a run up to there: each problem is a stage that failed. Nothing is written.
     """
-    campaign = with_copies(campaign, digests_of_equal_sizes(campaign))
+    layout = Layout.of(campaign.path, None)
+    catalogue = Catalogue(layout)
+    campaign = with_copies(
+        campaign, {test.id: raw_files(campaign, test, catalogue) for test in campaign.tests.values()}
+    )
     campaign = campaign.but(warnings=(*campaign.warnings, *unshown_photos(campaign), *_overnight(campaign)))
-    found: dict[str, Checked] = {}
+    found: dict[str, list[StageRun]] = {}
     for name in campaign.tests:
         if excluded := campaign.review(name).excluded:
-            found[name] = Checked(findings=[note("excluded", f"{excluded} (review.toml).")])
+            found[name] = _found(name, [], [note("excluded", f"{excluded} (review.toml).")])
         elif awaited := campaign.left_out(name):
-            found[name] = Checked(findings=[note("planned", f"{awaited}. This planned test has not been run yet.")])
+            found[name] = _found(name, [], [note("planned", f"{awaited}. This planned test has not been run yet.")])
     waiting = [test for name, test in campaign.tests.items() if name not in found]
     # Tests that share a file follow each other in most campaigns: it is read once.
     together = [list(tests) for _, tests in groupby(waiting, lambda test: test.files)]
     parts = [campaign.but(tests={test.id: test for test in tests}) for tests in together]
     progress(len(found), len(campaign.tests))
-    for read in spread(_read_and_checked, parts, workers=None if len(parts) >= MANY else 1, lost=_lost):
+    for _, read in spread(_read_and_checked, parts, workers=None if len(parts) >= MANY else 1, lost=_lost):
         found |= read
         progress(len(found), len(campaign.tests))
-    found = {name: found[name] for name in campaign.tests}
-    campaign = with_contradictions(campaign, {name: each.findings for name, each in found.items()})
-    for name, each in found.items():
-        each.concerning = campaign.concerning(name)
-    assessments = {name: _records_checked(campaign, asked) for name, asked in campaign.assessments.items()}
-    return CampaignCheck(campaign, found, assessments)
+    stages = [stage for name in campaign.tests for stage in found[name]]
+    campaign = with_contradictions(campaign, {name: found[name][-1].findings for name in campaign.tests})
+    concerning = {name: campaign.concerning(name) for name in campaign.tests}
+    stages += [stage for each in campaign.assessments.items() for stage in _records_checked(campaign, *each)]
+    return RunResult(tuple(stages), layout.summary_json, None, campaign.warnings, concerning)
+
+
+def _found(subject: str, problems: Sequence[str], findings: Iterable[Finding], stage: str = "ingest") -> list[StageRun]:
+    """Say why something would fail, and give all that was found last."""
+    failed = [StageRun(subject, stage, "failed", reason=problem) for problem in problems]
+    return [*failed, StageRun(subject, stage, "done", findings=tuple(findings))]
 
 
 def _overnight(campaign: Campaign) -> list[Finding]:
@@ -149,7 +93,7 @@ def _on_contact(what: str, runs: int, remedy: str = "Fewer `levels` and `draws` 
     return note("runs on contact", said)
 
 
-def _read_and_checked(part: Campaign) -> dict[str, Checked]:
+def _read_and_checked(part: Campaign) -> dict[str, list[StageRun]]:
     """Check tests that share their files."""
     from colonnade.readers.registry import read
 
@@ -161,59 +105,58 @@ def _read_and_checked(part: Campaign) -> dict[str, Checked]:
     return {name: _checked(part, test, reading) for name, test in part.tests.items()}
 
 
-def _lost(part: Campaign) -> dict[str, Checked]:
-    return {name: Checked(problems=[WORKER_LOST]) for name in part.tests}
+def _lost(part: Campaign) -> dict[str, list[StageRun]]:
+    return {name: _found(name, [WORKER_LOST], []) for name in part.tests}
 
 
-def _checked(campaign: Campaign, test: Test, reading: Callable[[Path, str, str], Recording]) -> Checked:
-    checked = Checked()
-    recordings: dict[str, Recording] = {}
+def _checked(campaign: Campaign, test: Test, reading: Callable[[Path, str, str], Recording]) -> list[StageRun]:
+    problems, findings, recordings = list[str](), list[Finding](), dict[str, Recording]()
     for recorder, path in test.files.items():
         try:
             recordings[recorder] = reading(path, test.setup, recorder)
         except ReadError as error:
-            checked.problems.append(str(error))
-    checked.problems += _missing_columns(campaign, test, recordings)
-    if not checked.problems:
+            problems.append(str(error))
+    problems += _missing_columns(campaign, test, recordings)
+    if not problems:
         try:
-            _measure(campaign, test, recordings, checked.findings)
+            _measure(campaign, test, recordings, findings)
         except (ReadError, StageError) as error:
-            checked.problems.append(str(error))
-    return checked
+            problems.append(str(error))
+    return _found(test.id, problems, findings)
 
 
-def _records_checked(campaign: Campaign, asked: Assessment) -> Checked:
+def _records_checked(campaign: Campaign, name: str, asked: Assessment) -> list[StageRun]:
     """Read the ground motions and the hazard of an assessment; no history is run."""
     from colonnade.assessment.outcomes import FEWEST
     from colonnade.readers.ground_motions.hazard import read_hazard
     from colonnade.readers.ground_motions.record_set import read_record_set
 
-    checked = Checked()
+    problems, findings = list[str](), list[Finding]()
     try:
         records = read_record_set(asked.records)
     except ReadError as error:
-        checked.problems.append(str(error))
+        problems.append(str(error))
     else:
         if len(records.records) < FEWEST:
-            checked.problems.append(
+            problems.append(
                 f"{count(len(records.records), 'ground motion')} can be used; at least {FEWEST} were expected."
             )
         said = (
             f"{each.name} is left out: {each.reason.removeprefix(f'{each.name}: ').splitlines()[0]}"
             for each in records.left_out
         )
-        checked.findings += at_stage((warning("ground motion", each) for each in said), "assessment")
-        checked.findings += at_stage((note("ground motion", each) for each in records.notes), "assessment")
+        findings += [warning("ground motion", each) for each in said]
+        findings += [note("ground motion", each) for each in records.notes]
         if not campaign.specimens[asked.specimen].is_in_plane:
             motions = sum(2 - (each.motion.transverse is None) for each in records.records)
             runs = motions * len(asked.levels or ()) * (1 + asked.draws)
-            checked.findings += at_stage([_on_contact(asked.specimen, runs)], "assessment")
+            findings.append(_on_contact(asked.specimen, runs))
     if asked.hazard is not None:
         try:
             read_hazard(asked.hazard, asked.measure)
         except ReadError as error:
-            checked.problems.append(str(error))
-    return checked
+            problems.append(str(error))
+    return _found(name, problems, at_stage(findings, "assessment"), "assessment")
 
 
 def _missing_columns(campaign: Campaign, test: Test, recordings: dict[str, Recording]) -> list[str]:

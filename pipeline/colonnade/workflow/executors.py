@@ -80,7 +80,7 @@ def spread(
     tell: Tell = lambda sentence: None,
     lost: Callable[[Item], Result] | None = None,
     names: Callable[[Item], str] | None = None,
-) -> Iterator[Result]:
+) -> Iterator[tuple[int, Result]]:
     """
     Call a function once for each item.
 
@@ -103,8 +103,10 @@ def spread(
 
     Yields
     ------
+    number : int
+        Place of an item.
     result
-        Of each item, in the order in which they end.
+        Of this item; in the order in which they end.
 
     Raises
     ------
@@ -118,22 +120,22 @@ def spread(
 
         if items:
             with on_cluster(scheduler, tell) as there:
-                yield from (result for _, result in _handed_out(there, work, dict(enumerate(items))))
+                yield from _handed_out(there, work, dict(enumerate(items)))
         return
     import joblib
 
     count = min(workers or joblib.cpu_count(), len(items))
     if count <= 1:
-        for item in items:
+        for number, item in enumerate(items):
             expect_none()
-            yield work(item)
+            yield number, work(item)
         return
     waiting = dict(enumerate(items))
     while waiting:
         try:
             for number, result in _handed_out(_Processes(count), work, waiting):
                 del waiting[number]
-                yield result
+                yield number, result
         except BrokenProcessPool as error:
             suspects = list(waiting)[: AHEAD * count]
             named = "" if names is None else f": {', '.join(names(waiting[number]) for number in suspects)}"
@@ -144,14 +146,14 @@ def spread(
             for number in suspects:
                 item = waiting.pop(number)
                 try:
-                    yield from (result for _, result in _handed_out(_Processes(count), work, {number: item}))
+                    yield from _handed_out(_Processes(count), work, {number: item})
                 except BrokenProcessPool as again:
                     if lost is None:
                         raise WorkersEndedError(
                             f"{stopped(again)} twice, most often because memory ran out. Finished results are kept. "
                             "Run again with fewer workers (`--workers 1` uses the least memory)."
                         ) from again
-                    yield lost(item)
+                    yield number, lost(item)
 
 
 def stopped(error: BaseException) -> str:
@@ -297,14 +299,14 @@ def in_blocks(
         if other != here:
             shutil.rmtree(other, ignore_errors=True)
     found = {number: kept for number in range(len(blocks)) if (kept := _kept(here, number)) is not None}
-    missing = [(number, block) for number, block in enumerate(blocks) if number not in found]
+    missing = [number for number in range(len(blocks)) if number not in found]
     where.progress(len(found), len(blocks))
-    ended = spread(partial(_numbered, work), missing, workers=where.workers, scheduler=where.scheduler)
-    for number, arrays in ended:
+    asked = [blocks[number] for number in missing]
+    for place, arrays in spread(work, asked, workers=where.workers, scheduler=where.scheduler):
         stream = io.BytesIO()
         np.savez(stream, allow_pickle=False, **arrays)
-        files.write_bytes(_path(here, number), stream.getbuffer())
-        found[number] = arrays
+        files.write_bytes(_path(here, missing[place]), stream.getbuffer())
+        found[missing[place]] = dict(arrays)
         where.progress(len(found), len(blocks))
     return [found[number] for number in range(len(blocks))]
 
@@ -312,11 +314,6 @@ def in_blocks(
 def forget(folder: Path) -> None:
     """Remove what `in_blocks` kept."""
     shutil.rmtree(folder, ignore_errors=True)
-
-
-def _numbered(work: Callable[[Item], Mapping[str, NDArray[Any]]], numbered: tuple[int, Item]) -> tuple[int, Arrays]:
-    number, block = numbered
-    return number, dict(work(block))
 
 
 def _path(folder: Path, number: int) -> Path:

@@ -324,7 +324,7 @@ def brought_up_to_date(
         else:
             waiting.append(product)
     processes = workers if len(waiting) >= WORTH_A_PROCESS else 1
-    for number, (contents, text), reason, is_lasting in spread(_make, list(enumerate(waiting)), workers=processes):
+    for number, ((contents, text), reason, is_lasting) in spread(_make, waiting, workers=processes):
         product, key = waiting[number], waiting[number].recipe().key
         for path, data in zip(product.paths, contents, strict=False):
             files.write_changed(path, stamped(data.encode() if isinstance(data, str) else data, key, path.suffix))
@@ -335,10 +335,9 @@ def brought_up_to_date(
     return found
 
 
-def _make(numbered: tuple[int, Product]) -> tuple[int, Contents, str, bool]:
+def _make(product: Product) -> tuple[Contents, str, bool]:
     """Make a product; a failure lasts unless the machine is at fault."""
-    number, product = numbered
     try:
-        return number, product.make(), "", product.keeps
+        return product.make(), "", product.keeps
     except ReadError as error:
-        return number, ([], ""), str(error), not isinstance(error.__cause__, OSError)
+        return ([], ""), str(error), not isinstance(error.__cause__, OSError)

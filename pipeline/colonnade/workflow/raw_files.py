@@ -33,9 +33,6 @@ class RawFile:
 RawFiles = Mapping[str, RawFile]
 """Raw files by path within the campaign's folder."""
 
-Digests = Mapping[str, Mapping[str, str | None]]
-"""SHA-256 of each raw file, by test and by path within the campaign's folder; None if it is unknown."""
-
 NAMED = 3
 """Number of copies that the warning names."""
 
@@ -97,9 +94,10 @@ def _looked_at(folder: Path, path: Path, how: FileOptions | None, catalogue: Cat
     return RawFile(digest, tuple(mark)), companion_names
 
 
-def with_copies(campaign: Campaign, digests: Digests) -> Campaign:
+def with_copies(campaign: Campaign, raw: Mapping[str, RawFiles]) -> Campaign:
     """Return the campaign, with a warning if different tests are of one recording or of copies of it."""
-    return campaign.but(warnings=(*campaign.warnings, *_copies(digests), *_shared(campaign)))
+    run = {name: files for name, files in raw.items() if not campaign.left_out(name)}
+    return campaign.but(warnings=(*campaign.warnings, *_copies(run), *_shared(campaign)))
 
 
 def _shared(campaign: Campaign) -> Iterator[Finding]:
@@ -130,15 +128,15 @@ def _overlap(campaign: Campaign, test: str, other: str) -> bool:
     return shared == inf or shared > 0.5 * min(stop - start for start, stop in given)
 
 
-def _copies(digests: Digests) -> Iterator[Finding]:
+def _copies(raw: Mapping[str, RawFiles]) -> Iterator[Finding]:
     first: dict[str, tuple[str, str]] = {}
     copied: dict[str, str] = {}
     tests: dict[str, None] = {}
-    for test, files in digests.items():
-        for path, digest in files.items():
-            if digest is None:
+    for test, files in raw.items():
+        for path, file in files.items():
+            if file.sha256 is None or file.is_empty:
                 continue
-            original, other = first.setdefault(digest, (path, test))
+            original, other = first.setdefault(file.sha256, (path, test))
             if other != test and original != path and path not in copied:
                 copied[path] = f"{path} is a copy of {original} of {other}"
                 tests |= {test: None}
@@ -156,20 +154,3 @@ def _copies(digests: Digests) -> Iterator[Finding]:
 def listed(tests: list[str]) -> str:
     """Name the first of some tests, and count the others."""
     return text.listed(tests, NAMED, "tests")
-
-
-def digests_of_equal_sizes(campaign: Campaign) -> Digests:
-    """Hash the raw files that have the same size as another one; the others cannot be copies."""
-    names: dict[Path, int] = {}
-    for test in campaign.tests.values():
-        for path in test.files.values():
-            if path not in names and path.is_file() and path.resolve().is_relative_to(campaign.folder):
-                names[path] = path.stat().st_size
-    sizes = list(names.values())
-    alike = {path for path, size in names.items() if size and sizes.count(size) > 1}
-    hashed = {path: sha256_of(path) for path in alike}
-    return {
-        name: {_name(campaign, path): hashed.get(path) for path in test.files.values()}
-        for name, test in campaign.tests.items()
-        if not campaign.left_out(name)
-    }

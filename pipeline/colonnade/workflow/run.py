@@ -24,7 +24,7 @@ from colonnade.workflow.pages import update_report
 from colonnade.workflow.photos import with_photos
 from colonnade.workflow.pooling import expect_known, with_contradictions
 from colonnade.workflow.product import Catalogue
-from colonnade.workflow.raw_files import Digests, RawFiles, raw_files, with_copies
+from colonnade.workflow.raw_files import raw_files, with_copies
 from colonnade.workflow.summary import write_summary
 from colonnade.workflow.walk import Progress, Walk, unseen
 
@@ -101,7 +101,7 @@ def run(
         try:
             notices = catalogue.remove_altered()
             raw = {test.id: raw_files(loaded, test, catalogue) for test in loaded.tests.values()}
-            loaded = with_copies(loaded, _digests(loaded, raw))
+            loaded = with_copies(loaded, raw)
             for test in loaded.tests.values():
                 if loaded.left_out(test.id):
                     remove_later(layout, ResultId(test.id, "ingest"), itself=True)
@@ -186,15 +186,6 @@ def _chosen(campaign: Campaign, only: Sequence[str]) -> list[str]:
         if awaited := campaign.left_out(name):
             raise CampaignError(f"{name} is planned and has no raw file yet; {awaited}.")
     return [name for name in campaign.tests if (not only or name in only) and not campaign.left_out(name)]
-
-
-def _digests(campaign: Campaign, raw: dict[str, RawFiles]) -> Digests:
-    """Give the hashes of the raw files of each test that is run."""
-    return {
-        name: {path: None if file.is_empty else file.sha256 for path, file in files.items()}
-        for name, files in raw.items()
-        if not campaign.left_out(name)
-    }
 
 
 _PATH, _STAGE, _FLAG = ("a path", str, Path), ("the name of a stage", str, NoneType), ("True or False", bool)

@@ -208,15 +208,9 @@ class Walk:
                 waiting.append(chain)
             else:
                 yield standing
-        yield from spread(
-            bring_up_to_date if scheduler is None else on_a_cluster,
-            waiting,
-            workers=workers,
-            scheduler=scheduler,
-            tell=self.tell,
-            lost=worker_lost,
-            names=lambda chain: chain.subject,
-        )
+        work = bring_up_to_date if scheduler is None else on_a_cluster
+        told = partial(spread, tell=self.tell, lost=worker_lost, names=lambda chain: chain.subject)
+        yield from (runs for _, runs in told(work, waiting, workers=workers, scheduler=scheduler))
 
     def chain(self, products: Sequence[Product], *, redo: bool = True) -> Chain:
         """Return the chain of some results of one test or specimen; without `redo`, ignore `start_from`."""
