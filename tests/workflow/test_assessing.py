@@ -5,6 +5,7 @@ import random
 import signal
 import sys
 from dataclasses import replace
+from functools import partial
 from html import unescape
 from pathlib import Path
 
@@ -21,7 +22,7 @@ from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow.assessing import _given, assess_campaign, assess_own, outcomes_of
-from colonnade.workflow.executors import Where
+from colonnade.workflow.executors import Where, in_blocks
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.real_column import AskedColumn
 from colonnade.workflow.run import run
@@ -209,7 +210,7 @@ CASES = Cases(COLUMN, DRAWS, WAVES, np.tile([[1.0, np.nan], [3.0, 1.0]], (3, 1, 
 
 
 def test_blocks_give_what_the_whole_gives(tmp_path):
-    outcomes = outcomes_of(CASES, Where(workers=1), tmp_path, "key")
+    outcomes = outcomes_of(CASES, partial(in_blocks, folder=tmp_path, key="key", where=Where(workers=1)))
     whole = run_cases(CASES)
     for name in ("outcome", "peak_ratio"):
         np.testing.assert_array_equal(getattr(outcomes, name), getattr(whole, name))
@@ -221,7 +222,7 @@ from pathlib import Path
 import test_assessing as tested
 print("going", flush=True)
 where = tested.Where(workers=2, progress=lambda done, total: print(done, total, flush=True))
-tested.outcomes_of(tested.MANY, where, Path(sys.argv[1]), "key")
+tested.outcomes_of(tested.MANY, tested.partial(tested.in_blocks, folder=Path(sys.argv[1]), key="key", where=where))
 """
 MANY = replace(
     CASES, draws=np.stack([draw(COLUMN, 20)] * 120), motions=40 * WAVES, factors=np.tile(CASES.factors, (40, 1, 1))
@@ -245,7 +246,7 @@ def test_ten_kills_and_a_resumption_give_the_undisturbed_values(start, tmp_path)
     assert 10 < done[-1] < total
     steps = []
     again = Where(workers=2, progress=lambda *step: steps.append(step))
-    outcomes = outcomes_of(MANY, again, tmp_path, "key")
+    outcomes = outcomes_of(MANY, partial(in_blocks, folder=tmp_path, key="key", where=again))
     assert steps[0][0] >= done[-1]
     whole = run_cases(MANY)
     for name in ("outcome", "peak_ratio"):

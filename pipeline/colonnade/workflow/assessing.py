@@ -20,7 +20,7 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
 from colonnade.store.results import ResultId
-from colonnade.workflow.executors import MOST_BLOCKS, Arrays, Where, in_blocks
+from colonnade.workflow.executors import MOST_BLOCKS, Arrays, Run, Where, in_blocks
 from colonnade.workflow.graph import FORMATS, Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import expect_known
@@ -139,7 +139,8 @@ def assess_own(
     inputs = AssessmentInputs(**dict(found.inputs), specimen=name, asked=asked)
     with tempfile.TemporaryDirectory(prefix="colonnade-") as blocks:
         try:
-            result = _made(asked, where, Path(blocks), "", inputs=inputs, specimen=found.pooled)
+            run = partial(in_blocks, folder=Path(blocks), key="own", where=where)
+            result = _made(asked, inputs=inputs, specimen=found.pooled, run=run)
         except ColonnadeError as error:
             return Assessed(OWN, _failed(asked.specimen, asked.measure, str(error)), None)
     return Assessed(OWN, AssessmentSummary.model_validate_json(result.attrs["answer"]), result)
@@ -166,11 +167,9 @@ def assessing(graph: Graph, name: str, asked: Assessment, where: Where) -> Produ
     """Return an assessment of a campaign; `asked` has the whole paths of its files."""
     from colonnade.stages.assessment_plan import AssessmentInputs
 
-    result, code = ResultId(name, "assessment"), graph.catalogue.code((*MADE_BY, FORMATS))
     upstream = {"specimen": ResultId(asked.specimen, "specimen"), **_given(asked, graph.catalogue)}
-    work = partial(_made, asked, where, graph.layout.blocks(result), code)
-    product = graph.product(result, AssessmentInputs.of(graph.campaign, asked), upstream, work, *MADE_BY, FORMATS)
-    return replace(product, is_shared=True)
+    inputs, code = AssessmentInputs.of(graph.campaign, asked), (*MADE_BY, FORMATS)
+    return graph.product(ResultId(name, "assessment"), inputs, upstream, partial(_made, asked), *code, where=where)
 
 
 def _given(asked: Assessment, catalogue: Catalogue) -> dict[str, str | None]:
@@ -189,12 +188,7 @@ def _digest(catalogue: Catalogue, path: Path) -> str | None:
     return None if found is None else found[1]
 
 
-def _made(
-    asked: Assessment, where: Where, blocks: Path, code: str, *, inputs: AssessmentInputs, specimen: xr.Dataset
-) -> xr.Dataset:
-    """Make an assessment; finished blocks of its histories are known again by the code, and kept in `blocks`."""
-    import joblib
-
+def _made(asked: Assessment, *, inputs: AssessmentInputs, specimen: xr.Dataset, run: Run) -> xr.Dataset:
     from colonnade.readers.ground_motions.hazard import read_hazard
     from colonnade.readers.ground_motions.record_set import read_record_set
     from colonnade.stages.assessment import assessment
@@ -202,34 +196,13 @@ def _made(
 
     hazard = None if asked.hazard is None else read_hazard(asked.hazard, asked.measure)
     plan = plan_assessment(specimen, read_record_set(asked.records), hazard, inputs)
-    key = joblib.hash((code, [study.cases for study in plan.studies.values()]))
-    outcomes = {
-        name: outcomes_of(study.cases, where, blocks / str(number), key)
-        for number, (name, study) in enumerate(plan.studies.items())
-    }
-    return assessment(plan, outcomes)
+    studies = enumerate(plan.studies.items())
+    return assessment(plan, {name: outcomes_of(study.cases, run, str(number)) for number, (name, study) in studies})
 
 
-def outcomes_of(cases: Cases, where: Where, folder: Path, key: str) -> CaseOutcomes:
-    """
-    Run all cases of an assessment.
-
-    Parameters
-    ----------
-    cases : Cases
-    where : Where
-    folder : Path
-        Where finished blocks are kept, see `in_blocks`; the caller removes it (`forget`) once the result is stored.
-    key : str
-        Hash of all that the result depends on.
-
-    Returns
-    -------
-    outcomes : CaseOutcomes
-        The same to the last bit, whatever the processes and interruptions.
-    """
-    blocks = in_blocks(_arrays, cases.blocks(MOST_BLOCKS), folder, key, where)
-    return joined([CaseOutcomes(**each) for each in blocks])
+def outcomes_of(cases: Cases, run: Run, part: str = "") -> CaseOutcomes:
+    """Run all cases of an assessment in blocks; the same to the last bit, whatever the processes and interruptions."""
+    return joined([CaseOutcomes(**each) for each in run(_arrays, cases.blocks(MOST_BLOCKS), part=part)])
 
 
 def _arrays(block: Cases) -> Arrays:

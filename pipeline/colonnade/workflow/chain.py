@@ -18,7 +18,7 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import NEVER_RUN, Origin, Recipe, global_attributes
 from colonnade.store.results import RUN_STAGES, STAGES, ResultId, Subject
-from colonnade.workflow.executors import WorkersEndedError, forget
+from colonnade.workflow.executors import WorkersEndedError, forget, in_blocks
 from colonnade.workflow.lock import expect_run
 from colonnade.workflow.product import Look, Product, stored_attributes
 
@@ -273,7 +273,11 @@ def _run(chain: Chain, product: Product, made: dict[Path, xr.Dataset]) -> StageR
         read = {name: each for name, each in product.upstream.items() if isinstance(each, Path)}
         for each in read.values():
             made[each] = made[each] if each in made else files.read(each)
-        dataset = product.make({name: made[each] for name, each in read.items()})
+        work = product.make
+        if product.where is not None:
+            run = partial(in_blocks, folder=chain.layout.blocks(result), key=recipe.key, where=product.where)
+            work = partial(work, run=run)
+        dataset = work({name: made[each] for name, each in read.items()})
         made[path] = files.write(dataset, path, attributes=attributes)
         forget(chain.layout.blocks(result))
     except RunEndedError:

@@ -237,6 +237,9 @@ def _settle_in(parent: int) -> None:
 
 Arrays = dict[str, NDArray[Any]]
 
+Run = Callable[..., list[Arrays]]
+"""Works on blocks, as `in_blocks` of a place and a key: takes the work, the blocks and, of several kinds, `part`."""
+
 Counted = Callable[[int, int], None]
 """Told how many blocks are done, and of how many."""
 
@@ -267,6 +270,7 @@ def in_blocks(
     folder: Path,
     key: str,
     where: Where = HERE,
+    part: str = "",
 ) -> list[Arrays]:
     """
     Work on each block, or take the blocks that an interrupted earlier call finished.
@@ -281,6 +285,8 @@ def in_blocks(
     key : str
         Hash of all that the result depends on; blocks under another key are removed.
     where : Where, optional
+    part : str, optional
+        Name of these blocks among those of a result that has several kinds.
 
     Returns
     -------
@@ -294,8 +300,8 @@ def in_blocks(
     ColonnadeError
         If workers fail; the blocks that are finished stay.
     """
-    here = folder / key[:16]
-    for other in folder.glob("*"):
+    here = folder / part / key[:16]
+    for other in (folder / part).glob("*"):
         if other != here:
             shutil.rmtree(other, ignore_errors=True)
     found = {number: kept for number in range(len(blocks)) if (kept := _kept(here, number)) is not None}

@@ -6,16 +6,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.models import MODELS
-from colonnade.sources import code_hash
 from colonnade.store.forecasts import Known
 from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId, models_of
-from colonnade.workflow.executors import Arrays, Where, blocks_of, in_blocks
+from colonnade.workflow.executors import HERE, Arrays, Run, Where, blocks_of
 from colonnade.workflow.product import Catalogue, Product
 from colonnade.workflow.raw_files import RawFiles, expect_unchanged
 
@@ -57,12 +56,8 @@ class Graph:
     catalogue: Catalogue
     raw: Mapping[str, RawFiles] = field(default_factory=dict)
 
-    def of_test(self, test: Test, where: Where | None = None) -> list[Product]:
-        """
-        Return the results of a test, in the order in which they are made.
-
-        `where` is where members of the contact model's ensembles are run; in their own process without it.
-        """
+    def of_test(self, test: Test, where: Where = HERE) -> list[Product]:
+        """Return the results of a test in their order; `where` members of the contact model's ensembles are run."""
         return [*self._measuring(test), *self._predicting(test, where)]
 
     def _measuring(self, test: Test) -> list[Product]:
@@ -93,8 +88,7 @@ class Graph:
         identified = {name: ResultId(name, "restitution") for name in tests}
         inputs = specimen.SpecimenInputs.of(self.campaign, specimen_id)
         pooled = self.product(ResultId(specimen_id, "specimen"), inputs, identified, specimen.specimen)
-        # A test may be called like an argument. It is sooner done than handed to a worker.
-        return replace(pooled, make=partial(specimen.specimen, inputs=inputs), is_shared=True)
+        return replace(pooled, make=partial(specimen.specimen, inputs=inputs))  # a test may be called like an argument
 
     def calibrating(self, specimen_id: str) -> Product:
         """Return the law of contact with which a specimen has its restitution."""
@@ -103,7 +97,7 @@ class Graph:
         inputs, upstream = contact.ContactInputs.of(self.campaign, specimen_id), ResultId(specimen_id, "specimen")
         return self.product(ResultId(specimen_id, "contact"), inputs, {"specimen": upstream}, contact.contact)
 
-    def _predicting(self, test: Test, where: Where | None) -> list[Product]:
+    def _predicting(self, test: Test, where: Where) -> list[Product]:
         from colonnade.stages import compare, ensemble, predict
 
         conditioned, rocking = ({name: ResultId(test.id, stage)} for name, stage in _MEASURED.items())
@@ -122,10 +116,8 @@ class Graph:
             result, upstream = ResultId(test.id, "ensemble", model), {**conditioned, **rocking, **own}
             if MODELS[model].in_space:
                 in_space = ensemble.ContactEnsembleInputs.of(self.campaign, test)
-                run = ensemble.all_at_once if where is None else partial(_members, self.layout.blocks(result), where)
-                work = partial(ensemble.contact_ensemble, run=run)
-                members = self.product(result, in_space, upstream | law, work)
-                ensembles.append(replace(members, is_shared=where is not None))
+                read = upstream | law
+                ensembles.append(self.product(result, in_space, read, _contact_ensemble, where=where))
             else:
                 in_plane = ensemble.EnsembleInputs.of(self.campaign, test, model)
                 ensembles.append(self.product(result, in_plane, upstream | specimen, ensemble.ensemble))
@@ -152,6 +144,7 @@ class Graph:
         upstream: Mapping[str, ResultId | str | None],
         work: Callable[..., xr.Dataset],
         *more: str,
+        where: Where | None = None,
     ) -> Product:
         """
         Return a result as a product.
@@ -167,27 +160,33 @@ class Graph:
             Takes the inputs, and the results of `upstream` by name.
         *more
             Modules whose code counts too: those that are loaded by name.
+        where : Where or None, optional
+            See `Product`.
         """
         code = self.catalogue.code((type(inputs).__module__, *more, *_STORED_BY), result.model)
         read = {name: self.layout.path(each) if isinstance(each, ResultId) else each for name, each in upstream.items()}
         path = self.layout.path(result)
-        return Product(result, inputs.model_dump_json(), read, code, partial(_made, work, inputs), (path,))
+        make = partial(_made, work, inputs)
+        return Product(result, inputs.model_dump_json(), read, code, make, (path,), where=where)
 
 
 _MEASURED = {"conditioned": "condition", "rocking": "rocking"}
 """Arguments of later stages, and the stage of a test that gives each."""
 
 
-def _members(folder: Path, where: Where, plan: Plan, central: Array) -> list[Arrays]:
-    """Run the members of a plan in blocks; finished ones are known again by the plan and the code."""
-    import joblib
-
-    key = joblib.hash((code_hash(["colonnade.dynamics"]), plan, central))
-    return in_blocks(partial(plan.members, central), blocks_of(plan.count), folder, key, where)
+def _made(
+    work: Callable[..., xr.Dataset], inputs: BaseModel, upstream: Mapping[str, xr.Dataset], **run: Run
+) -> xr.Dataset:
+    return work(inputs=inputs, **upstream, **run)
 
 
-def _made(work: Callable[..., xr.Dataset], inputs: BaseModel, upstream: Mapping[str, xr.Dataset]) -> xr.Dataset:
-    return work(inputs=inputs, **upstream)
+def _contact_ensemble(*, run: Run, **read: Any) -> xr.Dataset:
+    from colonnade.stages import ensemble
+
+    def members(plan: Plan, central: Array) -> list[Arrays]:
+        return run(partial(plan.members, central), blocks_of(plan.count))
+
+    return ensemble.contact_ensemble(**read, run=members)
 
 
 def _ingest(folder: Path, paths: Mapping[str, Path], raw: RawFiles, *, inputs: IngestInputs) -> xr.Dataset:

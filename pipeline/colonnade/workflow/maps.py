@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,7 +24,7 @@ from colonnade.store.provenance import hash_of
 from colonnade.store.records.stored import as_dataset, as_map
 from colonnade.store.records.summary import map_points
 from colonnade.store.results import ResultId, models_moving
-from colonnade.workflow.executors import Arrays, Counted, Where, blocks_of, in_blocks
+from colonnade.workflow.executors import Arrays, Counted, Run, Where, blocks_of
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.map_plans import Wanted, measured_points, plan_of, restitution_of
@@ -274,28 +274,21 @@ def _product(
     make: Callable[[list[Arrays]], xr.Dataset],
     where: Where | None,
 ) -> Product:
-    code = graph.catalogue.code(MADE_BY, result.model)
-    work = partial(_in_blocks, plan, columns, make, graph.layout.blocks(result), code, where)
-    product = graph.product(result, Options(dict(settings)), given(plan), work, *MADE_BY)
-    return replace(product, is_shared=where is not None)
+    work = partial(_in_blocks, plan, columns, make)
+    return graph.product(result, Options(dict(settings)), given(plan), work, *MADE_BY, where=where)
 
 
 def _in_blocks(
     plan: MapPlan,
     columns: Callable[[MapPlan, range], Arrays],
     make: Callable[[list[Arrays]], xr.Dataset],
-    folder: Path,
-    code: str,
-    where: Where | None,
     *,
     inputs: Options,
+    run: Run | None = None,
 ) -> xr.Dataset:
-    """Make a result over Ω and A of blocks of Ω, or at once without `where`."""
+    """Make a result over Ω and A of blocks of Ω, or at once."""
     size = plan.frequency_ratio.size
-    if where is None:
-        return make([columns(plan, range(size))])
-    key = hash_of([code, given(plan), inputs.model_dump_json()])
-    return make(in_blocks(partial(columns, plan), blocks_of(size), folder, key, where))
+    return make([columns(plan, range(size))] if run is None else run(partial(columns, plan), blocks_of(size)))
 
 
 def given(plan: MapPlan) -> dict[str, str | None]:

@@ -24,7 +24,7 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Recipe, hash_of, key_of, stamped
 from colonnade.store.results import ResultId
-from colonnade.workflow.executors import spread
+from colonnade.workflow.executors import Where, spread
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -247,8 +247,8 @@ class Product:
         Its files: of a result one.
     keeps : bool
         Whether the catalogue keeps a text of it.
-    is_shared : bool
-        Whether several workers share in making it: it is asked for in the process of the run.
+    where : Where or None
+        Who works on its blocks: it is asked for in the process of the run, and `make` takes `run`, too.
     """
 
     id: ResultId | str
@@ -258,7 +258,7 @@ class Product:
     make: Callable[..., Any]
     paths: tuple[Path, ...] = ()
     keeps: bool = False
-    is_shared: bool = False
+    where: Where | None = None
 
     @property
     def result(self) -> ResultId:

@@ -173,7 +173,7 @@ class Walk:
         share in: those are made one after the other when what is before them is there.
         """
         every = [list(products) for products in chains if products]
-        alone = [list(takewhile(lambda product: not product.is_shared, products)) for products in every]
+        alone = [list(takewhile(lambda product: product.where is None, products)) for products in every]
         self._bring([products for products in alone if products], self.workers, self.scheduler)
         later = []
         for before, products in zip(alone, every, strict=True):
