@@ -26,6 +26,7 @@ from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import expect_known
 from colonnade.workflow.product import Catalogue, Product
 from colonnade.workflow.real_column import AskedColumn, checked, find_column, given_of
+from colonnade.workflow.summary import record_of_assessment
 from colonnade.workflow.walk import Walk
 
 if TYPE_CHECKING:
@@ -84,15 +85,13 @@ def assess_campaign(campaign: Campaign, layout: Layout, names: Sequence[str], wh
         walk.pool(sorted({asked.specimen for asked in chosen.values()}))
         walk.assess(chosen, where.progress)
         catalogue.save(is_whole=False)
+    failed = walk.failed["assessment"]
     found = []
     for name, asked in chosen.items():
-        path = layout.stage(name, "assessment")
-        if name in walk.failed["assessment"]:
-            found.append(Assessed(name, _failed(asked.specimen, asked.measure, walk.failed["assessment"][name]), None))
-        else:
-            result = files.read(path)
-            record = AssessmentSummary.model_validate_json(result.attrs["answer"])
-            found.append(Assessed(name, record, result, path))
+        path, record = layout.stage(name, "assessment"), record_of_assessment(layout, name, asked, failed.get(name, ""))
+        assert record is not None  # it was made or it failed
+        is_done = record.status == "done"
+        found.append(Assessed(name, record, files.read(path) if is_done else None, path if is_done else None))
     return found
 
 
@@ -142,7 +141,8 @@ def assess_own(
             run = partial(in_blocks, folder=Path(blocks), key="own", where=where)
             result = _made(asked, inputs=inputs, specimen=found.pooled, run=run)
         except ColonnadeError as error:
-            return Assessed(OWN, _failed(asked.specimen, asked.measure, str(error)), None)
+            failed = AssessmentSummary(status="failed", reason=str(error), specimen=name, measure=asked.measure)
+            return Assessed(OWN, failed, None)
     return Assessed(OWN, AssessmentSummary.model_validate_json(result.attrs["answer"]), result)
 
 
@@ -157,10 +157,6 @@ def _asked(written: dict[str, Any], given: Mapping[str, Any]) -> Assessment:
     if "records" not in paths:
         raise CampaignError("Say which ground motions are run, with --records DIR or a CSV list of them.")
     return checked(Assessment, keys | {"records": "records"}, OPTIONS).model_copy(update=paths)
-
-
-def _failed(specimen: str, measure: str, reason: str) -> AssessmentSummary:
-    return AssessmentSummary(status="failed", reason=reason, specimen=specimen, measure=measure)
 
 
 def assessing(graph: Graph, name: str, asked: Assessment, where: Where) -> Product:

@@ -8,6 +8,7 @@ from functools import partial
 
 import colonnade
 from colonnade.campaign import Campaign, Test
+from colonnade.campaign.assessment import Assessment
 from colonnade.campaign.forms.assessed import AssessmentSummary
 from colonnade.campaign.forms.summary import SpecimenSummary, Summary, TestSummary
 from colonnade.store import files
@@ -15,7 +16,7 @@ from colonnade.store.layout import Layout
 from colonnade.store.records.stored import read_test
 from colonnade.store.records.summary import as_csv
 from colonnade.store.records.test import record_of_specimen, record_of_test
-from colonnade.store.results import results_of
+from colonnade.store.results import Subject, results_of
 from colonnade.workflow.forecasts import Foreseen
 from colonnade.workflow.pooling import restitution_taken
 from colonnade.workflow.product import Catalogue, Contents, Product, brought_up_to_date, stored_attributes
@@ -30,9 +31,8 @@ def write_summary(
     catalogue: Catalogue,
     *,
     outdated: Mapping[str, str] | None = None,
-    failed: Mapping[str, str] | None = None,
+    failed: Mapping[Subject, Mapping[str, str]] | None = None,
     outdated_assessments: Collection[str] = (),
-    failed_assessments: Mapping[str, str] | None = None,
     foreseen: Foreseen = ({}, None),
     workers: int | None = 1,
 ) -> Summary:
@@ -47,12 +47,10 @@ def write_summary(
         Spares reading the results of unchanged tests.
     outdated : mapping of str to str, optional
         Tests whose stored results are out of date, and why; they are reported as pending.
-    failed : mapping of str to str, optional
-        Why tests failed in this run, whether stored or not.
+    failed : mapping of str to mapping of str to str, optional
+        Why tests and assessments failed in this run, whether stored or not.
     outdated_assessments : collection of str, optional
         Assessments whose stored results are out of date; they are left out, as those that were never made.
-    failed_assessments : mapping of str to str, optional
-        Why assessments failed in this run, whether stored or not.
     foreseen : Foreseen, optional
         What was forecast.
     workers : int, optional
@@ -67,11 +65,16 @@ def write_summary(
     StoreError
         If a file cannot be written.
     """
-    reasons, failures = outdated or {}, failed or {}
+    failures, late = failed or {}, outdated or {}
+    why = {name: (late.get(name), failures.get("test", {}).get(name)) for name in campaign.tests}
     tests = (
-        _of_test(campaign.but(tests={name: test}), layout, catalogue, test, reasons.get(name), failures.get(name))
+        _of_test(campaign.but(tests={name: test}), layout, catalogue, test, *why[name])
         for name, test in campaign.tests.items()
     )
+    assessed = {
+        name: record_of_assessment(layout, name, asked, failures.get("assessment", {}).get(name, ""))
+        for name, asked in campaign.assessments.items()
+    }
     specimens = (_of_specimen(campaign, layout, catalogue, name) for name in campaign.specimens)
     records = brought_up_to_date(specimens, catalogue) | brought_up_to_date(tests, catalogue, workers=workers)
     summary = Summary(
@@ -88,7 +91,7 @@ def write_summary(
             for name in campaign.tests
         },
         forecasts=foreseen[1],
-        assessments=_assessments(campaign, layout, outdated_assessments, failed_assessments or {}),
+        assessments={name: each for name, each in assessed.items() if each and name not in outdated_assessments},
     )
     files.write_text(layout.summary_json, summary.text())
     files.write_text(layout.summary_csv, as_csv(summary))
@@ -125,18 +128,10 @@ def _test(campaign: Campaign, layout: Layout, test: Test, outdated: str | None, 
     return [], record_of_test(campaign, test, stored).model_dump_json()
 
 
-def _assessments(
-    campaign: Campaign, layout: Layout, outdated: Collection[str], failed: Mapping[str, str]
-) -> dict[str, AssessmentSummary]:
-    """Return the records of assessments that were made or failed."""
-    found = {}
-    for name, asked in campaign.assessments.items():
-        stored = {} if name in outdated else stored_attributes(layout.stage(name, "assessment"))
-        if name in failed or stored.get("status") == "failed":
-            reason = failed.get(name) or str(stored["reason"])
-            found[name] = AssessmentSummary(
-                status="failed", reason=reason, specimen=asked.specimen, measure=asked.measure
-            )
-        elif stored:
-            found[name] = AssessmentSummary.model_validate_json(stored["answer"])
-    return found
+def record_of_assessment(layout: Layout, name: str, asked: Assessment, failure: str = "") -> AssessmentSummary | None:
+    """Return the record of an assessment that was made or failed, now (`failure`) or in an earlier run."""
+    stored = stored_attributes(layout.stage(name, "assessment"))
+    if failure or stored.get("status") == "failed":
+        reason = failure or str(stored["reason"])
+        return AssessmentSummary(status="failed", reason=reason, specimen=asked.specimen, measure=asked.measure)
+    return AssessmentSummary.model_validate_json(stored["answer"]) if stored else None
