@@ -8,8 +8,8 @@ from a stage's warnings into the NetCDF file, the summary, the report and the ou
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, fields, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass, replace
 from enum import StrEnum
 from typing import Any
 
@@ -153,16 +153,10 @@ def from_text(text: str) -> list[Finding]:
     <Severity.WARNING: 'warning'>
     """
     try:
-        records = json.loads(text or "[]")
-    except json.JSONDecodeError:
-        records = [text]
-    return [_read(record) for record in (records if isinstance(records, list) else [text])]
-
-
-def _read(record: Any) -> Finding:
-    if not isinstance(record, Mapping) or "text" not in record:
-        return Finding(record if isinstance(record, str) else json.dumps(record, ensure_ascii=False))
-    given = {field.name: record[field.name] for field in fields(Finding) if field.name in record}
-    severity = record.get("severity")
-    given["severity"] = Severity(severity) if severity in list(Severity) else Severity.WARNING
-    return Finding(**given | {"follows": tuple(record.get("follows", ()))})
+        records = [
+            record | {"severity": Severity(record["severity"]), "follows": tuple(record.get("follows", ()))}
+            for record in json.loads(text or "[]")
+        ]
+        return [Finding(**record) for record in records]
+    except (ValueError, TypeError, KeyError):
+        return [Finding(text)]
