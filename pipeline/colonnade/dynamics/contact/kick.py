@@ -22,12 +22,11 @@ PASSES = 3
 @kernel_in_place
 def kick(system: System, state: State, step: float) -> None:
     """Take the contact's impulse on all bodies, and book it."""
-    mass, rigid, matrix, listed, load = system.mass, state.rigid, state.matrix, state.listed, state.load
-    change, total, gain, rates, sides = state.change, state.total, state.gain, state.rates, system.carrier.size
-    strain, force, begins, touched = state.strain, state.force, system.sides, state.touched
-    slots, pull = state.slot, state.pull
+    rigid, matrix, change, total, force = state.rigid, state.matrix, state.change, state.total, state.force
+    mass, begins, sides, strain = system.mass, system.sides, system.carrier.size, state.strain
+    gain, rates = strain[2], strain[3]
     change[:, :], gain[:], total[:, :], force[:, :] = 0.0, 0.0, 0.0, 0.0
-    if listed[sides] == 0:
+    if state.listed[sides] == 0:
         return
     for turn in range(PASSES + 1):
         # Means of the velocities before and after the impulse found so far: of bodies, modes and points.
@@ -37,15 +36,8 @@ def kick(system: System, state: State, step: float) -> None:
             rates[mode] = strain[1, mode] + 0.5 * gain[mode]
         for side in range(sides):
             _fill_velocities(system, state, side)
-        if turn == 0:
-            # The slip's increase since the last kick; a point that just arrives has none. Free of contact, the mean
-            # velocity since then was less than the present one by what the table's acceleration gives in half a step.
-            for side in range(sides):
-                half = 0.5 * step if system.target[side] < 0 else 0.0
-                for index in range(listed[side], listed[side + 1]):
-                    first = 0.0 if touched[slots[index]] == 0 else step
-                    load[index, 12] = first * (load[index, 9] - half * pull[0])
-                    load[index, 13] = first * (load[index, 10] - half * pull[1])
+            if turn == 0:
+                _fill_increase(system, state, side, step)
         if turn == PASSES:
             # The last turn only gives the mean velocities that the ledger needs.
             break
@@ -74,15 +66,8 @@ def kick(system: System, state: State, step: float) -> None:
 @kernel_in_place
 def _fill_velocities(system: System, state: State, side: int) -> None:
     """Fill the velocities of an interface's points relative to the target, v + ω × r + R Φ η̇."""
-    rates, modes, turned, lever, load, twist = (
-        state.rates,
-        system.modes,
-        state.turned,
-        state.lever,
-        state.load,
-        state.twist,
-    )
-    listed, nodes = state.listed, state.node
+    rates, modes, turned, nodes = state.strain[3], system.modes, state.turned, state.node
+    lever, load, twist, listed = state.lever, state.load, state.twist, state.listed
     u, v, w, p, q, r = twist[side, 0], twist[side, 1], twist[side, 2], twist[side, 3], twist[side, 4], twist[side, 5]
     for index in range(listed[side], listed[side + 1]):
         x, y, z = lever[index, 0], lever[index, 1], lever[index, 2]
@@ -94,6 +79,18 @@ def _fill_velocities(system: System, state: State, side: int) -> None:
                 speed += modes[nodes[index], own, mode] * rates[mode]
             for axis in range(3):
                 load[index, 9 + axis] += turned[side, axis, own] * speed
+
+
+@kernel_in_place
+def _fill_increase(system: System, state: State, side: int, step: float) -> None:
+    """Fill the slip's increase since the last kick of an interface's points; one that just arrives has none."""
+    load, pull, listed = state.load, state.pull, state.listed
+    # Free of contact, the mean velocity was less than now by what the table's acceleration gives in half a step.
+    half = 0.5 * step if system.target[side] < 0 else 0.0
+    for index in range(listed[side], listed[side + 1]):
+        first = 0.0 if state.touched[state.slot[index]] == 0 else step
+        load[index, 12] = first * (load[index, 9] - half * pull[0])
+        load[index, 13] = first * (load[index, 10] - half * pull[1])
 
 
 @kernel_in_place
@@ -145,15 +142,8 @@ def _shorten(load: Array, row: int, column: int, stiffness: float, limit: float)
 @kernel_in_place
 def _add_forces(system: System, state: State, joint: int, side: int, step: float) -> None:
     """Add the forces of an interface's points and their moments to its bodies, equal and opposite, and to the modes."""
-    load, lever, frame, total, listed, rigid = (
-        state.load,
-        state.lever,
-        state.frame,
-        state.total,
-        state.listed,
-        state.rigid,
-    )
-    gain, turned, modes, nodes, force = state.gain, state.turned, system.modes, state.node, state.force
+    load, lever, frame, total, listed, rigid = state.load, state.lever, state.frame, state.total, state.listed, state.rigid
+    gain, turned, modes, nodes, force = state.strain[2], state.turned, system.modes, state.node, state.force
     upper, lower, flip = system.carrier[side], system.target[side], system.flip[side]
     u, v, w, p, q, r = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for index in range(listed[side], listed[side + 1]):
@@ -169,13 +159,10 @@ def _add_forces(system: System, state: State, joint: int, side: int, step: float
     if lower >= 0:
         u, v, w = _turned(frame, side, u, v, w)
         p, q, r = _turned(frame, side, p, q, r)
-        x, y, z = (
-            rigid[upper, 0] - rigid[lower, 0],
-            rigid[upper, 1] - rigid[lower, 1],
-            rigid[upper, 2] - rigid[lower, 2],
-        )
-        _add(total, lower, -u, -v, -w, y * w - z * v + p, z * u - x * w + q, x * v - y * u + r, -1.0)
-    _add(total, upper, u, v, w, p, q, r, 1.0)
+        x, y = rigid[upper, 0] - rigid[lower, 0], rigid[upper, 1] - rigid[lower, 1]
+        z = rigid[upper, 2] - rigid[lower, 2]
+        _add(total, lower, -u, -v, -w, z * v - y * w - p, x * w - z * u - q, y * u - x * v - r)
+    _add(total, upper, u, v, w, p, q, r)
     force[joint, 0] += flip * u
     force[joint, 1] += flip * v
     force[joint, 2] += flip * w
@@ -192,14 +179,14 @@ def _turned(frame: Array, side: int, x: float, y: float, z: float) -> tuple[floa
 
 
 @kernel_in_place
-def _add(total: Array, body: int, u: float, v: float, w: float, p: float, q: float, r: float, sign: float) -> None:
-    """Add a force, and a moment with its sign, to those of a body."""
+def _add(total: Array, body: int, u: float, v: float, w: float, p: float, q: float, r: float) -> None:
+    """Add a force and a moment to those of a body."""
     total[body, 0] += u
     total[body, 1] += v
     total[body, 2] += w
-    total[body, 3] += sign * p
-    total[body, 4] += sign * q
-    total[body, 5] += sign * r
+    total[body, 3] += p
+    total[body, 4] += q
+    total[body, 5] += r
 
 
 @kernel_in_place

@@ -51,7 +51,7 @@ def march(
     might find more impacts than `found`, shape (k, IMPACT), has room for.
     """
     step, bodies, count = interval / parts, state.rigid.shape[0], state.watch.shape[0]
-    watch, before, strain, force, hits = state.watch, state.before, state.strain, state.force, state.hits
+    watch, strain, force, hits = state.watch, state.strain, state.force, state.hits
     pull, rigid, matrix, stands = state.pull, state.rigid, state.matrix, state.stands
     if begin == 0:
         _fill_rotations(rigid, matrix)
@@ -71,9 +71,8 @@ def march(
                 flutter += strain[1, mode] ** 2
             place(system, state, sqrt(flutter), step)
             for joint in range(count):
-                angle, speed = _about_pole(system, state, joint, watch[joint, 0])
-                before[joint, 0], before[joint, 1] = angle, speed
-                watch[joint, 2] = max(watch[joint, 2], abs(angle))
+                watch[joint, 4], watch[joint, 5] = _about_pole(system, state, joint, watch[joint, 0])
+                watch[joint, 2] = max(watch[joint, 2], abs(watch[joint, 4]))
             kick(system, state, step)
             time = (sample - 1) * interval + (part + 0.5) * step
             base = _table(motion, sample, (part + 0.5) / parts, 0)
@@ -108,33 +107,26 @@ def _table(motion: Array, sample: int, share: float, axis: int) -> float:
 @kernel_in_place
 def _drift(system: System, state: State, pull: Array, step: float) -> None:
     """Move without contact for `step`, half a step of the scheme; pull is minus the table's mean acceleration."""
-    mass, gravity, inertia, modal, frequencies = (
-        system.mass,
-        system.gravity,
-        system.inertia,
-        system.propagators,
-        system.frequencies,
-    )
-    rigid, matrix, strain, stands, work = state.rigid, state.matrix, state.strain, state.stands, state.work
-    for body in range(mass.size):
-        if stands[body] == 1:
+    inertia, modal, rigid, strain, work = system.inertia, system.propagators, state.rigid, state.strain, state.work
+    for body in range(system.mass.size):
+        if state.stands[body] == 1:
             # Translation at a constant acceleration; the work of the table is booked.
             for axis in range(3):
-                acceleration = pull[axis] - (gravity if axis == 2 else 0.0)
+                acceleration = pull[axis] - (system.gravity if axis == 2 else 0.0)
                 moved = step * (rigid[body, 3 + axis] + 0.5 * step * acceleration)
                 rigid[body, axis] += moved
                 rigid[body, 3 + axis] += step * acceleration
-                work[0] += mass[body] * pull[axis] * moved
+                work[0] += system.mass[body] * pull[axis] * moved
             # Rotation: half a turn about x, half about y, a whole one about z, and back.
             _turn(rigid, body, 0, 0.5 * step * rigid[body, 10] / inertia[body, 0])
             _turn(rigid, body, 1, 0.5 * step * rigid[body, 11] / inertia[body, 1])
             _turn(rigid, body, 2, step * rigid[body, 12] / inertia[body, 2])
             _turn(rigid, body, 1, 0.5 * step * rigid[body, 11] / inertia[body, 1])
             _turn(rigid, body, 0, 0.5 * step * rigid[body, 10] / inertia[body, 0])
-    _fill_rotations(rigid, matrix)
+    _fill_rotations(rigid, state.matrix)
     # Each mode swings freely; what its damping takes is booked.
     for mode in range(strain.shape[1]):
-        value, rate, square = strain[0, mode], strain[1, mode], frequencies[mode] ** 2
+        value, rate, square = strain[0, mode], strain[1, mode], system.frequencies[mode] ** 2
         strain[0, mode] = modal[0, mode] * value + modal[1, mode] * rate
         strain[1, mode] = modal[2, mode] * value + modal[3, mode] * rate
         before = rate**2 + square * value**2
@@ -192,7 +184,7 @@ def _about_pole(system: System, state: State, joint: int, pole: float) -> tuple[
 @kernel_in_place
 def _watch(system: System, state: State, joint: int, base: float, time: float, found: Array) -> None:
     """Note in `found` where an arc of rocking ends and the next begins."""
-    watch, hits, before = state.watch, state.hits, state.before
+    watch, hits = state.watch, state.hits
     left, right, inner = _where_it_touches(system, state, joint)
     watch[joint, 3] += 0.0 if left or right or inner else 1.0
     pole, hit = watch[joint, 0], int(watch[joint, 1])
@@ -200,7 +192,7 @@ def _watch(system: System, state: State, joint: int, base: float, time: float, f
     # The arc ends where the body touches anywhere but at its pole.
     if abs(pole) == 1.0 and (now == -pole or inner or (left and right)):
         hit = hits[0]
-        found[hit, 0], found[hit, 1], found[hit, 2], found[hit, 3] = time, before[joint, 0], before[joint, 1], base
+        found[hit, 0], found[hit, 1], found[hit, 2], found[hit, 3] = time, watch[joint, 4], watch[joint, 5], base
         found[hit, 4], found[hit, 5], found[hit, 9], found[hit, 10] = pole, np.nan, watch[joint, 2], joint
         hits[0], pole = hit + 1, 2.0
     # The next begins where it touches at one pole only.

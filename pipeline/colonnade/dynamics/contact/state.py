@@ -77,13 +77,14 @@ class State(NamedTuple):
 
     rigid, shape (b, 13): position, velocity, quaternion, angular momentum in the body's axes; matrix, shape (b, 3, 3):
     rotation, body to table; stands, shape (b,): 0 of a body that has fallen and is left where it lies; strain, shape
-    (2, m): η and η̇; slip, shape (p, 2): elastic slip of each point; touched, shape (p,): 1 where the point touched in
+    (4, m): η, η̇, its gain in the step and its mean; slip, shape (p, 2): elastic slip of each point; touched, shape (p,): 1 where the point touched in
     the last step; entry, shape (p,): how deep it was as it came over the outline of a face from below (m), from where
     on it bears, and −1 less that where it is off the face; arcs, shape (n, 2): direction of a ring's lowest point in
     the carrier and half the arc (rad) that its points span, 0 where it is off the face; work: of the table and lost by
     the modes; lost, shape (s, 2): taken by contact and friction; force, shape (j, 3): on the upper body in this step,
-    in the table's axes; watch, shape (j, 4): pole rocked on (±1; 0 at first, 2 in an impact), its last impact, largest
-    |angle| since then, steps without contact; hits: number of impacts of all joints. The rest is of one step.
+    in the table's axes; watch, shape (j, 6): pole rocked on (±1; 0 at first, 2 in an impact), its last impact, largest
+    |angle| since then, steps without contact, angle and speed about the pole before the kick; hits: number of impacts
+    of all joints. The rest is of one step.
 
     Of each interface: frame, shape (s, 3, 3): the target's axes to the table's; turned, shape (s, 3, 3), and apart,
     shape (s, 3): carrier to target, from the face's middle; twist, shape (s, 6): v and ω of the carrier relative to the
@@ -92,9 +93,8 @@ class State(NamedTuple):
     the carrier's; depth; load, shape (p, 14): force 0:3, its elastic normal part 3, slip left 4:6, whether it sticks 6,
     slip that the normal force still holds 7:9, velocity 9:12, the slip's increase over the step 12:14. Of each body:
     speeds, shape (b, 6): v and ω in the table's axes; change, shape (b, 6): of velocity and angular momentum; total,
-    shape (b, 6): force and moment. gain and rates: of η̇, and its mean. carried: slip of a ring's points at their new
-    places. before, shape (j, 2): angle and speed about the pole before the kick. pull: minus the
-    table's acceleration.
+    shape (b, 6): force and moment. carried: slip of a ring's points at their new places. pull: minus the table's
+    acceleration.
     """
 
     rigid: Array
@@ -124,24 +124,21 @@ class State(NamedTuple):
     speeds: Array
     change: Array
     total: Array
-    gain: Array
-    rates: Array
     carried: Array
-    before: Array
     pull: Array
 
     @classmethod
     def begin(cls, system: System, rows: Array) -> State:
         """Give the state of bodies, by `Start.row`, that touch nothing yet and are not strained."""
         bodies, sides, joints = len(system.mass), len(system.carrier), len(system.poles)
-        points, modes = int(system.slots[-1]), system.frequencies.size
+        points = int(system.slots[-1])
         rigid = rows.copy()
         rigid[:, 10:] *= system.inertia
         return cls(
             rigid,
             np.zeros((bodies, 3, 3)),
             np.ones(bodies, np.int64),
-            np.zeros((2, modes)),
+            np.zeros((4, system.frequencies.size)),
             np.zeros((points, 2)),
             np.zeros(points, np.int64),
             np.zeros(points),
@@ -149,7 +146,7 @@ class State(NamedTuple):
             np.zeros(2),
             np.zeros((sides, 2)),
             np.zeros((joints, 3)),
-            np.zeros((joints, 4)),
+            np.zeros((joints, 6)),
             np.zeros(1, np.int64),
             np.zeros((sides, 3, 3)),
             np.zeros((sides, 3, 3)),
@@ -165,9 +162,6 @@ class State(NamedTuple):
             np.zeros((bodies, 6)),
             np.zeros((bodies, 6)),
             np.zeros((bodies, 6)),
-            np.zeros(modes),
-            np.zeros(modes),
             np.zeros((system.arc.shape[1], 2)),
-            np.zeros((joints, 2)),
             np.zeros(3),
         )

@@ -104,20 +104,26 @@ def place(system: System, state: State, flutter: float, step: float) -> None:
 @kernel_in_place
 def _place_points(system: System, state: State, side: int, count: int, margin: float) -> int:
     """Add the point nodes of an interface that are lower than `margin` to the `count` points that are listed."""
-    turned, apart, nodes, radii, first = state.turned, state.apart, system.nodes, system.radii, system.first
-    modes, strain, slots = system.modes, state.strain, system.slots
+    turned, apart, radii, first = state.turned, state.apart, system.radii, system.first
     for node in range(first[side], first[side + 1]):
-        # Where the node is in the body's axes, as the modes displace it.
-        x, y, z = nodes[node, 0], nodes[node, 1], nodes[node, 2]
-        for mode in range(strain.shape[1]):
-            x += modes[node, 0, mode] * strain[0, mode]
-            y += modes[node, 1, mode] * strain[0, mode]
-            z += modes[node, 2, mode] * strain[0, mode]
+        x, y, z = _displaced(system, state, node)
         above = turned[side, 2, 0] * x + turned[side, 2, 1] * y + turned[side, 2, 2] * z
         if apart[side, 2] + above < margin and radii[node] == 0.0:
             share = _put(system, state, side, count, x, y, z)
-            count = _list(state, count, node, slots[node], share, DEEPEST * system.outline[side, 0])
+            count = _list(state, count, node, system.slots[node], share, DEEPEST * system.outline[side, 0])
     return count
+
+
+@kernel_in_place
+def _displaced(system: System, state: State, node: int) -> tuple[float, float, float]:
+    """Give where a node is in its body's axes, as the modes displace it."""
+    modes, strain = system.modes, state.strain
+    x, y, z = system.nodes[node, 0], system.nodes[node, 1], system.nodes[node, 2]
+    for mode in range(strain.shape[1]):
+        x += modes[node, 0, mode] * strain[0, mode]
+        y += modes[node, 1, mode] * strain[0, mode]
+        z += modes[node, 2, mode] * strain[0, mode]
+    return x, y, z
 
 
 @kernel_in_place
@@ -251,16 +257,11 @@ def spring_energy(system: System, state: State, side: int) -> float:
     """Give the energy in the springs of an interface at this instant."""
     slip, touched, weights, energy = state.slip, state.touched, system.arc[1], 0.0
     for node in range(system.first[side], system.first[side + 1]):
-        x, y, z, radius = system.nodes[node, 0], system.nodes[node, 1], system.nodes[node, 2], system.radii[node]
-        angle, half, points = 0.0, pi, 1
+        (x, y, z), radius, angle, half, points = _displaced(system, state, node), system.radii[node], 0.0, pi, 1
         if radius > 0.0:
             depth, rise = _lowest(system, state, side, node)
             angle = atan2(-state.turned[side, 2, 1], -state.turned[side, 2, 0]) if rise > 0.0 else 0.0
             half, points = half_arc(depth, rise), weights.size
-        for mode in range(state.strain.shape[1]):
-            x += system.modes[node, 0, mode] * state.strain[0, mode]
-            y += system.modes[node, 1, mode] * state.strain[0, mode]
-            z += system.modes[node, 2, mode] * state.strain[0, mode]
         for point in range(points):
             now, before = 1.0, 1.0
             if radius > 0.0:
