@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from graphlib import CycleError, TopologicalSorter
+from itertools import pairwise
 from math import atan2, cos
 
 import numpy as np
@@ -116,13 +118,11 @@ class Assembly(Digested):
                 self._expect_top(name, below)
         if len({body.block.gravity for body in self.bodies.values()}) > 1:
             raise ValueError("The blocks have different values of gravity; one was expected")
-        order: list[str] = []
-        while len(order) < len(self.bodies):
-            free = [name for name in self.bodies if name not in order and set(self.bodies[name].on) <= set(order)]
-            if not free:
-                rest = [name for name in self.bodies if name not in order]
-                raise ValueError(f"{', '.join(rest)} stand on each other in a circle; one on the table was expected")
-            order += free
+        try:
+            order = list(TopologicalSorter({name: body.on for name, body in self.bodies.items()}).static_order())
+        except CycleError as error:
+            rest = ", ".join(sorted(set(error.args[1])))
+            raise ValueError(f"{rest} stand on each other in a circle; one on the table was expected") from None
         object.__setattr__(self, "bodies", {name: self.bodies[name] for name in order})
         for name, body in self.bodies.items():
             tops = [self.levels[below] + self._height(below) for below in body.on]
@@ -187,9 +187,7 @@ class Assembly(Digested):
             Of "left", "right" and "beam"; of columns of several blocks "left.NAME" and "right.NAME".
         """
         span = number("span", span, "a positive number", above=0.0, unit="m")
-        instance("beam", beam, Block)
-        bodies, tops = _columns(column, {"left": -0.5 * span, "right": 0.5 * span})
-        return cls(bodies | {"beam": Placed(beam, tuple(tops))})
+        return cls(_under_beams(column, {"left": -0.5 * span, "right": 0.5 * span}, beam, ["beam"]))
 
     @classmethod
     def colonnade(cls, column: Block | Assembly, beam: Block, *, columns: int, spacing: float) -> Assembly:
@@ -213,13 +211,8 @@ class Assembly(Digested):
         """
         columns = whole("columns", columns, 2, MOST_COLUMNS)
         spacing = number("spacing", spacing, "a positive number", above=0.0, unit="m")
-        instance("beam", beam, Block)
-        places = [(i - 0.5 * (columns - 1)) * spacing for i in range(columns)]
-        bodies, tops = _columns(column, {f"column{i + 1}": place for i, place in enumerate(places)})
-        for i in range(columns - 1):
-            middle = (i + 0.5 - 0.5 * (columns - 1)) * spacing
-            bodies[f"beam{i + 1}"] = Placed(beam, (tops[i], tops[i + 1]), (middle, 0.0))
-        return cls(bodies)
+        places = {f"column{i + 1}": (i - 0.5 * (columns - 1)) * spacing for i in range(columns)}
+        return cls(_under_beams(column, places, beam, [f"beam{i}" for i in range(1, columns)]))
 
     def digest(self) -> dict[str, str]:
         """
@@ -364,8 +357,10 @@ def as_one(assembly: Assembly, name: str | None = None) -> Block:
     )
 
 
-def _columns(column: Block | Assembly, places: Mapping[str, float]) -> tuple[dict[str, Placed], list[str]]:
-    """Place columns, or their blocks, at x by name; give the uppermost of each too."""
+def _under_beams(
+    column: Block | Assembly, places: Mapping[str, float], beam: Block, beams: Iterable[str]
+) -> dict[str, Placed]:
+    """Place columns, or their blocks, at x by name, and beams from the top of each to that of the next."""
     bodies: dict[str, Placed] = {}
     tops: list[str] = []
     for name, x in places.items():
@@ -376,4 +371,7 @@ def _columns(column: Block | Assembly, places: Mapping[str, float]) -> tuple[dic
                 on = tuple(f"{name}.{below}" for below in body.on)
                 bodies[f"{name}.{own}"] = Placed(body.block, on, (body.position[0] + x, body.position[1]))
         tops.append(list(bodies)[-1])
-    return bodies, tops
+    instance("beam", beam, Block)
+    for name, on, ends in zip(beams, pairwise(tops), pairwise(places.values()), strict=True):
+        bodies[name] = Placed(beam, on, (0.5 * sum(ends), 0.0))
+    return bodies

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from math import atan2, cos, hypot, isclose, pi, sin, sqrt
+from math import atan2, cos, hypot, pi, sin, sqrt
 from typing import Literal
 
 import numpy as np
@@ -82,23 +82,17 @@ class Solid:
     height: float = 0.0
     top: tuple[float, float] = (0.0, 0.0)
 
+    def is_uniform(self, side: Side, mass: float) -> bool:
+        """Whether a side is that of an upright prism or cylinder of uniform density."""
+        half_width, square = self.top[0], 4 / 3 if self.base == "rectangle" else 5 / 4
+        inertia = mass * (square * half_width**2 + self.height**2 / 3)
+        found = side.half_width, side.pole_distance * cos(side.critical_angle), side.inertia
+        return np.allclose(found, (half_width, self.height / 2, inertia), atol=0.0)
+
     def __post_init__(self) -> None:
         if self.base not in ("rectangle", "circle"):
             raise ValueError(f'base is {described(self.base)}; "rectangle" or "circle" was expected')
         expect_positive(half_depth=self.half_depth, inertia_x=self.inertia_x, inertia_z=self.inertia_z)
-
-    def is_uniform(self, side: Side, mass: float) -> bool:
-        """Whether a side is that of an upright prism or cylinder of uniform density with these values."""
-        width, height = side.half_width, side.pole_distance * cos(side.critical_angle)
-        squares = {"rectangle": (4 / 3, 1 / 3, 1 / 3), "circle": (5 / 4, 1 / 4, 1 / 2)}
-        about_pole, across, along = squares[self.base]
-        depth = self.half_depth
-        expected = (
-            mass * (about_pole * width**2 + 4 / 3 * height**2),
-            mass * (across * depth**2 + height**2 / 3),
-            mass * along * (width**2 + depth**2 if self.base == "rectangle" else width**2),
-        )
-        return all(map(isclose, (side.inertia, self.inertia_x, self.inertia_z), expected))
 
 
 @dataclass(frozen=True, repr=False)
@@ -515,7 +509,7 @@ class Block(Digested):
         mass = number("beam_mass", beam_mass, "a mass in kg from 0 on", low=0.0, high=LARGEST)
         count = whole("columns", columns, 1, MOST_COLUMNS)
         side, solid = column.negative, column.solid
-        if solid is None or column.beam_ratio or not (column.is_symmetric and solid.is_uniform(side, column.mass)):
+        if solid is None or not column.is_symmetric or not solid.is_uniform(side, column.mass):
             raise ValueError(
                 "column is not an upright prism or cylinder of uniform density: a block of `Block.prism` or "
                 "`Block.cylinder` was expected, as a beam on a cone or a measured body lies at another distance"
@@ -557,16 +551,13 @@ class Block(Digested):
         >>> round(block.override(inertia=1.9).p, 3)
         5.592
         """
-        sides = []
-        for index, side in enumerate(self.sides):
-            given = {"critical_angle": critical_angle, "pole_distance": pole_distance, "inertia": inertia}
-            changed = {
-                name: sided(name, value, "a positive number", above=0.0)[index]
-                for name, value in given.items()
-                if value is not None
-            }
-            sides.append(replace(side, **changed))
-        return replace(self, negative=sides[0], positive=sides[1])
+        given = {"critical_angle": critical_angle, "pole_distance": pole_distance, "inertia": inertia}
+        negative, positive = self.sides
+        for name, value in given.items():
+            if value is not None:
+                left, right = sided(name, value, "a positive number", above=0.0)
+                negative, positive = replace(negative, **{name: left}), replace(positive, **{name: right})
+        return replace(self, negative=negative, positive=positive)
 
 
 def expect_positive(**values: float) -> None:

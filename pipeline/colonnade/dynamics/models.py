@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import tan
 
@@ -104,29 +105,20 @@ DEFAULT = LINEAR.name
 """Default model of a single run of the library: the fastest."""
 
 
-def model_of(name: str) -> Model:
+def model_of(name: str, known: Mapping[str, Model] = MODELS, kind: str = "model") -> Model:
     """
-    Return a model by its name.
+    Return a model by its name, among all or those of a kind.
 
     Raises
     ------
     ValueError
         If the name is unknown; the message gives the nearest one.
     """
-    if text("model", name, "the name of a model") not in MODELS:
-        raise ValueError(f'Unknown model "{name}".{nearest(name, MODELS)}')
-    return MODELS[name]
+    if text("model", name, "the name of a model") not in known:
+        raise ValueError(f'Unknown {kind} "{name}".{nearest(name, known)}')
+    return known[name]
 
 
 def plane_model_of(name: str) -> Model:
-    """
-    Return a model with kernels in the plane by its name.
-
-    Raises
-    ------
-    ValueError
-        If the name is unknown; the message gives the nearest one.
-    """
-    if text("model", name, "the name of a model") not in PLANE_MODELS:
-        raise ValueError(f'Unknown plane model "{name}".{nearest(name, PLANE_MODELS)}')
-    return PLANE_MODELS[name]
+    """Return a model with kernels in the plane by its name; errors as of `model_of`."""
+    return model_of(name, PLANE_MODELS, "plane model")

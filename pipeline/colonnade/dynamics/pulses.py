@@ -92,7 +92,7 @@ def pulse_of(name: str) -> PulseKind:
     return PULSES[name]
 
 
-def sampled_pulse(name: str, cycles: float, phase: float, *, step: float = SAMPLE) -> tuple[Array, float]:
+def sampled_pulse(name: str, cycles: float, phase: float) -> tuple[Array, float]:
     """
     Sample a pulse that is not harmonic.
 
@@ -102,8 +102,6 @@ def sampled_pulse(name: str, cycles: float, phase: float, *, step: float = SAMPL
         "ricker" or "mavroeidis-papageorgiou".
     cycles, phase : float
         γ and ν (rad) of the latter.
-    step : float, optional
-        Largest step in ω t.
 
     Returns
     -------
@@ -119,7 +117,7 @@ def sampled_pulse(name: str, cycles: float, phase: float, *, step: float = SAMPL
     overturning by either pulse are then 1.5e-7 in A at most off those of a step of 0.002, in 20 random blocks.
     """
     reach = RICKER_REACH if name == RICKER.name else pi * cycles
-    count = 2 * int(np.ceil(reach / step)) + 1
+    count = 2 * int(np.ceil(reach / SAMPLE)) + 1
     angle = np.linspace(-reach, reach, count)
     values = ricker(angle) if name == RICKER.name else _normalised(cycles, phase, angle)
     values[1:-1] -= np.diff(values, 2) / 12

@@ -240,7 +240,6 @@ def test_peaks_are_those_of_a_finely_sampled_history():
     ("arguments", "message"),
     [
         ({"model": "linera"}, 'Unknown plane model "linera"'),
-        ({"amplitude_ratio": -1.0}, "amplitude_ratio is -1.0"),
         ({"restitution": (0.9, 1.1)}, "restitution is 1.1"),
         ({"restitution": lambda speed: 1.0 + speed}, "a number between 0 and 1 was expected"),
     ],

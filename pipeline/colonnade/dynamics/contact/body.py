@@ -32,17 +32,13 @@ class Nodes:
         kg and m²: the mass and the area of the base that each node stands for.
     ring_radii : ndarray, shape (n,)
         m. Where positive, the node is a ring: a whole circle of this radius about the body's axis at the node's height,
-        with its mass and area spread evenly around. 0, the default, is a point. Rings are of rigid bodies only.
+        with its mass and area spread evenly around. 0 is a point. Rings are of rigid bodies only.
     """
 
     nodes: Array
     node_mass: Array
     node_area: Array
-    ring_radii: Array = field(default_factory=lambda: np.zeros(0))
-
-    def __post_init__(self) -> None:
-        if self.ring_radii.size == 0:
-            object.__setattr__(self, "ring_radii", np.zeros(len(self.nodes)))
+    ring_radii: Array
 
     def around(self, count: int) -> Array:
         """Give equal points on the circle of each node, shape (n, count, 3); of a point node it again and again."""
@@ -120,8 +116,7 @@ def rigid_body(block: Block, *, grid: tuple[int, int] = GRID, rings: int = RINGS
     ValueError
         If there are too few nodes.
     """
-    solid = block.solid
-    widths = [side.half_width for side in block.sides]
+    solid, widths = block.solid, [side.half_width for side in block.sides]
     half_width = 0.5 * sum(widths)
     height = 0.5 * sum(side.pole_distance * cos(side.critical_angle) for side in block.sides)
     about_y = 0.5 * sum(side.inertia - block.mass * side.pole_distance**2 for side in block.sides)
@@ -130,32 +125,23 @@ def rigid_body(block: Block, *, grid: tuple[int, int] = GRID, rings: int = RINGS
             f"I₀ − m R² is {about_y:.4g} kg m²; more than 0 was expected: the inertia about the pole "
             "has to exceed that of the mass at the pole distance"
         )
+    about_x, about_z, half_depth = about_y, 2.0 * block.mass * half_width**2 / 3.0, half_width
+    if solid is not None:
+        about_x, about_z, half_depth = solid.inertia_x, solid.inertia_z, solid.half_depth
     if solid is not None and solid.base == "circle":
-        inertia = [about_y, about_y, solid.inertia_z]
-        nodes, area = round_nodes(half_width, rings)
+        about_x, (nodes, area) = about_y, round_nodes(half_width, rings)
         radii, told = nodes[:, 0], f"round base, {rings} whole {'ring' if rings == 1 else 'rings'}"
     else:
-        about_z = 2.0 * block.mass * half_width**2 / 3.0
-        half_depth, inertia, told = (
-            half_width,
-            [about_y, about_y, about_z],
-            "rectangular base taken to be as deep as wide",
-        )
-        if solid is not None:
-            half_depth, inertia, told = (
-                solid.half_depth,
-                [solid.inertia_x, about_y, solid.inertia_z],
-                "rectangular base",
-            )
         nodes, area = grid_nodes(-widths[0], widths[1], half_depth, *grid)
-        radii, told = np.zeros(len(nodes)), f"{told}, {len(nodes)} nodes"
+        taken = " taken to be as deep as wide" if solid is None else ""
+        radii, told = np.zeros(len(nodes)), f"rectangular base{taken}, {len(nodes)} nodes"
     return ContactBody(
         nodes=np.column_stack((nodes, np.full(len(nodes), -height))),
         node_mass=block.mass * area / area.sum(),
         node_area=area,
         ring_radii=radii,
         mass=block.mass,
-        inertia=np.array(inertia),
+        inertia=np.array([about_x, about_y, about_z]),
         description=f"rigid, {told}",
     )
 
@@ -164,9 +150,8 @@ def grid_nodes(left: float, right: float, half_depth: float, along: int, across:
     """Give the equally spaced nodes of a rectangle along x and y, shape (n, 2), and the area of each."""
     if along < 2 or across < 1:
         raise ValueError(f"grid is ({along}, {across}); at least 2 nodes along x and 1 across were expected")
-    x = np.linspace(left, right, along)
     y = np.linspace(-half_depth, half_depth, across) if across > 1 else np.zeros(1)
-    nodes = np.column_stack([part.ravel() for part in np.meshgrid(x, y, indexing="ij")])
+    nodes = np.stack(np.meshgrid(np.linspace(left, right, along), y, indexing="ij"), axis=-1).reshape(-1, 2)
     return nodes, np.outer(_shares(along), _shares(across)).ravel() * (right - left) * 2.0 * half_depth
 
 

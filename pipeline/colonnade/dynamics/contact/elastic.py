@@ -245,9 +245,7 @@ def rigid_on_nodes(body: ElasticBody) -> ContactBody:
         nodes=body.points[body.base],
         node_mass=body.node_mass[body.base],
         node_area=body.base_area,
-        modes=np.empty((len(body.base), 3, 0)),
-        frequencies=np.empty(0),
-        modal_damping=np.empty(0),
+        ring_radii=np.zeros(len(body.base)),
         description=f"{body.description}, rigid",
     )
 

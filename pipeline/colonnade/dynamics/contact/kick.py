@@ -142,7 +142,14 @@ def _shorten(load: Array, row: int, column: int, stiffness: float, limit: float)
 @kernel_in_place
 def _add_forces(system: System, state: State, joint: int, side: int, step: float) -> None:
     """Add the forces of an interface's points and their moments to its bodies, equal and opposite, and to the modes."""
-    load, lever, frame, total, listed, rigid = state.load, state.lever, state.frame, state.total, state.listed, state.rigid
+    load, lever, frame, total, listed, rigid = (
+        state.load,
+        state.lever,
+        state.frame,
+        state.total,
+        state.listed,
+        state.rigid,
+    )
     gain, turned, modes, nodes, force = state.strain[2], state.turned, system.modes, state.node, state.force
     upper, lower, flip = system.carrier[side], system.target[side], system.flip[side]
     u, v, w, p, q, r = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from math import ceil, hypot
-from typing import NamedTuple
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from colonnade.dynamics.contact.history import (
 from colonnade.dynamics.contact.march import march
 from colonnade.dynamics.contact.stability import longest_step
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing, standing_assembly
-from colonnade.dynamics.contact.state import IMPACT, State
+from colonnade.dynamics.contact.state import IMPACT, TABLE, State
 from colonnade.dynamics.contact.structure import Structure
 from colonnade.dynamics.motion import Motion, at_rest
 from colonnade.validation import number
@@ -98,8 +98,7 @@ def simulate(
     if start is None:
         start = standing(body, law, gravity, theta0=theta0, omega0=omega0, out_of_plane=out_of_plane)
     run = _run(structure, [start], motion, step)
-    own = run.samples[:, 0]
-    matrices = rotation_matrices(own[:, 6:10])
+    own, matrices = run.samples[:, 0], run.matrices[:, 0]
     axis, turning = matrices[:, :, 2], np.einsum("nij,nj->ni", matrices, own[:, 10:13])
     rate = np.cross(turning, axis)
     speed = (rate[:, 0] * axis[:, 2] - axis[:, 0] * rate[:, 2]) / (axis[:, 0] ** 2 + axis[:, 2] ** 2)
@@ -126,8 +125,8 @@ def simulate(
         yaw=pose["yaw"],
         slide=pose["slide"],
         uplift=pose["uplift"],
-        base_force=run.joints[:, 0, 3:6],
-        energies=_energies(structure, run),
+        base_force=run.base_force,
+        energies=run.energies,
         airborne=float(run.joints[-1, 0, 6]),
     )
 
@@ -178,46 +177,40 @@ def simulate_assembly(
     motion = at_rest(block, duration) if motion is None else motion
     begin = standing_assembly(assembly, structure, theta0=theta0, omega0=omega0) | dict(starts or {})
     run = _run(structure, list(begin.values()), motion, step)
-    matrices = np.array([rotation_matrices(run.samples[:, number, 6:10]) for number in range(len(begin))])
-    numbers = {name: number for number, name in enumerate(assembly.bodies)}
     bodies: dict[str, BodyHistory] = {}
-    base_force, joint = np.zeros((len(run.samples), 3)), 0
-    for (name, placed), body in zip(assembly.bodies.items(), structure.bodies, strict=True):
-        number, own = numbers[name], slice(joint, joint + max(1, len(placed.on)))
-        place = run.samples[:, number, :3]
+    for row, ((name, placed), body) in enumerate(zip(assembly.bodies.items(), structure.bodies, strict=True)):
+        place, matrices = run.samples[:, row, :3], run.matrices[:, row]
+        own = [joint for joint, each in enumerate(structure.joints) if each.sides[0].carrier == row]
         supports = {}
-        for below, resting in zip(placed.on, structure.joints[own], strict=False):
-            target, turned = run.samples[:, numbers[below], :3], np.swapaxes(matrices[numbers[below]], 1, 2)
-            apart = np.einsum("nij,nj->ni", turned, place - target) - resting.sides[0].apart
-            supports[below] = Pose(**_pose(body, turned @ matrices[number], apart))
-        if not placed.on:
-            base_force += run.joints[:, joint, 3:6]
+        for below, joint in zip(placed.on, own, strict=False):
+            side = structure.joints[joint].sides[0]
+            turned = np.swapaxes(run.matrices[:, side.target], 1, 2)
+            apart = np.einsum("nij,nj->ni", turned, place - run.samples[:, side.target, :3]) - side.apart
+            supports[below] = Pose(**_pose(body, turned @ matrices, apart))
         plane = plane_block(body, assembly.gravity)
-        impacts = [impacts_of(run.impacts[run.impacts[:, -1] == one], plane) for one in range(own.start, own.stop)]
-        times, before, after = np.hstack(impacts)
+        times, before, after = np.hstack([impacts_of(run.impacts[run.impacts[:, -1] == one], plane) for one in own])
         order = np.argsort(times, kind="stable")
         bodies[name] = BodyHistory(
-            **_pose(body, matrices[number], place - [*placed.position, assembly.levels[name] + body.height]),
+            **_pose(body, matrices, place - [*placed.position, assembly.levels[name] + body.height]),
             supports=supports,
-            lean=run.leans[:, number],
+            lean=run.leans[:, row],
             position=place,
-            orientation=run.samples[:, number, 6:10],
+            orientation=run.samples[:, row, 6:10],
             impact_times=times[order],
             impact_velocities=before[order],
             rebound_velocities=after[order],
             dissipated_contact=run.joints[:, own, 1].sum(axis=1),
             dissipated_friction=run.joints[:, own, 2].sum(axis=1),
-            overturning_time=float(run.overturning_times[number]),
+            overturning_time=float(run.overturning_times[row]),
         )
-        joint = own.stop
     return AssemblyHistory(
         assembly=assembly,
         law=law,
         time=motion.time,
         angle=np.copysign(run.leans[:, 0] * structure.critical_angles[0], run.arms[:, 0, 0]),
         bodies=bodies,
-        energies=_energies(structure, run),
-        base_force=base_force,
+        energies=run.energies,
+        base_force=run.base_force,
         step=run.step,
     )
 
@@ -234,47 +227,79 @@ def plane_block(body: ContactBody, gravity: float) -> Block:
     )
 
 
-class _Run(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class _Run:
     """
     What the engine gives at each sample; where all have fallen before the end, the last sample is held.
 
-    samples, joints, sums as of `march`; arms, from each body's base to the centre of all that turns with it, and their
-    leans over α; overturning_times (s); reached, the number of samples that were run.
+    samples, joints, sums as of `march`; rotation matrices of the bodies; arms, from each body's base to the centre of
+    all that turns with it, and their leans over α; overturning_times (s); reached, the number of samples that were run.
     """
 
+    structure: Structure
     samples: Array
     joints: Array
     sums: Array
     impacts: Array
+    matrices: Array
     arms: Array
     leans: Array
     overturning_times: Array
     reached: int
     step: float
 
+    @property
+    def base_force(self) -> Array:
+        """Force of the table on all that stands on it, N, shape (n, 3)."""
+        on_table = [joint.sides[0].target == TABLE for joint in self.structure.joints]
+        return np.asarray(self.joints[:, on_table, 3:6].sum(axis=1))
+
+    @property
+    def energies(self) -> EnergyBalance:
+        """Of bodies, of their modes and of the joints between them."""
+        masses, inertias = (
+            np.array([getattr(one, name) for one in self.structure.bodies]) for name in ("mass", "inertia")
+        )
+        speeds = (self.samples[:, :, 3:6] ** 2).sum(axis=2) @ masses
+        turning = (self.samples[:, :, 10:13] ** 2 * inertias).sum(axis=2).sum(axis=1)
+        contact, lost_to_contact, lost_to_friction = self.joints[:, :, :3].sum(axis=1).T
+        return EnergyBalance(
+            kinetic=0.5 * (speeds + turning) + self.sums[:, 2],
+            potential=self.structure.gravity * self.samples[:, :, 2] @ masses,
+            strain=self.sums[:, 3],
+            contact=contact,
+            work=self.sums[:, 0],
+            dissipated_contact=lost_to_contact,
+            dissipated_friction=lost_to_friction,
+            dissipated_bulk=self.sums[:, 1],
+        )
+
 
 def _run(structure: Structure, starts: list[Start], motion: Motion, step: float | None) -> _Run:
     """Run bodies from their starts; those that are past α at the end until they fall or come back."""
-    parts, size = _parts(structure, motion, step), motion.acceleration.size
-    table = np.zeros((size, 3))
-    for axis, values in enumerate((motion.acceleration, motion.transverse, motion.vertical)):
-        if values is not None:
-            table[:, axis] = values
+    parts, nothing = _parts(structure, motion, step), np.zeros(motion.acceleration.size)
+    along = motion.acceleration, motion.transverse, motion.vertical
+    table = np.column_stack([nothing if values is None else values for values in along])
     rows = np.array([start.row for start in starts])
     samples, joints, sums, impacts, reached, stands = _march(structure, rows, table, motion.dt, parts)
     for values in (samples, joints, sums):
         values[reached:] = values[reached - 1]
-    arms = _arms(structure, samples)
+    matrices, arms = rotation_matrices(samples[:, :, 6:10]), np.zeros((*samples.shape[:2], 3))
+    for row, (body, together) in enumerate(zip(structure.bodies, structure.together, strict=True)):
+        masses = np.array([structure.bodies[other].mass for other in together])
+        base = samples[:, row, :3] - body.height * matrices[:, row, :, 2]
+        arms[:, row] = np.einsum("nbi,b->ni", samples[:, together, :3], masses / masses.sum()) - base
     leans = np.arctan2(np.hypot(arms[:, :, 0], arms[:, :, 1]), arms[:, :, 2]) / structure.critical_angles
     if (stands & (leans[-1] > 1.0)).any():
         p = plane_block(structure.bodies[0], structure.gravity).p
         still = np.zeros((ceil(AFTERMATH / (p * motion.dt)) + 1, 3))
         *_, stands = _march(structure, samples[-1], still, motion.dt, parts)
-    overturning_times = np.full(len(stands), np.nan)
+    times = np.full(len(stands), np.nan)
     for body in np.flatnonzero(~stands):
         upright = np.flatnonzero(leans[:, body] <= 1.0)
-        overturning_times[body] = motion.time[min(upright.max(initial=-1) + 1, size - 1)]
-    return _Run(samples, joints, sums, impacts, arms, leans, overturning_times, reached, motion.dt / parts)
+        times[body] = motion.time[min(upright.max(initial=-1) + 1, len(samples) - 1)]
+    step = motion.dt / parts
+    return _Run(structure, samples, joints, sums, impacts, matrices, arms, leans, times, reached, step)
 
 
 def _parts(structure: Structure, motion: Motion, step: float | None) -> int:
@@ -311,33 +336,6 @@ def _march(
         reached = march(system, state, table, interval, parts, samples, contact, sums, found, reached)
         found, stands = np.concatenate((found, np.zeros_like(found))), state.stands > 0
     return samples, contact, sums, found[: state.hits[0]], reached, stands
-
-
-def _arms(structure: Structure, samples: Array) -> Array:
-    """Give what leads from each body's base to the common centre of mass of all that turns with it, shape (n, b, 3)."""
-    arms = np.zeros((*samples.shape[:2], 3))
-    for row, (body, together) in enumerate(zip(structure.bodies, structure.together, strict=True)):
-        masses = np.array([structure.bodies[other].mass for other in together])
-        base = samples[:, row, :3] - body.height * rotation_matrices(samples[:, row, 6:10])[:, :, 2]
-        arms[:, row] = np.einsum("nbi,b->ni", samples[:, together, :3], masses / masses.sum()) - base
-    return arms
-
-
-def _energies(structure: Structure, run: _Run) -> EnergyBalance:
-    """Add up the energies of bodies, of their modes and of the joints between them."""
-    masses, inertias = (np.array([getattr(one, name) for one in structure.bodies]) for name in ("mass", "inertia"))
-    speeds, turning = (run.samples[:, :, 3:6] ** 2).sum(axis=2), (run.samples[:, :, 10:13] ** 2 * inertias).sum(axis=2)
-    contact, lost_to_contact, lost_to_friction = run.joints[:, :, :3].sum(axis=1).T
-    return EnergyBalance(
-        kinetic=0.5 * (speeds @ masses + turning.sum(axis=1)) + run.sums[:, 2],
-        potential=structure.gravity * run.samples[:, :, 2] @ masses,
-        strain=run.sums[:, 3],
-        contact=contact,
-        work=run.sums[:, 0],
-        dissipated_contact=lost_to_contact,
-        dissipated_friction=lost_to_friction,
-        dissipated_bulk=run.sums[:, 1],
-    )
 
 
 def _pose(body: ContactBody, matrices: Array, moved: Array) -> dict[str, Array]:

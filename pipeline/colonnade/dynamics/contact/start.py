@@ -38,7 +38,7 @@ class Start:
     def row(self) -> Array:
         """Position, velocity, unit quaternion, and angular velocity in the body's axes, shape (13,)."""
         orientation = self.orientation / np.linalg.norm(self.orientation)
-        turning = rotation_matrices(orientation[None])[0].T @ self.angular_velocity
+        turning = rotation_matrices(orientation).T @ self.angular_velocity
         return np.concatenate((self.position, self.velocity, orientation, turning))
 
 
@@ -75,7 +75,7 @@ def standing(
     axis = np.array([tan(theta0), -tan(out_of_plane), 1.0])
     axis /= np.linalg.norm(axis)
     orientation = np.array([1.0 + axis[2], -axis[1], axis[0], 0.0]) / np.sqrt(2.0 * (1.0 + axis[2]))
-    matrix = rotation_matrices(orientation[None])[0]
+    matrix = rotation_matrices(orientation)
     pole = np.array([np.sign(theta0 or omega0) * body.half_width, 0.0, -body.height])
     arm, angular = matrix @ pole, np.array([0.0, omega0, 0.0])
     position = pole - arm
@@ -120,7 +120,7 @@ def standing_assembly(
 
 def _carried(below: Start, rest: Array, placed: Placed, turns: bool) -> Start:
     """Give the start of a body that at rest is `rest` from the centre of mass of the one that it stands on."""
-    matrix = rotation_matrices(below.orientation[None])[0]
+    matrix = rotation_matrices(below.orientation)
     if turns:
         arm = matrix @ rest
         velocity = below.velocity + np.cross(below.angular_velocity, arm)
@@ -153,11 +153,11 @@ def _bearing_height(body: ContactBody, upward: Array, stiffness: Array, weight: 
 
 
 def rotation_matrices(orientation: Array) -> Array:
-    """Return the rotation matrices, shape (n, 3, 3), of unit quaternions, shape (n, 4)."""
-    w, x, y, z = orientation.T
+    """Return the rotation matrices, shape (…, 3, 3), of unit quaternions, shape (…, 4)."""
+    w, x, y, z = np.moveaxis(orientation, -1, 0)
     rows = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
         [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
     ]
-    return np.moveaxis(np.array(rows), 2, 0)
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))

@@ -77,14 +77,14 @@ class State(NamedTuple):
 
     rigid, shape (b, 13): position, velocity, quaternion, angular momentum in the body's axes; matrix, shape (b, 3, 3):
     rotation, body to table; stands, shape (b,): 0 of a body that has fallen and is left where it lies; strain, shape
-    (4, m): η, η̇, its gain in the step and its mean; slip, shape (p, 2): elastic slip of each point; touched, shape (p,): 1 where the point touched in
-    the last step; entry, shape (p,): how deep it was as it came over the outline of a face from below (m), from where
-    on it bears, and −1 less that where it is off the face; arcs, shape (n, 2): direction of a ring's lowest point in
-    the carrier and half the arc (rad) that its points span, 0 where it is off the face; work: of the table and lost by
-    the modes; lost, shape (s, 2): taken by contact and friction; force, shape (j, 3): on the upper body in this step,
-    in the table's axes; watch, shape (j, 6): pole rocked on (±1; 0 at first, 2 in an impact), its last impact, largest
-    |angle| since then, steps without contact, angle and speed about the pole before the kick; hits: number of impacts
-    of all joints. The rest is of one step.
+    (4, m): η, η̇, its gain in the step and its mean; slip, shape (p, 2): elastic slip of each point; touched, shape
+    (p,): 1 where the point touched in the last step; entry, shape (p,): how deep it was as it came over the outline of
+    a face from below (m), from where on it bears, and −1 less that where it is off the face; arcs, shape (n, 2):
+    direction of a ring's lowest point in the carrier and half the arc (rad) that its points span, 0 where it is off the
+    face; work: of the table and lost by the modes; lost, shape (s, 2): taken by contact and friction; force, shape (j,
+    3): on the upper body in this step, in the table's axes; watch, shape (j, 6): pole rocked on (±1; 0 at first, 2 in
+    an impact), its last impact, largest |angle| since then, steps without contact, angle and speed about the pole
+    before the kick; hits: number of impacts of all joints. The rest is of one step.
 
     Of each interface: frame, shape (s, 3, 3): the target's axes to the table's; turned, shape (s, 3, 3), and apart,
     shape (s, 3): carrier to target, from the face's middle; twist, shape (s, 6): v and ω of the carrier relative to the

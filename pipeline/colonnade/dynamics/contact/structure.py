@@ -137,8 +137,11 @@ class Structure:
                 joints.append(_on_table(body, numbers[name], law.under(weight / body.node_area.sum(), height), weight))
             for below, share in supports(assembly, name).items():
                 patch, load = _Patch(placed, assembly.bodies[below], grid), mass * share * assembly.gravity
-                sides, area = patch.sides(numbers[name], numbers[below], share * body.mass, law)
-                sides = [replace(side, law=law.under(load / area, height)) for side in sides]
+                sides = patch.sides((numbers[name], numbers[below]), law)
+                area = sum(float(side.at.node_area @ on_face(side)) for side in sides)
+                for k, side in enumerate(sides):
+                    at = replace(side.at, node_mass=share * body.mass * side.at.node_area / area)
+                    sides[k] = replace(side, at=at, law=law.under(load / area, height))
                 joints.append(Joint(sides, (*patch.across, body.height), load))
         return cls(
             assembly.gravity,
@@ -189,8 +192,8 @@ class _Patch:
 
     def __init__(self, upper: Placed, lower: Placed, grid: tuple[int, int]) -> None:
         above, below = upper.block.solid, lower.block.solid
-        if above is None or below is None:
-            raise ValueError("A block of unknown depth stands on another; one from its dimensions was expected")
+        assert above is not None  # the assembly has seen to it
+        assert below is not None
         self._grid = grid
         self._offset = np.subtract(lower.position, upper.position)
         self._sizes = np.array([[upper.block.governing.half_width, above.half_depth], below.top])
@@ -204,61 +207,53 @@ class _Patch:
         """Middle of the patch along x in the upper body's axes, and its half width, m."""
         return 0.5 * float(self._low[0] + self._high[0]), 0.5 * float(self._high[0] - self._low[0])
 
-    def sides(self, upper: int, lower: int, mass: float, law: ContactLaw) -> tuple[list[Interface], float]:
-        """Give the nodes of the upper body on the lower one's top, those of that on the upper one's base; the area."""
-        reach, band = self._high - self._low, BAND * float(self._sizes.min())
-        lower_fits = bool(np.allclose(reach, 2.0 * self._sizes[1], rtol=1e-6))
-        upper_fits = bool(np.allclose(reach, 2.0 * self._sizes[0], rtol=1e-6))
-        middle = 0.5 * (self._low + self._high)
-        places, area = grid_nodes(-0.5 * reach[0], 0.5 * reach[0], 0.5 * reach[1], *self._grid)
-        places = places + middle
-        on_upper, on_lower = self._at_edge(places, 0), self._at_edge(places, 1)
-        # A node within the patch is the one's whose face is the patch; one at an edge is whose edge it is, or of both.
-        own = on_upper | ~(on_lower | lower_fits), on_lower | (lower_fits & ~on_upper)
-        found: list[Interface] = []
-        for which, fits in enumerate((upper_fits, lower_fits)):
-            origin = which * self._offset
-            nodes, areas, radii = places[own[which]] - origin, area[own[which]], np.zeros(int(own[which].sum()))
-            if self._round[which]:
-                nodes, areas = round_nodes(float(self._sizes[which, 0]), RINGS)
-                radii = nodes[:, 0]
-                if not fits or (which == 1 and upper_fits):
-                    rim = radii > (1.0 - 1e-9) * self._sizes[which, 0]
-                    nodes, areas, radii = nodes[rim], areas[rim], radii[rim]
-            elif which == 1 and self._round[0] and upper_fits:
-                nodes, areas = grid_nodes(-self._sizes[1, 0], self._sizes[1, 0], self._sizes[1, 1], *self._grid)
-                edge = self._at_edge(nodes + self._offset, 1)
-                nodes, areas, radii = nodes[edge], areas[edge], np.zeros(int(edge.sum()))
-            elif not any(self._round):
-                more, more_area = self._edges_off(which)
-                nodes, areas = np.concatenate((nodes, more - origin)), np.concatenate((areas, more_area))
-                radii = np.zeros(len(nodes))
-            outline = (*self._sizes[1 - which], band, float(self._round[1 - which]))
+    def sides(self, bodies: tuple[int, int], law: ContactLaw) -> list[Interface]:
+        """Give the nodes of the upper body on the lower one's top, those of that on the upper one's base."""
+        band, apart = BAND * float(self._sizes.min()), np.append(self._offset, self._depths[0] - self._depths[1])
+        found = []
+        for which, other in ((0, 1), (1, 0)):
+            nodes, areas = self._nodes(which)
             heights = np.full(len(nodes), self._depths[which])
-            found.append(
-                Interface(
-                    at=Nodes(np.column_stack((nodes, heights)), areas, areas, radii),
-                    carrier=(upper, lower)[which],
-                    target=(lower, upper)[which],
-                    law=law,
-                    flip=1.0 - 2.0 * which,
-                    face=(self._depths[1], -self._depths[0])[which],
-                    outline=outline,
-                    apart=tuple((2.0 * which - 1.0) * np.append(self._offset, self._depths[0] - self._depths[1])),
-                )
+            radii = nodes[:, 0] if self._round[which] else np.zeros(len(nodes))
+            side = Interface(
+                at=Nodes(np.column_stack((nodes, heights)), areas, areas, radii),
+                carrier=bodies[which],
+                target=bodies[other],
+                law=law,
+                flip=1.0 - 2.0 * which,
+                face=(self._depths[1], -self._depths[0])[which],
+                outline=(*self._sizes[other], band, float(self._round[other])),
+                apart=tuple((2.0 * which - 1.0) * apart),
             )
-        total = sum(float(side.at.node_area @ on_face(side)) for side in found)
-        massive = [replace(side.at, node_mass=mass * side.at.node_area / total) for side in found]
-        return [replace(side, at=at) for side, at in zip(found, massive, strict=True)], total
+            found.append(side)
+        return found
 
-    def _edges_off(self, which: int) -> tuple[Array, Array]:
-        """Give the nodes of a rectangular face's edges that bear only once it has slid onto the other, and areas."""
-        half_x, half_y = self._sizes[which]
-        nodes, areas = grid_nodes(-half_x, half_x, half_y, *self._grid)
-        places = nodes + which * self._offset
-        beyond = (np.abs(places - (1 - which) * self._offset) / self._sizes[1 - which]).max(axis=1)
-        kept = self._at_edge(places, which) & (beyond > 1.0 + 1e-6) & (beyond < SLIDES)
-        return places[kept], areas[kept]
+    def _nodes(self, which: int) -> tuple[Array, Array]:
+        """Give the nodes along x and y of the upper (0) or the lower body (1) about its own middle, and their areas."""
+        reach, size, origin = self._high - self._low, self._sizes[which], which * self._offset
+        fits = [bool(np.allclose(reach, 2.0 * own, rtol=1e-6)) for own in self._sizes]
+        if self._round[which]:
+            nodes, areas = round_nodes(float(size[0]), RINGS)
+            # Only the rim of one that is not the smaller face.
+            return (nodes, areas) if fits[which] and not (which == 1 and fits[0]) else (nodes[-1:], areas[-1:])
+        if which == 1 and self._round[0] and fits[0]:
+            nodes, areas = grid_nodes(-size[0], size[0], size[1], *self._grid)
+            edge = self._at_edge(nodes + origin, 1)
+            return nodes[edge], areas[edge]
+        places, areas = grid_nodes(-0.5 * reach[0], 0.5 * reach[0], 0.5 * reach[1], *self._grid)
+        places = places + 0.5 * (self._low + self._high)
+        # A node within the patch is the one's whose face is the patch; one at an edge is whose edge it is, or of both.
+        on_upper, on_lower = self._at_edge(places, 0), self._at_edge(places, 1)
+        own = on_lower | (fits[1] & ~on_upper) if which else on_upper | ~(on_lower | fits[1])
+        nodes, areas = places[own], areas[own]
+        if not any(self._round):
+            # And those of its edges that bear only once it has slid onto the other.
+            off, off_areas = grid_nodes(-size[0], size[0], size[1], *self._grid)
+            off = off + origin
+            beyond = (np.abs(off - (1 - which) * self._offset) / self._sizes[1 - which]).max(axis=1)
+            kept = self._at_edge(off, which) & (beyond > 1.0 + 1e-6) & (beyond < SLIDES)
+            nodes, areas = np.concatenate((nodes, off[kept])), np.concatenate((areas, off_areas[kept]))
+        return nodes - origin, areas
 
     def _at_edge(self, places: Array, which: int) -> Mask:
         """Say which places are at the edge of a rectangular face, the upper's (0) or the lower's (1)."""

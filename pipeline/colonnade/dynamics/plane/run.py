@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import ceil, cos, hypot, inf, isfinite, pi, sin, tan
+from math import ceil, cos, hypot, inf, pi, sin, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -232,7 +232,7 @@ class HarmonicRun:
     peak_ratio : float
         Largest |θ|/α under the motion up to overturning, from the time asked for on.
     angle, angular_velocity : ndarray, shape (n,)
-        rad, rad/s, at the samples asked for; 0 after the motion's end, unless the block lies.
+        rad, rad/s, at the samples asked for; those after the motion's end are as at its end.
     impact_times, impact_velocities : ndarray, shape (m,)
         s; rad/s just before each impact.
     """
@@ -309,29 +309,24 @@ def harmonic_run(
     Raises
     ------
     ValueError
-        If A is not positive, e is not between 0 and 1 or the model is not known.
+        If e is not between 0 and 1 or the model is not known.
     """
     # Its kernels are compiled on import.
     from colonnade.dynamics.plane.march import propagate
     from colonnade.dynamics.plane.sides import sides_of
 
-    chosen = plane_model_of(model)
-    if not (isfinite(amplitude_ratio) and amplitude_ratio > 0):
-        raise ValueError(f"amplitude_ratio is {amplitude_ratio}; a positive number was expected")
-    times = interval * np.arange(samples)
+    times = np.minimum(interval * np.arange(samples), motion.edges[2])
     forcing = motion.forcing(peaks_from, *times)
     levels = forcing.levels * (amplitude_ratio * tan(block.critical_angle))
+    linearised = plane_model_of(model).is_linearised
     sides = sides_of(block, restitution_up_to(block, restitution, amplitude_ratio))
     since = int(np.searchsorted(forcing.times, peaks_from))
     angles, velocities, impact_times, impact_velocities, end = propagate(
-        forcing._replace(levels=levels), sides, is_linearised=chosen.is_linearised, since=since, floor=inf
+        forcing._replace(levels=levels), sides, is_linearised=linearised, since=since, floor=inf
     )
-    history, under = np.zeros((2, samples)), times <= motion.edges[2]
-    history[:, under] = np.stack([angles, velocities])[:, np.searchsorted(forcing.times, times[under])]
-    if abs(angles[-1]) >= 0.5 * pi:
-        history[0, ~under] = angles[-1]
-    outcome = OUTCOMES[2 if np.isfinite(end.time) else 1 if end.peak > NO_ROCKING_RATIO else 0]
-    return HarmonicRun(outcome, end.peak, history[0], history[1], impact_times, impact_velocities)
+    outcome = OUTCOMES[OVERTURNS if np.isfinite(end.time) else ROCKS if end.peak > NO_ROCKING_RATIO else STANDS]
+    at = np.searchsorted(forcing.times, times)
+    return HarmonicRun(outcome, end.peak, angles[at], velocities[at], impact_times, impact_velocities)
 
 
 def harmonic_outcomes(
