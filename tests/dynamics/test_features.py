@@ -176,8 +176,3 @@ def test_a_constant_vertical_acceleration_is_another_gravity(model):
     other = rock(heavier, Motion(waves, INTERVAL), model=model)
     assert np.abs(other.angle).max() > 0.01
     np.testing.assert_allclose(lifted.angle, other.angle, rtol=0, atol=1e-9)
-
-
-def test_a_base_that_falls_faster_than_the_block_is_refused():
-    with pytest.raises(ValueError, match=r"vertical is -12 m/s² at sample 1"):
-        rock(PRISM, Motion([0.0, 0.0], 0.01, vertical=[0.0, -12.0]))

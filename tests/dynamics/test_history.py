@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.history import History, amplitude, capped, count_impacts
+from colonnade.dynamics.history import History, capped, count_impacts
 
 BLOCK = Block.measured(mass=80.0, pole_distance=0.61, critical_angle=(0.20, 0.10), inertia=41.2)
 NEGATIVE, POSITIVE = 0.20, 0.10
@@ -20,10 +20,6 @@ def history(angle, velocity=None, *, impacts=(), overturning_time=nan, model="li
     velocity = np.zeros(angle.size) if velocity is None else np.array(velocity, dtype=float)
     none = np.array(impacts, dtype=float)
     return History(BLOCK, TIME[: angle.size], angle, velocity, none, none, none, overturning_time, model)
-
-
-def test_an_amplitude_is_over_the_critical_angle_of_its_own_side():
-    np.testing.assert_allclose(amplitude(np.array([-0.1, 0.0, 0.05]), BLOCK), [0.5, 0.0, 0.5])
 
 
 def test_the_largest_amplitude_is_not_that_of_the_largest_angle():

@@ -8,7 +8,6 @@ from math import tan
 import numpy as np
 import pytest
 
-import colonnade
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps import MapPlan, map_part, stability_map
 from colonnade.dynamics.motion import Motion
@@ -85,17 +84,6 @@ def test_columns_are_the_same_to_the_last_bit_in_any_order_and_number_of_threads
             assert values.tobytes() == getattr(backwards, name)[::-1].tobytes()
 
 
-def test_all_that_limits_depend_on_is_in_the_result():
-    chart = stability_map(
-        PRISM, restitution=(0.9, 0.95), frequency_ratio=[5.0], amplitude_ratio=[1.0, 1.5], cycles=7, phase=7.0, ramp=3
-    )
-    expected = {"model": "linear", "base_motion": "sine", "cycles": 7.0, "ramp": 3.0}
-    expected |= {"restitution_negative": 0.9, "restitution_positive": 0.95, "width": 0.01, "edge": 1e-4}
-    assert expected.items() <= chart.options.items()
-    assert chart.options["phase"] == pytest.approx(7.0 - 2 * math.pi)
-    assert chart.options["scan_step"] == pytest.approx(0.0025)
-
-
 @pytest.mark.parametrize("model", MODELS)
 def test_a_law_of_e_over_speed_gives_its_own_map_and_stands_in_the_result(model):
     options = {"frequency_ratio": [5.0, 6.0], "amplitude_ratio": np.linspace(1.0, 6.0, 26), "model": model}
@@ -130,10 +118,6 @@ def test_a_recorded_sine_stretched_and_scaled_gives_the_map_of_the_sine(model):
     np.testing.assert_array_equal(recorded.outcome, sine.outcome)
     np.testing.assert_allclose(recorded.lower, sine.lower, atol=3e-4)
     np.testing.assert_allclose(recorded.no_rocking, sine.no_rocking, rtol=1e-5)
-
-
-def test_the_library_offers_the_map():
-    assert colonnade.stability_map is stability_map
 
 
 @every(
@@ -177,16 +161,6 @@ def test_the_scan_holds_the_amplitudes_of_the_map_and_steps_over_no_limit():
 
 def test_amplitudes_closer_than_a_step_are_scanned_as_they_are():
     np.testing.assert_array_equal(plan(amplitude_ratio=[1.0, 1.001, 1.002]).scan, [1.0, 1.001, 1.002])
-
-
-def test_a_block_uplifts_at_alpha_by_the_linear_equation_and_at_its_tangent_by_the_full_one():
-    alpha = PRISM.critical_angle
-    assert plan().onset == pytest.approx(alpha / tan(alpha), rel=1e-15)
-    assert plan(model="nonlinear").onset == 1.0
-
-
-def test_the_side_that_uplifts_first_counts():
-    assert plan(LOPSIDED, model="nonlinear").onset == pytest.approx(tan(0.15) / tan(LOPSIDED.critical_angle))
 
 
 def test_a_recorded_motion_uplifts_by_its_larger_side_only_where_it_pulls_that_way():

@@ -7,10 +7,7 @@ import pytest
 import scipy
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.pulses import PULSES, RICKER_REACH, mavroeidis_papageorgiou, overturning_spectrum, ricker
-from colonnade.dynamics.rock import rock
-from every import every
+from colonnade.dynamics.pulses import RICKER_REACH, mavroeidis_papageorgiou, overturning_spectrum, ricker
 from independent_rocking import overturns
 from prism import PRISM
 
@@ -61,36 +58,6 @@ def test_nonlinear_sine_pulse_has_its_published_level(radius, limit):  # Numeric
         block, "sine", frequency_ratio=[4 * math.pi / block.p], model="nonlinear", largest=6.0
     )
     assert spectrum.lower[0] == pytest.approx(limit, abs=5e-6, nan_ok=True)
-
-
-@pytest.mark.whole
-@every("model", ["linear", "nonlinear"])
-@every("pulse", PULSES)
-def test_the_block_stands_just_below_the_spectrum_and_overturns_just_above(pulse, model):
-    omega = 2.5 * PRISM.p
-    level = overturning_spectrum(PRISM, pulse, frequency_ratio=[2.5], model=model, edge=1e-6).lower[0]
-    phase = np.linspace(0, 2 * np.pi, 8001)
-    moved = mavroeidis_papageorgiou(2.0, 0.0, 2 * phase - 2 * np.pi)
-    shapes = {
-        "half-sine": np.sin(phase / 2),
-        "sine": np.sin(phase),
-        "cosine": np.cos(phase),
-        "rectangular": np.ones(8001),
-        "ricker": (1 - (6 * phase / np.pi - 6) ** 2) * np.exp(-((6 * phase / np.pi - 6) ** 2) / 2),
-        "mavroeidis-papageorgiou": moved / np.abs(moved).max(),
-    }
-    # ω t over the pulse: half a period, a whole one, or ±6 √2 for Ricker's wavelet, two for γ = 2.
-    reach = {
-        "half-sine": np.pi,
-        "rectangular": np.pi,
-        "ricker": 12 * math.sqrt(2),
-        "mavroeidis-papageorgiou": 4 * np.pi,
-    }.get(pulse, 2 * np.pi)
-    outcomes = []
-    for factor in (0.999, 1.001):
-        motion = Motion(factor * level * PRISM.uplift_acceleration * shapes[pulse], reach / omega / 8000)
-        outcomes.append(rock(PRISM, motion, model=model).outcome)
-    assert outcomes == ["rocking", "overturned"]
 
 
 def random_case(number):
@@ -165,20 +132,6 @@ def test_an_island_is_kept_apart_from_the_limits():
     assert (spectrum.lower[both] <= spectrum.upper[both]).all()
     assert both.any()
     assert (spectrum.islands[:, 2] - spectrum.islands[:, 1] < 0.05).all()
-
-
-def test_threads_do_not_change_the_result():
-    one, two = (
-        overturning_spectrum(PRISM, "sine", frequency_ratio=[1.0, 2.0, 3.0], threads=threads) for threads in (1, 2)
-    )
-    np.testing.assert_array_equal(one.lower, two.lower)
-    np.testing.assert_array_equal(one.upper, two.upper)
-
-
-def test_the_result_is_shown_in_a_line():
-    assert repr(overturning_spectrum(PRISM, "half-sine", frequency_ratio=[1.0], largest=1.1)) == (
-        "<OverturningSpectrum: pulse half-sine, model linear, Ω 1 to 1 in 1, lower limit above the largest A>"
-    )
 
 
 @pytest.mark.parametrize(

@@ -31,14 +31,6 @@ def test_each_impact_loses_by_the_law_at_its_own_speed(model):
     np.testing.assert_allclose(kept, np.interp(arriving[:5], [0.1, 0.4, 0.8], [0.99, 0.9, 0.7]), rtol=1e-9)
 
 
-def test_a_function_is_sampled_as_far_as_the_impacts_go():
-    history = rock(PRISM, restitution=lambda speed: 1 / (1 + 0.01 * speed), omega0=-40.0, theta0=0.1, duration=0.2)
-    fastest = np.abs(history.impact_velocities).max()
-    assert fastest > 4 * PRISM.p * PRISM.critical_angle
-    first = history.rebound_velocities[0] / history.impact_velocities[0]
-    assert first == pytest.approx(1 / (1 + 0.01 * fastest), rel=1e-6)
-
-
 @pytest.mark.parametrize(
     ("speeds", "values", "words"),
     [

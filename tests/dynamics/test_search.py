@@ -115,8 +115,3 @@ def test_the_samples_are_those_of_the_sine():
     assert wave[half] == pytest.approx(0.5 * np.sin(10.0 * 0.5 * period + 0.4))
     assert wave[0] == wave[-1] == 0.0
     assert time[-1] == pytest.approx(5 * period)
-
-
-def test_a_sine_without_a_ramp_begins_at_once():
-    wave, _ = Harmonic.cycles(10.0, 2.0, phase=np.pi / 2).sampled(1.0)
-    assert wave[0] == 1.0

@@ -6,9 +6,7 @@ from math import pi
 import pytest
 
 from colonnade.dynamics.size import (
-    UnlikelyBlockWarning,
     cone_volume,
-    expect_inertia,
     expect_metres,
     is_likely,
     mistaken_lengths,
@@ -44,20 +42,9 @@ def test_what_no_unit_explains_is_left_open():
     assert mistaken_lengths(STEEL) == ("", 0)
 
 
-def test_lengths_that_look_like_millimetres_are_told_to_the_caller():
-    with pytest.warns(UnlikelyBlockWarning, match=r"width=86, height=456 .* 7.8e-06 kg/m³.* were they in mm\?"):
-        expect_metres(7.8e-6, 0.19, width=86.0, height=456.0)
-
-
 @pytest.mark.parametrize(("density", "slenderness", "is_warned"), [(7.8, 1e-4, True), (7.8, 0.2, False)])
 def test_one_length_counts_only_if_the_block_could_not_stand_either(density, slenderness, is_warned):
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         expect_metres(density, slenderness, width=0.086)
     assert bool(told) == is_warned
-
-
-def test_no_body_has_less_inertia_about_its_pole_than_its_mass_at_that_distance():
-    expect_inertia(0.9 * 2.0 * 0.5**2, 2.0, 0.5)
-    with pytest.raises(ValueError, match=r"at least m R² = 0.5 kg m² was expected"):
-        expect_inertia(0.89 * 2.0 * 0.5**2, 2.0, 0.5)

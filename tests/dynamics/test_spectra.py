@@ -49,16 +49,6 @@ def test_a_vertical_motion_uplifts_a_block_that_the_horizontal_one_alone_does_no
     assert rocking_spectrum(lifted, critical_angle=angles, period=periods).peak_ratio > 0.01
 
 
-def test_threads_do_not_change_the_result():
-    one, two = (
-        rocking_spectrum(PULSE, critical_angle=[0.15, 0.25], period=[2.0, 4.0, 6.0], threads=threads)
-        for threads in (1, 2)
-    )
-    np.testing.assert_array_equal(one.peak_ratio, two.peak_ratio)
-    np.testing.assert_array_equal(one.peak_velocity_ratio, two.peak_velocity_ratio)
-    assert repr(one).startswith("<RockingSpectrum: model nonlinear, α 0.15 to 0.25 rad in 2")
-
-
 @pytest.mark.parametrize(("period", "angle"), [(0.0, 0.2), (1.0, 2.0)])
 def test_impossible_blocks_are_clear_errors(period, angle):
     with pytest.raises(ValueError, match=r"period is 0.0|critical_angle is 2.0"):

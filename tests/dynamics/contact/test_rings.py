@@ -198,14 +198,3 @@ def test_an_accelerated_cylinder_sticks_and_slides_by_coulombs_limit():
     slowed = 0.2 * squat.mass * GRAVITY * radius / body.inertia[2]
     at = 25
     assert spun.turning[at, 2] == pytest.approx(2.0 - slowed * spun.time[at], rel=5e-3)
-
-
-def test_peaks_of_all_directions_of_shaking_are_alike():
-    base = 2.5 * np.sin(2 * np.pi * 2.5 * np.arange(81) * 0.005)
-    along = simulate(BODY, Motion(base, 0.005), law=LAW, gravity=GRAVITY, step=STEP)
-    assert np.abs(along.angle).max() > 0.05 * ALPHA
-    for angle in (0.5, 2.0):
-        motion = Motion(np.cos(angle) * base, 0.005, transverse=np.sin(angle) * base)
-        history = simulate(BODY, motion, law=LAW, gravity=GRAVITY, step=STEP)
-        turned = _axis(along)[:, :1] * [[np.cos(angle), np.sin(angle)]]
-        np.testing.assert_allclose(_axis(history), turned, atol=1e-6 * ALPHA)

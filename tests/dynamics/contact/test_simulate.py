@@ -8,7 +8,7 @@ import pytest
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactBody, ContactLaw, rigid_body
 from colonnade.dynamics.contact.simulate import simulate
-from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
+from colonnade.dynamics.contact.start import Start
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from prism import PRISM
@@ -79,11 +79,6 @@ def test_shaking_across_rocks_a_square_block_as_shaking_along_does():
     np.testing.assert_allclose(across.angle, 0.0, atol=1e-9 * ALPHA)
 
 
-def test_a_shaken_block_first_leans_against_the_acceleration():
-    history = rock(PRISM, Motion(np.full(11, 1.3 * PRISM.uplift_acceleration), 0.005), model="contact")
-    assert history.angle[-1] < -1e-3 * ALPHA
-
-
 @pytest.mark.parametrize(
     ("theta0", "duration", "outcome"),
     [(0.97, 0.8, "rocking"), (1.03, 1.5, "overturned"), (-1.03, 1.5, "overturned"), (0.0, 0.2, "no-rocking")],
@@ -113,20 +108,6 @@ def test_a_body_starts_where_it_was_put(angles):
     assert history.out_of_plane[0] == pytest.approx(angles[1], abs=1e-12)
     assert history.yaw[0] == pytest.approx(0.0, abs=0.02)
     assert -1e-4 < history.uplift[0] < 0.0
-
-
-@pytest.mark.parametrize("angle", [0.1, -0.1])
-def test_a_tilted_block_starts_with_its_pole_where_it_was(angle):
-    body = rigid_body(PRISM)
-    history = simulate(body, REST, law=ContactLaw.stiff(body, GRAVITY), theta0=angle)
-    np.testing.assert_allclose(history.slide[0], 0.0, atol=1e-15)
-
-
-def test_a_rocking_start_turns_about_the_pole():
-    body = rigid_body(PRISM)
-    start = standing(body, ContactLaw.stiff(body, GRAVITY), GRAVITY, theta0=0.1, omega0=0.5)
-    pole = rotation_matrices(start.orientation[None])[0] @ [body.half_width, 0.0, -body.height]
-    np.testing.assert_allclose(start.velocity + np.cross(start.angular_velocity, pole), 0.0, atol=1e-12)
 
 
 def test_a_mode_rings_at_its_frequency_and_fades_as_damped():

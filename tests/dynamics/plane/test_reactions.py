@@ -164,9 +164,3 @@ def test_each_impact_takes_one_less_e_squared_of_the_energy(model, restitution):
     np.testing.assert_allclose(means[1:] / means[:-1], restitution**2, rtol=1e-9)
     kept = (history.rebound_velocities / history.impact_velocities) ** 2
     np.testing.assert_allclose(kept, restitution**2, rtol=1e-15)
-
-
-def test_reactions_say_which_friction_is_needed():
-    motion = Motion([0.0, 1.0], 0.01)
-    said = repr(reactions(rock(PRISM, motion), motion, friction=0.3))
-    assert said == "<Reactions: friction needed 0.1019, at impacts 0, friction 0.3, pure rocking until the end>"

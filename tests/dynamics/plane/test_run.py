@@ -16,13 +16,6 @@ ALPHA, P = PRISM.critical_angle, PRISM.p
 FREE = {"theta0": 0.5 * ALPHA, "duration": 2.0}
 
 
-@pytest.mark.parametrize("model", ["linear", "nonlinear"])
-def test_a_rebound_is_e_times_the_speed_before_it(model):
-    history = rock(PRISM, **FREE, restitution=0.9, model=model)
-    np.testing.assert_allclose(history.rebound_velocities, 0.9 * history.impact_velocities)
-    assert history.impact_times.size >= 3
-
-
 def test_each_side_has_its_own_e():
     history = rock(PRISM, **FREE, restitution=(0.95, 0.85))
     expected = np.where(history.impact_velocities > 0, 0.95, 0.85)

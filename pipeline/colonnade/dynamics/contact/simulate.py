@@ -295,9 +295,9 @@ def _run(structure: Structure, starts: list[Start], motion: Motion, step: float 
         still = np.zeros((ceil(AFTERMATH / (p * motion.dt)) + 1, 3))
         *_, stands = _march(structure, samples[-1], still, motion.dt, parts)
     times = np.full(len(stands), np.nan)
-    for body in np.flatnonzero(~stands):
-        upright = np.flatnonzero(leans[:, body] <= 1.0)
-        times[body] = motion.time[min(upright.max(initial=-1) + 1, len(samples) - 1)]
+    for fallen in np.flatnonzero(~stands):
+        upright = np.flatnonzero(leans[:, fallen] <= 1.0)
+        times[fallen] = motion.time[min(upright.max(initial=-1) + 1, len(samples) - 1)]
     step = motion.dt / parts
     return _Run(structure, samples, joints, sums, impacts, matrices, arms, leans, times, reached, step)
 
