@@ -19,10 +19,11 @@ from colonnade.findings import Finding, Severity, as_record
 from colonnade.identification.plausibility.transducers import ChannelState, changes
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.store.records import wording
 from colonnade.store.records.stored import Failure, Stored, as_map
 from colonnade.store.records.test import record_of_specimen, record_of_test
 from colonnade.store.results import ResultId
-from colonnade.units.text import interval, listed, number
+from colonnade.units.text import listed, number
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import restitution_taken
@@ -67,7 +68,12 @@ class Line:
 
     def text(self) -> str:
         """Write it for people."""
-        parts = [self._measured(), *self._predicted(), self._place(), self._restitution(), *self._warnings()]
+        record, level = self.record, self.restitution.level
+        why = record.reason or (record.restitution.reason if record.restitution else None)
+        parts = [wording.measured(record, level) + (f": {why}" if why else "")]
+        parts += [f"{model} {said}" for model, said in wording.predicted(record).items()]
+        so_far = [] if record.restitution is None else [f"{record.specimen} {wording.pooled(self.restitution)}"]
+        parts += [self._place(), *so_far, *self._warnings()]
         return f"{self.test}: {'; '.join(filter(None, parts))} ({number(self.seconds, 2)} s)"
 
     def as_json(self) -> dict[str, Any]:
@@ -81,20 +87,6 @@ class Line:
             "changed": [as_record(each) for each in self.changed],
         }
 
-    def _measured(self) -> str:
-        record = self.record
-        if record.status == "failed":
-            return f"failed: {record.reason}"
-        peak = "" if record.peak_ratio is None else f", peak {number(record.peak_ratio)} α"
-        return f"{record.outcome or 'no rocking angle'}{peak}"
-
-    def _predicted(self) -> list[str]:
-        known = {model: each for model, each in self.record.predicted.items() if each.outcome}
-        return [
-            f"{model}: {each.outcome}" + ("" if each.peak_ratio is None else f", peak {number(each.peak_ratio)} α")
-            for model, each in known.items()
-        ]
-
     def _place(self) -> str:
         ratio = self.record.amplitude_ratio
         if ratio is None or self.record.frequency_ratio is None:
@@ -102,16 +94,6 @@ class Line:
         place = f"Ω {number(self.record.frequency_ratio)}, A {number(ratio)}"
         lower = self.limits.get("lower")
         return f"{place} (overturns from A {number(lower)} by the map)" if lower is not None else place
-
-    def _restitution(self) -> str:
-        found, own = self.restitution, self.record.restitution
-        if own is None:
-            return ""
-        this = f"e {interval(own.value, own.low, own.high, found.level)}" if own.value is not None else "no e"
-        why = f" ({own.reason})" if own.value is None and own.reason else ""
-        value = found.value if not isinstance(found.value, tuple) else sum(found.value) / len(found.value)
-        so_far = interval(value, found.low, found.high, found.level)
-        return f"{this}{why}; {self.record.specimen} so far e {so_far} of {len(found.tests)}"
 
     def _warnings(self) -> list[str]:
         worst: list[Finding | Warned] = [*self.changed]
