@@ -24,7 +24,7 @@ from colonnade.store.layout import Layout
 from colonnade.workflow.assessing import _given, assess_campaign, assess_own, outcomes_of
 from colonnade.workflow.executors import Where, in_blocks
 from colonnade.workflow.product import Catalogue
-from colonnade.workflow.real_column import AskedColumn
+from colonnade.workflow.real_column import given_of
 from colonnade.workflow.run import run
 from every import every
 from short_campaign import Small
@@ -35,11 +35,11 @@ HERE = Where(workers=1)
 
 
 def own(folder, base="site", **options):
-    return assess_own(load(folder), Layout(folder), base, AskedColumn.of(options), options, HERE)
+    return assess_own(load(folder), Layout(folder), base, given_of(options), HERE)
 
 
 def without_campaign(**options):
-    return assess_own(None, None, None, AskedColumn.of(options), options, HERE)
+    return assess_own(None, None, None, given_of(options), HERE)
 
 
 def test_options_replace_keys_and_store_nothing(assessed):
@@ -107,9 +107,8 @@ def test_limits_of_another_value_do_not_hold_for_the_one_that_is_asked(assessed)
     ranges = {"critical_angle_range": ["0.17 rad", "0.19 rad"], "friction": 0.6, "friction_range": [0.5, 0.7]}
     written = Prototype.model_validate({"restitution": 0.9, **ranges})
     campaign = load(assessed).but(prototype={"prism": written})
-    levels = {"levels": ["1 m/s", "2 m/s"], "draws": 2}
-    column = AskedColumn.of({"critical_angle": "0.25 rad"})
-    found = assess_own(campaign, Layout(assessed), "site", column, levels, HERE)
+    given = {"critical_angle": "0.25 rad", "levels": ["1 m/s", "2 m/s"], "draws": 2}
+    found = assess_own(campaign, Layout(assessed), "site", given, HERE)
     assert set(found.result["drawn_critical_angle"].to_numpy().ravel()) == {0.25}
     assert found.record.friction_range == (0.5, 0.7)
 

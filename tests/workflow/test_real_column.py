@@ -9,7 +9,7 @@ from colonnade.campaign.assessment import Prototype
 from colonnade.errors import CampaignError
 from colonnade.stages.assessment_plan import real_column
 from colonnade.store.layout import Layout
-from colonnade.workflow.real_column import AskedColumn, find_column
+from colonnade.workflow.real_column import find_column, given_of
 from every import every
 
 
@@ -22,7 +22,7 @@ def campaign(assessed):
 def found(campaign, is_real=False, **options):
     """Column and source of its e."""
     layout = None if campaign is None else Layout(campaign.folder)
-    asked = find_column(AskedColumn.of(options), campaign, layout, is_real=is_real)
+    asked = find_column(given_of(options), campaign, layout, is_real=is_real)
     return real_column(asked.inputs, asked.pooled)
 
 

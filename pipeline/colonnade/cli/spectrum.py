@@ -76,13 +76,13 @@ def spectrum(
         for name in names:
             if other not in asked_for and options[name] not in (None, ()):
                 raise click.UsageError(f"--{name.replace('_', '-')} is only for {other}.")
-    from colonnade.workflow.real_column import AskedColumn, picked
+    from colonnade.workflow.real_column import given_of, picked
     from colonnade.workflow.spectrum import AskedSpectrum, Overturning, Rocking, overturning_of, rocking_of
 
     _expect_places(out, data)
     is_here = campaign != Path() or Path("campaign.toml").is_file()
     known, layout = opened(campaign, results) if is_here else (None, None)
-    column, asked = AskedColumn.of(options), picked(AskedSpectrum, options)
+    column, asked = given_of(options), picked(AskedSpectrum, options)
     found: Rocking | Overturning
     if motion is not None:
         found = rocking_of(known, layout, column, motion, asked)
@@ -175,19 +175,18 @@ def _assessed(
     path: Path, names: tuple[str, ...], options: dict[str, Any], results: Path | None, where: Where
 ) -> list[Assessed]:
     from colonnade.workflow.assessing import assess_campaign, assess_own
-    from colonnade.workflow.real_column import AskedColumn, given_of
+    from colonnade.workflow.real_column import given_of, needs_specimen
 
-    column = AskedColumn.of(options)
-    asked = {key: list(each) if isinstance(each, tuple) else each for key, each in given_of(options).items()}
-    if not names and not column.needs_specimen:
-        return [assess_own(None, None, None, column, asked, where)]
+    given = given_of(options)
+    if not names and not needs_specimen(given):
+        return [assess_own(None, None, None, given, where)]
     loaded, layout = opened(path, results)
-    if not asked:
+    if not given:
         return assess_campaign(loaded, layout, names, where)
     if len(names) > 1:
         raise click.UsageError("Options are for one assessment. Name one.")
     base = names[0] if names else next(iter(loaded.assessments)) if len(loaded.assessments) == 1 else None
-    return [assess_own(loaded, layout, base, column, asked, where)]
+    return [assess_own(loaded, layout, base, given, where)]
 
 
 def _show_assessed(assessed: Assessed) -> None:

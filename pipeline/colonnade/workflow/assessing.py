@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,7 +25,7 @@ from colonnade.workflow.graph import FORMATS, Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import expect_known
 from colonnade.workflow.product import Catalogue, Product
-from colonnade.workflow.real_column import AskedColumn, checked, find_column, given_of
+from colonnade.workflow.real_column import Given, checked, find_column
 from colonnade.workflow.summary import record_of_assessment
 from colonnade.workflow.walk import Walk
 
@@ -99,8 +99,7 @@ def assess_own(
     campaign: Campaign | None,
     layout: Layout | None,
     base: str | None,
-    column: AskedColumn,
-    options: Mapping[str, Any],
+    given: Given,
     where: Where,
 ) -> Assessed:
     """
@@ -112,10 +111,8 @@ def assess_own(
         None without a campaign.
     base : str or None
         Name of the assessment of the campaign whose keys count if nothing replaces them.
-    column : AskedColumn
-        Default the column of `base`.
-    options : mapping
-        Keys of [assessments.<name>], as in a campaign file; paths may be anywhere.
+    given : Given
+        What says which column, by default that of `base`, and keys of [assessments.<name>]; paths may be anywhere.
     where : Where
 
     Raises
@@ -129,12 +126,10 @@ def assess_own(
     if campaign is not None and base is not None:
         expect_known(campaign, "assessment", [base])
         written = campaign.assessments[base].model_dump(exclude_none=True)
-    meant = replace(
-        column, specimen=column.specimen or written.get("specimen"), scale=column.scale or written.get("scale")
-    )
+    meant = {key: written[key] for key in ("specimen", "scale") if key in written} | dict(given)
     found = find_column(meant, campaign, layout, is_real=True)
     name = found.specimen or OWN
-    asked = _asked(written | {"specimen": name, "scale": found.inputs.scale}, given_of(options))
+    asked = _asked(written | {"specimen": name, "scale": found.inputs.scale}, given)
     inputs = AssessmentInputs(**dict(found.inputs), specimen=name, asked=asked)
     with tempfile.TemporaryDirectory(prefix="colonnade-") as blocks:
         try:
@@ -146,7 +141,7 @@ def assess_own(
     return Assessed(OWN, AssessmentSummary.model_validate_json(result.attrs["answer"]), result)
 
 
-def _asked(written: dict[str, Any], given: Mapping[str, Any]) -> Assessment:
+def _asked(written: dict[str, Any], given: Given) -> Assessment:
     """Put options over the keys of an assessment; their files may be anywhere."""
     if given.get("measure", written.get("measure")) != written.get("measure"):
         # Levels and hazard are of another measure.

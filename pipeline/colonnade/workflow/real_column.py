@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from math import pi
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
@@ -33,41 +33,17 @@ IDENTIFIED, RIGID_BODY = "identified", "rigid-body"
 """Words for e in place of its value."""
 
 
-@dataclass(frozen=True)
-class AskedColumn:
-    """
-    What says which column.
+SIZES = ("shape", *OUTER_DIMENSIONS)
+"""Keys of [specimens.<id>] by which a column is given that is no specimen."""
 
-    Attributes
-    ----------
-    specimen : str or None
-        Id; the only one of a campaign if neither it, sizes nor α and p are given.
-    scale : float or None
-        How many times larger than the specimen it is.
-    properties : dict
-        Keys of [prototype.<specimen>], as in a campaign file, that replace what the campaign says.
-    sizes : dict
-        Shape and dimensions by the keys of [specimens.<id>]; empty if it is not given by them.
-    """
+Given = Mapping[str, Any]
+"""Options that are given, as in a campaign file; of a column: `specimen`, `scale`, `SIZES` and keys of `Prototype`."""
 
-    specimen: str | None = None
-    scale: float | None = None
-    properties: Mapping[str, Any] = field(default_factory=dict)
-    sizes: Mapping[str, Any] = field(default_factory=dict)
 
-    @classmethod
-    def of(cls, options: Mapping[str, Any]) -> AskedColumn:
-        """Pick from the options of a command those that are about the column; None and () are not given."""
-        given = given_of(options)
-        properties = {key: _with_number(key, given[key]) for key in Prototype.model_fields if key in given}
-        sizes = {key: given[key] for key in ("shape", *OUTER_DIMENSIONS) if key in given}
-        return cls(given.get("specimen"), given.get("scale"), properties, sizes)
-
-    @property
-    def needs_specimen(self) -> bool:
-        """Whether it is not said by its sizes, or by α and p, alone."""
-        is_given = bool(self.sizes) or {"critical_angle", "p"} <= self.properties.keys()
-        return self.specimen is not None or not is_given
+def needs_specimen(given: Given) -> bool:
+    """Whether a column is not said by its sizes, or by α and p, alone."""
+    is_said = bool(given.keys() & set(SIZES)) or {"critical_angle", "p"} <= given.keys()
+    return "specimen" in given or not is_said
 
 
 @dataclass(frozen=True)
@@ -147,14 +123,15 @@ class FoundColumn:
 
 
 def find_column(
-    asked: AskedColumn, campaign: Campaign | None, layout: Layout | None, *, is_real: bool = False
+    given: Given, campaign: Campaign | None, layout: Layout | None, *, is_real: bool = False
 ) -> FoundColumn:
     """
     Find the column that is asked about.
 
     Parameters
     ----------
-    asked : AskedColumn
+    given : Given
+        The only specimen of a campaign is meant if neither one, sizes nor α and p are given.
     campaign, layout : optional
         None without a campaign.
     is_real : bool, optional
@@ -170,16 +147,16 @@ def find_column(
     CampaignError
         If it is not said which, an option is out of its range, or the e of a real column is not said.
     """
-    if asked.sizes and asked.specimen is not None:
+    if "specimen" in given and given.keys() & set(SIZES):
         raise CampaignError(
             "--shape and its sizes are for a column that is not a specimen. Leave --specimen and --name out."
         )
-    if campaign is None or layout is None or not asked.needs_specimen:
-        return _without_specimen(asked, has_campaign=campaign is not None)
-    name = one_specimen(campaign, asked.specimen)
+    if campaign is None or layout is None or not needs_specimen(given):
+        return _without_specimen(given, has_campaign=campaign is not None)
+    name = one_specimen(campaign, given.get("specimen"))
     known = campaign.specimens[name]
-    scale = checked(Size, {"scale": asked.scale}).scale or (known.scale if is_real else None) or 1.0
-    if is_real or scale != 1.0 or {"critical_angle", "p"} & asked.properties.keys():
+    scale = checked(Size, {"scale": given.get("scale")}).scale or (known.scale if is_real else None) or 1.0
+    if is_real or scale != 1.0 or {"critical_angle", "p"} & given.keys():
         own = campaign.prototype.get(name)
         written = {} if own is None else own.model_dump(exclude_none=True)
     else:
@@ -187,10 +164,10 @@ def find_column(
     inputs = ColumnInputs(
         block=known.block(campaign.gravity),
         scale=scale,
-        prototype=_prototype(written, asked.properties),
+        prototype=_prototype(written, given),
         usual_scatter=campaign.processing.predict.ensemble.restitution,
     )
-    has_own_size = asked.scale is None and "p" in asked.properties
+    has_own_size = "scale" not in given and "p" in given
     return FoundColumn(name, inputs, restitution_taken(campaign, layout, name), None if has_own_size else scale)
 
 
@@ -203,21 +180,21 @@ class Size(Table):
     """Shape of a column that is given by its sizes."""
 
 
-def _without_specimen(asked: AskedColumn, *, has_campaign: bool) -> FoundColumn:
+def _without_specimen(given: Given, *, has_campaign: bool) -> FoundColumn:
     from colonnade.stages.specimen import SpecimenInputs, taken
 
-    if asked.specimen is not None:
+    if "specimen" in given:
         raise CampaignError(
-            f"--specimen {asked.specimen}: there is no campaign here. Give CAMPAIGN, or --shape with the sizes."
+            f"--specimen {given['specimen']}: there is no campaign here. Give CAMPAIGN, or --shape with the sizes."
         )
-    if asked.scale not in (None, 1.0):
+    if given.get("scale", 1.0) != 1.0:
         raise CampaignError("--scale is for a specimen. Sizes, or --critical-angle and --p, are of the real column.")
-    if asked.properties.get("restitution") == IDENTIFIED:
+    if given.get("restitution") == IDENTIFIED:
         where = "name it with --specimen" if has_campaign else "give CAMPAIGN and --specimen"
         raise CampaignError(f"--restitution identified: e is identified of a specimen; {where}.")
-    prototype = _prototype({"restitution": RIGID_BODY}, asked.properties)
-    if asked.sizes:
-        block = _sized(asked.sizes)
+    prototype = _prototype({"restitution": RIGID_BODY}, given)
+    if sizes := {key: given[key] for key in SIZES if key in given}:
+        block = _sized(sizes)
     elif prototype.critical_angle is None or prototype.p is None:
         raise CampaignError(
             'The column is not known. Give --shape prism --width "1 m" --height "5 m", or --critical-angle "0.2 rad" '
@@ -231,7 +208,7 @@ def _without_specimen(asked: AskedColumn, *, has_campaign: bool) -> FoundColumn:
         prototype = prototype.model_copy(update={"critical_angle": None, "p": None})
     inputs = ColumnInputs(block=block, scale=1.0, prototype=prototype)
     pooled = taken(None, SpecimenInputs(block=block, given=None, level=0.95))
-    return FoundColumn(None, inputs, pooled, asked.scale)
+    return FoundColumn(None, inputs, pooled, given.get("scale"))
 
 
 def _sized(sizes: Mapping[str, Any]) -> Block:
@@ -244,6 +221,7 @@ def _sized(sizes: Mapping[str, Any]) -> Block:
 
 def _prototype(written: dict[str, Any], given: Mapping[str, Any]) -> Prototype:
     """Put options over what a campaign says of the real column."""
+    given = {key: given[key] for key in Prototype.model_fields if key in given}
     # Limits of another value are none of this one.
     written = {key: value for key, value in written.items() if key.removesuffix("_range") not in given}
     if "restitution" not in {**written, **given}:
@@ -279,23 +257,21 @@ def checked(model: type[Written], written: Mapping[str, Any], names: Mapping[str
         raise CampaignError("\n".join(problems)) from None
 
 
-def given_of(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Take from the options of a command those that are given: neither None nor ()."""
-    return {key: value for key, value in options.items() if value is not None and value != ()}
+def given_of(options: Mapping[str, Any]) -> Given:
+    """Take from the options of a command those that are given, neither None nor (); lists and numbers as in a file."""
+    given = {key: value for key, value in options.items() if value is not None and value != ()}
+    return {key: _as_written(key, value) for key, value in given.items()}
+
+
+def _as_written(key: str, value: Any) -> Any:
+    if key == "restitution" and isinstance(value, str):
+        try:
+            return float(value)
+        except ValueError:
+            return value  # "identified" or "rigid-body"
+    return list(value) if isinstance(value, tuple) else value
 
 
 def picked(model: type[Written], options: Mapping[str, Any]) -> Written:
     """Pick from the options of a command those that are given and keys of a table; as `checked`."""
     return checked(model, {key: value for key, value in given_of(options).items() if key in model.model_fields})
-
-
-def _with_number(key: str, value: Any) -> Any:
-    """Take an e that is a number as one; a pair as a list, as in a campaign file."""
-    if isinstance(value, tuple):
-        return list(value)
-    if key == "restitution" and isinstance(value, str):
-        try:
-            return float(value)
-        except ValueError:
-            pass
-    return value

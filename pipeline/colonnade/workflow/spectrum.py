@@ -25,7 +25,7 @@ from colonnade.dynamics.spectra import RockingSpectrum, rocking_spectrum
 from colonnade.errors import CampaignError
 from colonnade.store.layout import Layout
 from colonnade.units.text import NOTHING, acceleration, number, quantity, ratio
-from colonnade.workflow.real_column import AskedColumn, FoundColumn, find_column
+from colonnade.workflow.real_column import FoundColumn, Given, find_column
 
 if TYPE_CHECKING:
     from colonnade.figures.files.output import Picture
@@ -265,7 +265,7 @@ def _plain(values: Array) -> list[float | None]:
 
 
 def rocking_of(
-    campaign: Campaign | None, layout: Layout | None, column: AskedColumn, motion: str, asked: AskedSpectrum
+    campaign: Campaign | None, layout: Layout | None, column: Given, motion: str, asked: AskedSpectrum
 ) -> Rocking:
     """
     Compute the rocking spectrum of a motion around a column.
@@ -274,7 +274,7 @@ def rocking_of(
     ----------
     campaign, layout : optional
         None without a campaign.
-    column : AskedColumn
+    column : Given
         A specimen stands for itself unless options make it another column.
     motion : str
         A file, a test that recorded it, a motion that tests name or one of [motions].
@@ -307,7 +307,7 @@ def rocking_of(
 
 
 def overturning_of(
-    campaign: Campaign | None, layout: Layout | None, column: AskedColumn, asked: AskedSpectrum
+    campaign: Campaign | None, layout: Layout | None, column: Given, asked: AskedSpectrum
 ) -> Overturning:
     """Compute the overturning spectrum of the pulse that is asked for; as of `rocking_of`."""
     known = find_column(column, campaign, layout)
