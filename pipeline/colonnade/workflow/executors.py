@@ -224,6 +224,8 @@ class _Processes(Workers):
         pool: Any = self.pool
         try:
             pool.shutdown(wait=True, kill_workers=True)
+            for feeder in [each for each in threading.enumerate() if each.name == "QueueFeederThread"]:
+                feeder.join(LOOK)  # frozen at the end of the interpreter, it would leave a semaphore half removed
         finally:
             threading.excepthook = original
 
