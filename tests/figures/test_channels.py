@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from colonnade.campaign import Test
 from colonnade.figures import channels
 from colonnade.figures.channels import MOST_SPIKES, Channel, Scale, Spike, channels_as_recorded
 from colonnade.figures.panels.curve import Curve
+from colonnade.figures.stored.subject import OfTest
 from colonnade.signals.metrics import Density
 from colonnade.signals.quality import Flag
 from colonnade.store.records.stored import Stored
@@ -42,7 +44,7 @@ def test_a_channel_has_its_physical_scale_and_that_of_its_recorder():
 
 
 def test_a_channel_recorded_in_its_own_unit_has_one_scale():
-    history = channels_as_recorded([channel(recorded=Scale("mm", None, 0.0))], []).axes[0]
+    history = channels_as_recorded([channel(recorded=None)], []).axes[0]
     assert [text.get_text() for text in history.texts] == ["top"]
 
 
@@ -88,34 +90,33 @@ def stored(number=1, spikes=()):
         attributes[name] = {"quantity": "displacement", "recorded_unit": "V", "cutoff_hz": 25.0}
     found = Stored(datasets={("ingest", None): xr.Dataset(variables, {"elapsed": SAMPLED})})
     found.channels = attributes
-    return found
+    return picture_of(found)
 
 
-@pytest.fixture(scope="module")
-def test(filled_campaign):
-    return filled_campaign[0].tests["span-2.0"]
+def picture_of(found):
+    return channels.picture(OfTest(None, Test.model_construct(id="a"), None, found))
 
 
-def test_the_recorders_scale_follows_from_the_samples(test):
-    history = channels.picture(test, stored()).figure.axes[0]
+def test_the_recorders_scale_follows_from_the_samples():
+    history = stored().figure.axes[0]
     assert history.get_ylabel() == "mm"
     heights = {text.get_text(): text.xy[1] for text in history.texts}
     assert heights["2"] == pytest.approx(4.5)  # 2 mm/V and 0.5 mm
 
 
-def test_each_spike_is_drawn_and_a_long_failed_stretch_is_none(test):
-    found = channels.picture(test, stored(spikes=[100, 300, 301, *range(500, 560)]))
+def test_each_spike_is_drawn_and_a_long_failed_stretch_is_none():
+    found = stored(spikes=[100, 300, 301, *range(500, 560)])
     assert [axes.get_title(loc="left") for axes in found.figure.axes[2:]] == ["laser0\n0.500 s", "laser0\n1.500 s"]
     assert "63 failed or missing samples" in found.description
 
 
-def test_many_channels_and_spikes_are_summarised(test):
-    found = channels.picture(test, stored(number=30, spikes=range(10, 700, 10)))
+def test_many_channels_and_spikes_are_summarised():
+    found = stored(number=30, spikes=range(10, 700, 10))
     assert "12 of 30 channels are drawn." in found.note
     assert "spikes are enlarged" in found.note
     assert len(found.figure.axes) < 40
 
 
-def test_without_samples_there_is_nothing_to_draw(test):
-    assert channels.picture(test, Stored()) is None
-    assert channels.picture(test, Stored(datasets={("ingest", None): xr.Dataset()})) is None
+def test_without_samples_there_is_nothing_to_draw():
+    assert picture_of(Stored()) is None
+    assert picture_of(Stored(datasets={("ingest", None): xr.Dataset()})) is None

@@ -44,8 +44,8 @@ def test_record():
     return whole_record(
         {"measured": SWING, "linear": MODEL},
         [
-            Panel("predicted −\nmeasured, / α", {"linear": Curve(TIME, MODEL.values - SWING.values)}),
-            Panel("base\n(m/s²)", {"": SHAKING}, 1.85, "g tan α"),
+            Panel("Misfit", "predicted −\nmeasured, / α", "", {"linear": Curve(TIME, MODEL.values - SWING.values)}),
+            Panel("Base", "base", "m/s²", {"": SHAKING}, 1.85, "g tan α"),
         ],
         impacts=np.arange(0.5, 8, 0.5),
         peak=(0.25, 0.56),

@@ -24,12 +24,12 @@ def whole(*panels, **options):
     return whole_record({"measured": swing(0.4), "linear": swing(0.3)}, panels, **options)
 
 
-MISFIT = Panel("predicted −\nmeasured, / α", {"linear": swing(0.1)})
-BASE = Panel("base\n(m/s²)", {"": swing(12.0)}, 2.0, "g tan α")
+MISFIT = Panel("Misfit", "predicted −\nmeasured, / α", "", {"linear": swing(0.1)})
+BASE = Panel("Base", "base", "m/s²", {"": swing(12.0)}, 2.0, "g tan α")
 
 
 def test_each_quantity_has_a_panel_below_the_angle_in_the_order_given():
-    figure = whole(MISFIT, Panel("slide (mm)", {"": swing(2.0)}), BASE)
+    figure = whole(MISFIT, Panel("Slide", "slide", "mm", {"": swing(2.0)}), BASE)
     assert labels(figure) == ["θ / α", "predicted − measured, / α", "slide (mm)", "base (m/s²)"]
     tops = [axes.get_position().y1 for axes in figure.axes]
     assert tops == sorted(tops, reverse=True)
@@ -39,7 +39,7 @@ def test_each_quantity_has_a_panel_below_the_angle_in_the_order_given():
 
 @pytest.mark.parametrize(("level", "lines"), [(1.5, 3), (5.0, 1), (None, 1)], ids=["within", "beyond", "not known"])
 def test_the_uplift_acceleration_is_drawn_where_the_motion_reaches_it(level, lines):
-    figure = whole(Panel("base", {"": swing(2.0)}, level, "g tan α"))
+    figure = whole(Panel("Base", "base", "", {"": swing(2.0)}, level, "g tan α"))
     assert len(figure.axes[1].lines) == lines
 
 
@@ -62,8 +62,8 @@ def test_the_legend_names_measured_and_models_once():
 def test_no_label_leaves_the_figure_or_meets_another():
     figure = whole(
         MISFIT,
-        Panel("out of plane\n(mrad)", {"": swing(-0.0123)}),
-        Panel("slide, y\n(mm)", {"": swing(1234.0)}),
+        Panel("Out of plane", "out of plane", "mrad", {"": swing(-0.0123)}),
+        Panel("Slide, y", "slide, y", "mm", {"": swing(1234.0)}),
         BASE,
     )
     figure.draw_without_rendering()

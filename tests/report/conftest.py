@@ -4,23 +4,16 @@ import shutil
 
 import pytest
 
-from colonnade.report.rows import TestRow
+from colonnade.report.pictures.subjects import read_of_test
 from colonnade.store.layout import Layout
-from colonnade.store.records.stored import read_test
-from colonnade.store.records.summary import read_summary, records_of_tests
 from read_pages import built
 
 
 @pytest.fixture(scope="session")
 def reported(filled_campaign):
-    """Row and stored results of each test."""
+    """Each test as its page sees it."""
     campaign, layout = filled_campaign
-    records = records_of_tests(campaign, read_summary(layout))
-    found = {}
-    for name, test in campaign.tests.items():
-        stored = read_test(campaign, layout, test)
-        found[name] = TestRow.of(campaign, test, records[name], stored), stored
-    return found
+    return {name: read_of_test(campaign, layout, name) for name in campaign.tests}
 
 
 @pytest.fixture(scope="session")

@@ -9,10 +9,10 @@ import pytest
 from colonnade.campaign import load
 from colonnade.campaign.forms.summary import Summary
 from colonnade.figures.stored import bodies
-from colonnade.report.pictures.subjects import OfSpecimen
+from colonnade.report.pictures.subjects import OfSpecimen, read_of_test
 from colonnade.report.specimens_page import of_specimen
 from colonnade.store.layout import Layout
-from colonnade.store.records.stored import read_specimen, read_test
+from colonnade.store.records.stored import read_specimen
 from colonnade.units.text import acceleration
 from read_pages import words_of
 
@@ -57,14 +57,14 @@ def test_models_that_none_of_the_tests_can_have_are_no_columns(shaken):
 
 def test_figures_are_drawn_from_what_is_stored(shaken):
     campaign, layout = load(shaken), Layout(shaken)
-    test = campaign.tests["quake"]
-    stored = read_test(campaign, layout, test)
-    joints = bodies.joints(test, stored)
+    one = read_of_test(campaign, layout, "quake")
+    stored = one.stored
+    joints = bodies.joints(one)
     assert [axes.get_ylabel().split("\n")[0] for axes in joints.figure.axes] == ["3", "2", "1"]
     drawn = joints.figure.axes[2].lines[0].get_ydata()
     largest = 1e3 * np.nanmax(np.abs(stored.array("rocking", "body_joint_angle")[0]))
     assert np.nanmax(np.abs(drawn)) == pytest.approx(largest)
-    plan = bodies.plan(test, stored, campaign.specimens["column"].assembly(9.81))
+    plan = bodies.plan(one)
     rest, end, _ = plan.figure.axes[2].patches
     moved = (end.get_xy()[:-1] - rest.get_xy()[:-1]).mean(axis=0)
     residual = [stored.array("rocking", f"body_residual_{axis}")[2] for axis in "xy"]
@@ -107,5 +107,5 @@ def test_what_is_odd_about_a_part_is_told_on_the_page_of_the_assembly(shaken, tm
     )
     campaign = load(tmp_path)
     pooled = read_specimen(campaign, Layout(shaken), "column")
-    (said,) = of_specimen(OfSpecimen(campaign, "column", pooled), [], [])["deviations"]
+    (said,) = of_specimen(OfSpecimen(campaign, "column", pooled), [])["deviations"]
     assert said.startswith("drum: ")

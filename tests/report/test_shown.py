@@ -207,7 +207,7 @@ def test_a_block_too_wide_to_rock_on_has_a_page(filled_campaign):
     campaign = filled_campaign[0]
     wide = campaign.specimens["prism"].model_copy(update={"width": 0.8})
     wide = campaign.model_copy(update={"specimens": campaign.specimens | {"prism": wide}})
-    known = dict(of_specimen(OfSpecimen(wide, "prism", Stored()), [], [])["restitution"])
+    known = dict(of_specimen(OfSpecimen(wide, "prism", Stored()), [])["restitution"])
     assert known["rigid-body e, without bounce"] == "0"
     assert "e over rigid-body e" not in known
 

@@ -12,17 +12,16 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array
-from colonnade.campaign import Campaign, Test
-from colonnade.dynamics.block import Block
+from colonnade.campaign import Campaign
 from colonnade.dynamics.spectra import DAMPING, response_spectrum
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import draw_limit, largest_of, scale_symmetric, time_limits
 from colonnade.figures.panels.curve import Curve, draw_curve
 from colonnade.figures.panels.layout import BOTTOM, TOP, add_row, legend_above, plain_decades
+from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, is_narrow, styled, width
 from colonnade.signals.named_motion import Laid, Series, laid_on
 from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load, reference_files
-from colonnade.store.records.stored import Stored
 from colonnade.units.text import format_percent, number, quantity
 
 HISTORY_HEIGHT, SPECTRUM_HEIGHT, BETWEEN = 1.3, 1.6, 0.62
@@ -124,13 +123,14 @@ class BaseMotion:
         return float(self.time[-1] - self.time[0]) / (self.time.size - 1)
 
 
-def base_of(campaign: Campaign, test: Test, stored: Stored) -> BaseMotion | None:
+def base_of(one: OfTest) -> BaseMotion | None:
     """Return the recorded base motion with its target; None if the table's motion was not recorded throughout."""
-    time, acceleration = stored.array("rocking", "elapsed"), stored.array("rocking", "base_acceleration")
+    test = one.test
+    time, acceleration = (one.stored.array("rocking", name) for name in ("elapsed", "base_acceleration"))
     if acceleration.size < 2 * FEWEST or not np.isfinite(acceleration).all() or test.kind in ("free-vibration", "tilt"):
         return None
     base = BaseMotion(time, acceleration, None)
-    reference = _reference(campaign, test.motion)
+    reference = _reference(one.campaign, test.motion)
     if reference is None or not acceleration.any():
         return base
     return BaseMotion(
@@ -138,12 +138,12 @@ def base_of(campaign: Campaign, test: Test, stored: Stored) -> BaseMotion | None
     )
 
 
-def base_picture(test: Test, base: BaseMotion | None, block: Block) -> Picture | None:
+def base_picture(one: OfTest, base: BaseMotion | None) -> Picture | None:
     """Draw what the table did and was to do; None for a motion without a spectrum worth drawing."""
+    test = one.test
     if base is None or test.kind in WITHOUT_SPECTRUM or not base.acceleration.any():
         return None
-    spectra = _spectra(base)
-    target = base.target
+    spectra, target = _spectra(base), base.target
     said = [f"Largest achieved response {quantity(float(spectra.achieved.max()), 'm/s²')}."]
     if target is not None and spectra.target is not None:
         ratio = spectra.achieved / spectra.target
@@ -153,7 +153,7 @@ def base_picture(test: Test, base: BaseMotion | None, block: Block) -> Picture |
             Curve(base.time, base.acceleration),
             None if target is None else Curve(base.time, target.acceleration),
             spectra,
-            uplift=block.uplift_acceleration,
+            uplift=one.block.uplift_acceleration,
         ),
         f"base-{test.id}",
         f"{test.id}: acceleration of the table and its response spectrum of {format_percent(DAMPING)} damping",

@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
 from colonnade.arrays import Array, Codes, Mask
-from colonnade.campaign import Test
 from colonnade.errors import count
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import time_limits
@@ -27,10 +26,10 @@ from colonnade.figures.panels.layout import (
     note,
     plain_decades,
 )
+from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import FAINT, LIMIT, MEASURED, SOFT, shortened, styled, width
 from colonnade.signals.metrics import Density, density
 from colonnade.signals.quality import Flag
-from colonnade.store.records.stored import Stored
 from colonnade.units import from_si
 from colonnade.units.text import CHANNEL_UNITS
 
@@ -65,10 +64,10 @@ DIGITS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class Scale(NamedTuple):
-    """Recorded value = (value − offset) / gain, in its unit; None for the gain if the two are the same."""
+    """Of the recorder: value = gain · recorded value + offset; `unit` is that of the recorded value."""
 
     unit: str
-    gain: float | None
+    gain: float
     offset: float
 
 
@@ -91,8 +90,8 @@ class Channel(NamedTuple):
         As recorded, in its physical unit.
     flags : ndarray of int8
         `Flag` of each sample.
-    recorded : Scale
-        The scale of the recorder.
+    recorded : Scale or None
+        The scale of the recorder; None if its values are those that are shown, or not in proportion to them.
     before, after : Density or None
         Spectra before and after the filter, in the unit per √Hz.
     cutoff : float
@@ -103,7 +102,7 @@ class Channel(NamedTuple):
     unit: str
     curve: Curve
     flags: Codes
-    recorded: Scale
+    recorded: Scale | None
     before: Density | None
     after: Density | None
     cutoff: float
@@ -162,13 +161,12 @@ def _draw_history(axes: Axes, channel: Channel) -> None:
     axes.yaxis.set_major_locator(MaxNLocator(nbins=3, steps=[1, 2, 5, 10]))
     axes.set_ylabel(channel.unit)
     note(axes, channel.name, (0.0, 1.02), xycoords="axes fraction", va="bottom", weight="bold")
-    _draw_recorded(axes, channel.recorded)
+    if channel.recorded is not None:
+        _draw_recorded(axes, channel.recorded)
 
 
 def _draw_recorded(axes: Axes, recorded: Scale) -> None:
     """Write the recorder's values at the right, at the heights of the ticks of the physical ones."""
-    if recorded.gain is None:
-        return
     low, high = axes.get_ylim()
     ends = sorted(((low - recorded.offset) / recorded.gain, (high - recorded.offset) / recorded.gain))
     for tick in MaxNLocator(nbins=3, steps=[1, 2, 5, 10]).tick_values(*ends):
@@ -218,6 +216,9 @@ def _power_of_ten(value: float, _: int) -> str:
     return "10" + str(round(float(np.log10(value)))).translate(DIGITS)
 
 
+PROPORTIONAL = 1e-6
+"""Values follow from recorded ones by a line if none is further from it, over the largest."""
+
 MOST_CHANNELS = 12
 """Channels that are drawn."""
 
@@ -228,8 +229,9 @@ AROUND = 12
 """Samples before and after a spike that are drawn with it."""
 
 
-def picture(test: Test, stored: Stored) -> Picture | None:
+def picture(one: OfTest) -> Picture | None:
     """Draw all channels of a test as recorded; None without their samples."""
+    stored = one.stored
     recorded, conditioned = (stored.datasets.get((stage, None)) for stage in ("ingest", "condition"))
     variables = {} if recorded is None else recorded.data_vars
     names = [str(name) for name, each in variables.items() if "channel" in each.attrs and each.ndim == 1]
@@ -248,8 +250,8 @@ def picture(test: Test, stored: Stored) -> Picture | None:
         notes.append(f"The first {MOST_SPIKES} of {len(spikes)} spikes are enlarged.")
     return Picture(
         channels_as_recorded(channels, spikes),
-        f"channels-{test.id}",
-        f"{test.id}: channels as recorded, and their spectra before and after the filter",
+        f"channels-{one.test.id}",
+        f"{one.test.id}: channels as recorded, and their spectra before and after the filter",
         f"{'; '.join(flagged)}. {count(len(spikes), 'spike')}.",
         " ".join(notes),
     )
@@ -273,24 +275,34 @@ def _channel(name: str, recorded: xr.Dataset, conditioned: xr.Dataset | None, gi
         unit or "–",
         Curve(time, values),
         flags,
-        Scale(recorder, None, 0.0) if raw is None else _scale(values, raw.to_numpy(), recorder, unit),
+        None if raw is None else _scale(values, raw.to_numpy(), recorder, unit),
         _density(time, values, ~np.isin(flags, (Flag.FAIL, Flag.MISSING))),
         after,
         float(cutoff) if isinstance(cutoff, (int, float)) else np.nan,
     )
 
 
-def _scale(values: Array, recorded: Array, unit: str, physical: str) -> Scale:
-    """Return the recorder's scale from two of its samples: physical values follow from recorded ones by a line."""
+def _scale(values: Array, recorded: Array, unit: str, physical: str) -> Scale | None:
+    """Return the recorder's scale, None if its values are those that are shown."""
+    line = line_between(recorded, values)
+    if line is None or (
+        unit == physical and np.allclose(line, (1.0, 0.0), atol=1e-9 * float(np.nanmax(np.abs(values))))
+    ):
+        return None
+    return Scale(unit, *line)
+
+
+def line_between(recorded: Array, values: Array) -> tuple[float, float] | None:
+    """Return gain and offset that lead from recorded values to others; None if they do not, as after corrections."""
     known = np.isfinite(recorded) & np.isfinite(values)
     raw, shown = recorded[known], values[known]
-    if not raw.size or np.ptp(raw) == 0:
-        return Scale(unit, None, 0.0)
+    if not raw.size or np.ptp(raw) == 0 or np.ptp(shown) == 0:
+        return None
     low, high = raw.argmin(), raw.argmax()
     gain = float((shown[high] - shown[low]) / (raw[high] - raw[low]))
     offset = float(shown[low] - gain * raw[low])
-    same = unit == physical and np.isclose(gain, 1.0) and abs(offset) < 1e-9 * max(abs(float(shown[high])), 1e-12)
-    return Scale(unit, None if same or gain == 0.0 else gain, offset)
+    wrong = np.abs(shown - offset - gain * raw).max()
+    return (gain, offset) if wrong <= PROPORTIONAL * np.abs(shown).max() and gain != 0.0 else None
 
 
 def _density(time: Array, values: Array, usable: Mask) -> Density | None:

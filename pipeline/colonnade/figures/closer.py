@@ -11,14 +11,13 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array
-from colonnade.campaign import Test
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import ANGLE_LABEL, LARGEST_RATIO, scale_symmetric
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.panels.layout import BOTTOM, TOP, add_row, legend_above, note
-from colonnade.figures.stored.record import ratios
+from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import LIMIT, SOFT, LineStyle, is_narrow, name_of, style_of, styled, width
 from colonnade.store.records.stored import Stored
 
@@ -108,12 +107,12 @@ AROUND = 2.5
 """Time before and after the largest angle that is enlarged, over 2π/p."""
 
 
-def picture(test: Test, record: TestSummary, stored: Stored, block: Block) -> Picture | None:
+def picture(one: OfTest) -> Picture | None:
     """Draw a test that rocked more closely; None if nothing rocked."""
-    curves = ratios(stored, block)
+    record, block, curves = one.record, one.block, one.ratios()
     if record.outcome == "no-rocking" or not curves:
         return None
-    enlarged = _steady(record, stored, curves) or _about_peak(record, curves, block)
+    enlarged = _steady(record, one.stored, curves) or _about_peak(record, curves, block)
     first, last = (-np.inf, np.inf) if enlarged is None else enlarged.stretch
     phases = {who: _phase(curve.within(first, last), block) for who, curve in curves.items()}
     phases = {who: phase for who, phase in phases.items() if phase.ratio.size > 2}
@@ -121,8 +120,9 @@ def picture(test: Test, record: TestSummary, stored: Stored, block: Block) -> Pi
         return None
     return Picture(
         closer_look(phases, separatrix(block), enlarged),
-        f"closer-{test.id}",
-        f"{test.id}: phase portrait" + ("" if enlarged is None else f", and the rocking angle over {enlarged.label}"),
+        f"closer-{one.test.id}",
+        f"{one.test.id}: phase portrait"
+        + ("" if enlarged is None else f", and the rocking angle over {enlarged.label}"),
         "Angular velocity over p α against θ/α, measured and by model, with the separatrix of the free motion.",
         "" if enlarged is None else f"Right: the rocking angle, {enlarged.remark}.",
     )

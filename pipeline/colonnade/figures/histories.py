@@ -63,11 +63,13 @@ class Panel(NamedTuple):
     """
     Curves over time in a panel of their own.
 
-    `label` is that of the axis with its unit; `curves` are those that were "measured" and by each model, or without a
-    name what was recorded beside; `level` is marked at ± with its name, where the curves reach it.
+    `title` says what they are, `label` the same beside an axis; `curves` are those that were "measured" and by each
+    model, or without a name what was recorded beside; `level` is marked at ± with its name, where the curves reach it.
     """
 
+    title: str
     label: str
+    unit: str
     curves: Mapping[str, Curve]
     level: float | None = None
     level_name: str = ""
@@ -80,7 +82,7 @@ def draw_panel(axes: Axes, panel: Panel) -> None:
     scale_symmetric(axes, largest)
     if panel.level is not None and panel.level < 1.12 * largest:
         draw_limit(axes, panel.level, panel.level_name)
-    axes.set_ylabel(panel.label)
+    axes.set_ylabel(f"{panel.label}\n({panel.unit})" if panel.unit else panel.label)
 
 
 def draw_curves(axes: Axes, curves: Mapping[str, Curve], thinness: float = 1.0) -> None:

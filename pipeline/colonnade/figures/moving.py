@@ -10,17 +10,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
 from colonnade.arrays import Array
-from colonnade.campaign import Test
-from colonnade.campaign.specimen import Specimen
-from colonnade.dynamics.block import Block
 from colonnade.figures.drawing.described import body_of
 from colonnade.figures.drawing.view import Rocking, Spot
 from colonnade.figures.files.output import Movie
 from colonnade.figures.histories import time_limits
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.stored.record import base_displacement, true_angle
+from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import INK, SOFT, name_of, style_of, styled
-from colonnade.store.records.stored import Stored
 
 RATE, MOST_FRAMES = 25.0, 250
 """Frames a second, and of a movie: a longer test is played faster."""
@@ -140,18 +136,18 @@ def _at(curve: Curve, times: Array) -> Array:
     return np.interp(times, curve.time[known], curve.values[known])
 
 
-def animation(test: Test, specimen: Specimen, stored: Stored, block: Block) -> Movie | None:
+def animation(one: OfTest) -> Movie | None:
     """Draw the block of a test as it rocks, measured and by each model; None without an angle."""
-    angles: dict[str, Curve] = {}
+    angles, stored, block = dict[str, Curve](), one.stored, one.block
     histories = [("measured", "rocking", None), *((model, "predict", model) for model in stored.models("predict"))]
     for name, stage, model in histories:
         if stored.has(stage, "rocking_angle", model):
             times, values = (stored.array(stage, each, model) for each in ("elapsed", "rocking_angle"))
-            angles[name] = Curve(times, true_angle(stored, values) if stage == "rocking" else values)
+            angles[name] = Curve(times, one.true_angle(values) if stage == "rocking" else values)
     if not angles:
         return None
-    base, how = base_displacement(stored)
+    base, how = one.base_displacement()
     said = "measured and predicted" if len(angles) > 1 else next(iter(angles))
-    corners, poles = body_of(specimen, block).outline(), Rocking.of(block).poles
-    title, description = f"{test.id}: the rocking block", f"{said}; base: {how}."
+    corners, poles = body_of(one.specimen, block).outline(), Rocking.of(block).poles
+    title, description = f"{one.test.id}: the rocking block", f"{said}; base: {how}."
     return rocking_block(angles, corners, poles, base, title=title, description=description)

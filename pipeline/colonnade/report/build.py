@@ -112,9 +112,8 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
 def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[Part]) -> dict[str, Any]:
     own = [part for part in parts if part.row.test.specimen == name]
     rows, free = [part.row for part in own], [part.kept.free_vibration for part in own if part.kept.free_vibration]
-    records, decays = {row.id: row.record for row in rows}, [each.drawn for each in free]
-    subject = subjects.of_specimen(campaign, layout, name, records, decays, [part.span for part in own if part.span])
-    return specimens_page.of_specimen(subject, rows, free)
+    records, spans = {row.id: row.record for row in rows}, [part.span for part in own if part.span]
+    return specimens_page.of_specimen(subjects.of_specimen(campaign, layout, name, records, free, spans), rows)
 
 
 def _page(renderer: pages.Renderer, template: str, address: str, shown: Mapping[str, Any]) -> Pages:

@@ -14,20 +14,20 @@ from pydantic import ConfigDict, TypeAdapter
 from pydantic_core import to_json
 
 from colonnade.arrays import Array
-from colonnade.figures.stored.record import SpanPanel, measured_ratio
+from colonnade.figures.stored.record import SpanPanel
+from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import styled
-from colonnade.report import addresses, pages, rows, specimens_page
+from colonnade.report import addresses, pages, rows
 from colonnade.report.asked import Asked
 from colonnade.report.interactive import test_data
 from colonnade.report.methods import Used
 from colonnade.report.overview_page.groups import SpanTest
-from colonnade.report.pictures.subjects import OfTest, has_span, span_of
+from colonnade.report.pictures.subjects import FreeVibration, has_span, span_of
 from colonnade.report.rows import TestRow
-from colonnade.report.specimens_page import FreeVibration
 from colonnade.report.test_page import channels, page
 from colonnade.report.test_page.channels import ChannelRow
 from colonnade.store.layout import Layout
-from colonnade.store.records.stored import WITHOUT_SAMPLES, Failure, read_test
+from colonnade.store.records.stored import Failure, read_test
 
 SELDOM = (200_000, 20, 100)
 """Thresholds of the garbage collector while pages are drawn: what a page makes stays young."""
@@ -83,23 +83,21 @@ def drawn(layout: Layout, asked: Asked) -> tuple[list[str], str]:
 def _drawn(renderer: pages.Renderer, layout: Layout, asked: Asked) -> tuple[list[str], str]:
     campaign, test = asked.campaign, asked.campaign.tests[asked.test]
     stored = read_test(campaign, layout, test, outdated="" if asked.is_outdated else None, with_samples=True)
-    row = TestRow.of(campaign, test, asked.record, stored)
-    subject, used, panel, described = OfTest(campaign, row, stored), Used(), None, ""
+    one, used, panel, described = OfTest(campaign, test, asked.record, stored), Used(), None, ""
     used.gather(test.id, stored)
-    if has_span(subject):
-        span = span_of(subject)
+    if has_span(one):
+        span = span_of(one)
         panel, described = span.panel.thinned(), span.description
-    shown = page.of_test(campaign, row, stored, asked.photos)
+    shown = page.of_test(one, asked.photos)
     text = renderer.page("test", addresses.of_test(test.id), before=asked.before, after=asked.after, **shown)
-    samples = (stored.datasets.get((stage, None)) for stage in WITHOUT_SAMPLES)
-    data = test_data.of_test(campaign, test, stored, renderer.pictures, *samples)
+    data = test_data.of_test(one, renderer.pictures)
     kept = Kept(
-        tuple(row.failures),
+        tuple(one.failures),
         channels.of_test(stored),
-        rows.polyline(measured_ratio(stored, campaign.block(test.specimen))),
+        rows.polyline(one.measured_ratio()),
         panel,
         described,
-        specimens_page.free_vibration(subject) if stored.has("restitution") else None,
+        FreeVibration.of(one) if stored.has("restitution") else None,
         used,
     )
     return [text, data], to_json(kept, fallback=_without_array).decode()

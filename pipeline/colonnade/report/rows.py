@@ -10,10 +10,11 @@ import numpy as np
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.forms.summary import PredictionSummary, TestSummary
 from colonnade.figures.panels.curve import Curve, envelope
+from colonnade.figures.stored.subject import OfTest
 from colonnade.findings import Severity
 from colonnade.identification.response.rank import is_within
 from colonnade.store.records import wording
-from colonnade.store.records.stored import Failure, Stored
+from colonnade.store.records.stored import Failure
 from colonnade.store.results import models_shown
 
 KINDS = {
@@ -57,10 +58,9 @@ class TestRow:
     excluded: str
 
     @classmethod
-    def of(cls, campaign: Campaign, test: Test, record: TestSummary, stored: Stored) -> TestRow:
-        """Lay the record of a test next to what is stored; a failure that no result holds is the record's."""
-        failures = stored.failures or ([Failure("", record.reason or "")] if record.status == "failed" else [])
-        return cls.known(campaign, test, record, tuple(failures))
+    def of(cls, one: OfTest) -> TestRow:
+        """Make the row of a test of which all is read."""
+        return cls.known(one.campaign, one.test, one.record, tuple(one.failures))
 
     @classmethod
     def known(cls, campaign: Campaign, test: Test, record: TestSummary, failures: tuple[Failure, ...]) -> TestRow:

@@ -14,15 +14,12 @@ from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block, pair
 from colonnade.dynamics.size import at_prototype
 from colonnade.figures.drawing import described
-from colonnade.figures.stored.restitution import STAGE
 from colonnade.findings import in_order
 from colonnade.report import addresses
 from colonnade.report.overview_page import groups
-from colonnade.report.pictures.subjects import Decaying, OfSpecimen, OfTest
+from colonnade.report.pictures.subjects import OfSpecimen
 from colonnade.report.rows import TestRow
-from colonnade.report.test_page import restitution
 from colonnade.report.test_page.facts import known
-from colonnade.report.test_page.restitution import EstimateText
 from colonnade.store.records.stored import Stored
 from colonnade.units.text import NOTHING, acceleration, interval, listed, number, percent, quantity
 
@@ -55,33 +52,7 @@ _DERIVED: tuple[tuple[str, str, str, Callable[[Block], float]], ...] = (
 )
 
 
-class FreeVibration(NamedTuple):
-    """One free vibration: e with its interval, every estimator's, why it was refused, departures, and what is drawn."""
-
-    test: str
-    e: str
-    estimates: list[EstimateText]
-    departures: list[str]
-    reason: str
-    drawn: Decaying
-
-
-def free_vibration(subject: OfTest) -> FreeVibration:
-    """Gather of one free vibration what the page of its specimen shows."""
-    row, stored = subject.row, subject.stored
-    return FreeVibration(
-        row.id,
-        restitution.value_of(stored, row.record.restitution),
-        restitution.estimates_of(stored),
-        stored.texts(STAGE, "departures"),
-        stored.text(STAGE, "reason"),
-        Decaying.of(subject),
-    )
-
-
-def of_specimen(
-    subject: OfSpecimen, tests: Sequence[TestRow], free_vibrations: Sequence[FreeVibration]
-) -> dict[str, Any]:
+def of_specimen(subject: OfSpecimen, tests: Sequence[TestRow]) -> dict[str, Any]:
     """Put a specimen into words, by the names that templates use; its pictures are of `subject`."""
     campaign, name, pooled = subject.campaign, subject.name, subject.pooled
     specimen, block = campaign.specimens[name], subject.block
@@ -127,7 +98,7 @@ def of_specimen(
         "contact": _contact(pooled),
         "warnings": [Warned.of(found, explained=explained) for found, explained in in_order(pooled.findings)],
         "failures": pooled.failures,
-        "free_vibrations": free_vibrations,
+        "free_vibrations": subject.decays,
     }
 
 

@@ -22,7 +22,7 @@ def long_figure(samples=60_000):
     measured, linear, base = (Curve(time, noise.normal(size=samples)) for _ in range(3))
     return whole_record(
         {"measured": measured, "linear": linear, "nonlinear": measured, "contact": linear},
-        [Panel("base\n(m/s²)", {"": base})],
+        [Panel("Base", "base", "m/s²", {"": base})],
     )
 
 

@@ -62,8 +62,8 @@ def test_every_drawn_line_is_in_the_table_with_all_its_samples(curves, names):
 
 def test_a_record_gives_one_time_and_a_column_a_curve_at_full_length():
     measured, linear = Curve(TIME, np.sin(TIME)), Curve(TIME, np.cos(TIME))
-    misfit = Panel("predicted −\nmeasured, / α", {"linear": Curve(TIME, linear.values - measured.values)})
-    base = Panel("base\n(m/s²)", {"": Curve(TIME, np.tan(TIME))})
+    misfit = Panel("Misfit", "predicted −\nmeasured, / α", "", {"linear": Curve(TIME, linear.values - measured.values)})
+    base = Panel("Base", "base", "m/s²", {"": Curve(TIME, np.tan(TIME))})
     spread = Spread(TIME, np.array([0.05, 0.5, 0.95]), np.sin(TIME) + np.array([[-0.1], [0.0], [0.1]]), 0.0, 5.0)
     impacts = np.array([1.0, 2.5])
     figure = whole_record(

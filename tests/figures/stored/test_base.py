@@ -16,24 +16,29 @@ SHAKING = np.sin(2 * np.pi * TIME) * np.exp(-(((TIME - 5.0) / 2.0) ** 2))
 ALONE = BaseMotion(TIME, SHAKING, None)
 
 
+def replaced(one, **changes):
+    return replace(one, test=one.test.model_copy(update=changes))
+
+
 @pytest.fixture
-def based(filled_campaign, known):
+def based(known):
     """Base motion of a test whose stored samples may be replaced."""
 
     def of(name, acceleration=None, **changes):
-        test, _, stored, _ = known(name)
+        one = replaced(known(name), **changes)
         if acceleration is not None:
-            rocking = stored.datasets["rocking", None].copy()
+            rocking = one.stored.datasets["rocking", None].copy()
             rocking["base_acceleration"] = ("elapsed", acceleration(rocking["base_acceleration"].to_numpy().copy()))
-            stored = replace(stored, datasets=stored.datasets | {("rocking", None): rocking})
-        return base_of(filled_campaign[0], test.model_copy(update=changes), stored)
+            datasets = one.stored.datasets | {("rocking", None): rocking}
+            one = replace(one, stored=replace(one.stored, datasets=datasets))
+        return base_of(one)
 
     return of
 
 
 def test_what_was_recorded_is_given_with_its_interval(based, known):
     found = based("span-2.0")
-    np.testing.assert_array_equal(found.acceleration, known("span-2.0")[2].array("rocking", "base_acceleration"))
+    np.testing.assert_array_equal(found.acceleration, known("span-2.0").stored.array("rocking", "base_acceleration"))
     assert found.interval == pytest.approx(found.time[1] - found.time[0], rel=1e-9)
     assert found.target is None
 
@@ -50,7 +55,7 @@ def test_a_hole_in_it_a_standing_table_and_a_test_that_was_not_run_have_none(bas
 
 
 def test_the_target_is_laid_on_the_record_with_its_factor(based, known, monkeypatch):
-    acceleration = known("span-2.0")[2].array("rocking", "base_acceleration")
+    acceleration = known("span-2.0").stored.array("rocking", "base_acceleration")
     reference = Series(acceleration / 2.5, based("span-2.0").interval)
     monkeypatch.setattr(base_motion, "_reference", lambda campaign, motion: reference)
     target = based("span-2.0", time_scale=1.0).target
@@ -67,12 +72,11 @@ def test_a_motion_is_found_by_its_name_in_any_case(filled_campaign, monkeypatch)
 
 
 def test_a_target_half_as_strong_has_half_the_spectrum(known):
-    test, _, _, block = known("span-2.0")
     half = Laid(SHAKING / 2, 1.0, 1.0, 1.0)
-    drawn = base_picture(test, BaseMotion(TIME, SHAKING, half), block)
+    drawn = base_picture(known("span-2.0"), BaseMotion(TIME, SHAKING, half))
     assert "Achieved over target 2 to 2." in drawn.description
     assert len(drawn.figure.axes) == 3
-    alone = base_picture(test, ALONE, block)
+    alone = base_picture(known("span-2.0"), ALONE)
     assert "target" not in alone.description
     assert alone.description.startswith("Largest achieved response")
     assert columns_of(alone.figure)
@@ -87,11 +91,9 @@ def test_no_period_is_shorter_than_eight_samples_or_longer_than_a_quarter_of_the
 
 @pytest.mark.parametrize("kind", base_motion.WITHOUT_SPECTRUM)
 def test_kinds_whose_spectrum_is_nothing_or_one_line_have_no_picture(known, kind):
-    test, _, _, block = known("span-2.0")
-    assert base_picture(test.model_copy(update={"kind": kind}), ALONE, block) is None
+    assert base_picture(replaced(known("span-2.0"), kind=kind), ALONE) is None
 
 
 def test_a_table_that_stood_has_no_picture(known):
-    test, _, _, block = known("span-2.0")
-    assert base_picture(test, None, block) is None
-    assert base_picture(test, BaseMotion(TIME, np.zeros_like(TIME), None), block) is None
+    assert base_picture(known("span-2.0"), None) is None
+    assert base_picture(known("span-2.0"), BaseMotion(TIME, np.zeros_like(TIME), None)) is None

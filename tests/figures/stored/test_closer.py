@@ -1,6 +1,7 @@
 """The closer look at stored tests: the separatrix against the equation of motion, and steady cycles in phase."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from colonnade.campaign.forms.summary import TestSummary
 from colonnade.figures import closer
 from colonnade.figures.moving import animation
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.stored.record import measured_ratio
+from colonnade.figures.stored.subject import OfTest
 from colonnade.store.records.stored import Stored
 from prism import PRISM
 
@@ -33,6 +34,11 @@ def test_a_small_block_has_nearly_straight_lines_as_the_linear_model():
     assert found.velocity == pytest.approx(1 - np.abs(found.ratio), abs=2e-3)
 
 
+def sine(record, stored):
+    campaign = SimpleNamespace(block=lambda specimen: PRISM)
+    return OfTest(campaign, Test.model_construct(id="sine", specimen="prism"), record, stored)
+
+
 def test_a_steady_sine_is_drawn_over_the_phase_of_the_base():
     time = np.arange(0, 12, 0.004)
     base = 3 * np.sin(2 * np.pi * 2.0 * (time - 0.2))
@@ -46,7 +52,7 @@ def test_a_steady_sine_is_drawn_over_the_phase_of_the_base():
         }
     )
     record = TestSummary(status="done", kind="sine", specimen="prism", outcome="rocking", order=2)
-    picture = closer.picture(Test.model_construct(id="sine"), record, stored, PRISM)
+    picture = closer.picture(sine(record, stored))
     assert picture.note == "Right: the rocking angle, last 12 periods of the steady part."
     portrait, steady = picture.figure.axes
     phase, ratio = steady.lines[0].get_data()
@@ -68,12 +74,12 @@ def test_the_base_rises_through_zero_at_phase_zero():
 
 
 def test_an_earthquake_is_enlarged_about_its_largest_angle(known):
-    _, record, *_ = known("span-2.0")
-    axes = closer.picture(*known("span-2.0")).figure.axes[1]
+    picture = closer.picture(known("span-2.0"))
+    axes = picture.figure.axes[1]
     low, high = np.nanmin(axes.lines[0].get_xdata()), np.nanmax(axes.lines[0].get_xdata())
-    assert low < record.peak_time < high
+    assert low < known("span-2.0").record.peak_time < high
     assert axes.texts[0].get_text() == "about the largest angle"
-    assert closer.picture(*known("span-2.0")).note == "Right: the rocking angle, about the largest angle."
+    assert picture.note == "Right: the rocking angle, about the largest angle."
 
 
 def test_a_sine_without_a_steady_part_is_not_said_to_have_one():
@@ -84,16 +90,16 @@ def test_a_sine_without_a_steady_part_is_not_said_to_have_one():
     record = TestSummary(
         status="done", kind="sine", specimen="prism", outcome="rocking", frequency_ratio=2.2, peak_time=4.0
     )
-    picture = closer.picture(Test.model_construct(id="sine"), record, stored, PRISM)
+    picture = closer.picture(sine(record, stored))
     assert picture.note == "Right: the rocking angle, about the largest angle."
 
 
 @pytest.fixture
-def moving(filled_campaign, known):
+def moving(known):
     def of(name, *, without=()):
-        test, _, stored, block = known(name)
-        kept = {key: data for key, data in stored.datasets.items() if key[0] not in without}
-        return animation(test, filled_campaign[0].specimens[test.specimen], replace(stored, datasets=kept), block)
+        one = known(name)
+        kept = {key: data for key, data in one.stored.datasets.items() if key[0] not in without}
+        return animation(replace(one, stored=replace(one.stored, datasets=kept)))
 
     return of
 
@@ -121,17 +127,18 @@ def test_without_an_angle_nothing_moves(moving):
     assert moving("span-2.0", without=("predict", "rocking")) is None
 
 
-def test_it_shows_what_the_page_shows_the_zero_taken_off_on_a_base_that_moves(filled_campaign, known):
-    test, _, stored, block = known("span-2.0")
-    compared = stored.datasets["compare", None].assign(zero_offset=0.02)
-    stored = replace(stored, datasets=stored.datasets | {("compare", None): compared})
-    movie = animation(test, filled_campaign[0].specimens[test.specimen], stored, block)
-    times, ratio = measured_ratio(stored, block)
-    frame = int(np.nanargmax(np.interp(np.linspace(times[0], times[-1], movie.frames), times, ratio)))
+def test_it_shows_what_the_page_shows_the_zero_taken_off_on_a_base_that_moves(known):
+    one = known("span-2.0")
+    compared = one.stored.datasets["compare", None].assign(zero_offset=0.02)
+    one = replace(one, stored=replace(one.stored, datasets=one.stored.datasets | {("compare", None): compared}))
+    movie = animation(one)
+    times, ratio = one.measured_ratio()
+    frames = np.linspace(times[0], times[-1], movie.frames)
+    frame = int(np.nanargmax(np.interp(frames, times, ratio)))
     movie.show(frame)
     lower = movie.figure.axes[0].patches[0].get_xy()[:2]
     leaned = np.arctan2(*(lower[0] - lower[1])[::-1]) - np.pi  # of the base's edge, which lies along x at rest
-    expected = np.interp(np.linspace(times[0], times[-1], movie.frames), times, ratio * block.critical_angle_at(ratio))
+    expected = np.interp(frames, times, ratio * one.block.critical_angle_at(ratio))
     assert abs(np.angle(np.exp(1j * leaned))) == pytest.approx(abs(expected[frame]), rel=1e-6)
     (table,) = movie.figure.axes[0].lines
     places = []

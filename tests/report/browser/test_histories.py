@@ -67,9 +67,9 @@ def test_every_history_has_its_panel(page):
     for title in ("Table motion", "Channels, conditioned", "Channels, as recorded"):
         opened(page, title)
     titles = page.locator(".panel h3").all_inner_texts()
-    assert titles[0] == "Rocking angle over critical angle, θ/α"
-    assert "Predicted minus measured, over critical angle" in titles
-    assert "Base acceleration; dotted: ± g tan α (m/s²)" in titles
+    assert titles[0] == "Rocking angle θ/α; dotted: ± α"
+    assert "Predicted minus measured θ/α" in titles
+    assert "Base acceleration (m/s²); dotted: ± g tan α" in titles
     assert "top, as recorded (V; right: mm)" in titles
     assert page.locator(".replaced svg").is_hidden()
 
@@ -231,7 +231,7 @@ def test_names_are_texts_whatever_they_are(page):
     shown = page.evaluate(
         """name => {
           const curve = { name, clock: 0, values: 0, colour: "ink" };
-          const given = { title: name, short: name, unit: name, curves: [curve] };
+          const given = { title: name, unit: name, curves: [curve] };
           const made = new colonnade.Panel(given, { panels: [] }, colonnade.page);
           return [made.root.querySelector("h3").textContent, made.root.querySelector("button").textContent,
             made.root.querySelectorAll("img").length, colonnade.cell(name)];
@@ -269,7 +269,7 @@ def test_all_samples_are_saved_as_csv_with_units(page, filled_campaign):
     opened(page, "Table motion")
     group = page.locator(".group-of-panels", has_text="Table motion")
     rows = list(csv.reader(io.StringIO(saved(page, group.get_by_role("button", name="all samples as CSV")))))
-    assert rows[0] == ["time (s)", "base acceleration, base acceleration (m/s²)"]
+    assert rows[0] == ["time (s)", "Base acceleration, measured (m/s²)"]
     rocking = files.read(filled_campaign[1].path(ResultId(TEST, "rocking")))
     np.testing.assert_allclose([float(row[0]) for row in rows[1:]], rocking["elapsed"], atol=1e-6)
     np.testing.assert_allclose([float(row[1]) for row in rows[1:]], rocking["base_acceleration"], atol=1e-5)

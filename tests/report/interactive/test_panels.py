@@ -1,4 +1,4 @@
-"""Clocks, curves, tables and the outline of a page's data."""
+"""Clocks, curves and tables of a page's data."""
 
 import json
 
@@ -8,14 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from matplotlib.figure import Figure
-from pydantic import TypeAdapter
 from scipy.signal import butter, sosfiltfilt
 
-from colonnade.campaign.specimen import AnySpecimen
-from colonnade.figures.drawing.described import body_of
 from colonnade.figures.files.output import Picture
 from colonnade.report.interactive import panels
-from colonnade.report.interactive.panels import LONG, Samples, outline, packed, script, tables_of
+from colonnade.report.interactive.panels import LONG, Samples, packed, script, tables_of
 
 
 def test_even_times_are_a_start_and_an_interval():
@@ -93,25 +90,6 @@ def test_a_table_that_is_too_long_for_a_page_is_left_out(monkeypatch):
     monkeypatch.setattr(panels, "MOST", LONG - 1)
     samples, tables = tables_of([picture(LONG), picture(2)], Samples())
     assert (list(tables), samples.series) == (["p-2"], [])
-
-
-def corners(**given):
-    specimen = TypeAdapter(AnySpecimen).validate_python({"mass": "26 kg", **given})
-    return np.array(outline(body_of(specimen, specimen.block(9.81))))
-
-
-def test_a_cone_is_narrower_at_its_top():
-    found = corners(shape="cone", base_diameter="97 mm", top_diameter="75.5 mm", height="480 mm")
-    np.testing.assert_allclose(found[:, 0], [-0.0485, -0.03775, 0.03775, 0.0485])
-
-
-def test_a_measured_specimen_reaches_from_pole_to_pole_with_its_centre_of_mass_in_the_middle():
-    found = corners(
-        shape="measured", pole_distance="610 mm", critical_angle=["0.21 rad", "0.23 rad"], inertia="41.2 kg m^2"
-    )
-    poles, heights = 0.61 * np.sin([0.21, 0.23]), 0.61 * np.cos([0.21, 0.23])
-    np.testing.assert_allclose(np.ptp(found[:, 0]), poles.sum())
-    np.testing.assert_allclose(found[1, 1] / 2, heights.mean())
 
 
 numbers = st.floats(-1e12, 1e12) | st.just(float("nan")) | st.floats(1e-20, 1e-9)

@@ -6,31 +6,26 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from colonnade.figures.stored.subject import OfTest
 from colonnade.report.interactive import panels, test_data
-from colonnade.report.interactive.panels import Packed
-from colonnade.store import files
-from colonnade.store.results import ResultId
+from colonnade.report.interactive.panels import Packed, Samples
+from colonnade.store.records.stored import Stored
 
 
-def data_of(campaign, layout, stored, test):
-    """Data of a page as its script reads them, and the channels that they show."""
-    channels = [
-        files.read(layout.path(ResultId(test, stage))) if stored.has(stage) else None
-        for stage in ("ingest", "condition")
-    ]
-    text = test_data.of_test(campaign, campaign.tests[test], stored, [], *channels)
-    given = json.loads(text.removeprefix("colonnade.show(").removesuffix(");\n"))
-    return given, *channels
+def data_of(one):
+    """Data of a page as its script reads them."""
+    return json.loads(test_data.of_test(one, []).removeprefix("colonnade.show(").removesuffix(");\n"))
 
 
 @pytest.fixture(scope="module")
-def shaken(filled_campaign, reported, unpacked):
-    given, *channels = data_of(*filled_campaign, reported["span-2.0"][1], "span-2.0")
+def shaken(reported, unpacked):
+    one = reported["span-2.0"]
+    given, channels = data_of(one), (one.stored.datasets[stage, None] for stage in ("ingest", "condition"))
     return given, unpacked(Packed(given["series"], given["samples"])), *channels
 
 
 def panels_of(given, group):
-    return {panel["short"]: panel for each in given["groups"] if each["title"] == group for panel in each["panels"]}
+    return {panel["title"]: panel for each in given["groups"] if each["title"] == group for panel in each["panels"]}
 
 
 def test_groups_in_their_order_and_what_is_shown_at_first(shaken):
@@ -43,7 +38,7 @@ def test_groups_in_their_order_and_what_is_shown_at_first(shaken):
 
 
 def test_the_angle_has_every_model_with_its_bands(shaken):
-    panel = panels_of(shaken[0], "Response")["θ/α"]
+    panel = panels_of(shaken[0], "Response")["Rocking angle θ/α"]
     assert [curve["name"] for curve in panel["curves"]] == ["measured", "linear model", "nonlinear model"]
     assert [band["name"] for band in panel["bands"]][-2:] == [
         "nonlinear model, 95\u00a0% of runs",
@@ -54,7 +49,7 @@ def test_the_angle_has_every_model_with_its_bands(shaken):
 
 def test_conditioned_channels_are_in_the_unit_of_their_panel(shaken):
     given, series, _, conditioned = shaken
-    panel = panels_of(given, "Channels, conditioned")["conditioned displacement"]
+    panel = panels_of(given, "Channels, conditioned")["Displacement, conditioned"]
     assert panel["unit"] == "mm"
     for curve in panel["curves"]:
         expected = 1e3 * conditioned[curve["name"]].to_numpy()
@@ -63,7 +58,7 @@ def test_conditioned_channels_are_in_the_unit_of_their_panel(shaken):
 
 def test_recorded_channels_have_the_units_of_the_file_and_of_the_quantity(shaken):
     given, series, recorded, _ = shaken
-    panel = panels_of(given, "Channels, as recorded")["top recorded"]
+    panel = panels_of(given, "Channels, as recorded")["top, as recorded"]
     assert (panel["unit"], panel["second"]["unit"]) == ("V", "mm")
     values = series[panel["curves"][0]["values"]]
     np.testing.assert_allclose(values, recorded["top_recorded"], atol=2e-6 * np.abs(values).max())
@@ -75,34 +70,34 @@ def test_flagged_samples_are_those_that_are_not_good(shaken):
     given, _, recorded, _ = shaken
     for channel in ("top", "bottom", "table_acceleration"):
         flags = np.ones(recorded[f"{channel}_quality"].size, dtype=int)
-        for first, last, flag in panels_of(given, "Channels, as recorded")[f"{channel} recorded"]["flags"]:
+        for first, last, flag in panels_of(given, "Channels, as recorded")[f"{channel}, as recorded"]["flags"]:
             flags[first:last] = flag
         assert np.array_equal(flags, recorded[f"{channel}_quality"])
         assert (flags > 1).any()
 
 
-def test_a_test_without_results_has_no_groups(filled_campaign, reported):
-    given, *_ = data_of(*filled_campaign, reported["sine-dead"][1], "sine-dead")
+def test_a_test_without_results_has_no_groups(reported):
+    given = data_of(reported["sine-dead"])
     assert (given["groups"], given["moving"], given["series"]) == ([], None, [])
 
 
-def test_a_test_without_transducers_on_the_specimen_shows_the_models_on_the_table(filled_campaign, reported):
-    given, *_ = data_of(*filled_campaign, reported["watched"][1], "watched")
+def test_a_test_without_transducers_on_the_specimen_shows_the_models_on_the_table(reported):
+    given = data_of(reported["watched"])
     assert [body["name"] for body in given["moving"]["bodies"]] == ["linear model", "nonlinear model"]
     assert given["moving"]["how"] == "base: recorded acceleration integrated twice"
     assert given["critical"] == [0.21, 0.23]
 
 
-def test_what_is_too_much_for_a_page_is_left_out_and_said_so(filled_campaign, reported, shaken, monkeypatch):
-    stored, count = reported["span-2.0"][1], sum(one["count"] for one in shaken[0]["series"])
+def test_what_is_too_much_for_a_page_is_left_out_and_said_so(reported, shaken, monkeypatch):
+    count = sum(one["count"] for one in shaken[0]["series"])
     monkeypatch.setattr(panels, "MOST", int(0.9 * count))
-    given, *_ = data_of(*filled_campaign, stored, "span-2.0")
+    given = data_of(reported["span-2.0"])
     assert sum(one["count"] for one in given["series"]) <= 0.9 * count
     left = [group["title"] for group in given["groups"] if not group["panels"]]
     assert left == ["Channels, as recorded"]
     assert given["groups"][-1]["note"] == test_data.TOO_MANY
     monkeypatch.setattr(panels, "MOST", 10)
-    assert data_of(*filled_campaign, stored, "span-2.0")[0]["groups"] == []
+    assert data_of(reported["span-2.0"])["groups"] == []
 
 
 def recorded_channel(time, values, **attributes):
@@ -112,13 +107,18 @@ def recorded_channel(time, values, **attributes):
     return dataset
 
 
+def panels_as_recorded(recorded, conditioned=None, samples=None):
+    datasets = {("ingest", None): recorded} | ({("condition", None): conditioned} if conditioned else {})
+    return test_data._recorded(OfTest(None, None, None, Stored(datasets)), samples or Samples())
+
+
 def test_recorded_samples_are_put_on_the_common_clock():
     time = 0.01 * np.arange(200)
     recorded = recorded_channel(time, np.sin(time))
     late = {"clock_offset": 0.5, "clock_rate_ppm": 1e4, "clock_offset_at": 1.0}
     conditioned = xr.Dataset({"c": ("elapsed", np.zeros(3), late)}, {"elapsed": [0.0, 0.01, 0.02]})
-    samples = test_data.Samples()
-    test_data._recorded(recorded, conditioned, samples)
+    samples = Samples()
+    panels_as_recorded(recorded, conditioned, samples)
     (clock,) = samples.clocks
     # Delay at time t: 0.5 + 0.01 (t − 1).
     assert clock["start"] == pytest.approx(0.0 - 0.5 + 0.01)
@@ -127,12 +127,12 @@ def test_recorded_samples_are_put_on_the_common_clock():
 
 @pytest.mark.parametrize("time", [np.empty(0), np.array([0.0, np.nan])], ids=["no sample", "no time"])
 def test_a_channel_that_cannot_be_drawn_has_no_panel(time):
-    assert test_data._recorded(recorded_channel(time, np.ones(time.size)), None, test_data.Samples()) == []
+    assert panels_as_recorded(recorded_channel(time, np.ones(time.size))) == []
 
 
 def test_a_channel_that_was_corrected_in_part_has_no_second_axis():
     dataset = recorded_channel(np.arange(4.0), np.array([0.0, 1.0, 2.0, 3.0]))
     dataset["c"] = dataset["c"].copy(data=[0.0, 1.0, -2.0, 3.0])
     dataset["c"].attrs = {"channel": "c", "quantity": "displacement", "recorded_unit": "V"}
-    (panel,) = test_data._recorded(dataset, None, test_data.Samples())
+    (panel,) = panels_as_recorded(dataset)
     assert "second" not in panel

@@ -5,17 +5,18 @@ from dataclasses import replace
 import pytest
 
 from colonnade.campaign.forms.summary import PredictionSummary, TestSummary
+from colonnade.report.rows import TestRow
 
 
 @pytest.fixture
 def rows(reported):
-    return [row for row, _ in reported.values()]
+    return [TestRow.of(one) for one in reported.values()]
 
 
 @pytest.fixture
 def row_of(reported):
     """Make a row: `row_of("a", "rocking", 0.4, linear=("rocking", 0.5))`; other keywords go into its record."""
-    given = reported["span-2.0"][0]
+    given = TestRow.of(reported["span-2.0"])
 
     def make(name, outcome, peak=None, **more):
         predicted = {

@@ -11,11 +11,9 @@ from hypothesis import strategies as st
 
 from colonnade.dynamics.maps import stability_map
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.stored import record
 from colonnade.report.overview_page import agreement, groups
-from colonnade.report.overview_page.groups import SpanTest
 from colonnade.report.pictures.registry import picture
-from colonnade.report.pictures.subjects import of_specimen
+from colonnade.report.pictures.subjects import of_specimen, span_of
 from colonnade.report.rows import HEIGHT, WIDTH, polyline
 from colonnade.store import files
 from colonnade.store.layout import Layout
@@ -27,10 +25,8 @@ def test_sines_of_known_amplitude_are_in_the_ladder(rows):
     assert found == {"3 Hz": ["sine-3hz-too-strong-for-the-block-1"]}
 
 
-def test_one_span_alone_is_not_set_beside_itself(reported, filled_campaign):
-    row, stored = reported["span-2.0"]
-    alone = SpanTest(row, record.span_panel(row.test, stored, filled_campaign[0].block("prism")), "")
-    assert groups.span_groups([alone]) == []
+def test_one_span_alone_is_not_set_beside_itself(reported):
+    assert groups.span_groups([span_of(reported["span-2.0"])]) == []
 
 
 STRONG = "sine-3hz-too-strong-for-the-block-1"

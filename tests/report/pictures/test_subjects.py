@@ -12,12 +12,12 @@ def prism(filled_campaign):
     return subjects.read_of_specimen(*filled_campaign, "prism")
 
 
-def test_a_test_has_its_row_its_samples_and_the_block_of_its_specimen(filled_campaign):
+def test_a_test_has_its_record_its_samples_and_the_block_of_its_specimen(filled_campaign):
     found = subjects.read_of_test(*filled_campaign, "span-2.0")
-    assert (found.row.id, found.row.record.outcome) == ("span-2.0", "rocking")
+    assert (found.test.id, found.record.outcome) == ("span-2.0", "rocking")
     assert found.block == filled_campaign[0].block("prism")
     assert found.stored.has("ingest", "top")
-    assert found.failures == ()
+    assert found.failures == []
 
 
 def test_a_failed_test_says_why(filled_campaign):
@@ -41,8 +41,8 @@ def test_another_specimen_has_nothing_of_it(filled_campaign):
 
 def test_a_refused_free_vibration_is_listed_with_the_peaks_that_it_has(prism):
     sound, refused = prism.decays
-    assert any(row.recommended for row in sound.rows)
-    assert not any(row.recommended for row in refused.rows)
+    assert any(row.recommended for row in sound.estimates)
+    assert not any(row.recommended for row in refused.estimates)
     assert sound.peaks is not None
     assert sound.impacts is not None
 

@@ -10,14 +10,8 @@ AT_SCALE = "#achieved, prototype scale"
 
 
 @pytest.fixture(scope="module")
-def table(reported, filled_campaign):
-    campaign, _ = filled_campaign
-
-    def table(name):
-        row, stored = reported[name]
-        return base.of_test(campaign, row, stored, campaign.block(row.test.specimen))
-
-    return table
+def table(reported):
+    return lambda name: base.of_test(reported[name])
 
 
 def measures(found):
@@ -25,8 +19,7 @@ def measures(found):
 
 
 def test_the_target_of_a_named_motion_is_laid_on_what_was_recorded(table, reported, monkeypatch):
-    _, stored = reported["span-2.0"]
-    acceleration = stored.array("rocking", "base_acceleration")
+    acceleration = reported["span-2.0"].stored.array("rocking", "base_acceleration")
     reference = Series(acceleration[200:1400] / 2.5, 0.004 / 0.2236)
     monkeypatch.setattr(drawn, "_reference", lambda campaign, motion: reference)
     found = table("span-2.0")
@@ -49,7 +42,7 @@ def test_a_motion_without_a_reference_has_its_own_spectrum_alone(table):
 
 
 def test_a_sine_has_its_achieved_frequency_amplitude_and_distortion_and_no_spectrum(table, reported):
-    name = next(name for name, (row, _) in reported.items() if row.test.kind == "sine" and row.record.frequency)
+    name = next(name for name, one in reported.items() if one.test.kind == "sine" and one.record.frequency)
     found = table(name)
     assert [label for label, _ in found["facts"]] == ["frequency", "amplitude", "distortion", "steady from"]
     assert "asked for" in dict(found["facts"])["frequency"]

@@ -1,15 +1,17 @@
 """The sections of a test's page: each of that test, with numbers, units and reasons, and nothing where nothing is."""
 
+from dataclasses import replace
+
 import pytest
 
 from colonnade.campaign.forms.summary import PredictionSummary
+from colonnade.figures.stored.restitution import estimate_rows
 from colonnade.report.asked import NO_PHOTOS, Photo, Photos
 from colonnade.report.pictures.registry import picture
-from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.test_page import channels, found, page, restitution
 from colonnade.report.test_page.facts import known
 from colonnade.report.test_page.found import verdict_sentence
-from colonnade.store.records.stored import Stored, read_test
+from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import predicted_peak_time
 from colonnade.units.text import NOTHING
 
@@ -20,20 +22,8 @@ STRONG = "sine-3hz-too-strong-for-the-block-1"
 
 
 @pytest.fixture
-def subject(filled_campaign, reported):
-    """A test by its id."""
-    return lambda name: OfTest(filled_campaign[0], *reported[name])
-
-
-@pytest.fixture
-def made(filled_campaign, reported):
-    campaign, layout = filled_campaign
-
-    def of(name, shown=NO_PHOTOS):
-        stored = read_test(campaign, layout, campaign.tests[name], with_samples=True)
-        return page.of_test(campaign, reported[name][0], stored, shown)
-
-    return of
+def made(reported):
+    return lambda name, shown=NO_PHOTOS: page.of_test(reported[name], shown)
 
 
 def test_each_section_is_of_its_test(made):
@@ -60,50 +50,48 @@ def test_a_test_that_was_not_run_has_its_drawing_and_nothing_that_was_measured(m
     assert [picture(name, found["subject"]) for name in ("record", "closer", "channels", "bands")] == [None] * 4
 
 
-def found_of(subject, name):
-    return dict(found.of_test(subject(name)))
+def found_of(reported, name):
+    return dict(found.of_test(reported[name]))
 
 
-def test_the_largest_angle_is_the_stored_one_in_mrad(subject):
-    said = found_of(subject, "span-2.0")
-    peak = abs(subject("span-2.0").stored.value("rocking", "peak_angle"))
+def test_the_largest_angle_is_the_stored_one_in_mrad(reported):
+    said = found_of(reported, "span-2.0")
+    peak = abs(reported["span-2.0"].stored.value("rocking", "peak_angle"))
     value, unit = said["largest |θ|"].split()
     assert (float(value), unit) == (pytest.approx(1e3 * peak, rel=1e-3), "mrad")
     assert said["peak base acceleration"].endswith(" g)")
 
 
-def test_a_free_vibration_has_its_release_and_what_predictions_use(subject):
-    said = found_of(subject, "free-01")
+def test_a_free_vibration_has_its_release_and_what_predictions_use(reported):
+    said = found_of(reported, "free-01")
     assert "largest |θ|, release included" in said
     assert "largest |θ|" not in said
     assert float(said["released at |θ|/α"]) == pytest.approx(0.5, abs=0.01)
     assert "predictions use" in said
 
 
-def test_an_overturned_test_has_the_time_and_no_largest_angle(subject):
-    said = found_of(subject, STRONG)
+def test_an_overturned_test_has_the_time_and_no_largest_angle(reported):
+    said = found_of(reported, STRONG)
     assert said.keys().isdisjoint({"largest |θ|", "predictions use"})
-    assert float(said["overturned at"].split()[0]) == pytest.approx(subject(STRONG).row.record.peak_time, rel=1e-3)
+    assert float(said["overturned at"].split()[0]) == pytest.approx(reported[STRONG].record.peak_time, rel=1e-3)
 
 
-def test_at_prototype_scale_lengths_are_twenty_times_as_long(subject):
-    said = found_of(subject, "span-2.0")["at prototype scale, 1:20"]
+def test_at_prototype_scale_lengths_are_twenty_times_as_long(reported):
+    said = found_of(reported, "span-2.0")["at prototype scale, 1:20"]
     duration = float(said.split("duration ")[1].split()[0])
-    assert duration == pytest.approx(20**0.5 * subject("span-2.0").row.record.duration, rel=5e-3)
-    assert "at prototype scale, 1:20" not in found_of(subject, "watched")
+    assert duration == pytest.approx(20**0.5 * reported["span-2.0"].record.duration, rel=5e-3)
+    assert "at prototype scale, 1:20" not in found_of(reported, "watched")
 
 
-def test_each_models_largest_angle_has_its_time(subject):
-    row, stored = subject("span-2.0").row, subject("span-2.0").stored
+def test_each_models_largest_angle_has_its_time(reported):
+    one = reported["span-2.0"]
     for model in ("linear", "nonlinear"):
-        assert 0.0 < predicted_peak_time(stored, model) < row.record.duration
+        assert 0.0 < predicted_peak_time(one.stored, model) < one.record.duration
 
 
 def test_a_few_flagged_samples_are_told_from_many(reported):
-    few = [
-        {row.name: row.few_flagged for row in channels.of_test(reported[name][1])} for name in ("span-2.0", "span-2.5")
-    ]
-    assert [each["top"] for each in few] == [True, False]  # 1 of 1625 in the first
+    (few, *_), (many, *_) = (channels.of_test(reported[name].stored) for name in ("span-2.0", "span-2.5"))
+    assert (few.name, few.few_flagged, many.few_flagged) == ("top", True, False)  # 1 of 1625 in the first
 
 
 @pytest.mark.parametrize(
@@ -121,15 +109,15 @@ def test_a_clock_is_given_in_milliseconds_and_its_drift_in_millionths(given, wri
     assert channels._clock(given) == written
 
 
-def test_a_free_vibration_has_e_its_peaks_and_its_figures(subject):
-    free = subject("free-01")
-    assert restitution.facts_of(free.stored, free.row.record.restitution)
-    assert restitution.estimates_of(free.stored)
+def test_a_free_vibration_has_e_its_peaks_and_its_figures(reported):
+    free = reported["free-01"]
+    assert restitution.facts_of(free.stored, free.record.restitution)
+    assert estimate_rows(free.stored)
     assert [picture(name, free).identity for name in ("fitted", "peaks")] == ["fitted-free-01", "peaks-free-01"]
 
 
-def test_each_peak_is_a_row_of_number_time_angle_error_fitted_angle_and_use(subject):
-    peaks = restitution.peaks_of(subject("free-01").stored)
+def test_each_peak_is_a_row_of_number_time_angle_error_fitted_angle_and_use(reported):
+    peaks = restitution.peaks_of(reported["free-01"].stored)
     assert [row[0] for row in peaks] == list(range(1, len(peaks) + 1))
     times = [row[1] for row in peaks]
     assert times == sorted(times)
@@ -138,48 +126,46 @@ def test_each_peak_is_a_row_of_number_time_angle_error_fitted_angle_and_use(subj
     assert all(abs(angle - fitted) < 0.05 * angle for angle, fitted in used)
 
 
-def test_any_other_test_has_no_decay(subject):
-    row, stored = subject("span-2.0").row, subject("span-2.0").stored
-    assert restitution.facts_of(stored, row.record.restitution) == []
-    assert restitution.estimates_of(stored) == restitution.peaks_of(stored) == []
+def test_any_other_test_has_no_decay(reported):
+    one = reported["span-2.0"]
+    assert restitution.facts_of(one.stored, one.record.restitution) == []
+    assert estimate_rows(one.stored) == restitution.peaks_of(one.stored) == []
     names = ("fitted", "estimators", "peaks", "impacts", "region")
-    assert [picture(name, subject("span-2.0")) for name in names] == [None] * len(names)
+    assert [picture(name, one) for name in names] == [None] * len(names)
 
 
 def test_the_recommended_estimator_gives_the_value_with_its_interval(reported):
-    row, stored = reported["free-01"]
-    facts = dict(restitution.facts_of(stored, row.record.restitution))
+    one = reported["free-01"]
+    facts = dict(restitution.facts_of(one.stored, one.record.restitution))
     assert facts["e"].startswith("0.930")
     assert " ± 0.0" in facts["e"]
     assert "refused" not in facts
-    (chosen,) = (each for each in restitution.estimates_of(stored) if each.recommended)
+    (chosen,) = (each for each in estimate_rows(one.stored) if each.recommended)
     assert facts["from"] == chosen.name
     assert facts["assumptions"] == chosen.assumptions
-    assert "interval" not in chosen.value
+    assert "interval" not in chosen.text
 
 
 def test_an_estimator_without_a_value_says_why(reported):
-    without = [each for each in restitution.estimates_of(reported["free-refused"][1]) if each.value == "–"]
+    without = [each for each in estimate_rows(reported["free-refused"].stored) if each.text == "–"]
     assert without
     assert all(each.reason and each.assumptions for each in without)
 
 
 def test_a_note_on_a_file_may_hold_a_semicolon(reported):
-    notes = page.notes_of(reported["span-2.0"][1])
+    notes = page.notes_of(reported["span-2.0"].stored)
     assert notes[-1] == 'span-2.0.csv: clock: column 1, "Time" (in s; rising)'
     assert all(note.startswith("span-2.0.csv: ") for note in notes)
 
 
 def test_the_page_says_where_the_results_are_and_when_the_file_says_it_was_recorded(reported):
-    row, stored = reported["span-2.0"]
-    known = dict(page.done_of(row, stored))
+    known = dict(page.done_of(reported["span-2.0"]))
     assert known["results"].startswith("NetCDF files in processed/tests/span-2.0/, next to")
     assert "recorded" not in known, "the file gives no date"
 
 
 def test_a_test_without_results_has_no_place(reported):
-    row, _ = reported["span-2.0"]
-    assert "results" not in dict(page.done_of(row, Stored()))
+    assert "results" not in dict(page.done_of(replace(reported["span-2.0"], stored=Stored())))
 
 
 def test_what_is_not_known_or_has_no_label_is_left_out_and_the_order_stays():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,6 +27,11 @@ class Curve(NamedTuple):
         """Return its part between two times, s."""
         inside = (self.time >= first) & (self.time <= last)
         return Curve(self.time[inside], self.values[inside])
+
+
+def known(curves: Mapping[str, Curve]) -> dict[str, Curve]:
+    """Leave out curves without any value."""
+    return {name: curve for name, curve in curves.items() if np.isfinite(curve.values).any()}
 
 
 def envelope(curve: Curve, *, intervals: int = INTERVALS) -> Curve:

@@ -32,13 +32,20 @@ BEYOND = 8.0
 
 
 class EstimateRow(NamedTuple):
-    """One estimator's e and interval, NaN if it gives none; whether it is the recommended one."""
+    """One estimator's e and interval, NaN if it gives none, and why; what it assumes; whether it is recommended."""
 
     name: str
     value: float
     low: float
     high: float
     recommended: bool = False
+    assumptions: str = ""
+    reason: str = ""
+
+    @property
+    def text(self) -> str:
+        """Its e with its interval."""
+        return interval(self.value, self.low, self.high)
 
 
 class EstimateGroup(NamedTuple):
@@ -92,8 +99,7 @@ def _draw_row(axes: Axes, place: float, row: EstimateRow, title: str) -> None:
         edge, arrow = (0.0, "<") if row.value < low else (1.0, ">")
         beside = axes.get_yaxis_transform()
         axes.plot([edge], [place], arrow, color=colour, markersize=size, clip_on=False, transform=beside)
-    told = interval(row.value, row.low, row.high)
-    _write(axes, place, told, width() - LEFT - RIGHT + 0.12, weight=weight)
+    _write(axes, place, row.text, width() - LEFT - RIGHT + 0.12, weight=weight)
 
 
 def draw_estimate(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import cos, sin
 
 import numpy as np
@@ -9,19 +10,18 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
 from colonnade.arrays import Array
-from colonnade.campaign import Test
+from colonnade.campaign.assembly import Whole
 from colonnade.campaign.forms.summary import BodyPrediction
 from colonnade.dynamics.assembly import Assembly
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import Panel, draw_panel
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.panels.layout import legend_above, legend_outside, stacked_panels
+from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import SOFT, blank_figure, name_of, style_of, styled
-from colonnade.store.records.stored import Stored
-from colonnade.store.records.test import bodies_of
 from colonnade.units.text import joined, number, quantity
 
-PANEL, SQUARE = 0.9, 1.9
+HEIGHT, SQUARE = 0.9, 1.9
 """Height of a joint's panel, and of a plan, inches."""
 
 MOST_PLANS = 4
@@ -31,25 +31,24 @@ CIRCLE = 48
 """Corners of a round base as it is drawn."""
 
 
-def histories(stored: Stored, place: int, name: str) -> dict[str, Curve]:
-    """Return what was measured, and what each model predicts, of the body at a place: `body_…` over time, SI."""
-    found = {"measured": ("rocking", None)} | {model: ("predict", model) for model in stored.models("predict")}
-    curves = {
-        who: Curve(stored.array(stage, "elapsed", model), stored.array(stage, name, model)[place])
-        for who, (stage, model) in found.items()
-        if stored.has(stage, name, model)
-    }
-    return {who: curve for who, curve in curves.items() if np.isfinite(curve.values).any()}
+def panels(one: OfTest) -> list[Panel]:
+    """Return the panel of the joint below each body, the upper ones first."""
+    found = []
+    for place, name in reversed(list(enumerate(one.stored.array("rocking", "body")))):
+        angles = one.bodies(place, "body_joint_angle")
+        curves = {who: Curve(curve.time, 1e3 * curve.values) for who, curve in angles.items()}
+        found.append(Panel(f"Rocking angle in the joint below {name}", str(name), "mrad", curves))
+    return found
 
 
-def joints(test: Test, stored: Stored) -> Picture | None:
+def joints(one: OfTest) -> Picture | None:
     """Draw the rocking angle in the joint below each body, the upper ones above; None without several bodies."""
-    records = bodies_of(stored)
-    if not records:
+    shown = panels(one)
+    if not shown:
         return None
-    said = [f"{name}: {_said(record.outcome, record.opening)}" for name, record in records.items()]
-    title = f"{test.id}: rocking angle in the joint below each body, measured and predicted"
-    return Picture(_joints(stored, list(records)), f"joints-{test.id}", title, f"{'; '.join(said)}.")
+    said = [f"{name}: {_said(record.outcome, record.opening)}" for name, record in one.record.bodies.items()]
+    title = f"{one.test.id}: rocking angle in the joint below each body, measured and predicted"
+    return Picture(_joints(shown), f"joints-{one.test.id}", title, f"{'; '.join(said)}.")
 
 
 def _said(outcome: str | None, opening: float | None) -> str:
@@ -58,32 +57,31 @@ def _said(outcome: str | None, opening: float | None) -> str:
 
 
 @styled()
-def _joints(stored: Stored, names: list[str]) -> Figure:
-    figure, axes = stacked_panels([PANEL] * len(names))
-    for panel, (place, name) in zip(axes, reversed(list(enumerate(names))), strict=True):
-        found = histories(stored, place, "body_joint_angle")
-        curves = {who: Curve(curve.time, 1e3 * curve.values) for who, curve in found.items()}
-        draw_panel(panel, Panel(f"{name}\n(mrad)", curves))
+def _joints(shown: Sequence[Panel]) -> Figure:
+    figure, axes = stacked_panels([HEIGHT] * len(shown))
+    for place, panel in zip(axes, shown, strict=True):
+        draw_panel(place, panel)
     axes[-1].set_xlabel("time (s)")
     legend_above(figure, axes)
     return figure
 
 
-def plan(test: Test, stored: Stored, assembly: Assembly) -> Picture | None:
+def plan(one: OfTest) -> Picture | None:
     """Draw the base of each body from above, to scale: at rest, at the end, and as predicted; None without bodies."""
     shown: dict[str, dict[str, BodyPrediction]] = {}
-    for name, record in bodies_of(stored).items():
+    for name, record in one.record.bodies.items():
         every = {"measured": record, **record.predicted}
         stands = {who: each for who, each in every.items() if each.outcome != "overturned"}
         ended = {who: each for who, each in stands.items() if each.residual_x is not None}
         if ended and record.outcome != "overturned":
             shown[name] = ended
-    if not shown:
+    whole = one.specimen
+    if not shown or not isinstance(whole, Whole):
         return None
     far = {name: quantity(1e-3 * _distance(next(iter(every.values()))), "mm") for name, every in shown.items()}
-    title = f"{test.id}: where each body stands at the end, from above, to scale"
+    title = f"{one.test.id}: where each body stands at the end, from above, to scale"
     said = f"{joined([f'{name} {moved}' for name, moved in far.items()])} from where it stood."
-    return Picture(_plan(shown, assembly), f"plan-{test.id}", title, said)
+    return Picture(_plan(shown, whole.assembly(one.campaign.gravity)), f"plan-{one.test.id}", title, said)
 
 
 def _distance(record: BodyPrediction) -> float:

@@ -1,4 +1,4 @@
-"""Curves of a test's stored results, and its pictures over time: measured, predicted, spreads, Spans."""
+"""Pictures of a test over time: all of it, its angle alone, spreads, Spans."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 from colonnade.arrays import Array
 from colonnade.campaign import Test
 from colonnade.campaign.forms.summary import TestSummary
-from colonnade.dynamics.block import Block
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import (
     ANGLE_LABEL,
@@ -29,123 +28,45 @@ from colonnade.figures.histories import (
 )
 from colonnade.figures.panels.curve import Curve, envelope
 from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side, stacked_panels
+from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import MEASURED, is_narrow, styled
-from colonnade.signals.filters import displacement
 from colonnade.stages.parts.beginning import RECORDED
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import driven_by, predicted_peak_time
-from colonnade.units import from_si
 from colonnade.units.text import format_percent, number, quantity
 
 
-def measured_ratio(stored: Stored, block: Block, *, as_recorded: bool = False) -> Curve | None:
-    """Return the measured θ/α about the zero of the predictions, or as recorded; None if it was not measured."""
-    return _ratio(stored, block, "rocking", as_recorded=as_recorded)
-
-
-def true_angle(stored: Stored, measured: Array) -> Array:
-    """Return a measured angle about the zero of the predictions, with the gain that a free vibration shows, rad."""
-    offset, gain = (stored.value("compare", name) for name in ("zero_offset", "angle_gain"))
-    return (measured - float(np.nan_to_num(offset))) / float(np.nan_to_num(gain, nan=1.0))
-
-
-def predicted_ratios(stored: Stored, block: Block) -> dict[str, Curve]:
-    """Return the predicted θ/α by model."""
-    curves = {model: _ratio(stored, block, "predict", model) for model in stored.models("predict")}
-    return {model: curve for model, curve in curves.items() if curve is not None}
-
-
-def ratios(stored: Stored, block: Block) -> dict[str, Curve]:
-    """Return θ/α as "measured" and by model."""
-    return _measured(stored, block) | predicted_ratios(stored, block)
-
-
-def _measured(stored: Stored, block: Block) -> dict[str, Curve]:
-    measured = measured_ratio(stored, block)
-    return {} if measured is None else {"measured": measured}
-
-
-def spreads(stored: Stored, block: Block) -> dict[str, Spread]:
-    """Return the ensembles' bands of θ/α by model."""
-    found = {}
-    for model in stored.models("ensemble"):
-        time, levels, angles = (
-            stored.array("ensemble", name, model) for name in ("elapsed", "quantile", "rocking_angle_band")
-        )
-        overturning, horizon = (
-            stored.value("ensemble", name, model) for name in ("overturning_probability", "horizon")
-        )
-        found[model] = Spread(time, levels, angles / block.critical_angle_at(angles), overturning, horizon)
-    return found
-
-
-def misfits(stored: Stored, curves: Mapping[str, Curve]) -> dict[str, Curve]:
-    """Return predicted minus measured θ/α as far as the two are compared, by model."""
-    found, measured = {}, curves.get("measured")
-    for model, curve in curves.items():
-        until = stored.compared("compared_until", model)
-        if measured is not None and curve.values.shape == measured.values.shape and np.isfinite(until):
-            found[model] = Curve(curve.time, curve.values - measured.values).within(-np.inf, until)
-    return found
-
-
-def quantities(stored: Stored, wanted: Sequence[tuple[str, str, str, str]], block: Block) -> list[Panel]:
-    """Return panels of those motions that were measured; wanted are variable, words, label and unit."""
+def quantities(one: OfTest, wanted: Sequence[tuple[str, str, str, str]]) -> list[Panel]:
+    """Return panels of those motions that were measured; wanted are variable, title, label and unit."""
     found = []
-    for name, _, label, unit in wanted:
-        curve = motion(stored, name, unit)
-        if curve is not None and np.isfinite(curve.values).any():
-            uplift = block.uplift_acceleration if name == "base_acceleration" else None
-            found.append(Panel(f"{label}\n({unit})", {"": curve}, uplift, "g tan α"))
+    for name, title, label, unit in wanted:
+        curve = one.motion(name, unit)
+        if curve is not None:
+            uplift = one.block.uplift_acceleration if name == "base_acceleration" else None
+            found.append(Panel(title, label, unit, {"": curve}, uplift, "g tan α"))
     return found
 
 
-def motion(stored: Stored, name: str, unit: str) -> Curve | None:
-    """Return a measured motion over time in a unit, None if it was not measured."""
-    values = stored.array("rocking", name)
-    if not (values.ndim == 1 and values.size):
-        return None
-    return Curve(stored.array("rocking", "elapsed"), from_si(1.0, unit) * values)
-
-
-def base_displacement(stored: Stored) -> tuple[Curve | None, str]:
-    """Return the displacement of the base over time, m, and where it is from; None if its motion was not recorded."""
-    recorded, acceleration = motion(stored, "base_displacement", "m"), motion(stored, "base_acceleration", "m/s²")
-    if recorded is not None and np.isfinite(recorded.values).any():
-        return recorded, "recorded displacement"
-    if acceleration is not None:
-        return acceleration._replace(values=displacement(*acceleration)), "recorded acceleration integrated twice"
-    return None, "not recorded, drawn at rest"
-
-
-def _ratio(
-    stored: Stored, block: Block, stage: str, model: str | None = None, *, as_recorded: bool = True
-) -> Curve | None:
-    if not stored.has(stage, "rocking_angle", model):
-        return None
-    time, angle = stored.array(stage, "elapsed", model), stored.array(stage, "rocking_angle", model)
-    angle = angle if as_recorded else true_angle(stored, angle)
-    # An overturned test ends where it overturns: what a frame or a floor does to it then is no rocking.
-    fall = stored.value(stage, "overturning_time", model)
-    ended = time.size if np.isnan(fall) else int(np.searchsorted(time, fall)) + 1
-    angle = np.where(np.arange(time.size) < ended, angle, np.nan)
-    return Curve(time, angle / block.critical_angle_at(angle))
+def misfit(one: OfTest) -> list[Panel]:
+    """Return the panel of predicted minus measured angle, if there is any."""
+    apart = one.misfits()
+    return [Panel("Predicted minus measured θ/α", "predicted −\nmeasured, / α", "", apart)] if apart else []
 
 
 MOTIONS = (
-    ("slide", "slide", "slide", "mm"),
-    ("uplift", "uplift", "uplift", "mm"),
-    ("transverse_slide", "transverse slide", "slide, y", "mm"),
-    ("out_of_plane_angle", "out-of-plane angle", "out of plane", "mrad"),
-    ("yaw", "yaw", "yaw", "mrad"),
+    ("slide", "Slide", "slide", "mm"),
+    ("uplift", "Uplift", "uplift", "mm"),
+    ("transverse_slide", "Transverse slide", "slide, y", "mm"),
+    ("out_of_plane_angle", "Out-of-plane angle", "out of plane", "mrad"),
+    ("yaw", "Yaw", "yaw", "mrad"),
 )
-"""Other motions of a specimen than its rocking angle: variable, words, label of an axis, unit."""
+"""Other motions of a specimen than its rocking angle: variable, title, label of an axis, unit."""
 
 BASE = (
-    ("base_acceleration", "base acceleration", "base", "m/s²"),
-    ("base_displacement", "base displacement", "base", "mm"),
-    ("vertical_base_acceleration", "vertical base acceleration", "base, up", "m/s²"),
-    ("transverse_base_acceleration", "transverse base acceleration", "base, y", "m/s²"),
+    ("base_acceleration", "Base acceleration", "base", "m/s²"),
+    ("base_displacement", "Base displacement", "base", "mm"),
+    ("vertical_base_acceleration", "Vertical base acceleration", "base, up", "m/s²"),
+    ("transverse_base_acceleration", "Transverse base acceleration", "base, y", "m/s²"),
 )
 """Motions of the base, in the same form."""
 
@@ -163,26 +84,23 @@ AFTER = 0.05
 """Share of the time up to an overturning that the axis shows after it."""
 
 
-def record(test: Test, record: TestSummary, stored: Stored, block: Block) -> Picture | None:
+def record(one: OfTest) -> Picture | None:
     """Draw a test over time: angle, misfit, other motions, and the base motion if it drives; None without anything."""
-    curves = ratios(stored, block)
-    base = quantities(stored, BASE, block) if test.kind != "free-vibration" or driven_by(stored) == RECORDED else []
+    test, stored, curves = one.test, one.stored, one.ratios()
+    base = quantities(one, BASE) if test.kind != "free-vibration" or driven_by(stored) == RECORDED else []
     if not curves and not base:
         return None
-    apart = {model: curve for model, curve in misfits(stored, curves).items() if np.isfinite(curve.values).any()}
-    misfit = [Panel("predicted −\nmeasured, / α", apart)] if apart else []
     # Shades of several models on each other cannot be distinguished: those of the others are in `bands` alone.
-    shaded = dict(sorted(spreads(stored, block).items(), key=lambda item: item[0] != SHADED)[:1])
+    shaded = dict(sorted(one.spreads().items(), key=lambda item: item[0] != SHADED)[:1])
     figure = whole_record(
         curves,
-        [*misfit, *quantities(stored, MOTIONS, block), *base],
+        [*misfit(one), *quantities(one, MOTIONS), *base],
         impacts=stored.array("rocking", "impact_time"),
-        peak=_peak(record, curves.get("measured")),
+        peak=_peak(one.record, curves.get("measured")),
         spreads=shaded,
         until=_end(stored, curves),
     )
-    title = f"{test.id}: rocking angle, measured and predicted"
-    return Picture(figure, f"record-{test.id}", title, seen(record, stored))
+    return Picture(figure, f"record-{test.id}", f"{test.id}: rocking angle, measured and predicted", seen(one))
 
 
 @styled()
@@ -231,17 +149,18 @@ def _mark_impacts(axes: Axes, impacts: Array) -> None:
     )
 
 
-def bands(test: Test, stored: Stored, block: Block) -> Picture | None:
+def bands(one: OfTest) -> Picture | None:
     """Draw the measured angle over what each model's own uncertainty leaves; None without an ensemble."""
-    found = spreads(stored, block)
+    found, measured = one.spreads(), one.measured_ratio()
     if not found:
         return None
     said = [
         f"{model.capitalize()} model: {format_percent(spread.overturning_probability)} of its runs overturn."
         for model, spread in found.items()
     ]
-    title = f"{test.id}: measured rocking angle over the spread of each model"
-    return Picture(bands_over_time(_measured(stored, block), found), f"bands-{test.id}", title, " ".join(said))
+    figure = bands_over_time({} if measured is None else {"measured": measured}, found)
+    title = f"{one.test.id}: measured rocking angle over the spread of each model"
+    return Picture(figure, f"bands-{one.test.id}", title, " ".join(said))
 
 
 MODEL_HEIGHT, BASE_HEIGHT = 1.35, 0.8
@@ -264,9 +183,9 @@ class SpanPanel(NamedTuple):
         return SpanPanel(self.title, {name: envelope(curve) for name, curve in self.curves.items()}, base)
 
 
-def span_panel(test: Test, stored: Stored, block: Block) -> SpanPanel:
+def span_panel(one: OfTest) -> SpanPanel:
     """Return what the figure of all Spans shows of one test."""
-    return SpanPanel(f"Span {test.span or 0.0}", ratios(stored, block), motion(stored, "base_acceleration", "m/s²"))
+    return SpanPanel(f"Span {one.test.span or 0.0}", one.ratios(), one.motion("base_acceleration", "m/s²"))
 
 
 def spans(identity: str, title: str, description: str, panels: Sequence[SpanPanel]) -> Picture:
@@ -303,9 +222,9 @@ def spans_side_by_side(panels: Sequence[SpanPanel]) -> Figure:
     return figure
 
 
-def seen(record: TestSummary, stored: Stored) -> str:
+def seen(one: OfTest) -> str:
     """Say in words what a test's figure shows."""
-    parts = []
+    record, stored, parts = one.record, one.stored, list[str]()
     if stored.has("rocking", "rocking_angle"):
         parts.append(_said("Measured", record.outcome, record.peak_ratio, record.peak_time))
     for model, predicted in record.predicted.items():
@@ -349,13 +268,13 @@ def rocking_angle(curves: Mapping[str, Curve], *, title: str) -> Figure:
     return figure
 
 
-def angle(test: Test, record: TestSummary, stored: Stored, block: Block) -> Picture | None:
+def angle(one: OfTest) -> Picture | None:
     """Draw the measured and the predicted angle of a test; None without any."""
-    curves = ratios(stored, block)
+    curves = one.ratios()
     if not curves:
         return None
-    figure = rocking_angle(curves, title=_title(test, record))
-    return Picture(figure, f"angle-{test.id}", f"{test.id}: rocking angle over time", seen(record, stored))
+    figure = rocking_angle(curves, title=_title(one.test, one.record))
+    return Picture(figure, f"angle-{one.test.id}", f"{one.test.id}: rocking angle over time", seen(one))
 
 
 def _title(test: Test, record: TestSummary) -> str:

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.campaign import Test
 from colonnade.dynamics.block import Block
 from colonnade.errors import count
 from colonnade.figures.files.output import Picture
@@ -21,7 +20,7 @@ from colonnade.figures.restitution.estimators import (
 )
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution, impacts_of_many
 from colonnade.figures.restitution.peaks import MIDDLE, MIDDLE_SHARE, PeakSeries, peak_decay, peaks_of_many
-from colonnade.figures.stored.record import measured_ratio
+from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import shortened
 from colonnade.identification.restitution.peaks import confidence_band
 from colonnade.store.records.stored import Stored
@@ -47,37 +46,40 @@ def estimate_rows(stored: Stored) -> list[EstimateRow]:
     """Return what each estimator gives of a free vibration, in the order in which they are stored."""
     values, low, high = (stored.by("estimator", STAGE, f"estimate{end}") for end in ("", "_low", "_high"))
     recommended = stored.text(STAGE, "recommended")
+    assumptions, reasons = (stored.texts(STAGE, f"estimate_{each}") for each in ("assumptions", "reasons"))
     return [
-        EstimateRow(LABELS[name], value, low[name], high[name], name == recommended) for name, value in values.items()
+        EstimateRow(LABELS[name], values[name], low[name], high[name], name == recommended, *texts)
+        for name, *texts in zip(values, assumptions, reasons, strict=True)
     ]
 
 
-def fitted(test: Test, stored: Stored, block: Block) -> Picture | None:
+def fitted(one: OfTest) -> Picture | None:
     """Draw the measured angle, the history fitted to it and the residual; None if none was fitted."""
+    stored = one.stored
     time, angle = (stored.array(STAGE, name) for name in ("fitted_elapsed", "fitted_history"))
     if not time.size or not angle.size:
         return None
-    critical = block.critical_angle_at(angle)
+    critical = one.block.critical_angle_at(angle)
     residual = Curve(time, stored.array(STAGE, "history_residual") / critical)
     model = stored.text(STAGE, "history_model")
-    measured = measured_ratio(stored, block, as_recorded=True)
+    measured = one.measured_ratio(as_recorded=True)
     rms = float(np.sqrt(np.nanmean(residual.values**2))) if np.isfinite(residual.values).any() else np.nan
     return Picture(
         fitted_history(measured, Curve(time, angle / critical), residual, model=model),
-        f"fitted-{test.id}",
-        f"{test.id}: measured free vibration and the {model} model fitted to it",
+        f"fitted-{one.test.id}",
+        f"{one.test.id}: measured free vibration and the {model} model fitted to it",
         f"From {time[0]:.2f} s to {time[-1]:.2f} s the two differ by {number(rms)} α RMS.",
     )
 
 
-def peak_series(test: Test, stored: Stored, block: Block) -> PeakSeries | None:
+def peak_series(one: OfTest) -> PeakSeries | None:
     """Return the peaks of a free vibration, None if none were found."""
-    angle, error, fit, used = _columns(stored, "peak_angle", "peak_angle_standard_error", "fitted_angle", "peak_used")
+    angle, error, fit, used = _columns(one, "peak_angle", "peak_angle_standard_error", "fitted_angle", "peak_used")
     if not angle.size:
         return None
     used = used == 1
-    band = confidence_band(angle, error, used & np.isfinite(fit), block)
-    return PeakSeries(shortened(test.id, LONGEST_NAME), angle, error, fit, used, band)
+    band = confidence_band(angle, error, used & np.isfinite(fit), one.block)
+    return PeakSeries(shortened(one.test.id, LONGEST_NAME), angle, error, fit, used, band)
 
 
 def peaks(identity: str, series: Sequence[PeakSeries], block: Block) -> Picture | None:
@@ -94,13 +96,13 @@ def peaks(identity: str, series: Sequence[PeakSeries], block: Block) -> Picture 
     return Picture(peak_decay(series, block), identity, title, " ".join(described))
 
 
-def impact_series(test: Test, stored: Stored) -> ImpactSeries | None:
+def impact_series(one: OfTest) -> ImpactSeries | None:
     """Return e of each impact of a free vibration, or None without impacts."""
     names = ("velocity", "restitution", "restitution_standard_error", "used")
-    velocity, restitution, error, used = _columns(stored, *(f"impact_{name}" for name in names))
+    velocity, restitution, error, used = _columns(one, *(f"impact_{name}" for name in names))
     if not restitution.size:
         return None
-    return ImpactSeries(shortened(test.id, LONGEST_NAME), velocity, restitution, error, used == 1)
+    return ImpactSeries(shortened(one.test.id, LONGEST_NAME), velocity, restitution, error, used == 1)
 
 
 def impacts(identity: str, series: Sequence[ImpactSeries], level: Level, rigid: float) -> Picture | None:
@@ -151,18 +153,18 @@ def _summarised(groups: Sequence[EstimateGroup]) -> list[EstimateGroup]:
     return [EstimateGroup(f"{len(groups) - len(together)} free vibrations", rows), *together]
 
 
-def region(test: Test, stored: Stored) -> Picture | None:
+def region(one: OfTest) -> Picture | None:
     """Draw the joint region of e and the critical angle; None if the angle was not freed."""
     names = ("restitution", "critical_angle", "restitution_error", "critical_angle_error", "correlation")
-    e, ratio, e_error, ratio_error, correlation = (stored.value(STAGE, f"region_{name}") for name in names)
+    e, ratio, e_error, ratio_error, correlation = (one.stored.value(STAGE, f"region_{name}") for name in names)
     both = correlation * e_error * ratio_error
     covariance = np.array([[e_error**2, both], [both, ratio_error**2]])
     if not (np.isfinite(covariance).all() and np.linalg.eigvalsh(covariance).min() > 0):
         return None
     return Picture(
-        joint_region(test.id, np.array([e, ratio]), covariance, fixed=level_of(stored, STAGE, "")),
-        f"region-{test.id}",
-        f"{test.id}: joint region of e and the critical angle",
+        joint_region(one.test.id, np.array([e, ratio]), covariance, fixed=level_of(one.stored, STAGE, "")),
+        f"region-{one.test.id}",
+        f"{one.test.id}: joint region of e and the critical angle",
         f"Together: e = {e:.4f}, α {ratio:.4f} times that given.",
     )
 
@@ -173,5 +175,5 @@ def level_of(stored: Stored, stage: str, name: str) -> Level:
     return Level(value, low, high, name)
 
 
-def _columns(stored: Stored, *names: str) -> list[Array]:
-    return [stored.array(STAGE, name) for name in names]
+def _columns(one: OfTest, *names: str) -> list[Array]:
+    return [one.stored.array(STAGE, name) for name in names]

@@ -15,16 +15,13 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.campaign.assembly import Whole
-from colonnade.campaign.specimen import Specimen
-from colonnade.dynamics.block import Block
+from colonnade.dynamics.assembly import Assembly
 from colonnade.figures.drawing.described import body_of
-from colonnade.figures.drawing.view import Body, Rocking
+from colonnade.figures.drawing.view import Rocking
 from colonnade.figures.files.output import Picture, as_csv
 from colonnade.figures.files.table import Columns, columns_of
-from colonnade.figures.stored import bodies
-from colonnade.figures.stored.record import base_displacement, measured_ratio, motion, predicted_ratios
-from colonnade.figures.style import model_style
-from colonnade.store.records.stored import Stored
+from colonnade.figures.stored.subject import OfTest
+from colonnade.figures.style import name_of, style_of
 
 MOST = 20_000_000
 """Samples of a page: in a browser they take half a second and some 200 MB. What is beyond is left out, and said so."""
@@ -223,67 +220,50 @@ def _column(column: Array | list[str], samples: Samples) -> Any:
     return {"series": samples.add(column)}
 
 
-def outline(body: Body) -> list[tuple[float, float]]:
-    """Return the corners of a specimen seen along y, x and z in m: from the left end of its base around its top."""
-    base, top = (size / 2 for size in body.width)
-    return [(-base, 0.0), (-top, body.height), (top, body.height), (base, 0.0)]
+def look_of(who: str) -> dict[str, Any]:
+    """Colour and dashes of what was "measured", of a model, or without a name of what was recorded beside."""
+    own, style = {"measured": "ink", "": "soft"}.get(who), style_of(who)
+    dash = style["linestyle"][1] if isinstance(style["linestyle"], tuple) else ()
+    return {"colour": own or style["color"], "dash": list(dash)}
 
 
-def of_test(specimen: Specimen, block: Block, stored: Stored, samples: Samples) -> dict[str, Any]:
+def of_test(one: OfTest, samples: Samples) -> dict[str, Any]:
     """Describe the moving block for the script: measured and by each model, on the recorded motion of the base."""
-    base, how = base_displacement(stored)
-    around = {
+    specimen, gravity = one.specimen, one.campaign.gravity
+    base, how = one.base_displacement()
+    if isinstance(specimen, Whole):
+        height, parts = _bodies(one, specimen.assembly(gravity), specimen, samples)
+    else:
+        body, slide = body_of(specimen, one.block), one.motion("slide", "mm")
+        shape, height = {"outline": body.outline(), "poles": Rocking.of(one.block).poles}, body.height
+        parts = {who: [samples.curve("", *ratio) | shape] for who, ratio in one.ratios().items()}
+        if slide is not None and "measured" in parts:
+            parts["measured"][0]["slide"] = samples.add(slide.values)
+    return {
+        "height": height,
+        "bodies": [{"name": name_of(who), "parts": each, **look_of(who)} for who, each in parts.items()],
         "base": None if base is None else samples.curve("base", base.time, 1e3 * base.values),
         "how": f"base: {how}",
     }
-    if isinstance(specimen, Whole):
-        return _bodies(specimen, block.gravity, stored, samples) | around
-    body, rocking = body_of(specimen, block), Rocking.of(block)
-    measured, slide = measured_ratio(stored, block), motion(stored, "slide", "mm")
-    moving = []
-    if measured is not None:
-        moving.append(samples.curve("measured", *measured, colour="ink"))
-        if slide is not None and np.isfinite(slide.values).any():
-            moving[0]["slide"] = samples.add(slide.values)
-    for model, curve in predicted_ratios(stored, block).items():
-        moving.append(samples.curve(f"{model} model", *curve, colour=model_style(model)["color"]))
-    return {
-        "height": body.height,
-        "bodies": [
-            {
-                "name": each["name"],
-                "colour": each["colour"],
-                "parts": [{"outline": outline(body), "poles": rocking.poles, **each}],
-            }
-            for each in moving
-        ],
-        **around,
-    }
 
 
-def _bodies(specimen: Whole, gravity: float, stored: Stored, samples: Samples) -> dict[str, Any]:
+Parts = dict[str, list[dict[str, Any]]]
+"""What moves, "measured" and by model."""
+
+
+def _bodies(one: OfTest, assembly: Assembly, specimen: Whole, samples: Samples) -> tuple[float, Parts]:
     """Describe the bodies of an assembly, each turned by its angle (rad) with its slide and rise (mm)."""
-    assembly = specimen.assembly(gravity)
-    found: dict[str, list[dict[str, Any]]] = {}
+    found: Parts = {}
     for place, (name, placed) in enumerate(assembly.bodies.items()):
-        body = body_of(specimen.made[name], placed.block)
-        slides, rises = (bodies.histories(stored, place, f"body_{each}") for each in ("slide", "uplift"))
-        for who, angle in bodies.histories(stored, place, "body_angle").items():
-            part = samples.curve(name, *angle, colour="") | {
-                "outline": outline(body),
-                "poles": Rocking.of(placed.block).poles,
-                "place": [placed.position[0], assembly.levels[name]],
-                "is_angle": True,
-            }
+        shape = {
+            "outline": body_of(specimen.made[name], placed.block).outline(),
+            "poles": Rocking.of(placed.block).poles,
+            "place": [placed.position[0], assembly.levels[name]],
+            "is_angle": True,
+        }
+        slides, rises = (one.bodies(place, f"body_{each}") for each in ("slide", "uplift"))
+        for who, angle in one.bodies(place, "body_angle").items():
             more = {"slide": slides.get(who), "rise": rises.get(who)}
-            part |= {key: samples.add(1e3 * curve.values) for key, curve in more.items() if curve is not None}
-            found.setdefault(who, []).append(part)
-    return {
-        "height": assembly.height,
-        "bodies": [
-            {"name": who, "colour": "ink", "parts": parts}
-            if who == "measured"
-            else {"name": f"{who} model", "colour": model_style(who)["color"], "parts": parts}
-            for who, parts in found.items()
-        ],
-    }
+            moves = {key: samples.add(1e3 * curve.values) for key, curve in more.items() if curve is not None}
+            found.setdefault(who, []).append(samples.curve(name, *angle) | shape | moves)
+    return assembly.height, found

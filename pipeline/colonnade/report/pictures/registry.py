@@ -11,7 +11,6 @@ from dataclasses import replace
 from math import isfinite
 from typing import Any, Literal, NamedTuple
 
-from colonnade.campaign.assembly import Whole
 from colonnade.figures import base_motion, channels, closer, moving
 from colonnade.figures.drawing import described
 from colonnade.figures.files.output import Movie, Picture
@@ -19,11 +18,12 @@ from colonnade.figures.maps import response_orders
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow
 from colonnade.figures.stored import bodies, record
 from colonnade.figures.stored import restitution as decays
+from colonnade.figures.stored.subject import OfTest
 from colonnade.identification.response.boundaries import makes_map
-from colonnade.report import forecasts_page as forecasts_page
-from colonnade.report.overview_page import agreement as agreement
+from colonnade.report import forecasts_page
+from colonnade.report.overview_page import agreement
 from colonnade.report.overview_page.groups import span_groups
-from colonnade.report.pictures.subjects import OfCampaign, OfSpecimen, OfTest, Subject
+from colonnade.report.pictures.subjects import OfCampaign, OfSpecimen, Subject
 from colonnade.store.records.forecast import FEWEST
 from colonnade.store.results import models_shown
 from colonnade.units.text import listed
@@ -56,76 +56,32 @@ class Entry(NamedTuple):
     is_narrow: bool = True
 
 
-def _record(one: OfTest) -> Picture | None:
-    return record.record(one.row.test, one.row.record, one.stored, one.block)
-
-
-def _angle(one: OfTest) -> Picture | None:
-    return record.angle(one.row.test, one.row.record, one.stored, one.block)
-
-
-def _bands(one: OfTest) -> Picture | None:
-    return record.bands(one.row.test, one.stored, one.block)
-
-
-def _fitted(one: OfTest) -> Picture | None:
-    return decays.fitted(one.row.test, one.stored, one.block)
-
-
 def _estimators_of_test(one: OfTest) -> Picture | None:
     groups = [EstimateGroup("", decays.estimate_rows(one.stored))]
-    return decays.estimators(f"estimators-{one.row.id}", groups, one.block.restitution)
+    return decays.estimators(f"estimators-{one.test.id}", groups, one.block.restitution)
 
 
 def _peaks_of_test(one: OfTest) -> Picture | None:
-    series = decays.peak_series(one.row.test, one.stored, one.block)
-    return decays.peaks(f"peaks-{one.row.id}", [series] if series else [], one.block)
+    series = decays.peak_series(one)
+    return decays.peaks(f"peaks-{one.test.id}", [series] if series else [], one.block)
 
 
 def _impacts_of_test(one: OfTest) -> Picture | None:
-    series = decays.impact_series(one.row.test, one.stored)
+    series = decays.impact_series(one)
     level = decays.level_of(one.stored, decays.STAGE, "e identified")
-    return decays.impacts(f"impacts-{one.row.id}", [series] if series else [], level, one.block.restitution)
-
-
-def _channels(one: OfTest) -> Picture | None:
-    return channels.picture(one.row.test, one.stored)
-
-
-def _closer(one: OfTest) -> Picture | None:
-    return closer.picture(one.row.test, one.row.record, one.stored, one.block)
+    return decays.impacts(f"impacts-{one.test.id}", [series] if series else [], level, one.block.restitution)
 
 
 def _base(one: OfTest) -> Picture | None:
-    base = base_motion.base_of(one.campaign, one.row.test, one.stored)
-    return base_motion.base_picture(one.row.test, base, one.block)
-
-
-def _joints(one: OfTest) -> Picture | None:
-    return bodies.joints(one.row.test, one.stored)
-
-
-def _plan(one: OfTest) -> Picture | None:
-    whole = one.campaign.specimens[one.row.test.specimen]
-    if not isinstance(whole, Whole):
-        return None
-    return bodies.plan(one.row.test, one.stored, whole.assembly(one.campaign.gravity))
-
-
-def _region(one: OfTest) -> Picture | None:
-    return decays.region(one.row.test, one.stored)
-
-
-def _animation(one: OfTest) -> Movie | None:
-    return moving.animation(one.row.test, one.campaign.specimens[one.row.test.specimen], one.stored, one.block)
+    return base_motion.base_picture(one, base_motion.base_of(one))
 
 
 def _setup(one: OfTest) -> Picture:
-    return described.picture(one.campaign, one.row.test.specimen, one.row.test.setup)
+    return described.picture(one.campaign, one.test.specimen, one.test.setup)
 
 
 def _estimators(one: OfSpecimen) -> Picture | None:
-    groups = [EstimateGroup(each.test, each.rows) for each in one.decays]
+    groups = [EstimateGroup(each.test, each.estimates) for each in one.decays]
     level = decays.level_of(one.pooled, "specimen", "e pooled")
     if isfinite(level.low):
         groups.append(EstimateGroup("all together", [EstimateRow("pooled", *level[:3], recommended=True)]))
@@ -179,21 +135,23 @@ _FREED = f"{_FREE} Its fit must free the critical angle."
 _TWO = "It needs two Spans of one motion."
 _SCORED = f"It needs {FEWEST} scored forecasts."
 FIGURES: tuple[Entry, ...] = (
-    Entry("record", "test", "all of a test over time: angle, misfit, other motions, base", _ANGLE, _record),
-    Entry("angle", "test", "rocking angle over time, measured and predicted", _ANGLE, _angle),
-    Entry("closer", "test", "phase portrait, and of a sine the steady state", _ANGLE, _closer, is_narrow=False),
+    Entry("record", "test", "all of a test over time: angle, misfit, other motions, base", _ANGLE, record.record),
+    Entry("angle", "test", "rocking angle over time, measured and predicted", _ANGLE, record.angle),
+    Entry("closer", "test", "phase portrait, and of a sine the steady state", _ANGLE, closer.picture, is_narrow=False),
     Entry("base", "test", "table's motion and its spectrum, with the target", "It needs a table motion.", _base),
-    Entry("channels", "test", "every channel as recorded: flags, spikes, spectra", _RAW, _channels, is_narrow=False),
-    Entry("bands", "test", "measured angle over each model's bands", "It needs an ensemble.", _bands),
-    Entry("fitted", "test", "free vibration, fitted history and residual", _FREE, _fitted),
+    Entry(
+        "channels", "test", "every channel as recorded: flags, spikes, spectra", _RAW, channels.picture, is_narrow=False
+    ),
+    Entry("bands", "test", "measured angle over each model's bands", "It needs an ensemble.", record.bands),
+    Entry("fitted", "test", "free vibration, fitted history and residual", _FREE, decays.fitted),
     Entry("estimators", "test", "e from every estimator", _FREE, _estimators_of_test, is_narrow=False),
     Entry("peaks", "test", "energy of successive peaks and its line", _FREE, _peaks_of_test),
     Entry("impacts", "test", "e of each impact over its velocity", _FREE, _impacts_of_test),
-    Entry("region", "test", "joint region of e and the critical angle", _FREED, _region, is_narrow=False),
-    Entry("joints", "test", "angle in the joint below each body over time", _BODIES, _joints),
-    Entry("plan", "test", "where each body stands at the end, from above", _BODIES, _plan, is_narrow=False),
+    Entry("region", "test", "joint region of e and the critical angle", _FREED, decays.region, is_narrow=False),
+    Entry("joints", "test", "angle in the joint below each body over time", _BODIES, bodies.joints),
+    Entry("plan", "test", "where each body stands at the end, from above", _BODIES, bodies.plan, is_narrow=False),
     Entry("setup", "test", "specimen and transducers to scale", "", _setup, is_narrow=False),
-    Entry("animation", "test", "the rocking block, measured and by each model, as a GIF", _ANGLE, _animation),
+    Entry("animation", "test", "the rocking block, measured and by each model, as a GIF", _ANGLE, moving.animation),
     Entry("estimators", "specimen", "e from every estimator and record", _FREE, _estimators, is_narrow=False),
     Entry("peaks", "specimen", "energy of successive peaks of every record", _FREE, _peaks),
     Entry("impacts", "specimen", "e of each impact of every record", _FREE, _impacts),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.forms.summary import TestSummary
@@ -13,54 +14,40 @@ from colonnade.figures.agreement import Calibration
 from colonnade.figures.restitution.estimators import EstimateRow
 from colonnade.figures.restitution.impacts import ImpactSeries
 from colonnade.figures.restitution.peaks import PeakSeries
-from colonnade.figures.stored import record as curves
-from colonnade.figures.stored import restitution
+from colonnade.figures.stored import record, restitution
+from colonnade.figures.stored.subject import OfTest
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.report.forecasts_page import calibrations_of
 from colonnade.report.overview_page.groups import SpanTest, charts_of
 from colonnade.report.rows import TestRow
+from colonnade.report.test_page.restitution import value_of
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import Failure, Stored, read_specimen, read_test
 from colonnade.store.records.summary import map_points, read_summary, records_of_tests
 
 
-@dataclass(frozen=True)
-class OfTest:
-    """A test: its row in the tables, and what is stored of it."""
-
-    campaign: Campaign
-    row: TestRow
-    stored: Stored
-
-    @property
-    def block(self) -> Block:
-        """Of its specimen."""
-        return self.campaign.block(self.row.test.specimen)
-
-    @property
-    def failures(self) -> Sequence[Failure]:
-        """Why it failed."""
-        return self.row.failures
-
-
-@dataclass(frozen=True)
-class Decaying:
-    """What the figures of a specimen show of one free vibration."""
+class FreeVibration(NamedTuple):
+    """One free vibration in words and figures of its specimen: e with its interval, why it was refused, departures."""
 
     test: str
-    rows: Sequence[EstimateRow]
+    e: str
+    reason: str
+    departures: list[str]
+    estimates: list[EstimateRow]
     peaks: PeakSeries | None
     impacts: ImpactSeries | None
 
     @classmethod
-    def of(cls, subject: OfTest) -> Decaying:
+    def of(cls, one: OfTest) -> FreeVibration:
         """Read it from what is stored of a test."""
-        test, stored = subject.row.test, subject.stored
         return cls(
-            test.id,
-            restitution.estimate_rows(stored),
-            restitution.peak_series(test, stored, subject.block),
-            restitution.impact_series(test, stored),
+            one.test.id,
+            value_of(one.stored, one.record.restitution),
+            one.stored.text(restitution.STAGE, "reason"),
+            one.stored.texts(restitution.STAGE, "departures"),
+            restitution.estimate_rows(one.stored),
+            restitution.peak_series(one),
+            restitution.impact_series(one),
         )
 
 
@@ -75,7 +62,7 @@ class OfSpecimen:
     name : str
     pooled : Stored
         Its own results.
-    decays : sequence of Decaying
+    decays : sequence of FreeVibration
         Its free vibrations.
     points : sequence of MapPoint
         Its sine tests of known Ω, A and outcome.
@@ -88,10 +75,10 @@ class OfSpecimen:
     campaign: Campaign
     name: str
     pooled: Stored
-    decays: Sequence[Decaying] = ()
+    decays: Sequence[FreeVibration] = ()
     points: Sequence[MapPoint] = ()
     charts: Sequence[StabilityMap] = ()
-    spans: Sequence[SpanTest] = field(default=())
+    spans: Sequence[SpanTest] = ()
 
     @property
     def block(self) -> Block:
@@ -118,24 +105,18 @@ Subject = OfTest | OfSpecimen | OfCampaign
 """What a figure is drawn of."""
 
 
-def read_of_test(campaign: Campaign, layout: Layout, test: str) -> OfTest:
+def read_of_test(campaign: Campaign, layout: Layout, test: str, *, with_samples: bool = True) -> OfTest:
     """Read what is stored of a test, as of the last run, with the samples of its channels."""
-    record = records_of_tests(campaign, read_summary(layout))[test]
-    return _of_test(campaign, layout, test, record, with_samples=True)
-
-
-def _of_test(campaign: Campaign, layout: Layout, test: str, record: TestSummary, *, with_samples: bool) -> OfTest:
-    entry = campaign.tests[test]
-    stored = read_test(campaign, layout, entry, with_samples=with_samples)
-    return OfTest(campaign, TestRow.of(campaign, entry, record, stored), stored)
+    entry, records = campaign.tests[test], records_of_tests(campaign, read_summary(layout))
+    return OfTest(campaign, entry, records[test], read_test(campaign, layout, entry, with_samples=with_samples))
 
 
 def read_of_specimen(campaign: Campaign, layout: Layout, specimen: str) -> OfSpecimen:
     """Read what is stored of a specimen and its tests, as of the last run."""
-    known = records_of_tests(campaign, read_summary(layout))
-    records = {name: known[name] for name, test in campaign.tests.items() if test.specimen == specimen}
-    tests = [_of_test(campaign, layout, name, each, with_samples=False) for name, each in records.items()]
-    decays = [Decaying.of(each) for each in tests if each.stored.has(restitution.STAGE)]
+    own = [name for name, test in campaign.tests.items() if test.specimen == specimen]
+    tests = [read_of_test(campaign, layout, name, with_samples=False) for name in own]
+    records = {each.test.id: each.record for each in tests}
+    decays = [FreeVibration.of(each) for each in tests if each.stored.has(restitution.STAGE)]
     return of_specimen(campaign, layout, specimen, records, decays, [span_of(each) for each in tests if has_span(each)])
 
 
@@ -144,7 +125,7 @@ def of_specimen(
     layout: Layout,
     specimen: str,
     records: Mapping[str, TestSummary],
-    decays: Sequence[Decaying],
+    decays: Sequence[FreeVibration],
     spans: Sequence[SpanTest],
 ) -> OfSpecimen:
     """Lay what is stored of a specimen next to what is known of its tests."""
@@ -156,17 +137,15 @@ def read_of_campaign(campaign: Campaign, layout: Layout) -> OfCampaign:
     """Read the records of all tests, as of the last run."""
     summary = read_summary(layout)
     records = records_of_tests(campaign, summary)
-    rows = [TestRow.of(campaign, test, records[name], Stored()) for name, test in campaign.tests.items()]
+    rows = [TestRow.of(OfTest(campaign, test, records[name], Stored())) for name, test in campaign.tests.items()]
     return OfCampaign(campaign, rows, calibrations_of(layout, summary))
 
 
-def has_span(subject: OfTest) -> bool:
+def has_span(one: OfTest) -> bool:
     """Whether it is an earthquake test with a Span and an angle, measured or predicted."""
-    datasets = subject.stored.datasets.values()
-    return subject.row.test.span is not None and any("rocking_angle" in dataset for dataset in datasets)
+    return one.test.span is not None and any("rocking_angle" in dataset for dataset in one.stored.datasets.values())
 
 
-def span_of(subject: OfTest) -> SpanTest:
+def span_of(one: OfTest) -> SpanTest:
     """Gather of an earthquake test what the figure of all Spans shows."""
-    row, stored = subject.row, subject.stored
-    return SpanTest(row, curves.span_panel(row.test, stored, subject.block), curves.seen(row.record, stored))
+    return SpanTest(TestRow.of(one), record.span_panel(one), record.seen(one))

@@ -45,14 +45,14 @@ colonnade.cell = function (value) {
 colonnade.tableOf = function (panels, page) {
   const clocks = new Map();
   for (const panel of panels) {
-    const named = (name, series) => ({ head: `${panel.short}, ${name}${panel.unit ? ` (${panel.unit})` : ""}`, of: page.series[series] });
+    const named = (name, series) => ({ head: `${panel.title}, ${name}${panel.unit ? ` (${panel.unit})` : ""}`, of: page.series[series] });
     const add = (clock, ...columns) => clocks.set(clock, [...(clocks.get(clock) || []), ...columns]);
     for (const curve of panel.curves) {
       add(curve.clock, named(curve.name, curve.values));
       if (panel.second) {
         const { unit, factor, offset } = panel.second;
         const of = page.series[curve.values].map((value) => factor * value + offset);
-        add(curve.clock, { head: `${panel.short}, ${curve.name} (${unit})`, of });
+        add(curve.clock, { head: `${panel.title}, ${curve.name} (${unit})`, of });
       }
     }
     for (const band of panel.bands || []) add(band.clock, named(`${band.name}, low`, band.low), named(`${band.name}, high`, band.high));

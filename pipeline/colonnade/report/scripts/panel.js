@@ -47,12 +47,13 @@ colonnade.Panel = class {
     this.curves = given.curves.map((curve) => of(curve, page.series[curve.values]));
     this.bands = (given.bands || []).map((band) => ({ ...of(band, page.series[band.high]), is: "band" }));
     const unit = given.unit ? ` (${given.unit}${given.second ? `; right: ${given.second.unit}` : ""})` : "";
+    const level = given.level ? `; dotted: ± ${given.level_name}` : "";
     this.keys = colonnade.element("div", { class: "curves" });
     this.plot = colonnade.element("div", { class: "plot" });
     this.line = colonnade.element("div", { class: "cursor", hidden: "" });
     this.chosen = colonnade.element("div", { class: "chosen", hidden: "" });
     this.box = colonnade.element("div", { class: "plotted" }, this.plot, this.line, this.chosen);
-    this.root = colonnade.element("section", { class: "panel" }, colonnade.element("h3", {}, given.title + unit), this.keys, this.box);
+    this.root = colonnade.element("section", { class: "panel" }, colonnade.element("h3", {}, given.title + unit + level), this.keys, this.box);
     for (const shown of [...this.curves, ...this.bands]) this.addKey(shown, `${group.title}, ${given.title}, ${shown.name}`);
     for (const mark of given.marks || []) this.keys.append(colonnade.element("span", { class: "mark soft" }, `┊ ${mark.name}: ${mark.time.toFixed(2)} s`));
     if (given.flags && given.flags.length) this.keys.append(this.flagKey(given.flags, this.curves[0].values.length));
@@ -122,7 +123,7 @@ colonnade.Panel = class {
       const edge = { source: band.source, line_color: colonnade.colour(band.colour), line_alpha: 0.6, line_width: 0.8, line_dash: colonnade.dashes(band) };
       for (const field of ["low", "high"]) this.figure.line({ field: "x" }, { field }, edge);
     }
-    for (const level of given.levels || []) this.span({ dimension: "width", location: level });
+    if (given.level) for (const location of [given.level, -given.level]) this.span({ dimension: "width", location });
     for (const mark of given.marks || []) this.span({ dimension: "height", location: mark.time, line_color: colonnade.colour(mark.colour) });
     for (const curve of this.curves) {
       curve.source = new Bokeh.ColumnDataSource({ data: { x: [], y: [] } });

@@ -9,12 +9,11 @@ import numpy as np
 
 from colonnade.assessment.ground import LARGEST_DRIFT_AT_REST
 from colonnade.assessment.measures import table_measures
-from colonnade.campaign import Campaign
-from colonnade.dynamics.block import Block
+from colonnade.campaign import Test
 from colonnade.dynamics.size import at_prototype
 from colonnade.figures import base_motion
 from colonnade.figures.base_motion import BaseMotion
-from colonnade.report.rows import TestRow
+from colonnade.figures.stored.subject import OfTest
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.signals.filters import lowpass
 from colonnade.store.records.stored import Stored
@@ -25,17 +24,17 @@ FASTEST = 25.0
 """Hz, below which a measured displacement is differentiated: above it its noise is larger than its motion."""
 
 
-def of_test(campaign: Campaign, row: TestRow, stored: Stored, block: Block) -> dict[str, Any]:
+def of_test(one: OfTest) -> dict[str, Any]:
     """Measure the table's motion at both scales, and draw it with its target; empty without a recorded motion."""
-    motion = base_motion.base_of(campaign, row.test, stored)
+    motion = base_motion.base_of(one)
     if motion is None:
         return {}
-    heads, rows = _measures(motion, stored, campaign.gravity, campaign.specimens[row.test.specimen].scale)
+    heads, rows = _measures(motion, one.stored, one.campaign.gravity, one.specimen.scale)
     return {
-        "facts": known([*_sine(row, stored), *_target(motion)]),
+        "facts": known([*_sine(one.test, one.stored), *_target(motion)]),
         "heads": heads,
         "rows": rows,
-        "picture": base_motion.base_picture(row.test, motion, block),
+        "picture": base_motion.base_picture(one, motion),
     }
 
 
@@ -51,10 +50,9 @@ def _measures(
         return [name, *(quantity(value, unit) for value in (*values, *prototype)), how]
 
     measured = largest_motion(stored, "base_displacement")
-    none = dict.fromkeys(("pgv", "pgd", "arias"), nan)
-    peaks = [nan if values is None else float(np.abs(values).max()) for values in series]
-    tables = [none if values is None else table_measures(values, motion.interval, gravity)[0] for values in series]
-    velocity, displacement, arias = ([each[name] for each in tables] for name in none)
+    peaks = [float(np.abs(values).max()) for values in series]
+    tables = [table_measures(values, motion.interval, gravity)[0] for values in series]
+    velocity, displacement, arias = ([each[name] for each in tables] for name in ("pgv", "pgd", "arias"))
     allowed = f"{100 * LARGEST_DRIFT_AT_REST:g}{PERCENT}"
     drifts = f"not given: the integral of the acceleration drifts by more than {allowed} of its peak"
     integrated = "integral of the acceleration, less a line through its ends, where the table is at rest"
@@ -86,7 +84,7 @@ def _from_displacement(stored: Stored, interval: float) -> float:
     return float(np.abs(np.gradient(smooth, interval)).max())
 
 
-def _sine(row: TestRow, stored: Stored) -> list[Fact]:
+def _sine(test: Test, stored: Stored) -> list[Fact]:
     """Give what was achieved of a sine, over its steady part."""
     frequency, amplitude, distortion, start, stop = (
         stored.value("compare", name)
@@ -95,7 +93,7 @@ def _sine(row: TestRow, stored: Stored) -> list[Fact]:
     if isnan(frequency):
         return []
     spread = stored.value("compare", "forcing_amplitude_spread")
-    asked = row.test.frequency
+    asked = test.frequency
     return [
         ("frequency", quantity(frequency, "Hz", 4) + (f"; asked for: {quantity(asked, 'Hz', 4)}" if asked else "")),
         ("amplitude", f"{quantity(amplitude, 'm/s²')} ± {quantity(spread, 'm/s²', 2)} from period to period"),

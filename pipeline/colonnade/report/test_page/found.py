@@ -6,10 +6,9 @@ from math import hypot, isnan, nan
 
 from colonnade.campaign.forms.summary import BodyPrediction, PredictionSummary, TestSummary
 from colonnade.dynamics.size import at_prototype
-from colonnade.figures.stored import record
+from colonnade.figures.stored.record import MOTIONS
+from colonnade.figures.stored.subject import OfTest
 from colonnade.identification.response.rank import FEWEST, is_within
-from colonnade.report.pictures.subjects import OfTest
-from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import driven_by, largest_motion
@@ -17,25 +16,27 @@ from colonnade.store.records.wording import order
 from colonnade.units.text import NOTHING, acceleration, format_percent, number, quantity, ratio
 
 
-def of_test(subject: OfTest) -> list[Fact]:
+def of_test(one: OfTest) -> list[Fact]:
     """Say what was measured."""
-    row, stored = subject.row, subject.stored
-    scale = subject.campaign.specimens[row.test.specimen].scale
-    is_free, has_fallen = row.test.kind == "free-vibration", row.record.outcome == "overturned"
+    record, stored, scale = one.record, one.stored, one.specimen.scale
+    is_free, has_fallen = one.test.kind == "free-vibration", record.outcome == "overturned"
     largest = quantity(abs(stored.value("rocking", "peak_angle")), "mrad", 4)
     return known(
         [
             ("largest |θ|, release included" if is_free else "largest |θ|", "" if has_fallen else largest),
-            ("released at |θ|/α", ratio(row.record.release_ratio)),
+            ("released at |θ|/α", ratio(record.release_ratio)),
             ("predictions use", driven_by(stored) if is_free else ""),
             ("overturned at", quantity(stored.value("rocking", "overturning_time"), "s", 4)),
-            ("peak base acceleration", acceleration(row.record.pga)),
+            ("peak base acceleration", acceleration(record.pga)),
             ("standard error of θ", quantity(stored.median("rocking", "rocking_angle_standard_error"), "mrad", 2)),
             *_other_motions(stored),
             ("noise threshold", quantity(stored.value("rocking", "noise_threshold"), "mrad", 2)),
             ("measured", stored.text("rocking", "separation")),
-            ("order of the response", order(row.record.order) or row.record.order_reason or ""),
-            (f"at prototype scale, 1:{scale:g}" if scale else "", _at_prototype(row, stored, scale) if scale else ""),
+            ("order of the response", order(record.order) or record.order_reason or ""),
+            (
+                f"at prototype scale, 1:{scale:g}" if scale else "",
+                _at_prototype(record, stored, scale) if scale else "",
+            ),
         ]
     )
 
@@ -43,23 +44,23 @@ def of_test(subject: OfTest) -> list[Fact]:
 def _other_motions(stored: Stored) -> list[Fact]:
     """Give the largest of each motion besides the rocking angle, with its standard error."""
     facts = []
-    for name, words, _, unit in record.MOTIONS:
+    for name, title, _, unit in MOTIONS:
         largest = largest_motion(stored, name)
         if not isnan(largest):
             error = quantity(stored.median("rocking", f"{name}_standard_error"), unit, 2)
-            facts.append((f"largest {words}", f"{quantity(largest, unit, 3)}, standard error {error}"))
+            facts.append((f"largest {title.lower()}", f"{quantity(largest, unit, 3)}, standard error {error}"))
     return facts
 
 
-def _at_prototype(row: TestRow, stored: Stored, scale: float) -> str:
+def _at_prototype(record: TestSummary, stored: Stored, scale: float) -> str:
     """Say what the test means for the specimen that the model stands for."""
-    if row.record.prototype is None:
+    if record.prototype is None:
         return ""
     base = at_prototype("length", largest_motion(stored, "base_displacement"), scale)
     parts = (
-        ("duration", row.record.prototype.duration, "s"),
-        ("frequency", row.record.prototype.frequency, "Hz"),
-        ("largest slide", row.record.prototype.peak_slide, "mm"),
+        ("duration", record.prototype.duration, "s"),
+        ("frequency", record.prototype.frequency, "Hz"),
+        ("largest slide", record.prototype.peak_slide, "mm"),
         ("largest base displacement", base, "mm"),
     )
     known = ((name, quantity(value, unit)) for name, value, unit in parts)

@@ -6,10 +6,10 @@ import re
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from colonnade.campaign import Campaign
+from colonnade.figures.stored.restitution import estimate_rows
+from colonnade.figures.stored.subject import OfTest
 from colonnade.report import specimens_page
 from colonnade.report.asked import Photos
-from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page import base, channels, facts, found, restitution
 from colonnade.report.test_page.facts import Fact, known
@@ -18,34 +18,33 @@ from colonnade.store.records.stored import Stored
 from colonnade.units.text import number, quantity
 
 
-def of_test(campaign: Campaign, row: TestRow, stored: Stored, photos: Photos) -> dict[str, Any]:
+def of_test(one: OfTest, photos: Photos) -> dict[str, Any]:
     """Put all that is stored of a test into words and figures, by the names that its template uses."""
-    test = row.test
-    subject = OfTest(campaign, row, stored)
+    campaign, test, stored = one.campaign, one.test, one.stored
     return {
-        "subject": subject,
-        "row": row,
+        "subject": one,
+        "row": TestRow.of(one),
         "stored": stored,
         "review": stored.texts("ingest", "review") or list(campaign.review(test.id).sentences),
         "photos": photos,
-        "done": [*facts.who_and_when_of_test(campaign, test), *done_of(row, stored)],
+        "done": [*facts.who_and_when_of_test(campaign, test), *done_of(one)],
         "notes": notes_of(stored),
         "setup": specimens_page.drawing_of(campaign, test.specimen, test.setup),
-        "found": found.of_test(subject),
-        "bodies": found.bodies_of(row.record),
-        "table": base.of_test(campaign, row, stored, subject.block),
-        "spread": found.verdicts_of(row.record),
-        "decay": restitution.facts_of(stored, row.record.restitution),
-        "estimates": restitution.estimates_of(stored),
+        "found": found.of_test(one),
+        "bodies": found.bodies_of(one.record),
+        "table": base.of_test(one),
+        "spread": found.verdicts_of(one.record),
+        "decay": restitution.facts_of(stored, one.record.restitution),
+        "estimates": estimate_rows(stored),
         "peaks": restitution.peaks_of(stored),
         "channels": channels.of_test(stored),
     }
 
 
-def done_of(row: TestRow, stored: Stored) -> list[Fact]:
+def done_of(one: OfTest) -> list[Fact]:
     """Say what was asked for and when the file says that it was recorded."""
-    test = row.test
-    place = f"NetCDF files in {Layout(Path()).test(row.id).as_posix()}/, next to the folder of the report, not in it"
+    test, record, stored = one.test, one.record, one.stored
+    place = f"NetCDF files in {Layout(Path()).test(test.id).as_posix()}/, next to the folder of the report, not in it"
     return known(
         [
             ("recorded", stored.text("ingest", "recorded_at")),
@@ -54,8 +53,8 @@ def done_of(row: TestRow, stored: Stored) -> list[Fact]:
             ("Span", "" if test.span is None else str(test.span)),
             ("time scale", number(test.time_scale)),
             ("frequency", quantity(test.frequency, "Hz")),
-            ("Ω = ω/p", number(row.record.frequency_ratio, 4)),
-            ("A = a/(g tan α)", number(row.record.amplitude_ratio, 4)),
+            ("Ω = ω/p", number(record.frequency_ratio, 4)),
+            ("A = a/(g tan α)", number(record.amplitude_ratio, 4)),
             ("part of the file", _interval(test.window) or "all"),
             ("zero from", _interval(test.zero) if isinstance(test.zero, tuple) else test.zero),
             ("notes", test.notes or ""),

@@ -2,23 +2,11 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from colonnade.campaign.forms.summary import IdentifiedSummary
 from colonnade.figures.stored.restitution import STAGE, estimate_rows
 from colonnade.report.test_page.facts import known
 from colonnade.store.records.stored import Stored
 from colonnade.units.text import format_uncertain, interval, quantity
-
-
-class EstimateText(NamedTuple):
-    """One estimator's e with its interval, or why it gives none; what it assumes; whether it is the recommended one."""
-
-    name: str
-    value: str
-    assumptions: str
-    reason: str
-    recommended: bool
 
 
 def value_of(stored: Stored, found: IdentifiedSummary | None) -> str:
@@ -27,27 +15,9 @@ def value_of(stored: Stored, found: IdentifiedSummary | None) -> str:
     return interval(found.value, found.low, found.high, stored.value(STAGE, "level"))
 
 
-def estimates_of(stored: Stored) -> list[EstimateText]:
-    """Write what each estimator gives, in the order in which they are stored."""
-    rows = estimate_rows(stored)
-    assumptions, reasons = (
-        dict(enumerate(stored.texts(STAGE, f"estimate_{name}"))) for name in ("assumptions", "reasons")
-    )
-    return [
-        EstimateText(
-            row.name,
-            interval(row.value, row.low, row.high),
-            assumptions.get(index, ""),
-            reasons.get(index, ""),
-            row.recommended,
-        )
-        for index, row in enumerate(rows)
-    ]
-
-
 def facts_of(stored: Stored, found: IdentifiedSummary | None) -> list[tuple[str, str]]:
     """Give e of a free vibration, by which estimator and what that assumes, or why it was refused."""
-    chosen = next((each for each in estimates_of(stored) if each.recommended), None)
+    chosen = next((each for each in estimate_rows(stored) if each.recommended), None)
     slope, error = (stored.value(STAGE, f"restitution_slope{end}") for end in ("", "_standard_error"))
     facts = [
         ("e", value_of(stored, found)),
