@@ -5,8 +5,8 @@ import shutil
 import pytest
 from jinja2 import UndefinedError
 
-from colonnade.report import addresses, pages
-from colonnade.report.pages import Renderer
+from colonnade.report import addresses, build
+from colonnade.report.pages import rendered
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow.product import Catalogue
@@ -35,12 +35,7 @@ def test_the_same_results_give_the_same_bytes_and_no_new_file(two_tests):
 def test_the_page_of_a_specimen_is_drawn_again_only_if_what_it_shows_changed(two_tests, undrawn, monkeypatch):
     campaign, layout = two_tests
     drawn = []
-    page = Renderer.page
-    monkeypatch.setattr(
-        Renderer,
-        "page",
-        lambda self, template, address, **given: drawn.append(address) or page(self, template, address, **given),
-    )
+    monkeypatch.setattr(build, "rendered", lambda *given, **shown: drawn.append(given[2]) or rendered(*given, **shown))
 
     def drawn_now(campaign=campaign):
         drawn.clear()
@@ -125,11 +120,4 @@ def test_a_damaged_result_is_told_as_a_failure(empty_campaign, tmp_path):
 
 def test_a_template_without_what_it_shows_is_an_error(filled_campaign):
     with pytest.raises(UndefinedError):
-        pages.Renderer(campaign=filled_campaign[0]).page("quality", "quality.html")
-
-
-def test_templates_are_compiled_once_for_all_renderers(filled_campaign):
-    renderers = [pages.renderer_of(filled_campaign[0]) for _ in range(2)]
-    first, second = (each._environment.get_template("parts.html.jinja") for each in renderers)
-    assert first is not second
-    assert first.root_render_func.__code__ is second.root_render_func.__code__
+        rendered(filled_campaign[0], "quality", "quality.html")

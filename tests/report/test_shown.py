@@ -7,7 +7,7 @@ import pytest
 
 from colonnade.report import addresses
 from colonnade.report.asked import Photo, Photos
-from colonnade.report.pages import renderer_of
+from colonnade.report.pages import rendered
 from colonnade.report.pictures.subjects import OfSpecimen
 from colonnade.report.specimens_page import of_specimen
 from colonnade.store.layout import Layout
@@ -268,8 +268,8 @@ HOSTILE = '"><script>alert(1)</script>.jpg'
 def test_the_section_shows_paths_and_reasons_as_text(empty_campaign):
     campaign, _ = empty_campaign
     photos = Photos((Photo("photos/a-1.jpg", "Photo 1 of test a", HOSTILE),), ("it is <damaged>",))
-    text = renderer_of(campaign).page("photos", "tests/a.html", photos=photos)
+    text = rendered(campaign, "photos", "tests/a.html", photos=photos)[0]
     assert '<img src="../photos/a-1.jpg" alt="Photo 1 of test a">' in text
     assert "<script>" not in text
     assert "it is &lt;damaged&gt;" in text
-    assert renderer_of(campaign).page("photos", "tests/a.html", photos=Photos()).strip() == ""
+    assert rendered(campaign, "photos", "tests/a.html", photos=Photos())[0].strip() == ""

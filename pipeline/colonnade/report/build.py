@@ -10,7 +10,7 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.settings import settings
 from colonnade.identification.response.base_motion import LEAST_MOTION
 from colonnade.identification.response.rank import WITHIN
-from colonnade.report import addresses, methods, pages, specimens_page
+from colonnade.report import addresses, methods, specimens_page
 from colonnade.report.assessments_page import assessments_page
 from colonnade.report.forecasts_page import forecasts_page
 from colonnade.report.interactive import panels
@@ -19,6 +19,7 @@ from colonnade.report.methods import REFERENCES, Used
 from colonnade.report.overview_page import groups
 from colonnade.report.overview_page.agreement import confusions, peak_points, peaks_picture, worst
 from colonnade.report.overview_page.attention import attention, warning_groups
+from colonnade.report.pages import rendered
 from colonnade.report.parts import Part
 from colonnade.report.pictures import subjects
 from colonnade.store.layout import Layout
@@ -40,7 +41,7 @@ def specimen_page(campaign: Campaign, layout: Layout, name: str, parts: Sequence
         "models": models_moving(campaign, name, models_shown(campaign)),
         "thumbnails": {part.row.id: part.kept.thumbnail for part in parts},
     }
-    yield from _page(pages.renderer_of(campaign), "specimen", addresses.of_specimen(name), shown)
+    yield from _page(campaign, "specimen", addresses.of_specimen(name), shown)
 
 
 def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advice: Sequence[Advice] = ()) -> Pages:
@@ -57,7 +58,7 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
     advice : sequence of Advice, optional
         On the next tests.
     """
-    renderer, used = pages.renderer_of(campaign), Used()
+    used = Used()
     specimens = [_specimen(campaign, layout, name, parts) for name in campaign.of_interest]
     for part in parts:
         used.add(part.kept.used)
@@ -102,11 +103,11 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
         "not_computed": NOT_COMPUTED,
     }
     if campaign.assessments:
-        yield from _page(renderer, "assessments", addresses.ASSESSMENTS, shown)
+        yield from _page(campaign, "assessments", addresses.ASSESSMENTS, shown)
     if foreseen:
-        yield from _page(renderer, "forecasts", addresses.FORECASTS, shown)
+        yield from _page(campaign, "forecasts", addresses.FORECASTS, shown)
     for template, address in addresses.WHOLE.items():
-        yield from _page(renderer, template, address, shown)
+        yield from _page(campaign, template, address, shown)
 
 
 def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[Part]) -> dict[str, Any]:
@@ -116,8 +117,8 @@ def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[Par
     return specimens_page.of_specimen(subjects.of_specimen(campaign, layout, name, records, free, spans), rows)
 
 
-def _page(renderer: pages.Renderer, template: str, address: str, shown: Mapping[str, Any]) -> Pages:
+def _page(campaign: Campaign, template: str, address: str, shown: Mapping[str, Any]) -> Pages:
     """Render a page that shows several tests, and its data."""
-    text = renderer.page(template, address, **shown)
-    yield addresses.of_data(address), panels.of_page(address, renderer.pictures)
+    text, pictures = rendered(campaign, template, address, **shown)
+    yield addresses.of_data(address), panels.of_page(address, pictures)
     yield address, text

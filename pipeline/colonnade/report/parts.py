@@ -17,11 +17,12 @@ from colonnade.arrays import Array
 from colonnade.figures.stored.record import SpanPanel
 from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import styled
-from colonnade.report import addresses, pages, rows
+from colonnade.report import addresses, rows
 from colonnade.report.asked import Asked
 from colonnade.report.interactive import test_data
 from colonnade.report.methods import Used
 from colonnade.report.overview_page.groups import SpanTest
+from colonnade.report.pages import rendered
 from colonnade.report.pictures.subjects import FreeVibration, has_span, span_of
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page import channels, page
@@ -77,10 +78,10 @@ class Part(NamedTuple):
 def drawn(layout: Layout, asked: Asked) -> tuple[list[str], str]:
     """Read a test and draw its page: the page, the script with its samples, and its part as text."""
     with seldom_collected(), styled():
-        return _drawn(pages.renderer_of(asked.campaign), layout, asked)
+        return _drawn(layout, asked)
 
 
-def _drawn(renderer: pages.Renderer, layout: Layout, asked: Asked) -> tuple[list[str], str]:
+def _drawn(layout: Layout, asked: Asked) -> tuple[list[str], str]:
     campaign, test = asked.campaign, asked.campaign.tests[asked.test]
     stored = read_test(campaign, layout, test, outdated="" if asked.is_outdated else None, with_samples=True)
     one, used, panel, described = OfTest(campaign, test, asked.record, stored), Used(), None, ""
@@ -88,9 +89,9 @@ def _drawn(renderer: pages.Renderer, layout: Layout, asked: Asked) -> tuple[list
     if has_span(one):
         span = span_of(one)
         panel, described = span.panel.thinned(), span.description
-    shown = page.of_test(one, asked.photos)
-    text = renderer.page("test", addresses.of_test(test.id), before=asked.before, after=asked.after, **shown)
-    data = test_data.of_test(one, renderer.pictures)
+    shown = page.of_test(one, asked.photos) | {"before": asked.before, "after": asked.after}
+    text, pictures = rendered(campaign, "test", addresses.of_test(test.id), **shown)
+    data = test_data.of_test(one, pictures)
     kept = Kept(
         tuple(one.failures),
         channels.of_test(stored),

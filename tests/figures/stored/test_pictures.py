@@ -9,6 +9,7 @@ from colonnade.figures.files.table import columns_of
 from colonnade.figures.maps import response_orders
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored import record, restitution
+from colonnade.figures.stored.subject import MOST
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.stages.parts.beginning import AT_REST, RECORDED
 from colonnade.store.records.test import driven_by
@@ -54,7 +55,7 @@ def test_of_many_spans_some_are_drawn_and_the_caption_says_so():
     panels = [record.SpanPanel(f"Span {k}", {"measured": curve, "linear": curve}, curve) for k in range(40)]
     picture = record.spans("spans", "Spans", "", panels)
     titles = [title for axes in picture.figure.axes if (title := axes.get_title(loc="left"))]
-    assert len(titles) == record.MOST_SPANS
+    assert len(titles) == MOST
     assert (titles[0], titles[-1]) == ("Span 0", "Span 39")
     assert picture.note.startswith("12 of 40 tests are drawn")
     assert record.spans("spans", "Spans", "", panels[:12]).note == ""

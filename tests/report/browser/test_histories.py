@@ -136,7 +136,7 @@ def test_the_cursor_gives_the_stored_values_with_their_units(page, filled_campai
     assert float(shown.split()[0].replace("−", "-")) == pytest.approx(
         float(rocking["base_acceleration"][index]), rel=1e-3
     )
-    angle = panel(page, "Rocking angle over").locator(".value").first.inner_text()
+    angle = panel(page, "Rocking angle θ/α").locator(".value").first.inner_text()
     assert "mrad" in angle
     assert page.locator(".time").inner_text() == f"time {time:.3f} s"
 
@@ -154,7 +154,7 @@ def test_every_sample_is_reached_by_zooming(page, filled_campaign):
 
 
 def test_a_curve_is_turned_off_and_on(page):
-    button = panel(page, "Rocking angle over").get_by_role("button", name="nonlinear model").first
+    button = panel(page, "Rocking angle θ/α").get_by_role("button", name="nonlinear model").first
     source = "colonnade.page.panels[0].curves[2].source.data.x.length"
     assert page.evaluate(source) > 0
     button.click()

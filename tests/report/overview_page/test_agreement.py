@@ -7,7 +7,7 @@ import pytest
 from colonnade.campaign.forms.summary import Warned
 from colonnade.report.overview_page.agreement import confusions
 from colonnade.report.overview_page.attention import attention, warning_groups
-from colonnade.report.pages import renderer_of
+from colonnade.report.pages import rendered
 
 MODELS = ("linear",)
 
@@ -53,7 +53,7 @@ def test_an_excluded_test_has_not_failed(row_of):
 
 def test_of_many_missed_tests_a_few_are_named_and_the_table_has_all(row_of, filled_campaign):
     found = looked_at([row_of(f"a{number:02d}", "overturned", linear=("rocking", 0.2)) for number in range(30)])
-    page = renderer_of(filled_campaign[0]).page("attention", "index.html", attention=found, specimens=[])
+    page = rendered(filled_campaign[0], "attention", "index.html", attention=found, specimens=[])[0]
     assert page.count('href="tests/a') == 20
     assert 'href="?outcome=overturned&amp;linear=rocking#tests">10 more in the table</a>' in page
 

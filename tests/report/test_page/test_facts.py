@@ -3,8 +3,6 @@
 from datetime import date
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from colonnade.report.test_page import facts
 
@@ -39,22 +37,3 @@ def test_one_day_and_one_operator_are_one(campaign):
 
 def test_what_is_not_known_is_not_shown(campaign):
     assert facts.who_and_when(dated(campaign).but(facility=None)) == []
-    unknown = dated(campaign)
-    assert facts.who_and_when_of_test(unknown, next(iter(unknown.tests.values()))) == [("facility", "Simulator <1>")]
-
-
-def test_a_test_says_its_own_day_and_operator(campaign):
-    told = dated(campaign, (date(2013, 4, 26), "M. Rossi"))
-    test = next(iter(told.tests.values()))
-    assert facts.who_and_when_of_test(told, test)[1:] == [("date", "2013-04-26"), ("operator", "M. Rossi")]
-
-
-@given(st.lists(st.none() | st.dates(date(1900, 1, 1), date(2100, 12, 31)), min_size=1))
-def test_the_days_of_tests_are_from_the_first_to_the_last(days):
-    class Dated:
-        def __init__(self, day):
-            self.date = day
-
-    known = sorted(day for day in days if day)
-    said = facts.days(map(Dated, days))
-    assert said.split(" to ") == ([day.isoformat() for day in dict.fromkeys([known[0], known[-1]])] if known else [""])

@@ -11,9 +11,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array, Mask
-from colonnade.figures.panels.layout import BOTTOM, GAP, TOP, add_panel, legend_above, margins, note, stacked_panels
-from colonnade.figures.restitution.peaks import HEIGHT, MIDDLE_SHARE, draw_marks, middle_of
-from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, is_narrow, styled, width
+from colonnade.figures.panels.layout import BOTTOM, GAP, TOP, add_panel, legend_above, margins, note
+from colonnade.figures.restitution.peaks import draw_marks
+from colonnade.figures.style import FAINT, FIT, LIMIT, is_narrow, styled, width
+
+HEIGHT = 2.4
+"""Of the panels, inches."""
 
 OVER_SPEED = 0.6
 """Share of the width of the panel over the speed of impact; the rest is over the impact number."""
@@ -165,43 +168,3 @@ def _limits(series: Sequence[ImpactSeries], level: Level) -> tuple[float, float]
     half = max(0.58 * (max(bounds) - min(bounds)), SMALLEST_RANGE / 2)
     middle = (max(bounds) + min(bounds)) / 2
     return middle - half, middle + half
-
-
-BINS = 24
-"""Classes of the speed of impact."""
-
-
-@styled()
-def impacts_of_many(series: Sequence[ImpactSeries], *, level: Level, rigid: float) -> Figure:
-    """Draw e of the used impacts against their speed: median and middle 90 % by class of speed."""
-    figure, (axes,) = stacked_panels([HEIGHT])
-    velocity, restitution = (
-        np.concatenate([getattr(one, name)[one.used] for one in series]) for name in ("velocity", "restitution")
-    )
-    known = np.isfinite(velocity) & np.isfinite(restitution)
-    fastest = float(velocity[known].max(initial=0.0)) or 1.0
-    middle = middle_of(velocity[known], restitution[known], np.linspace(0.0, fastest, BINS + 1))
-    axes.errorbar(
-        middle.place,
-        middle.median,
-        yerr=[middle.median - middle.low, middle.high - middle.median],
-        fmt="o",
-        markersize=3.0,
-        color=MEASURED["color"],
-        ecolor=FAINT,
-        elinewidth=0.8,
-        label=f"median of a class of speed, and its middle {MIDDLE_SHARE}",
-    )
-    draw_level(axes, level)
-    axes.set_xlim(0, 1.05 * fastest)
-    if middle.place.size:
-        # Classes of the slowest impacts scatter without end: the others set the scale.
-        wide = np.sort(middle.high - middle.low)[: -(-3 * middle.place.size // 4)].max()
-        centre = float(np.median(middle.median))
-        reach = max(2.0 * float(wide), 1.2 * float(np.ptp(middle.median)), 1e-3)
-        axes.set_ylim(centre - reach, centre + reach)
-    draw_rigid(axes, rigid)
-    axes.yaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
-    axes.set(xlabel="angular velocity before the impact (rad/s)", ylabel="e of each impact")
-    legend_above(figure, [axes])
-    return figure

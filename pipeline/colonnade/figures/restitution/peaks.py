@@ -7,17 +7,16 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.figures.panels.curve import draw_band
-from colonnade.figures.panels.layout import legend_above, legend_outside, plain_decades, stacked_panels
+from colonnade.figures.panels.layout import legend_outside, plain_decades
 from colonnade.figures.style import FAINT, FIT, MEASURED, blank_figure, styled
 from colonnade.identification.restitution.peaks import released_energy
-from colonnade.units.text import PERCENT, format_percent
+from colonnade.units.text import PERCENT
 
 
 def draw_marks(
@@ -55,9 +54,6 @@ def draw_marks(
                 label=label,
             )
 
-
-HEIGHT = 2.4
-"""Of one panel for all, inches."""
 
 COLUMNS = 3
 
@@ -112,7 +108,9 @@ def peak_decay(series: Sequence[PeakSeries], block: Block) -> Figure:
     for one in axes:
         if lowest < 1.0:
             one.set_ylim(bottom=max(one.get_ylim()[0], lowest))
-        label_energies(one)
+        # 1, 2 and 5 of each decade where few are shown, so that at least two labels stand at any scale.
+        low, high = one.get_ylim()
+        plain_decades(one.yaxis, subs=(1.0, 2.0, 5.0) if high < 1e3 * low else (1.0,))
     legend_outside(figure, axes)
     return figure
 
@@ -147,75 +145,3 @@ def _lowest(peaks: PeakSeries, block: Block) -> float:
     critical = block.critical_angle_at(peaks.angle)
     known = np.isfinite(size) & (size < critical) & (size > 2 * np.nan_to_num(peaks.standard_error))
     return BELOW * float(released_energy(size[known], critical[known]).min()) if known.any() else 1.0
-
-
-def label_energies(axes: Axes) -> None:
-    """Label 1, 2 and 5 of each decade where few decades are shown, so that at least two labels stand at any scale."""
-    lowest, highest = axes.get_ylim()
-    plain_decades(axes.yaxis, subs=(1.0, 2.0, 5.0) if highest < 1e3 * lowest else (1.0,))
-
-
-LINES = 40
-"""Records that have a line of their own, spread evenly over all."""
-
-MIDDLE = (0.05, 0.5, 0.95)
-"""Quantiles: the median, and the ends of the middle 90 %."""
-
-MIDDLE_SHARE = format_percent(MIDDLE[-1] - MIDDLE[0])
-
-FEWEST = 3
-"""Values below which a class has no median."""
-
-
-class Middle(NamedTuple):
-    """Median of values by class, at its place, with the ends of their middle 90 %; all of shape (n,)."""
-
-    place: Array
-    low: Array
-    median: Array
-    high: Array
-
-
-@styled()
-def peaks_of_many(series: Sequence[PeakSeries], block: Block) -> Figure:
-    """Draw the energy of peaks against the impact number: median and middle 90 % of all, and lines of some records."""
-    figure, (axes,) = stacked_panels([HEIGHT])
-    lines = [_energies(one, block) for one in series]
-    number, energy = (np.concatenate(each) for each in zip(*lines, strict=True))
-    _draw_few(axes, lines)
-    middle = middle_of(number, energy, np.arange(0.5, number.max(initial=1.0) + 1.0))
-    colour, name = MEASURED["color"], f"middle {MIDDLE_SHARE} of all"
-    axes.fill_between(middle.place, middle.low, middle.high, color=colour, alpha=0.15, linewidth=0, label=name)
-    axes.plot(middle.place, middle.median, color=colour, linewidth=1.2, label="median of all")
-    axes.set_yscale("log")
-    if energy.size:
-        axes.set(xlim=(0, number.max() + 1), ylim=(0.8 * energy.min(), 1.2 * energy.max()))
-        label_energies(axes)
-    axes.xaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
-    axes.set(xlabel="impact number n", ylabel="energy / barrier")
-    legend_above(figure, [axes])
-    return figure
-
-
-def middle_of(place: Array, values: Array, edges: Array) -> Middle:
-    """Return median and middle 90 % of values by class of their places, where it has at least `FEWEST` values."""
-    owner = np.clip(np.digitize(place, edges) - 1, 0, edges.size - 2)
-    chosen = [index for index in range(edges.size - 1) if (owner == index).sum() >= FEWEST]
-    found = np.array([np.quantile(values[owner == index], MIDDLE) for index in chosen]).reshape(-1, 3)
-    return Middle(((edges[:-1] + edges[1:]) / 2)[chosen], *found.T)
-
-
-def _energies(peaks: PeakSeries, block: Block) -> tuple[Array, Array]:
-    """Return number and energy of the peaks that were used."""
-    critical = block.critical_angle_at(peaks.angle)
-    shown = peaks.used & np.isfinite(peaks.angle) & (np.abs(peaks.angle) < critical) & (peaks.angle != 0)
-    number = 1.0 + np.flatnonzero(shown).astype(np.float64)
-    return number, np.asarray(released_energy(np.abs(peaks.angle[shown]), critical[shown]))
-
-
-def _draw_few(axes: Axes, lines: Sequence[tuple[Array, Array]]) -> None:
-    known = [line for line in lines if line[0].size > 1]
-    chosen = np.unique(np.linspace(0, max(len(known) - 1, 0), min(LINES, len(known))).round().astype(int)).tolist()
-    name = f"{len(chosen)} of {len(lines)} records" if len(chosen) < len(lines) else "each record"
-    paths = [np.column_stack(known[index]) for index in chosen]
-    axes.add_collection(LineCollection(paths, colors=FAINT, linewidths=0.4, alpha=0.6, label=name))

@@ -28,7 +28,7 @@ from colonnade.figures.histories import (
 )
 from colonnade.figures.panels.curve import Curve, envelope
 from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side, stacked_panels
-from colonnade.figures.stored.subject import OfTest
+from colonnade.figures.stored.subject import OfTest, some_of
 from colonnade.figures.style import MEASURED, is_narrow, styled
 from colonnade.stages.parts.beginning import RECORDED
 from colonnade.store.records.stored import Stored
@@ -69,9 +69,6 @@ BASE = (
     ("transverse_base_acceleration", "Transverse base acceleration", "base, y", "m/s²"),
 )
 """Motions of the base, in the same form."""
-
-MOST_SPANS = 12
-"""Earthquake tests that are drawn side by side."""
 
 SHADED = "nonlinear"
 """The model whose band is shaded on the overlay, if there are several."""
@@ -190,11 +187,8 @@ def span_panel(one: OfTest) -> SpanPanel:
 
 def spans(identity: str, title: str, description: str, panels: Sequence[SpanPanel]) -> Picture:
     """Draw earthquake tests of one motion side by side, in the order given; of many, some that are spread evenly."""
-    if len(panels) <= MOST_SPANS:
-        return Picture(spans_side_by_side(panels), identity, title, description)
-    chosen = [panels[index] for index in np.linspace(0, len(panels) - 1, MOST_SPANS).round().astype(int)]
-    note = f"{MOST_SPANS} of {len(panels)} tests are drawn, spread evenly; each is drawn whole on its own page."
-    return Picture(spans_side_by_side(chosen), identity, title, description, note)
+    shown, note = some_of(panels, "tests")
+    return Picture(spans_side_by_side(shown), identity, title, description, note)
 
 
 @styled()

@@ -18,8 +18,8 @@ from colonnade.figures.restitution.estimators import (
     fitted_history,
     joint_region,
 )
-from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution, impacts_of_many
-from colonnade.figures.restitution.peaks import MIDDLE, MIDDLE_SHARE, PeakSeries, peak_decay, peaks_of_many
+from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
+from colonnade.figures.restitution.peaks import PeakSeries, peak_decay
 from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import shortened
 from colonnade.identification.restitution.peaks import confidence_band
@@ -33,13 +33,6 @@ LABELS = {"history": "whole history", "peaks": "peaks, a cross-check"}
 
 LONGEST_NAME = 26
 """Letters of a test's name above a panel."""
-
-MOST_SIDE_BY_SIDE = 12
-"""Free vibrations of a specimen that are drawn side by side; more share one panel, where they are summarised."""
-
-
-SUMMARISED = "So many records share one panel; each is drawn whole on its own page."
-"""What the caption of such a figure adds."""
 
 
 def estimate_rows(stored: Stored) -> list[EstimateRow]:
@@ -82,18 +75,13 @@ def peak_series(one: OfTest) -> PeakSeries | None:
     return PeakSeries(shortened(one.test.id, LONGEST_NAME), angle, error, fit, used, band)
 
 
-def peaks(identity: str, series: Sequence[PeakSeries], block: Block) -> Picture | None:
+def peaks(identity: str, series: Sequence[PeakSeries], block: Block, note: str = "") -> Picture | None:
     """Draw the peaks of free vibrations with their fits; None without any."""
     if not series:
         return None
-    if len(series) > MOST_SIDE_BY_SIDE:
-        used, total = sum(int(one.used.sum()) for one in series), sum(one.used.size for one in series)
-        said = f"{used} of {count(total, 'peak')} of {len(series)} free vibrations used."
-        title = "Energy of successive peaks against the impact number, of all free vibrations"
-        return Picture(peaks_of_many(series, block), identity, title, said, f"{SUMMARISED} {said}")
     described = [f"{one.title}: {int(one.used.sum())} of {count(one.used.size, 'peak')} used." for one in series]
     title = "Energy of successive peaks against the impact number, with the fitted line and its band"
-    return Picture(peak_decay(series, block), identity, title, " ".join(described))
+    return Picture(peak_decay(series, block), identity, title, " ".join(described), note)
 
 
 def impact_series(one: OfTest) -> ImpactSeries | None:
@@ -105,52 +93,30 @@ def impact_series(one: OfTest) -> ImpactSeries | None:
     return ImpactSeries(shortened(one.test.id, LONGEST_NAME), velocity, restitution, error, used == 1)
 
 
-def impacts(identity: str, series: Sequence[ImpactSeries], level: Level, rigid: float) -> Picture | None:
+def impacts(
+    identity: str, series: Sequence[ImpactSeries], level: Level, rigid: float, note: str = ""
+) -> Picture | None:
     """Draw e of each impact against its speed, with the value and interval identified from all; None without any."""
     if not series:
         return None
     used, total = sum(int(one.used.sum()) for one in series), sum(one.used.size for one in series)
-    are_many = len(series) > MOST_SIDE_BY_SIDE
-    draw = impacts_of_many if are_many else impact_restitution
     return Picture(
-        draw(series, level=level, rigid=rigid),
+        impact_restitution(series, level=level, rigid=rigid),
         identity,
         "e of each impact against the angular velocity before it",
         f"{used} of {count(total, 'impact')} used. {level.name}: {number(level.value, 4)}.",
-        f"{SUMMARISED} {used} of {total} impacts of {len(series)} free vibrations used." if are_many else "",
+        note,
     )
 
 
-def estimators(identity: str, groups: Sequence[EstimateGroup], rigid: float) -> Picture | None:
+def estimators(identity: str, groups: Sequence[EstimateGroup], rigid: float, note: str = "") -> Picture | None:
     """Draw estimators side by side; None without any estimate."""
     shown = [group for group in groups if group.rows]
     if not shown:
         return None
-    note = ""
-    if len(shown) > MOST_SIDE_BY_SIDE:
-        note = (
-            f"{SUMMARISED} Each row is the median of an estimator over the records, with the middle {MIDDLE_SHARE} of "
-            "them."
-        )
-        shown = _summarised(shown)
     said = [f"{group.title}: {row.name} {number(row.value, 5)}." for group in shown for row in group.rows]
     title = "Estimates of e side by side, with their intervals"
     return Picture(estimators_side_by_side(shown, rigid=rigid), identity, title, " ".join(said), note)
-
-
-def _summarised(groups: Sequence[EstimateGroup]) -> list[EstimateGroup]:
-    """Put the estimates of many records into a row an estimator; what is of all records together stays as it is."""
-    single = [row for group in groups if len(group.rows) > 1 for row in group.rows]
-    values = {name: [row.value for row in single if row.name == name] for name in dict.fromkeys(r.name for r in single)}
-    values["recommended of each"] = [row.value for row in single if row.recommended]
-    rows = []
-    for name, every in values.items():
-        known = np.array(every)[np.isfinite(every)]
-        if known.size:
-            low, middle, high = (float(each) for each in np.quantile(known, MIDDLE))
-            rows.append(EstimateRow(f"{name} ({known.size})", middle, low, high))
-    together = [group for group in groups if len(group.rows) == 1]
-    return [EstimateGroup(f"{len(groups) - len(together)} free vibrations", rows), *together]
 
 
 def region(one: OfTest) -> Picture | None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
@@ -16,6 +18,20 @@ from colonnade.figures.panels.curve import Curve, known
 from colonnade.signals.filters import displacement
 from colonnade.store.records.stored import Failure, Stored
 from colonnade.units import from_si
+
+Shown = TypeVar("Shown")
+
+
+MOST = 12
+"""Tests that are drawn side by side."""
+
+
+def some_of(given: Sequence[Shown], what: str) -> tuple[Sequence[Shown], str]:
+    """Return, of many tests, some that are spread evenly, and what the caption adds of it."""
+    if len(given) <= MOST:
+        return given, ""
+    chosen = [given[index] for index in np.linspace(0, len(given) - 1, MOST).round().astype(int)]
+    return chosen, f"{MOST} of {len(given)} {what} are drawn, spread evenly; each is drawn whole on its own page."
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from colonnade.figures.maps import response_orders
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow
 from colonnade.figures.stored import bodies, record
 from colonnade.figures.stored import restitution as decays
-from colonnade.figures.stored.subject import OfTest
+from colonnade.figures.stored.subject import OfTest, some_of
 from colonnade.identification.response.boundaries import makes_map
 from colonnade.report import forecasts_page
 from colonnade.report.overview_page import agreement
@@ -81,22 +81,23 @@ def _setup(one: OfTest) -> Picture:
 
 
 def _estimators(one: OfSpecimen) -> Picture | None:
-    groups = [EstimateGroup(each.test, each.estimates) for each in one.decays]
+    shown, note = some_of(one.decays, "free vibrations")
+    groups = [EstimateGroup(each.test, each.estimates) for each in shown]
     level = decays.level_of(one.pooled, "specimen", "e pooled")
     if isfinite(level.low):
         groups.append(EstimateGroup("all together", [EstimateRow("pooled", *level[:3], recommended=True)]))
-    return decays.estimators(f"estimators-{one.name}", groups, one.block.restitution)
+    return decays.estimators(f"estimators-{one.name}", groups, one.block.restitution, note)
 
 
 def _peaks(one: OfSpecimen) -> Picture | None:
-    series = [each.peaks for each in one.decays if each.peaks is not None]
-    return decays.peaks(f"peaks-{one.name}", series, one.block)
+    series, note = some_of([each.peaks for each in one.decays if each.peaks is not None], "free vibrations")
+    return decays.peaks(f"peaks-{one.name}", series, one.block, note)
 
 
 def _impacts(one: OfSpecimen) -> Picture | None:
-    series = [each.impacts for each in one.decays if each.impacts is not None]
+    series, note = some_of([each.impacts for each in one.decays if each.impacts is not None], "free vibrations")
     level = decays.level_of(one.pooled, "specimen", "e pooled")
-    return decays.impacts(f"impacts-{one.name}", series, level, one.block.restitution)
+    return decays.impacts(f"impacts-{one.name}", series, level, one.block.restitution, note)
 
 
 def _measured_map(one: OfSpecimen) -> Picture | None:

@@ -28,7 +28,7 @@ def who_and_when(campaign: Campaign) -> list[Fact]:
     return known(
         [
             ("facility", campaign.facility or ""),
-            ("tested", days(tests)),
+            ("tested", _days(tests)),
             ("operator" if len(operators) == 1 else "operators", listed(operators, MOST_NAMED)),
         ]
     )
@@ -40,23 +40,7 @@ def on_cover(campaign: Campaign) -> list[Fact]:
     return [*who_and_when(campaign), ("campaign file", f"{campaign.path.name}, SHA-256 {digest[:16]}…")]
 
 
-def who_and_when_of_test(campaign: Campaign, test: Test) -> list[Fact]:
-    """Give facility, day and operator of one test, as far as they are known."""
-    day = test.date.isoformat() if test.date else ""
-    return known([("facility", campaign.facility or ""), ("date", day), ("operator", test.operator or "")])
-
-
-def days(tests: Iterable[Test]) -> str:
-    """
-    Write the first and the last day of tests; empty if no day is known.
-
-    Examples
-    --------
-    >>> days([])
-    ''
-    """
-    known_days = sorted(test.date for test in tests if test.date)
-    if not known_days:
-        return ""
-    first, last = known_days[0].isoformat(), known_days[-1].isoformat()
-    return first if first == last else f"{first} to {last}"
+def _days(tests: Iterable[Test]) -> str:
+    """Write the first and the last day of tests; empty if no day is known."""
+    days = sorted(test.date.isoformat() for test in tests if test.date)
+    return " to ".join(dict.fromkeys([days[0], days[-1]])) if days else ""

@@ -27,7 +27,7 @@ def of_test(one: OfTest, photos: Photos) -> dict[str, Any]:
         "stored": stored,
         "review": stored.texts("ingest", "review") or list(campaign.review(test.id).sentences),
         "photos": photos,
-        "done": [*facts.who_and_when_of_test(campaign, test), *done_of(one)],
+        "done": [*facts.who_and_when(campaign.but(tests={test.id: test})), *done_of(one)],
         "notes": notes_of(stored),
         "setup": specimens_page.drawing_of(campaign, test.specimen, test.setup),
         "found": found.of_test(one),
