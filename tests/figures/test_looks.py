@@ -12,8 +12,7 @@ from colonnade.figures.channels import Channel, Scale, Spike, channels_as_record
 from colonnade.figures.closer import Enlarged, Phase, closer_look, separatrix
 from colonnade.figures.histories import Panel, Spread, bands_over_time
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
-from colonnade.figures.restitution.peaks import PeakSeries, peak_decay
+from colonnade.figures.restitution.decay import ImpactSeries, Level, PeakSeries, impact_restitution, peak_decay
 from colonnade.figures.stored.record import whole_record
 from colonnade.figures.style import STYLE_FILE
 from colonnade.identification.restitution.peaks import angle_of_energy

@@ -26,7 +26,7 @@ from colonnade.figures.histories import Spread, draw_angle, limit_of, shade
 from colonnade.figures.maps.stability_map import draw_map
 from colonnade.figures.moving import SIZE, moving_bodies, rocking_block
 from colonnade.figures.panels.curve import Curve, draw_curve
-from colonnade.figures.restitution.impacts import ImpactSeries, Level, draw_impacts
+from colonnade.figures.restitution.decay import ImpactSeries, Level, draw_impacts
 from colonnade.figures.spectra import draw_overturning, draw_rocking
 from colonnade.figures.style import MEASURED, model_style, styled
 from colonnade.identification.restitution.result import Restitution

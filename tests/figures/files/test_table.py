@@ -14,8 +14,8 @@ from colonnade.figures.files.output import to_csv
 from colonnade.figures.files.table import columns_of
 from colonnade.figures.histories import Panel, Spread
 from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
+from colonnade.figures.restitution.decay import ImpactSeries, Level, impact_restitution
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
-from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
 from colonnade.figures.stored.record import whole_record
 
 TIME = np.linspace(0.0, 20.0, 20_001)

@@ -9,6 +9,14 @@ from scipy import stats
 from colonnade.dynamics.block import Block
 from colonnade.figures.files.table import columns_of
 from colonnade.figures.panels.curve import Curve
+from colonnade.figures.restitution.decay import (
+    ImpactSeries,
+    Level,
+    PeakSeries,
+    draw_marks,
+    impact_restitution,
+    peak_decay,
+)
 from colonnade.figures.restitution.estimators import (
     EstimateGroup,
     EstimateRow,
@@ -16,8 +24,6 @@ from colonnade.figures.restitution.estimators import (
     fitted_history,
     joint_region,
 )
-from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
-from colonnade.figures.restitution.peaks import PeakSeries, draw_marks, peak_decay
 from colonnade.figures.style import MEASURED, model_style
 from colonnade.identification.restitution.peaks import angle_of_energy
 from prism import PRISM

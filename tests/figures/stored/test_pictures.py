@@ -8,7 +8,8 @@ import pytest
 from colonnade.figures.files.table import columns_of
 from colonnade.figures.maps import response_orders
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.stored import record, restitution
+from colonnade.figures.restitution import decay, estimators
+from colonnade.figures.stored import record
 from colonnade.figures.stored.subject import MOST
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.stages.parts.beginning import AT_REST, RECORDED
@@ -98,26 +99,26 @@ def test_without_an_angle_there_is_nothing_to_draw(known):
 
 def test_a_free_vibration_has_every_picture(known):
     one = known("free-01")
-    level = restitution.level_of(one.stored, "restitution", "e identified")
+    level = decay.level_of(one.stored, "restitution", "e identified")
     assert level.low < level.value < level.high
-    series = restitution.peak_series(one)
-    drawn = restitution.peaks("peaks", [series], one.block)
+    series = decay.peak_series(one)
+    drawn = decay.peaks("peaks", [series], one.block)
     assert drawn.description == f"free-01: 19 of {series.used.size} peaks used."
-    assert restitution.impacts("impacts", [restitution.impact_series(one)], level, 0.95) is not None
-    assert restitution.fitted(one).title.startswith("free-01: measured free vibration and the nonlinear")
-    assert restitution.region(one).description.startswith("Together: e = 0.93")
+    assert decay.impacts("impacts", [decay.impact_series(one)], level, 0.95) is not None
+    assert estimators.fitted(one).title.startswith("free-01: measured free vibration and the nonlinear")
+    assert estimators.region(one).description.startswith("Together: e = 0.93")
 
 
 def test_the_recommended_estimator_is_marked(known):
-    rows = restitution.estimate_rows(known("free-01").stored)
+    rows = estimators.estimate_rows(known("free-01").stored)
     assert [row.name for row in rows if row.recommended] == ["whole history"]
 
 
 def test_another_kind_of_test_has_none(known):
     one = known("span-2.0")
-    for made in (restitution.peak_series, restitution.impact_series, restitution.fitted, restitution.region):
+    for made in (decay.peak_series, decay.impact_series, estimators.fitted, estimators.region):
         assert made(one) is None
-    assert restitution.estimators("estimators", [], 0.95) is None
+    assert estimators.estimators("estimators", [], 0.95) is None
 
 
 def test_sine_tests_are_counted_by_outcome():

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from colonnade.campaign.forms.summary import PredictionSummary
-from colonnade.figures.stored.restitution import estimate_rows
+from colonnade.figures.restitution.estimators import estimate_rows
 from colonnade.report.asked import NO_PHOTOS, Photo, Photos
 from colonnade.report.pictures.registry import picture
 from colonnade.report.test_page import channels, found, page, restitution

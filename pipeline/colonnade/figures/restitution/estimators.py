@@ -11,12 +11,15 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array
+from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import draw_angle, largest_of, limit_of, scale_symmetric, time_limits
 from colonnade.figures.panels.curve import Curve, draw_curve
 from colonnade.figures.panels.layout import add_panel, legend_above, legend_outside, note, stacked_panels
-from colonnade.figures.restitution.impacts import Level
+from colonnade.figures.restitution.decay import STAGE, Level, level_of
+from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import FAINT, FIT, INK, LIMIT, MEASURED, SOFT, blank_figure, model_style, styled, width
-from colonnade.units.text import format_percent, interval
+from colonnade.store.records.stored import Stored
+from colonnade.units.text import format_percent, interval, number
 
 ROW, GROUP = 0.21, 0.26
 """Heights of an estimate's row, and of a group's title or the rigid-body value; inches."""
@@ -53,6 +56,31 @@ class EstimateGroup(NamedTuple):
 
     title: str
     rows: Sequence[EstimateRow]
+
+
+LABELS = {"history": "whole history", "peaks": "peaks, a cross-check"}
+"""Of the two values of e."""
+
+
+def estimate_rows(stored: Stored) -> list[EstimateRow]:
+    """Return what each estimator gives of a free vibration, in the order in which they are stored."""
+    values, low, high = (stored.by("estimator", STAGE, f"estimate{end}") for end in ("", "_low", "_high"))
+    recommended = stored.text(STAGE, "recommended")
+    assumptions, reasons = (stored.texts(STAGE, f"estimate_{each}") for each in ("assumptions", "reasons"))
+    return [
+        EstimateRow(LABELS[name], values[name], low[name], high[name], name == recommended, *texts)
+        for name, *texts in zip(values, assumptions, reasons, strict=True)
+    ]
+
+
+def estimators(identity: str, groups: Sequence[EstimateGroup], rigid: float, note: str = "") -> Picture | None:
+    """Draw estimators side by side; None without any estimate."""
+    shown = [group for group in groups if group.rows]
+    if not shown:
+        return None
+    said = [f"{group.title}: {row.name} {number(row.value, 5)}." for group in shown for row in group.rows]
+    title = "Estimates of e side by side, with their intervals"
+    return Picture(estimators_side_by_side(shown, rigid=rigid), identity, title, " ".join(said), note)
 
 
 @styled()
@@ -162,6 +190,25 @@ SMALLEST_RESIDUAL = 1e-2
 """No axis of residuals is narrower than ± this, in 10⁻³ α: rounding does not look like a finding."""
 
 
+def fitted(one: OfTest) -> Picture | None:
+    """Draw the measured angle, the history fitted to it and the residual; None if none was fitted."""
+    stored = one.stored
+    time, angle = (stored.array(STAGE, name) for name in ("fitted_elapsed", "fitted_history"))
+    if not time.size or not angle.size:
+        return None
+    critical = one.block.critical_angle_at(angle)
+    residual = Curve(time, stored.array(STAGE, "history_residual") / critical)
+    model = stored.text(STAGE, "history_model")
+    measured = one.measured_ratio(as_recorded=True)
+    rms = float(np.sqrt(np.nanmean(residual.values**2))) if np.isfinite(residual.values).any() else np.nan
+    return Picture(
+        fitted_history(measured, Curve(time, angle / critical), residual, model=model),
+        f"fitted-{one.test.id}",
+        f"{one.test.id}: measured free vibration and the {model} model fitted to it",
+        f"From {time[0]:.2f} s to {time[-1]:.2f} s the two differ by {number(rms)} α RMS.",
+    )
+
+
 @styled()
 def fitted_history(measured: Curve | None, fitted: Curve, residual: Curve, *, model: str) -> Figure:
     """Draw θ/α measured and fitted by a model, and measured minus fitted below, over the part that was fitted."""
@@ -185,6 +232,22 @@ def fitted_history(measured: Curve | None, fitted: Curve, residual: Curve, *, mo
 
 POINTS = 181
 """Of an ellipse."""
+
+
+def region(one: OfTest) -> Picture | None:
+    """Draw the joint region of e and the critical angle; None if the angle was not freed."""
+    names = ("restitution", "critical_angle", "restitution_error", "critical_angle_error", "correlation")
+    e, ratio, e_error, ratio_error, correlation = (one.stored.value(STAGE, f"region_{name}") for name in names)
+    both = correlation * e_error * ratio_error
+    covariance = np.array([[e_error**2, both], [both, ratio_error**2]])
+    if not (np.isfinite(covariance).all() and np.linalg.eigvalsh(covariance).min() > 0):
+        return None
+    return Picture(
+        joint_region(one.test.id, np.array([e, ratio]), covariance, fixed=level_of(one.stored, STAGE, "")),
+        f"region-{one.test.id}",
+        f"{one.test.id}: joint region of e and the critical angle",
+        f"Together: e = {e:.4f}, α {ratio:.4f} times that given.",
+    )
 
 
 @styled()

@@ -15,9 +15,9 @@ from colonnade.figures import base_motion, channels, closer, moving
 from colonnade.figures.drawing import described
 from colonnade.figures.files.output import Movie, Picture
 from colonnade.figures.maps import response_orders
+from colonnade.figures.restitution import decay, estimators
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow
 from colonnade.figures.stored import bodies, record
-from colonnade.figures.stored import restitution as decays
 from colonnade.figures.stored.subject import OfTest, some_of
 from colonnade.identification.response.boundaries import makes_map
 from colonnade.report import forecasts_page
@@ -57,19 +57,19 @@ class Entry(NamedTuple):
 
 
 def _estimators_of_test(one: OfTest) -> Picture | None:
-    groups = [EstimateGroup("", decays.estimate_rows(one.stored))]
-    return decays.estimators(f"estimators-{one.test.id}", groups, one.block.restitution)
+    groups = [EstimateGroup("", estimators.estimate_rows(one.stored))]
+    return estimators.estimators(f"estimators-{one.test.id}", groups, one.block.restitution)
 
 
 def _peaks_of_test(one: OfTest) -> Picture | None:
-    series = decays.peak_series(one)
-    return decays.peaks(f"peaks-{one.test.id}", [series] if series else [], one.block)
+    series = decay.peak_series(one)
+    return decay.peaks(f"peaks-{one.test.id}", [series] if series else [], one.block)
 
 
 def _impacts_of_test(one: OfTest) -> Picture | None:
-    series = decays.impact_series(one)
-    level = decays.level_of(one.stored, decays.STAGE, "e identified")
-    return decays.impacts(f"impacts-{one.test.id}", [series] if series else [], level, one.block.restitution)
+    series = decay.impact_series(one)
+    level = decay.level_of(one.stored, decay.STAGE, "e identified")
+    return decay.impacts(f"impacts-{one.test.id}", [series] if series else [], level, one.block.restitution)
 
 
 def _base(one: OfTest) -> Picture | None:
@@ -83,21 +83,21 @@ def _setup(one: OfTest) -> Picture:
 def _estimators(one: OfSpecimen) -> Picture | None:
     shown, note = some_of(one.decays, "free vibrations")
     groups = [EstimateGroup(each.test, each.estimates) for each in shown]
-    level = decays.level_of(one.pooled, "specimen", "e pooled")
+    level = decay.level_of(one.pooled, "specimen", "e pooled")
     if isfinite(level.low):
         groups.append(EstimateGroup("all together", [EstimateRow("pooled", *level[:3], recommended=True)]))
-    return decays.estimators(f"estimators-{one.name}", groups, one.block.restitution, note)
+    return estimators.estimators(f"estimators-{one.name}", groups, one.block.restitution, note)
 
 
 def _peaks(one: OfSpecimen) -> Picture | None:
     series, note = some_of([each.peaks for each in one.decays if each.peaks is not None], "free vibrations")
-    return decays.peaks(f"peaks-{one.name}", series, one.block, note)
+    return decay.peaks(f"peaks-{one.name}", series, one.block, note)
 
 
 def _impacts(one: OfSpecimen) -> Picture | None:
     series, note = some_of([each.impacts for each in one.decays if each.impacts is not None], "free vibrations")
-    level = decays.level_of(one.pooled, "specimen", "e pooled")
-    return decays.impacts(f"impacts-{one.name}", series, level, one.block.restitution, note)
+    level = decay.level_of(one.pooled, "specimen", "e pooled")
+    return decay.impacts(f"impacts-{one.name}", series, level, one.block.restitution, note)
 
 
 def _measured_map(one: OfSpecimen) -> Picture | None:
@@ -144,11 +144,11 @@ FIGURES: tuple[Entry, ...] = (
         "channels", "test", "every channel as recorded: flags, spikes, spectra", _RAW, channels.picture, is_narrow=False
     ),
     Entry("bands", "test", "measured angle over each model's bands", "It needs an ensemble.", record.bands),
-    Entry("fitted", "test", "free vibration, fitted history and residual", _FREE, decays.fitted),
+    Entry("fitted", "test", "free vibration, fitted history and residual", _FREE, estimators.fitted),
     Entry("estimators", "test", "e from every estimator", _FREE, _estimators_of_test, is_narrow=False),
     Entry("peaks", "test", "energy of successive peaks and its line", _FREE, _peaks_of_test),
     Entry("impacts", "test", "e of each impact over its velocity", _FREE, _impacts_of_test),
-    Entry("region", "test", "joint region of e and the critical angle", _FREED, decays.region, is_narrow=False),
+    Entry("region", "test", "joint region of e and the critical angle", _FREED, estimators.region, is_narrow=False),
     Entry("joints", "test", "angle in the joint below each body over time", _BODIES, bodies.joints),
     Entry("plan", "test", "where each body stands at the end, from above", _BODIES, bodies.plan, is_narrow=False),
     Entry("setup", "test", "specimen and transducers to scale", "", _setup, is_narrow=False),

@@ -11,10 +11,9 @@ from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps import StabilityMap
 from colonnade.figures.agreement import Calibration
-from colonnade.figures.restitution.estimators import EstimateRow
-from colonnade.figures.restitution.impacts import ImpactSeries
-from colonnade.figures.restitution.peaks import PeakSeries
-from colonnade.figures.stored import record, restitution
+from colonnade.figures.restitution.decay import STAGE, ImpactSeries, PeakSeries, impact_series, peak_series
+from colonnade.figures.restitution.estimators import EstimateRow, estimate_rows
+from colonnade.figures.stored import record
 from colonnade.figures.stored.subject import OfTest
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.report.forecasts_page import calibrations_of
@@ -43,11 +42,11 @@ class FreeVibration(NamedTuple):
         return cls(
             one.test.id,
             value_of(one.stored, one.record.restitution),
-            one.stored.text(restitution.STAGE, "reason"),
-            one.stored.texts(restitution.STAGE, "departures"),
-            restitution.estimate_rows(one.stored),
-            restitution.peak_series(one),
-            restitution.impact_series(one),
+            one.stored.text(STAGE, "reason"),
+            one.stored.texts(STAGE, "departures"),
+            estimate_rows(one.stored),
+            peak_series(one),
+            impact_series(one),
         )
 
 
@@ -116,7 +115,7 @@ def read_of_specimen(campaign: Campaign, layout: Layout, specimen: str) -> OfSpe
     own = [name for name, test in campaign.tests.items() if test.specimen == specimen]
     tests = [read_of_test(campaign, layout, name, with_samples=False) for name in own]
     records = {each.test.id: each.record for each in tests}
-    decays = [FreeVibration.of(each) for each in tests if each.stored.has(restitution.STAGE)]
+    decays = [FreeVibration.of(each) for each in tests if each.stored.has(STAGE)]
     return of_specimen(campaign, layout, specimen, records, decays, [span_of(each) for each in tests if has_span(each)])
 
 

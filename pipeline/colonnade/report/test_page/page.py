@@ -6,7 +6,7 @@ import re
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from colonnade.figures.stored.restitution import estimate_rows
+from colonnade.figures.restitution.estimators import estimate_rows
 from colonnade.figures.stored.subject import OfTest
 from colonnade.report import specimens_page
 from colonnade.report.asked import Photos

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from colonnade.campaign.forms.summary import IdentifiedSummary
-from colonnade.figures.stored.restitution import STAGE, estimate_rows
+from colonnade.figures.restitution.decay import STAGE
+from colonnade.figures.restitution.estimators import estimate_rows
 from colonnade.report.test_page.facts import known
 from colonnade.store.records.stored import Stored
 from colonnade.units.text import format_uncertain, interval, quantity
