@@ -5,7 +5,7 @@ import json
 
 import pytest
 
-from colonnade.report.pictures.registry import FIGURES
+from colonnade.report.pictures import FIGURES
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ import shutil
 
 import pytest
 
-from colonnade.report.pictures.subjects import read_of_test
+from colonnade.report.pictures import read_of_test
 from colonnade.store.layout import Layout
 from read_pages import built
 

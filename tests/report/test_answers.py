@@ -9,7 +9,7 @@ from colonnade.campaign import load
 from colonnade.campaign.forms.summary import Summary
 from colonnade.report.assessments_page import assessments_page
 from colonnade.report.forecasts_page import forecasts_page
-from colonnade.report.paper.typesetting import document_of
+from colonnade.report.paper import document_of
 from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import read_summary

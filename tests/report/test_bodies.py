@@ -9,7 +9,7 @@ import pytest
 from colonnade.campaign import load
 from colonnade.campaign.forms.summary import Summary
 from colonnade.figures.stored import bodies
-from colonnade.report.pictures.subjects import OfSpecimen, read_of_test
+from colonnade.report.pictures import OfSpecimen, read_of_test
 from colonnade.report.specimens_page import of_specimen
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import read_specimen

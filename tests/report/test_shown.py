@@ -8,7 +8,7 @@ import pytest
 from colonnade.report import addresses
 from colonnade.report.asked import Photo, Photos
 from colonnade.report.pages import rendered
-from colonnade.report.pictures.subjects import OfSpecimen
+from colonnade.report.pictures import OfSpecimen
 from colonnade.report.specimens_page import of_specimen
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import Stored

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from colonnade.campaign.forms.summary import Warned
-from colonnade.report.overview_page.attention import warning_groups
+from colonnade.report.overview import warning_groups
 from colonnade.store.layout import Layout
 from colonnade.workflow import run
 from small_campaign import write_small_campaign

@@ -72,7 +72,7 @@ def figure(
 
 
 def _list(*, as_json: bool) -> int:
-    from colonnade.report.pictures.registry import FIGURES
+    from colonnade.report.pictures import FIGURES
 
     if as_json:
         show_json([{"name": each.name, "of": each.of, "shows": each.shows, "needs": each.needs} for each in FIGURES])

@@ -10,18 +10,15 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.settings import settings
 from colonnade.identification.response.base_motion import LEAST_MOTION
 from colonnade.identification.response.rank import WITHIN
-from colonnade.report import addresses, methods, specimens_page
+from colonnade.report import addresses, methods, overview, pictures, specimens_page
 from colonnade.report.assessments_page import assessments_page
 from colonnade.report.forecasts_page import forecasts_page
 from colonnade.report.interactive import panels
 from colonnade.report.interactive.scripts import scripts
 from colonnade.report.methods import REFERENCES, Used
-from colonnade.report.overview_page import groups
-from colonnade.report.overview_page.agreement import confusions, peak_points, peaks_picture, worst
-from colonnade.report.overview_page.attention import attention, warning_groups
+from colonnade.report.overview import attention, confusions, peak_points, peaks_picture, warning_groups, worst
 from colonnade.report.pages import rendered
 from colonnade.report.parts import Part
-from colonnade.report.pictures import subjects
 from colonnade.store.layout import Layout
 from colonnade.store.records import advice as advising
 from colonnade.store.records.advice import Advice
@@ -84,7 +81,7 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
         "confusions": mistaken,
         "worst": furthest,
         "peaks": peaks_picture(peak_points(rows, models, furthest)),
-        "spans": groups.span_groups([part.span for part in parts if part.span is not None]),
+        "spans": overview.span_groups([part.span for part in parts if part.span is not None]),
         "agreement": agreement({row.id: row.record.model_dump() for row in rows}),
         "channels": {part.row.id: part.kept.channels for part in parts},
         "doubtful": [
@@ -114,11 +111,11 @@ def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[Par
     own = [part for part in parts if part.row.test.specimen == name]
     rows, free = [part.row for part in own], [part.kept.free_vibration for part in own if part.kept.free_vibration]
     records, spans = {row.id: row.record for row in rows}, [part.span for part in own if part.span]
-    return specimens_page.of_specimen(subjects.of_specimen(campaign, layout, name, records, free, spans), rows)
+    return specimens_page.of_specimen(pictures.of_specimen(campaign, layout, name, records, free, spans), rows)
 
 
 def _page(campaign: Campaign, template: str, address: str, shown: Mapping[str, Any]) -> Pages:
     """Render a page that shows several tests, and its data."""
-    text, pictures = rendered(campaign, template, address, **shown)
-    yield addresses.of_data(address), panels.of_page(address, pictures)
+    text, drawn = rendered(campaign, template, address, **shown)
+    yield addresses.of_data(address), panels.of_page(address, drawn)
     yield address, text

@@ -18,7 +18,7 @@ from colonnade.errors import count
 from colonnade.figures.files.output import Picture, link_to
 from colonnade.report.addresses import of_specimen, of_test, scripts_of, way
 from colonnade.report.assessments_page import symbol
-from colonnade.report.pictures.registry import picture
+from colonnade.report.pictures import picture
 from colonnade.report.rows import KINDS
 from colonnade.report.test_page import facts
 from colonnade.store.records import wording
@@ -42,7 +42,7 @@ _DRAWN: ContextVar[list[Picture]] = ContextVar("drawn")
 def rendered(campaign: Campaign, template: str, address: str, **given: Any) -> tuple[str, list[Picture]]:
     """Return the page that stands at an address within the report's folder, and its pictures."""
     drawn: list[Picture] = []
-    _DRAWN.set(drawn)
+    token = _DRAWN.set(drawn)
     root = "../" * address.count("/")
     common = {
         "campaign": campaign,
@@ -52,6 +52,7 @@ def rendered(campaign: Campaign, template: str, address: str, **given: Any) -> t
         "root": root,
     }
     text = _environment().get_template(f"{template}.html.jinja").render(common | given)
+    _DRAWN.reset(token)
     return _MARK.sub(lambda found: f'href="{root}{of_test(found[1])}"', text), drawn
 
 

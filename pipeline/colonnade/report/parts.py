@@ -21,9 +21,9 @@ from colonnade.report import addresses, rows
 from colonnade.report.asked import Asked
 from colonnade.report.interactive import test_data
 from colonnade.report.methods import Used
-from colonnade.report.overview_page.groups import SpanTest
+from colonnade.report.overview import SpanTest
 from colonnade.report.pages import rendered
-from colonnade.report.pictures.subjects import FreeVibration, has_span, span_of
+from colonnade.report.pictures import FreeVibration, has_span, span_of
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page import channels, page
 from colonnade.report.test_page.channels import ChannelRow

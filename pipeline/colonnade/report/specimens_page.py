@@ -15,9 +15,8 @@ from colonnade.dynamics.block import Block, pair
 from colonnade.dynamics.size import at_prototype
 from colonnade.figures.drawing import described
 from colonnade.findings import in_order
-from colonnade.report import addresses
-from colonnade.report.overview_page import groups
-from colonnade.report.pictures.subjects import OfSpecimen
+from colonnade.report import addresses, overview
+from colonnade.report.pictures import OfSpecimen
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import known
 from colonnade.store.records.stored import Stored
@@ -73,8 +72,8 @@ def of_specimen(subject: OfSpecimen, tests: Sequence[TestRow]) -> dict[str, Any]
         "id": name,
         "subject": subject,
         "tests": tests,
-        "ladder": groups.ladder(tests),
-        "boundaries": groups.boundaries_of(subject.points),
+        "ladder": overview.ladder(tests),
+        "boundaries": overview.boundaries_of(subject.points),
         "shape": specimen.shape,
         "scale": f"1:{specimen.scale:g}" if specimen.scale else "",
         "answer": answer,

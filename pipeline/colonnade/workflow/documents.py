@@ -20,7 +20,7 @@ from colonnade.workflow.product import Catalogue, Contents, Product, brought_up_
 
 if TYPE_CHECKING:
     from colonnade.figures.files.output import Movie, Picture
-    from colonnade.report.pictures.registry import Entry
+    from colonnade.report.pictures import Entry
 
 MADE_BY = ("colonnade.report.paper",)
 """What the PDF is made by."""
@@ -96,7 +96,7 @@ def _pdf(campaign: Campaign, layout: Layout, folder: Path, catalogue: Catalogue,
 
 
 def _typeset(campaign: Campaign, folder: Path, appendix: bool) -> Contents:
-    from colonnade.report.paper.typesetting import pdf_of
+    from colonnade.report.paper import pdf_of
 
     return [pdf_of(campaign, folder, appendix=appendix)], ""
 
@@ -140,7 +140,7 @@ def chosen(campaign: Campaign, name: str, subject: str | None) -> tuple[Entry, s
     CampaignError
         If there is no such figure, test or specimen.
     """
-    from colonnade.report.pictures.registry import FIGURES
+    from colonnade.report.pictures import FIGURES
 
     entries = {entry.of: entry for entry in FIGURES if entry.name == name}
     if not entries:
@@ -180,16 +180,16 @@ def draw(campaign: Campaign, entry: Entry, subject: str, results: Path | None) -
     StoreError
         If a result is damaged.
     """
-    from colonnade.report.pictures import subjects
+    from colonnade.report import pictures
 
     layout = Layout.of(campaign.path, results)
-    found: subjects.Subject
+    found: pictures.Subject
     if entry.of == "test":
-        found = subjects.read_of_test(campaign, layout, subject)
+        found = pictures.read_of_test(campaign, layout, subject)
     elif entry.of == "specimen":
-        found = subjects.read_of_specimen(campaign, layout, subject)
+        found = pictures.read_of_specimen(campaign, layout, subject)
     else:
-        found = subjects.read_of_campaign(campaign, layout)
+        found = pictures.read_of_campaign(campaign, layout)
     picture = entry.draw(found)
     if picture is None:
         why = "; ".join(f"{failure.stage}: {failure.text}".removeprefix(": ") for failure in found.failures)

@@ -1,11 +1,13 @@
-"""What was found: the measured motion in numbers, its bodies, and whether it is within each model's spread."""
+"""What was found: the measured motion in numbers, its bodies, each model's spread, and the restitution."""
 
 from __future__ import annotations
 
 from math import hypot, isnan, nan
 
-from colonnade.campaign.forms.summary import BodyPrediction, PredictionSummary, TestSummary
+from colonnade.campaign.forms.summary import BodyPrediction, IdentifiedSummary, PredictionSummary, TestSummary
 from colonnade.dynamics.size import at_prototype
+from colonnade.figures.restitution.decay import STAGE
+from colonnade.figures.restitution.estimators import estimate_rows
 from colonnade.figures.stored.record import MOTIONS
 from colonnade.figures.stored.subject import OfTest
 from colonnade.identification.response.rank import FEWEST, is_within
@@ -13,7 +15,16 @@ from colonnade.report.test_page.facts import Fact, known
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import driven_by, largest_motion
 from colonnade.store.records.wording import order
-from colonnade.units.text import NOTHING, acceleration, format_percent, number, quantity, ratio
+from colonnade.units.text import (
+    NOTHING,
+    acceleration,
+    format_percent,
+    format_uncertain,
+    interval,
+    number,
+    quantity,
+    ratio,
+)
 
 
 def of_test(one: OfTest) -> list[Fact]:
@@ -125,3 +136,38 @@ def verdict_sentence(model: str, predicted: PredictionSummary) -> str:
         said.append(f"{format_percent(predicted.overturning_probability)} overturn")
     where = "within" if within else "outside"
     return f"{name}: the measured angle is {where} its own spread up to {until} ({'; '.join(said)})."
+
+
+def value_of(stored: Stored, found: IdentifiedSummary | None) -> str:
+    """Write e of a free vibration with the half-width of its interval."""
+    found = found or IdentifiedSummary()
+    return interval(found.value, found.low, found.high, stored.value(STAGE, "level"))
+
+
+def facts_of(stored: Stored, found: IdentifiedSummary | None) -> list[tuple[str, str]]:
+    """Give e of a free vibration, by which estimator and what that assumes, or why it was refused."""
+    chosen = next((each for each in estimate_rows(stored) if each.recommended), None)
+    slope, error = (stored.value(STAGE, f"restitution_slope{end}") for end in ("", "_standard_error"))
+    facts = [
+        ("e", value_of(stored, found)),
+        ("refused", stored.text(STAGE, "reason")),
+        ("from", chosen.name if chosen else ""),
+        ("assumptions", chosen.assumptions if chosen else ""),
+        ("method", stored.text(STAGE, "method")),
+        (
+            "change of e with the speed of impact",
+            f"{format_uncertain(slope, error)} per rad/s" if error > 0 else "",
+        ),
+        ("rest angle subtracted", quantity(stored.value(STAGE, "zero_offset"), "mrad", 2)),
+    ]
+    return known(facts)
+
+
+PEAK = ("peak_time", "peak_angle", "peak_angle_standard_error", "fitted_angle", "peak_used")
+"""Columns of the table of peaks, by their stored names."""
+
+
+def peaks_of(stored: Stored) -> list[tuple[float, ...]]:
+    """Give number, time, angle, standard error, fitted angle and use of each peak."""
+    columns = (stored.array(STAGE, name).tolist() for name in PEAK)
+    return [(number, *peak) for number, peak in enumerate(zip(*columns, strict=True), 1)]

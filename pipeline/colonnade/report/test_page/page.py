@@ -11,7 +11,7 @@ from colonnade.figures.stored.subject import OfTest
 from colonnade.report import specimens_page
 from colonnade.report.asked import Photos
 from colonnade.report.rows import TestRow
-from colonnade.report.test_page import base, channels, facts, found, restitution
+from colonnade.report.test_page import base, channels, facts, found
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import Stored
@@ -34,9 +34,9 @@ def of_test(one: OfTest, photos: Photos) -> dict[str, Any]:
         "bodies": found.bodies_of(one.record),
         "table": base.of_test(one),
         "spread": found.verdicts_of(one.record),
-        "decay": restitution.facts_of(stored, one.record.restitution),
+        "decay": found.facts_of(stored, one.record.restitution),
         "estimates": estimate_rows(stored),
-        "peaks": restitution.peaks_of(stored),
+        "peaks": found.peaks_of(stored),
         "channels": channels.of_test(stored),
     }
 

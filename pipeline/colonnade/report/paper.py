@@ -1,27 +1,125 @@
-"""The document that is typeset: which sections of which pages it shows; as PDF, or a page of it as PNG, by Typst."""
+"""The report on paper: the pages as they are, taken apart into data, and typeset by Typst as one PDF."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+import posixpath
+import re
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from html import unescape
 from importlib.resources import files as resources
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
-from lxml.html import HtmlElement
+from lxml.html import HtmlElement, HTMLParser, document_fromstring
 
 from colonnade import __version__
 from colonnade.campaign import Campaign
 from colonnade.errors import StoreError
 from colonnade.report import addresses
-from colonnade.report.paper.content import PHOTO, Gatherer, as_data
 from colonnade.report.test_page import facts
 
 if TYPE_CHECKING:
     import typst
+
+
+Element = dict[str, Any]
+"""An element as data."""
+
+SCREEN = ("script", "style", "nav", "form", "button", "input", "select", "label", "details", "template", "canvas")
+"""Elements that only a screen can use; `data-paper="no"` marks others, and `hidden` what scripts would fill."""
+
+_ONLY_ON_SCREEN = " | ".join(f".//{tag}" for tag in SCREEN) + " | .//*[@hidden or @data-paper='no']"
+_SVG = re.compile(r"<svg\b.*?</svg>", re.DOTALL)
+_DESCRIPTION = re.compile(r"<desc\b[^>]*>(.*?)</desc>", re.DOTALL)
+_NO_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")  # a page of HTML may have them, an SVG file may not
+_BLANKS = re.compile(r"[ \t\r\n]+")
+
+PHOTO, DRAWING = ".jpg", ".svg"
+"""Endings of the files that pages show as pictures."""
+
+
+class Gatherer:
+    """
+    Takes pages apart; numbers pictures through the whole document and leads links to its own places.
+
+    Parameters
+    ----------
+    folder : Path
+        The report.
+    labels : collection of str
+        Pages that the document shows: other links are none in it.
+
+    Attributes
+    ----------
+    pictures : dict of str to str
+        SVG by the name of its file.
+    files : dict of str to Path
+        Photos and drawings that are files of the report, by the name of their file in the document.
+    """
+
+    def __init__(self, folder: Path, labels: Collection[str]) -> None:
+        self.pictures: dict[str, str] = {}
+        self.files: dict[str, Path] = {}
+        self._folder, self._labels = folder, labels
+
+    def page(self, address: str) -> tuple[list[HtmlElement], list[HtmlElement]]:
+        """Return the paragraphs of a page's head, without its way to other pages, and what is in its main part."""
+        text = _NO_XML.sub("", (self._folder / address).read_text(encoding="utf-8"))
+        # By default a text above 10 MB would empty the page, without a word.
+        parser = HTMLParser(huge_tree=True, remove_comments=True)
+        root = document_fromstring(_SVG.sub('<img data-svg="">', text), parser=parser)
+        for node, drawn in zip(root.xpath(".//img[@data-svg]"), _SVG.findall(text), strict=True):
+            node.set("data-svg", drawn)
+        for node in (*root.xpath(_ONLY_ON_SCREEN), *root.find_class("steps"), *root.find_class("above")):
+            node.drop_tree()
+        for node in root.xpath(".//a[@href]"):
+            place = _within(address, node.get("href").partition("#")[0])
+            if place in self._labels:
+                node.set("href", place)
+            else:
+                node.drop_tag()
+        for node in root.xpath(".//img"):
+            if not self._settle(node, address):
+                node.drop_tree()
+        for node in root.xpath(".//figure[not(.//img)]"):
+            node.drop_tree()
+        return root.xpath("body/header/p"), root.xpath(".//main/*")
+
+    def _settle(self, image: HtmlElement, address: str) -> bool:
+        """Give a picture the name of its file in the document; whether it has one."""
+        drawn = image.attrib.pop("data-svg", None)
+        if drawn is not None:
+            name, described = f"figure-{len(self.pictures) + 1}{DRAWING}", _DESCRIPTION.search(drawn)
+            self.pictures[name] = drawn
+            image.set("src", name)
+            image.set("alt", unescape(described[1]) if described else "")
+            return True
+        place = _within(address, image.get("src", ""))
+        path = self._folder / place
+        is_outside = place.startswith(("/", "..")) or path.is_symlink()
+        if is_outside or not place.endswith((PHOTO, DRAWING)) or not path.is_file():
+            return False
+        name = place.replace("/", "-")
+        self.files[name] = path
+        image.set("src", name)
+        return True
+
+
+def _within(address: str, link: str) -> str:
+    """Where a page's link leads, as an address within the report."""
+    return posixpath.normpath(posixpath.join(posixpath.dirname(address), link)) if link else address
+
+
+def as_data(node: HtmlElement) -> Element:
+    """Return an element with all that is in it; blanks are one, as on a page."""
+    inside = [node.text, *(part for child in node for part in (as_data(child), child.tail))]
+    said = [_BLANKS.sub(" ", part) if isinstance(part, str) else part for part in inside if part]
+    return {"tag": node.tag, **node.attrib, "in": said}
+
 
 SPANS = "spans"
 """Section of the overview that is a chapter of its own. A section that is not printed says so: `data-paper="no"`."""
@@ -97,29 +195,11 @@ def _chapter(title: str, address: str, inside: Iterable[HtmlElement]) -> dict[st
 
 TEMPLATE = "report.typ"
 
-PIXELS_PER_INCH = 80
-"""Of a page as PNG."""
-
-
 def pdf_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> bytes:
-    """Return the PDF of a campaign's report, whose pages are in `folder` and up to date."""
-    return typeset(document_of(campaign, folder, appendix=appendix))[0]
-
-
-def typeset(document: Document, format: Literal["pdf", "png"] = "pdf") -> list[bytes]:
     """
-    Typeset a document.
+    Return the PDF of a campaign's report, whose pages are in `folder` and up to date.
 
-    Parameters
-    ----------
-    document : Document
-    format : {"pdf", "png"}
-        One file, or one for each page.
-
-    Returns
-    -------
-    files : list of bytes
-        The same document gives the same bytes: no date, and only the fonts of Typst and matplotlib.
+    The same pages give the same bytes: no date, and only the fonts of Typst and matplotlib.
 
     Raises
     ------
@@ -129,8 +209,8 @@ def typeset(document: Document, format: Literal["pdf", "png"] = "pdf") -> list[b
     import typst
 
     try:
-        with prepared(document) as compiler:
-            made = compiler.compile(format=format, timestamp=0, ppi=PIXELS_PER_INCH if format == "png" else None)
+        with prepared(document_of(campaign, folder, appendix=appendix)) as compiler:
+            made = compiler.compile(format="pdf", timestamp=0)
     except typst.TypstError as error:
         raise StoreError(
             f"report.pdf: the pages cannot be typeset ({error.message}). The pages themselves are whole; please report "
@@ -141,7 +221,7 @@ def typeset(document: Document, format: Literal["pdf", "png"] = "pdf") -> list[b
             f"{error.filename}: the report cannot be typeset ({error.strerror}). A folder for temporary files with "
             "room for the report was expected; free some space and run again."
         ) from error
-    return made if isinstance(made, list) else [made or b""]
+    return b"".join(made) if isinstance(made, list) else made or b""
 
 
 @contextmanager

@@ -1,0 +1,302 @@
+"""What the overview shows: what needs a look, outcomes counted, peaks over measured ones, sine tests, Spans."""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from math import inf, log
+from typing import NamedTuple, get_args
+
+from colonnade.campaign import Campaign
+from colonnade.campaign.forms.assessed import AssessmentSummary
+from colonnade.campaign.forms.summary import Warned
+from colonnade.dynamics.history import Outcome
+from colonnade.dynamics.maps import StabilityMap
+from colonnade.dynamics.models import MODELS
+from colonnade.errors import StoreError, count
+from colonnade.figures.agreement import PeakPoint, predicted_over_measured
+from colonnade.figures.files.output import Picture
+from colonnade.figures.stored import record
+from colonnade.figures.stored.record import SpanPanel
+from colonnade.findings import Severity
+from colonnade.identification.response.boundaries import Bracket, MapPoint, bracket_boundaries
+from colonnade.identification.response.rank import WITHIN
+from colonnade.report.rows import TestRow
+from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.store.records.stored import Failure, as_map
+from colonnade.units.text import NOTHING, number, quantity
+
+MEASURED = (*get_args(Outcome), "not-overturned")
+"""Outcomes that a test can have; the last is only observed, where nothing was measured."""
+
+
+class Cell(NamedTuple):
+    """Tests of one measured and one predicted outcome, and whether these agree."""
+
+    measured: str
+    predicted: str
+    tests: tuple[str, ...]
+    agrees: bool
+
+
+class Confusion(NamedTuple):
+    """Outcomes of one model: by measured outcome a row of cells, one for each predicted outcome."""
+
+    model: str
+    predicted: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+
+    @property
+    def wrong(self) -> list[Cell]:
+        """Cells with tests whose outcome the model misses, those with most tests first."""
+        cells = [cell for row in self.rows for cell in row if cell.tests and not cell.agrees]
+        return sorted(cells, key=lambda cell: -len(cell.tests))
+
+
+def confusions(tests: Sequence[TestRow], models: Sequence[str]) -> list[Confusion]:
+    """Count the outcomes of each model that predicts a test whose outcome is known."""
+    found = (_of_model(tests, model) for model in models)
+    return [confusion for confusion in found if confusion.rows]
+
+
+def _of_model(tests: Sequence[TestRow], model: str) -> Confusion:
+    known = [row for row in tests if row.agrees(model) is not None]
+    outcomes = get_args(Outcome)
+    rows = []
+    for measured in MEASURED:
+        own = [row for row in known if row.outcome == measured]
+        if own:
+            rows.append(tuple(_cell(own, measured, predicted, model) for predicted in outcomes))
+    return Confusion(model, outcomes, tuple(rows))
+
+
+def _cell(own: Sequence[TestRow], measured: str, predicted: str, model: str) -> Cell:
+    tests = [row for row in own if row.predicted(model).outcome == predicted]
+    agrees = predicted != "overturned" if measured == "not-overturned" else predicted == measured
+    return Cell(measured, predicted, tuple(row.id for row in tests), agrees)
+
+
+NAMED = 10
+"""Tests whose predicted peaks are furthest from the measured ones, named under the figure and numbered in it."""
+
+
+class Worst(NamedTuple):
+    """One of the tests whose predicted peak is furthest from the measured one; `factor` is predicted over measured."""
+
+    row: TestRow
+    model: str
+    factor: float
+
+
+def worst(tests: Sequence[TestRow], models: Sequence[str]) -> list[Worst]:
+    """
+    Find the `NAMED` predictions furthest from the measured peak, as a ratio either way.
+
+    A model that predicts overturning of a test that rocked has no peak: its outcome is missed.
+    """
+    found = []
+    for row in tests:
+        measured = row.record.peak_ratio
+        for model in models if row.record.outcome == "rocking" and measured else ():
+            predicted = row.predicted(model).peak_ratio
+            if predicted is not None and measured:
+                found.append(Worst(row, model, predicted / measured))
+    found.sort(key=lambda each: (-_distance(each.factor), each.row.id))
+    return found[:NAMED]
+
+
+def _distance(factor: float) -> float:
+    return abs(log(factor)) if factor > 0 else inf
+
+
+def peak_points(tests: Sequence[TestRow], models: Sequence[str], named: Sequence[Worst]) -> dict[str, list[PeakPoint]]:
+    """Give the points of the figure, by model: every prediction of a test that rocked, overturning without a peak."""
+    numbers = {(each.row.id, each.model): place for place, each in enumerate(named, 1)}
+    found = {
+        model: [
+            _point(row, model, numbers.get((row.id, model)))
+            for row in tests
+            if row.record.outcome == "rocking" and row.record.peak_ratio and row.predicted(model).outcome
+        ]
+        for model in models
+    }
+    return {model: own for model, own in found.items() if own}
+
+
+def _point(row: TestRow, model: str, place: int | None) -> PeakPoint:
+    predicted = row.predicted(model)
+    ends = predicted.peak_low, predicted.peak_high
+    return PeakPoint(row.record.peak_ratio or 0.0, predicted.peak_ratio, *ends, test=row.id, number=place)
+
+
+def peaks_picture(found: Mapping[str, Sequence[PeakPoint]]) -> Picture | None:
+    """Draw the figure; None without a point."""
+    if not found:
+        return None
+    described = ", ".join(f"{count(len(own), 'test')} by the {model} model" for model, own in found.items())
+    title = "Predicted over measured largest rocking angle"
+    return Picture(predicted_over_measured(found), "peaks", title, f"{described}.")
+
+
+@dataclass(frozen=True)
+class Attention:
+    """
+    What needs a look, the most urgent first.
+
+    Attributes
+    ----------
+    failed : list of TestRow
+    unanswered : dict of str to Failure
+        Why assessments failed.
+    serious : list of WarningGroup
+        Findings that make results wrong; what follows from another one is not among them.
+    missed : list of (str, Cell)
+        Model, and tests whose outcome it misses.
+    warnings : list of WarningGroup
+    outside : list of (str, list of str, float)
+        Model, tests whose measured angle is outside its own spread, and how many of those judged are so by chance.
+    explained, notes : int
+        Findings that follow from another one, and notes; they are counted only.
+    """
+
+    failed: list[TestRow]
+    unanswered: dict[str, Failure]
+    serious: list[WarningGroup]
+    missed: list[tuple[str, Cell]]
+    warnings: list[WarningGroup]
+    outside: list[tuple[str, list[str], float]]
+    explained: int
+    notes: int
+
+    @property
+    def is_needed(self) -> bool:
+        """Whether there is anything to look at."""
+        return bool(self.failed or self.unanswered or self.serious or self.missed or self.warnings or self.outside)
+
+
+def attention(
+    tests: Sequence[TestRow],
+    models: Sequence[str],
+    groups: Sequence[WarningGroup],
+    confusions: Sequence[Confusion],
+    assessed: Mapping[str, AssessmentSummary] | None = None,
+) -> Attention:
+    """Gather what needs a look; `groups` are the findings of all tests, specimens and assessments, the worst first."""
+    causes = [group for group in groups if not group.first.explained]
+    judged = [(model, {row.id: said for row in tests if (said := row.verdict(model))}) for model in models]
+    outside = [(model, [id for id, said in own.items() if said == "outside"], own) for model, own in judged]
+    return Attention(
+        failed=[row for row in tests if row.record.status == "failed"],
+        unanswered={
+            name: Failure("assessment", each.reason or "")
+            for name, each in (assessed or {}).items()
+            if each.status == "failed"
+        },
+        serious=[group for group in causes if group.first.severity == Severity.SERIOUS],
+        missed=[(each.model, cell) for each in confusions for cell in each.wrong],
+        warnings=[group for group in causes if group.first.severity == Severity.WARNING],
+        outside=[(model, names, (1 - WITHIN) * len(own)) for model, names, own in outside if names],
+        explained=len(groups) - len(causes),
+        notes=sum(group.first.severity == Severity.NOTE for group in causes),
+    )
+
+
+_NUMBER = re.compile(r"(?<![A-Za-z_-])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?: (\w+?)s?\b)?")
+
+
+class WarningGroup(NamedTuple):
+    """Warnings of one stage that differ in their numbers alone: the first, and who has them."""
+
+    first: Warned
+    subjects: list[str]
+
+
+def warning_groups(given: Iterable[tuple[str, Warned]]) -> list[WarningGroup]:
+    """
+    Gather warnings, the worst first, and of these those that most subjects have.
+
+    Parameters
+    ----------
+    given : iterable of (str, Warned)
+        Each with its subject: a test's id, or ``specimen <id>``.
+    """
+    groups: dict[tuple[str, str, str], WarningGroup] = {}
+    for subject, found in given:
+        key = found.stage, found.severity, _NUMBER.sub(r"# \1", found.text)
+        group = groups.setdefault(key, WarningGroup(found, []))
+        if subject not in group.subjects:
+            group.subjects.append(subject)
+    return sorted(groups.values(), key=lambda group: (Severity(group.first.severity).rank, -len(group.subjects)))
+
+
+def ladder(tests: Sequence[TestRow]) -> dict[str, list[TestRow]]:
+    """Lay out the sine tests of a specimen with known Ω and A: by rising frequency, of each by rising amplitude."""
+    sines: dict[str, list[TestRow]] = defaultdict(list)
+    for row in sorted(tests, key=lambda row: (row.frequency or 0.0, row.record.amplitude_ratio or 0.0, row.id)):
+        if row.frequency is not None and row.record.amplitude_ratio is not None:
+            sines[quantity(row.frequency, "Hz")].append(row)
+    return sines
+
+
+class SpanTest(NamedTuple):
+    """An earthquake test with a Span: what the figure of all Spans and its table show."""
+
+    row: TestRow
+    panel: SpanPanel
+    description: str
+
+
+class SpanGroup(NamedTuple):
+    """Earthquake tests of one specimen and motion, by rising Span."""
+
+    title: str
+    tests: list[TestRow]
+    picture: Picture
+
+
+def span_groups(drawn: Sequence[SpanTest]) -> list[SpanGroup]:
+    """Draw the earthquake tests that have an angle, those of one specimen and motion side by side."""
+    together: dict[tuple[str, str, float], list[SpanTest]] = defaultdict(list)
+    for entry in drawn:
+        test = entry.row.test
+        together[test.specimen, test.motion or "", test.time_scale or 1.0].append(entry)
+    groups = []
+    for place, ((specimen, motion, scale), members) in enumerate(together.items(), start=1):
+        if len(members) < 2:
+            continue
+        members.sort(key=lambda entry: (entry.row.test.span or 0.0, entry.row.id))
+        title = f"{motion or 'Base motion'}, {specimen}" + (f", time scale {scale:.4g}" if scale != 1.0 else "")
+        described = " ".join(f"{entry.panel.title}: {entry.description}" for entry in members)
+        picture = record.spans(f"spans-{place}", title, described, [entry.panel for entry in members])
+        groups.append(SpanGroup(title, [entry.row for entry in members], picture))
+    return groups
+
+
+def charts_of(campaign: Campaign, layout: Layout, specimen: str) -> list[StabilityMap]:
+    """Read the stability maps of a specimen by the campaign's models in the plane, which a run keeps up to date."""
+    found = []
+    for model in campaign.processing.predict.models:
+        path = layout.stage(specimen, "map", model)
+        if not MODELS[model].in_space and path.is_file():
+            with suppress(StoreError):
+                found.append(files.read(path))
+    return [as_map(stored) for stored in found if stored.attrs.get("status") == "done"]
+
+
+def boundaries_of(points: Sequence[MapPoint]) -> list[tuple[str, str, str, str]]:
+    """Write what sine tests bracket: Ω, the brackets of rocking and of overturning, notes."""
+    return [
+        (number(each.frequency_ratio, 4), _bracket(each.rocking), _bracket(each.overturning), "; ".join(each.notes))
+        for each in bracket_boundaries(points)
+    ]
+
+
+def _bracket(bracket: Bracket) -> str:
+    below, above = number(bracket.below, 4), number(bracket.above, 4)
+    if bracket.above is None:
+        return NOTHING if bracket.below is None else f"above {below}"
+    return f"below {above}" if bracket.below is None else f"{below} – {above}"

@@ -1,1 +1,0 @@
-"""What the overview shows, a module each part."""

@@ -1,1 +1,0 @@
-"""The report on paper: the pages as they are, typeset as one PDF."""
