@@ -1,7 +1,5 @@
 """The parts of the overview: what needs a look, outcomes counted, peaks, the ladder of sines, maps and Spans."""
 
-
-
 import json
 import re
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The report on paper: what is taken from a page, the document of a report written by hand, and its PDF."""
 
-
-
 import json
 import shutil
 import subprocess

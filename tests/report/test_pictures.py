@@ -1,7 +1,5 @@
 """Every figure is drawn from stored results, in both widths of a journal, and has a table; what they are drawn of."""
 
-
-
 import re
 from dataclasses import replace
 

@@ -195,6 +195,7 @@ def _chapter(title: str, address: str, inside: Iterable[HtmlElement]) -> dict[st
 
 TEMPLATE = "report.typ"
 
+
 def pdf_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> bytes:
     """
     Return the PDF of a campaign's report, whose pages are in `folder` and up to date.
