@@ -15,7 +15,7 @@ from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
 from colonnade.units.text import format_percent
 
 TIME_NAME = re.compile(
-    r"(?:t|time|zeit|messzeit|laufzeit|time\W?stamp|date\W?time|elapsed(?:\W?time)?|temps|tiempo|tempo|tid|χρόνοσ|χρονοσ"
+    r"(?:t|(?:running\W?)?time|zeit|messzeit|laufzeit|time\W?stamp|date\W?time|elapsed(?:\W?time)?|temps|tiempo|tempo|tid|χρόνοσ|χρονοσ"
     r"|seconds|sekunden|sec)(?:[\s_#-]*\d+)?(?:\s+-\s.*)?"
 )
 LIKE_TIME = re.compile(

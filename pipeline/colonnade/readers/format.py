@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict
 
-from colonnade.readers.recording import Recording, Window
+from colonnade.readers.recording import Recording
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,8 @@ class Format:
     options : type of Options
         Options for files of this format, all optional.
     read_window : callable or None
-        (Path, options, Window) -> Recording that holds at least the window, in memory for little more than that.
+        (Path, options, (low, high)) -> Recording that holds at least what is between these times, s, in memory for
+        little more than that; of a long file only this is read.
     modules : tuple of str
         Heavy packages that `read` imports; the bounded process imports them once for all files.
     companions : callable or None
@@ -71,7 +72,7 @@ class Format:
     recognise: Callable[[Path], Recognition]
     read: Callable[[Path, Any], Recording]
     options: type[Options] = Options
-    read_window: Callable[[Path, Any, Window], Recording] | None = None
+    read_window: Callable[[Path, Any, tuple[float, float]], Recording] | None = None
     modules: tuple[str, ...] = ()
     companions: Callable[[Path], tuple[Path, ...]] | None = None
     in_process: bool = False

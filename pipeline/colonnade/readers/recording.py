@@ -111,24 +111,6 @@ class RecordedChannel:
 
 
 @dataclass(frozen=True)
-class Window:
-    """
-    The part of a long file that is wanted.
-
-    Attributes
-    ----------
-    low, high : float
-        s, from the file's own zero.
-    sampling_rate_hz : float or None
-        If the file has no clock: samples are then counted from its first.
-    """
-
-    low: float
-    high: float
-    sampling_rate_hz: float | None = None
-
-
-@dataclass(frozen=True)
 class Recording:
     """
     All that a raw file holds.

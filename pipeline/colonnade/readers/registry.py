@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, replace
+from dataclasses import replace
 from functools import cache, partial
 from importlib import import_module
 from importlib.metadata import entry_points
@@ -18,7 +18,7 @@ from colonnade.readers.bounded.process import run_bounded
 from colonnade.readers.files import in_one_line, irregular, refusing
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import Head, from_head, head_of
-from colonnade.readers.recording import Recording, Window
+from colonnade.readers.recording import Recording
 from colonnade.readers.refused import retired
 
 OWN = (
@@ -50,7 +50,7 @@ def read(
     format: str | None = None,
     options: Mapping[str, Any] | None = None,
     *,
-    window: Window | None = None,
+    window: tuple[float, float] | None = None,
     within: Path | None = None,
 ) -> Recording:
     """
@@ -64,8 +64,8 @@ def read(
         Name of its format; without it, the first format that recognises the file is used.
     options : mapping, optional
         Options of that format.
-    window : Window, optional
-        What is wanted; of a file longer than `LONG_FILE` the rest may be left out.
+    window : (float, float), optional
+        What is wanted, in s from the file's own zero; of a file longer than `LONG_FILE` the rest may be left out.
     within : Path, optional
         Folder whose files may be read, that of the campaign; the file's own by default.
 
@@ -111,11 +111,11 @@ def companions(path: Path, format: str | None = None) -> tuple[Path, ...]:
 
 
 def read_here(
-    path: Path, format: str, options: Mapping[str, Any], window: Mapping[str, Any] | None
+    path: Path, format: str, options: Mapping[str, Any], window: tuple[float, float] | None
 ) -> tuple[dict[str, Any], Arrays]:
     """Read a raw file in this process for another one, whatever its format; see `read`."""
     chosen = _named(format)
-    return told(_read(chosen, path, chosen.options(**options), None if window is None else Window(**window)))
+    return told(_read(chosen, path, chosen.options(**options), window))
 
 
 def check_options(format: Format, options: Mapping[str, Any], where: str) -> BaseModel:
@@ -142,7 +142,7 @@ def check_options(format: Format, options: Mapping[str, Any], where: str) -> Bas
 
 
 def _read_bounded(
-    format: Format, path: Path, options: BaseModel, window: Window | None, within: Path | None
+    format: Format, path: Path, options: BaseModel, window: tuple[float, float] | None, within: Path | None
 ) -> Recording:
     """Have the bounded process read a file."""
     folder = path.resolve().parent if within is None else within.resolve()
@@ -156,7 +156,7 @@ def _read_bounded(
     given = {
         "format": format.name,
         "options": options.model_dump(mode="json", exclude_unset=True),
-        "window": None if window is None else asdict(window),
+        "window": window,
     }
     return run_bounded(
         f"{__name__}:read_here",
@@ -171,7 +171,7 @@ def _read_bounded(
 
 
 def _read(
-    format: Format, path: Path, options: BaseModel, window: Window | None, within: Path | None = None
+    format: Format, path: Path, options: BaseModel, window: tuple[float, float] | None, within: Path | None = None
 ) -> Recording:
     with refusing(path, f'"{format.name}"'):
         if window is not None and format.read_window is not None and path.stat().st_size > LONG_FILE:

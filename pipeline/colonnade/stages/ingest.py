@@ -17,7 +17,7 @@ from colonnade.campaign.settings import QualitySettings
 from colonnade.errors import StageError, count
 from colonnade.findings import Finding, Severity, note, serious, warning
 from colonnade.readers.clock import moment_after
-from colonnade.readers.recording import RecordedChannel, Recording, Window
+from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.heading import LETTERED
 from colonnade.signals import quality, timing
 from colonnade.signals.quality import check_rails
@@ -56,13 +56,11 @@ class IngestInputs(Inputs):
     review: Review = Review()
     settings: QualitySettings
 
-    def wanted(self, recorder: str) -> Window | None:
-        """Give the part of a recorder's file that the test is; None for all, as for channels with their own clocks."""
-        if self.window is None or any(
-            channel.time is not None for channel in self.channels.values() if channel.recorder == recorder
-        ):
-            return None
-        return Window(*self.window, self.sampling_rates.get(recorder))
+    def wanted(self, recorder: str) -> tuple[float, float] | None:
+        """Give the part of a recorder's file that the test is; None for all, as where its times are not the file's."""
+        others = [channel.time for channel in self.channels.values() if channel.recorder == recorder]
+        is_own = self.sampling_rates.get(recorder) is None and not any(time is not None for time in others)
+        return self.window if is_own else None
 
     @classmethod
     def of(cls, campaign: Campaign, test: Test) -> IngestInputs:

@@ -12,7 +12,6 @@ from nptdms import ChannelObject, GroupObject, RootObject, TdmsWriter
 from colonnade.errors import ReadError
 from colonnade.readers.binary import tdms
 from colonnade.readers.binary.tdms import cut_off
-from colonnade.readers.recording import Window
 from colonnade.readers.registry import read
 from every import every
 
@@ -227,7 +226,7 @@ def whole_and_part(path, window, step=0.005):
         for part in range(5)
     ]
     written(path, *segments)
-    return read(path), tdms.read(path, tdms.TdmsOptions(), Window(*window))
+    return read(path), tdms.read(path, tdms.TdmsOptions(), window)
 
 
 @every("window", [(2.0, 3.0), (0.0, 0.5), (9.0, 30.0), (0.05, 0.06)])

@@ -6,10 +6,6 @@ import numpy as np
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.recording import Window
-from colonnade.readers.registry import read
-from colonnade.readers.text import delimited
-from colonnade.readers.text.delimited import DelimitedOptions
 from delimited_text import recorded, values
 from every import every
 
@@ -287,45 +283,3 @@ def test_timestamps_are_seconds_from_the_first(tmp_path, stamps, start):
     recording = recorded(tmp_path, "timestamp;a\n" + "".join(f"{stamp};{row}\n" for row, stamp in enumerate(stamps)))
     np.testing.assert_allclose(recording.channel("a").time, [0, 0.5, 1.0], atol=1e-9)
     assert recording.start == start
-
-
-@pytest.fixture
-def long(tmp_path, monkeypatch):
-    """A file of several pieces, with a damaged line and a last one that is cut off."""
-    monkeypatch.setattr("colonnade.readers.text.encoding.PIECE", 20_000)
-    path = tmp_path / "long.csv"
-    rows = [f"{number / 200:.3f},{number % 97}.5,{-number}" for number in range(9000)]
-    rows[4100] += ",7"
-    rows[-1] = rows[-1][:-1]
-    path.write_text("Time [s],LVDT 1 [mm],count\n" + "\n".join(rows))
-    return path
-
-
-@every("window", [(20.0, 20.7), (0.0, 1.0), (44.5, 90.0), (-5.0, 900.0)])
-def test_a_window_of_a_long_file_is_what_the_whole_file_holds_there(long, window):
-    whole = read(long)
-    part = delimited.read(long, DelimitedOptions(), Window(*window))
-    for all_of_it, some in zip(whole.channels, part.channels, strict=True):
-        inside, there = ((time >= window[0]) & (time <= window[1]) for time in (all_of_it.time, some.time))
-        np.testing.assert_array_equal(some.time[there], all_of_it.time[inside])
-        np.testing.assert_array_equal(some.values[there], all_of_it.values[inside])
-
-
-def test_lines_keep_their_numbers_in_a_window(long):
-    part = delimited.read(long, DelimitedOptions(), Window(20.0, 20.7))
-    assert [warning for warning in part.warnings if "line 4102" in warning]
-    assert not [warning for warning in part.warnings if "the file ends" in warning]
-    assert part.channels[0].values.size < 3000
-
-
-def test_a_window_of_a_file_without_a_clock_is_counted_in_samples(long):
-    text = long.read_text()
-    long.write_text("\n".join(line.partition(",")[2] for line in text.splitlines()))
-    part = delimited.read(long, DelimitedOptions(), Window(0.0, 2.0, sampling_rate_hz=200.0))
-    assert 400 <= part.channels[0].values.size < 3000
-    assert part.channels[1].values[400] == -400
-
-
-def test_a_window_that_the_file_does_not_reach_is_told(long):
-    with pytest.raises(ReadError, match="none of its 9000 samples is within the test's window"):
-        delimited.read(long, DelimitedOptions(), Window(50.0, 60.0))

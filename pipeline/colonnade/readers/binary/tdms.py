@@ -19,7 +19,7 @@ from colonnade.errors import ReadError, count, nearest
 from colonnade.readers.binary.numbers import ClockOptions, Told, recorded
 from colonnade.readers.format import Format
 from colonnade.readers.head import by_mark
-from colonnade.readers.recording import RecordedChannel, Recording, Window
+from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.heading import take_apart
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ class TdmsOptions(ClockOptions):
 recognise = by_mark((b"TDSm",), "TDSm, the mark of LabVIEW's TDMS")
 
 
-def read(path: Path, options: TdmsOptions, window: Window | None = None) -> Recording:
+def read(path: Path, options: TdmsOptions, window: tuple[float, float] | None = None) -> Recording:
     """
     Read a TDMS file, or of a long one what a window needs, where the properties of all channels give their clocks.
 
@@ -71,7 +71,7 @@ def read(path: Path, options: TdmsOptions, window: Window | None = None) -> Reco
         return _recording(path, options, TdmsFile.read(stream), None)
 
 
-def _recording(path: Path, options: TdmsOptions, file: TdmsFile, window: Window | None) -> Recording:
+def _recording(path: Path, options: TdmsOptions, file: TdmsFile, window: tuple[float, float] | None) -> Recording:
     told = Told()
     channels = _channels(path, file, options.group, told)
     told.warnings += cut_off(path, channels)
@@ -146,13 +146,14 @@ class _Waveform:
     step: float
     start: datetime | None
 
-    def part(self, window: Window, zero: datetime | None, size: int) -> slice:
+    def part(self, window: tuple[float, float], zero: datetime | None, size: int) -> slice:
         """Samples that a window wants: at least one, so that a channel that is not there yet keeps its clock."""
         begin = self.offset
         if self.start is not None and zero is not None:
             begin += (self.start - zero).total_seconds()
-        first = min(max(int((window.low - begin) / self.step) - 1, 0), size - 1)
-        return slice(first, min(max(int((window.high - begin) / self.step) + 2, first + 1), size))
+        low, high = (int((end - begin) / self.step) for end in window)
+        first = min(max(low - 1, 0), size - 1)
+        return slice(first, min(max(high + 2, first + 1), size))
 
 
 def _properties(channel: TdmsChannel) -> Mapping[str, Any]:

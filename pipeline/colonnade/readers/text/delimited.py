@@ -14,7 +14,7 @@ from colonnade.errors import ReadError
 from colonnade.readers.clock import with_clocks
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, from_head, head_of
-from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording, TimeUnit, Window
+from colonnade.readers.recording import RecordedChannel, Recording, TimeUnit
 from colonnade.readers.refused import foreign_format
 from colonnade.readers.text.damage import mend
 from colonnade.readers.text.dialect import COMMENT_SIGNS, WHITESPACE, Dialect, column_kinds, find_first_sample, sniff
@@ -23,7 +23,6 @@ from colonnade.readers.text.heading import Heading, Lines, find_heading, read_he
 from colonnade.readers.text.rows import (
     RowForm,
     Rows,
-    Stretch,
     are_marked,
     marks_suspected,
     past_midnight,
@@ -216,16 +215,9 @@ def recognise(head: Head) -> Recognition:
     return Recognition(True, f"text with rows of {width} numbers from line {header.first + 1} on")
 
 
-def read(path: Path, options: DelimitedOptions, window: Window | None = None) -> Recording:
+def read(path: Path, options: DelimitedOptions) -> Recording:
     """
     Read a delimited text file.
-
-    Parameters
-    ----------
-    path : Path
-    options : DelimitedOptions
-    window : Window, optional
-        What is wanted of it; some samples on either side may come along. Default: all.
 
     Raises
     ------
@@ -236,14 +228,12 @@ def read(path: Path, options: DelimitedOptions, window: Window | None = None) ->
     """
     if not options.skip_rows and (reason := foreign_format(head_of(path))):
         raise ReadError(f"{path.name}: {reason}")
-    return read_text(Text.of(path, options.encoding), options, window)
+    return read_text(Text.of(path, options.encoding), options)
 
 
-def read_text(text: Text, options: DelimitedOptions, window: Window | None = None) -> Recording:
+def read_text(text: Text, options: DelimitedOptions) -> Recording:
     """Read delimited text, whatever it was made of; see `read`."""
-    header = read_header(text, options)
-    stretch = None if window is None else _stretch(header, options, window)
-    header, rows = _grouped(header, _rows(header, stretch), stretch, options)
+    header, rows = _rows(read_header(text, options), options)
     width, dialect, claims = len(header.heading.names), header.form.dialect, header.claims
 
     def series() -> Array:
@@ -266,27 +256,15 @@ def read_text(text: Text, options: DelimitedOptions, window: Window | None = Non
     return series_of(recording, series(), width, claims, layout)
 
 
-def _rows(header: Header, stretch: Stretch | None) -> Rows:
-    path = header.text.path
-    rows = read_rows(path, header.text.pieces(header.first), header.form, stretch)
-    if not rows.size:
-        raise ReadError(
-            f"{path.name}: none of its {rows.skipped} samples is within the test's window. Check the file's "
-            "times and the test's `window`, which counts from the file's own zero."
-        )
-    return rows
-
-
-def _grouped(header: Header, rows: Rows, stretch: Stretch | None, options: DelimitedOptions) -> tuple[Header, Rows]:
-    """Read columns again whose numbers seem to have signs between thousands, until all of these have them."""
-    if options.thousands is not None:
-        return header, rows
-    clock = None if stretch is None else stretch.clock  # by which the rows of a window are found
-    suspected = marks_suspected(rows).items()
-    signs = {column: sign for column, sign in suspected if sign != options.decimal and column != clock}
+def _rows(header: Header, options: DelimitedOptions) -> tuple[Header, Rows]:
+    """Read the rows, and again with marks between thousands in the columns that seem to have them, until all do."""
+    path, text, first = header.text.path, header.text, header.first
+    rows = read_rows(path, text.pieces(first), header.form)
+    suspected = marks_suspected(rows) if options.thousands is None else {}
+    signs = {column: sign for column, sign in suspected.items() if sign != options.decimal}
     while signs:
         form = replace(header.form, grouped=signs)
-        again = _rows(replace(header, form=form), stretch)
+        again = read_rows(path, text.pieces(first), form)
         kept = {
             column: sign for column, sign in signs.items() if are_marked(rows.columns[column], again.columns[column])
         }
@@ -325,19 +303,6 @@ def _recording(header: Header, rows: Rows, options: DelimitedOptions) -> Recordi
     )
 
 
-def _stretch(header: Header, options: DelimitedOptions, window: Window) -> Stretch | None:
-    """Find the rows of a window; None, which is all of them, if the file has several clocks or timestamps."""
-    if window.sampling_rate_hz is not None:
-        return Stretch(0.0, window.high * window.sampling_rate_hz)
-    head = _recording(header, _rows(header, Stretch(0.0, 0.0)), options)
-    clocks = [number for number, channel in enumerate(head.channels) if channel.is_clock]
-    if len(clocks) != 1 or header.form.kinds[clocks[0]] != "number":
-        return None
-    unit = options.time_unit or head.channels[clocks[0]].unit or "s"
-    second = 1.0 / TIME_UNITS.get(unit.casefold(), 1.0)
-    return Stretch(window.low * second, window.high * second, clocks[0])
-
-
 FORMAT = Format(
     name="delimited",
     summary="Delimited text: CSV, TSV, columns between spaces; with or without names, units and preamble.",
@@ -346,5 +311,4 @@ FORMAT = Format(
     recognise=recognise,
     read=read,
     in_process=True,
-    read_window=read,
 )

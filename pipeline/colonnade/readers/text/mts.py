@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from datetime import datetime
 from itertools import pairwise
 from pathlib import Path
@@ -13,10 +14,10 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.clock import RISING_SHARE, moment_after, moment_of, rising_share
+from colonnade.readers.clock import moment_after, moment_of, with_clocks
 from colonnade.readers.format import Format
 from colonnade.readers.head import by_first_line
-from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
+from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.damage import mend
 from colonnade.readers.text.dialect import WHITESPACE, Dialect, is_timestamp
 from colonnade.readers.text.encoding import Text, TextOptions, pieces_of
@@ -63,36 +64,40 @@ def read(path: Path, options: TextOptions) -> Recording:
     text = Text.of(path, options.encoding)
     lines = text.lines()
     dialect, dates = _declared(path, lines[0])
-    blocks = [block for block in _blocks(path, lines, dialect, dates, warnings) if block.columns[0].size]
-    if not blocks:
+    alike: dict[object, list[Block]] = {}
+    for block in _blocks(path, lines, dialect, dates, warnings):
+        if block.columns[0].size:
+            alike.setdefault((block.names, block.units), []).append(block)
+    if not alike:
         raise ReadError(
             f"{path.name}: no block of numbers was found: a line of names, one of units, then rows of numbers were "
             "expected. The file was cut off, or holds the operator's notes only."
         )
-    alike: dict[tuple[tuple[str, ...], tuple[str, ...]], list[Block]] = {}
-    for block in blocks:
-        alike.setdefault((block.names, block.units), []).append(block)
     series = list(alike.values())
     lengths = [sum(block.columns[0].size for block in same) for same in series]
     longest = lengths.index(max(lengths))
-    channels = _channels(series[longest], "")
-    clock = next((channel.time for channel in channels if channel.time is not None), None)
-    start = None if clock is None else moment_after(series[longest][0].origin, float(clock[0]))
-    for number, same in enumerate(series):
-        channels += _channels(same, f"block {number + 1}: ") if number != longest else []
+    channels: list[RecordedChannel] = []
+    notes = [f"encoding {text.encoding.name}"]
+    for number, (same, size) in enumerate(zip(series, lengths, strict=True)):
+        called = f"block {number + 1}"
+        prefix = "" if number == longest else f"{called}: "
+        columns = map(np.concatenate, zip(*(block.columns for block in same), strict=True))
+        own = [
+            RecordedChannel(prefix + name, unit or None, values, scope=(called,))
+            for name, unit, values in zip(same[0].names, same[0].units, columns, strict=True)
+        ]
+        channels = channels + own if prefix else own + channels
+        pieces = f", in {len(same)} pieces of the same columns" if len(same) > 1 else ""
+        notes.append(f"{called}: {size} rows below line {same[0].line + 1}{pieces}")
     if len(series) > 1:
         warnings.append(
             f"{len(series)} blocks with different columns: block {longest + 1}, the longest with "
             f'{max(lengths)} rows, is used; columns of the others are called "block '
             f'{2 if longest == 0 else 1}: …"'
         )
-    notes = [f"encoding {text.encoding.name}"]
-    for number, (same, size) in enumerate(zip(series, lengths, strict=True), 1):
-        pieces = f", in {len(same)} pieces of the same columns" if len(same) > 1 else ""
-        notes.append(f"block {number}: {size} rows below line {same[0].line + 1}{pieces}")
-    clocks = ", ".join(f'"{channel.heading}"' for channel in channels if channel.is_clock)
-    notes.append(f"clock: {clocks}" if clocks else "no clock: no rising column in s")
-    return Recording(path, "mts", tuple(channels), start, tuple(notes), tuple(warnings))
+    found = with_clocks(Recording(path, "mts", tuple(channels), notes=tuple(notes), warnings=tuple(warnings)))
+    clock = found.channels[0].time
+    return found if clock is None else replace(found, start=moment_after(series[longest][0].origin, float(clock[0])))
 
 
 def _declared(path: Path, line: str) -> tuple[Dialect, tuple[str, ...]]:
@@ -153,22 +158,6 @@ def _seconds(title: list[str], dialect: Dialect) -> float | None:
         if cell.endswith(":") and dialect.is_number(following):
             return dialect.number(following)
     return None
-
-
-def _channels(blocks: list[Block], prefix: str) -> list[RecordedChannel]:
-    """Join the columns of blocks; their clock is the first one in a unit of time whose values rise."""
-    first = blocks[0]
-    columns = [np.concatenate(pieces) for pieces in zip(*(block.columns for block in blocks), strict=True)]
-    time: Array | None = None
-    clock = None
-    for number, (unit, values) in enumerate(zip(first.units, columns, strict=True)):
-        if unit.casefold() in TIME_UNITS and (values.size == 1 or rising_share(values) >= RISING_SHARE):
-            clock, time = number, values * TIME_UNITS[unit.casefold()]
-            break
-    return [
-        RecordedChannel(prefix + name, unit or None, values, time, is_clock=number == clock)
-        for number, (name, unit, values) in enumerate(zip(first.names, first.units, columns, strict=True))
-    ]
 
 
 FORMAT = Format(

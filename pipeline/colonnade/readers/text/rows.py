@@ -112,8 +112,6 @@ class Rows:
         Rows with a fault; others so that of each column the first without a number is among them.
     start : datetime or None
         The first timestamp, if it has a date; in its own zone if it has one.
-    skipped : int
-        Rows of the file before the first of these.
     tail : list of Row
         The last rows, up to `TAIL`, of a file that ends within a line.
     """
@@ -123,7 +121,6 @@ class Rows:
     columns: list[Array] = field(default_factory=list)
     odd: list[Row] = field(default_factory=list)
     start: datetime | None = None
-    skipped: int = 0
     tail: list[Row] = field(default_factory=list)
 
 
@@ -131,27 +128,9 @@ TAIL = 200
 """Rows at the end that show whether numbers are written with a fixed number of decimals."""
 
 
-@dataclass(frozen=True)
-class Stretch:
-    """The part of a long file that is wanted: values of its clock in its own unit; without a clock, rows to read."""
-
-    low: float
-    high: float
-    clock: int | None = None
-
-    def place(self, part: _Part, before: int) -> int:
-        """Say whether a part, with `before` rows in front, is wholly ahead of it (-1) or behind it (1); else 0."""
-        if self.clock is None:
-            return int(before > self.high)
-        times = part.columns[self.clock]
-        if np.isnan(times).all():
-            return 0
-        return -1 if np.nanmax(times) < self.low else int(np.nanmin(times) > self.high)
-
-
-def read_rows(path: Path, pieces: Iterable[Piece], form: RowForm, stretch: Stretch | None = None) -> Rows:
+def read_rows(path: Path, pieces: Iterable[Piece], form: RowForm) -> Rows:
     """
-    Read rows of numbers; of those beside the stretch that is wanted some may come along.
+    Read rows of numbers.
 
     Raises
     ------
@@ -168,13 +147,6 @@ def read_rows(path: Path, pieces: Iterable[Piece], form: RowForm, stretch: Stret
             warnings.simplefilter("error", ParserWarning)  # pandas only warns when it drops cells
             with closing(_parts(pieces, form)) as parts:
                 for piece, part in parts:
-                    place = 0 if stretch is None else stretch.place(part, rows.size)
-                    if place < 0 and not rows.size:
-                        rows.skipped += part.size
-                        continue
-                    if place > 0 and rows.size:
-                        last.clear()
-                        break
                     rows.odd += [row._replace(row=row.row + rows.size) for row in part.odd]
                     rows.start = rows.start if rows.size else _start(part.frame, form)
                     for whole, values in zip(columns, part.columns, strict=True):
