@@ -58,32 +58,8 @@ def test_numbers_that_are_packed_in_another_way_are_refused(tmp_path, kind, pack
         read(whole_numbers(tmp_path / "record.raw", kind, "i2", packing=packing))
 
 
-def digital_word(path, names, *, kind=11, bits=16, scaled=False):
-    words = np.array([0b0000, 0b0001, 0b0110, 0b0111, 0x8001], dtype="<u2" if kind == 11 else "<f4")
-    blocks = [("CR", "1,5.0,3.0,1,1,V")] if scaled else []
-    blocks += [("CN", f"0,0,{bit},{len(name)},{name},0,") for bit, name in names.items()]
-    return stored(path, f"1,{words.itemsize},{kind},{bits},0,0,1,0", words.tobytes(), *blocks)
-
-
-@every("bits", [16, 4])
-@every("scaled", [False, True])
-def test_digital_channels_of_one_word_are_channels_of_their_own(tmp_path, bits, scaled):
-    names = {1: "release", 2: "door", 3: "pump", 16: "sync"}
-    recording = read(digital_word(tmp_path / "record.raw", names, bits=bits, scaled=scaled))
-    found = {channel.name: channel.values.tolist() for channel in recording.channels}
-    assert found == {
-        "release": [0, 1, 0, 1, 1],
-        "door": [0, 0, 1, 1, 0],
-        "pump": [0, 0, 1, 1, 0],
-        "sync": [0, 0, 0, 0, 1],
-    }
-    assert all(channel.unit is None for channel in recording.channels)
-    np.testing.assert_allclose(recording.channel("sync").time, [0.002, 0.0025, 0.003, 0.0035, 0.004])
-
-
-def test_a_bit_that_no_word_has_and_bits_of_a_fraction_are_left_out(tmp_path):
-    recording = read(digital_word(tmp_path / "record.raw", {1: "release", 99: "door"}))
-    assert [channel.name for channel in recording.channels] == ["release"]
-    assert any('"door": it is bit 99 of a word' in told for told in recording.warnings)
-    with pytest.raises(ReadError, match="digital channels have to be whole numbers"):
-        read(digital_word(tmp_path / "fraction.raw", {1: "release"}, kind=7, bits=32))
+def test_a_bit_of_a_word_is_refused_with_what_to_do(tmp_path):
+    words = np.array([0b0000, 0b0001, 0b0110], dtype="<u2").tobytes()
+    path = stored(tmp_path / "record.raw", "1,2,11,16,0,0,1,0", words, ("CN", "0,0,1,7,release,0,"))
+    with pytest.raises(ReadError, match='"release": a digital channel.*export it as numbers'):
+        read(path)

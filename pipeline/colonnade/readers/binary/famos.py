@@ -15,10 +15,8 @@ from colonnade.readers.format import Format, Options
 from colonnade.readers.head import by_mark
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
 
-NUMBERS = {1: "u1", 2: "i1", 3: "u2", 4: "i2", 5: "u4", 6: "i4", 7: "f4", 8: "f8", 11: "u2", 12: "u8", 14: "i8"}
+NUMBERS = {1: "u1", 2: "i1", 3: "u2", 4: "i2", 5: "u4", 6: "i4", 7: "f4", 8: "f8", 12: "u8", 14: "i8"}
 """Kinds of numbers, by the block CP."""
-WIDEST = 32
-"""Bits of a word that may be digital channels; their numbers are exact in what they are read as."""
 LARGEST_HEAD = 40
 PARAMETERS = {
     "CF": "w",  # byte order: 1 Intel, 2 Motorola
@@ -34,7 +32,7 @@ PARAMETERS = {
 """Of the blocks that are read, each parameter: a whole number, a number, a text behind its length, or one to skip."""
 
 _Said = dict[str, Any]
-"""The parameters of the blocks that describe one channel, by their keys; of CN those of each."""
+"""The parameters of the blocks that describe one channel, by their keys."""
 
 
 recognise = by_mark((b"|CF,",), '"|CF,", the mark of imc FAMOS')
@@ -61,8 +59,6 @@ def read(path: Path, options: Options) -> Recording:
                 data_set = current = {key: told}
             elif key == "CC":
                 components.append(current := {**data_set})
-            elif key == "CN":
-                current[key] = [*current.get(key, ()), told]
             elif key == "NT":
                 day, month, year, hour, minute, seconds = told
                 current[key] = datetime(year, month, day, hour, minute) + timedelta(seconds=seconds)
@@ -74,7 +70,8 @@ def read(path: Path, options: Options) -> Recording:
         warnings.append("the last data set has no channel: the file was cut off")
     channels: list[RecordedChannel] = []
     for said in components:
-        channels += _channels(said, places, order, len(channels) + 1, warnings)
+        channel = _channel(said, places, order, len(channels) + 1, warnings)
+        channels += [] if channel is None else [channel]
     timed, start = on_one_zero(channels)
     has_clock = any(channel.time is not None for channel in timed)
     notes = ["clock: each channel's own start and step" if has_clock else "no clock: x is not a time"]
@@ -122,48 +119,36 @@ def _is_plain(said: _Said) -> bool:
     return "CG" not in said or said["CG"][0] == 1
 
 
-def _channels(
+def _channel(
     said: _Said, places: dict[int, Bytes], order: str, number: int, warnings: list[str]
-) -> Iterator[RecordedChannel]:
-    """Make a channel of a component, or one of each bit of its words that has a name."""
-    digital = [(bit, name) for bit, name in said.get("CN", ()) if bit > 0]
-    own = next((name for bit, name in said.get("CN", ()) if bit <= 0 and name), "")
-    title = own or ", ".join(name for _, name in digital[:3])
+) -> RecordedChannel | None:
+    """Make a channel of a component; None if it is empty or not read, for a reason that is among the warnings."""
+    bit, title = said.get("CN", (0, ""))
     size, kind, bits, mask, apart = said.get("CP", (0, 0, 0, 0, 0))
     index, first, shift, filled, x0, added = said.get("Cb", (0, 0, 0, None, 0.0, 0.0))
     form = NUMBERS.get(kind, "")
-    is_known = bool(form) and int(form[1]) == size
-    # Of a word of digital channels some bits may be unused.
-    is_whole = is_known and mask == apart == 0 and (bool(digital) or bits == 8 * size)
     reason = ""
-    if digital and (not is_known or form[0] == "f"):
-        reason = "digital channels have to be whole numbers, and these are not; left out"
-    elif filled and not is_whole:
+    if bit > 0:
+        reason = "a digital channel, which is a bit of a word, is not read; export it as numbers from imc FAMOS"
+    elif filled and (form[1:] != str(size) or bits != 8 * size or mask or apart):
         reason = "its numbers are interleaved or of an unknown kind; left out"
     elif filled is None or (filled and index not in places):
         reason = "a block that its values need is missing: the file is damaged or was cut off"
     if reason or not filled:
         warnings += [f'"{title}": {reason}'] if reason else []
-        return
+        return None
     is_scaled, factor, offset, unit = said.get("CR", (0, 1.0, 0.0, ""))
-    scale = (offset, factor) if is_scaled == 1 and not digital else (0.0, 1.0)
+    scale = (offset, factor) if is_scaled == 1 else (0.0, 1.0)
     values = numbers_at(places[index], title, order + form, first + shift, filled // size, warnings, scale=scale)
     if not values.size:
-        return
+        return None
     step, of_x = said.get("CD", (0.0, ""))
     second = TIME_UNITS.get(of_x.casefold())
     time = start = None
     if step > 0 and second is not None and _is_plain(said):
         time = even_times(values.size, step * second, x0 * second)
         start = moment_after(said.get("NT"), added)
-    if not digital:
-        yield RecordedChannel(own or f"channel {number}", unit or None, values, time, start=start)
-    for bit, name in digital:
-        if bit > WIDEST:
-            warnings.append(f'"{name}": it is bit {bit} of a word, which has at most {WIDEST}; left out')
-            continue
-        is_set = (values.astype(np.int64) >> (bit - 1) & 1).astype(np.float64)
-        yield RecordedChannel(name or f"{own or number} bit {bit}", None, is_set, time, start=start)
+    return RecordedChannel(title or f"channel {number}", unit or None, values, time, start=start)
 
 
 FORMAT = Format(
