@@ -15,8 +15,8 @@ from raw_files import WRITERS
 from whole_files import WHOLE, format_of, write
 
 OWN = [*WRITERS.keys() - {"waveform"}, "delimited"]
-OWN_PARSERS = {*OWN} - {"diadem"}
-"""Of DIAdem a library parses the XML."""
+OWN_PARSERS = {*OWN} - {"diadem", "catman", "c3d"}
+"""Libraries take apart the XML of DIAdem, numbers of catman's headers and C3D."""
 PACKED = ["c3d", "tdms", "matlab 5 plain", "matlab 5 compressed", "matlab 7.3", "netcdf 4", "netcdf 3", "excel xls"]
 TIMES = 40 * np.arange(40) / 200
 

@@ -21,7 +21,7 @@ of a strong-motion record has 64 lines (ESM)."""
 HDF5 = b"\x89HDF\r\n\x1a\n"
 ZIP = b"PK\x03\x04"
 OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
-NETCDF = (b"CDF\x01", b"CDF\x02", b"CDF\x05")
+NETCDF = (b"CDF\x01", b"CDF\x02")
 """Marks of NetCDF in its classic forms."""
 _KNOWN: dict[bytes | tuple[bytes, ...], str] = {
     b"version https://git-lfs": "it is a pointer of git-lfs, not the file itself: fetch that with `git lfs pull`",
@@ -30,6 +30,7 @@ _KNOWN: dict[bytes | tuple[bytes, ...], str] = {
     b"MATLAB 5.0": "it is a MATLAB file",
     b"MATLAB 7.3": "it is a MATLAB file of version 7.3",
     NETCDF: "it is NetCDF",
+    b"CDF\x05": "it is NetCDF of the variant CDF-5, which is not read: convert it, `nccopy -k nc4 old.nc new.nc`",
     HDF5: "it is HDF5",
     OLE: "it is a document of an old Office program",
     ZIP: "it is a zip archive or an Office document",

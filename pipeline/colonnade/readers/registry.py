@@ -10,6 +10,7 @@ from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from pydantic import BaseModel, ValidationError
 
 from colonnade.errors import ReadError, nearest, quoted
@@ -178,7 +179,7 @@ def _read(
             recording = format.read_window(path, options, window)
         else:
             recording = format.read(path, options)
-    if any(channel.values.size for channel in recording.channels):
+    if any(np.isfinite(channel.values).any() for channel in recording.channels):
         return recording
     left_out = (note for note in recording.notes if "left out" in note)
     known = "; ".join([*recording.warnings, *left_out][:5])

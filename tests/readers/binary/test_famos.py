@@ -61,5 +61,5 @@ def test_numbers_that_are_packed_in_another_way_are_refused(tmp_path, kind, pack
 def test_a_bit_of_a_word_is_refused_with_what_to_do(tmp_path):
     words = np.array([0b0000, 0b0001, 0b0110], dtype="<u2").tobytes()
     path = stored(tmp_path / "record.raw", "1,2,11,16,0,0,1,0", words, ("CN", "0,0,1,7,release,0,"))
-    with pytest.raises(ReadError, match='"release": a digital channel.*export it as numbers'):
+    with pytest.raises(ReadError, match=r'"release": a digital channel.*export it as numbers'):
         read(path)

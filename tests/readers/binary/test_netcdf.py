@@ -155,7 +155,7 @@ def test_classic_netcdf_is_read_and_its_text_left_out(path):
     assert (top.name, top.unit, top.values.tolist()) == ("top", "mm", [0, 1, 2, 3])
     assert "who is left out: it holds text" in recording.notes
     path.write_bytes(b"CDF\x05" + path.read_bytes()[4:])
-    with pytest.raises(ReadError, match=r"variant CDF-5, which is not read. Convert it: nccopy -k nc4 record.raw"):
+    with pytest.raises(ReadError, match=r"variant CDF-5, which is not read: convert it, `nccopy -k nc4"):
         read(path)
 
 

@@ -1,7 +1,5 @@
 """What becomes of damaged rows."""
 
-from pathlib import Path
-
 import numpy as np
 
 from colonnade.readers.text.damage import mend
@@ -15,7 +13,7 @@ FORM = RowForm(Dialect(";", "."), ("number", "number", "number"))
 
 def mended(*texts, form=FORM, is_cut=False):
     pieces = [Piece(1, "\n".join(texts) + ("" if is_cut else "\n"))] if texts else []
-    return mend(read_rows(Path("a.csv"), pieces, form), ["a", "b", "c"][: len(form.kinds)])
+    return mend(read_rows(pieces, form), ["a", "b", "c"][: len(form.kinds)])
 
 
 def test_lines_that_are_not_samples_are_left_out_and_listed():

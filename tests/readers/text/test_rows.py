@@ -1,7 +1,6 @@
 """Rows become columns of numbers; rows unlike the others come with their lines and faults."""
 
 from datetime import datetime, timedelta, timezone
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,7 +20,7 @@ INSTRUMENT = RowForm(Dialect("\t", "."), ("number", "number"), by_instrument=Tru
 def test_columns_and_lines_come_out_whatever_the_size_of_the_pieces(size):
     texts = [f"{row}.5\t{-row}" if row % 2 else "" for row in range(6)]
     pieces = [Piece(11 + at, "\n".join([*texts[at : at + size], ""])) for at in range(0, 6, size)]
-    rows = read_rows(Path("a.txt"), [*pieces, Piece(17, "x\t4")], INSTRUMENT)
+    rows = read_rows([*pieces, Piece(17, "x\t4")], INSTRUMENT)
     np.testing.assert_array_equal(rows.columns, [[1.5, 3.5, 5.5, np.nan], [-1, -3, -5, 4]])
     assert [(row.row, row.line, row.text) for row in rows.tail[-2:]] == [(2, 16, "5.5\t-5"), (3, 17, "x\t4")]
     assert [(row.row, row.line) for row in rows.odd] == [(3, 17)]
@@ -30,13 +29,13 @@ def test_columns_and_lines_come_out_whatever_the_size_of_the_pieces(size):
 def times(*stamps):
     """What a column of timestamps gives: seconds from the first, and the first."""
     text = "".join(f"{stamp};1\n" for stamp in stamps)
-    rows = read_rows(Path("a.txt"), [Piece(1, text)], RowForm(FORM.dialect, ("time", "number")))
+    rows = read_rows([Piece(1, text)], RowForm(FORM.dialect, ("time", "number")))
     return rows.columns[0], rows.start
 
 
 def test_timestamps_are_seconds_from_the_first_in_later_pieces_too():
     pieces = [Piece(1, "2013-04-26 10:15:00.5;1\n2013-04-26 10:15:01;2\n"), Piece(3, "2013-04-26 10:16:00.5;3\n")]
-    rows = read_rows(Path("a.txt"), pieces, RowForm(FORM.dialect, ("time", "number")))
+    rows = read_rows(pieces, RowForm(FORM.dialect, ("time", "number")))
     assert rows.columns[0].tolist() == [0, 0.5, 60]
     assert rows.start == datetime(2013, 4, 26, 10, 15, 0, 500000)
 

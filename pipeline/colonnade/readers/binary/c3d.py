@@ -11,7 +11,6 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times
-from colonnade.readers.files import in_one_line
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import RecordedChannel, Recording
@@ -55,13 +54,8 @@ def read(path: Path, options: Options) -> Recording:
             f"{path.name}: it ends after {size} bytes, before its data begin at byte {begin}: a recording or copy was "
             "interrupted. Export it again."
         )
-    try:
-        file = c3d(str(path))
-        points, analogs = (np.asarray(file["data"][kind], dtype=np.float64) for kind in ("points", "analogs"))
-    except (RuntimeError, ValueError, OSError, IndexError, KeyError) as error:
-        raise ReadError(
-            f"{path.name}: this C3D file is damaged or was cut off ({in_one_line(error)}). Export it again."
-        ) from error
+    file = c3d(str(path))
+    points, analogs = (np.asarray(file["data"][kind], dtype=np.float64) for kind in ("points", "analogs"))
     of_points, of_analogs = file["parameters"].get("POINT", {}), file["parameters"].get("ANALOG", {})
     markers = [
         (f"{name} {axis}", unit, points[row, place])

@@ -10,7 +10,6 @@ from typing import Any, BinaryIO, NamedTuple
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.errors import ReadError
 from colonnade.readers.binary.numbers import numbers_at
 from colonnade.readers.clock import even_times, moment_after, with_clocks
 from colonnade.readers.format import Format, Options, Recognition
@@ -58,20 +57,10 @@ def read(path: Path, options: Options) -> Recording:
     Read a catman binary file.
 
     A channel goes by the nearest time channel above it of the same length, as catman writes a group.
-
-    Raises
-    ------
-    ReadError
-        If its headers are not whole.
     """
-    try:
-        with path.open("rb") as stream:
-            _, place = _taken(stream, "hi")  # the first is the version
-            headers = _headers(stream)
-    except (struct.error, ValueError):
-        raise ReadError(
-            f"{path.name}: it ends within its headers, or these are damaged. Copy it from the recorder again."
-        ) from None
+    with path.open("rb") as stream:
+        _, place = _taken(stream, "hi")  # the first is the version
+        headers = _headers(stream)
     content = np.memmap(path, dtype=np.uint8, mode="r")
     numeric = [header for header in headers if header.is_numeric and header.length]
     channels: list[RecordedChannel] = []
@@ -122,7 +111,7 @@ def _header(stream: BinaryIO) -> _Header:
     """Read a channel's header."""
     _, length = _taken(stream, "hi")  # the first is its number
     if length < 0:
-        raise struct.error
+        raise ValueError(f"a channel of {length} values")
     name, unit, _ = _text(stream), _text(stream), _text(stream)
     kind, _, _ = _taken(stream, "hhd")  # 0 numbers, 1 text, 2 objects; bytes of a value in memory; date of the file
     extended = stream.read(_taken(stream, "i"))

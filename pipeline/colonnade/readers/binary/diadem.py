@@ -61,8 +61,6 @@ def read(path: Path, options: Options) -> Recording:
             channels.append(header.channel(name, element))
         except (ValueError, KeyError, OverflowError) as error:
             warnings.append(f'"{name}" is left out: its entry in the header cannot be used ({error})')
-    if not channels and not warnings:
-        raise ReadError(f"{path.name}: the header describes no channel: it was cut off, or nothing was recorded.")
     is_clocked = any(channel.time is not None for channel in channels)
     notes = ("clock: each channel's own increment",) if is_clocked else ()
     return with_clocks(Recording(path, "diadem", tuple(channels), notes=notes, warnings=tuple(warnings)))

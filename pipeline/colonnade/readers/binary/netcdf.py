@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from colonnade.arrays import Array
-from colonnade.errors import ReadError
 from colonnade.readers.binary.numbers import DAMAGE, ClockOptions, Told, UnreadableError, columns_of, member, recorded
 from colonnade.readers.format import Format
 from colonnade.readers.head import HDF5, NETCDF, by_mark
@@ -117,23 +116,10 @@ def _dataset(dataset: h5py.Dataset, path: str, told: Told) -> list[Variable]:
 
 
 def read_classic(path: Path, told: Told) -> tuple[list[Variable], dict[str, Any]]:
-    """
-    Read the variables and attributes of NetCDF of the classic format.
-
-    Raises
-    ------
-    ReadError
-        If it is of the variant for very large variables (CDF-5).
-    """
+    """Read the variables and attributes of NetCDF of the classic format."""
     from scipy.io import netcdf_file
 
     with path.open("rb") as stream:
-        if stream.read(4) == b"CDF\x05":
-            raise ReadError(
-                f"{path.name}: it is NetCDF of the variant CDF-5, which is not read. Convert it: nccopy -k nc4 "
-                f"{path.name} converted.nc"
-            )
-        stream.seek(0)
         file = netcdf_file(stream, mmap=False)
         variables = []
         for name, variable in file.variables.items():

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
-import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
 from colonnade.arrays import Array
@@ -191,10 +190,7 @@ def read_header(text: Text, options: DelimitedOptions) -> Header:
 def _head(text: Text, options: DelimitedOptions) -> list[str]:
     """Read the first lines of a text."""
     name = text.path.name
-    try:
-        lines = text.head(max(options.skip_rows, options.lines_to_pass) + 200)
-    except UnicodeError as error:
-        raise ReadError(f"{name}: it is not {text.encoding.name} text ({error}).") from error
+    lines = text.head(max(options.skip_rows, options.lines_to_pass) + 200)
     if not any(line.strip() for line in lines):
         raise ReadError(f"{name}: the file is empty; rows of numbers were expected.")
     if reason := looks_binary(lines):
@@ -258,13 +254,13 @@ def read_text(text: Text, options: DelimitedOptions) -> Recording:
 
 def _rows(header: Header, options: DelimitedOptions) -> tuple[Header, Rows]:
     """Read the rows, and again with marks between thousands in the columns that seem to have them, until all do."""
-    path, text, first = header.text.path, header.text, header.first
-    rows = read_rows(path, text.pieces(first), header.form)
+    text, first = header.text, header.first
+    rows = read_rows(text.pieces(first), header.form)
     suspected = marks_suspected(rows) if options.thousands is None else {}
     signs = {column: sign for column, sign in suspected.items() if sign != options.decimal}
     while signs:
         form = replace(header.form, grouped=signs)
-        again = read_rows(path, text.pieces(first), form)
+        again = read_rows(text.pieces(first), form)
         kept = {
             column: sign for column, sign in signs.items() if are_marked(rows.columns[column], again.columns[column])
         }
@@ -280,8 +276,6 @@ def _recording(header: Header, rows: Rows, options: DelimitedOptions) -> Recordi
     """Say what the rows mean."""
     path, heading, kinds = header.text.path, header.heading, header.form.kinds
     mended = mend(rows, heading.headings)
-    if not any(np.isfinite(column).any() for column in mended.columns):
-        raise ReadError(f"{path.name}: no cell from line {header.first + 1} on holds a number.")
     channels = []
     for head, name, unit, kind, values in zip(*heading[:3], kinds, mended.columns, strict=True):
         values = past_midnight(values) if kind == "time" else values

@@ -118,7 +118,7 @@ def read_segments(path: Path, lines: list[str], preamble: Preamble) -> tuple[lis
             _prepare(lines, range(at + 1, stop), delimiter, len(names) if is_uneven else 0)
             kinds = ("empty" if preamble.clocks == "no" else "number", *["number"] * (len(names) - 1))
             form = RowForm(preamble.dialect, kinds, remark=True, by_instrument=True, ragged=True)
-            mended = mend(read_rows(path, pieces_of(lines, at + 1, stop), form), names)
+            mended = mend(read_rows(pieces_of(lines, at + 1, stop), form), names)
             segments.append(Segment(entries, names, mended.columns))
             lengths = zip(names, entries.get("Samples", ()), map(filled_length, mended.columns), strict=False)
             lacking = ((name, said, size) for name, said, size in lengths if said.isdecimal() and int(said) > size)

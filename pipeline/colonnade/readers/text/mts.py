@@ -65,7 +65,7 @@ def read(path: Path, options: TextOptions) -> Recording:
     lines = text.lines()
     dialect, dates = _declared(path, lines[0])
     alike: dict[object, list[Block]] = {}
-    for block in _blocks(path, lines, dialect, dates, warnings):
+    for block in _blocks(lines, dialect, dates, warnings):
         if block.columns[0].size:
             alike.setdefault((block.names, block.units), []).append(block)
     if not alike:
@@ -113,9 +113,7 @@ def _declared(path: Path, line: str) -> tuple[Dialect, tuple[str, ...]]:
     return Dialect(delimiter, fields[5], quoted=delimiter == ","), dates
 
 
-def _blocks(
-    path: Path, lines: list[str], dialect: Dialect, dates: tuple[str, ...], warnings: list[str]
-) -> Iterator[Block]:
+def _blocks(lines: list[str], dialect: Dialect, dates: tuple[str, ...], warnings: list[str]) -> Iterator[Block]:
     """Find each line above a block, `… Time: 10.0 Sec …`, that has names, units and numbers below it."""
     at = 0
     while (at := at + 1) < len(lines) - 2:
@@ -129,7 +127,7 @@ def _blocks(
             stop += 1
         if stop > first:
             form = RowForm(dialect, ("number",) * len(names), by_instrument=True)
-            mended = mend(read_rows(path, pieces_of(lines, first, stop), form), names)
+            mended = mend(read_rows(pieces_of(lines, first, stop), form), names)
             warnings += mended.warnings
             origin = moment_after(moment_of(title[-1], dates), -seconds)
             yield Block(at + 2, tuple(names), tuple(units), mended.columns, origin)

@@ -11,7 +11,7 @@ from colonnade import units
 from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times
 from colonnade.readers.format import Format, Options, Recognition
-from colonnade.readers.head import Head, from_head, head_of
+from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.encoding import Text
 from colonnade.readers.text.running import read_running, shortage
@@ -36,7 +36,7 @@ HEADER_LINES = 8
 _POINTS, _STEP = r"(?P<points>\d{1,12})", r"(?P<step>\d*\.?\d+(?:[eE][-+]?\d+)?)"
 SIZES = (
     re.compile(rf"NPTS\s*=\s*{_POINTS}\s*,?\s*DT\s*=\s*{_STEP}", re.IGNORECASE),
-    re.compile(rf"^\s*{_POINTS}\s+{_STEP}\s+NPTS\s*,\s*DT\b", re.IGNORECASE),
+    re.compile(rf"^\s*{_POINTS}\s+{_STEP}\s+NPTS\s*,\s*DT\b", re.IGNORECASE | re.MULTILINE),
 )
 """`NPTS=  2999, DT= .01000 SEC` of NGA and NGA-West2, `4096    0.0100    NPTS, DT` of the first database."""
 UNITS = re.compile(
@@ -49,10 +49,17 @@ QUANTITIES = (("ACCEL", "acceleration"), ("VELOCITY", "velocity"), ("DISPL", "di
 @from_head
 def recognise(head: Head) -> Recognition:
     """Say whether one of the first lines gives NPTS and DT."""
-    above, _ = _header(head)
-    if not above:
+    line, size = _size(head)
+    if size is None:
         return Recognition(False, f"none of the first {HEADER_LINES} lines gives NPTS and DT")
-    return Recognition(True, f"line {len(above)} gives NPTS and DT")
+    return Recognition(True, f"line {line} gives NPTS and DT")
+
+
+def _size(head: Head) -> tuple[int, re.Match[str] | None]:
+    """Number of the line that gives points and step, and what it says."""
+    text = "\n".join(head.lines[:HEADER_LINES])
+    found = next(filter(None, (spelling.search(text) for spelling in SIZES)), None)
+    return 0 if found is None else text.count("\n", 0, found.end()) + 1, found
 
 
 def read(path: Path, options: Options) -> Recording:
@@ -62,20 +69,15 @@ def read(path: Path, options: Options) -> Recording:
     Raises
     ------
     ReadError
-        If NPTS and DT are not given or no numbers follow.
+        If NPTS and DT are not given.
     """
-    above, size = _header(head_of(path))
-    if size is None:
-        raise ReadError(
-            f"{path.name}: none of the first {HEADER_LINES} lines gives the number of points and the step; "
-            '"NPTS=  2999, DT= .01000 SEC" was expected.'
-        )
-    line, points, step = len(above), int(size["points"]), float(size["step"])
+    head = recognise.expected(path)
+    line, size = _size(head)
+    assert size is not None
+    above, points, step = head.lines[:line], int(size["points"]), float(size["step"])
     if not 0 < step < np.inf:
         raise ReadError(f"{path.name}: line {line} gives a time step of {step:g} s.")
     values, warnings = read_running(enumerate(Text.of(path).lines()[line:], line + 1))
-    if not np.isfinite(values).any():
-        raise ReadError(f"{path.name}: no numbers follow line {line}: the file was cut off.")
     warnings += shortage("the header", points, values.size)
     if values.size > points:
         warnings.append(f"the header gives {points} points, but the file has {values.size}: all of them are read")
@@ -84,16 +86,6 @@ def read(path: Path, options: Options) -> Recording:
     notes = (f"{points} points, step {step:g} s (line {line})",)
     channel = RecordedChannel(quantity, unit, values, even_times(values.size, step))
     return Recording(path, "peer", (channel,), notes=notes, warnings=tuple(warnings))
-
-
-def _header(head: Head) -> tuple[list[str], re.Match[str] | None]:
-    """Lines down to the one that gives points and step, and what it says; no line if none does."""
-    lines = head.lines[:HEADER_LINES]
-    for number, line in enumerate(lines, 1):
-        for spelling in SIZES:
-            if found := spelling.search(line):
-                return lines[:number], found
-    return [], None
 
 
 FORMAT = Format(

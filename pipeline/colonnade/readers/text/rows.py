@@ -5,19 +5,16 @@ from __future__ import annotations
 import csv
 import warnings
 from collections import deque
-from collections.abc import Generator, Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import closing
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from io import BytesIO
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
 from colonnade.arrays import Array, Mask
-from colonnade.errors import ReadError
 from colonnade.readers.text.dialect import MARKED, WHITESPACE, Dialect, is_sample, kind_of, looks_like_numbers
 from colonnade.readers.text.encoding import UNREADABLE, Piece
 from colonnade.signals.samples import side_by_side, threads
@@ -128,36 +125,22 @@ TAIL = 200
 """Rows at the end that show whether numbers are written with a fixed number of decimals."""
 
 
-def read_rows(path: Path, pieces: Iterable[Piece], form: RowForm) -> Rows:
-    """
-    Read rows of numbers.
-
-    Raises
-    ------
-    ReadError
-        If lines cannot be cut into cells.
-    """
-    from pandas.errors import ParserError, ParserWarning
+def read_rows(pieces: Iterable[Piece], form: RowForm) -> Rows:
+    """Read rows of numbers."""
+    from pandas.errors import ParserWarning
 
     rows = Rows(form)
     columns: list[list[Array]] = [[] for _ in form.kinds]
     last: deque[Piece] = deque(maxlen=2)
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", ParserWarning)  # pandas only warns when it drops cells
-            with closing(_parts(pieces, form)) as parts:
-                for piece, part in parts:
-                    rows.odd += [row._replace(row=row.row + rows.size) for row in part.odd]
-                    rows.start = rows.start if rows.size else _start(part.frame, form)
-                    for whole, values in zip(columns, part.columns, strict=True):
-                        whole.append(values)
-                    rows.size += part.size
-                    last.append(piece)
-    except (ParserError, ParserWarning) as error:
-        raise ReadError(
-            f"{path.name}: its lines cannot be split into cells ({str(error).strip()}). Look for lines that differ "
-            "from the others."
-        ) from error
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", ParserWarning)  # pandas only warns when it drops cells
+        for piece, part in _parts(pieces, form):
+            rows.odd += [row._replace(row=row.row + rows.size) for row in part.odd]
+            rows.start = rows.start if rows.size else _start(part.frame, form)
+            for whole, values in zip(columns, part.columns, strict=True):
+                whole.append(values)
+            rows.size += part.size
+            last.append(piece)
     # A column's pieces are joined one column at a time, so that little is held twice.
     rows.columns = side_by_side(_joined, columns)
     for column, kind in enumerate(form.kinds):
@@ -182,7 +165,7 @@ class _Part(NamedTuple):
     odd: list[Row]
 
 
-def _parts(pieces: Iterable[Piece], form: RowForm) -> Generator[tuple[Piece, _Part], None, None]:
+def _parts(pieces: Iterable[Piece], form: RowForm) -> Iterator[tuple[Piece, _Part]]:
     """Read pieces, several at the same time; they come in their order."""
     waiting: deque[tuple[Piece, Future[_Part]]] = deque()
     with ThreadPoolExecutor(threads()) as pool:
