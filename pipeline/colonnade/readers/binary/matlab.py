@@ -7,7 +7,9 @@ import struct
 import warnings
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 from io import BytesIO
+from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -40,9 +42,9 @@ NUMERIC = frozenset(
 
 
 Numbers = NDArray[Any]
-Node = Numbers | str | list[Any] | dict[str, Any]
-"""Numbers (two-dimensional, as MATLAB shows them), text, a cell array as a list of nodes, a struct as a dictionary of
-nodes; an array of structs is a list of dictionaries."""
+Node = Any
+"""Numbers, text, a cell array as a list or an array of nodes, a struct as a dictionary of nodes, an array of structs as
+a list of dictionaries, or an object of SciPy's for what is no data."""
 
 
 FUNCTION = "it is a function; nothing in a recording is executed"
@@ -59,8 +61,8 @@ VALUE_FIELDS = frozenset(("values", "data", "value", "y", "signal"))
 NAME_FIELDS = frozenset(("label", "name", "signalname", "blockname", "title"))
 UNIT_FIELDS = frozenset(("unit", "units"))
 LIST_FIELDS = frozenset(("colheaders", "names", "labels", "channels", "channelnames", "channel_names", "headers"))
-BRISTOL = re.compile(r"(?:Channel_(\d+)|File)_(?:Header|(Data))")
-"""Names of the layout `File_Header`, `Channel_i_Header`, `Channel_i_Data`."""
+BRISTOL = re.compile(r"(?:File|Channel_\d+)_Header")
+"""Headers of the layout `File_Header`, `Channel_i_Header`, `Channel_i_Data`."""
 
 
 class MatlabOptions(ClockOptions):
@@ -125,7 +127,7 @@ def read_v5(path: Path, told: Told) -> dict[str, Node]:
         for name, value in loaded.items():
             own = value["s0"].item().decode("latin-1") if isinstance(value, MatlabOpaque) else name
             if not own.startswith("__"):  # MATLAB's own data about its objects
-                variables |= told.parts(_node, {own: (own, value)})
+                variables[own] = value
     return variables
 
 
@@ -143,29 +145,8 @@ def _elements(content: bytes, told: Told) -> Iterator[bytes]:
         place = end
 
 
-def _node(value: Any, path: str, told: Told) -> Node:
-    """
-    Take apart what SciPy has read.
-
-    Raises
-    ------
-    UnreadableError
-        If it is not data. A part that is not is left out with its reason, by the path from the variable to it.
-    """
-    if isinstance(value, dict):
-        parts = {name: (f"{path}.{name}", part) for name, part in value.items()}
-    elif isinstance(value, list) or (isinstance(value, np.ndarray) and value.dtype.kind == "O"):
-        listed = value if isinstance(value, list) else value.ravel(order="F").tolist()
-        brackets = "()" if any(isinstance(part, dict) for part in listed) else "{}"
-        parts = {k: (f"{path}{brackets[0]}{k}{brackets[1]}", part) for k, part in enumerate(listed, 1)}
-    else:
-        return _data(value)
-    nodes = told.parts(_node, parts)
-    return nodes if isinstance(value, dict) else list(nodes.values())
-
-
-def _data(value: Any) -> Node:
-    """Numbers or text; UnreadableError if it is neither."""
+def _numbers(value: Any) -> Numbers | None:
+    """Numbers; None for text, UnreadableError for what is neither."""
     from scipy.io.matlab import MatlabFunction, MatlabObject, MatlabOpaque
     from scipy.sparse import issparse
 
@@ -177,11 +158,9 @@ def _data(value: Any) -> Node:
         is_opaque = isinstance(value, MatlabOpaque)
         raise UnreadableError(object_reason(value["s2"].item().decode("latin-1") if is_opaque else value.classname))
     array = np.asarray(value)
-    if array.dtype.kind == "U":
-        return "\n".join(text.rstrip() for text in array.ravel().tolist())
-    if array.dtype.kind not in "fiub":
+    if array.dtype.kind not in "fiubU":
         raise UnreadableError("it holds complex numbers" if array.dtype.kind == "c" else "it holds no numbers")
-    return array
+    return None if array.dtype.kind == "U" else array
 
 
 def read_v73(path: Path, told: Told) -> dict[str, Node]:
@@ -257,49 +236,62 @@ def find_columns(variables: dict[str, Node], told: Told) -> tuple[list[RecordedC
     A matrix gives a channel a column where a vector is as long as it has rows, a channel a row where one is as long as
     it has columns; else its longer side counts as that of the samples.
     """
-    columns, scalars = _numbered(variables, told)
-    others = {name: node for name, node in variables.items() if not (columns and BRISTOL.fullmatch(name))}
-    leaves = [leaf for name, node in others.items() for leaf in _leaves(node, name, (), {})]
+    leaves: list[Leaf] = []
+    for name, node in variables.items():
+        if not BRISTOL.fullmatch(name):
+            header = variables.get(name.removesuffix("_Data") + "_Header")
+            leaves += _leaves(node, name, (), header if isinstance(header, dict) else {}, told)
     lengths = {numbers.size for *_, numbers in leaves if 1 < numbers.size == max(numbers.shape)}
+    columns: list[RecordedChannel] = []
+    scalars: dict[str, float] = {}
     for path, scope, beside, numbers in leaves:
         if numbers.size == 1:
             scalars[path] = float(numbers.ravel()[0])
         elif numbers.size:
             fields = {name.casefold(): each for name, each in beside.items()}
             columns += told.guarded(path, _columns, path, scope, fields, numbers.squeeze(), lengths) or ()
+    first = next((number for number, column in enumerate(columns) if column.heading == "Channel_1_Data"), None)
+    if first is not None:
+        told.notes.append("layout of Bristol: Channel_i_Data, with names and units in Channel_i_Header")
+        with suppress(ValueError, TypeError, KeyError, IndexError):  # a number, or text that is one
+            rate = np.asarray(variables["File_Header"]["SampleFrequency"]).ravel()[0]
+            scalars["File_Header.SampleFrequency"] = float(rate)
+        if rising_share(columns[first].values.astype(np.float64)) >= RISING_SHARE:
+            columns[first] = replace(columns[first], name="time")
+            told.notes.append("Channel_1_Data rises: it is the clock")
     return columns, scalars
 
 
-def _leaves(node: Node, path: str, scope: tuple[str, ...], beside: dict[str, Node]) -> Iterator[Leaf]:
-    if isinstance(node, np.ndarray):
-        yield path, scope, beside, node
-    elif isinstance(node, dict):
+def _leaves(node: Node, path: str, scope: tuple[str, ...], beside: dict[str, Node], told: Told) -> Iterator[Leaf]:
+    """Find the arrays of numbers in a node; what is no data is left out with its reason."""
+    if isinstance(node, dict):
         for name, child in node.items():
-            yield from _leaves(child, f"{path}.{name}", (*scope, path), node)
-    elif isinstance(node, list):
-        opening, closing = "()" if node and isinstance(node[0], dict) else "{}"
-        for number, child in enumerate(node, 1):
-            yield from _leaves(child, f"{path}{opening}{number}{closing}", scope, {})
+            yield from _leaves(child, f"{path}.{name}", (*scope, path), node, told)
+    elif isinstance(node, list) or (isinstance(node, np.ndarray) and node.dtype.kind == "O"):
+        listed = node if isinstance(node, list) else node.ravel(order="F").tolist()
+        opening, closing = "()" if any(isinstance(child, dict) for child in listed) else "{}"
+        for number, child in enumerate(listed, 1):
+            yield from _leaves(child, f"{path}{opening}{number}{closing}", scope, {}, told)
+    elif (numbers := told.guarded(path, _numbers, node)) is not None:
+        yield path, scope, beside, numbers
 
 
 def _columns(
     path: str, scope: tuple[str, ...], beside: dict[str, Node], numbers: Numbers, lengths: set[int]
 ) -> list[RecordedChannel]:
     """Split an array into columns; other fields of its struct may give names and units."""
-    is_value = path.rpartition(".")[2].casefold() in VALUE_FIELDS
+    is_value = not scope or path.rpartition(".")[2].casefold() in VALUE_FIELDS
     name = _text(beside, NAME_FIELDS) if is_value else None
     unit = _text(beside, UNIT_FIELDS) if is_value else None
-    if numbers.ndim == 1:
-        return [RecordedChannel(name or "", unit, numbers, heading=path, scope=scope)]
     if numbers.ndim == 2:
         rows, columns = (size in lengths for size in numbers.shape)
         numbers = numbers.T if columns > rows or (columns == rows and numbers.shape[1] > numbers.shape[0]) else numbers
     parts = columns_of(numbers)
-    names = _list_of_names(beside, len(parts))
+    names = _list_of_names(beside, len(parts)) if numbers.ndim == 2 else []
     found = []
-    for number, part in enumerate(parts, 1):
-        own, own_unit = take_apart(names[number - 1]) if names else (f"{name}[{number}]" if name else "", unit)
-        found.append(RecordedChannel(own, own_unit, part, heading=f"{path}[{number}]", scope=scope))
+    for (number, part), given in zip_longest(parts.items(), names):
+        own, own_unit = take_apart(given) if given else (f"{name}{number}" if name else "", unit)
+        found.append(RecordedChannel(own, own_unit, part, heading=path + number, scope=scope))
     return found
 
 
@@ -311,37 +303,12 @@ def _text(beside: dict[str, Node], keys: frozenset[str]) -> str | None:
 def _list_of_names(beside: dict[str, Node], count: int) -> list[str]:
     """Names of a matrix's columns, if a cell array or lines of text next to it give as many."""
     for key, node in beside.items():
-        names = node.splitlines() if isinstance(node, str) else node
-        if key in LIST_FIELDS and isinstance(names, list):
+        if key in LIST_FIELDS:
+            names = node.splitlines() if isinstance(node, str) else np.ravel(np.asarray(node, dtype=object)).tolist()
             texts = [name.strip() for name in names if isinstance(name, str) and name.strip()]
             if len(texts) == len(names) == count:
                 return texts
     return []
-
-
-def _numbered(variables: dict[str, Node], told: Told) -> tuple[list[RecordedChannel], dict[str, float]]:
-    """Take the channels of the layout `File_Header`, `Channel_i_Header`, `Channel_i_Data`, and their rate."""
-    matches = (BRISTOL.fullmatch(name) for name in variables)
-    columns: list[RecordedChannel] = []
-    scalars: dict[str, float] = {}
-    for number in sorted(int(match[1]) for match in matches if match and match[1] and match[2]):
-        header, values = variables.get(f"Channel_{number}_Header"), variables[f"Channel_{number}_Data"]
-        if isinstance(values, np.ndarray) and 1 < values.size == max(values.shape):
-            given = header if isinstance(header, dict) else {}
-            name, unit = (_text(given, frozenset((key,))) for key in ("SignalName", "Unit"))
-            is_clock = number == 1 and rising_share(values.ravel().astype(np.float64)) >= RISING_SHARE
-            name = "time" if is_clock else name or ""
-            columns.append(RecordedChannel(name, unit, values.ravel(), heading=f"Channel_{number}_Data"))
-    general = variables.get("File_Header")
-    if columns:
-        told.notes.append("layout of Bristol: Channel_i_Data, with names and units in Channel_i_Header")
-    if columns and columns[0].name == "time":
-        told.notes.append("Channel_1_Data rises: it is the clock")
-    elif columns and isinstance(general, dict):
-        with suppress(ValueError, TypeError, IndexError):  # a number, or text that is one
-            rate = np.asarray(general.get("SampleFrequency")).ravel()[0]
-            scalars["File_Header.SampleFrequency"] = float(rate)
-    return columns, scalars
 
 
 FORMAT = Format(

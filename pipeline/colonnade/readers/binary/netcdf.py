@@ -161,7 +161,6 @@ def _columns(variables: list[Variable], told: Told, unit: str | None) -> list[Re
             return []
         if table.ndim == 2 and table.shape[1] > table.shape[0] and not clock:
             table = table.T
-        parts = {"": table} if table.ndim == 1 else {f"[{k}]": part for k, part in enumerate(columns_of(table), 1)}
         if clock in clocks and clock not in times:
             times[clock] = _as_times(clocks[clock], unit)
         time, start, how = times.get(clock) or (None, None, "")
@@ -174,7 +173,7 @@ def _columns(variables: list[Variable], told: Told, unit: str | None) -> list[Re
         *groups, name = path.split("/")
         return [
             RecordedChannel(name + number, units, values, time, path + number, is_clock, tuple(groups), start)
-            for number, values in parts.items()
+            for number, values in columns_of(table).items()
         ]
 
     columns = told.parts(one, {each.path: (each.path, each) for each in variables})

@@ -59,12 +59,14 @@ class Told:
         return {key: each for key, each in read_parts.items() if each is not None}
 
 
-def columns_of(table: NDArray[Any]) -> list[NDArray[Any]]:
-    """Columns of a matrix; UnreadableError if it is no set of channels."""
+def columns_of(table: NDArray[Any]) -> dict[str, NDArray[Any]]:
+    """Columns of a matrix by what is put behind its name, `[2]`, or a vector; UnreadableError for other tables."""
+    if table.ndim == 1:
+        return {"": table}
     if table.ndim > 2 or table.shape[1] > MOST_COLUMNS:
         size = " × ".join(map(str, table.shape))
         raise UnreadableError(f"an array of {size}; vectors, and matrices of up to {MOST_COLUMNS} channels, are read")
-    return list(table.T)
+    return {f"[{number}]": column for number, column in enumerate(table.T, 1)}
 
 
 def member(group: h5py.Group, name: str) -> h5py.Group | h5py.Dataset:

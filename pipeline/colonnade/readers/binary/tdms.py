@@ -112,12 +112,11 @@ def cut_off(path: Path, channels: list[TdmsChannel]) -> list[str]:
             place += LEAD_IN + length
     if place == size:
         return []
-    counts = dict.fromkeys(len(channel) for channel in channels)
-    alike = {count: [channel.name for channel in channels if len(channel) == count] for count in counts}
-    found = ", ".join(
-        f'{count} samples of "{names[0]}"' + (f" and {len(names) - 1} others" if names[1:] else "")
-        for count, names in alike.items()
-    )
+    alike: dict[int, list[str]] = {}
+    for channel in channels:
+        alike.setdefault(len(channel), []).append(channel.name)
+    others = {length: f" and {len(names) - 1} others" * (len(names) > 1) for length, names in alike.items()}
+    found = ", ".join(f'{length} samples of "{names[0]}"{others[length]}' for length, names in alike.items())
     return [
         f"it ends after {size} of {place} bytes: a recording or a copy was interrupted; it has {found or 'no samples'}"
     ]

@@ -166,23 +166,16 @@ class Header(BaseModel):
 
 def told(recording: Recording) -> tuple[dict[str, Any], Arrays]:
     """Take a recording apart; an array that several channels share is sent once."""
-    arrays: Arrays = []
-    numbers: dict[int, int] = {}
-
-    def number(array: NDArray[Any] | None) -> int | None:
-        if array is None:
-            return None
-        if id(array) not in numbers:
-            numbers[id(array)] = len(arrays)
-            arrays.append(array)
-        return numbers[id(array)]
-
+    channels = recording.channels
+    held = {id(each): each for channel in channels for each in (channel.values, channel.time) if each is not None}
+    places = {key: place for place, key in enumerate(held)}
     columns = [
-        (channel.name, channel.unit, channel.heading, channel.is_clock, number(channel.values), number(channel.time))
-        for channel in recording.channels
+        (each.name, each.unit, each.heading, each.is_clock, places[id(each.values)], places.get(id(each.time)))
+        for each in channels
     ]
     start = None if recording.start is None else recording.start.isoformat()
-    return {**{name: getattr(recording, name) for name in SAME}, "start": start, "columns": columns}, arrays
+    header = {**{name: getattr(recording, name) for name in SAME}, "start": start, "columns": columns}
+    return header, list(held.values())
 
 
 def recording_of(path: Path, header: Any, arrays: Arrays) -> Recording:
