@@ -81,8 +81,6 @@ class Answer(BaseModel):
         Why the file cannot be read; empty if it was.
     error_number : int or None
         The system's own number of what went wrong, where it did.
-    exit_code : int or None
-        How the copy of the process that was to read it ended, where there is no answer.
     header : JSON
     arrays : tuple of Form
     """
@@ -91,7 +89,6 @@ class Answer(BaseModel):
 
     refusal: str = ""
     error_number: int | None = None
-    exit_code: int | None = None
     header: JsonValue = None
     arrays: tuple[Form, ...] = ()
 

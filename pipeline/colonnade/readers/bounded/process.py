@@ -83,8 +83,6 @@ def run_bounded(
         bounds=bounds_of(path, *others),
     )
     answer, arrays = _ask(request)
-    if answer.exit_code is not None:
-        raise _failure(request, answer.exit_code)
     if answer.refusal:
         raise _refusal(answer.refusal, answer.error_number)
     try:

@@ -20,8 +20,6 @@ from colonnade.readers.files import refusing
 
 BACKSTOP = 5.0
 """Seconds by which this process outlives its time, if whoever asks does not end it."""
-ANSWERING = b"1"
-"""Said by a copy to this process before it answers."""
 KILLED_WITH_PARENT = 1
 """PR_SET_PDEATHSIG."""
 
@@ -52,7 +50,11 @@ def serve(requests: IO[bytes], answers: IO[bytes], handle: Callable[[Request, IO
 
 
 def in_a_fork(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None:
-    """Handle a request in a copy of this process, which gives up all but the campaign's files and ends with it."""
+    """
+    Handle a request in a copy of this process, which gives up all but the campaign's files and ends with it.
+
+    If the copy fails, this process ends with its exit code: half an answer would run into the next one.
+    """
     own = os.getpid()
     ended, alive = os.pipe()
     copy = os.fork()
@@ -61,7 +63,7 @@ def in_a_fork(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None
             _end_with(own)
             requests.close()
             enclose(request.bounds, request.within)
-            _handle(request, answers, lambda: os.write(alive, ANSWERING))
+            _handle(request, answers)
         except BaseException:
             os._exit(1)
         os._exit(0)
@@ -72,14 +74,9 @@ def in_a_fork(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None
     if ended not in {descriptor for descriptor, _ in poll.poll()}:  # nobody is left who asks
         os.kill(copy, signal.SIGKILL)
         os._exit(1)
-    has_answered = os.read(ended, 1) == ANSWERING
     os.close(ended)
-    code = os.waitstatus_to_exitcode(os.waitpid(copy, 0)[1])
-    code = code if code >= 0 else 128 - code
-    if not has_answered:
-        messages.send(answers, [], exit_code=code)
-    elif code:
-        os._exit(code)  # half an answer would run into the next one: whoever asks starts another process
+    if code := os.waitstatus_to_exitcode(os.waitpid(copy, 0)[1]):
+        os._exit(code if code >= 0 else 128 - code)
 
 
 def in_place(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None:
@@ -87,16 +84,15 @@ def in_place(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None:
     limit(request.bounds)
     watch([request.within, *own_folders()])
     with watched_memory(request.bounds):
-        _handle(request, answers, lambda: None)
+        _handle(request, answers)
 
 
-def _handle(request: Request, answers: IO[bytes], announce: Callable[[], object]) -> None:
+def _handle(request: Request, answers: IO[bytes]) -> None:
     # Ends this process even where a library never gives control back, and where nobody is left who could.
     faulthandler.dump_traceback_later(request.bounds.elapsed + BACKSTOP, exit=True, file=2)
     answers.write(messages.BEGUN)
     answers.flush()
     arrays, answer = _answer(request)
-    announce()
     messages.send(answers, arrays, **answer)
     faulthandler.cancel_dump_traceback_later()
 

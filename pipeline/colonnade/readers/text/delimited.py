@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
@@ -29,12 +31,11 @@ from colonnade.readers.text.rows import (
 )
 from colonnade.readers.text.running import (
     HeaderClaims,
-    Layout,
-    declared_layout,
     header_claims,
     read_series,
     rows_that_touch,
     series_of,
+    why_running,
 )
 
 DELIMITER_WORDS = {"comma": ",", "semicolon": ";", "tab": "\t", "\\t": "\t", "pipe": "|", "space": " ", "spaces": " "}
@@ -230,26 +231,26 @@ def read(path: Path, options: DelimitedOptions) -> Recording:
 def read_text(text: Text, options: DelimitedOptions) -> Recording:
     """Read delimited text, whatever it was made of; see `read`."""
     header, rows = _rows(read_header(text, options), options)
-    width, dialect, claims = len(header.heading.names), header.form.dialect, header.claims
-
-    def series() -> Array:
-        return read_series(text, dialect, min([header.first, *header.touching]))
-
-    if options.layout is not None:
-        layout = Layout(options.layout, "as given")
-    elif options.time is not None or set(header.form.kinds) != {"number"}:
-        layout = Layout("columns")
-    elif header.touching:
-        layout = Layout("running", f"the header declares rows of {claims.fields} fields, and these touch")
-    elif header.heading.is_named:
-        layout = Layout("columns")
-    else:
-        is_free = dialect.delimiter == WHITESPACE
-        layout = declared_layout(text.path, rows.columns, claims, series, is_free=is_free)
-    if layout.kind == "columns":
+    first = min([header.first, *header.touching])
+    series = partial(read_series, text, header.form.dialect, first)
+    reason = _why_running(header, rows, series, options)
+    if not reason:
         return _recording(header, rows, options)
     recording = Recording(text.path, "delimited", (), notes=header.notes)
-    return series_of(recording, series(), width, claims, layout)
+    return series_of(recording, series(), len(header.heading.names), header.claims, reason)
+
+
+def _why_running(header: Header, rows: Rows, series: Callable[[], Array], options: DelimitedOptions) -> str:
+    """Say why the numbers run on from row to row; empty if each column is a channel."""
+    if options.layout is not None:
+        return "as given" if options.layout == "running" else ""
+    if options.time is not None or set(header.form.kinds) != {"number"}:
+        return ""
+    if header.touching:
+        return f"the header declares rows of {header.claims.fields} fields, and these touch"
+    is_free = header.form.dialect.delimiter == WHITESPACE
+    is_named = header.heading.is_named
+    return "" if is_named else why_running(header.text.path, rows.columns, header.claims, series, is_free=is_free)
 
 
 def _rows(header: Header, options: DelimitedOptions) -> tuple[Header, Rows]:
@@ -293,7 +294,7 @@ def _recording(header: Header, rows: Rows, options: DelimitedOptions) -> Recordi
             *(*header.notes, *heading.notes, f"first sample on line {header.first + 1}"),
             *(*found.notes, *mended.notes),
         ),
-        warnings=(*header.warnings, *heading.warnings, *found.warnings, *mended.warnings),
+        warnings=(*header.warnings, *found.warnings, *mended.warnings),
     )
 
 

@@ -36,7 +36,6 @@ class Heading(NamedTuple):
     is_named: bool
     """Whether names or units are above most columns, and not words that may be a sentence."""
     notes: tuple[str, ...]
-    warnings: tuple[str, ...]
 
 
 Lines = tuple[int | None, int | None]
@@ -75,17 +74,12 @@ def read_heading(
     units = tuple(own or unit for own, (_, unit) in zip(bare, parts, strict=True))
     headings = tuple(cell or f"column {number}" for number, cell in enumerate(names_row, 1))
     names = tuple(name or f"column {number}" for number, (name, _) in enumerate(parts, 1))
-    notes, warnings = [], []
+    notes = []
     if where[0] is None:
         notes.append(f'no names above the samples: columns are called "column 1" to "column {width}"')
     else:
         line = where[0] + 1
         notes.append(f'names on line {line} ("{headings[0]}", …)' if width > 1 else f"name on line {line}")
-        if 2 * (numbers := sum(map(dialect.is_number, names_row))) > width:
-            warnings.append(
-                f"line {line} is used for the names although {numbers} of its {width} cells are numbers; set "
-                "names_row = 0 if it is a sample"
-            )
     if where[1] is not None:
         notes.append(f"units on line {where[1] + 1}")
     elif united := next((head for head, unit in zip(headings, units, strict=True) if unit), ""):
@@ -95,7 +89,7 @@ def read_heading(
     if is_named and where[0] is not None and where[1] is None and not is_given and dialect.delimiter == WHITESPACE:
         words = lines[where[0]].split()
         is_named = len(words) <= 2 or lines[where[0]].strip() != " ".join(words)
-    return Heading(headings, names, units, is_named, tuple(notes), tuple(warnings))
+    return Heading(headings, names, units, is_named, tuple(notes))
 
 
 def find_heading(lines: list[str], start: int, first: int, dialect: Dialect, kinds: tuple[str, ...]) -> Lines:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from math import isfinite
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -96,18 +96,15 @@ def header_claims(text: str) -> HeaderClaims:
 CLAIMS = (PER_ROW, FIELDS, STEP, UNIT)
 
 
-class Layout(NamedTuple):
-    """What rows of numbers are: samples of channels, one series, or times and values in turn; and how that is known."""
-
-    kind: Literal["columns", "running", "pairs"]
-    reason: str = ""
+PAIRS = "every second number is a time, in equal steps from row to row"
+"""Why numbers run on that are times and values in turn."""
 
 
-def declared_layout(
+def why_running(
     path: Path, columns: Sequence[Array], claims: HeaderClaims, series: Callable[[], Array], *, is_free: bool
-) -> Layout:
+) -> str:
     """
-    Decide by what a file says of its nameless rows of numbers how they are to be read.
+    Decide by what a file says of its nameless rows of numbers whether they run on, and why; empty if they do not.
 
     Parameters
     ----------
@@ -128,22 +125,20 @@ def declared_layout(
     """
     width, rows = len(columns), max(filled_length(column) for column in columns)
     if width < 2 or rows < 2:
-        return Layout("columns")
+        return ""
     if rows >= FEWEST_TIMES and rising_share(columns[0]) >= RISING_SHARE:
         times = np.column_stack(columns[::2]).ravel()
-        if width >= 4 and width % 2 == 0 and equal_step(times, 0.1) is not None:
-            return Layout("pairs", "every second number is a time, in equal steps from row to row")
-        return Layout("columns")
+        return PAIRS if width >= 4 and width % 2 == 0 and equal_step(times, 0.1) is not None else ""
     if claims.per_row == width:
-        return Layout("running", f"the header says that {width} points are in a row")
+        return f"the header says that {width} points are in a row"
     if any(abs(count - rows) <= 1 for count in claims.counts):
-        return Layout("columns")
+        return ""
     if claims.counts:
         found = series().size
         if count := next((count for count in claims.counts if abs(count - found) < width), 0):
-            return Layout("running", f"the header gives {count} points, and there are {found} numbers")
+            return f"the header gives {count} points, and there are {found} numbers"
     if not is_free:
-        return Layout("columns")
+        return ""
     raise ReadError(
         f"{path.name}: the file does not show whether the {width} numbers of each row are samples of {width} channels, "
         "or one series that runs on from row to row: no names are above them, the first column does not rise as times "
@@ -151,19 +146,19 @@ def declared_layout(
     )
 
 
-def series_of(recording: Recording, values: Array, width: int, claims: HeaderClaims, layout: Layout) -> Recording:
-    """Give numbers, `width` in a row, as one series that runs on, or as times and values in turn, with the reason."""
+def series_of(recording: Recording, values: Array, width: int, claims: HeaderClaims, reason: str) -> Recording:
+    """Give numbers, `width` in a row, as one series that runs on, or as times and values in turn, for a reason."""
     hint = (
         f"Its numbers, {width} in a row, run on from row to row and are read as one series of {values.size} "
-        f'({layout.reason}). If each column is a channel, say so: layout = "columns" in `file`.'
+        f'({reason}). If each column is a channel, say so: layout = "columns" in `file`.'
     )
     channels, note = [claims.channel(values)], claims.clock_note
-    if layout.kind == "pairs":
+    if reason == PAIRS:
         times = values[::2].copy()
         channels = [RecordedChannel("column 1", "s", times, times, is_clock=True)]
         channels.append(RecordedChannel("column 2", claims.unit, values[1::2], times))
         note = "clock: every second number, taken as seconds"
-    notes = (*recording.notes, f"numbers run on from row to row: {layout.reason}", note)
+    notes = (*recording.notes, f"numbers run on from row to row: {reason}", note)
     return replace(recording, channels=tuple(channels), notes=notes, hint=hint)
 
 
