@@ -48,12 +48,12 @@ HEADS = {
     "CSMIP/DMG, volume 2": (
         [*CSMIP_2, *WHOLE, *REAL, "   800 points of accel data equally spaced at  .020 sec, in cm/sec2. (8f10.6)"],
         (8, "%10.6f"),
-        r"CSMIP/DMG .*an interval of 0.02 s",
+        "CSMIP/DMG",
     ),
     "CSMIP/DMG, volume 3": (
         ["Response and Fourier Amplitude Spectra   00000001", *CSMIP_2[:2], *["a line of text"] * 22],
         (8, "%10.6f"),
-        "CSMIP/DMG .* with response spectra but no motion",
+        "CSMIP/DMG .* Response spectra hold no motion",
     ),
     "USC, volume 1": (
         ["OF UNCORRECTED ACCELEROGRAM DATA OF", *numbered(USC), *WHOLE],
@@ -63,7 +63,7 @@ HEADS = {
     "USC, volume 2": (["CORRECTED ACCELEROGRAM", "uncorrected accelerogram", *numbered(USC)], (8, "%9.3f"), "USC"),
     "SMC, first kind of header": (["2 CORRECTED ACCELEROGRAM", *["a line"] * 9, "*", *WHOLE], (8, "%10.4E"), "SMC"),
     "SMC, second kind of header": (["*", *["a line"] * 9, "*", *WHOLE], (8, "%10.4E"), "SMC"),
-    "ESM": ([f"{key}: {said}" for key, said in ESM.items()], (1, "%.6f"), r"ESM.*of 0.005 s and .* in cm/s\^2"),
+    "ESM": ([f"{key}: {said}" for key, said in ESM.items()], (1, "%.6f"), "ESM"),
     "GeoNet": (
         ["Corrected accelerogram 20130426_101500_TAB_20 GNS Science", "Site TAB   43 30 25S  172 43 53E", "a line"],
         (10, "%8.1f"),
@@ -99,7 +99,7 @@ def written(folder, name):
 def test_it_is_refused_by_its_formats_name_with_what_to_do(tmp_path, name):
     path = written(tmp_path, name)
     for reading in (read, read_motion, lambda path: read(path, "delimited")):
-        with pytest.raises(ReadError, match=r"Download volume 1 or 2|export it as text with a column of times") as told:
+        with pytest.raises(ReadError, match="export it as text with a column of times") as told:
             reading(path)
         told.match(f"record.txt: this is a strong-motion .* in the format of {HEADS[name][2]}")
 

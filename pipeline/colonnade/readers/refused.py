@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 
 from colonnade.readers.head import Head
-from colonnade.readers.text.running import header_claims
 
 MDF = (
     "this is an ASAM MDF file, which is not read here. Export it as CSV or MATLAB (.mat), with names and units, from "
@@ -40,41 +39,20 @@ NETWORKS = {
 
 
 def foreign_format(head: Head) -> str:
-    """
-    Say which known format a file has that is not read here, and what to do; empty if it has none.
-
-    Parameters
-    ----------
-    head : Head
-
-    Returns
-    -------
-    reason : str
-        Of a strong-motion record with what the header says of interval and unit, which an export has to keep.
-    """
+    """Say which known format a file has that is not read here, and what to do; empty if it has none."""
     if reason := next((reason for mark, reason in MARKS.items() if head.content.startswith(mark)), ""):
         return reason
     text = "\n".join(line[:200] for line in head.lines)
     network = next((name for name, start in NETWORKS.items() if re.match(start, text, re.IGNORECASE)), "")
-    if not network:
-        return ""
-    if re.match(r".*response (?:and|spectr)", text, re.IGNORECASE):
-        return (
-            f"this is a strong-motion file in the format of {network} with response spectra but no motion. Download "
-            "volume 1 or 2 of the same record."
-        )
-    claims = header_claims(text)
-    says = [f"an interval of {claims.step:g} s"] if claims.step else []
-    says += [f"accelerations in {claims.unit}"] if claims.unit else []
-    kept = f" Its header gives {' and '.join(says)}: keep these." if says else ""
-    return _record(network) + kept
+    return _record(network) if network else ""
 
 
 def _record(network: str) -> str:
     return (
         f"this is a strong-motion record in the format of {network}, which is not read here. Download the record "
         "as COSMOS V1 or V2, miniSEED or SAC if the network offers it; or convert it (gmprocess of the USGS reads this "
-        "format), or export it as text with a column of times and one of accelerations, with names and units above."
+        "format), or export it as text with a column of times and one of accelerations, with names and units above. "
+        "Response spectra hold no motion: download volume 1 or 2 of the same record in their place."
     )
 
 
