@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import hypot, pi, sin
+from dataclasses import replace
+from math import hypot, sqrt
 
 from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.channel import ALONG, Channel
 from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics import size
 from colonnade.dynamics.block import STANDARD_GRAVITY
-from colonnade.findings import Finding, Severity, note, warning
+from colonnade.findings import Finding, Severity, note, serious, warning
 from colonnade.units.text import format_percent, listed, number, quantity
 
 OFF_SIDE = 0.02
@@ -47,7 +48,7 @@ def notices(campaign: CampaignFile) -> tuple[Finding, ...]:
         for channel_name, channel in campaign.setups[setup].channels_of(name).items():
             if channel.is_on_body and channel.at is not None:
                 told = _of_channel(f"setups.{setup}.channels.{channel_name}", channel, name, campaign.specimens[name])
-                found += (Finding(said, kind, severity, about=f"setups.{setup}") for severity, kind, said in told)
+                found += (replace(each, about=f"setups.{setup}") for each in told)
     return (*found, *_of_tests(campaign))
 
 
@@ -108,15 +109,15 @@ def _size(specimen: Specimen) -> tuple[float, float]:
     return side.pole_distance, 2 * side.pole_distance
 
 
-def _of_channel(place: str, channel: Channel, name: str, specimen: Specimen) -> Iterator[tuple[Severity, str, str]]:
+def _of_channel(place: str, channel: Channel, name: str, specimen: Specimen) -> Iterator[Finding]:
     """Say of a transducer whose point is off the specimen, or whose range does not fit what the point travels."""
     half_width, height = _size(specimen)
     x, y, z = channel.at or (0.0, 0.0, 0.0)
     radius, largest = specimen.radius(z), max(height, 2 * half_width)
     off, aside = max(abs(x) - half_width, abs(y) - half_width, z - height, -z), hypot(x, y)
     if off > BRACKET * largest:
-        yield (
-            Severity.SERIOUS if off > FAR_OFF * largest else Severity.WARNING,
+        severe = serious if off > FAR_OFF * largest else warning
+        yield severe(
             "geometry",
             f"{place}.at is {quantity(off, 'mm', 4)} off {name}, which is {quantity(height, 'mm', 4)} high and "
             f"{quantity(2 * half_width, 'mm', 4)} wide. Give a point on it, measured from the centre of the base, and "
@@ -124,8 +125,7 @@ def _of_channel(place: str, channel: Channel, name: str, specimen: Specimen) -> 
         )
     is_line_of_sight = channel.sensing == "surface" and channel.normal is None
     if is_line_of_sight and radius is not None and abs(aside - radius) > OFF_SIDE * radius:
-        yield (
-            Severity.WARNING,
+        yield warning(
             "geometry",
             f"{place}.at is {quantity(aside, 'mm', 4)} from the axis of {name}, but the side is "
             f"{quantity(radius, 'mm', 4)} from the axis at that height. Give the point where the line of sight meets "
@@ -134,15 +134,14 @@ def _of_channel(place: str, channel: Channel, name: str, specimen: Specimen) -> 
     if channel.quantity != "displacement" or channel.full_scale is None:
         return
     arm, reach = hypot(half_width, z), channel.full_scale
-    lying, rocking = 2 * arm * sin(pi / 4), arm * specimen.block(STANDARD_GRAVITY).critical_angle
+    lying, rocking = sqrt(2) * arm, arm * specimen.block(STANDARD_GRAVITY).critical_angle
     if reach > WIDEST_RANGE * max(lying, 0.1 * height):
         than, travel, end = f"{number(reach / lying, 2)} times", lying, "lies on its side"
     elif reach < NARROWEST_RANGE * rocking:
         than, travel, end = f"{format_percent(reach / rocking, 1)} of", rocking, "overturns"
     else:
         return
-    yield (
-        Severity.WARNING,
+    yield warning(
         "gain",
         f"{place}: with its gain and range it reads up to {quantity(reach, 'mm', 4)}, {than} the "
         f"{quantity(travel, 'mm')} that this point of {name} moves until it {end}. Check gain and unit.",

@@ -97,13 +97,11 @@ class Pattern:
 
     def entry(self, parts: Mapping[str, str | float]) -> dict[str, Any]:
         """Give the keys of a test whose file's name has these parts; what the name says counts more."""
-
-        def filled(value: Any) -> Any:
-            for part, meaning in parts.items():
-                value = value.replace(f"{{{part}}}", str(meaning)) if isinstance(value, str) else value
-            return value
-
-        return {key: filled(value) for key, value in self.given.items()} | dict(parts)
+        entry = self.given | dict(parts)
+        for key, value in self.given.items():
+            if isinstance(value, str) and key not in parts:
+                entry[key] = re.sub(r"\{(\w+)\}", lambda part: str(parts.get(part[1], part[0])), value)
+        return entry
 
     @staticmethod
     def _value(part: str, unit: str, written: str, names: Mapping[str, Mapping[str, str]]) -> str | float:

@@ -49,8 +49,7 @@ class ForecastBlock(Record):
     @classmethod
     def of(cls, block: Block) -> ForecastBlock:
         """Take the values of a block."""
-        sides = (ForecastSide(**vars(side)) for side in block.sides)
-        return cls(mass=block.mass, gravity=block.gravity, **dict(zip(("negative", "positive"), sides, strict=True)))
+        return cls.model_validate(block, from_attributes=True)
 
     def block(self) -> Block:
         """Return the block; ValueError if a value is out of its range."""

@@ -167,13 +167,7 @@ class Warned(Record):
     @classmethod
     def of(cls, finding: Finding, *, explained: bool) -> Warned:
         """Return the record of a finding."""
-        return cls(
-            severity=finding.severity,
-            kind=finding.kind,
-            text=finding.text,
-            stage=finding.stage,
-            explained=explained,
-        )
+        return cls.model_validate(finding, from_attributes=True).model_copy(update={"explained": explained})
 
 
 class BodyPrediction(Record):

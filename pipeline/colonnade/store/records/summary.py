@@ -16,7 +16,7 @@ from colonnade.dynamics.history import Outcome
 from colonnade.errors import StoreError
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store.layout import Layout
-from colonnade.store.records.test import as_given
+from colonnade.store.records.test import as_given, of_block
 
 
 def read_summary(layout: Layout) -> Summary | None:
@@ -61,7 +61,7 @@ def records_of_specimens(campaign: Campaign, summary: Summary | None) -> dict[st
             "shape": specimen.shape,
             "mass": specimen.mass,
             "rigid_restitution": block.restitution if specimen.is_in_plane else None,
-            **{key: getattr(block, key) for key in ("critical_angle", "pole_distance", "inertia", "p")},
+            **of_block(block),
             "restitution": dict.fromkeys(("value", "low", "high", "level", "source")) | {"reason": "not run yet"},
         }
         if summary is not None and name in summary.specimens:

@@ -24,13 +24,15 @@ from colonnade.campaign.forms.summary import (
     TestSummary,
     Warned,
 )
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.size import at_prototype
 from colonnade.findings import in_order
 from colonnade.identification.response.rank import BAND
 from colonnade.store.records.stored import Stored
 
 AT_PROTOTYPE = {"duration": "time", "frequency": "frequency", "peak_time": "time", "peak_slide": "length"}
-"""What is given at prototype scale too, and the kind of quantity by which it scales."""
+BLOCK_AT_PROTOTYPE = {"p": "frequency", "pole_distance": "length", "mass": "mass", "inertia": "inertia"}
+"""What is given at prototype scale too, of a test and of a block, and the kind of quantity by which it scales."""
 
 
 def record_of_test(campaign: Campaign, test: Test, stored: Stored) -> TestSummary:
@@ -112,14 +114,8 @@ def _of_comparison(stored: Stored) -> dict[str, float]:
 
 def as_given(test: Test) -> dict[str, Any]:
     """Return what the record of a test repeats of the campaign file."""
-    return {
-        "kind": test.kind,
-        "specimen": test.specimen,
-        "span": test.span,
-        "date": test.date and test.date.isoformat(),
-        "operator": test.operator,
-        "observed_outcome": test.observed_outcome,
-    }
+    given = {key: getattr(test, key) for key in ("kind", "specimen", "span", "operator", "observed_outcome")}
+    return given | {"date": test.date and test.date.isoformat()}
 
 
 def largest_motion(stored: Stored, name: str) -> float:
@@ -244,10 +240,7 @@ def record_of_specimen(campaign: Campaign, name: str, pooled: xr.Dataset) -> Spe
     block, is_one = campaign.block(name), campaign.specimens[name].is_in_plane
     negative, positive = (float(value) for value in pooled["side_restitution"])
     return SpecimenSummary(
-        critical_angle=block.critical_angle,
-        p=block.p,
-        pole_distance=block.pole_distance,
-        inertia=block.inertia,
+        **of_block(block),
         restitution=RestitutionSummary(
             value=None if not is_one else negative if negative == positive else (negative, positive),
             low=float(pooled["restitution_low"]),
@@ -262,6 +255,11 @@ def record_of_specimen(campaign: Campaign, name: str, pooled: xr.Dataset) -> Spe
     )
 
 
+def of_block(block: Block) -> dict[str, float]:
+    """Return what the record of a specimen repeats of its block."""
+    return {key: getattr(block, key) for key in ("critical_angle", "p", "pole_distance", "inertia")}
+
+
 def specimen_prototype(campaign: Campaign, name: str) -> SpecimenPrototype | None:
     """Return a specimen at prototype scale, None if its scale is not given."""
     specimen, block = campaign.specimens[name], campaign.block(name)
@@ -270,9 +268,6 @@ def specimen_prototype(campaign: Campaign, name: str) -> SpecimenPrototype | Non
         return None
     return SpecimenPrototype(
         scale=scale,
-        p=at_prototype("frequency", block.p, scale),
-        pole_distance=at_prototype("length", block.pole_distance, scale),
-        mass=at_prototype("mass", block.mass, scale),
-        inertia=at_prototype("inertia", block.inertia, scale),
+        **{key: at_prototype(quantity, getattr(block, key), scale) for key, quantity in BLOCK_AT_PROTOTYPE.items()},
         sizes={key: at_prototype("length", size, scale) for key, size in specimen.sizes().items()},
     )
