@@ -53,11 +53,6 @@ def write_bundle(folder: Path, target: Path, *, own: Collection[str], instead: M
             for name in sorted({*names, *texts}):
                 entry = zipfile.ZipInfo(f"{folder.name}/{name}", FIRST_DAY)
                 entry.external_attr, entry.compress_type = READABLE, zipfile.ZIP_DEFLATED
-                if name in texts:
-                    archive.writestr(entry, texts[name])
-                    continue
-                with names[name].open("rb") as source, archive.open(entry, "w") as packed:
-                    while piece := source.read(1 << 20):
-                        packed.write(piece)
+                archive.writestr(entry, texts[name] if name in texts else names[name].read_bytes())
 
     files.write_stream(target, write_to)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 PARTIAL = ".partial"
 """Ending of temporary names, as a killed run leaves them."""
 
-_permit: ContextVar[Callable[[], None] | None] = ContextVar("permit", default=None)
+_expect_permit: ContextVar[Callable[[], None]] = ContextVar("expect_permit", default=lambda: None)
 
 
 @contextmanager
@@ -41,16 +41,11 @@ def only_while(expect_permit: Callable[[], None]) -> Iterator[None]:
     expect_permit : callable
         Raises if files may not be changed any more.
     """
-    before = _permit.set(expect_permit)
+    before = _expect_permit.set(expect_permit)
     try:
         yield
     finally:
-        _permit.reset(before)
-
-
-def _expect_permit() -> None:
-    if (expect_permit := _permit.get()) is not None:
-        expect_permit()
+        _expect_permit.reset(before)
 
 
 def write(dataset: xr.Dataset, path: Path, *, attributes: Mapping[str, Any]) -> xr.Dataset:
@@ -209,7 +204,7 @@ def write_stream(path: Path, write_to: Callable[[IO[bytes]], object]) -> None:
 
 def remove(path: Path) -> bool:
     """Remove a file if it exists; return whether it did."""
-    _expect_permit()
+    _expect_permit.get()()
     try:
         path.unlink()
     except FileNotFoundError:
@@ -232,7 +227,7 @@ def _in_one_step(path: Path, write_to: Callable[[Path], object]) -> None:
         partial.unlink(missing_ok=True)  # it may be a link
         try:
             write_to(partial)
-            _expect_permit()
+            _expect_permit.get()()
             partial.replace(path)
         except BaseException:  # Ctrl-C too: nothing half-written stays
             partial.unlink(missing_ok=True)

@@ -213,8 +213,9 @@ def content_hash(dataset: xr.Dataset) -> str:
         SHA-256. Dates, versions, titles and keys are not in it. Long arrays go into it by their own SHA-256,
         so that several are hashed at the same time.
     """
-    long = [name for name in sorted(map(str, dataset.variables)) if is_long(dataset.variables[name])]
-    hashed = dict(zip(long, side_by_side(lambda name: _sha256(dataset.variables[name].values), long), strict=True))
+    long = {name: variable.values for name, variable in dataset.variables.items() if is_long(variable)}
+    digests = side_by_side(lambda values: hashlib.sha256(_little_endian(values).data).digest(), long.values())
+    hashed = dict(zip(long, digests, strict=True))
     digest = hashlib.sha256()
     attributes = {name: plain(value) for name, value in dataset.attrs.items() if name not in _CIRCUMSTANCES}
     digest.update(_canonical(attributes))
@@ -230,10 +231,6 @@ def content_hash(dataset: xr.Dataset) -> str:
         digest.update(_canonical([name, list(map(str, variable.dims)), list(values.shape), kind, attributes]))
         digest.update(data)
     return digest.hexdigest()
-
-
-def _sha256(values: NDArray[Any]) -> bytes:
-    return hashlib.sha256(_little_endian(values).data).digest()
 
 
 def _little_endian(values: NDArray[Any]) -> NDArray[Any]:

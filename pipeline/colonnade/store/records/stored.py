@@ -202,10 +202,8 @@ def read_test(
     with_samples : bool, optional
         Whether to keep the samples of all channels, as recorded and as conditioned.
     """
-    results = results_of(campaign, test)
-    if outdated is not None:
-        return _read(Stored(outdated=outdated), layout, [], failure)
-    return _read(Stored(with_samples=with_samples), layout, results, failure)
+    stored = Stored(outdated=outdated or "", with_samples=with_samples)
+    return _read(stored, layout, results_of(campaign, test) if outdated is None else [], failure)
 
 
 def read_specimen(campaign: Campaign, layout: Layout, specimen: str) -> Stored:
