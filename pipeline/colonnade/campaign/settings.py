@@ -7,8 +7,6 @@ only the fields of the model are stored with the result and enter its key.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Annotated, Any, Literal, cast
 
 from pydantic import AfterValidator, BeforeValidator, Field
@@ -194,28 +192,15 @@ class Processing(QualitySettings, ConditionSettings):
     """The predictions."""
 
 
-@dataclass(frozen=True)
-class Setting:
-    """One setting as `show settings` lists it: its whole key, value and default in SI, unit, and what it does."""
-
-    key: str
-    value: Any
-    default: Any
-    unit: str
-    description: str
-
-
-def settings(processing: Processing, advice: NextSettings) -> Iterator[Setting]:
-    """List every setting of a campaign."""
-    yield from _settings(processing, "processing")
-    yield from _settings(advice, "next")
-
-
-def _settings(table: Table, prefix: str) -> Iterator[Setting]:
+def settings(table: Table, prefix: str) -> dict[str, dict[str, Any]]:
+    """List every setting of a table by its whole key: value and default in SI, unit, and what it does."""
+    found: dict[str, dict[str, Any]] = {}
     for name, field in type(table).model_fields.items():
         value, key = getattr(table, name), f"{prefix}.{name}"
         if isinstance(value, Table):
-            yield from _settings(value, key)
-        else:
-            extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
-            yield Setting(key, value, field.default, str(extra.get("unit", "")), type(table).purposes()[name])
+            found |= settings(value, key)
+            continue
+        extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
+        said = {"unit": str(extra.get("unit", "")), "description": type(table).purposes()[name]}
+        found[key] = {"value": value, "default": field.default} | said
+    return found

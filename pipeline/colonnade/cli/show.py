@@ -98,11 +98,15 @@ def settings(campaign: Path | None, as_json: bool) -> int:
     if campaign is None and Path(FILE_NAME).is_file():
         campaign = Path()
     known = None if campaign is None else load(campaign)
-    rows = list(all_settings(*((known.processing, known.next) if known else (Processing(), NextSettings()))))
+    processing, advice = (known.processing, known.next) if known else (Processing(), NextSettings())
+    rows = all_settings(processing, "processing") | all_settings(advice, "next")
     if as_json:
-        show_json({row.key: {name: value for name, value in vars(row).items() if name != "key"} for row in rows})
+        show_json(rows)
     else:
-        cells = [(row.key, shown(row.value), shown(row.default), row.unit, row.description) for row in rows]
+        cells = [
+            (key, shown(row["value"]), shown(row["default"]), row["unit"], row["description"])
+            for key, row in rows.items()
+        ]
         show_table(("setting", "value", "default", "unit", "what it does"), cells)
     return 0
 

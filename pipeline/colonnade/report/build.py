@@ -88,7 +88,7 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
             (part.row.id, bad) for part in parts if (bad := [one for one in part.kept.channels if not one.is_good])
         ],
         "used": used,
-        "settings": list(settings(campaign.processing, campaign.next)),
+        "settings": settings(campaign.processing, "processing") | settings(campaign.next, "next"),
         "references": REFERENCES,
         "software": methods.software(),
         "within": format_percent(WITHIN),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from contextvars import ContextVar
 from functools import cache
 from typing import Any
@@ -12,7 +13,6 @@ from markupsafe import Markup
 
 from colonnade import __version__
 from colonnade.campaign import Campaign
-from colonnade.campaign.settings import Setting
 from colonnade.dynamics.models import MODELS
 from colonnade.errors import count
 from colonnade.figures.files.output import Picture, link_to
@@ -107,11 +107,11 @@ def _environment() -> Environment:
     return environment
 
 
-def _setting(setting: Setting) -> str:
+def _setting(setting: Mapping[str, Any]) -> str:
     """Write a setting's value with its unit."""
-    value = setting.value
+    value = setting["value"]
     if isinstance(value, (list, tuple)):
         return ", ".join(map(str, value))
     if isinstance(value, str):
         return value
-    return f"{value:g} {setting.unit}".rstrip()
+    return f"{value:g} {setting['unit']}".rstrip()
