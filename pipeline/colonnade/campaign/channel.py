@@ -103,17 +103,20 @@ class Channel(Table):
         """Say what is missing or does not fit together."""
         wrong = {} if self.quantity == "other" else self._missing() | self._wrong_sight()
         low, high = fields.CONVERSION
-        for key, derived, least in (
-            ("gain" if self.gain else "unit", "factor", low),
-            ("offset", "offset", 0.0),
-            ("range", "full_scale", 0.0),
+        usual = f"{units.DIMENSIONS[self.dimension or 'length'][1]}/{self.unit}"
+        own_unit = "" if self.gain else f' If this is the recorder\'s own unit, add a gain in "{usual}".'
+        in_recorded = f' A range in the recorded unit, "{self.unit}", is also allowed.'
+        for key, derived, least, hint in (
+            ("gain" if self.gain else "unit", "factor", low, own_unit),
+            ("offset", "offset", 0.0, ""),
+            ("range", "full_scale", 0.0, in_recorded),
         ):
             if {"unit", "gain", "offset"} & set(wrong):
                 break
             try:
                 value = getattr(self, derived) or 0.0
             except UnitError as error:
-                wrong[key] = str(error)
+                wrong[key] = f"{error}{hint}"
                 continue
             if expected := fields.outside(value, (least, high), self.si_unit):
                 wrong[key] = f"It is {value:g} {self.si_unit}. {expected}"
@@ -172,11 +175,7 @@ class Channel(Table):
         recorded = self.unit or ""
         if self.gain is not None or self.dimension is None:
             return units.gain_to_si(self.gain or "1", recorded, self.dimension)
-        try:
-            return units.factor_to_si(recorded, self.dimension)
-        except UnitError as error:
-            example = f"{units.DIMENSIONS[self.dimension][1]}/{recorded}"
-            raise UnitError(f'{error} If this is the recorder\'s own unit, add a gain in "{example}".') from None
+        return units.factor_to_si(recorded, self.dimension)
 
     @cached_property
     def offset(self) -> float:
@@ -204,10 +203,7 @@ class Channel(Table):
             return None
         if self.range_recorded is not None:
             return self.range_recorded * abs(self.factor) + abs(self.offset)
-        try:
-            return abs(self._physical(self.written_range))
-        except UnitError as error:
-            raise UnitError(f'{error} A range in the recorded unit, "{self.unit or ""}", is also allowed.') from None
+        return abs(self._physical(self.written_range))
 
     def _physical(self, text: str) -> float:
         if self.dimension is not None:

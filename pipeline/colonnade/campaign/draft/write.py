@@ -17,8 +17,9 @@ from colonnade.campaign.loading import FILE_NAME
 from colonnade.campaign.setup import Tracking
 from colonnade.campaign.specimen import OUTER_DIMENSIONS, SIZED, Specimen
 from colonnade.campaign.syntax.document import toml_key, toml_value
-from colonnade.errors import CampaignError
+from colonnade.errors import CampaignError, count, quoted
 from colonnade.readers.files import irregular
+from colonnade.units.text import listed
 
 RAW_FOLDERS = ("raw", "data", "rohdaten", "dati", "daten")
 """Names of folders that say nothing about the campaign in them."""
@@ -150,8 +151,9 @@ def _expected(folder: Path) -> Path:
 
 def _told(refused: Sequence[tuple[str, str]]) -> list[str]:
     lines = [f"  {name}: {reason}" for name, reason in refused[:MOST_TOLD]]
-    more = [f"  and {len(refused) - MOST_TOLD} more"] if len(refused) > MOST_TOLD else []
-    return lines + more or ["  It contains only documents. Name the folder with the raw files."]
+    if len(refused) > MOST_TOLD:
+        lines.append(f"  and {len(refused) - MOST_TOLD} more")
+    return lines or ["  It contains only documents. Name the folder with the raw files."]
 
 
 def _asked(lines: Lines) -> tuple[list[str], list[Question]]:
@@ -195,13 +197,14 @@ def written(name: str, setups: Sequence[DraftSetup], refused: Sequence[tuple[str
         files = sum(len(test) for test in tests)
         lines += ["", comment(f"{files} files of {len(setups)} kinds were found."), *_GROUPED]
     for number, each in enumerate(setups, start=1):
+        some = listed([test[MAIN].relative for test in each.tests], 3)
         own = each.lines() + [line for test in each.tests for line in each.test(test, *next(entries))]
         if len(setups) > MOST_SETUPS:
-            lines += ["", comment(f"==== Group {number} of {len(setups)}: {each.some}")]
+            lines += ["", comment(f"==== Group {number} of {len(setups)}: {some}")]
             lines += [f"# {line}".rstrip() for line in own]
         else:
-            how_many = "1 test" if len(each.tests) == 1 else f"{len(each.tests)} tests, all recorded in the same way"
-            lines += ["", comment(f"The set-up of {how_many}: {each.some}"), *own]
+            how_many = count(len(each.tests), "test", "tests, all recorded in the same way")
+            lines += ["", comment(f"The set-up of {how_many}: {some}"), *own]
     if refused:
         lines += ["", comment("Files that are not used:"), *(comment(f"{file}: {why}") for file, why in refused)]
     return lines
@@ -231,12 +234,6 @@ class DraftSetup:
             max(alike, key=lambda column: column.spread if column.spread > 0 else -1.0)
             for alike in zip(*(test[recorder].columns for test in self.tests), strict=True)
         )
-
-    @property
-    def some(self) -> str:
-        """Some of its files."""
-        files = [test[MAIN].relative for test in self.tests]
-        return ", ".join(files[:3]) + (f" … {files[-1]}" if len(files) > 3 else "")
 
     def without_channels(self) -> list[tuple[str, str]]:
         """Give its files with the reason why none of their columns is a channel."""
@@ -273,8 +270,7 @@ class DraftSetup:
         if self.left_out:
             lines += ["", comment("Columns that are left out; to use one, add a table like those above:")]
         for reason, headings in self.left_out.items():
-            some = ", ".join(f'"{heading}"' for heading in headings[:MOST_TOLD])
-            lines.append(comment(f"  {some}{' …' if len(headings) > MOST_TOLD else ''}: {reason}"))
+            lines.append(comment(f"  {listed(list(map(quoted, headings)), MOST_TOLD)}: {reason}"))
         return lines
 
     def _recorder(self, recorder: str) -> Lines:
