@@ -222,9 +222,9 @@ def run(seed: int, number: int, wrong: float, members: int) -> Trial:
     e = drawn.restitution + wrong * (-1) ** (number // 4)
     read = running.EnsembleInputs.of(campaign, test, MODEL)
     changed = {"members": members, "restitution": RESTITUTION_ERROR}
-    read = read.model_copy(update={"settings": read.settings.model_copy(update=changed)})
+    read = read.model_copy(update={"plane": read.plane.model_copy(update=changed)})
     try:
-        bands = running.ensemble(ready, rocked, _specimen(e), read, _identified(rocked, campaign, test))
+        bands = running.ensemble(ready, rocked, read, _specimen(e), identified=_identified(rocked, campaign, test))
     except StageError:
         return Trial(drawn.kind, drawn.outcome, np.nan, np.nan)
     compared = horizons_and_ranks(rocked, {MODEL: bands}, [MODEL], drawn.block)

@@ -137,7 +137,8 @@ def _made_by(fill, files):
     versions = sorted(path.name for path in Path(sysconfig.get_path("purelib")).glob("*.dist-info"))
     digest = sha256(f"{package_hash()} {sys.version} {versions}".encode())
     examples = sorted(path for path in (TESTS.parent / "raw_schema" / "examples").rglob("*") if path.is_file())
-    for path in (*examples, *sorted((TESTS / "helpers").rglob("*.py")), Path(inspect.getfile(fill)), *files):
+    helpers = sorted((TESTS / "helpers").rglob("*.py")) + sorted((TESTS / "helpers").rglob("*.toml"))
+    for path in (*examples, *helpers, Path(inspect.getfile(fill)), *files):
         digest.update(f"{path.name}\n".encode() + path.read_bytes())
     return digest.hexdigest()[:16]
 

@@ -99,7 +99,7 @@ def test_a_template_a_script_or_a_style_changes_the_code_of_the_pages_alone(pack
 
 
 def test_a_change_in_a_reader_makes_no_prediction_anew(package):
-    before = {stage: of(stage) for stage in ("rocking", "restitution", "contact", "predict", "contact_ensemble")}
+    before = {stage: of(stage) for stage in ("rocking", "restitution", "contact", "predict", "ensemble")}
     for path in (package / "readers").rglob("*.py"):
         path.open("a", encoding="utf-8").write("\nONE_MORE = 1\n")
     forget()

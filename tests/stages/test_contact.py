@@ -114,19 +114,19 @@ def shaken_in_space(small_campaign, shaken):
     settings = ContactSettings.model_validate({"step": "50 us", "damping_fraction": 0.3, "penetration": 1e-5})
     space = calibrating.ContactInputs.of(small_campaign, "prism").model_copy(update={"settings": settings})
     ready, rocking = chain.measured(small_campaign, test, shaken[0])
-    read = running.ContactEnsembleInputs.of(small_campaign, test)
+    read = running.EnsembleInputs.of(small_campaign, test, "contact")
     read = read.model_copy(update={"prediction": read.prediction.model_copy(update={"space": space})})
     return ready, rocking, calibrating.contact(SPECIMEN, space), _set(read, members=RUNS)
 
 
 def _set(read, **changes):
     """The same inputs with other settings."""
-    return read.model_copy(update={"settings": read.settings.model_copy(update=changes)})
+    return read.model_copy(update={"contact": read.contact.model_copy(update=changes)})
 
 
 def test_the_bands_lie_about_the_prediction_on_its_clock(shaken_in_space):
     conditioned, rocking, law, read = shaken_in_space
-    bands = running.contact_ensemble(conditioned, rocking, read, law)
+    bands = running.ensemble(conditioned, rocking, read, contact=law)
     predicted = predicting.predict(rocking, SPECIMEN, read.prediction, law)
     np.testing.assert_array_equal(bands["elapsed"], predicted["elapsed"])
     np.testing.assert_array_equal(bands["rocking_angle"], predicted["rocking_angle"])
@@ -141,7 +141,7 @@ def test_the_bands_lie_about_the_prediction_on_its_clock(shaken_in_space):
 def test_inputs_have_the_deviations_of_their_ranges(shaken_in_space):
     conditioned, rocking, law, read = shaken_in_space
     wide = _set(read, friction=0.3, damping_fraction=0.0, out_of_plane=0.002, members=2)
-    bands = running.contact_ensemble(conditioned, rocking, wide, law)
+    bands = running.ensemble(conditioned, rocking, wide, contact=law)
     assert bands["input"].to_numpy().tolist() == ["friction", "out_of_plane"]
     np.testing.assert_allclose(bands["input_deviation"], np.array([0.3, 0.002]) / np.sqrt(3.0))
 
@@ -150,4 +150,4 @@ def test_damping_that_the_step_does_not_follow_is_told(shaken_in_space):
     conditioned, rocking, law, read = shaken_in_space
     stiff = law.assign(contact_stiffness=1e6 * law["contact_stiffness"])
     with pytest.raises(StageError, match=r"contact\.step: The step is"):
-        running.contact_ensemble(conditioned, rocking, read, stiff)
+        running.ensemble(conditioned, rocking, read, contact=stiff)

@@ -30,13 +30,11 @@ def ensemble(small_campaign, results):
         conditioned, measured = found[name]
         read = running.EnsembleInputs.of(small_campaign, small_campaign.tests[name], model)
         settings = {"members": MEMBERS} | {key: value for key, value in changes.items() if key != "measurement"}
-        changed = {"settings": read.settings.model_copy(update=settings)}
-        if "measurement" in changes:
-            measurement = read.measurement.settings.model_copy(update=changes["measurement"])
-            changed["measurement"] = read.measurement.model_copy(update={"settings": measurement})
+        changed = {"plane": read.plane.model_copy(update=settings)}
+        changed["measured"] = read.measured.model_copy(update=changes.get("measurement", {}))
         read = read.model_copy(update=changed)
         measured = measured if rocking is None else rocking
-        return running.ensemble(conditioned, measured, pooled if specimen is None else specimen, read)
+        return running.ensemble(conditioned, measured, read, pooled if specimen is None else specimen)
 
     return run
 

@@ -12,17 +12,18 @@ from numpy.typing import NDArray
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.channel import ALONG
-from colonnade.campaign.settings import ContactEnsembleSettings, PlaneEnsembleSettings
+from colonnade.campaign.settings import ContactEnsembleSettings, MeasurementSettings, PlaneEnsembleSettings
 from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.ensemble import ContactPlan, Range
 from colonnade.dynamics.contact.simulate import plane_block
 from colonnade.dynamics.ensemble import Plan, PlanePlan
-from colonnade.dynamics.models import CONTACT
+from colonnade.dynamics.models import model_of
 from colonnade.dynamics.uncertainty import INPUTS
+from colonnade.identification.response.rank import Measurement
 from colonnade.stages.contact import assembly_law, body_of, law_of, refusals
-from colonnade.stages.parts.beginning import RECORDED, begin
-from colonnade.stages.parts.rank import MeasurementInputs, describe_bands, measurement_errors
+from colonnade.stages.parts.beginning import RECORDED, Beginning, begin
+from colonnade.stages.parts.rank import describe_bands
 from colonnade.stages.parts.transducers import transducers
 from colonnade.stages.predict import PredictInputs, sides
 from colonnade.stages.specimen import centre, spread_of
@@ -39,127 +40,38 @@ class EnsembleInputs(Inputs):
     Attributes
     ----------
     prediction : PredictInputs
-    settings : PlaneEnsembleSettings
-    table : tuple of str
-        Accelerometers of the table along x, by the names of their variables.
-    measurement : MeasurementInputs
+    plane : PlaneEnsembleSettings or None
+        Of a model in the plane.
+    contact : ContactEnsembleSettings or None
+        Half ranges of the contact model's inputs; `members` is a number.
+    measured : MeasurementSettings
+        What is known of the measured angle that the runs are compared with.
+    filter_order : int
+    table, specimen : tuple of str
+        Accelerometers of the table along x and transducers on the specimen, by the names of their variables.
     """
 
     prediction: PredictInputs
-    settings: PlaneEnsembleSettings
+    plane: PlaneEnsembleSettings | None
+    contact: ContactEnsembleSettings | None
+    measured: MeasurementSettings
+    filter_order: int
     table: tuple[str, ...]
-    measurement: MeasurementInputs
+    specimen: tuple[str, ...]
 
     @classmethod
     def of(cls, campaign: Campaign, test: Test, model: str) -> EnsembleInputs:
         """Gather what `ensemble` reads for one test and model."""
-        along = transducers(campaign.channels(test)).accelerations
+        known, settings = transducers(campaign.channels(test)), campaign.ensemble_settings(test.specimen)
+        in_space, members = model_of(model).in_space, {"members": campaign.members(test, model)}
         return cls(
             prediction=PredictInputs.of(campaign, test, model),
-            settings=campaign.ensemble_settings(test.specimen),
-            table=tuple(name for name, direction in along.items() if abs(direction[0]) >= ALONG),
-            measurement=MeasurementInputs.of(campaign, test),
-        )
-
-
-def ensemble(
-    conditioned: xr.Dataset,
-    rocking: xr.Dataset,
-    specimen: xr.Dataset,
-    inputs: EnsembleInputs,
-    identified: xr.Dataset | None = None,
-) -> xr.Dataset:
-    """
-    Run a model many times on the base motion that was recorded, over what is not exactly known.
-
-    Parameters
-    ----------
-    conditioned : xr.Dataset
-        Result of `condition`: noise of the table's accelerometers, cut-offs of all channels.
-    rocking, specimen : xr.Dataset
-        As of `predict`.
-    inputs : EnsembleInputs
-    identified : xr.Dataset, optional
-        As of `predict`.
-
-    Returns
-    -------
-    bands : xr.Dataset
-        `rocking_angle_band` by `quantile` on the record's clock, from where the prediction starts; the
-        `overturning_probability` with its interval; `member_peak_ratio` (NaN if it overturns) and
-        `member_overturning_time`; by `input` its standard deviation and `peak_sensitivity`; what `describe_bands` adds.
-
-    Raises
-    ------
-    StageError
-        As `predict`.
-    """
-    block, settings = centre(specimen, inputs.prediction.block), inputs.settings
-    beginning = begin(rocking, inputs.prediction, identified, block)
-    errors = measurement_errors(conditioned, rocking, beginning, inputs.measurement)
-    is_driven = beginning.driven_by == RECORDED
-    noise, cutoff = _base_noise(conditioned, inputs.table) if is_driven else (0.0, None)
-    plan = PlanePlan(
-        block=block,
-        motion=beginning.motion,
-        restitution=sides(specimen),
-        uncertainty=replace(
-            spread_of(specimen, settings),
-            gain=settings.gain if is_driven else 0.0,
-            clock=settings.clock,
-            noise=noise,
-            cutoff=cutoff,
-            filter=0.0 if cutoff is None else settings.filter,
-            filter_order=inputs.measurement.filter_order,
-            theta0=errors.start_deviation,
-        ),
-        count=settings.members,
-        model=inputs.prediction.model,
-        theta0=beginning.theta0,
-        omega0=beginning.omega0,
-        rest_angle=inputs.prediction.rest_angle,
-    )
-    found = plan.run()
-    deviations = dict(zip(INPUTS, plan.uncertainty.deviations.tolist(), strict=True))
-    starts = found.inputs[:, INPUTS.index("theta0")]
-    bands = describe_bands(rocking, beginning, found, deviations, starts, errors, inputs.measurement)
-    return bands.assign_attrs(model=plan.model, members=plan.count, noise=noise, cutoff_hz=cutoff, warnings=[])
-
-
-def _base_noise(conditioned: xr.Dataset, table: tuple[str, ...]) -> tuple[float, float | None]:
-    """Noise (m/s²) and cut-off (Hz) of the mean of the table's accelerometers; 0 and None without one."""
-    used = [conditioned[name].attrs for name in table if name in conditioned]
-    if not used:
-        return 0.0, None
-    noise = np.array([float(given.get("noise", 0.0)) for given in used])
-    cutoff = min((float(given["cutoff_hz"]) for given in used if "cutoff_hz" in given), default=None)
-    return float(np.sqrt(np.sum(noise**2))) / noise.size, cutoff
-
-
-class ContactEnsembleInputs(Inputs):
-    """
-    What `contact_ensemble` reads of the campaign for one test.
-
-    Attributes
-    ----------
-    prediction : PredictInputs
-    settings : ContactEnsembleSettings
-        Half ranges of the inputs; `members` is a number.
-    measurement : MeasurementInputs
-    """
-
-    prediction: PredictInputs
-    settings: ContactEnsembleSettings
-    measurement: MeasurementInputs
-
-    @classmethod
-    def of(cls, campaign: Campaign, test: Test) -> ContactEnsembleInputs:
-        """Gather what `contact_ensemble` reads for one test."""
-        members = {"members": campaign.members(test, CONTACT.name)}
-        return cls(
-            prediction=PredictInputs.of(campaign, test, CONTACT.name),
-            settings=campaign.processing.predict.ensemble.contact.model_copy(update=members),
-            measurement=MeasurementInputs.of(campaign, test),
+            plane=None if in_space else settings,
+            contact=settings.contact.model_copy(update=members) if in_space else None,
+            measured=settings,
+            filter_order=campaign.processing.filter_order,
+            table=tuple(name for name, axis in known.accelerations.items() if abs(axis[0]) >= ALONG),
+            specimen=known.on_specimen,
         )
 
 
@@ -175,26 +87,29 @@ def all_at_once(plan: Plan, central: Array) -> Parts:
     return [plan.members(central, range(plan.count))]
 
 
-def contact_ensemble(
+def ensemble(
     conditioned: xr.Dataset,
     rocking: xr.Dataset,
-    inputs: ContactEnsembleInputs,
+    inputs: EnsembleInputs,
+    specimen: xr.Dataset | None = None,
     contact: xr.Dataset | None = None,
     identified: xr.Dataset | None = None,
     run: Run = all_at_once,
 ) -> xr.Dataset:
     """
-    Run the contact model many times on the base motion that was recorded, over what is not known of it.
+    Run a model many times on the base motion that was recorded, over what is not exactly known.
 
     Parameters
     ----------
     conditioned : xr.Dataset
-        Result of `condition`: cut-offs of the channels on the specimen.
+        Result of `condition`: noise of the table's accelerometers, cut-offs of all channels.
     rocking : xr.Dataset
         As of `predict`.
-    inputs : ContactEnsembleInputs
+    inputs : EnsembleInputs
+    specimen : xr.Dataset, optional
+        As of `predict`; of a model in the plane.
     contact : xr.Dataset, optional
-        As of `predict`; several bodies have none.
+        As of `predict`, of the contact model; several bodies have none.
     identified : xr.Dataset, optional
         As of `predict`.
     run : callable, optional
@@ -203,18 +118,114 @@ def contact_ensemble(
     Returns
     -------
     bands : xr.Dataset
-        As of `ensemble`. By `input` it has the standard deviation of values that are equally likely in their range; of
-        an assembly by `body` the `body_overturning_probability` and, of the members in which it stands, the quantiles
-        of how far it moved for good, `body_moved_band` (m).
+        `rocking_angle_band` by `quantile` on the record's clock, from where the prediction starts; the
+        `overturning_probability` with its interval; `member_peak_ratio` (NaN if it overturns) and
+        `member_overturning_time`; by `input` its standard deviation (of the contact model that of values that are
+        equally likely in their range) and `peak_sensitivity`; what `describe_bands` adds. Of an assembly by `body` the
+        `body_overturning_probability` and, of the members in which it stands, the quantiles of how far it moved for
+        good, `body_moved_band` (m).
 
     Raises
     ------
     StageError
         As `predict`.
     """
-    beginning = begin(rocking, inputs.prediction, identified)
-    space, ranges, assembled = inputs.prediction.space, inputs.settings, inputs.prediction.assembly
-    assert space is not None  # the contact model's inputs have it
+    prediction, block = inputs.prediction, inputs.prediction.block
+    if specimen is not None:
+        block = centre(specimen, block)
+    beginning = begin(rocking, prediction, identified, block)
+    errors = measurement_errors(conditioned, rocking, beginning, inputs)
+    plan: PlanePlan | ContactPlan
+    if specimen is not None and inputs.plane is not None:
+        plan = _plane_plan(conditioned, specimen, beginning, errors, inputs, inputs.plane)
+        deviations = dict(zip(INPUTS, plan.uncertainty.deviations.tolist(), strict=True))
+        about = {"noise": plan.uncertainty.noise, "cutoff_hz": plan.uncertainty.cutoff}
+    else:
+        plan, about = _contact_plan(contact, beginning, inputs), {}
+        # Relative to the law's; of a tilt as it is.
+        middles = {name: getattr(plan.law, name, 1.0) or 1.0 for name in plan.ranges}
+        deviations = {name: np.ptp(both) / np.sqrt(12.0) / middles[name] for name, both in plan.ranges.items()}
+    with refusals():
+        central = plan.central_angle()
+        parts = run(plan, central)
+    found = plan.gather(central, parts)
+    starts = found.inputs[:, found.names.index("theta0")] if "theta0" in found.names else np.zeros(plan.count)
+    width = inputs.measured.horizon * prediction.block.critical_angle
+    bands = describe_bands(rocking, beginning, found, deviations, starts, errors, prediction.block, width)
+    if isinstance(plan, ContactPlan) and isinstance(plan.body, Assembly):
+        bands = bands.assign(_ends(list(plan.body.bodies), parts, found.levels))
+    return bands.assign_attrs(model=prediction.model, members=plan.count, **about, warnings=[])
+
+
+def measurement_errors(
+    conditioned: xr.Dataset, rocking: xr.Dataset, beginning: Beginning, inputs: EnsembleInputs
+) -> Measurement:
+    """Gather the errors of a measured angle, and of the one that a free vibration starts from."""
+    time = rocking["elapsed"].to_numpy()
+    error = float(rocking["rocking_angle_standard_error"]) if "rocking_angle" in rocking else 0.0
+    drift = float(rocking["rocking_angle_drift"]) / np.sqrt(3) if "rocking_angle" in rocking else 0.0
+    is_integrated = "angle_deviation" in rocking
+    cutoffs = [conditioned[name].attrs.get("cutoff_hz") for name in inputs.specimen if name in conditioned]
+    start = beginning.theta0 if inputs.prediction.free_vibration else None
+    return Measurement(
+        interval=float(time[1] - time[0]),
+        gain=inputs.measured.angle_gain,
+        zero=max(inputs.measured.angle_zero * inputs.prediction.block.critical_angle, drift),
+        noise=0.0 if is_integrated else float(np.sqrt(max(error**2 - drift**2, 0.0))),
+        drift=rocking["angle_deviation"].to_numpy() if is_integrated else np.zeros(time.size),
+        cutoff_hz=min((float(each) for each in cutoffs if each is not None), default=None),
+        filter_order=inputs.filter_order,
+        start=start,
+        start_error=0.0 if start is None else error,
+    )
+
+
+def _plane_plan(
+    conditioned: xr.Dataset,
+    specimen: xr.Dataset,
+    beginning: Beginning,
+    errors: Measurement,
+    inputs: EnsembleInputs,
+    settings: PlaneEnsembleSettings,
+) -> PlanePlan:
+    is_driven = beginning.driven_by == RECORDED
+    noise, cutoff = _base_noise(conditioned, inputs.table) if is_driven else (0.0, None)
+    return PlanePlan(
+        block=centre(specimen, inputs.prediction.block),
+        motion=beginning.motion,
+        restitution=sides(specimen),
+        uncertainty=replace(
+            spread_of(specimen, settings),
+            gain=settings.gain if is_driven else 0.0,
+            clock=settings.clock,
+            noise=noise,
+            cutoff=cutoff,
+            filter=0.0 if cutoff is None else settings.filter,
+            filter_order=inputs.filter_order,
+            theta0=errors.start_deviation,
+        ),
+        count=settings.members,
+        model=inputs.prediction.model,
+        theta0=beginning.theta0,
+        omega0=beginning.omega0,
+        rest_angle=inputs.prediction.rest_angle,
+    )
+
+
+def _base_noise(conditioned: xr.Dataset, table: tuple[str, ...]) -> tuple[float, float | None]:
+    """Noise (m/s²) and cut-off (Hz) of the mean of the table's accelerometers; 0 and None without one."""
+    used = [conditioned[name].attrs for name in table if name in conditioned]
+    if not used:
+        return 0.0, None
+    noise = np.array([float(given.get("noise", 0.0)) for given in used])
+    cutoff = min((float(given["cutoff_hz"]) for given in used if "cutoff_hz" in given), default=None)
+    return float(np.sqrt(np.sum(noise**2))) / noise.size, cutoff
+
+
+def _contact_plan(contact: xr.Dataset | None, beginning: Beginning, inputs: EnsembleInputs) -> ContactPlan:
+    space, ranges, assembled = inputs.prediction.space, inputs.contact, inputs.prediction.assembly
+    assert space is not None  # the contact model's inputs have them
+    assert ranges is not None
     law = assembly_law(space.settings) if contact is None else law_of(contact)
     varied = {
         "friction": _about(law.friction, ranges.friction * law.friction),
@@ -228,7 +239,7 @@ def contact_ensemble(
         body = body_of(space, law)
         block = plane_block(body, space.block.gravity)
         varied["out_of_plane"] = _about(space.settings.out_of_plane, abs(ranges.out_of_plane))
-    plan = ContactPlan(
+    return ContactPlan(
         block=block,
         motion=beginning.motion,
         theta0=beginning.theta0,
@@ -240,18 +251,6 @@ def contact_ensemble(
         misplacement=abs(ranges.misplacement),
         step=space.settings.step,
     )
-    with refusals():
-        central = plan.central_angle()
-        parts = run(plan, central)
-    found = plan.gather(central, parts)
-    middles = {name: getattr(law, name, 1.0) or 1.0 for name in varied}
-    deviations = {name: np.ptp(varied[name]) / np.sqrt(12.0) / middles[name] for name in varied}
-    errors = measurement_errors(conditioned, rocking, beginning, inputs.measurement)
-    starts = np.zeros(plan.count)
-    bands = describe_bands(rocking, beginning, found, deviations, starts, errors, inputs.measurement)
-    if isinstance(body, Assembly):
-        bands = bands.assign(_ends(list(body.bodies), parts, found.levels))
-    return bands.assign_attrs(model=CONTACT.name, members=plan.count, warnings=[])
 
 
 def _ends(bodies: Sequence[str], parts: Parts, levels: Array) -> dict[str, Any]:

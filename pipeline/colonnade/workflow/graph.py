@@ -114,13 +114,11 @@ class Graph:
             if not self.campaign.members(test, model):
                 continue
             result, upstream = ResultId(test.id, "ensemble", model), {**conditioned, **rocking, **own}
+            varied = ensemble.EnsembleInputs.of(self.campaign, test, model)
             if MODELS[model].in_space:
-                in_space = ensemble.ContactEnsembleInputs.of(self.campaign, test)
-                read = upstream | law
-                ensembles.append(self.product(result, in_space, read, _contact_ensemble, where=where))
+                ensembles.append(self.product(result, varied, upstream | law, _in_blocks, where=where))
             else:
-                in_plane = ensemble.EnsembleInputs.of(self.campaign, test, model)
-                ensembles.append(self.product(result, in_plane, upstream | specimen, ensemble.ensemble))
+                ensembles.append(self.product(result, varied, upstream | specimen, ensemble.ensemble))
         predicted = [*predictions, *ensembles]
         upstream = rocking | {str(product.id): product.result for product in predicted}
         compared = ResultId(test.id, "compare")
@@ -180,13 +178,13 @@ def _made(
     return work(inputs=inputs, **upstream, **run)
 
 
-def _contact_ensemble(*, run: Run, **read: Any) -> xr.Dataset:
+def _in_blocks(*, run: Run, **read: Any) -> xr.Dataset:
     from colonnade.stages import ensemble
 
     def members(plan: Plan, central: Array) -> list[Arrays]:
         return run(partial(plan.members, central), blocks_of(plan.count))
 
-    return ensemble.contact_ensemble(**read, run=members)
+    return ensemble.ensemble(**read, run=members)
 
 
 def _ingest(folder: Path, paths: Mapping[str, Path], raw: RawFiles, *, inputs: IngestInputs) -> xr.Dataset:

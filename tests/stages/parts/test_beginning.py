@@ -60,8 +60,8 @@ def bands(small_campaign, specimen):
 
     def run(ready, rocking, model, members, free=None):
         read = running.EnsembleInputs.of(small_campaign, small_campaign.tests["free-01"], model)
-        read = read.model_copy(update={"settings": read.settings.model_copy(update={"members": members})})
-        return running.ensemble(ready, rocking, specimen, read, free)
+        read = read.model_copy(update={"plane": read.plane.model_copy(update={"members": members})})
+        return running.ensemble(ready, rocking, read, specimen, identified=free)
 
     return run
 

@@ -12,7 +12,7 @@ from colonnade.dynamics.kinematics import pole_position
 from colonnade.stages.compare import CompareInputs
 from colonnade.stages.condition import ConditionInputs
 from colonnade.stages.contact import ContactInputs
-from colonnade.stages.ensemble import ContactEnsembleInputs, EnsembleInputs
+from colonnade.stages.ensemble import EnsembleInputs
 from colonnade.stages.ingest import IngestInputs
 from colonnade.stages.parts.transducers import outline, transducers
 from colonnade.stages.predict import PredictInputs
@@ -54,7 +54,7 @@ def _inputs(campaign):
         "predict": PredictInputs.of(campaign, test, "linear"),
         "predict contact": PredictInputs.of(campaign, test, "contact"),
         "ensemble": EnsembleInputs.of(campaign, test, "linear"),
-        "ensemble contact": ContactEnsembleInputs.of(campaign, test),
+        "ensemble contact": EnsembleInputs.of(campaign, test, "contact"),
     }
     for inputs in (IngestInputs, ConditionInputs, RockingInputs, RestitutionInputs, CompareInputs):
         read[inputs.__name__.removesuffix("Inputs").lower()] = inputs.of(campaign, test)

@@ -11,9 +11,11 @@ from colonnade.dynamics.ensemble import LEVELS, Ensemble
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.uncertainty import INPUTS
 from colonnade.identification.response.rank import FEWEST
+from colonnade.stages.ensemble import EnsembleInputs, measurement_errors
 from colonnade.stages.parts import rank as ranking
 from colonnade.stages.parts.beginning import Beginning
-from colonnade.stages.parts.rank import MeasurementInputs, describe_bands, measurement_errors
+from colonnade.stages.parts.rank import describe_bands
+from colonnade.stages.predict import PredictInputs
 from every import every
 from prism import PRISM
 
@@ -25,9 +27,16 @@ FIRST = 50
 SWING = 0.3 * ALPHA * np.sin(2 * np.pi * 2 * (TIME - TIME[0]))
 
 
-def inputs(horizon=0.2, **changes):
-    settings = MeasurementSettings(angle_gain=0.005, angle_zero=5e-4, horizon=horizon)
-    return MeasurementInputs(block=PRISM, settings=settings, filter_order=4, channels=("top", "bottom"), **changes)
+def inputs(free_vibration=False):
+    return EnsembleInputs(
+        prediction=PredictInputs(block=PRISM, free_vibration=free_vibration, model="linear", rest_angle=1e-6),
+        plane=None,
+        contact=None,
+        measured=MeasurementSettings(angle_gain=0.005, angle_zero=5e-4),
+        filter_order=4,
+        table=(),
+        specimen=("top", "bottom"),
+    )
 
 
 BEGINNING = Beginning(FIRST, 0.0, 0.0, np.zeros(TIME.size), Motion(np.zeros(TIME.size - FIRST), STEP))
@@ -127,7 +136,7 @@ def ranked(measured=None, found=None, *, offset=0.0, horizon=0.2):
     found = ensemble() if found is None else found
     beginning = replace(BEGINNING, zero_offset=offset)
     starts = np.zeros(found.peak_ratio.size)
-    return describe_bands(measured, beginning, found, DEVIATIONS, starts, errors_of(measured), inputs(horizon))
+    return describe_bands(measured, beginning, found, DEVIATIONS, starts, errors_of(measured), PRISM, horizon * ALPHA)
 
 
 def test_bands_have_the_clock_of_the_record_from_the_beginning_on():

@@ -8,77 +8,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.campaign import Campaign, Test
-from colonnade.campaign.settings import MeasurementSettings
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.ensemble import Ensemble
 from colonnade.dynamics.history import amplitude, capped
 from colonnade.identification.response.rank import Measurement, as_measured, distances, rank
 from colonnade.stages.parts.beginning import Beginning
-from colonnade.stages.parts.transducers import transducers
-from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr
 
 SEED = 22
 """Of the measurement errors of the runs; they are the same in every run of the stage."""
-
-
-class MeasurementInputs(Inputs):
-    """
-    What is known of the measured angle that the runs of a model are compared with.
-
-    Attributes
-    ----------
-    block : Block
-    settings : MeasurementSettings
-    filter_order : int
-    channels : tuple of str
-        Transducers on the specimen, by the names of their variables.
-    free_vibration : bool
-        Whether the model starts from the measured angle.
-    """
-
-    block: Block
-    settings: MeasurementSettings
-    filter_order: int
-    channels: tuple[str, ...]
-    free_vibration: bool = False
-
-    @classmethod
-    def of(cls, campaign: Campaign, test: Test) -> MeasurementInputs:
-        """Gather it for one test."""
-        return cls(
-            block=campaign.block(test.specimen),
-            settings=campaign.ensemble_settings(test.specimen),
-            filter_order=campaign.processing.filter_order,
-            channels=transducers(campaign.channels(test)).on_specimen,
-            free_vibration=test.kind == "free-vibration",
-        )
-
-
-def measurement_errors(
-    conditioned: xr.Dataset, rocking: xr.Dataset, beginning: Beginning, inputs: MeasurementInputs
-) -> Measurement:
-    """Gather the errors of a measured angle, and of the one that a free vibration starts from."""
-    time = rocking["elapsed"].to_numpy()
-    error = float(rocking["rocking_angle_standard_error"]) if "rocking_angle" in rocking else 0.0
-    drift = float(rocking["rocking_angle_drift"]) / np.sqrt(3) if "rocking_angle" in rocking else 0.0
-    is_integrated = "angle_deviation" in rocking
-    cutoffs = [conditioned[name].attrs.get("cutoff_hz") for name in inputs.channels if name in conditioned]
-    start = beginning.theta0 if inputs.free_vibration else None
-    return Measurement(
-        interval=float(time[1] - time[0]),
-        gain=inputs.settings.angle_gain,
-        zero=max(inputs.settings.angle_zero * inputs.block.critical_angle, drift),
-        noise=0.0 if is_integrated else float(np.sqrt(max(error**2 - drift**2, 0.0))),
-        drift=rocking["angle_deviation"].to_numpy() if is_integrated else np.zeros(time.size),
-        cutoff_hz=min((float(each) for each in cutoffs if each is not None), default=None),
-        filter_order=inputs.filter_order,
-        start=start,
-        start_error=0.0 if start is None else error,
-    )
 
 
 def describe_bands(
@@ -88,7 +28,8 @@ def describe_bands(
     deviations: Mapping[str, float],
     starts: Array,
     errors: Measurement,
-    inputs: MeasurementInputs,
+    block: Block,
+    width: float,
 ) -> xr.Dataset:
     """
     Put the bands of an ensemble into a dataset, and compare the measured angle with the runs.
@@ -106,7 +47,9 @@ def describe_bands(
         By how much each run began above the measured start, rad.
     errors : Measurement
         Of the measured angle, see `measurement_errors`.
-    inputs : MeasurementInputs
+    block : Block
+    width : float
+        rad, of the band at which a prediction is no longer meaningful.
 
     Returns
     -------
@@ -123,7 +66,7 @@ def describe_bands(
     start = float(time[0])
     low, high = found.overturning_interval()
     sensitivity = found.sensitivity()
-    horizon = found.horizon(inputs.settings.horizon * inputs.block.critical_angle) + start
+    horizon = found.horizon(width) + start
     bands = xr.Dataset(
         {
             "rocking_angle": ("elapsed", found.central),
@@ -142,11 +85,11 @@ def describe_bands(
     if "rocking_angle" not in rocking:
         return bands
     angle = rocking["rocking_angle"].to_numpy()[first::stride] - beginning.zero_offset
-    measured = capped(time, angle / beginning.angle_gain, float(rocking["overturning_time"]), inputs.block)
+    measured = capped(time, angle / beginning.angle_gain, float(rocking["overturning_time"]), block)
     thinned = errors.thinned(first, stride)
     recorded = as_measured(found.histories, starts[: len(found.histories)], thinned, np.random.default_rng(SEED))
     falls = np.isfinite(found.overturning_time[: len(recorded)])
-    peaks = amplitude(recorded, inputs.block).max(axis=1)
+    peaks = amplitude(recorded, block).max(axis=1)
     bands = bands.assign(judged_peak_ratio=("judged_member", np.where(falls, np.nan, peaks)))
     seen = time <= horizon
     compared = distances(measured[seen], recorded[:, seen])
