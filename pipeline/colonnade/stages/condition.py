@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from colonnade.findings import Finding
 from colonnade.signals.alignment import Offset
 from colonnade.signals.filters import default_lowpass
 from colonnade.signals.record import on_clock, smoothed
+from colonnade.signals.rest import RestWindow, find_rest
 from colonnade.stages.parts.clocks import (
     TOGETHER,
     ChannelOnClock,
@@ -24,7 +26,7 @@ from colonnade.stages.parts.clocks import (
     recorder_offsets,
 )
 from colonnade.stages.parts.plausibility import PlausibilityInputs, doubts, zero_effects
-from colonnade.stages.parts.zeroing import rest_window, zeroed
+from colonnade.stages.parts.zeroing import find_zero_error, zeroed
 from colonnade.store.description import variable_name
 from colonnade.store.provenance import Inputs
 
@@ -132,18 +134,7 @@ def condition(recorded: xr.Dataset, inputs: ConditionInputs) -> xr.Dataset:
         }
         attributes[name].pop("quality_report", None)
 
-    effects = zero_effects(inputs.plausibility)
-    window = rest_window(
-        clock,
-        values,
-        attributes,
-        channels,
-        zero=inputs.zero,
-        free_vibration=inputs.free_vibration,
-        duration=inputs.settings.rest_duration,
-        effects={name: effects[variable_name(name)] for name in values if variable_name(name) in effects},
-        warnings=warnings,
-    )
+    window = _rest_window(clock, values, {name: attributes[name]["noise"] for name in values}, inputs, warnings)
     variables: dict[str, Any] = {}
     for name in records:
         true: Array | None = values[name]
@@ -154,6 +145,42 @@ def condition(recorded: xr.Dataset, inputs: ConditionInputs) -> xr.Dataset:
             variables[f"{variable_name(name)}_quality"] = ("elapsed", flags[name])
     conditioned = xr.Dataset(variables, coords={"elapsed": ("elapsed", clock)})
     return conditioned.assign_attrs(warnings=warnings + doubts(conditioned, inputs.plausibility))
+
+
+def _rest_window(
+    clock: Array,
+    values: Mapping[str, Array],
+    noises: Mapping[str, float],
+    inputs: ConditionInputs,
+    warnings: list[Finding],
+) -> RestWindow | None:
+    """
+    Find where the specimen is at its true rest: of a free vibration at the end, of all others at the start.
+
+    None if no zero is wanted. How far the zero may be off is added to the warnings, where that matters.
+    """
+    if inputs.zero == "none":
+        return None
+    if not isinstance(inputs.zero, str):
+        return RestWindow(*inputs.zero, quiet=True)
+    is_free = inputs.free_vibration
+    end = inputs.zero == "end" or (inputs.zero == "auto" and is_free)
+    # Positions and the table show whether all stands still, or else the transducers on the specimen.
+    own = {name: inputs.channels[name] for name in values}
+    steady = [
+        name
+        for name, channel in own.items()
+        if channel.quantity in ("displacement", "angle")
+        or (channel.quantity == "acceleration" and channel.on == "table" and not is_free)
+    ]
+    moving = [name for name, channel in own.items() if channel.quantity in ("acceleration", "angular_velocity")]
+    shown = {name: (values[name], float(noises[name])) for name in steady or moving}
+    window = find_rest(clock, shown, end=end, duration=inputs.settings.rest_duration)
+    if not window.quiet:
+        effects = zero_effects(inputs.plausibility)
+        known = {name: effects[variable_name(name)] for name in values if variable_name(name) in effects}
+        warnings += find_zero_error(clock, values, known, window, free_vibration=is_free)
+    return window
 
 
 def _resting(channel: Channel, gravity: float) -> float:

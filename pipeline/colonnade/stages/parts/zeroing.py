@@ -1,4 +1,4 @@
-"""The zero of each channel: from its rest or as the campaign file says, and how far off it may be."""
+"""The zero of each channel, taken where it is at rest, and how far off it may be."""
 
 from __future__ import annotations
 
@@ -11,55 +11,10 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.errors import StageError
 from colonnade.findings import MEASUREMENT, Finding, serious, warning
-from colonnade.signals.rest import RestWindow, find_rest
-from colonnade.stages.parts.clocks import ChannelOnClock
+from colonnade.signals.rest import RestWindow
 
 COUPLED = 0.08
 """Of gravity; an accelerometer that shows less than this of its part at rest does not sense what does not change."""
-
-
-def rest_window(
-    clock: Array,
-    values: Mapping[str, Array],
-    attributes: Mapping[str, Mapping[str, Any]],
-    channels: Mapping[str, ChannelOnClock],
-    *,
-    zero: str | tuple[float, float],
-    free_vibration: bool,
-    duration: float,
-    effects: Mapping[str, Effect],
-    warnings: list[Finding],
-) -> RestWindow | None:
-    """
-    Find the window of the true rest state: of a free vibration the end, of all others the start.
-
-    Values (SI), attributes with their `noise`, what is known and the effects of their zeros are by channel; `zero` is
-    "auto", "start", "end", "none" or a stretch (s), and None is returned if no zero is wanted. How far the zero may be
-    off is added to the warnings, where that matters.
-    """
-    if zero == "none":
-        return None
-    if not isinstance(zero, str):
-        return RestWindow(*zero, quiet=True)
-    end = zero == "end" or (zero == "auto" and free_vibration)
-    shown = _showing_rest({name: channels[name] for name in values}, free_vibration=free_vibration)
-    noises = {name: (values[name], float(attributes[name]["noise"])) for name in shown}
-    window = find_rest(clock, noises, end=end, duration=duration)
-    if not window.quiet:
-        warnings += find_zero_error(clock, values, effects, window, free_vibration=free_vibration)
-    return window
-
-
-def _showing_rest(channels: Mapping[str, ChannelOnClock], *, free_vibration: bool) -> list[str]:
-    """Channels that show whether all stands still: positions and the table, or else the transducers on the specimen."""
-    steady = [
-        name
-        for name, channel in channels.items()
-        if channel.quantity in ("displacement", "angle")
-        or (channel.quantity == "acceleration" and channel.on == "table" and not free_vibration)
-    ]
-    moving = ("acceleration", "angular_velocity")
-    return steady or [name for name, channel in channels.items() if channel.quantity in moving]
 
 
 def zeroed(
@@ -124,31 +79,26 @@ MOST_WINDOWS = 10_000
 
 
 class Effect(NamedTuple):
-    """What an error of a channel's zero does to a result, which is compared with a scale."""
+    """What an error of a channel's zero does to a result, of which an error up to `largest` is not reported."""
 
     result: str
     factor: float
     unit: str
     scale: float
     of_scale: str
-    share: float
-
-    @property
-    def largest(self) -> float:
-        """Largest error of the result that is not reported."""
-        return self.scale * self.share
+    largest: float
 
 
 def on_angle(lever: float, block: Block) -> Effect:
     """Effect of a transducer on the specimen with this lever (m; 1 of an inclinometer) on the rocking angle."""
-    of_scale = "the critical angle"
-    return Effect("rocking angle", 1 / abs(lever), "rad", block.critical_angle, of_scale, LARGEST_ANGLE)
+    scale = block.critical_angle
+    return Effect("rocking angle", 1 / abs(lever), "rad", scale, "the critical angle", LARGEST_ANGLE * scale)
 
 
 def on_base(along: float, block: Block) -> Effect:
     """Effect of a table accelerometer with this part of its direction along x on the base acceleration."""
     scale, of_scale = block.uplift_acceleration, "the acceleration that uplifts the specimen"
-    return Effect("base acceleration", 1 / abs(along), "m/s²", scale, of_scale, LARGEST_ACCELERATION)
+    return Effect("base acceleration", 1 / abs(along), "m/s²", scale, of_scale, LARGEST_ACCELERATION * scale)
 
 
 def find_zero_error(
