@@ -111,7 +111,6 @@ def simulate(
     *,
     restitution: float,
     theta0: float = 0.0,
-    omega0: float = 0.0,
     release: float = 0.0,
     catch: float = pi / 2,
 ) -> Truth:
@@ -127,8 +126,8 @@ def simulate(
         Default: a table that stands still.
     restitution : float
         e of every impact.
-    theta0, omega0 : float, optional
-        Angle at which the block is held until `release` (s), and angular velocity with which it leaves, rad and rad/s.
+    theta0 : float, optional
+        Angle at which the block is held until `release` (s), rad.
     catch : float, optional
         |θ| at which the safety frame catches the block, which then stays there, rad; more than |theta0|.
 
@@ -138,14 +137,12 @@ def simulate(
     """
     run = Integration(block, np.atleast_1d(np.asarray(time, dtype=np.float64)), restitution, catch, theta0)
     run.move_to(release)
-    run.release(theta0, omega0)
+    run.release(theta0, 0.0)
     for start, stop, acceleration in _pieces(table or still(), release, float(run.time[-1])):
         run.go(start, stop, acceleration)
         if run.caught:
             break
-    overturning_time = run.passed if np.isfinite(run.passed) or run.stands_when_left_alone() else run.now
-    impact_times, impact_velocities = np.array(run.impact_times), np.array(run.impact_velocities)
-    return Truth(block, run.time, run.angles, impact_times, impact_velocities, overturning_time)
+    return Truth(block, run.time, run.angles, np.array(run.impact_times), np.array(run.impact_velocities), run.passed)
 
 
 def _pieces(table: TableMotion, start: float, stop: float) -> list[tuple[float, float, Acceleration]]:
@@ -211,19 +208,6 @@ class Integration:
                 self._rest(stop, acceleration)
             else:
                 self._rock(stop, acceleration)
-
-    def stands_when_left_alone(self) -> bool:
-        """Whether the block, if it is below α now, would come to rest on a table that stands still."""
-        if self.resting:
-            return True
-        # Twice the energy over I₀ p², less its value on top of the barrier.
-        barrier = 2 * (1 - cos(self.geometry.critical_angle))
-        surplus = (self.velocity / self.p) ** 2 - 2 * (1 - cos(self.geometry.critical_angle - self.side * self.angle))
-        if self.side * self.velocity > 0.0 and surplus > 0.0:
-            return False
-        after_impact = self.restitution**2 * (surplus + barrier) * self.p**2
-        there = self.block.negative if self.side > 0 else self.block.positive
-        return after_impact <= 2 * (1 - cos(there.critical_angle)) * self.block.side_p(there) ** 2
 
     def _stand_on(self, side: float) -> None:
         self.side = side
