@@ -16,7 +16,6 @@ from colonnade.errors import ReadError, StageError
 from colonnade.findings import Severity
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.signals.quality import Flag
-from colonnade.signals.rest import RestWindow
 from colonnade.stages.ingest import (
     IngestInputs,
     channel_verdicts,
@@ -27,10 +26,8 @@ from colonnade.stages.ingest import (
     reviewed,
     unit_findings,
 )
-from colonnade.stages.parts.zeroing import find_zero_error, on_angle
 from colonnade.store.description import describe
 from every import every
-from prism import PRISM
 
 
 def _changed(recordings, *names, **changes):
@@ -70,32 +67,14 @@ def test_planted_faults_are_flagged_and_told_and_nothing_is_overwritten(small_ca
         assert words in told
 
 
-def test_the_window_of_a_test_is_cut_out(small_campaign, free_vibration):
-    test = small_campaign.tests["free-01"].model_copy(update={"window": (2.0, 5.0)})
-    recorded = ingested(small_campaign, test, free_vibration[0])
-    assert float(recorded["elapsed"][0]) == 2.0
-    assert float(recorded["elapsed"][-1]) == 5.0
-
-
-def test_a_window_beside_the_record_is_refused(small_campaign, free_vibration):
-    test = small_campaign.tests["free-01"].model_copy(update={"window": (50.0, 60.0)})
+def test_the_window_of_a_test_is_cut_out_and_has_to_hold_samples(small_campaign, free_vibration):
+    inside, beside = (
+        small_campaign.tests["free-01"].model_copy(update={"window": window}) for window in ((2.0, 5.0), (50.0, 60.0))
+    )
+    clock = ingested(small_campaign, inside, free_vibration[0])["elapsed"]
+    assert (float(clock[0]), float(clock[-1])) == (2.0, 5.0)
     with pytest.raises(StageError, match="no sample between 50 and 60 s"):
-        ingested(small_campaign, test, free_vibration[0])
-
-
-def test_a_file_without_a_clock_needs_a_sampling_rate(small_campaign, free_vibration):
-    clockless = _changed(free_vibration[0], time=None)
-    with pytest.raises(StageError, match="sampling_rate"):
-        ingested(small_campaign, "free-01", clockless)
-    recorded = ingested(small_campaign, "free-01", clockless, sampling_rates={"main": 250.0})
-    assert float(recorded["elapsed"][1]) == 0.004
-
-
-def test_channels_with_other_times_get_a_clock_of_their_own(small_campaign, free_vibration):
-    recordings, time, _, _ = free_vibration
-    recorded = ingested(small_campaign, "free-01", _changed(recordings, "ACC", time=time + 0.001))
-    assert recorded["table_acceleration"].dims == ("elapsed_table_acceleration",)
-    assert recorded["top"].dims == ("elapsed",)
+        ingested(small_campaign, beside, free_vibration[0])
 
 
 def test_channels_never_share_a_row_because_they_share_an_index(small_campaign, free_vibration):
@@ -203,13 +182,14 @@ def test_a_clock_that_goes_back_at_rest_is_a_warning(small_campaign, free_vibrat
 
 
 def test_the_time_of_the_file_is_kept_and_another_day_is_a_warning(small_campaign, free_vibration):
-    recordings, test = free_vibration[0], small_campaign.tests["free-01"]
-    assert ingested(small_campaign, test, recordings).attrs["recorded_at"] == ""
-    start = datetime(2013, 4, 26, 10, 15, tzinfo=timezone(timedelta(hours=3)))
-    dated = {"main": replace(recordings["main"], start=start)}
-    told = ingested(small_campaign, test.model_copy(update={"date": date(2013, 4, 27)}), dated).attrs
+    recordings = {"main": replace(free_vibration[0]["main"], start=TEN.replace(tzinfo=ATHENS))}
+    test = small_campaign.tests["free-01"].model_copy(update={"date": date(2013, 4, 27)})
+    told = ingested(small_campaign, test, recordings).attrs
     assert told["recorded_at"] == "2013-04-26 10:15:00+03:00"
-    assert [found.kind for found in told["warnings"]] == ["date"]
+    (found,) = told["warnings"]
+    assert (found.kind, found.severity) == ("date", "warning")
+    assert "was recorded on 2013-04-26" in found.text
+    assert "gives the date 2013-04-27" in found.text
 
 
 VALUES = np.array([4.0, 5.0, 6.0])
@@ -227,10 +207,6 @@ RECORDING = Recording(
 
 def channel(**changes):
     return plain_channel("displacement", **{"column": "Timed", "unit": "mm", "factor": 1e-3} | changes)
-
-
-def test_a_column_has_the_clock_of_its_file():
-    assert find_column(RECORDING, "top", channel(), None) is RECORDING.channels[1]
 
 
 @every("column", ["Timed", "Untimed"])
@@ -276,28 +252,26 @@ def test_a_letter_that_the_campaign_file_takes_for_a_label_is_not_told():
     assert unit_findings(RECORDING, bracketed, "top", channel(unit="g")) != []
 
 
-@every(("of_file", "of_campaign"), [("cm", "mm"), ("mV", "V"), ("g", "m/s^2")])
-def test_units_that_differ_are_serious_and_both_are_shown(of_file, of_campaign):
-    expected = "channel top: free-01.csv", f'"{of_file}"', f'"{of_campaign}"', '"Top left"'
-    assert_unit_finding(Severity.SERIOUS, expected, of_file, unit=of_campaign)
+SERIOUS, NOTED = (Severity.SERIOUS, ()), (Severity.NOTE, ("unit (V) and gain (10 mm/V) were used",))
 
 
-def assert_unit_finding(severity, words, of_file, **of_campaign):
+@every(
+    ("of_file", "of_campaign", "gain", "told"),
+    [
+        ("cm", "mm", None, SERIOUS),
+        ("mV", "V", None, SERIOUS),
+        ("g", "m/s^2", None, SERIOUS),
+        ("counts", "mm", None, SERIOUS),
+        ("mV", "V", "10 mm/V", SERIOUS),
+        *((own, "V", "10 mm/V", NOTED) for own in ("counts", "LSB", "Einheiten", "1")),
+    ],
+)
+def test_units_that_differ_are_serious_unless_a_recorders_own_is_explained(of_file, of_campaign, gain, told):
     column = RecordedChannel("Top", of_file, VALUES, heading="Top left")
-    (finding,) = unit_findings(RECORDING, column, "top", channel(**of_campaign))
-    assert (finding.kind, finding.severity) == ("unit", severity)
+    (finding,) = unit_findings(RECORDING, column, "top", channel(unit=of_campaign, gain=gain))
+    assert (finding.kind, finding.severity) == ("unit", told[0])
+    words = "channel top: free-01.csv", f'"{of_file}"', '"Top left"', *told[1]
     assert [each for each in words if each not in finding.text] == []
-
-
-@every("own", ["counts", "LSB", "Einheiten", "1"])
-def test_a_recorders_own_unit_is_noted_where_the_campaign_file_explains_it(own):
-    expected = f'"{own}"', '"Top left"', "unit (V) and gain (10 mm/V) were used"
-    assert_unit_finding(Severity.NOTE, expected, own, unit="V", gain="10 mm/V")
-
-
-def test_counts_taken_for_millimetres_and_another_known_unit_stay_serious():
-    assert_unit_finding(Severity.SERIOUS, (), "counts", unit="mm")
-    assert_unit_finding(Severity.SERIOUS, (), "mV", unit="V", gain="10 mm/V")
 
 
 def test_a_channel_is_on_the_clock_of_its_recorder_or_its_own():
@@ -321,11 +295,6 @@ HOLED = np.array([0.0, np.nan, 1.0])
 )
 def test_channels_share_a_dimension_only_with_the_same_times(known, time, dimension):
     assert dimension_of({"elapsed": known}, time, "top", channel()) == dimension
-
-
-def test_a_dimension_that_is_taken_by_other_times_is_never_given_twice():
-    known = {"elapsed": FILE_TIME + 1, "elapsed_top": FILE_TIME + 2}
-    assert dimension_of(known, FILE_TIME, "top", channel()) not in known
 
 
 TIME = np.arange(0.0, 10.0, 0.01)
@@ -375,13 +344,6 @@ def test_a_file_without_a_date_says_nothing():
     assert contradictions(recorded(None), date(2013, 4, 26)) == []
 
 
-def test_a_file_of_another_day_is_a_warning_with_both_dates():
-    (found,) = contradictions(recorded(TEN, TEN + timedelta(days=3)), date(2013, 4, 26))
-    assert (found.kind, found.severity) == ("date", "warning")
-    assert "1.csv was recorded on 2013-04-29" in found.text
-    assert "gives the date 2013-04-26" in found.text
-
-
 @given(st.datetimes(datetime(1990, 1, 1), datetime(2090, 1, 1)), st.integers(-12, 14))
 def test_no_laboratory_on_earth_is_warned_of_a_file_in_utc_of_its_own_day(wall, hours):
     start = wall.replace(tzinfo=timezone(timedelta(hours=hours))).astimezone(UTC)
@@ -409,13 +371,3 @@ def test_a_test_late_in_a_long_file_has_its_own_time():
     assert recorded_at(recorded(night), 3600.0) == "2013-04-26 00:30:00, no time zone recorded"
     assert contradictions(recorded(night), date(2013, 4, 26), 3600.0) == []
     assert len(contradictions(recorded(night), date(2013, 4, 25), 3600.0)) == 1
-
-
-def test_a_drift_is_reported_in_radians_with_a_stretch_without_it():
-    lever, window = 0.4, RestWindow(0.0, 1.0, quiet=False)
-    drifts = {"top": 0.002 * np.minimum(TIME, 1.0)}  # m, in the first second
-    (found,) = find_zero_error(TIME, drifts, {"top": on_angle(lever, PRISM)}, window, free_vibration=False)
-    error = 0.002 * 3 / 8 / lever  # from the mean of the last quarter to that of the window
-    assert f"uncertain by {error:.2g} rad" in found.text
-    assert 'zero = ["1' in found.text
-    assert found.severity == "warning"

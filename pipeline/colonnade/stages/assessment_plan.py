@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -26,7 +25,7 @@ from colonnade.campaign.forms.assessed import UNCORRECTED
 from colonnade.campaign.settings import ContactSettings, PlaneEnsembleSettings
 from colonnade.dynamics.assembly import Assembly, Placed
 from colonnade.dynamics.block import Block, Side, Sided, pair
-from colonnade.dynamics.size import at_prototype
+from colonnade.dynamics.size import EXPONENTS
 from colonnade.dynamics.uncertainty import member_block
 from colonnade.errors import StageError, count
 from colonnade.readers.ground_motions.record_set import RecordSet
@@ -89,20 +88,19 @@ def real_column(inputs: ColumnInputs, pooled: xr.Dataset) -> tuple[RealColumn, s
 
 def _enlarged(block: Block, scale: float) -> Block:
     """Enlarge a model of the same material; angles stay, lengths, mass and inertia grow."""
-    length, inertia = (partial(at_prototype, quantity, scale=scale) for quantity in ("length", "inertia"))
+    inertia = scale ** EXPONENTS["inertia"]
     negative, positive = (
-        Side(each.critical_angle, length(value=each.pole_distance), inertia(value=each.inertia))
-        for each in (block.negative, block.positive)
+        Side(each.critical_angle, scale * each.pole_distance, inertia * each.inertia) for each in block.sides
     )
     solid = block.solid and replace(
         block.solid,
-        half_depth=length(value=block.solid.half_depth),
-        height=length(value=block.solid.height),
-        top=(length(value=block.solid.top[0]), length(value=block.solid.top[1])),
-        inertia_x=inertia(value=block.solid.inertia_x),
-        inertia_z=inertia(value=block.solid.inertia_z),
+        half_depth=scale * block.solid.half_depth,
+        height=scale * block.solid.height,
+        top=(scale * block.solid.top[0], scale * block.solid.top[1]),
+        inertia_x=inertia * block.solid.inertia_x,
+        inertia_z=inertia * block.solid.inertia_z,
     )
-    mass = at_prototype("mass", block.mass, scale)
+    mass = scale ** EXPONENTS["mass"] * block.mass
     return replace(block, mass=mass, negative=negative, positive=positive, solid=solid)
 
 
