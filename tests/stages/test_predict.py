@@ -124,11 +124,3 @@ def test_motion_across_is_left_out_and_told_where_it_is_not_small(small_campaign
     warnings = chain.predicted(small_campaign, "shake-01", across, pooled).attrs["warnings"]
     assert len(warnings) == bool(told)
     assert told in " ".join(map(str, warnings))
-
-
-def test_an_ensemble_is_driven_by_the_vertical_motion_too(shaken_upwards, rocked):
-    campaign, _, _ = shaken_upwards
-    vertical = 0.2 * rocked["shake-01"]["base_acceleration"]
-    read = PredictInputs.of(campaign, campaign.tests["shake-01"], "linear")
-    beginning = begin(rocked["shake-01"].assign({VERTICAL: vertical}), read)
-    np.testing.assert_array_equal(beginning.motion.vertical, vertical)

@@ -129,16 +129,12 @@ SETS = {
 
 
 @pytest.mark.parametrize("names", SETS.values(), ids=SETS)
-def test_the_angle_under_a_base_motion_is_the_true_one(names, shaken, measure):
+def test_the_angle_under_a_base_motion_and_of_a_free_vibration_is_the_true_one(names, shaken, measure):
     _, time, angle, _ = shaken
     result, error = measure(*names)
     assert _rms(error) < 4e-3
     assert result.attrs["outcome"] == "rocking"
     assert float(result["peak_time"]) == pytest.approx(time[np.argmax(np.abs(angle))], abs=0.01)
-
-
-@pytest.mark.parametrize("names", SETS.values(), ids=SETS)
-def test_the_angle_of_a_free_vibration_is_the_true_one(names, measure):
     result, error = measure(*names, motion="free_vibration")
     # The release, at 1 s, is a step that the filter rounds.
     assert _rms(error[np.abs(error["elapsed"] - 1.0) > 0.05]) < 4e-3

@@ -122,13 +122,9 @@ def test_a_stored_result_of_the_same_campaign_gives_itself(tests):
     xr.testing.assert_identical(taken(stored, inputs()), stored)
 
 
-@pytest.mark.parametrize("now", [inputs(0.8), inputs(level=0.5)], ids=["given", "level"])
-def test_a_stored_result_follows_the_campaign_of_now(now):
-    xr.testing.assert_identical(taken(specimen(STORED, inputs()), now), specimen(STORED, now))
-
-
-def test_an_e_that_is_not_given_any_more_is_the_identified_one_again():
-    xr.testing.assert_identical(taken(specimen(STORED, inputs(0.8)), inputs()), specimen(STORED, inputs()))
+@every(("before", "now"), [(inputs(), inputs(0.8)), (inputs(), inputs(level=0.5)), (inputs(0.8), inputs())])
+def test_a_stored_result_follows_the_campaign_of_now(before, now):
+    xr.testing.assert_identical(taken(specimen(STORED, before), now), specimen(STORED, now))
 
 
 def without_method(stored):
@@ -149,12 +145,6 @@ def test_the_properties_are_those_of_the_block():
     for name in ("critical_angle", "pole_distance", "inertia", "p"):
         assert float(found[name]) == getattr(OTHER, name)
     assert float(found["rigid_restitution"]) == OTHER.restitution
-
-
-def test_the_inputs_are_those_of_the_specimen(small_campaign):
-    read = SpecimenInputs.of(small_campaign, "prism")
-    assert read.block.critical_angle == pytest.approx(PRISM.critical_angle)
-    assert (read.given, read.level) == (None, 0.95)
 
 
 COVARIANCE = 1e-6 * np.array([[4.0, 1.8, -2.4], [1.8, 9.0, -3.0], [-2.4, -3.0, 16.0]])

@@ -74,43 +74,29 @@ def lateness(prediction, time, angle):
     return found - true[: found.size]
 
 
-@pytest.mark.parametrize("offset", [0.002, -0.002], ids=["too high", "too low"])
-def test_a_prediction_from_the_true_zero_keeps_time_better(small_campaign, released, predicted, compared, offset):
-    recordings, time, angle = released(E)
-    _, rocking = measured(small_campaign, "free-01", recordings)
-    shifted = rocking.assign(rocking_angle=rocking["rocking_angle"] + offset * ALPHA)
-    identified = chain.identified(small_campaign, shifted)
-    assert float(identified["zero_offset"]) == pytest.approx(offset * ALPHA, abs=1e-4 * ALPHA)
-
-    without, prediction = predicted(shifted), predicted(shifted, identified)
-    assert float(prediction["zero_offset"]) == float(identified["zero_offset"])
-    late, late_without = (np.sqrt(np.mean(lateness(each, time, angle) ** 2)) for each in (prediction, without))
-    assert late < 0.25 * late_without
-
-    # The misfit is that of two angles about one zero.
-    misfits = [compared(shifted, each) for each in (without, prediction)]
-    assert float(misfits[1]["nrmse"][0]) < 0.25 * float(misfits[0]["nrmse"][0])
-    assert float(misfits[1]["zero_offset"]) == float(identified["zero_offset"])
-    true_peak = np.abs(angle[time > float(misfits[1]["measured_peak_time"]) - 0.01]).max() / ALPHA
-    assert float(misfits[1]["measured_peak_ratio"]) == pytest.approx(true_peak, abs=5e-4)
-
-
-def test_a_gain_that_the_free_vibration_shows_is_that_of_start_and_comparison(
-    small_campaign, released, predicted, compared
+@every(("offset", "gain"), [(0.002, 1.0), (-0.002, 1.0), (0.0, 1.004)])
+def test_a_prediction_from_the_true_zero_by_the_true_gain_keeps_time_better(
+    small_campaign, released, predicted, compared, offset, gain
 ):
     """Of α and the gain it shows the product; predictions start and are compared by the gain for their own α."""
     recordings, time, angle = released(E)
     _, rocking = measured(small_campaign, "free-01", recordings)
-    scaled = rocking.assign(rocking_angle=1.004 * rocking["rocking_angle"])
-    identified = chain.identified(small_campaign, scaled)
-    without, prediction = predicted(scaled), predicted(scaled, identified)
-    gain = float(prediction["angle_gain"])
-    assert gain == pytest.approx(1.004, abs=2e-4)  # e is given here, so predictions move the block as given
+    wrong = rocking.assign(rocking_angle=gain * rocking["rocking_angle"] + offset * ALPHA)
+    identified = chain.identified(small_campaign, wrong)
+    without, prediction = predicted(wrong), predicted(wrong, identified)
+    assert float(prediction["zero_offset"]) == float(identified["zero_offset"])
+    assert float(prediction["zero_offset"]) == pytest.approx(offset * ALPHA, abs=1e-4 * ALPHA)
+    assert float(prediction["angle_gain"]) == pytest.approx(gain, abs=2e-4)  # e is given: the block moves as given
     late, late_without = (np.sqrt(np.mean(lateness(each, time, angle) ** 2)) for each in (prediction, without))
     assert late < 0.25 * late_without
-    misfits = [compared(scaled, each) for each in (without, prediction)]
-    assert float(misfits[1]["angle_gain"]) == gain
+
+    # The misfit is that of two angles about one zero and of one gain.
+    misfits = [compared(wrong, each) for each in (without, prediction)]
     assert float(misfits[1]["nrmse"][0]) < 0.25 * float(misfits[0]["nrmse"][0])
+    for name in ("zero_offset", "angle_gain"):
+        assert float(misfits[1][name]) == float(prediction[name])
+    true_peak = np.abs(angle[time > float(misfits[1]["measured_peak_time"]) - 0.01]).max() / ALPHA
+    assert float(misfits[1]["measured_peak_ratio"]) == pytest.approx(true_peak, abs=5e-4)
 
 
 @pytest.mark.parametrize("every", [5, 8], ids=["100 Hz", "62.5 Hz"])
