@@ -10,7 +10,6 @@ from math import isfinite, nan
 from typing import Any
 
 from colonnade import __version__
-from colonnade.dynamics.models import MODELS
 from colonnade.store.records.stored import Stored
 from colonnade.units import text
 from colonnade.units.text import format_percent
@@ -19,9 +18,6 @@ LIBRARIES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "pandas", "matplotl
 """Libraries whose versions are shown."""
 
 _LONGEST = 6
-
-_ANY_ENSEMBLE = "any ensemble"
-_ENSEMBLE_IN_SPACE = "ensemble in space"
 
 
 def _to_a_tenth(share: float) -> str:
@@ -51,22 +47,22 @@ _STORED: dict[str, tuple[str, str, str | Callable[[float], str]]] = {
     "friction": ("predict", "space.settings.friction", "{:g}"),
     "damping fraction": ("predict", "space.settings.damping_fraction", "{:g}"),
     "initial rotation": ("predict", "space.settings.out_of_plane", "{:g} rad"),
-    "runs": ("ensemble", "settings.members", "{:d}"),
-    "deviation of e": ("ensemble", "settings.restitution", "{:g}"),
-    "deviation of α": ("ensemble", "settings.critical_angle", _to_a_tenth),
-    "deviation of p": ("ensemble", "settings.p", _to_a_tenth),
-    "deviation of gain": ("ensemble", "settings.gain", _to_a_tenth),
-    "deviation of clock": ("ensemble", "settings.clock", "{:g}"),
-    "deviation of filter": ("ensemble", "settings.filter", format_percent),
-    "horizon": (_ANY_ENSEMBLE, "measurement.settings.horizon", "{:g} α"),
-    "deviation of zero": (_ANY_ENSEMBLE, "measurement.settings.angle_zero", "{:g} α"),
-    "deviation of angle gain": (_ANY_ENSEMBLE, "measurement.settings.angle_gain", _to_a_tenth),
-    "runs in space": (_ENSEMBLE_IN_SPACE, "settings.members", "{:d}"),
-    "range of friction": (_ENSEMBLE_IN_SPACE, "settings.friction", _range),
-    "range of damping": (_ENSEMBLE_IN_SPACE, "settings.damping_fraction", _range),
-    "range of rotation": (_ENSEMBLE_IN_SPACE, "settings.out_of_plane", "± {:g} rad"),
-    "range of penetration": (_ENSEMBLE_IN_SPACE, "settings.penetration", _range),
-    "misplacement": (_ENSEMBLE_IN_SPACE, "settings.misplacement", lambda place: f"± {text.quantity(place, 'mm')}"),
+    "runs": ("ensemble", "plane.members", "{:d}"),
+    "deviation of e": ("ensemble", "plane.restitution", "{:g}"),
+    "deviation of α": ("ensemble", "plane.critical_angle", _to_a_tenth),
+    "deviation of p": ("ensemble", "plane.p", _to_a_tenth),
+    "deviation of gain": ("ensemble", "plane.gain", _to_a_tenth),
+    "deviation of clock": ("ensemble", "plane.clock", "{:g}"),
+    "deviation of filter": ("ensemble", "plane.filter", format_percent),
+    "horizon": ("ensemble", "measured.horizon", "{:g} α"),
+    "deviation of zero": ("ensemble", "measured.angle_zero", "{:g} α"),
+    "deviation of angle gain": ("ensemble", "measured.angle_gain", _to_a_tenth),
+    "runs in space": ("ensemble", "contact.members", "{:d}"),
+    "range of friction": ("ensemble", "contact.friction", _range),
+    "range of damping": ("ensemble", "contact.damping_fraction", _range),
+    "range of rotation": ("ensemble", "contact.out_of_plane", "± {:g} rad"),
+    "range of penetration": ("ensemble", "contact.penetration", _range),
+    "misplacement": ("ensemble", "contact.misplacement", lambda place: f"± {text.quantity(place, 'mm')}"),
 }
 """Settings by the name that the text uses: stage, path in its inputs, and how the value is written."""
 
@@ -80,14 +76,9 @@ class Used:
 
     def gather(self, test: str, stored: Stored) -> None:
         """Take note of what a test's results were made with."""
-        for (stage, model), inputs in stored.settings.items():
-            own = {stage}
-            if stage == "ensemble":
-                # An ensemble in space varies other things than one in the plane.
-                in_space = model is not None and MODELS[model].in_space
-                own = {_ANY_ENSEMBLE, _ENSEMBLE_IN_SPACE if in_space else stage}
+        for (stage, _), inputs in stored.settings.items():
             for name, (read_by, path, form) in _STORED.items():
-                value = _at(inputs, path) if read_by in own else None
+                value = _at(inputs, path) if read_by == stage else None
                 self._note(name, "" if value is None else _written(value, form), test)
         on_specimen = [name for name, each in _channels(stored).items() if each.get("on") == "specimen"]
         for given in stored.channels.values():
