@@ -25,57 +25,21 @@ TILTED = (np.cos(0.1), 0.0, np.sin(0.1))
 NOISE = 5e-5
 
 KINDS = {
-    "point": ([Transducer("point", X, TOP)], PRISM, [lambda block: block.point(TOP, X)]),
-    "laser on a face": (
-        [Transducer("surface", X, TOP, normal=X)],
-        PRISM,
-        [lambda block: block.laser_on_face(TOP, X, X)],
-    ),
-    "laser from behind, inclined": (
-        [Transducer("surface", TILTED, BACK, normal=(-1.0, 0.0, 0.0))],
-        PRISM,
-        [lambda block: block.laser_on_face(BACK, TILTED, X)],
-    ),
-    "laser on a cylinder, off its axis": (
-        [Transducer("surface", X, OFF_AXIS)],
-        ROUND,
-        [lambda block: block.laser_on_side(OFF_AXIS, X, HALF_WIDTH)],
-    ),
-    "laser on a cone, off its axis": (
-        [Transducer("surface", X, ON_CONE)],
-        CONE,
-        [lambda block: block.laser_on_side(ON_CONE, X, HALF_WIDTH, TAPER)],
-    ),
-    "wire from behind": (
-        [Transducer("wire", X, TOP, anchor=ANCHOR)],
-        PRISM,
-        [lambda block: block.wire(TOP, X, ANCHOR)],
-    ),
-    "wire from ahead": (
-        [Transducer("wire", X, TOP, anchor=(0.4, -0.1, 0.3))],
-        PRISM,
-        [lambda block: block.wire(TOP, X, (0.4, -0.1, 0.3))],
-    ),
-    "inclinometer": (
-        [Transducer("angle", Y)],
-        PRISM,
-        [lambda block: np.arctan2(block.matrix[0, 2], block.matrix[2, 2])],
-    ),
-    "vertical pair on the edges": (
-        [Transducer("point", Z, (-HALF_WIDTH, 0.0, 0.0)), Transducer("point", Z, (HALF_WIDTH, 0.0, 0.0))],
-        PRISM,
-        [lambda block, x=x: block.point((x, 0.0, 0.0), Z) for x in (-HALF_WIDTH, HALF_WIDTH)],
-    ),
+    "point": ([Transducer("point", X, TOP)], PRISM),
+    "laser on a face": ([Transducer("surface", X, TOP, normal=X)], PRISM),
+    "laser from behind, inclined": ([Transducer("surface", TILTED, BACK, normal=(-1.0, 0.0, 0.0))], PRISM),
+    "laser on a cylinder, off its axis": ([Transducer("surface", X, OFF_AXIS)], ROUND),
+    "laser on a cone, off its axis": ([Transducer("surface", X, ON_CONE)], CONE),
+    "wire from behind": ([Transducer("wire", X, TOP, anchor=ANCHOR)], PRISM),
+    "wire from ahead": ([Transducer("wire", X, TOP, anchor=(0.4, -0.1, 0.3))], PRISM),
+    "inclinometer": ([Transducer("angle", Y)], PRISM),
+    "vertical pair on the edges": ([Transducer("point", Z, (x, 0.0, 0.0)) for x in (-HALF_WIDTH, HALF_WIDTH)], PRISM),
     "laser above and wire below": (
         [
             Transducer("surface", X, TOP, normal=X),
             Transducer("wire", X, (HALF_WIDTH, 0.0, 0.03), anchor=(-0.4, 0.0, 0.1)),
         ],
         PRISM,
-        [
-            lambda block: block.laser_on_face(TOP, X, X),
-            lambda block: block.wire((HALF_WIDTH, 0.0, 0.03), X, (-0.4, 0.0, 0.1)),
-        ],
     ),
 }
 NO_POINT = {
@@ -85,9 +49,23 @@ NO_POINT = {
 }
 
 
+def _read(block, each, outline=PRISM):
+    """What a transducer reads of a moved block."""
+    if each.sensing == "angle":
+        return np.arctan2(block.matrix[0, 2], block.matrix[2, 2])
+    if each.sensing == "wire":
+        return block.wire(each.at, each.direction, each.anchor)
+    if each.sensing == "point":
+        return block.point(each.at, each.direction)
+    if each.normal is None:
+        return block.laser_on_side(each.at, each.direction, HALF_WIDTH, outline.taper)
+    return block.laser_on_face(each.at, each.direction, np.abs(each.normal))
+
+
 def _measured(kind, block):
     """Readings of a pose that is held, with noise."""
-    readings = np.array([read(block) for read in KINDS[kind][2]])
+    transducers, outline = KINDS[kind]
+    readings = np.array([_read(block, each, outline) for each in transducers])
     rng = np.random.default_rng(7)
     return readings[:, None] + NOISE * rng.standard_normal((readings.size, 400))
 
@@ -99,7 +77,7 @@ def _in_standard_errors(fit, angle):
 @pytest.mark.parametrize("angle", [0.02, 0.3, -0.02, -0.3, 0.6])
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_angle_of_every_kind_of_transducer_is_within_its_standard_error(kind, angle, moved_block):
-    transducers, outline, _ = KINDS[kind]
+    transducers, outline = KINDS[kind]
     fit = fit_pose(
         _measured(kind, moved_block(angle)), transducers, BLOCK, noise=[NOISE] * len(transducers), outline=outline
     )
@@ -111,7 +89,7 @@ def test_the_angle_of_every_kind_of_transducer_is_within_its_standard_error(kind
 
 @pytest.mark.parametrize("kind", NO_POINT.values(), ids=NO_POINT)
 def test_a_laser_or_wire_taken_for_a_point_is_off_by_more_than_its_standard_error(kind, moved_block):
-    transducers, outline, _ = KINDS[kind]
+    transducers, outline = KINDS[kind]
     taken = [replace(each, sensing="point", normal=None, anchor=None) for each in transducers]
     fit = fit_pose(_measured(kind, moved_block(0.3)), taken, BLOCK, noise=[NOISE], outline=outline)
     assert np.mean(np.abs(_in_standard_errors(fit, 0.3)) > 3) > 0.99
@@ -129,15 +107,7 @@ SPATIAL = [
 
 
 def _read_in_space(block):
-    readings = []
-    for each in SPATIAL:
-        if each.sensing == "wire":
-            readings.append(block.wire(each.at, each.direction, each.anchor))
-        elif each.sensing == "surface":
-            readings.append(block.laser_on_face(each.at, each.direction, each.normal))
-        else:
-            readings.append(block.point(each.at, each.direction))
-    return np.array(readings)
+    return np.array([_read(block, each) for each in SPATIAL])
 
 
 @pytest.mark.parametrize("angle", [0.02, 0.3, -0.25])
@@ -185,7 +155,7 @@ def test_the_uplift_of_a_round_base_is_that_of_its_rim(moved_block):
         Transducer("point", Z, (-HALF_WIDTH, 0.0, 0.0)),
         Transducer("point", Z, (HALF_WIDTH, 0.0, 0.0)),
     ]
-    readings = np.array([[block.point(each.at, each.direction)] for each in transducers])
+    readings = np.array([[_read(block, each)] for each in transducers])
     fit = fit_pose(readings, transducers, BLOCK, outline=ROUND)
     around = np.linspace(0, 2 * np.pi, 20001)
     rim = HALF_WIDTH * np.stack((np.cos(around), np.sin(around), 0 * around))
@@ -194,7 +164,7 @@ def test_the_uplift_of_a_round_base_is_that_of_its_rim(moved_block):
 
 
 def test_both_ends_of_the_base_that_rise_are_an_uplift_and_no_rotation():
-    pair, outline, _ = KINDS["vertical pair on the edges"]
+    pair, outline = KINDS["vertical pair on the edges"]
     fit = fit_pose(np.full((2, 5), 0.004), pair, BLOCK, outline=outline)
     np.testing.assert_allclose(fit.angle, 0.0, atol=1e-12)
     np.testing.assert_allclose(fit.values["uplift"], 0.004, atol=1e-12)
@@ -270,12 +240,6 @@ def _readings(at, direction):
 def test_the_exact_finite_rotation_is_recovered(at, direction):
     angle = rocking_angle(_readings(at, direction), at, direction, SOLID)
     np.testing.assert_allclose(angle, ANGLES, rtol=0, atol=1e-12)
-
-
-def test_a_small_angle_reading_would_miss_it():
-    at, direction = [AT_TOP, BOTTOM], [ALONG_X, ALONG_X]
-    top, bottom = _readings(at, direction)
-    assert np.abs((top - bottom) / 0.420 - ANGLES).max() > 1e-2
 
 
 def test_disagreeing_transducers_raise_the_standard_error():
