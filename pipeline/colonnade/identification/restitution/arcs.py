@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from itertools import pairwise, starmap
 
 import numpy as np
 from numpy.typing import NDArray
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask
 
 CENTRAL_SHARE = 0.6
 """Smallest share of an arc about its middle that enters its fit; the filter blurs its ends, the impacts."""
@@ -57,6 +57,21 @@ class Arcs:
     fall: Array
     rise_standard_error: Array
     fall_standard_error: Array
+
+    @property
+    def height(self) -> Array:
+        """|θ| of the peaks, rad."""
+        return np.abs(self.peak_angle)
+
+    def pieces(self, time: Array, first: float, last: float) -> list[slice]:
+        """Samples of each arc between two shares of its duration."""
+        duration = self.end - self.start
+        ends = np.searchsorted(time, (self.start + first * duration, self.start + last * duration))
+        return list(starmap(slice, ends.T.tolist()))
+
+    def only(self, chosen: Mask) -> Arcs:
+        """Some of the arcs."""
+        return Arcs(*(getattr(self, each.name)[chosen] for each in fields(self)))
 
     @property
     def impacts(self) -> tuple[Array, Array]:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arcs import noise_level
 from colonnade.identification.restitution.estimator import Estimated
-from colonnade.identification.restitution.record import Seen
+from colonnade.identification.restitution.peaks import lift
+from colonnade.identification.restitution.record import Record
 from colonnade.identification.restitution.result import Departure
 from colonnade.identification.restitution.scatter import SCATTERS
 from colonnade.units.text import format_percent
@@ -52,27 +52,27 @@ LARGEST_SCATTER, SURELY = 0.01, 0.99
 THREE_DIMENSIONAL, UNEQUAL_SIDES, MOVING = "three-dimensional rocking", "unequal sides", "moving table"
 
 
-def find_rotation(time: Array, out_of_plane: Array, seen: Seen) -> Departure | None:
+def find_rotation(time: Array, out_of_plane: Array, record: Record) -> Departure | None:
     """Hold a measured rotation out of the plane (rad) against the rocking angle; first arcs with much are left out."""
     finite = np.isfinite(out_of_plane)
     if not finite.any():
         return None
     time, values = time[finite], out_of_plane[finite] - np.median(out_of_plane[finite])
-    noise = noise_level(values)
+    noise, seen = noise_level(values), record.counted
     amplitude = np.array([np.abs(values[piece]).max(initial=0.0) for piece in seen.pieces(time, 0.0, 1.0)])
-    share = amplitude / seen.peak
+    share = amplitude / seen.height
     large = (share > LARGEST_SHARE) & (amplitude > NOISE_MARGIN * noise)
     if not large.any():
         return None
-    size = float(share[large].max())
+    size, error = float(share[large].max()), float(noise / seen.height[np.argmax(np.where(large, share, 0))])
     return _spatial(
-        seen, int(np.flatnonzero(large)[-1]) + 1, size, float(noise / seen.peak[np.argmax(np.where(large, share, 0))]),
+        record, int(np.flatnonzero(large)[-1]) + 1, size, error,
         f"The block turns out of its plane by up to {format_percent(size)} of the rocking angle (measured); more than "
         f"{format_percent(LARGEST_SHARE)}",
     )  # fmt: skip
 
 
-def find_first_loss(found: Estimated, seen: Seen) -> Departure | None:
+def find_first_loss(found: Estimated, record: Record) -> Departure | None:
     """Look for first cycles that lose more than later ones, as large ones do that turn out of the plane."""
     impacts = found.path.count - 1
     most = min(impacts - FEWEST_LATER, impacts // 2)
@@ -95,23 +95,24 @@ def find_first_loss(found: Estimated, seen: Seen) -> Departure | None:
     # The part from the release on ends with an impact that no arc seen begins.
     count = max(count - (1 if found.path.from_release else 0), 1)
     return _spatial(
-        seen, count, loss, error * e,
+        record, count, loss, error * e,
         f"The first {count} impacts lose more than the later ones, e is lower by {loss:.4f} ± {e * error:.4f}, in a "
         "step and not gradually with the speed of impact, as large cycles that turn out of the plane do",
     )  # fmt: skip
 
 
-def _spatial(seen: Seen, count: int, size: float, error: float, finding: str) -> Departure:
+def _spatial(record: Record, count: int, size: float, error: float, finding: str) -> Departure:
     """Leave the first `count` arcs out, and say so."""
-    total = seen.number.size
+    number = np.flatnonzero(record.usable)
+    total = number.size
     first = f"the first {f'{count} ' if count > 1 else ''}of {total} arcs"
     refuses = total - count < FEWEST_LATER
     end = f"; too few are left without {first}." if refuses else f"; left out: {first}."
-    left_out = int(seen.number[count - 1]) + 1
+    left_out = int(number[count - 1]) + 1
     return Departure(THREE_DIMENSIONAL, size, error, "1", finding + end, left_out, refuses)
 
 
-def find_sliding(time: Array, angle: Array, slide: Array, block: Block, seen: Seen) -> Departure | None:
+def find_sliding(time: Array, angle: Array, slide: Array, record: Record) -> Departure | None:
     """
     Look for jumps of the pole (m) at impacts, by the work of friction over the energy lost in all impacts.
 
@@ -120,10 +121,13 @@ def find_sliding(time: Array, angle: Array, slide: Array, block: Block, seen: Se
     The slide of an arc is its mean, after what goes with θ on either side was taken off: a transducer that is not quite
     where it is said to be shows rocking as slide.
     """
+    seen, block = record.counted, record.block
     pieces = [piece.start + np.flatnonzero(np.isfinite(slide[piece])) for piece in seen.pieces(time, 0.1, 0.9)]
-    level, error = np.full(seen.number.size, np.nan), np.full(seen.number.size, np.nan)
+    level, error = np.full((2, len(pieces)), np.nan)
     for side in (-1.0, 1.0):
-        own = [index for index, piece in enumerate(pieces) if seen.side[index] == side and piece.size > 3]
+        own = [
+            index for index, piece in enumerate(pieces) if np.sign(seen.peak_angle[index]) == side and piece.size > 3
+        ]
         turned = {index: angle[pieces[index]] - angle[pieces[index]].mean() for index in own}
         power = sum(float(theta @ theta) for theta in turned.values())
         slope = sum(float(theta @ slide[pieces[index]]) for index, theta in turned.items()) / max(power, 1e-300)
@@ -136,7 +140,9 @@ def find_sliding(time: Array, angle: Array, slide: Array, block: Block, seen: Se
     jumps, errors = np.diff(level), np.hypot(error[1:], error[:-1])
     large = np.abs(jumps) > NOISE_MARGIN * errors
     total, total_error = float(np.abs(jumps[large]).sum()), float(np.sqrt((errors[large] ** 2).sum()))
-    lost = float(seen.speed[0] ** 2 - seen.speed[-1] ** 2) * block.inertia / 2
+    ends = seen.peak_angle[[0, -1]]
+    speed = block.p_at(ends) * np.sqrt(2 * lift(ends, block.critical_angle_at(ends)))
+    lost = float(speed[0] ** 2 - speed[1] ** 2) * block.inertia / 2
     work = FRICTION * block.mass * block.gravity * total / max(lost, 1e-300)
     if not work > LEAST_WORK:
         return None
@@ -151,17 +157,17 @@ def find_sliding(time: Array, angle: Array, slide: Array, block: Block, seen: Se
     )  # fmt: skip
 
 
-def find_bouncing(time: Array, uplift: Array, block: Block, seen: Seen) -> Departure | None:
+def find_bouncing(time: Array, uplift: Array, record: Record) -> Departure | None:
     """Look for impacts after which the base (height in m) is in the air."""
     noise = noise_level(uplift[np.isfinite(uplift)])
-    threshold = max(LEAST_LIFT * block.governing.half_width, NOISE_MARGIN * noise)
-    lifts = np.array([np.nanmax(uplift[piece], initial=0.0) for piece in seen.pieces(time, 0.0, 0.4)])
+    threshold = max(LEAST_LIFT * record.block.governing.half_width, NOISE_MARGIN * noise)
+    lifts = np.array([np.nanmax(uplift[piece], initial=0.0) for piece in record.counted.pieces(time, 0.0, 0.4)])
     count, size = int((lifts > threshold).sum()), float(lifts.max(initial=0.0))
     if not count:
         return None
     return Departure(
         "bouncing", size, noise, "m",
-        f"The base leaves the table after {count} of {seen.number.size} impacts, by up to {1e3 * size:.3g} ± "
+        f"The base leaves the table after {count} of {lifts.size} impacts, by up to {1e3 * size:.3g} ± "
         f"{1e3 * noise:.1g} mm: the block bounces, and e includes that loss.",
     )  # fmt: skip
 

@@ -18,7 +18,7 @@ from colonnade.dynamics.uncertainty import Uncertainty
 from colonnade.identification.restitution import departures, peaks
 from colonnade.identification.restitution.estimator import ASSUMPTIONS, METHOD, Estimated, estimate, first_path
 from colonnade.identification.restitution.path import UnfollowedError, prior_widths
-from colonnade.identification.restitution.record import Record, Seen, moving_base, objection, thinned
+from colonnade.identification.restitution.record import Record, moving_base, objection, thinned
 from colonnade.identification.restitution.result import (
     NO_IMPACTS,
     NO_PEAKS,
@@ -178,18 +178,17 @@ def _departed(
         fit = peaks.fit_peaks(record.peaks, record.block, record.noise, (0.0, 0.0))
         zero = 0.0 if fit is None else fit.offset
     record = record.about(zero)
-    seen = Seen.of(record)
-    if seen.number.size < FEWEST_SEEN:
+    if record.counted.start.size < FEWEST_SEEN:
         return record, found, why, []
     spatial = sliding = bouncing = None
     if "out_of_plane" in measured:
-        spatial = departures.find_rotation(times, measured["out_of_plane"], seen)
+        spatial = departures.find_rotation(times, measured["out_of_plane"], record)
     elif found is not None:
-        spatial = departures.find_first_loss(found, seen)
+        spatial = departures.find_first_loss(found, record)
     if "slide" in measured:
-        sliding = departures.find_sliding(times, measured["angle"] - zero, measured["slide"], record.block, seen)
+        sliding = departures.find_sliding(times, measured["angle"] - zero, measured["slide"], record)
     if "uplift" in measured:
-        bouncing = departures.find_bouncing(times, measured["uplift"], record.block, seen)
+        bouncing = departures.find_bouncing(times, measured["uplift"], record)
     if spatial is not None:
         record = replace(record, usable=record.usable & (np.arange(record.usable.size) >= spatial.left_out))
         found, why = follow(record, spatial.left_out)

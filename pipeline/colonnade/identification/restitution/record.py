@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import starmap
+from functools import cached_property
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.identification.response.base_motion import table_moves
 from colonnade.identification.restitution.arcs import Arcs, arcs_between, find_impacts, noise_level
-from colonnade.identification.restitution.peaks import lift
 from colonnade.identification.restitution.result import Peaks
 from colonnade.units.text import format_percent
 
@@ -220,51 +218,17 @@ class Record:
         run = slice(int(breaks[longest]), int(breaks[longest + 1]))
         return peaks[run][seen[run]], times[run][seen[run]]
 
+    @cached_property
+    def counted(self) -> Arcs:
+        """The usable arcs."""
+        return self.arcs.only(self.usable)
+
     @property
     def peaks(self) -> Peaks:
         """The peaks of all arcs, without a fit."""
         arcs = self.arcs
         unfitted = np.full(arcs.peak_angle.shape, np.nan)
         return Peaks(arcs.peak_time, arcs.peak_angle, arcs.peak_standard_error, unfitted, self.usable)
-
-
-@dataclass(frozen=True)
-class Seen:
-    """
-    Arcs that count, in order, as they are about their zero.
-
-    Attributes
-    ----------
-    number : ndarray of int, shape (n,)
-        Of each among all arcs.
-    start, end, peak, critical, speed : ndarray, shape (n,)
-        Times of the impacts on either side (s), |θ| of the peak and α (rad), angular velocity at the impacts (rad/s).
-    side : ndarray, shape (n,)
-        −1 or 1, the sign of the peak.
-    """
-
-    number: NDArray[np.int64]
-    start: Array
-    end: Array
-    peak: Array
-    critical: Array
-    speed: Array
-    side: Array
-
-    def pieces(self, time: Array, first: float, last: float) -> list[slice]:
-        """Samples of each arc between two shares of its duration."""
-        duration = self.end - self.start
-        ends = np.searchsorted(time, (self.start + first * duration, self.start + last * duration))
-        return list(starmap(slice, ends.T.tolist()))
-
-    @classmethod
-    def of(cls, record: Record) -> Seen:
-        """Take the usable arcs of a record."""
-        kept, arcs = record.usable, record.arcs
-        angle = arcs.peak_angle[kept]
-        peak, critical = np.abs(angle), record.block.critical_angle_at(angle)
-        speed = record.block.p_at(angle) * np.sqrt(2 * lift(peak, critical))
-        return cls(np.flatnonzero(kept), arcs.start[kept], arcs.end[kept], peak, critical, speed, np.sign(angle))
 
 
 def _usable(arcs: Arcs, lowest: float, block: Block) -> Mask:
@@ -300,14 +264,15 @@ def objection(record: Record) -> str:
     A rocking block's period falls with its amplitude in its own way, and its arcs are near to parabolas; the duration,
     its change with the peak and what the middle of an arc says of its ends are held against the equation of motion.
     """
-    arcs, usable, seen = record.arcs, record.usable, Seen.of(record)
-    if seen.number.size < FEWEST_ARCS:
+    seen = record.counted
+    if seen.start.size < FEWEST_ARCS:
         return (
             f"At least {FEWEST_ARCS} peaks between two impacts, above "
             f"{record.lowest / record.block.critical_angle:.2g} of the critical angle, are needed; the record has "
-            f"{seen.number.size}."
+            f"{seen.start.size}."
         )
-    peak, critical, p = seen.peak, seen.critical, record.block.p_at(seen.side)
+    peak, critical = seen.height, record.block.critical_angle_at(seen.peak_angle)
+    p = record.block.p_at(np.sign(seen.peak_angle))
     expected, duration = 2 * half_duration(peak, critical) / p, seen.end - seen.start
     excess = float(np.median(duration / expected)) - 1
     if abs(excess) > PERIOD_TOLERANCE:
@@ -317,7 +282,7 @@ def objection(record: Record) -> str:
         )
     higher = np.minimum(1.001 * peak, 0.5 * (peak + critical))
     slope = np.log(2 * half_duration(higher, critical) / p / expected) / (higher - peak)
-    blur = float(np.mean((slope * arcs.peak_standard_error[usable]) ** 2))
+    blur = float(np.mean((slope * seen.peak_standard_error) ** 2))
     power, error = 1.0, np.inf
     # What is not seen beyond all error shows nothing.
     if expected.size > 2 and np.var(np.log(expected)) >= max(BEYOND_ERRORS * blur, LEAST_CHANGE / expected.size):
@@ -328,11 +293,11 @@ def objection(record: Record) -> str:
             f"Times between impacts change with the {power:.2g} ± {error:.2g} power of those of a rocking block; 1 was "
             "expected. A period that does not follow the amplitude is that of an oscillator on springs, not of rocking."
         )
-    unsure = np.hypot(arcs.rise_standard_error, arcs.fall_standard_error)[usable] / duration
+    unsure = np.hypot(seen.rise_standard_error, seen.fall_standard_error) / duration
     sure = unsure < LARGEST_ERROR
     if not sure.any():
         return ""
-    within = (arcs.fall - arcs.rise)[usable][sure] / duration[sure]
+    within = (seen.fall - seen.rise)[sure] / duration[sure]
     median, scatter = float(np.median(within)) - 1, 1.25 * float(np.median(unsure[sure])) / np.sqrt(sure.sum())
     if abs(median) > SHAPE_TOLERANCE + SURE * scatter:
         return (
