@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -206,24 +207,21 @@ def estimate(path: Path, lowpass: float | None, lowest: float, *, whole: bool) -
     Raises
     ------
     UnfollowedError
-        If no path follows the record, or the record does not separate the unknowns.
+        If no path follows the record.
+    numpy.linalg.LinAlgError
+        If the record does not separate the unknowns.
     """
-    try:
-        path = laid_forward(path, lowest)
-        before = from_release(path) if whole else None
-        if before is not None:
-            try:
-                found = _estimated(before, lowpass)
-                # On a table that moves, a release at rest may lead astray.
-                if found.path.power < MISFIT * path.power:
-                    if not _is_odd(found.path):
-                        return found
-                    path = without_first(found.path)
-            except UnfollowedError:
-                pass
-        return _estimated(path, lowpass)
-    except np.linalg.LinAlgError as error:
-        raise UnfollowedError(str(error)) from error
+    path = laid_forward(path, lowest)
+    before = from_release(path) if whole else None
+    if before is not None:
+        with suppress(UnfollowedError):
+            found = _estimated(before, lowpass)
+            # On a table that moves, a release at rest may lead astray.
+            if found.path.power < MISFIT * path.power:
+                if not _is_odd(found.path):
+                    return found
+                path = without_first(found.path)
+    return _estimated(path, lowpass)
 
 
 def _is_odd(path: Path) -> bool:

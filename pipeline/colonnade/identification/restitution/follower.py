@@ -218,12 +218,8 @@ def arc_products(local: Array, arc: NDArray[np.int64], count: int) -> Array:
         n = arc[i]
         if n >= 0:
             for j in range(size):
-                for k in range(j + 1):
+                for k in range(size):
                     products[n, j, k] += local[i, j] * local[i, k]
-    for n in range(count):
-        for j in range(size):
-            for k in range(j):
-                products[n, k, j] = products[n, j, k]
     return products
 
 

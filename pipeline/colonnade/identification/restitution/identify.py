@@ -140,7 +140,7 @@ def identify_restitution(
     follow = partial(_followed, widths=prior_widths(uncertainty), lowpass=lowpass)
     found, why = follow(record)
     try:
-        base = moving_base(times, measured["base_acceleration"], block) if "base_acceleration" in measured else None
+        base = moving_base(record, measured["base_acceleration"]) if "base_acceleration" in measured else None
     except ValueError as error:
         return _refused(str(error), level, record.peaks)
     driven, seen = False, list[Departure]()
@@ -163,7 +163,7 @@ def _followed(record: Record, left_out: int = 0, *, widths: Array, lowpass: floa
     try:
         path = first_path(record.samples, record.block, widths, *record.run(left_out))
         return estimate(path, lowpass, record.least, whole=left_out == 0), ""
-    except UnfollowedError as error:
+    except (UnfollowedError, np.linalg.LinAlgError) as error:
         return None, f"No simulated history follows the record: {error}."
 
 

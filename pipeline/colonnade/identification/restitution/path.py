@@ -269,10 +269,8 @@ def laid(path: Path, scatter: float, free: Array | None = None) -> Path:
 
 
 def _objective(path: Path, precision: Array, power: float) -> float:
-    if not np.isfinite(path.followed.peaks).all():
-        return np.inf
     counted = path.residual[path.counted]
-    if not counted.size > path.values.size:
+    if not (np.isfinite(path.followed.peaks).all() and counted.size > path.values.size):
         return np.inf
     return float(counted @ counted / power + path.values @ precision @ path.values)
 

@@ -127,36 +127,6 @@ def _means(values: Array, group: int) -> Array:
     return np.asarray(values[: group * (values.size // group)].reshape(-1, group).mean(axis=1))
 
 
-def moving_base(time: Array, values: Array, block: Block) -> Array | None:
-    """
-    Return the acceleration, over gravity, of a table that moves; None if it is at rest.
-
-    Parameters
-    ----------
-    time : ndarray, shape (n,)
-        s.
-    values : ndarray, shape (n,)
-        m/s².
-    block : Block
-
-    Raises
-    ------
-    ValueError
-        If the table moves and samples are missing or not evenly spaced.
-    """
-    interval = float(time[-1] - time[0]) / (time.size - 1)
-    if not table_moves(values, interval, block):
-        return None
-    if missing := int((~np.isfinite(values)).sum()):
-        raise ValueError(
-            f"The table moves, and its acceleration is missing {missing} of {values.size} samples: e cannot be "
-            "identified. Give the test a `window` without them."
-        )
-    if np.abs(np.diff(time) - interval).max() > UNEVEN * interval:
-        raise ValueError("The table moves, and the record's steps are uneven; a uniform clock was expected.")
-    return np.asarray(values / block.gravity)
-
-
 @dataclass(frozen=True, eq=False)
 class Record:
     """
@@ -244,6 +214,33 @@ def _averaged(angle: Array, length: int) -> Array:
         return angle
     windows = np.lib.stride_tricks.sliding_window_view(angle, 2 * half + 1)
     return np.concatenate((angle[:half], windows.mean(axis=1), angle[-half:]))
+
+
+def moving_base(record: Record, values: Array) -> Array | None:
+    """
+    Return the acceleration, over gravity, of a table that moves; None if it is at rest.
+
+    Parameters
+    ----------
+    record : Record
+    values : ndarray, shape (n,)
+        m/s², at all samples of the recording.
+
+    Raises
+    ------
+    ValueError
+        If the table moves and samples are missing or not evenly spaced.
+    """
+    if not table_moves(values, record.samples.step, record.block):
+        return None
+    if missing := int((~np.isfinite(values)).sum()):
+        raise ValueError(
+            f"The table moves, and its acceleration is missing {missing} of {values.size} samples: e cannot be "
+            "identified. Give the test a `window` without them."
+        )
+    if not record.samples.is_even:
+        raise ValueError("The table moves, and the record's steps are uneven; a uniform clock was expected.")
+    return np.asarray(values / record.block.gravity)
 
 
 def half_duration(peak: Array, critical: Array) -> Array:
