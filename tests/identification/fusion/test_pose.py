@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, point_displacement
-from colonnade.identification.fusion.pose import fit_pose, rocking_angle
+from colonnade.identification.fusion import pose
+from colonnade.identification.fusion.pose import rocking_angle
 from colonnade.identification.fusion.sensors import Transducer
 from prism import PRISM as SOLID
 
@@ -49,6 +50,12 @@ NO_POINT = {
 }
 
 
+def fit_pose(readings, transducers, block, *, noise=(NOISE,), outline=PRISM, base=None):
+    base = np.zeros((3, readings.shape[1])) if base is None else base
+    noise = np.broadcast_to(noise, len(transducers))
+    return pose.fit_pose(readings, transducers, block, outline, noise=noise, base=base)
+
+
 def _read(block, each, outline=PRISM):
     """What a transducer reads of a moved block."""
     if each.sensing == "angle":
@@ -78,9 +85,7 @@ def _in_standard_errors(fit, angle):
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_angle_of_every_kind_of_transducer_is_within_its_standard_error(kind, angle, moved_block):
     transducers, outline = KINDS[kind]
-    fit = fit_pose(
-        _measured(kind, moved_block(angle)), transducers, BLOCK, noise=[NOISE] * len(transducers), outline=outline
-    )
+    fit = fit_pose(_measured(kind, moved_block(angle)), transducers, BLOCK, outline=outline)
     errors = _in_standard_errors(fit, angle)
     assert np.mean(np.abs(errors) < 3) > 0.985
     assert np.std(errors) == pytest.approx(1.0, abs=0.15)
@@ -91,7 +96,7 @@ def test_the_angle_of_every_kind_of_transducer_is_within_its_standard_error(kind
 def test_a_laser_or_wire_taken_for_a_point_is_off_by_more_than_its_standard_error(kind, moved_block):
     transducers, outline = KINDS[kind]
     taken = [replace(each, sensing="point", normal=None, anchor=None) for each in transducers]
-    fit = fit_pose(_measured(kind, moved_block(0.3)), taken, BLOCK, noise=[NOISE], outline=outline)
+    fit = fit_pose(_measured(kind, moved_block(0.3)), taken, BLOCK, outline=outline)
     assert np.mean(np.abs(_in_standard_errors(fit, 0.3)) > 3) > 0.99
 
 
@@ -114,7 +119,7 @@ def _read_in_space(block):
 def test_all_six_unknowns_are_told_apart_at_large_rotations(angle, moved_block):
     moved = {"lean": 0.04, "yaw": -0.06, "slide": 0.004, "rise": 0.003, "across": -0.002}
     readings = _read_in_space(moved_block(angle, **moved))[:, None]
-    fit = fit_pose(readings, SPATIAL, BLOCK, noise=[NOISE] * len(SPATIAL), outline=PRISM)
+    fit = fit_pose(readings, SPATIAL, BLOCK)
     expected = {
         "rocking_angle": angle,
         "slide": 0.004,
@@ -183,7 +188,7 @@ def test_a_transducer_on_the_ground_has_the_tables_motion_taken_off_where_it_loo
         Transducer("surface", X, (HALF_WIDTH, 0.0, 0.1), normal=X, on_ground=True),
     ]
     base = np.array([table, 0 * table, 0 * table])
-    fit = fit_pose(np.array(readings).T, ground, BLOCK, outline=PRISM, base=base)
+    fit = fit_pose(np.array(readings).T, ground, BLOCK, base=base)
     np.testing.assert_allclose(fit.angle, angles, atol=1e-10)
     np.testing.assert_allclose(fit.values["slide"], 0.0, atol=1e-10)
 
@@ -193,7 +198,7 @@ def test_samples_without_the_tables_displacement_leave_the_angle_to_what_is_on_t
     base = np.array([[0.0, 0.02, np.nan], [0.0] * 3, [0.0] * 3])
     both = np.vstack((readings, readings + base[0]))
     transducers = [Transducer("point", X, TOP), Transducer("point", X, TOP, on_ground=True)]
-    fit = fit_pose(both, transducers, BLOCK, noise=[NOISE] * 2, base=base)
+    fit = fit_pose(both, transducers, BLOCK, base=base)
     np.testing.assert_allclose(fit.angle, 0.1, atol=1e-11)
     assert np.isnan(fit.residual[1, 2])
 
@@ -203,7 +208,7 @@ def test_a_missing_reading_leaves_the_rest_where_they_separate_the_unknowns(move
     readings[0, 1] = np.nan
     readings[[5, 6], 2] = np.nan
     readings[:, 3] = np.nan
-    fit = fit_pose(readings, SPATIAL, BLOCK, noise=[NOISE] * len(SPATIAL), outline=PRISM)
+    fit = fit_pose(readings, SPATIAL, BLOCK)
     np.testing.assert_allclose(fit.angle, [0.1, 0.1, np.nan, np.nan], atol=1e-11)
     np.testing.assert_allclose(fit.values["slide"], [0.002, 0.002, np.nan, np.nan], atol=1e-11)
     assert np.isnan(fit.residual[0, 1])
@@ -248,8 +253,7 @@ def test_disagreeing_transducers_raise_the_standard_error():
     agreeing, readings = _readings(at, direction), _readings(at, direction)
     readings[2] *= 1.1
     error, least = (
-        fit_pose(each, transducers, SOLID, noise=[1e-5] * 3).standard_error["rocking_angle"]
-        for each in (readings, agreeing)
+        fit_pose(each, transducers, SOLID, noise=1e-5).standard_error["rocking_angle"] for each in (readings, agreeing)
     )
     assert np.median(error / least) > 20
 

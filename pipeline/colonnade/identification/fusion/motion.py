@@ -86,12 +86,7 @@ def specimen_motion(
     if positions.sensors:
         try:
             fitted = fit_pose(
-                positions.values,
-                positions.sensors,
-                block,
-                noise=positions.noise,
-                outline=outline,
-                base=test.displacement,
+                positions.values, positions.sensors, block, outline, noise=positions.noise, base=test.displacement
             )
         except UnseenRotationError as error:
             refusal = error

@@ -141,9 +141,9 @@ def rocking_angle(displacements: ArrayLike, at: ArrayLike, direction: ArrayLike,
             "one position and one direction for each record were expected"
         )
     vectors = zip(directions.tolist(), points.tolist(), strict=True)
-    return fit_pose(
-        readings, [Transducer("point", tuple(along), tuple(point)) for along, point in vectors], block
-    ).angle
+    transducers = [Transducer("point", tuple(along), tuple(point)) for along, point in vectors]
+    outline, base = Outline(pole_position(block), 0.0), np.zeros((3, readings.shape[1]))
+    return fit_pose(readings, transducers, block, outline, noise=np.ones(points.shape[0]), base=base).angle
 
 
 def _vectors(name: str, values: ArrayLike) -> Array:
@@ -154,28 +154,21 @@ def _vectors(name: str, values: ArrayLike) -> Array:
 
 
 def fit_pose(
-    readings: ArrayLike,
-    transducers: list[Transducer],
-    block: Block,
-    *,
-    noise: ArrayLike | None = None,
-    outline: Outline | None = None,
-    base: Array | None = None,
+    readings: Array, transducers: list[Transducer], block: Block, outline: Outline, *, noise: Array, base: Array
 ) -> SpecimenMotion:
     """
     Fit the pose of a block to its transducers, sample by sample.
 
     Parameters
     ----------
-    readings : array_like, shape (m, n)
+    readings : ndarray, shape (m, n)
         Changes from rest, m or rad; NaN where missing.
     transducers : list of Transducer, length m
     block : Block
-    noise : array_like, shape (m,), optional
-        Standard deviation of each reading: the weights of the fit. Default: all the same, taken from the residuals.
-    outline : Outline, optional
-        Of the specimen; by default a base as wide as the poles are apart, of no depth.
-    base : ndarray, shape (3, n), optional
+    outline : Outline
+    noise : ndarray, shape (m,)
+        Standard deviation of each reading: the weights of the fit.
+    base : ndarray, shape (3, n)
         Displacement of the table relative to the ground, m; transducers on the ground read it as well.
 
     Raises
@@ -187,23 +180,18 @@ def fit_pose(
     -----
     The pole changes at θ = 0, so each sample is solved about either pole, and the better of the two is taken.
     """
-    values = np.atleast_2d(np.asarray(readings, dtype=np.float64))
-    outline = outline or Outline(pole_position(block), 0.0)
-    if base is not None:
-        lost = ~np.isfinite(base).all(axis=0) & np.array([[each.on_ground] for each in transducers])
-        values, base = np.where(lost, np.nan, values), np.nan_to_num(base)
-    sigma = np.ones(len(transducers)) if noise is None else np.maximum(np.asarray(noise, dtype=np.float64), 1e-12)
+    lost = ~np.isfinite(base).all(axis=0) & np.array([[each.on_ground] for each in transducers])
+    values, base, sigma = np.where(lost, np.nan, readings), np.nan_to_num(base), np.maximum(noise, 1e-12)
     chosen, designs, separation = separate(transducers, sigma, block, outline)
     weights = _weights(values, sigma, designs)
     pieces = []
     for start in range(0, values.shape[1], CHUNK):
         part = slice(start, start + CHUNK)
-        moved = None if base is None else base[:, part]
-        model = partial(predict, transducers, block=block, outline=outline, base=moved)
+        model = partial(predict, transducers, block=block, outline=outline, base=base[:, part])
         pieces.append(_fit(values[:, part], weights[:, part], chosen, model))
     whole, side, residual, variance = (np.concatenate(each, axis=-1) for each in zip(*pieces, strict=True))
 
-    errors = np.sqrt(variance) * _widening(residual, weights, len(chosen), given=noise is not None)
+    errors = np.sqrt(variance) * _widening(residual, weights, len(chosen))
     pose = _pose(whole)
     names = [UNKNOWNS[index] for index in chosen]
     fitted = dict(zip(names, whole[chosen], strict=True))
@@ -224,15 +212,13 @@ def _weights(values: Array, sigma: Array, designs: Array) -> Array:
     return weights
 
 
-def _widening(residual: Array, weights: Array, unknowns: int, *, given: bool) -> float:
+def _widening(residual: Array, weights: Array, unknowns: int) -> float:
     """Factor on standard errors: scatter of the residuals over the noise, never below the noise that was given."""
-    freedom = residual.shape[0] - unknowns
-    if freedom <= 0:
-        return 1.0 if given else float("nan")
-    solved = weights.any(axis=0)
+    freedom, solved = residual.shape[0] - unknowns, weights.any(axis=0)
+    if freedom <= 0 or not solved.any():
+        return 1.0
     squares = np.nansum(weights[:, solved] * residual[:, solved] ** 2, axis=0) / freedom
-    scatter = float(np.sqrt(squares.mean())) if squares.size else float("nan")
-    return max(scatter, 1.0) if given else scatter
+    return max(float(np.sqrt(squares.mean())), 1.0)
 
 
 def _fit(values: Array, weights: Array, chosen: list[int], model: Model) -> tuple[Array, Array, Array, Array]:
