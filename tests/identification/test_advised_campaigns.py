@@ -65,7 +65,7 @@ def bisected(predicted, tests):
 
 def campaign(truth, seed, predicted, sensitivity, frequencies, method):
     """Run all tests; intervals, shape (n, 2), and numbers of tests, shape (n,)."""
-    tests = [SineTests.of(each, sensitivity=slope) for each, slope in zip(predicted, sensitivity, strict=True)]
+    tests = [SineTests(each, sensitivity=slope) for each, slope in zip(predicted, sensitivity, strict=True)]
     intervals = np.empty((len(tests), 2))
 
     def known(number):
@@ -73,18 +73,18 @@ def campaign(truth, seed, predicted, sensitivity, frequencies, method):
         return advise_sine_tests(chosen, wanted_width=WANTED, largest_risk=1.0)[place]
 
     for number, frequency in enumerate(frequencies):
-        while not (advice := known(number)).is_enough and tests[number].overturned.size < MOST_TESTS:
+        while not (advice := known(number)).is_enough and len(tests[number].overturned) < MOST_TESTS:
             amplitude = advice.amplitude_ratio if method == "advice" else bisected(predicted[number], tests[number])
-            rng = np.random.default_rng([seed, 2, number, tests[number].overturned.size])
+            rng = np.random.default_rng([seed, 2, number, len(tests[number].overturned)])
             fell = truth.overturns(frequency, amplitude, rng)
-            tests[number] = SineTests.of(
+            tests[number] = SineTests(
                 predicted[number],
                 [*tests[number].amplitude_ratio, amplitude],
                 [*tests[number].overturned, fell],
                 sensitivity[number],
             )
         intervals[number] = advice.boundary.interval
-    return intervals, np.array([each.overturned.size for each in tests])
+    return intervals, np.array([len(each.overturned) for each in tests])
 
 
 def run_seed(seed, sine, predicted, sensitivity, priors, methods):

@@ -11,7 +11,7 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike
 
-from colonnade.arrays import Array, Mask
+from colonnade.arrays import Array
 
 LEVEL = 0.90
 """Of the interval of a boundary."""
@@ -51,26 +51,18 @@ class SineTests:
     ----------
     predicted : float
         A of the predicted limit.
-    amplitude_ratio : ndarray, shape (k,)
+    amplitude_ratio : sequence of float, length k
         A that the tests achieved; empty before the first.
-    overturned : ndarray of bool, shape (k,)
+    overturned : sequence of bool, length k
         Their outcomes.
     sensitivity : float
         Change of ln A of the predicted limit by one standard deviation of e. 0 if it is not known.
     """
 
     predicted: float
-    amplitude_ratio: Array
-    overturned: Mask
+    amplitude_ratio: Sequence[float] = ()
+    overturned: Sequence[bool] = ()
     sensitivity: float = 0.0
-
-    @classmethod
-    def of(
-        cls, predicted: float, amplitude_ratio: ArrayLike = (), overturned: ArrayLike = (), sensitivity: float = 0.0
-    ) -> SineTests:
-        """Hold the tests of one frequency."""
-        amplitudes = np.asarray(amplitude_ratio, dtype=np.float64)
-        return cls(predicted, amplitudes, np.asarray(overturned, dtype=bool), sensitivity)
 
 
 @dataclass(frozen=True)
@@ -218,7 +210,7 @@ def advise_sine_tests(
 
     Examples
     --------
-    >>> new = SineTests.of(predicted=1.9)
+    >>> new = SineTests(predicted=1.9)
     >>> [advice] = advise_sine_tests([new], wanted_width=0.05, largest_risk=1.0)
     >>> round(advice.amplitude_ratio, 1), round(advice.risk, 1), advice.repeats, advice.is_enough
     (1.9, 0.5, 0, False)
@@ -232,7 +224,7 @@ def _advise(boundary: Boundary, wanted_width: float, largest_risk: float) -> Sin
     allowed = risk <= largest_risk
     best = int(np.argmax(np.where(allowed, information, -1.0))) if allowed.any() else int(np.argmin(risk))
     amplitude = boundary.tests.predicted * float(np.exp(boundary.offset[best]))
-    repeats = np.abs(np.log(boundary.tests.amplitude_ratio / amplitude)) < SAME_AMPLITUDE
+    repeats = np.abs(np.log(np.divide(boundary.tests.amplitude_ratio, amplitude))) < SAME_AMPLITUDE
     width = boundary.relative_width
     is_enough = width <= wanted_width
     # Each bit halves the interval; a test says less as it nears σ: the mean of the next one's bits and the last one's.
@@ -266,9 +258,9 @@ def _chance(apart: Array) -> Array:
 
 def _likelihood(offset: Array, tests: SineTests) -> Array:
     """Probability of the outcomes for each offset and σ, shape (n, w), over that of the most likely."""
-    apart = np.log(tests.amplitude_ratio / tests.predicted)[:, None] - offset
+    apart = np.log(np.divide(tests.amplitude_ratio, tests.predicted))[:, None] - offset
     # Survival is overturning on the other side.
-    signed = np.where(tests.overturned[:, None], apart, -apart)
+    signed = np.where(np.array(tests.overturned, dtype=bool)[:, None], apart, -apart)
     logarithm = np.log(_chance(signed[..., None])).sum(axis=0)
     return np.asarray(np.exp(logarithm - logarithm.max()))
 

@@ -144,11 +144,11 @@ class Solved:
         half = (self.quantile(0.5 + level / 2) - self.quantile(0.5 - level / 2)) / 2
         return half / float(np.sqrt(self.covariance[0, 0]))
 
-    def quantile(self, share: float, index: int = 0) -> float:
-        """Value of one of b below which there is a share of its distribution."""
+    def quantile(self, share: float) -> float:
+        """Value of the first of b below which there is a share of its distribution."""
         kept = self.weights > NEGLIGIBLE
-        weight, centre = self.weights[kept], self.centres[kept, index]
-        error = np.sqrt(self.covariances[kept, index, index])
+        weight, centre = self.weights[kept], self.centres[kept, 0]
+        error = np.sqrt(self.covariances[kept, 0, 0])
 
         def excess(value: float) -> float:
             return float(weight @ scipy.special.ndtr((value - centre) / error)) - share * float(weight.sum())

@@ -123,7 +123,7 @@ def _sensitivity(block: Block, known: Known, ratios: Array, model: str) -> Array
 def _tests_at(ratio: float, limit: float, sensitivity: float, known: Known) -> SineTests:
     at = [point for point in known.points if abs(point.frequency_ratio / ratio - 1) < SAME_FREQUENCY]
     amplitudes = [point.amplitude_ratio for point in at]
-    return SineTests.of(limit, amplitudes, [point.outcome == "overturned" for point in at], float(sensitivity))
+    return SineTests(limit, amplitudes, [point.outcome == "overturned" for point in at], float(sensitivity))
 
 
 def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advised: SineAdvice, model: str) -> Advice:
