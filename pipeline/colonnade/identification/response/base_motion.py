@@ -22,13 +22,13 @@ FEWEST_CYCLES = 3
 """A steady part is at least this many periods long."""
 
 
-def base_velocity(acceleration: ArrayLike, interval: float, block: Block) -> float:
+def base_velocity(acceleration: Array, interval: float, block: Block) -> float:
     """
     Size of a base motion as a rocking block feels it.
 
     Parameters
     ----------
-    acceleration : array_like, shape (n,)
+    acceleration : ndarray, shape (n,)
         Of the base along x, m/s², at equal steps; missing samples are NaN and count as no motion.
     interval : float
         s.
@@ -45,10 +45,9 @@ def base_velocity(acceleration: ArrayLike, interval: float, block: Block) -> flo
     p (a/g) / sqrt(1 + (ω/p)²). This weighs what matters to the block, and little of the white noise of an
     accelerometer. The mean is not counted: it is an accelerometer's bias or a tilt, not a motion.
     """
-    values = np.asarray(acceleration, dtype=np.float64)
-    if not np.isfinite(values).any():
+    if not np.isfinite(acceleration).any():
         return 0.0
-    values = np.nan_to_num(values - np.nanmean(values))
+    values = np.nan_to_num(acceleration - np.nanmean(acceleration))
     # Twice the length, so that the end of the record does not act on its start.
     size = 2 * values.size
     frequency = 2 * np.pi * np.fft.rfftfreq(size, interval) / block.p
@@ -56,7 +55,7 @@ def base_velocity(acceleration: ArrayLike, interval: float, block: Block) -> flo
     return float(np.sqrt(np.mean(felt**2)) / (block.gravity * block.critical_angle))
 
 
-def table_moves(acceleration: ArrayLike, interval: float, block: Block) -> bool:
+def table_moves(acceleration: Array, interval: float, block: Block) -> bool:
     """
     Decide whether the table moves under a free vibration; arguments as for `base_velocity`.
 

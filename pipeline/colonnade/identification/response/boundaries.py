@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
+from colonnade.arrays import Array
 from colonnade.dynamics.history import Outcome
 
 SAME_FREQUENCY = 0.02
@@ -128,14 +128,14 @@ class Misfit:
     frequencies: int
 
 
-def limit_misfit(boundaries: Iterable[Boundaries], frequency_ratio: ArrayLike, limit: ArrayLike) -> Misfit | None:
+def limit_misfit(boundaries: Iterable[Boundaries], frequency_ratio: Array, limit: Array) -> Misfit | None:
     """
     Compare a computed limit of overturning with the measured boundary.
 
     Parameters
     ----------
     boundaries : iterable of Boundaries
-    frequency_ratio, limit : array_like, shape (n,)
+    frequency_ratio, limit : ndarray, shape (n,)
         Ω, increasing, and A of the limit, NaN where it has no value.
 
     Returns
@@ -144,8 +144,7 @@ def limit_misfit(boundaries: Iterable[Boundaries], frequency_ratio: ArrayLike, l
         Limit, linear between its Ω, minus the middle of each bracket; None if no frequency has both.
     """
     middles = {each.frequency_ratio: middle for each in boundaries if (middle := each.overturning.middle) is not None}
-    omega, computed = np.asarray(frequency_ratio, dtype=np.float64), np.asarray(limit, dtype=np.float64)
-    differences = np.interp([*middles], omega, computed, left=np.nan, right=np.nan) - [*middles.values()]
+    differences = np.interp([*middles], frequency_ratio, limit, left=np.nan, right=np.nan) - [*middles.values()]
     known = differences[np.isfinite(differences)]
     return Misfit(float(known.mean()), float(np.sqrt((known**2).mean())), known.size) if known.size else None
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.signals.filters import lowpass
@@ -36,15 +36,15 @@ def rank(measured: float, members: Array) -> float:
     return float(np.mean(members < measured) + 0.5 * np.mean(members == measured))
 
 
-def distances(measured: ArrayLike, members: ArrayLike) -> tuple[float, Array] | None:
+def distances(measured: Array, members: Array) -> tuple[float, Array] | None:
     """
     Measure how far a measured history and each run of a model are from the middle of all others.
 
     Parameters
     ----------
-    measured : array_like, shape (n,)
+    measured : ndarray, shape (n,)
         rad, up to the horizon; samples that are not finite are left out for all.
-    members : array_like, shape (m, n)
+    members : ndarray, shape (m, n)
         rad, each with measurement errors of its own, as if it had been recorded.
 
     Returns
@@ -59,12 +59,11 @@ def distances(measured: ArrayLike, members: ArrayLike) -> tuple[float, Array] | 
     If all m + 1 are drawn alike, each rank is equally likely, so the verdict is wrong in 5 % of the cases, whatever the
     model and the motion (conformal prediction: Vovk, Gammerman & Shafer 2005, ch. 2).
     """
-    seen, runs = np.asarray(measured, dtype=np.float64), np.asarray(members, dtype=np.float64)
-    known = np.isfinite(seen)
-    if runs.shape[0] < FEWEST or not known.any():
+    known = np.isfinite(measured)
+    if members.shape[0] < FEWEST or not known.any():
         return None
-    everyone = np.vstack((seen[known], runs[:, known])).T
-    largest = np.zeros(runs.shape[0] + 1)
+    everyone = np.vstack((measured[known], members[:, known])).T
+    largest = np.zeros(members.shape[0] + 1)
     for taken in np.array_split(everyone, len(everyone) // AT_A_TIME + 1):
         low, middle, high = _without_each(taken)
         half = np.where(taken > middle, high - middle, middle - low)

@@ -171,17 +171,15 @@ def single_impacts(arcs: Arcs, offset: float, usable: Mask, block: Block) -> Imp
     return Impacts(times[1:-1], errors[1:-1], np.sqrt(2 * energy[:-1]), restitution, error, used)
 
 
-def confidence_band(
-    angle: ArrayLike, standard_error: ArrayLike, used: ArrayLike, block: Block, *, level: float = 0.95
-) -> Array:
+def confidence_band(angle: Array, standard_error: Array, used: Mask, block: Block, *, level: float = 0.95) -> Array:
     """
     Half-width of the band about the line of ln energy against the impact number, of peaks alone.
 
     Parameters
     ----------
-    angle, standard_error : array_like, shape (n,)
+    angle, standard_error : ndarray, shape (n,)
         θ of the peaks, signed, about their common zero, and its standard error, rad.
-    used : array_like of bool, shape (n,)
+    used : ndarray of bool, shape (n,)
         Peaks through which the line goes.
     block : Block
     level : float, optional
@@ -192,14 +190,12 @@ def confidence_band(
     half_width : ndarray, shape (n,)
         Of ln energy; NaN if fewer than `FEWEST_PEAKS` are used.
     """
-    theta, error = np.asarray(angle, dtype=np.float64), np.asarray(standard_error, dtype=np.float64)
-    kept = np.asarray(used, dtype=bool) & np.isfinite(error) & (np.abs(theta) > 0)
-    kept &= np.abs(theta) < block.critical_angle_at(theta)
-    nothing = np.full(theta.shape, np.nan)
-    fit = fit_peaks(Peaks(nothing, theta, error, nothing, kept), block, 0.0, (0.0, 0.0))
+    size, nothing = np.abs(angle), np.full(angle.shape, np.nan)
+    kept = used & np.isfinite(standard_error) & (size > 0) & (size < block.critical_angle_at(angle))
+    fit = fit_peaks(Peaks(nothing, angle, standard_error, nothing, kept), block, 0.0, (0.0, 0.0))
     if fit is None:
         return nothing
-    number = np.arange(theta.size) - np.flatnonzero(kept)[0]
-    at = np.column_stack((2.0 * number, np.ones(theta.size)))
+    number = np.arange(angle.size) - np.flatnonzero(kept)[0]
+    at = np.column_stack((2.0 * number, np.ones(angle.size)))
     variance = ((at @ fit.solved.covariance[:2, :2]) * at).sum(axis=1)
     return np.asarray(fit.solved.reach(level) * np.sqrt(variance))
