@@ -49,6 +49,9 @@ LEAST_CHANGE, FEWEST_IMPACTS = 0.005, 5
 LARGEST_SCATTER, SURELY = 0.01, 0.99
 """Standard deviation of e from impact to impact above which, as sure as this, not impacts alone change the energy."""
 
+LEAST_FALL = 2.0
+"""Times by which the residual of a history falls with the base turned round, from which it is recorded so."""
+
 THREE_DIMENSIONAL, UNEQUAL_SIDES, MOVING = "three-dimensional rocking", "unequal sides", "moving table"
 
 
@@ -193,6 +196,25 @@ def scatters(found: Estimated) -> bool:
         return False
     large = np.exp(found.logarithm) * SCATTERS > LARGEST_SCATTER
     return bool(found.answer.weights[large].sum() > SURELY)
+
+
+def find_turned(turned: Estimated | None, *others: Estimated | None) -> list[Departure]:
+    """Name a base whose acceleration explains the angle with its sign turned only: as recorded it would bend e."""
+    if turned is None:
+        return []
+    residual, *rest = (float(each.path.power**0.5) for each in (turned, *others) if each is not None)
+    if rest and min(rest) < LEAST_FALL * residual:
+        return []
+    otherwise = f"it is {1e3 * min(rest):.2g} mrad off" if rest else "no history follows it"
+    return [
+        Departure(
+            MOVING, min(rest, default=0.0), residual, "rad",
+            "With the sign of the table's acceleration turned, a history follows the angle to "
+            f"{1e3 * residual:.2g} mrad; as recorded, or with a table at rest, {otherwise}. Correct the `direction` of "
+            "the accelerometer or of the transducers, or the sign of a gain.",
+            refuses=True,
+        )
+    ]  # fmt: skip
 
 
 def found_by_impact(found: Estimated, *, driven: bool) -> Departure | None:

@@ -143,16 +143,20 @@ def identify_restitution(
         base = moving_base(record, measured["base_acceleration"]) if "base_acceleration" in measured else None
     except ValueError as error:
         return _refused(str(error), level, record.peaks)
-    driven, seen = False, list[Departure]()
+    driven, turned = False, list[Departure]()
     if base is not None:
-        recorded, why_not = follow(replace(record, samples=thinned(times, angles, block, base)))
+        (recorded, why_not), (otherwise, _) = (
+            follow(replace(record, samples=thinned(times, angles, block, sign * base))) for sign in (1.0, -1.0)
+        )
+        turned = departures.find_turned(otherwise, recorded, found)
         # An accelerometer may have more noise than a table at rest may move.
         better = found is None or (recorded is not None and recorded.path.power < found.path.power)
-        driven = better or (found is not None and departures.scatters(found))
+        driven = better or bool(turned) or (found is not None and departures.scatters(found))
         found, why = (recorded, why_not) if driven else (found, why)
+    seen = turned
     if not driven:
         record, found, why, seen = _departed(record, found, why, follow, times, measured)
-    if found is not None and (by_impact := departures.found_by_impact(found, driven=driven)) is not None:
+    if found is not None and not turned and (by_impact := departures.found_by_impact(found, driven=driven)) is not None:
         seen.append(by_impact)
     moves = driven if "base_acceleration" in measured else None
     return replace(_result(record, found, why, uncertainty, level, seen, driven=driven), table_moves=moves)
