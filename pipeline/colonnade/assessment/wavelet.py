@@ -148,12 +148,8 @@ def _daubechies(levels: int = 9) -> tuple[Array, Array]:
     phi = np.real(vectors[:, np.argmin(np.abs(eigenvalues - 1.0))])
     phi = phi / phi.sum()
     for level in range(levels):
-        spread = np.zeros((size - 1) * 2**level + 1)
-        spread[:: 2**level] = low
-        phi = np.convolve(spread, phi)[: (size - 1) * 2 ** (level + 1) + 1]
+        phi = scipy.signal.upfirdn(phi, low, 2**level)[: (size - 1) * 2 ** (level + 1) + 1]
     # φ is now known at times k/2^levels; the wavelet is ψ(t) = Σ h_k φ(2t − k).
     high = low[::-1] * (-1.0) ** np.arange(size)
-    spread = np.zeros((size - 1) * 2**levels + 1)
-    spread[:: 2**levels] = high
-    psi = np.convolve(spread, phi)
+    psi = scipy.signal.upfirdn(phi, high, 2**levels)
     return np.arange(psi.size) / 2 ** (levels + 1), psi

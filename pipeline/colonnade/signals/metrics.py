@@ -9,6 +9,7 @@ import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
+from colonnade.signals.samples import filled_in
 
 FEWEST_SEGMENTS = 8
 """Half-overlapping segments that are averaged."""
@@ -88,8 +89,7 @@ def density(values: Array, interval: float, usable: Mask) -> Density | None:
     good = usable & np.isfinite(values)
     if good.sum() < SMALLEST_SEGMENT or not interval > 0:
         return None
-    index = np.arange(values.size)
-    bridged = np.interp(index, index[good], values[good]) if not good.all() else values
+    bridged = filled_in(np.where(good, values, np.nan))
     wanted = 2 * values.size // (FEWEST_SEGMENTS + 1)
     segment = int(np.clip(1 << (max(wanted, 1).bit_length() - 1), SMALLEST_SEGMENT, LARGEST_SEGMENT))
     frequency, power = scipy.signal.welch(bridged, 1 / interval, nperseg=min(segment, values.size))

@@ -74,7 +74,11 @@ def show_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     On a terminal long cells wrap inside their column, but for the first, which is whole; elsewhere each row is one
     line, whatever its length.
     """
+    console = output()
     if not rows:
+        return
+    if not console.is_terminal:
+        show_rows((heads, *rows))
         return
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
     for head in heads:
@@ -82,15 +86,7 @@ def show_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     table.columns[0].no_wrap = True
     for row in rows:
         table.add_row(*row)
-    console = _Output(markup=False, emoji=False, highlight=False)
-    if console.is_terminal:
-        console.print(table)
-        return
-    console.width = console.measure(table, options=console.options.update(width=100_000)).maximum
-    with console.capture() as captured:
-        console.print(table)
-    for line in captured.get().splitlines():
-        say(line.rstrip())
+    console.print(table, soft_wrap=False)
 
 
 def show_paragraph(text: str, bullet: str = "") -> None:
@@ -104,7 +100,7 @@ def show_rows(rows: Sequence[Sequence[str]]) -> None:
     """Write rows without heads, such as names and values, in columns; each is one line."""
     widths = [max(map(len, column)) for column in zip_longest(*rows, fillvalue="")]
     for row in rows:
-        say("  ".join(map(str.ljust, row, widths)).rstrip())
+        say("  ".join(map(str.ljust, row, widths)).rstrip().replace("\n", " "))
 
 
 def shown(value: object) -> str:

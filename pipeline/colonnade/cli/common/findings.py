@@ -69,25 +69,19 @@ def show_by_kind(findings: Findings) -> None:
 
     What another finding explains is only counted after it; of notes, one is written in full.
     """
-    groups: dict[tuple[Severity, str], list[tuple[str, str]]] = {}
-    behind: dict[str, list[str]] = {}
+    groups: dict[tuple[bool, Severity, str], list[tuple[str, str]]] = {}
     for subject, ordered in findings.items():
         for each, explained in ordered:
-            if explained:
-                behind.setdefault(each.kind, []).append(subject)
-            else:
-                groups.setdefault((each.severity, each.kind), []).append((subject, each.text))
-    for severity, kind in sorted(groups, key=lambda key: key[0].rank):
-        members = groups[severity, kind]
-        shown = members[: 1 if severity is Severity.NOTE else IN_FULL]
-        for subject, text in shown:
+            groups.setdefault((explained, each.severity, each.kind), []).append((subject, each.text))
+    for explained, severity, kind in sorted(groups, key=lambda key: (key[0], key[1].rank)):
+        members = groups[explained, severity, kind]
+        in_full = 0 if explained else 1 if severity is Severity.NOTE else IN_FULL
+        for subject, text in members[:in_full]:
             say_marked(f"{severity} ({kind})", STYLES[severity], f": {subject}: {text}")
-        rest = [subject for subject, _ in members[len(shown) :]]
-        if rest:
-            say(f"  and {len(rest)} more of this kind: {_named(rest)}")
-    for kind, subjects in behind.items():
-        say(f"follows from the above: {kind}: {_named(subjects)}")
-    counts = Counter(severity for (severity, _), members in groups.items() for _ in members)
+        if rest := [subject for subject, _ in members[in_full:]]:
+            what = f"follows from the above: {kind}" if explained else f"  and {len(rest)} more of this kind"
+            say(f"{what}: {_named(rest)}")
+    counts = Counter(severity for (explained, severity, _), members in groups.items() if not explained for _ in members)
     if counts:
         say(counted(counts))
 
