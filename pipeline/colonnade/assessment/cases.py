@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
 from math import ceil, inf
 
 import numpy as np
@@ -208,30 +207,34 @@ def components(motions: Sequence[Motion]) -> Iterator[tuple[int, int, Motion]]:
                 yield record, place, along
 
 
+def _planes(cases: Cases) -> Iterator[tuple[tuple[int, ...], Motion]]:
+    """Give each plane motion that is run, with its record, level, sign and component."""
+    records, levels, _draws, signs, components = cases.shape
+    for place in np.ndindex(records, levels, signs, components):
+        record, level, sign, component = place
+        factor = cases.signs[sign] * float(cases.factors[record, level, component])
+        if (plane := in_plane(cases.motions[record], component, factor)) is not None:
+            yield place, plane
+
+
 def run_cases(cases: Cases) -> CaseOutcomes:
     """Run all cases in this process."""
     # The kernels are decorated on import.
     from colonnade.dynamics.plane.sides import sides_of
 
-    _records, levels, _draws, _signs, components = shape = cases.shape
-    found = CaseOutcomes(np.full(shape, NOT_RUN, dtype=np.int8), np.full(shape, np.nan))
+    found = CaseOutcomes(np.full(cases.shape, NOT_RUN, dtype=np.int8), np.full(cases.shape, np.nan))
     gravity = cases.column.block.gravity
-    for record, motion in enumerate(cases.motions):
-        columns = [sides_of(*drawn_column(cases.column, values)) for values in cases.draws[record]]
-        for level, (side, sign), place in product(range(levels), enumerate(cases.signs), range(components)):
-            plane = in_plane(motion, place, sign * float(cases.factors[record, level, place]))
-            if plane is None:
-                continue
-            here = (record, level, slice(None), side, place)
-            if _falls_away(plane, gravity):
-                found.outcome[here] = FALLS_AWAY
-                continue
-            if cases.several is None:
-                ends = ends_of(plane, columns, gravity=gravity, model=cases.model)
-                found.outcome[here], found.peak_ratio[here] = ends.outcome, ends.peak_ratio
-            else:
-                several = [cases.several.end(plane, friction) for friction in cases.drawn("friction")[record].tolist()]
-                found.outcome[here], found.peak_ratio[here] = zip(*several, strict=True)
+    columns = [[sides_of(*drawn_column(cases.column, values)) for values in draws] for draws in cases.draws]
+    for (record, level, sign, component), plane in _planes(cases):
+        here = (record, level, slice(None), sign, component)
+        if _falls_away(plane, gravity):
+            found.outcome[here] = FALLS_AWAY
+        elif cases.several is None:
+            ends = ends_of(plane, columns[record], gravity=gravity, model=cases.model)
+            found.outcome[here], found.peak_ratio[here] = ends.outcome, ends.peak_ratio
+        else:
+            several = [cases.several.end(plane, friction) for friction in cases.drawn("friction")[record].tolist()]
+            found.outcome[here], found.peak_ratio[here] = zip(*several, strict=True)
     return found
 
 
@@ -329,10 +332,8 @@ def friction_needed(cases: Cases) -> Array:
     """
     records, levels, _draws, signs, components = cases.shape
     needed = np.full((records, levels, signs, components), np.nan)
-    for record, level, sign, place in np.ndindex(needed.shape):
-        factor = cases.signs[sign] * float(cases.factors[record, level, place])
-        if (motion := in_plane(cases.motions[record], place, factor)) is not None:
-            needed[record, level, sign, place] = _needed(cases, motion)
+    for place, plane in _planes(cases):
+        needed[place] = _needed(cases, plane)
     return needed
 
 

@@ -132,31 +132,30 @@ def plan_study(
         raise ValueError(f"{scaled_over.id} does not grow with a motion; a measure that does was expected")
     drift = number("drift", drift, "a positive share of the peak velocity", above=0.0)
     compared = [scaled_over, *measures_of(USUAL if measures is None else measures)]
-    names, recorded = tuple(motions), [_corrected(motion, baseline) for motion in motions.values()]
-    values, drifts, reasons = _measured(dict(zip(names, recorded, strict=True)), compared, block, drift)
-    usable = np.flatnonzero(np.isfinite(values[scaled_over.id]).any(axis=1))
-    if not usable.size:
+    corrected = {name: _corrected(motion, baseline) for name, motion in motions.items()}
+    names, recorded = list(corrected), list(corrected.values())
+    values, drifts, reasons = _measured(corrected, compared, block, drift)
+    intensity, power = values[scaled_over.id], scaled_over.power
+    known = np.isfinite(intensity).any(axis=1)
+    if not known.any():
         why = next(iter(reasons.values()), "there is no record")
         raise ValueError(f"No record has a {scaled_over.name}: {why}")
-    intensity, power = values[scaled_over.id][usable], scaled_over.power
     if levels is not None:
         found = np.unique(samples("levels", levels))
         if not found[0] > 0.0:
             raise ValueError(f"levels begin at {found[0]:g}; positive levels of the {scaled_over.name} were expected")
     elif several is None:
-        found = default_levels(column, [recorded[row] for row in usable], intensity, power=power, model=model)
+        found = default_levels(column, recorded, intensity, power=power, model=model)
     else:
         raise ValueError(f"levels are needed for several bodies: levels of the {scaled_over.name} were expected")
     factors = factors_at(found, intensity, power)
-    runs = np.array(
-        [_has_history(recorded[row], each, block.gravity) for row, each in zip(usable, factors, strict=True)]
-    )
+    runs = np.array([_has_history(*each, block.gravity) for each in zip(recorded, factors, strict=True)])
     if not runs.any():
         raise ValueError(f"No record can be run: {FALLS}")
-    reasons |= {(names[row], "z"): FALLS for row in usable[~runs]}
-    rows = usable[runs]
+    reasons |= {(names[row], "z"): FALLS for row in np.flatnonzero(known & ~runs)}
+    rows = np.flatnonzero(runs)
     drawn = np.stack([draw(column, draws, seed, record=number) for number in range(rows.size)])
-    cases = Cases(column, drawn, tuple(recorded[row] for row in rows), factors[runs], model, several)
+    cases = Cases(column, drawn, tuple(recorded[row] for row in rows), factors[rows], model, several)
     kept = tuple(names[row] for row in rows)
     values = {name: each[rows] for name, each in values.items()}
     return Study(kept, cases, scaled_over, found, values, drifts[rows], _left_out(kept, reasons))
