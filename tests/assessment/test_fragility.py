@@ -5,7 +5,7 @@ import pytest
 import scipy
 
 from colonnade.assessment.curves import fit_lognormal
-from colonnade.assessment.fragility import influence, split_beta, summarise
+from colonnade.assessment.fragility import Fragility, influence, split_beta
 from colonnade.assessment.hazard import hazard_curve, lognormal_rate
 from colonnade.assessment.intervals import Resampling, studentised
 from colonnade.assessment.outcomes import Outcomes, gather
@@ -15,12 +15,12 @@ from virtual_capacities import MEDIAN, lognormal, names, outcomes_of
 
 def test_everything_is_of_the_same_outcomes():
     outcomes = lognormal(1)
-    found = summarise(
+    found = Fragility(
         outcomes,
         Resampling(100),
         uplift_varies=False,
         hazard=hazard_curve([0.05, 2.0], [1e-1, 1e-5]),
-        measures={"pgv": np.tile(outcomes.levels[:, None], (30, 1, 1))},
+        compared={"pgv": np.tile(outcomes.levels[:, None], (30, 1, 1))},
         magnitude=np.linspace(5, 7, 30),
     )
     assert found.lognormal.median.low < MEDIAN < found.lognormal.median.high
@@ -34,12 +34,12 @@ def test_everything_is_of_the_same_outcomes():
 def test_without_a_threshold_the_start_of_rocking_is_a_curve_of_the_histories_that_rocked():
     peak = np.where(np.random.default_rng(1).normal(2.0, 0.5, (40, 1)) < np.linspace(1, 3, 8), 0.3, 0.0)
     records = [str(number) for number in range(40)]
-    found = summarise(gather(records, np.linspace(1, 3, 8), peak), Resampling(100)).uplift
+    found = Fragility(gather(records, np.linspace(1, 3, 8), peak), Resampling(100)).uplift
     assert found.median.low < 2.0 < found.median.high
 
 
 def test_without_a_curve_the_isotonic_one_and_the_reason_remain():
-    found = summarise(outcomes_of(np.full((4, 3), MEDIAN)), Resampling(20), hazard=hazard_curve([0.1, 1.0], [1.0, 0.1]))
+    found = Fragility(outcomes_of(np.full((4, 3), MEDIAN)), Resampling(20), hazard=hazard_curve([0.1, 1.0], [1.0, 0.1]))
     assert (found.lognormal.reason, found.rate, found.measures) == ("separated", None, ())
     assert found.isotonic.probability.value.tolist() == [0.0] * 5 + [1.0] * 5
     assert found.taken == "isotonic"
@@ -47,7 +47,7 @@ def test_without_a_curve_the_isotonic_one_and_the_reason_remain():
 
 
 def test_answers_are_read_from_the_lognormal_curve_if_it_fits():
-    found = summarise(lognormal(1), Resampling(100), measure="pgv")
+    found = Fragility(lognormal(1), Resampling(100), measure="pgv")
     assert found.taken == "lognormal"
     assert found.reaches(0.5) == pytest.approx(found.lognormal.median, rel=1e-6)
     assert found.digest()["median"].endswith("m/s")

@@ -49,7 +49,6 @@ def compare_measures(
     outcomes: Outcomes,
     measures: Mapping[str, Array],
     resampling: Resampling,
-    *,
     magnitude: Array | None = None,
     distance: Array | None = None,
 ) -> tuple[MeasureScore, ...]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -33,26 +34,21 @@ MISFITS = 0.05
 @dataclass(frozen=True, repr=False)
 class Fragility(Digested):
     """
-    Fragility of a block.
+    Fragility of a block; all that follows from its outcomes is computed when it is first asked for.
 
     Attributes
     ----------
     outcomes : Outcomes
-    lognormal : LognormalFit
-        Of overturning, or why there is none.
-    isotonic : IsotonicCurve
-    misfit : float
-        Of the lognormal curve: probability of one as large if the curve were right; NaN without a curve.
-    uplift : LognormalFit or None
-        Of the start of rocking; None if the peak acceleration alone decides it.
-    resurrected : float
-        Share of all histories that survive although the same record and draw overturned at a lower level.
-    betas : Betas
-    influence : Influence
-    measures : tuple of MeasureScore
-        Measures that were compared, the best by deviance first.
-    rate : AnnualRate or None
-        If there are a hazard and a lognormal curve.
+        Made by `gather`.
+    resampling : Resampling
+        Of all intervals.
+    uplift_varies : bool
+        Whether the start of rocking has a probability. It has none if the intensity is the peak acceleration and no
+        motion is vertical: the block then rocks exactly if it exceeds g tan α.
+    hazard : Hazard or None
+        Of the measure of the outcomes.
+    compared, magnitude, distance : optional
+        Measures that are compared, and what is known of the earthquakes, as of `compare_measures`.
     measure : str
         Id of the measure of intensity; all intensities are in its SI unit. Empty if it was not said.
 
@@ -73,16 +69,63 @@ class Fragility(Digested):
     """
 
     outcomes: Outcomes
-    lognormal: LognormalFit
-    isotonic: IsotonicCurve
-    misfit: float
-    uplift: LognormalFit | None
-    resurrected: float
-    betas: Betas
-    influence: Influence
-    measures: tuple[MeasureScore, ...]
-    rate: AnnualRate | None
+    resampling: Resampling
+    uplift_varies: bool = True
+    hazard: Hazard | None = None
+    compared: Mapping[str, Array] = field(default_factory=dict)
+    magnitude: Array | None = None
+    distance: Array | None = None
     measure: str = ""
+
+    @cached_property
+    def lognormal(self) -> LognormalFit:
+        """Curve of overturning, or why there is none."""
+        return fit_lognormal(self.outcomes, self.resampling)
+
+    @cached_property
+    def isotonic(self) -> IsotonicCurve:
+        """Curve of overturning that only rises."""
+        return fit_isotonic(self.outcomes, self.resampling)
+
+    @cached_property
+    def misfit(self) -> float:
+        """Probability of a misfit as large as the lognormal curve's if it were right; NaN without a curve."""
+        return lognormal_misfit(self.outcomes, self.resampling)
+
+    @cached_property
+    def uplift(self) -> LognormalFit | None:
+        """Curve of the start of rocking; None if the peak acceleration alone decides it."""
+        return (
+            fit_lognormal(self.outcomes, self.resampling, event=self.outcomes.peak > 0) if self.uplift_varies else None
+        )
+
+    @property
+    def resurrected(self) -> float:
+        """Share of all histories that survive although the same record and draw overturned at a lower level."""
+        return resurrected(self.outcomes)
+
+    @cached_property
+    def betas(self) -> Betas:
+        """β from motion to motion, and from draw to draw within one."""
+        return split_beta(self.outcomes, self.lognormal)
+
+    @cached_property
+    def influence(self) -> Influence:
+        """The curve without each record."""
+        return influence(self.outcomes, self.hazard)
+
+    @cached_property
+    def measures(self) -> tuple[MeasureScore, ...]:
+        """Measures that were compared, the best by deviance first."""
+        known = self.magnitude, self.distance
+        return compare_measures(self.outcomes, self.compared, self.resampling, *known)
+
+    @cached_property
+    def rate(self) -> AnnualRate | None:
+        """Annual rate of overturning, if there are a hazard and a lognormal curve."""
+        if self.hazard is None or self.lognormal.reason:
+            return None
+        return annual_rate(self.hazard, self.lognormal, self.isotonic)
 
     @property
     def taken(self) -> Literal["lognormal", "isotonic"]:
@@ -134,61 +177,6 @@ class Fragility(Digested):
             }
         rate = {} if self.rate is None else {"rate": written(self.rate.rate.value, "1/year", 3)}
         return {"records": str(len(self.outcomes.records)), **curve, **rate}
-
-
-def summarise(
-    outcomes: Outcomes,
-    resampling: Resampling,
-    *,
-    uplift_varies: bool = True,
-    hazard: Hazard | None = None,
-    measures: Mapping[str, Array] | None = None,
-    magnitude: Array | None = None,
-    distance: Array | None = None,
-    measure: str = "",
-) -> Fragility:
-    """
-    Summarise outcomes.
-
-    Parameters
-    ----------
-    outcomes : Outcomes
-        Made by `gather`.
-    resampling : Resampling
-        Of all intervals.
-    uplift_varies : bool, optional
-        Whether the start of rocking has a probability. It has none if the intensity is the peak acceleration and no
-        motion is vertical: the block then rocks exactly if it exceeds g tan α.
-    hazard : Hazard, optional
-        Of the measure of the outcomes; made by `hazard_curve`.
-    measures, magnitude, distance : optional
-        As of `compare_measures`.
-    measure : str, optional
-        Id of the measure of the outcomes.
-
-    Returns
-    -------
-    fragility : Fragility
-
-    Raises
-    ------
-    ValueError
-        If an argument is out of its range.
-    """
-    lognormal, isotonic = fit_lognormal(outcomes, resampling), fit_isotonic(outcomes, resampling)
-    return Fragility(
-        outcomes,
-        lognormal,
-        isotonic,
-        lognormal_misfit(outcomes, resampling),
-        fit_lognormal(outcomes, resampling, event=outcomes.peak > 0) if uplift_varies else None,
-        resurrected(outcomes),
-        split_beta(outcomes, lognormal),
-        influence(outcomes, hazard),
-        compare_measures(outcomes, measures or {}, resampling, magnitude=magnitude, distance=distance),
-        annual_rate(hazard, lognormal, isotonic) if hazard is not None and not lognormal.reason else None,
-        measure,
-    )
 
 
 class Betas(NamedTuple):

@@ -20,7 +20,7 @@ from colonnade.assessment.cases import (
     factors_at,
     run_cases,
 )
-from colonnade.assessment.fragility import Fragility, summarise
+from colonnade.assessment.fragility import Fragility
 from colonnade.assessment.ground import LARGEST_DRIFT, NONE, Ground, correction_of
 from colonnade.assessment.hazard import Hazard, hazard_curve
 from colonnade.assessment.intervals import LEVEL, RESAMPLES, Resampling
@@ -228,16 +228,9 @@ def judge(
         np.where(outcomes.is_run, peak, np.nan)[:, :, drawn].reshape(directions),
         outcomes.exceeds(overturned)[:, :, drawn].reshape(directions),
     )
-    return summarise(
-        gathered,
-        resampling,
-        uplift_varies=study.measure.id != "pga" or any(motion.vertical is not None for motion in study.cases.motions),
-        hazard=hazard,
-        measures=_scaled(study, signs),
-        magnitude=magnitude,
-        distance=distance,
-        measure=study.measure.id,
-    )
+    varies = study.measure.id != "pga" or any(motion.vertical is not None for motion in study.cases.motions)
+    measure, scaled = study.measure.id, _scaled(study, signs)
+    return Fragility(gathered, resampling, varies, hazard, scaled, magnitude, distance, measure)
 
 
 def counted_draws(draws: int) -> slice:
