@@ -144,108 +144,69 @@ def test_a_watch_that_is_interrupted_before_its_one_round_is_130(colonnade, camp
     assert [colonnade("watch", *once).returncode for once in ((), ("--once",))] == [0, 130]
 
 
-DROPPED_WITHIN_THE_WATCH = """
-import os, signal, time
-from colonnade import cli, interruption
-from colonnade.cli import watch
-from colonnade.workflow.watching import watch as watching
-
+HEAD = "import os, signal, time\nfrom colonnade import cli, interruption\n"
+KILLED = "os.kill(os.getpid(), signal.SIGTERM); time.sleep(9)"
+FINALISER = f"""
 class Handle:
     def __del__(self):
-        os.kill(os.getpid(), signal.SIGTERM)
-        time.sleep(9)
+        {KILLED}
+"""
+COMPILED = f"""
+def compiled(*_, **__):
+    try:
+        {KILLED}
+    except KeyboardInterrupt as error:
+        raise ImportError("initialization failed") from error
+"""
+CALLBACK = f"""
+import ctypes
 
+@ctypes.CFUNCTYPE(None)
+def back():
+    {KILLED}
+"""
+
+
+def ended(tmp_path, *script):
+    """Run a script that is interrupted from within; return how it ended."""
+    path = tmp_path / "interrupted.py"
+    path.write_text("\n".join((HEAD, *script)))
+    return subprocess.run([sys.executable, path], cwd=tmp_path, capture_output=True, encoding="utf-8", timeout=60)
+
+
+DROPPED_WITHIN_THE_WATCH = f"""{FINALISER}
 def until_dropped(*_, **__):
     Handle()
     interruption.expect_none()
 
 complain, watching.watch = watch.complain, until_dropped
 watch.complain = lambda sentence: (time.sleep(0.5), complain(sentence))
-cli.main(["watch"])
-"""
-
-
-INTERRUPTED_WITHIN_AN_IMPORT = """
-import os, signal, time
-from colonnade import cli
-from colonnade.workflow.watching import watch as watching
-
-def interrupted(*_, **__):
-    try:
-        os.kill(os.getpid(), signal.SIGTERM)
-        time.sleep(9)
-    except KeyboardInterrupt as error:
-        raise ImportError("initialization failed") from error
-
-watching.watch = interrupted
-cli.main(["watch"])
-"""
-
-
-@posix
-@pytest.mark.parametrize("watched", [DROPPED_WITHIN_THE_WATCH, INTERRUPTED_WITHIN_AN_IMPORT], ids=["dropped", "import"])
-def test_a_signal_ends_a_watch_once_wherever_it_falls(tmp_path, watched):
-    script = tmp_path / "watched.py"
-    script.write_text(watched)
-    ended = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, encoding="utf-8", timeout=60)
-    assert (ended.returncode, ended.stderr) == (0, "The watch has ended. All results are kept.\n")
-
-
-INSIDE_EXEC = """
-def invoke(arguments):
-    exec("os.kill(os.getpid(), signal.SIGTERM); time.sleep(9)")
-"""
-INSIDE_COMPILED_MODULE = """
-def invoke(arguments):
-    try:
-        os.kill(os.getpid(), signal.SIGTERM)
-        time.sleep(9)
-    except KeyboardInterrupt as error:
-        raise ImportError("initialization failed") from error
-"""
-
-
-INSIDE_FINALISER = """
-class Handle:
-    def __del__(self):
-        os.kill(os.getpid(), signal.SIGTERM)
-        time.sleep(9)
-
-def invoke(arguments):
-    Handle()
-    time.sleep(30)
-"""
-INSIDE_CALLBACK = """
-import ctypes
-
-@ctypes.CFUNCTYPE(None)
-def back():
-    os.kill(os.getpid(), signal.SIGTERM)
-    time.sleep(9)
-
-def invoke(arguments):
-    back()
-    time.sleep(30)
 """
 
 
 @posix
 @pytest.mark.parametrize(
-    "invoke",
+    "watched", [DROPPED_WITHIN_THE_WATCH, f"{COMPILED}\nwatching.watch = compiled"], ids=["dropped", "import"]
+)
+def test_a_signal_ends_a_watch_once_wherever_it_falls(tmp_path, watched):
+    imports = "from colonnade.cli import watch\nfrom colonnade.workflow.watching import watch as watching"
+    told = ended(tmp_path, imports, watched, 'cli.main(["watch"])')
+    assert (told.returncode, told.stderr) == (0, "The watch has ended. All results are kept.\n")
+
+
+@posix
+@pytest.mark.parametrize(
+    ("defined", "done"),
     [
-        pytest.param(INSIDE_FINALISER, id="within a finaliser, where Python drops the exception"),
-        pytest.param(INSIDE_CALLBACK, id="within a callback of a compiled library, where Python drops it too"),
-        pytest.param(INSIDE_EXEC, id="within exec of a text, where Python would end by SIGINT"),
-        pytest.param(INSIDE_COMPILED_MODULE, id="within a compiled module, which makes an ImportError of it"),
+        pytest.param(FINALISER, "Handle()", id="within a finaliser, where Python drops the exception"),
+        pytest.param(CALLBACK, "back()", id="within a callback of a compiled library, where Python drops it too"),
+        pytest.param("", f'exec("{KILLED}")', id="within exec of a text, where Python would end by SIGINT"),
+        pytest.param(COMPILED, "compiled()", id="within a compiled module, which makes an ImportError of it"),
     ],
 )
-def test_an_interrupt_wherever_it_falls_is_130(tmp_path, invoke):
-    (tmp_path / "interrupted.py").write_text(
-        f"import os, signal, time\nfrom colonnade import cli\n{invoke}\ncli.invoke = invoke\ncli.main()\n"
-    )
-    ended = subprocess.run(
-        [sys.executable, "-m", "interrupted"], cwd=tmp_path, capture_output=True, encoding="utf-8", timeout=60
-    )
-    assert ended.returncode == 130
-    assert "Traceback" not in ended.stderr
-    assert "ignored" not in ended.stderr
+def test_an_interrupt_wherever_it_falls_is_130(tmp_path, defined, done):
+    invoke = f"def invoke(arguments):\n    {done}\n    time.sleep(30)\n"
+    told = ended(tmp_path, defined, invoke, "cli.invoke = invoke", "cli.main()")
+    assert told.returncode == 130
+    assert "Traceback" not in told.stderr
+    assert "ignored" not in told.stderr
