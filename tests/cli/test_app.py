@@ -1,7 +1,6 @@
 """The group of all commands, and those that answer in few lines."""
 
 import json
-from pathlib import Path
 
 import pytest
 
@@ -21,16 +20,6 @@ def test_commands_are_listed_in_the_order_in_which_they_are_met(colonnade):
 
 def test_the_version_is_that_of_the_package(colonnade):
     assert package.__version__ in colonnade("--version").stdout
-
-
-RAW_SCHEMA = Path(__file__).parents[2] / "raw_schema"
-
-
-@pytest.mark.parametrize("contract", ["campaign", "summary"])
-def test_the_command_writes_the_file_that_lies_in_raw_schema(colonnade, contract):
-    told = colonnade("schema", contract)
-    assert told.returncode == 0
-    assert told.stdout == (RAW_SCHEMA / f"{contract}.schema.json").read_text(encoding="utf-8")
 
 
 def test_what_was_run_gives_advice(colonnade, campaign):
