@@ -15,7 +15,9 @@ from colonnade.campaign.forms.summary import Summary
 from colonnade.figures.files.output import to_gif
 from colonnade.figures.maps import response_orders
 from colonnade.figures.moving import animation
-from colonnade.figures.stored import record, restitution
+from colonnade.figures.restitution import decay
+from colonnade.figures.stored import record
+from colonnade.figures.stored.subject import OfTest
 from colonnade.laboratory import paper_programme, prism_programme, write_campaign
 from colonnade.laboratory.programme import KEPT_AWAY
 from colonnade.store.layout import Layout
@@ -124,25 +126,30 @@ def draw(campaign: Campaign, summary: dict[str, Any], folder: Path, name: str, p
     block = campaign.block("prism")
     layout = Layout(campaign.folder)
     tests = [test for test in campaign.tests.values() if test.specimen == "prism"]
-    stored = {
-        test.id: read_test(campaign, layout, test) for test in tests if test.kind in ("earthquake", "free-vibration")
-    }
-    panels = [record.span_panel(test, stored[test.id], block) for test in tests if test.kind == "earthquake"]
+    records = Summary.model_validate(summary).tests
+    spans, free = (
+        [
+            OfTest(campaign, test, records[test.id], read_test(campaign, layout, test))
+            for test in tests
+            if test.kind == kind
+        ]
+        for kind in ("earthquake", "free-vibration")
+    )
+    panels = list(map(record.span_panel, spans))
     described = " ".join(f"{panel.title}: the prism" for panel in panels)
-    free = [test for test in tests if test.kind == "free-vibration"]
-    series = [restitution.peak_series(test, stored[test.id], block) for test in free]
-    points = map_points(Summary.model_validate(summary).tests, "prism")
+    series = list(filter(None, map(decay.peak_series, free)))
+    points = map_points(records, "prism")
     title = "Measured and predicted rocking at three Spans"
     drawn = {
         title: ("spans", record.spans(f"{name}-spans", title, described, panels)),
-        "Peaks with fit": ("peaks", restitution.peaks(f"{name}-peaks", list(filter(None, series)), block)),
+        "Peaks with fit": ("peaks", decay.peaks(f"{name}-peaks", series, block)),
         "Measured map of the prism": ("map", response_orders.tested(f"{name}-map", points)),
     }
     for part, drawing in drawn.values():
         if drawing is not None:
             (folder / f"{name}-{part}.svg").write_text(drawing.svg, encoding="utf-8")
     if picture is not None:
-        moving = animation(campaign.tests[MOVING], campaign.specimens["prism"], stored[MOVING], block)
+        moving = animation(next(one for one in spans if one.test.id == MOVING))
         assert moving is not None
         picture.write_bytes(to_gif(moving, dpi=COARSE))
     return {caption: f"{name}-{part}.svg" for caption, (part, _) in drawn.items()}

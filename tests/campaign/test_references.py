@@ -51,6 +51,7 @@ SPECIMENS = {"specimens": {"prism": specimen(), "Prism": specimen()}}
 SETUPS = {"setups": {name: {"channels": {"top": OTHER}} for name in ("frame", "FRAME")}}
 BOTH = {"file": {"main": "a.csv", "daq2": "b.csv"}}
 DID = "in this set-up. Did you mean"
+MAIN_TWICE = '"Main" is the recorder of the set-up\'s own `file`. Choose another id for an additional one.'
 CASE = "only in upper and lower case. Choose another."
 
 
@@ -71,6 +72,7 @@ CASE = "only in upper and lower case. Choose another."
             "This id differs from \"a.b\" only in case or in '.', '-' and '_'. Choose another.",
         ),
         (document(recorders={"daq": {}, "DAQ": {}}), f"{FRAME}.recorders.DAQ", f'This id differs from "daq" {CASE}'),
+        (document(recorders={"Main": {}}), f"{FRAME}.recorders.Main", MAIN_TWICE),
         (document() | SPECIMENS, "specimens.Prism", f'This id differs from "prism" {CASE}'),
         (document() | SETUPS, "setups.FRAME", f'This id differs from "frame" {CASE}'),
     ],

@@ -71,12 +71,6 @@ def test_what_is_no_clock_is_refused_with_what_was_expected(clock, place, words)
     assert words in problems(recorders={"daq2": {"clock": clock}})[f"recorders.daq2.clock{place}"]
 
 
-@pytest.mark.parametrize("name", ["main", "Main"])
-def test_an_additional_recorder_is_not_called_main(name):
-    ((_, told),) = problems(recorders={name: {}}).items()
-    assert told.startswith(f'"{name}" is the recorder of the set-up\'s own `file`.')
-
-
 def test_angles_are_taken_to_radians_and_a_catch_is_positive():
     found = setup(catch="12 deg", table_tilt="-0.1 deg")
     assert found.catch == pytest.approx(radians(12.0), rel=1e-14)

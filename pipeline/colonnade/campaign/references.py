@@ -84,6 +84,9 @@ def _setup(place: Place, setup: Setup, campaign: CampaignFile) -> Problems:
             if body is not None:
                 yield from unknown((*where, key), "body", body, known)
     for name, recorder in setup.further_recorders.items():
+        if name.casefold() == MAIN:
+            message = f'"{name}" is the recorder of the set-up\'s own `file`. Choose another id for an additional one.'
+            yield (*place, "recorders", name), message
         links = () if recorder.clock == "trigger" else recorder.clock.align
         for linked, owner in zip(links, (MAIN, name), strict=False):
             own = [each for each, channel in setup.channels.items() if channel.recorder == owner]

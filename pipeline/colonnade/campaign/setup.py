@@ -13,7 +13,6 @@ from pydantic import (
     Field,
     GetJsonSchemaHandler,
     ValidationError,
-    WithJsonSchema,
     model_validator,
 )
 from pydantic_core import CoreSchema, InitErrorDetails
@@ -21,7 +20,7 @@ from pydantic_core import CoreSchema, InitErrorDetails
 from colonnade import units
 from colonnade.campaign.channel import MAIN, SURROUNDINGS, Channel, Unit
 from colonnade.campaign.syntax import fields
-from colonnade.campaign.syntax.names import Identifier, identifier
+from colonnade.campaign.syntax.names import Identifier
 from colonnade.campaign.syntax.table import Problems, Table, missing, problem, refuse
 from colonnade.errors import UnitError, nearest
 
@@ -88,17 +87,7 @@ def _option_problem(error: Any, options: type[BaseModel], format_name: str) -> I
     return problem(f"{fields.shown(error['input'])} was found: {said.rstrip('.')}.", *place)
 
 
-def _recorder_id(value: object) -> str:
-    name = identifier(value)
-    if name.casefold() == MAIN:
-        raise ValueError(
-            f'"{name}" is the recorder of the set-up\'s own `file`. Choose another id for an additional recorder.'
-        )
-    return name
-
-
 FileTable = Annotated[FileOptions, BeforeValidator(_file_options)]
-RecorderId = Annotated[str, BeforeValidator(_recorder_id), WithJsonSchema({"type": "string"})]
 
 
 class Recorder(Table):
@@ -168,7 +157,7 @@ class Setup(Table):
     """How the raw files are read; every option that is not given is sniffed."""
     sampling_rate: fields.Frequency | None = None
     """Samples per second, such as "200 Hz", if the file has no time column."""
-    further_recorders: dict[RecorderId, Recorder] = Field(default={}, alias="recorders")
+    further_recorders: dict[Identifier, Recorder] = Field(default={}, alias="recorders")
     """Additional recorders, by id."""
     catch: fields.PositiveAngle | None = None
     """Rotation at which the safety frame catches the specimen, such as "0.3 rad"."""

@@ -7,9 +7,8 @@ import os
 import re
 import stat
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
@@ -31,8 +30,7 @@ _LONGEST = 40
 _ODD = re.compile(r"[^A-Za-z0-9.]+")
 
 
-@dataclass(frozen=True)
-class Known:
+class Known(NamedTuple):
     """
     A forecast as it was made.
 
@@ -50,16 +48,14 @@ class Known:
     forecast: ForecastFile
 
 
-@dataclass(frozen=True)
-class Refused:
+class Refused(NamedTuple):
     """A file that cannot be taken as a forecast, and why: a sentence."""
 
     name: str
     reason: str
 
 
-@dataclass(frozen=True)
-class Forecasts:
+class Forecasts(NamedTuple):
     """All forecasts of a campaign in the order in which they were made, and the files that cannot be taken."""
 
     known: tuple[Known, ...] = ()

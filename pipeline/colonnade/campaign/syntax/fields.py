@@ -152,11 +152,13 @@ class Quantity:
     def take(self, value: object) -> float:
         """Take what is written."""
         if not isinstance(value, str):
-            example = f'A quantity in quotes was expected, such as "{self.such_as}".'
-            raise ValueError(f"{shown(value)} has no unit. {example}")
+            raise ValueError(
+                f'{shown(value)} has no unit. A quantity in quotes was expected, such as "{self.such_as}".'
+            )
         if "?" in value:
-            example = f'A quantity such as "{self.such_as}" was expected.'
-            raise ValueError(f"{shown(value)} still has to be filled in. {example}")
+            raise ValueError(
+                f'{shown(value)} still has to be filled in. A quantity such as "{self.such_as}" was expected.'
+            )
         number, unit = units.to_si(value, self.dimension), UNITS[self.dimension]
         if not isfinite(number):
             raise ValueError(f"{shown(value)} is too large.")

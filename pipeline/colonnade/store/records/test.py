@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import isnan, nan
 from typing import TYPE_CHECKING, Any, cast
 
@@ -63,7 +64,7 @@ def record_of_test(campaign: Campaign, test: Test, stored: Stored) -> TestSummar
         ),
         **as_given(test),
         restitution=_identified(stored) if stored.has("restitution") else None,
-        prototype=_at_prototype(measured, scale) if scale is not None and stored.has("rocking") else None,
+        prototype=TestPrototype(**at_scale(AT_PROTOTYPE, measured, scale)) if scale and stored.has("rocking") else None,
         predicted={model: _predicted(stored, model) for model in stored.models("predict")},
         bodies=bodies_of(stored),
         **_of_comparison(stored) | measured,
@@ -216,10 +217,9 @@ def _identified(stored: Stored) -> IdentifiedSummary:
     )
 
 
-def _at_prototype(measured: dict[str, Any], scale: float) -> TestPrototype:
-    return TestPrototype(
-        **{name: at_prototype(quantity, measured.get(name, nan), scale) for name, quantity in AT_PROTOTYPE.items()}
-    )
+def at_scale(kinds: Mapping[str, str], values: Mapping[str, float], scale: float) -> dict[str, float]:
+    """Return values of these kinds of quantity at prototype scale; NaN for one that is not known."""
+    return {name: at_prototype(kind, values.get(name, nan), scale) for name, kind in kinds.items()}
 
 
 if TYPE_CHECKING:
@@ -268,6 +268,6 @@ def specimen_prototype(campaign: Campaign, name: str) -> SpecimenPrototype | Non
         return None
     return SpecimenPrototype(
         scale=scale,
-        **{key: at_prototype(quantity, getattr(block, key), scale) for key, quantity in BLOCK_AT_PROTOTYPE.items()},
-        sizes={key: at_prototype("length", size, scale) for key, size in specimen.sizes().items()},
+        sizes=at_scale(dict.fromkeys(specimen.sizes(), "length"), specimen.sizes(), scale),
+        **at_scale(BLOCK_AT_PROTOTYPE, of_block(block) | {"mass": block.mass}, scale),
     )
