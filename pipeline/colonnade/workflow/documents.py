@@ -148,25 +148,20 @@ def chosen(campaign: Campaign, name: str, subject: str | None) -> tuple[Entry, s
         raise CampaignError(
             f'Unknown figure "{name}".{nearest(name, known)} All are listed by `colonnade figure --list`.'
         )
-    ids = {"test": list(campaign.tests), "specimen": list(campaign.specimens)}
-    possible = {of: ids[of] for of in entries if of in ids}
+    ids = {"campaign": [""], "test": list(campaign.tests), "specimen": list(campaign.specimens)}
+    of_one = [of for of in entries if of != "campaign"]
+    hint = nearest(subject or "", [name for of in of_one for name in ids[of]])
     if subject is None:
-        if "campaign" in entries:
-            return entries["campaign"], ""
-        alone = {of: names[0] for of, names in possible.items() if len(names) == 1}
-        for of, only in alone.items():
-            return entries[of], only
-        raise CampaignError(
-            f'"{name}" is a figure of a {" or a ".join(possible)}. Name one.'
-            f"{nearest('', [each for names in possible.values() for each in names])}"
-        )
-    for of, names in possible.items():
-        if subject in names:
+        for of in ids:
+            if of in entries and len(ids[of]) == 1:
+                return entries[of], ids[of][0]
+        raise CampaignError(f'"{name}" is a figure of a {" or a ".join(of_one)}. Name one.{hint}')
+    for of in of_one:
+        if subject in ids[of]:
             return entries[of], subject
-    if not possible:
+    if not of_one:
         raise CampaignError(f'"{name}" is a figure of the whole campaign. Leave out "{subject}".')
-    hint = nearest(subject, [each for names in possible.values() for each in names])
-    raise CampaignError(f'The campaign has no {" or ".join(possible)} "{subject}" that "{name}" could show.{hint}')
+    raise CampaignError(f'The campaign has no {" or ".join(of_one)} "{subject}" that "{name}" could show.{hint}')
 
 
 def draw(campaign: Campaign, entry: Entry, subject: str, results: Path | None) -> Picture | Movie:

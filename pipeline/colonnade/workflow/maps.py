@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -27,7 +27,7 @@ from colonnade.store.results import ResultId, models_moving
 from colonnade.workflow.executors import Arrays, Counted, Run, Where, blocks_of
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
-from colonnade.workflow.map_plans import Wanted, measured_points, plan_of, restitution_of
+from colonnade.workflow.map_plans import Known, Wanted, measured_points, plan_of, restitution_of
 from colonnade.workflow.pooling import expect_known
 from colonnade.workflow.product import Catalogue, Product, stored_attributes
 from colonnade.workflow.walk import Walk
@@ -170,11 +170,11 @@ def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Itera
         for model in models_moving(graph.campaign, specimen, graph.campaign.processing.predict.models):
             if MODELS[model].in_space:
                 continue
-            known = pair(restitution.value), restitution.source
-            usual = _map(graph, specimen, Wanted(models=(model,)), model, points, known, None)[1]
+            known = Known(points, pair(restitution.value), restitution.source)
+            _, usual = _map(graph, specimen, Wanted(models=(model,)), model, known)
             stored = stored_attributes(usual.paths[0])
             try:
-                asked = _map(graph, specimen, Wanted.of(stored[ASKED], model), model, points, known, None)[1]
+                _, asked = _map(graph, specimen, Wanted.of(stored[ASKED], model), model, known)
             except (KeyError, ValueError, TypeError, CampaignError):
                 yield usual
             else:
@@ -184,47 +184,43 @@ def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Itera
 def _of_specimen(walk: Walk, specimen: str, wanted: Wanted, where: Where) -> list[MapMade]:
     """Make the maps of one specimen, one for each model, and a common picture of several models."""
     layout, models = walk.graph.layout, list(dict.fromkeys(wanted.models))
-    together = layout.together(specimen, models) if len(models) > 1 else None
-    points = measured_points(layout, specimen)
-    made = [_made(walk, specimen, wanted, model, points, together, where) for model in models]
-    if together is not None:
-        _draw([files.read(each.path) for each in made], points, together, specimen)
+    known = Known(measured_points(layout, specimen), *restitution_of(walk.graph.campaign, layout, specimen))
+    made = [_made(walk, specimen, wanted, model, known, where) for model in models]
+    if len(models) > 1:
+        together = layout.together(specimen, models)
+        _draw([files.read(each.path) for each in made], known.points, together, specimen)
+        made = [replace(each, together=together) for each in made]
     return made
 
 
-def _made(
-    walk: Walk,
-    specimen: str,
-    wanted: Wanted,
-    model: str,
-    points: Sequence[MapPoint],
-    together: Path | None,
-    where: Where,
-) -> MapMade:
+def _made(walk: Walk, specimen: str, wanted: Wanted, model: str, known: Known, where: Where) -> MapMade:
+    from colonnade.figures.maps import response_orders
+
     started, layout = time.perf_counter(), walk.graph.layout
-    known = restitution_of(walk.graph.campaign, layout, specimen)
-    plan, product = _map(walk.graph, specimen, wanted, model, points, known, where)
+    plan, product = _map(walk.graph, specimen, wanted, model, known, where)
     stored, because = _brought(walk, product)
-    _draw([stored], points, layout.figure(product.result), specimen)
+    figure = layout.figure(product.result)
+    _draw([stored], known.points, figure, specimen)
     responses = responses_figure = None
     if wanted.responses:
-        product = _responses(walk.graph, specimen, plan, known[1], where)
-        responses, responses_figure = product.paths[0], layout.figure(product.result)
-        steady, why = _brought(walk, product)
+        asked = _responses(walk.graph, specimen, plan, known.source, where)
+        responses, responses_figure = asked.paths[0], layout.figure(asked.result)
+        steady, why = _brought(walk, asked)
         because = why or because
-        _draw_responses(as_response(steady), plan, points, responses_figure, specimen)
-    boundaries, chart = bracket_boundaries(points), as_map(stored)
+        drawn = response_orders.responses(specimen, as_response(steady), known.points, _settings(plan))
+        files.write_text(responses_figure, drawn.svg)
+    boundaries, chart = bracket_boundaries(known.points), as_map(stored)
     lower, upper = (limit_misfit(boundaries, chart.frequency_ratio, limit) for limit in (chart.lower, chart.upper))
     return MapMade(
         specimen=specimen,
         model=model,
-        restitution_source=known[1],
-        path=layout.stage(specimen, "map", model),
-        figure=layout.figure(ResultId(specimen, "map", model)),
-        together=together,
+        restitution_source=known.source,
+        path=product.paths[0],
+        figure=figure,
+        together=None,
         responses=responses,
         responses_figure=responses_figure,
-        measured=len(points),
+        measured=len(known.points),
         lower=lower,
         upper=upper,
         action="done" if because else "up-to-date",
@@ -243,52 +239,37 @@ def _brought(walk: Walk, product: Product) -> tuple[xr.Dataset, str]:
 
 
 def _map(
-    graph: Graph,
-    specimen: str,
-    wanted: Wanted,
-    model: str,
-    points: Sequence[MapPoint],
-    restitution: tuple[Any, str],
-    where: Where | None,
+    graph: Graph, specimen: str, wanted: Wanted, model: str, known: Known, where: Where | None = None
 ) -> tuple[MapPlan, Product]:
     """Plan a map, made in blocks or, without `where`, in one."""
-    plan = plan_of(graph.campaign, graph.layout, specimen, wanted, model, restitution[0], points)
+    plan = plan_of(graph.campaign, graph.layout, specimen, wanted, model, known)
     asked = {} if wanted.text() == Wanted().text() else {ASKED: wanted.text()}
-    attributes = {"restitution_source": restitution[1], **asked}
-    make = partial(_chart, plan, attributes)
-    return plan, _product(graph, ResultId(specimen, "map", model), plan, plan.options, _columns, make, where)
+    work = partial(_in_blocks, _columns, _chart, plan, {"restitution_source": known.source, **asked})
+    options = Options(plan.options)
+    return plan, graph.product(ResultId(specimen, "map", model), options, given(plan), work, *MADE_BY, where=where)
 
 
 def _responses(graph: Graph, specimen: str, plan: MapPlan, source: str, where: Where) -> Product:
     """Plan steady responses: of the plan, its block, axes, model, restitution and sine, with `SETTLING` cycles."""
-    settings, make = _settings(plan), partial(_steady, plan, {"restitution_source": source})
-    return _product(graph, ResultId(specimen, "responses", plan.model), plan, settings, _steady_columns, make, where)
-
-
-def _product(
-    graph: Graph,
-    result: ResultId,
-    plan: MapPlan,
-    settings: Mapping[str, Any],
-    columns: Callable[[MapPlan, range], Arrays],
-    make: Callable[[list[Arrays]], xr.Dataset],
-    where: Where | None,
-) -> Product:
-    work = partial(_in_blocks, plan, columns, make)
-    return graph.product(result, Options(dict(settings)), given(plan), work, *MADE_BY, where=where)
+    work = partial(_in_blocks, _steady_columns, _steady, plan, {"restitution_source": source})
+    result, options = ResultId(specimen, "responses", plan.model), Options(_settings(plan))
+    return graph.product(result, options, given(plan), work, *MADE_BY, where=where)
 
 
 def _in_blocks(
-    plan: MapPlan,
     columns: Callable[[MapPlan, range], Arrays],
-    make: Callable[[list[Arrays]], xr.Dataset],
+    make: Callable[[MapPlan, Arrays], xr.Dataset],
+    plan: MapPlan,
+    attributes: Mapping[str, str],
     *,
     inputs: Options,
     run: Run | None = None,
 ) -> xr.Dataset:
     """Make a result over Ω and A of blocks of Ω, or at once."""
     size = plan.frequency_ratio.size
-    return make([columns(plan, range(size))] if run is None else run(partial(columns, plan), blocks_of(size)))
+    blocks = [columns(plan, range(size))] if run is None else run(partial(columns, plan), blocks_of(size))
+    joined = {name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]}
+    return make(plan, joined).assign_attrs(attributes)
 
 
 def given(plan: MapPlan) -> dict[str, str | None]:
@@ -306,15 +287,10 @@ def _columns(plan: MapPlan, indices: range) -> Arrays:
     return {name: each for name, each in vars(chart).items() if name not in ("amplitude_ratio", "options")}
 
 
-def _chart(plan: MapPlan, attributes: Mapping[str, str], blocks: Sequence[Arrays]) -> xr.Dataset:
+def _chart(plan: MapPlan, joined: Arrays) -> xr.Dataset:
     from colonnade.dynamics.maps import StabilityMap
 
-    whole = StabilityMap(amplitude_ratio=plan.amplitude_ratio, options=plan.options, **_joined(blocks))
-    return as_dataset(whole).assign_attrs(attributes)
-
-
-def _joined(blocks: Sequence[Arrays]) -> Arrays:
-    return {name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]}
+    return as_dataset(StabilityMap(amplitude_ratio=plan.amplitude_ratio, options=plan.options, **joined))
 
 
 def _draw(stored: Sequence[xr.Dataset], points: Sequence[MapPoint], path: Path, specimen: str) -> None:
@@ -360,17 +336,9 @@ def _steady_columns(plan: MapPlan, indices: range) -> Arrays:
     }
 
 
-def _steady(plan: MapPlan, attributes: Mapping[str, str], blocks: Sequence[Arrays]) -> xr.Dataset:
+def _steady(plan: MapPlan, joined: Arrays) -> xr.Dataset:
     import xarray as xr
 
     coordinates = {"frequency_ratio": plan.frequency_ratio, "amplitude_ratio": plan.amplitude_ratio}
-    variables = {name: (tuple(coordinates), each) for name, each in _joined(blocks).items()}
-    return xr.Dataset(variables, coordinates, _settings(plan) | dict(attributes))
-
-
-def _draw_responses(
-    response: SteadyResponse, plan: MapPlan, points: Sequence[MapPoint], path: Path, specimen: str
-) -> None:
-    from colonnade.figures.maps import response_orders
-
-    files.write_text(path, response_orders.responses(specimen, response, points, _settings(plan)).svg)
+    variables = {name: (tuple(coordinates), each) for name, each in joined.items()}
+    return xr.Dataset(variables, coordinates, _settings(plan))
