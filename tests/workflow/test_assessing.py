@@ -1,13 +1,7 @@
 """Questions of one's own: options over the keys of a campaign, columns without one, refusals."""
 
-import os
-import random
-import signal
-import sys
-from dataclasses import replace
 from functools import partial
 from html import unescape
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -211,42 +205,5 @@ CASES = Cases(COLUMN, DRAWS, WAVES, np.tile([[1.0, np.nan], [3.0, 1.0]], (3, 1, 
 def test_blocks_give_what_the_whole_gives(tmp_path):
     outcomes = outcomes_of(CASES, partial(in_blocks, folder=tmp_path, key="key", where=Where(workers=1)))
     whole = run_cases(CASES)
-    for name in ("outcome", "peak_ratio"):
-        np.testing.assert_array_equal(getattr(outcomes, name), getattr(whole, name))
-
-
-KILLED = """
-import sys
-from pathlib import Path
-import test_assessing as tested
-print("going", flush=True)
-where = tested.Where(workers=2, progress=lambda done, total: print(done, total, flush=True))
-tested.outcomes_of(tested.MANY, tested.partial(tested.in_blocks, folder=Path(sys.argv[1]), key="key", where=where))
-"""
-MANY = replace(
-    CASES, draws=np.stack([draw(COLUMN, 20)] * 120), motions=40 * WAVES, factors=np.tile(CASES.factors, (40, 1, 1))
-)
-
-
-@pytest.mark.slow
-def test_ten_kills_and_a_resumption_give_the_undisturbed_values(start, tmp_path):
-    chance, done = random.Random(1), [0]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
-    for _ in range(10):
-        process = start(KILLED, tmp_path, said="going", cwd=Path(__file__).parent, env=environment)
-        found, total = map(int, process.stdout.readline().split())
-        assert found >= done[-1]
-        until = found + chance.randint(0, 8)
-        while found < until:
-            found = int(process.stdout.readline().split()[0])
-        os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
-        done.append(found)
-    assert 10 < done[-1] < total
-    steps = []
-    again = Where(workers=2, progress=lambda *step: steps.append(step))
-    outcomes = outcomes_of(MANY, partial(in_blocks, folder=tmp_path, key="key", where=again))
-    assert steps[0][0] >= done[-1]
-    whole = run_cases(MANY)
     for name in ("outcome", "peak_ratio"):
         np.testing.assert_array_equal(getattr(outcomes, name), getattr(whole, name))

@@ -214,14 +214,17 @@ def if_up_to_date(chain: Chain, look: Look) -> list[StageRun] | None:
 
 def why_pending(chain: Chain, look: Look) -> str | None:
     """Say why the results of a test cannot be shown: empty if it was never run, None if they are up to date."""
-    if if_up_to_date(chain, look) is not None:
-        return None
-    first, why = next((number, why) for number, each in enumerate(chain.products) if (why := chain.why(each, look)))
-    if why != NEVER_RUN:
-        return f"its results are out of date ({why}); run again"
-    return (
-        f"run only as far as {chain.products[first - 1].result.stage}; `colonnade run` does the rest" if first else ""
-    )
+    for number, product in enumerate(chain.products):
+        why = chain.why(product, look)
+        if why == NEVER_RUN and number:
+            return f"run only as far as {chain.products[number - 1].result.stage}; `colonnade run` does the rest"
+        if why == NEVER_RUN:
+            return ""
+        if why:
+            return f"its results are out of date ({why}); run again"
+        if look(product.paths[0])["status"] == "failed":
+            break
+    return None
 
 
 def worker_lost(chain: Chain) -> list[StageRun]:

@@ -90,7 +90,7 @@ class Catalogue:
         Returns
         -------
         entry : list or None
-            Mark and answer, with what else was found out from the answer; None if there is no such file.
+            Mark and answer; None if there is no such file.
         """
         place = os.fspath(path).removeprefix(self._home)
         if os.path.isabs(place):  # noqa: PTH117
@@ -153,11 +153,9 @@ class Catalogue:
         return notices
 
     def content(self, path: Path) -> str | None:
-        """Hash of the attributes `KEPT` of a result and its findings; None if it is missing."""
+        """Hash of the attributes `KEPT` of a result and its findings; None if it is missing or damaged."""
         entry = self.entry("results", path, _kept)
-        if entry is not None and len(entry) == 2:
-            entry.append(hash_of(entry[1]))
-        return None if entry is None else str(entry[2])
+        return entry[1].get("hash") if entry else None
 
     def kept(self, product: str, key: str) -> tuple[str, str] | None:
         """Return the text that is kept of a product under this key, and why it could not be made; None without one."""
@@ -212,8 +210,11 @@ def _whole(path: Path) -> dict[str, str]:
 
 def _kept(path: Path, attributes: Mapping[str, Any] | None = None) -> dict[str, str]:
     stored = stored_attributes(path) if attributes is None else attributes
+    if not stored:
+        return {}
     kept = {part: str(stored[part]) for part in KEPT if part in stored}
-    return kept | {"warnings": to_text(stored.get("warnings", []))} if stored else kept
+    kept |= {"warnings": to_text(stored.get("warnings", []))}
+    return kept | {"hash": hash_of(kept)}
 
 
 Look = Callable[[Path], Mapping[str, Any]]

@@ -125,8 +125,7 @@ def advise_kind(
         return []
     pooled = restitution_taken(campaign, layout, specimen)
     if kind == "free-vibration":
-        free = advise_free(campaign, specimen, pooled, tests)
-        return [] if free is None else [free]
+        return advise_free(campaign, specimen, pooled, tests)
     if kind == "sine":
         sines = (test for test in campaign.tests.values() if (test.specimen, test.kind) == (specimen, kind))
         tilts = [campaign.setups[test.setup].table_tilt or 0.0 for test in sines]
@@ -197,9 +196,9 @@ LARGEST_RELEASE = 0.6
 
 def advise_free(
     campaign: Campaign, specimen: str, pooled: xr.Dataset, tests: Mapping[str, TestSummary]
-) -> Advice | None:
+) -> list[Advice]:
     """
-    Advise on the next free vibration.
+    Advise on the next free vibration; not at all if e is given in the campaign file.
 
     Parameters
     ----------
@@ -210,19 +209,14 @@ def advise_free(
         Its e, as the stage `specimen` gives it.
     tests : mapping of str to TestSummary
         Records of the campaign's tests.
-
-    Returns
-    -------
-    advice : Advice or None
-        None if e is given in the campaign file.
     """
     if pooled.attrs["restitution_source"] == "given":
-        return None
+        return []
     wanted = campaign.next.restitution_width
     released = _released(pooled, tests)
     if not released:
         reason = "e is not identified, so predictions use the rigid-body value"
-        return Advice(specimen, "free-vibration", f"release from {LARGEST_RELEASE:g} α", False, reason)
+        return [Advice(specimen, "free-vibration", f"release from {LARGEST_RELEASE:g} α", False, reason)]
     names, angles = list(released), np.array(list(released.values()))
     places = [list(pooled["test_id"].to_numpy()).index(name) for name in names]
     advised = advise_free_vibration(
@@ -239,7 +233,7 @@ def advise_free(
     known = f"e {interval(e, e - half, e + half)} from {of}"
     after = format_uncertain(advised.pooled.value, float(advised.predicted_half_width[0]))
     limit = "the scatter between tests" if advised.limited_by == "scatter" else "the error of a single test"
-    return Advice(
+    advice = Advice(
         specimen=specimen,
         kind="free-vibration",
         test=f"release from {number(LARGEST_RELEASE, 2)} α",  # the records keep no side
@@ -254,6 +248,7 @@ def advise_free(
             "release_ratio": LARGEST_RELEASE,
         },
     )
+    return [advice]
 
 
 def _released(pooled: xr.Dataset, tests: Mapping[str, TestSummary]) -> dict[str, float]:

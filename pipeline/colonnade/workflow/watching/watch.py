@@ -218,7 +218,7 @@ class _Watching:
         self.show(line)
         self.tell_pages()
         if self.command and (problem := notify(self.command, line.as_json())):
-            self._tell(f"--notify: {problem}")
+            self._say_once(f"--notify: {problem}")
         if line.record.status == "done":
             self._measured[name] = line.record
             for advice in advise_after(self.campaign, self.layout, name, self._measured):
@@ -258,14 +258,11 @@ class _Watching:
             if found.kind == WITHOUT_TEST:
                 self._say_once(str(found))
 
-    def _tell(self, sentence: str) -> None:
-        self.say(sentence)
-        self.log.warning(sentence)
-
     def _say_once(self, sentence: str) -> None:
         if sentence not in self._said:
             self._said.add(sentence)
-            self._tell(sentence)
+            self.say(sentence)
+            self.log.warning(sentence)
 
     def _files(self, name: str) -> list[Path]:
         return [*self.campaign.tests[name].files.values()]
