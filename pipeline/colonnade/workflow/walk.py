@@ -88,7 +88,10 @@ class Walk:
             self.pool()
         if self._asks_for("predict"):
             self.calibrate({self._test(name).specimen for name in tests if self._is_in_space(self._test(name))})
-            self.follow(self._products(name, since="predict") for name in tests if self._can_be_predicted(name))
+            for name in tests:
+                if self._is_blocked("test", name, self._test(name).specimen):
+                    remove_later(self.graph.layout, ResultId(name, "restitution"))
+            self.follow(self._products(name, since="predict") for name in tests)
         if self._asks_for("compare"):
             self._fresh |= {name for name in tests if name not in self.failed["test"]}
 
@@ -100,7 +103,7 @@ class Walk:
         products = self._products(name, until="restitution")
         self.follow([products])
         self.pool([self._test(name).specimen])
-        if name not in self.failed["test"] and self._test(name).specimen not in self.failed["specimen"]:
+        if self._test(name).specimen not in self.failed["specimen"]:
             predicted = self._products(name, since="predict", until="predict")
             fast = [each for each in predicted if not MODELS[str(each.result.model)].in_space]
             self.follow([fast])
@@ -117,12 +120,8 @@ class Walk:
 
     def calibrate(self, specimens: Collection[str]) -> None:
         """Bring the laws of contact of specimens up to date."""
-        wanted = [
-            name
-            for name, each in self._campaign.specimens.items()
-            if name in specimens and name not in self.failed["specimen"] and not each.is_assembly
-        ]
-        self.follow([self.graph.calibrating(name)] for name in wanted)
+        blocks = [name for name, each in self._campaign.specimens.items() if not each.is_assembly]
+        self.follow([self.graph.calibrating(name)] for name in blocks if name in specimens)
 
     def map(self, summary: Summary) -> None:
         """Bring the maps up to date of specimens with sine tests at several frequencies, by their records."""
@@ -135,16 +134,14 @@ class Walk:
         """Bring assessments up to date, their histories in blocks on all processes."""
         for name, asked in assessments.items():
             product = self._assessing(name, asked, tell)
-            if reason := self.failed["specimen"].get(asked.specimen):
+            if self._is_blocked("assessment", name, asked.specimen):
                 files.remove(product.paths[0])
-                self.failed["assessment"][name] = f"specimen {asked.specimen}: {reason}"
-            else:
-                self.follow([[product]])
+            self.follow([[product]])
 
     def stale_assessments(self) -> set[str]:
         """Names of the assessments whose result is missing or outdated."""
-        chains = [self.chain([self._assessing(*each)], redo=False) for each in self._campaign.assessments.items()]
-        return {chain.subject for chain in chains if if_up_to_date(chain, self.graph.catalogue.attributes) is None}
+        asked = self._campaign.assessments.items()
+        return {name for name, each in asked if self._why([self._assessing(name, each)]) is not None}
 
     def score(self, forecasts: Mapping[str, Known], outdated: Collection[str]) -> None:
         """
@@ -157,22 +154,22 @@ class Walk:
 
     def stale(self, *, until: str = "compare") -> dict[str, str]:
         """Ids of the tests that have a missing or outdated result up to a stage, and what to say of it."""
-        look, whys = self.graph.catalogue.attributes, dict[str, str]()
-        for name in self.included:
-            if name not in self._fresh:
-                products = [each for each in self._all(name) if each.result.order <= RUN_STAGES.index(until)]
-                why = why_pending(self.chain(products, redo=False), look)
-                whys |= {} if why is None else {name: why}
-        return whys
+        whys, last = dict[str, str | None](), RUN_STAGES.index(until)
+        for name in [each for each in self.included if each not in self._fresh]:
+            whys[name] = self._why([product for product in self._all(name) if product.result.order <= last])
+        return {name: why for name, why in whys.items() if why is not None}
+
+    def _why(self, products: Sequence[Product]) -> str | None:
+        return why_pending(self.chain(products, redo=False), self.graph.catalogue.attributes)
 
     def follow(self, chains: Iterable[Sequence[Product]]) -> None:
         """
         Bring chains of results up to date that do not depend on each other.
 
         Those with nothing to do end here; the others are worked on by workers, but for results that several workers
-        share in: those are made one after the other when what is before them is there.
+        share in: those are made one after the other when what is before them is there. Nothing follows a failure.
         """
-        every = [list(products) for products in chains if products]
+        every = [list(products) for products in chains if self._is_standing(products)]
         alone = [list(takewhile(lambda product: product.where is None, products)) for products in every]
         self._bring([products for products in alone if products], self.workers, self.scheduler)
         later = []
@@ -180,9 +177,8 @@ class Walk:
             shared, rest = products[len(before) : len(before) + 1], products[len(before) + 1 :]
             if self._is_standing(shared):
                 self._bring([shared], workers=1)
-            if self._is_standing(rest):
-                later.append(rest)
-        if later:
+            later.append(rest)
+        if any(later):
             self.follow(later)
 
     def _is_standing(self, products: Sequence[Product]) -> bool:
@@ -248,13 +244,11 @@ class Walk:
         """Whether a test is predicted by a model that needs a law of contact."""
         return any(MODELS[model].in_space for model in models_of(self._campaign, test))
 
-    def _can_be_predicted(self, name: str) -> bool:
-        """Whether neither a test nor its specimen failed; nothing may follow from a specimen that did."""
-        test = self._test(name)
-        if reason := self.failed["specimen"].get(test.specimen):
-            remove_later(self.graph.layout, ResultId(name, "restitution"))
-            self.failed["test"].setdefault(name, f"specimen {test.specimen}: {reason}")
-        return name not in self.failed["test"]
+    def _is_blocked(self, of: Subject, name: str, specimen: str) -> bool:
+        """Whether a specimen failed, and a test or an assessment with it: nothing may follow from it."""
+        if reason := self.failed["specimen"].get(specimen):
+            self.failed[of].setdefault(name, f"specimen {specimen}: {reason}")
+        return bool(reason)
 
     def _assessing(self, name: str, asked: Assessment, *tell: Counted) -> Product:
         from colonnade.workflow.assessing import assessing
