@@ -13,9 +13,9 @@ from colonnade.report.paper import document_of
 from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import read_summary
-from colonnade.workflow.forecasts import choose, foreseen_of
 from colonnade.workflow.pages import update_report
 from colonnade.workflow.product import Catalogue
+from colonnade.workflow.summary import choose, foreseen_of
 from foreseeing import LATER
 from read_pages import Page
 

@@ -1,11 +1,19 @@
-"""summary.json and summary.csv: the contract's form, and the results' own numbers."""
+"""summary.json and summary.csv: the contract's form, the results' own numbers, which forecast counts and its score."""
 
 import csv
+import json
+from types import SimpleNamespace
 
 import pytest
 
 from colonnade.campaign.forms.summary import Summary
 from colonnade.store import files
+from colonnade.store.forecasts import Forecasts, Known
+from colonnade.workflow import run
+from colonnade.workflow.foresee import foresee
+from colonnade.workflow.raw_files import RawFile
+from colonnade.workflow.summary import choose, is_blind
+from foreseeing import LATER, TEST
 
 
 def test_the_summary_has_the_contracts_form(undisturbed):
@@ -70,3 +78,85 @@ def test_warnings_of_stages_are_the_tests_warnings(small):
     small.run()
     assert any("OVERFLOW" in warning["text"] for warning in small.summary()["tests"]["pulse-01"]["warnings"])
     assert small.summary()["tests"]["pulse-02"]["warnings"] == []
+
+
+RAW = {"raw/a.csv": RawFile("a" * 64), "raw/b.csv": RawFile(None)}
+SEEN = {"raw/a.csv": "a" * 64}
+CAMPAIGN = SimpleNamespace(tests={"span": SimpleNamespace(id="span", specimen="prism")})
+
+
+def forecast(name, raw_files=None, test="span", specimen="prism"):
+    return Known(name, "0" * 64, SimpleNamespace(test=test, specimen=specimen, raw_files=raw_files or {}))
+
+
+def test_a_forecast_is_blind_if_no_raw_file_was_there_by_name_or_content():
+    for there in ({}, {"raw/c.csv": "c" * 64}):
+        assert is_blind(forecast("f", there), RAW)
+    for there in (SEEN, {"raw/a.csv": "c" * 64}, {"elsewhere.csv": "a" * 64}, {"raw/b.csv": "c" * 64}):
+        assert not is_blind(forecast("f", there), RAW), there
+
+
+def test_the_last_blind_forecast_counts():
+    known = (forecast("1"), forecast("2"), forecast("3", SEEN))
+    chosen = choose(CAMPAIGN, Forecasts(known), {"span": RAW})
+    assert chosen.counts["span"].name == "2"
+    assert chosen.blind == {"1": True, "2": True, "3": False}
+    assert list(chosen.scored) == ["span"]
+
+
+def test_without_a_blind_one_the_last_is_shown_and_not_scored():
+    chosen = choose(CAMPAIGN, Forecasts((forecast("1", SEEN), forecast("2", SEEN))), {"span": RAW})
+    assert chosen.counts["span"].name == "2"
+    assert chosen.scored == {}
+
+
+def test_forecasts_for_no_test_or_another_specimen_count_for_none():
+    others = (forecast("1", test=None), forecast("2", test="gone"), forecast("3", specimen="cone"))
+    chosen = choose(CAMPAIGN, Forecasts(others), {"span": RAW})
+    assert (chosen.blind, chosen.counts) == ({}, {})
+
+
+def summary_of(folder):
+    text = (folder / "processed" / "summary.json").read_text(encoding="utf-8")
+    return Summary.model_validate_json(text)
+
+
+def done(result):
+    return {(stage.subject, stage.stage) for stage in result.stages if stage.action == "done"}
+
+
+@pytest.mark.whole
+def test_what_was_foreseen_is_scored_after_the_test_and_only_that_is_redone(foreseen_copy):
+    folder = foreseen_copy
+    run(folder, only=[LATER.replace("9", "2.0")], workers=1)
+    before = summary_of(folder)
+    assert before.tests[LATER].forecast.reason == "the test has no result yet"
+    assert before.tests[LATER].forecast.models["linear"].overturned == 1.0
+    assert (before.forecasts.count, before.forecasts.blind, before.forecasts.models) == (2, 2, {})
+    raw = (folder / "raw" / "span-2.5.csv").read_bytes()
+    (folder / "raw" / f"{LATER}.csv").write_bytes(raw + b"\n")
+    assert (LATER, "forecast") in done(run(folder, only=[LATER], workers=1))
+    found = summary_of(folder)
+    scores = found.tests[LATER].forecast.models["nonlinear"]
+    # All members overturned: the score is the distance from 1 to the peak that was measured.
+    assert scores.on_target.crps == pytest.approx(1 - found.tests[LATER].peak_ratio)
+    assert scores.on_target.brier == 1.0
+    assert scores.on_recorded.crps < 0.05
+    assert found.forecasts.models["nonlinear"].tests == 1
+    assert found.forecasts.models["nonlinear"].skill_rigid_body is None
+    assert done(run(folder, only=[LATER], workers=1)) == set()
+    late = foresee(folder, motion=TEST, levels=["1x"], test=LATER)[0]
+    (folder / "forecasts" / "odd.json").write_text(json.dumps({"a": 1}), encoding="utf-8")
+    last = run(folder, only=[LATER], workers=1)
+    assert done(last) == set()
+    assert [found.text for found in last.of_campaign if found.kind == "forecast"] == [
+        "forecasts/odd.json: it was altered after it was made: its hash is another. It is left out."
+    ]
+    files = {each.file: each for each in summary_of(folder).forecasts.files}
+    assert files[late.path.name].blind is False
+    assert files["odd.json"].refused
+    for path in (folder / "forecasts").iterdir():
+        path.unlink()
+    run(folder, only=[LATER], workers=1)
+    assert summary_of(folder).forecasts is None
+    assert not (folder / "processed" / "tests" / LATER / "forecast.nc").exists()

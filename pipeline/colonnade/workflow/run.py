@@ -17,7 +17,6 @@ from colonnade.store.records.advice import Advice
 from colonnade.store.results import RUN_STAGES, ResultId
 from colonnade.validation import described, whole
 from colonnade.workflow.chain import RunResult, remove_later
-from colonnade.workflow.forecasts import choose, finding_of, foreseen_of
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.pages import update_report
@@ -25,7 +24,7 @@ from colonnade.workflow.photos import with_photos
 from colonnade.workflow.pooling import expect_known, with_contradictions
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.raw_files import raw_files, with_copies
-from colonnade.workflow.summary import write_summary
+from colonnade.workflow.summary import choose, finding_of, foreseen_of, write_summary
 from colonnade.workflow.walk import Progress, Walk, unseen
 
 MOST_WORKERS = 10_000
