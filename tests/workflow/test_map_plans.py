@@ -11,7 +11,7 @@ from colonnade.dynamics.models import MODELS
 from colonnade.errors import CampaignError
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.workflow import map_plans as plans
-from colonnade.workflow.map_plans import Known, Wanted, measured_points
+from colonnade.workflow.map_plans import Measured, Wanted, measured_points
 from colonnade.workflow.real_column import picked
 from every import every
 
@@ -23,7 +23,7 @@ def changed(wanted, **changes):
 
 
 def planned(small, wanted=FEW, *points, model="linear"):
-    return plans.plan_of(load(small.folder), small.layout, "prism", wanted, model, Known(points, 0.93, "given"))
+    return plans.plan_of(load(small.folder), small.layout, "prism", wanted, model, Measured(points, 0.93, "given"))
 
 
 def sine(frequency_ratio, amplitude_ratio):

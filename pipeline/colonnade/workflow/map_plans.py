@@ -83,15 +83,17 @@ def measured_points(layout: Layout, specimen: str) -> list[MapPoint]:
     return [] if summary is None else map_points(summary.tests, specimen)
 
 
-class Known(NamedTuple):
-    """What is known of a specimen: its sine tests, which a map has to include, its e, and where that comes from."""
+class Measured(NamedTuple):
+    """What was measured of a specimen: its sine tests, which a map has to include, its e, and where that comes from."""
 
     points: Sequence[MapPoint]
     restitution: Sided
     source: str
 
 
-def plan_of(campaign: Campaign, layout: Layout, specimen: str, wanted: Wanted, model: str, known: Known) -> MapPlan:
+def plan_of(
+    campaign: Campaign, layout: Layout, specimen: str, wanted: Wanted, model: str, measured: Measured
+) -> MapPlan:
     """
     Plan a specimen's map.
 
@@ -110,8 +112,8 @@ def plan_of(campaign: Campaign, layout: Layout, specimen: str, wanted: Wanted, m
     if wanted.responses and wanted.motion is not None:
         raise CampaignError("Steady responses are responses to a sine. Leave out the recorded motion.")
     motion, frequency = (None, None) if wanted.motion is None else _recorded(campaign, layout, wanted.motion)
-    omegas = wanted.omega or _around([point.frequency_ratio for point in known.points], USUAL_FREQUENCIES)
-    largest = max((1.2 * point.amplitude_ratio for point in known.points), default=0.0)
+    omegas = wanted.omega or _around([point.frequency_ratio for point in measured.points], USUAL_FREQUENCIES)
+    largest = max((1.2 * point.amplitude_ratio for point in measured.points), default=0.0)
     space = _space(campaign, layout, specimen) if MODELS[model].in_space else None
     in_space = [MODELS[name] for name in wanted.models if MODELS[name].in_space]
     usual = LARGEST_AMPLITUDE_IN_SPACE if in_space else USUAL_AMPLITUDE
@@ -129,7 +131,7 @@ def plan_of(campaign: Campaign, layout: Layout, specimen: str, wanted: Wanted, m
             campaign.block(specimen),
             frequency_ratio=np.linspace(*omegas, grid[0]),
             amplitude_ratio=np.linspace(*amplitudes, grid[1]),
-            restitution=known.restitution,
+            restitution=measured.restitution,
             cycles=wanted.cycles,
             phase=radians(wanted.phase),
             ramp=wanted.ramp,

@@ -27,7 +27,7 @@ from colonnade.store.results import ResultId, models_moving
 from colonnade.workflow.executors import Arrays, Counted, Run, Where, blocks_of
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
-from colonnade.workflow.map_plans import Known, Wanted, measured_points, plan_of, restitution_of
+from colonnade.workflow.map_plans import Measured, Wanted, measured_points, plan_of, restitution_of
 from colonnade.workflow.pooling import expect_known
 from colonnade.workflow.product import Catalogue, Product, stored_attributes
 from colonnade.workflow.walk import Walk
@@ -170,11 +170,11 @@ def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Itera
         for model in models_moving(graph.campaign, specimen, graph.campaign.processing.predict.models):
             if MODELS[model].in_space:
                 continue
-            known = Known(points, pair(restitution.value), restitution.source)
-            _, usual = _map(graph, specimen, Wanted(models=(model,)), model, known)
+            measured = Measured(points, pair(restitution.value), restitution.source)
+            _, usual = _map(graph, specimen, Wanted(models=(model,)), model, measured)
             stored = stored_attributes(usual.paths[0])
             try:
-                _, asked = _map(graph, specimen, Wanted.of(stored[ASKED], model), model, known)
+                _, asked = _map(graph, specimen, Wanted.of(stored[ASKED], model), model, measured)
             except (KeyError, ValueError, TypeError, CampaignError):
                 yield usual
             else:
@@ -184,43 +184,43 @@ def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Itera
 def _of_specimen(walk: Walk, specimen: str, wanted: Wanted, where: Where) -> list[MapMade]:
     """Make the maps of one specimen, one for each model, and a common picture of several models."""
     layout, models = walk.graph.layout, list(dict.fromkeys(wanted.models))
-    known = Known(measured_points(layout, specimen), *restitution_of(walk.graph.campaign, layout, specimen))
-    made = [_made(walk, specimen, wanted, model, known, where) for model in models]
+    measured = Measured(measured_points(layout, specimen), *restitution_of(walk.graph.campaign, layout, specimen))
+    made = [_made(walk, specimen, wanted, model, measured, where) for model in models]
     if len(models) > 1:
         together = layout.together(specimen, models)
-        _draw([files.read(each.path) for each in made], known.points, together, specimen)
+        _draw([files.read(each.path) for each in made], measured.points, together, specimen)
         made = [replace(each, together=together) for each in made]
     return made
 
 
-def _made(walk: Walk, specimen: str, wanted: Wanted, model: str, known: Known, where: Where) -> MapMade:
+def _made(walk: Walk, specimen: str, wanted: Wanted, model: str, measured: Measured, where: Where) -> MapMade:
     from colonnade.figures.maps import response_orders
 
     started, layout = time.perf_counter(), walk.graph.layout
-    plan, product = _map(walk.graph, specimen, wanted, model, known, where)
+    plan, product = _map(walk.graph, specimen, wanted, model, measured, where)
     stored, because = _brought(walk, product)
     figure = layout.figure(product.result)
-    _draw([stored], known.points, figure, specimen)
+    _draw([stored], measured.points, figure, specimen)
     responses = responses_figure = None
     if wanted.responses:
-        asked = _responses(walk.graph, specimen, plan, known.source, where)
+        asked = _responses(walk.graph, specimen, plan, measured.source, where)
         responses, responses_figure = asked.paths[0], layout.figure(asked.result)
         steady, why = _brought(walk, asked)
         because = why or because
-        drawn = response_orders.responses(specimen, as_response(steady), known.points, _settings(plan))
+        drawn = response_orders.responses(specimen, as_response(steady), measured.points, _settings(plan))
         files.write_text(responses_figure, drawn.svg)
-    boundaries, chart = bracket_boundaries(known.points), as_map(stored)
+    boundaries, chart = bracket_boundaries(measured.points), as_map(stored)
     lower, upper = (limit_misfit(boundaries, chart.frequency_ratio, limit) for limit in (chart.lower, chart.upper))
     return MapMade(
         specimen=specimen,
         model=model,
-        restitution_source=known.source,
+        restitution_source=measured.source,
         path=product.paths[0],
         figure=figure,
         together=None,
         responses=responses,
         responses_figure=responses_figure,
-        measured=len(known.points),
+        measured=len(measured.points),
         lower=lower,
         upper=upper,
         action="done" if because else "up-to-date",
@@ -239,12 +239,12 @@ def _brought(walk: Walk, product: Product) -> tuple[xr.Dataset, str]:
 
 
 def _map(
-    graph: Graph, specimen: str, wanted: Wanted, model: str, known: Known, where: Where | None = None
+    graph: Graph, specimen: str, wanted: Wanted, model: str, measured: Measured, where: Where | None = None
 ) -> tuple[MapPlan, Product]:
     """Plan a map, made in blocks or, without `where`, in one."""
-    plan = plan_of(graph.campaign, graph.layout, specimen, wanted, model, known)
+    plan = plan_of(graph.campaign, graph.layout, specimen, wanted, model, measured)
     asked = {} if wanted.text() == Wanted().text() else {ASKED: wanted.text()}
-    work = partial(_in_blocks, _columns, _chart, plan, {"restitution_source": known.source, **asked})
+    work = partial(_in_blocks, _columns, _chart, plan, {"restitution_source": measured.source, **asked})
     options = Options(plan.options)
     return plan, graph.product(ResultId(specimen, "map", model), options, given(plan), work, *MADE_BY, where=where)
 

@@ -172,15 +172,11 @@ def _changes(campaign: Campaign, layout: Layout, test: Test) -> Iterator[Finding
 
 def _states(layout: Layout, name: str) -> dict[str, ChannelState]:
     conditioned = read_done(layout.stage(name, "condition"))
-    return (
-        {}
-        if conditioned is None
-        else {
-            str(variable): ChannelState(float(values.attrs["zero"]), float(values.attrs["noise"]), motion)
-            for variable, values in conditioned.data_vars.items()
-            if {"zero", "noise"} <= values.attrs.keys() and np.isfinite(motion := float(np.abs(values).max()))
-        }
-    )
+    return {
+        str(variable): ChannelState(float(values.attrs["zero"]), float(values.attrs["noise"]), motion)
+        for variable, values in ({} if conditioned is None else conditioned.data_vars).items()
+        if {"zero", "noise"} <= values.attrs.keys() and np.isfinite(motion := float(np.abs(values).max()))
+    }
 
 
 def _limits(layout: Layout, specimen: str, record: TestSummary) -> dict[str, float]:
