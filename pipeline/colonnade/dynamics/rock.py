@@ -125,43 +125,54 @@ def rock(
     >>> rock(block, restitution=0.976, theta0=0.5 * block.critical_angle, duration=5.0).outcome
     'rocking'
     """
-    asked = model_of(model)
-    if not isinstance(block, Assembly):
-        instance("block", block, Block)
+    asked, several = model_of(model), isinstance(block, Assembly)
+    blocks = [body.block for body in block.bodies.values()] if isinstance(block, Assembly) else [block]
     if motion is not None:
         instance("motion", motion, Motion)
         if duration is not None:
             raise ValueError(f"duration is {described(duration)}, and a motion is given; one of the two was expected")
     between = "an angle between −π/2 and π/2"
     theta0 = number("theta0", theta0, between, above=-HALF, below=HALF, unit="rad")
-    fastest = LARGEST_VELOCITY * _fastest_p(block)
+    fastest = LARGEST_VELOCITY * max(max(instance("block", one, Block).p_at([-1.0, 1.0])) for one in blocks)
     omega0 = number("omega0", omega0, f"less than {fastest:.4g} rad/s", above=-fastest, below=fastest, unit="rad/s")
     out_of_plane = number("out_of_plane", out_of_plane, between, above=-HALF, below=HALF, unit="rad")
     expected = f"a fraction of the critical angle from {LEAST_REST_ANGLE:g} to 1"
     rest_angle = number("rest_angle", rest_angle, expected, low=LEAST_REST_ANGLE, below=1.0)
-    if isinstance(block, Assembly) and (not asked.in_space or restitution is not None or out_of_plane != 0.0):
+    if several and (not asked.in_space or restitution is not None or out_of_plane != 0.0):
         raise ValueError(
             f'model is "{model}", restitution {described(restitution)}, out_of_plane {out_of_plane:g} rad; of '
             'bodies on each other only model="contact" was expected, which finds what an impact takes by itself'
         )
+    if asked.in_space:
+        if restitution is not None:
+            raise ValueError(
+                f"Do not give `restitution` to the {model} model: it follows from `contact`, the law of contact"
+            )
+        return _on_contact(block, motion, contact, duration, theta0, omega0, out_of_plane)
+    if contact is not None or out_of_plane:
+        raise ValueError(f'contact and out_of_plane are for models in space; the model is "{model}"')
     # The engines are compiled on import.
-    if isinstance(block, Block) and not asked.in_space:
-        if contact is not None or out_of_plane:
-            raise ValueError(f'contact and out_of_plane are for models in space; the model is "{model}"')
-        from colonnade.dynamics.plane.run import run
+    from colonnade.dynamics.plane.run import run
 
-        motion = at_rest(block, duration) if motion is None else motion
-        return run(asked, block, motion, restitution, theta0=theta0, omega0=omega0, rest_angle=rest_angle)
+    motion = at_rest(blocks[0], duration) if motion is None else motion
+    return run(asked, blocks[0], motion, restitution, theta0=theta0, omega0=omega0, rest_angle=rest_angle)
+
+
+def _on_contact(
+    block: Block | Assembly,
+    motion: Motion | None,
+    contact: ContactLaw | None,
+    duration: float | None,
+    theta0: float,
+    omega0: float,
+    out_of_plane: float,
+) -> History | AssemblyHistory:
     from colonnade.dynamics.contact.body import ContactLaw, rigid_body
     from colonnade.dynamics.contact.simulate import simulate, simulate_assembly
 
     law = ContactLaw() if contact is None else instance("contact", contact, ContactLaw)
     if isinstance(block, Assembly):
         return simulate_assembly(block, motion, law=law, duration=duration, theta0=theta0, omega0=omega0)
-    if restitution is not None:
-        raise ValueError(
-            f"Do not give `restitution` to the {model} model: it follows from `contact`, the law of contact"
-        )
     if block.beam_ratio:
         raise ValueError(
             "block is a frame, which rocks as one block in the plane only; a single body was expected. On contact "
@@ -177,8 +188,3 @@ def rock(
         omega0=omega0,
         out_of_plane=out_of_plane,
     )
-
-
-def _fastest_p(block: Block | Assembly) -> float:
-    blocks = [body.block for body in block.bodies.values()] if isinstance(block, Assembly) else [block]
-    return max(one.side_p(side) for one in blocks for side in one.sides)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi
+from math import inf, pi
 
 import numpy as np
 
@@ -80,16 +80,16 @@ class Reactions(Digested):
     @property
     def slides(self) -> Mask:
         """Samples at which more friction is required than there is, shape (n,); none if no friction was given."""
-        if self.friction is None:
-            return np.zeros(self.time.size, dtype=np.bool_)
-        return np.asarray(self.required_friction > self.friction)
+        return np.asarray(self.required_friction > self._limit)
 
     @property
     def impacts_slide(self) -> Mask:
         """Impacts whose impulse requires more friction than there is, shape (m,); none if no friction was given."""
-        if self.friction is None:
-            return np.zeros(self.impact_times.size, dtype=np.bool_)
-        return np.asarray(self.impact_friction > self.friction)
+        return np.asarray(self.impact_friction > self._limit)
+
+    @property
+    def _limit(self) -> float:
+        return inf if self.friction is None else self.friction
 
     @property
     def first_break(self) -> float:
