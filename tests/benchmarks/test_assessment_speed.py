@@ -1,5 +1,5 @@
 """
-A million histories of an assessment: against the kernel's own time, heyoka, and on a cluster.
+A million histories of an assessment: against the kernel's own time, and on a cluster.
 
 Marked slow; `python -m pytest -m slow tests/benchmarks/test_assessment_speed.py -s` prints the figures.
 """
@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from colonnade.assessment.cases import Cases, factors_at, in_plane, run_cases
+from colonnade.assessment.cases import Cases, factors_at, in_plane
 from colonnade.assessment.real_column import RealColumn, draw, drawn_column
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
@@ -27,7 +27,6 @@ from colonnade.workflow.executors import Where
 BLOCK = Block.measured(mass=1000.0, pole_distance=4.0, critical_angle=0.18, inertia=4 / 3 * 1000.0 * 16.0)
 COLUMN = RealColumn(BLOCK, 0.95, restitution_range=(0.93, 0.97), critical_angle_range=(0.16, 0.2), p_range=(1.2, 1.5))
 INTERVAL, SAMPLES = 0.005, 4000
-REST = 1e-6
 
 pytestmark = pytest.mark.slow
 
@@ -88,8 +87,9 @@ import json, resource, sys, time
 from functools import partial
 from pathlib import Path
 import test_assessment_speed as bench
+from colonnade.assessment.cases import run_cases
 cases = bench._cases(50, 20, 500)
-bench.run_cases(bench._cases(1, 1, 1))
+run_cases(bench._cases(1, 1, 1))
 begin = time.perf_counter()
 outcomes = bench.outcomes_of(cases, bench.Where(workers=2), Path(sys.argv[1]), "key")
 elapsed = time.perf_counter() - begin
@@ -123,86 +123,6 @@ def test_a_million_histories_take_little_more_than_the_kernels_own_time(tmp_path
     assert ratio <= 1.3
     assert found["elapsed"] <= 720.0
     assert found["memory"] < 1e9
-
-
-class Heyoka:
-    """heyoka's Taylor integrator of the same block, a call for each sample; landings by terminal events."""
-
-    def __init__(self, heyoka):
-        angle, velocity = heyoka.make_vars("angle", "velocity")
-        alpha, side, base, slope, p = (heyoka.par[k] for k in range(5))
-        lean = alpha * side - angle
-        force = base + slope * heyoka.time
-        turning = -p * p * (heyoka.sin(lean) + force * heyoka.cos(lean))
-        event = heyoka.t_event(angle, callback=lambda integrator, _: self._land(integrator))
-        self.integrator = heyoka.taylor_adaptive(
-            [(angle, velocity), (velocity, turning)], [0.0, 0.0], pars=[0.0] * 5, t_events=[event], tol=1e-12
-        )
-
-    def _land(self, integrator):
-        alpha, side, base, slope, p = integrator.pars
-        velocity, side = self.e * integrator.state[1], -side
-        integrator.pars[1], integrator.state[1] = side, velocity
-        holding = math.sin(alpha) + side * (base + slope * integrator.time) * math.cos(alpha)
-        self.rests = holding >= 0 and 0.5 * (velocity / p) ** 2 <= REST * alpha * holding
-        return not self.rests
-
-    def largest(self, base, dt, alpha, p, e):
-        """Largest |θ|/α at the samples; inf once it lies."""
-        integrator, self.e, self.rests, largest = self.integrator, e, True, 0.0
-        threshold = math.tan(alpha)
-        for here, there in zip(base[:-1].tolist(), base[1:].tolist(), strict=True):
-            slope, start = (there - here) / dt, 0.0
-            if self.rests:
-                if abs(there) <= threshold:
-                    continue
-                sign = math.copysign(1.0, there)
-                start = max(0.0, (sign * threshold - here) / slope) if abs(here) <= threshold else 0.0
-                # It needs to be off θ = 0: just after uplift θ = −p² b' t³/6, b' the rate of the moment.
-                later = min(1e-6, 0.5 * (dt - start))
-                rate = slope * math.cos(alpha) * p * p
-                integrator.state[:] = -rate * later**3 / 6, -rate * later**2 / 2
-                integrator.pars[1] = -sign
-                start, self.rests = start + later, False
-                integrator.reset_cooldowns()
-            integrator.pars[0], integrator.pars[2], integrator.pars[3], integrator.pars[4] = alpha, here, slope, p
-            integrator.time = start
-            while not self.rests and integrator.time < dt:
-                integrator.propagate_until(dt)
-            if abs(integrator.state[0]) >= 0.5 * math.pi:
-                return math.inf
-            if not self.rests:
-                largest = max(largest, abs(integrator.state[0]) / alpha)
-        return largest
-
-
-def test_histories_beside_heyoka(capsys):
-    heyoka = pytest.importorskip("heyoka", reason="the extra `bench` is not installed")
-    cases = _cases(6, 5, 20)
-    chosen = np.arange(0, math.prod(cases.shape), 4)
-    inputs = _inputs(cases, chosen)
-    peer = Heyoka(heyoka)
-    arguments = [(base, INTERVAL, block.critical_angle, block.p, e[0]) for base, block, e in inputs]
-    run_cases(cases)
-    begin = time.process_time()
-    own = run_cases(cases)
-    seconds = (time.process_time() - begin) / own.is_run.sum()
-    peaks = np.array([own.peak_ratio[_place(cases, case)] for case in chosen])
-    peer.largest(*arguments[0])
-    begin = time.process_time()
-    theirs = np.array([peer.largest(*each) for each in arguments[::10]])
-    cost = (time.process_time() - begin) / theirs.size
-    both = np.isfinite(peaks[::10]) & np.isfinite(theirs)
-    errors = np.abs(peaks[::10] - theirs)[both]
-    share = (errors < 1e-6).mean()
-    with capsys.disabled():
-        print(
-            f"\n{1e6 * seconds:.0f} µs a history of 20 s at 200 Hz; heyoka at 1e-12, a call a sample: "
-            f"{1e6 * cost:.0f} µs, {cost / seconds:.1f} times; median difference of the peaks {np.median(errors):.0e}, "
-            f"{100 * share:.0f} % below 1e-6"
-        )
-    assert share >= 0.9
-    assert cost / seconds >= 2.0
 
 
 def test_two_workers_of_a_cluster_are_as_quick_as_two_processes(tmp_path, capsys):

@@ -165,11 +165,6 @@ def test_damping_of_the_modes_grows_with_their_frequency():
     assert reduced.modal_damping.max() < 0.06
 
 
-def test_the_same_mesh_gives_the_same_modes():
-    once, again = reduce_body(COARSE_CONE), reduce_body(COARSE_CONE)
-    assert (once.modes == again.modes).all()
-
-
 @pytest.mark.parametrize("count", [-1, 3 * len(COARSE_CONE.points) - 6])
 def test_an_impossible_number_of_modes_is_refused(count):
     with pytest.raises(ValueError, match="0 to 248 were expected"):

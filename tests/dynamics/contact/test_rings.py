@@ -172,27 +172,12 @@ def test_peaks_of_a_rolling_ring_pass_without_the_loss_of_a_flat_impact():
     assert lost[1] < 0.7 * lost[0]
 
 
-def test_an_accelerated_cylinder_sticks_and_slides_by_coulombs_limit():
+def test_friction_on_rings_slows_a_cylinder_that_spins():
     squat = Block.cylinder(diameter=0.5, height=0.1, mass=10.0, gravity=GRAVITY)
     body = rigid_body(squat)
     law = ContactLaw.stiff(body, GRAVITY, damping_fraction=0.5, friction=0.2)
-    place = standing(body, law, GRAVITY).position
-    history = simulate(
-        body,
-        Motion(np.zeros(101), 0.004),
-        law=law,
-        gravity=GRAVITY,
-        start=Start(place, velocity=np.array([0.3, 0.4, 0.0])),
-    )
-    distance = 0.5**2 / (2 * 0.2 * GRAVITY)
-    np.testing.assert_allclose(history.slide[-1], np.array([0.6, 0.8]) * distance, rtol=5e-3)
-    spun = simulate(
-        body,
-        Motion(np.zeros(101), 0.004),
-        law=law,
-        gravity=GRAVITY,
-        start=Start(place, angular_velocity=np.array([0.0, 0.0, 2.0])),
-    )
+    start = Start(standing(body, law, GRAVITY).position, angular_velocity=np.array([0.0, 0.0, 2.0]))
+    spun = simulate(body, Motion(np.zeros(101), 0.004), law=law, gravity=GRAVITY, start=start)
     # Friction on rings turns it back with µ m g times the mean radius that bears.
     radius = float(law.node_weights(body, GRAVITY) @ body.ring_radii) / (squat.mass * GRAVITY)
     slowed = 0.2 * squat.mass * GRAVITY * radius / body.inertia[2]
