@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
-from functools import partial
+from dataclasses import dataclass
 from math import pi, tan
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Codes
-from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import Block, Sided
-from colonnade.dynamics.history import NO_ROCKING_RATIO, Outcome
+from colonnade.dynamics.contact.body import InSpace
+from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.models import DEFAULT, model_of, plane_model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.run import SAMPLES_A_CYCLE, Harmonic, restitution_up_to
@@ -38,57 +37,11 @@ from colonnade.dynamics.search import (
 )
 from colonnade.validation import instance, number
 
-if TYPE_CHECKING:
-    from colonnade.dynamics.contact.body import ContactBody, ContactLaw
-
 EDGE = 1e-4
 """In A: how closely the edges of intervals are found."""
 
 MOST_CYCLES = 100_000
 """Of a sine, and of each of its ramps."""
-
-
-@dataclass(frozen=True)
-class InSpace:
-    """
-    What the contact model needs in addition to the plan of a map.
-
-    Attributes
-    ----------
-    body : ContactBody or Assembly
-    law : ContactLaw
-        Of an assembly, that of all its interfaces.
-    step : float, optional
-        s; of an assembly not given.
-    """
-
-    body: ContactBody | Assembly
-    law: ContactLaw
-    step: float | None = None
-
-    @property
-    def options(self) -> dict[str, Any]:
-        """What the result depends on, by name."""
-        if isinstance(self.body, Assembly):
-            return {"bodies": repr(self.body), **asdict(self.law), "samples_a_cycle": SAMPLES_A_CYCLE}
-        return {
-            "body": self.body.description,
-            "contact_stiffness": self.law.node_stiffness(self.body).sum() / self.body.node_area.sum(),
-            "damping_fraction": self.law.damping_fraction,
-            "effective_damping": self.law.effective_damping(self.body),
-            "friction": self.law.friction,
-            "contact_step": self.step,
-            "samples_a_cycle": SAMPLES_A_CYCLE,
-        }
-
-    def outcome(self, motion: Motion, gravity: float) -> Outcome:
-        """Run a base motion."""
-        # Its engine is compiled on import.
-        from colonnade.dynamics.contact.simulate import simulate, simulate_assembly
-
-        if isinstance(self.body, Assembly):
-            return simulate_assembly(self.body, motion, law=self.law).outcome
-        return simulate(self.body, motion, law=self.law, gravity=gravity, step=self.step).outcome
 
 
 class MapPlan:
@@ -183,7 +136,7 @@ class MapPlan:
             "no_rocking_ratio": NO_ROCKING_RATIO,
             "critical_angle": self.block.critical_angle,
             "p": self.block.p,
-            **({} if self.space is None else self.space.options),
+            **({} if self.space is None else self.space.options | {"samples_a_cycle": SAMPLES_A_CYCLE}),
         }
 
 
@@ -251,8 +204,7 @@ def _runs(plan: MapPlan, frequency_ratio: float) -> Runs:
         unit = plan.motion.acceleration * (block.uplift_acceleration / plan.motion.peak)
         motion = unit, plan.motion.dt * plan.motion_frequency * 2 * pi / omega
 
-    in_space = None if plan.space is None else partial(plan.space.outcome, gravity=block.gravity)
-    return runs_of(block, motion, plan.restitution, plan.model, in_space)
+    return runs_of(block, motion, plan.restitution, plan.model, plan.space)
 
 
 def _fraction(amplitudes: Array, intervals: Array) -> Array:

@@ -9,6 +9,7 @@ import numpy as np
 
 from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import Block, Sided
+from colonnade.dynamics.contact.body import ContactLaw, InSpace, rigid_body
 from colonnade.dynamics.history import History
 from colonnade.dynamics.models import DEFAULT, model_of
 from colonnade.dynamics.motion import Motion, at_rest
@@ -16,7 +17,6 @@ from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.validation import described, instance, number
 
 if TYPE_CHECKING:
-    from colonnade.dynamics.contact.body import ContactLaw
     from colonnade.dynamics.contact.history import AssemblyHistory
 
 
@@ -148,43 +148,19 @@ def rock(
             raise ValueError(
                 f"Do not give `restitution` to the {model} model: it follows from `contact`, the law of contact"
             )
-        return _on_contact(block, motion, contact, duration, theta0, omega0, out_of_plane)
+        if any(one.beam_ratio for one in blocks):
+            raise ValueError(
+                "block is a frame, which rocks as one block in the plane only; a single body was expected. On contact "
+                "its columns and its beam are bodies: build an `Assembly.frame`"
+            )
+        law = ContactLaw() if contact is None else instance("contact", contact, ContactLaw)
+        start = {"theta0": theta0, "omega0": omega0, "out_of_plane": out_of_plane}
+        space = InSpace(block if isinstance(block, Assembly) else rigid_body(block), law)
+        return space.run(motion, blocks[0].gravity, duration=duration, **start)
     if contact is not None or out_of_plane:
         raise ValueError(f'contact and out_of_plane are for models in space; the model is "{model}"')
-    # The engines are compiled on import.
+    # The kernels are decorated on import.
     from colonnade.dynamics.plane.run import run
 
     motion = at_rest(blocks[0], duration) if motion is None else motion
     return run(asked, blocks[0], motion, restitution, theta0=theta0, omega0=omega0, rest_angle=rest_angle)
-
-
-def _on_contact(
-    block: Block | Assembly,
-    motion: Motion | None,
-    contact: ContactLaw | None,
-    duration: float | None,
-    theta0: float,
-    omega0: float,
-    out_of_plane: float,
-) -> History | AssemblyHistory:
-    from colonnade.dynamics.contact.body import ContactLaw, rigid_body
-    from colonnade.dynamics.contact.simulate import simulate, simulate_assembly
-
-    law = ContactLaw() if contact is None else instance("contact", contact, ContactLaw)
-    if isinstance(block, Assembly):
-        return simulate_assembly(block, motion, law=law, duration=duration, theta0=theta0, omega0=omega0)
-    if block.beam_ratio:
-        raise ValueError(
-            "block is a frame, which rocks as one block in the plane only; a single body was expected. On contact "
-            "its columns and its beam are bodies: build an `Assembly.frame`"
-        )
-    return simulate(
-        rigid_body(block),
-        motion,
-        law=law,
-        gravity=block.gravity,
-        duration=duration,
-        theta0=theta0,
-        omega0=omega0,
-        out_of_plane=out_of_plane,
-    )

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Codes, Mask
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.history import Outcome
+from colonnade.dynamics.contact.body import InSpace
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.run import OUTCOMES, OVERTURNS, Harmonic, ends_of, expect_usable, harmonic_outcomes
 from colonnade.dynamics.restitution_law import Restitution, RestitutionLaw
@@ -117,7 +117,7 @@ def runs_of(
     motion: Harmonic | tuple[Array, float],
     restitution: Restitution,
     model: str,
-    outcome: Callable[[Motion], Outcome] | None = None,
+    space: InSpace | None = None,
 ) -> Runs:
     """
     Give what runs a motion at some A.
@@ -129,26 +129,26 @@ def runs_of(
         Of a record its acceleration at A = 1, m/s², and its sampling interval, s.
     restitution : pair of float or RestitutionLaw
     model : str
-    outcome : callable, optional
-        Runs a motion by a model that has no kernels in the plane.
+    space : InSpace, optional
+        Of a model that has no kernels in the plane.
     """
-    if isinstance(motion, Harmonic) and outcome is None:
+    if isinstance(motion, Harmonic) and space is None:
         return lambda amplitudes: harmonic_outcomes(block, motion, amplitudes, restitution, model)
     unit, dt = motion if isinstance(motion, tuple) else motion.sampled(block.uplift_acceleration)
-    if outcome is not None:
-        return lambda amplitudes: np.array(
-            [OUTCOMES.index(outcome(Motion(unit * amplitude, dt))) for amplitude in amplitudes], dtype=np.int8
-        )
-    # The kernels are decorated on import.
-    from colonnade.dynamics.plane.sides import sides_of
+    if space is None:
+        expect_usable(block, Motion(unit, dt))
 
-    expect_usable(block, Motion(unit, dt))
-    sides = [sides_of(block, restitution)]
+    def outcome(motion: Motion) -> int:
+        if space is not None:
+            return OUTCOMES.index(space.run(motion, block.gravity).outcome)
+        # The kernels are decorated on import.
+        from colonnade.dynamics.plane.sides import sides_of
+
+        sides = [sides_of(block, restitution)]
+        return int(ends_of(motion, sides, gravity=block.gravity, model=model).outcome[0])
 
     def recorded(amplitudes: Array) -> Codes:
-        motions = (Motion(unit * amplitude, dt) for amplitude in amplitudes)
-        ends = [ends_of(each, sides, gravity=block.gravity, model=model).outcome for each in motions]
-        return np.concatenate([*ends, np.empty(0, dtype=np.int8)])
+        return np.array([outcome(Motion(unit * amplitude, dt)) for amplitude in amplitudes], dtype=np.int8)
 
     return recorded
 

@@ -26,7 +26,8 @@ from colonnade.workflow.motions import recorded
 from colonnade.workflow.pooling import expect_known, restitution_taken
 
 if TYPE_CHECKING:
-    from colonnade.dynamics.maps import InSpace, MapPlan
+    from colonnade.dynamics.contact.body import InSpace
+    from colonnade.dynamics.maps import MapPlan
     from colonnade.dynamics.motion import Motion
 
 USUAL_FREQUENCIES = (1.0, 8.0)
@@ -148,7 +149,7 @@ def plan_of(
 
 def _space(campaign: Campaign, layout: Layout, specimen: str) -> InSpace:
     """Body and law of contact of a specimen, as `predict` or `calibrate` has left it."""
-    from colonnade.dynamics.maps import InSpace
+    from colonnade.dynamics.contact.body import InSpace
     from colonnade.stages import contact
 
     whole, settings = campaign.specimens[specimen], campaign.processing.predict.contact

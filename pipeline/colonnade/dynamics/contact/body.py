@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from math import cos, pi, sqrt
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from colonnade.arrays import Array
+from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import Block
 from colonnade.validation import number
+
+if TYPE_CHECKING:
+    from colonnade.dynamics.contact.history import AssemblyHistory, ContactHistory
+    from colonnade.dynamics.motion import Motion
 
 GRID = (5, 5)
 """Nodes of a rectangular base along x and y."""
@@ -269,3 +275,64 @@ class ContactLaw:
         """
         stiffness = float(self.node_stiffness(body).sum())
         return float(self.node_damping(body).sum()) / (2.0 * sqrt(body.mass * stiffness))
+
+
+@dataclass(frozen=True)
+class InSpace:
+    """
+    What the contact model moves.
+
+    Attributes
+    ----------
+    body : ContactBody or Assembly
+    law : ContactLaw
+        Of an assembly, that of all its interfaces.
+    step : float, optional
+        s; of an assembly not given.
+    """
+
+    body: ContactBody | Assembly
+    law: ContactLaw
+    step: float | None = None
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """What a run depends on beside its motion, by name."""
+        if isinstance(self.body, Assembly):
+            return {"bodies": repr(self.body), **asdict(self.law)}
+        return {
+            "body": self.body.description,
+            "contact_stiffness": self.law.node_stiffness(self.body).sum() / self.body.node_area.sum(),
+            "damping_fraction": self.law.damping_fraction,
+            "effective_damping": self.law.effective_damping(self.body),
+            "friction": self.law.friction,
+            "contact_step": self.step,
+        }
+
+    def run(
+        self,
+        motion: Motion | None,
+        gravity: float,
+        *,
+        duration: float | None = None,
+        theta0: float = 0.0,
+        omega0: float = 0.0,
+        out_of_plane: float = 0.0,
+    ) -> ContactHistory | AssemblyHistory:
+        """Run a base motion, as `simulate` or `simulate_assembly`; gravity (m/s²) is that of a single body."""
+        # The engine is compiled on import.
+        from colonnade.dynamics.contact.simulate import simulate, simulate_assembly
+
+        if isinstance(self.body, Assembly):
+            return simulate_assembly(self.body, motion, law=self.law, duration=duration, theta0=theta0, omega0=omega0)
+        return simulate(
+            self.body,
+            motion,
+            law=self.law,
+            gravity=gravity,
+            duration=duration,
+            step=self.step,
+            theta0=theta0,
+            omega0=omega0,
+            out_of_plane=out_of_plane,
+        )

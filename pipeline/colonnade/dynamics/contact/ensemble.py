@@ -9,9 +9,8 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.assembly import Assembly
-from colonnade.dynamics.contact.body import ContactBody, ContactLaw
+from colonnade.dynamics.contact.body import ContactBody, ContactLaw, InSpace
 from colonnade.dynamics.contact.history import AssemblyHistory, ContactHistory
-from colonnade.dynamics.contact.simulate import simulate, simulate_assembly
 from colonnade.dynamics.ensemble import Plan
 
 Range = tuple[float, float]
@@ -49,7 +48,7 @@ class ContactPlan(Plan):
 
     def central(self) -> ContactHistory | AssemblyHistory:
         """Run the model with nothing varied."""
-        return self._simulate(self.body, self.law, sum(self.ranges.get("out_of_plane", (0.0, 0.0))) / 2)
+        return self._run(self.body, self.law, sum(self.ranges.get("out_of_plane", (0.0, 0.0))) / 2)
 
     def follow(self, random: np.random.Generator) -> tuple[Array, ContactHistory | AssemblyHistory]:
         """Draw what one member takes, in the order of `names`, and the places of its bodies; run the model with it."""
@@ -62,7 +61,7 @@ class ContactPlan(Plan):
                 x, y = (np.array(each.position) + self.misplacement * random.uniform(-1.0, 1.0, 2)).tolist()
                 placed[name] = replace(each, position=(x, y))
             body = Assembly(placed)
-        return inputs, self._simulate(body, replace(self.law, **drawn), out_of_plane)
+        return inputs, self._run(body, replace(self.law, **drawn), out_of_plane)
 
     def ends(self, history: ContactHistory | AssemblyHistory) -> dict[str, Array]:
         """How far each body of an assembly `moved` for good (m), and whether it `fell`."""
@@ -72,18 +71,8 @@ class ContactPlan(Plan):
         fell = [float(np.isfinite(body.overturning_time)) for body in history.bodies.values()]
         return {"moved": np.array(moved), "fell": np.array(fell)}
 
-    def _simulate(
+    def _run(
         self, body: ContactBody | Assembly, law: ContactLaw, out_of_plane: float
     ) -> ContactHistory | AssemblyHistory:
-        if isinstance(body, Assembly):
-            return simulate_assembly(body, self.motion, law=law, theta0=self.theta0, omega0=self.omega0)
-        return simulate(
-            body,
-            self.motion,
-            law=law,
-            gravity=self.block.gravity,
-            step=self.step,
-            theta0=self.theta0,
-            omega0=self.omega0,
-            out_of_plane=out_of_plane,
-        )
+        start = {"theta0": self.theta0, "omega0": self.omega0, "out_of_plane": out_of_plane}
+        return InSpace(body, law, self.step).run(self.motion, self.block.gravity, **start)
