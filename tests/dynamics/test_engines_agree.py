@@ -5,15 +5,15 @@ Two double-precision runs of one record part sooner or later, so agreement is as
 engine's runs with the motion as it is and times 1 + 1e-13 differ by 1e-10 of α. All share the rule of rest.
 """
 
-import itertools
+from functools import cache
 
 import numpy as np
 import pytest
-from scipy.integrate import DOP853
-from scipy.optimize import brentq
 
+from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.march import NONE, Forcing, propagate
 from colonnade.dynamics.plane.sides import sides_of
+from independent_rocking import Reference
 from prism import PRISM
 
 ALPHA, P, GRAVITY = PRISM.critical_angle, PRISM.p, PRISM.gravity
@@ -42,61 +42,9 @@ def _horizon(base, restitution):
     return int(np.argmax(parted)) if parted.any() else base.size
 
 
-def _walked(base, restitution, horizon, arc):
-    """
-    Walk the samples up to a horizon with another integrator.
-
-    `arc(t, end, angle, velocity, side, base, slope)` integrates from t, with base + slope t, up to `end` or the
-    landing, and gives the time, angle and velocity there and whether it landed.
-    """
-    angle, velocity, side, resting = 0.0, 0.0, 0.0, True
-    angles = [0.0]
-    for start, end in itertools.pairwise(base[:horizon]):
-        t, slope = 0.0, (end - start) / INTERVAL
-        while t < INTERVAL:
-            if resting:
-                if max(abs(start + slope * t), abs(end)) <= ALPHA:
-                    break
-                if abs(start + slope * t) <= ALPHA:
-                    t = (np.sign(end) * ALPHA - start) / slope
-                side, resting = -np.sign(start + slope * t), False
-            t, angle, velocity, landed = arc(t, INTERVAL, angle, velocity, side, start, slope)
-            if landed:
-                side, angle, velocity = -side, 0.0, restitution * velocity
-                holding = ALPHA + side * (start + slope * t)
-                if holding >= 0 and velocity**2 / (2 * P**2) <= REST * ALPHA * holding:
-                    resting, velocity = True, 0.0
-        angles.append(angle)
-    return np.array(angles)
-
-
-def _dop853(t, end, angle, velocity, side, base, slope):
-    """SciPy's DOP853, landing by Brent's method on its dense output; between steps the sign is looked at nine times."""
-    rates = lambda t, y: np.array([y[1], P**2 * (y[0] - ALPHA * side - base - slope * t)])  # noqa: E731
-    solver = DOP853(rates, t, np.array([angle, velocity]), end, rtol=2.3e-14, atol=1e-17)
-    while solver.status == "running":
-        solver.step()
-        dense = solver.dense_output()
-        looks = np.linspace(solver.t_old, solver.t, 10)
-        below = side * dense(looks)[0] < 0.0
-        below[0] = False
-        if below.any():
-            last = int(np.argmax(below))
-            if side * dense(looks[last - 1])[0] > 0.0:
-                landing = brentq(lambda x, dense=dense: dense(x)[0], looks[last - 1], looks[last], xtol=1e-17)
-            else:
-                landing = solver.t_old
-            return landing, 0.0, dense(landing)[1], True
-    return solver.t, *solver.y, False
-
-
-def _heyoka():
-    """
-    heyoka's Taylor integrator of the same arc, restarted likewise.
-
-    Where θ is exactly 0 at the start of a step it finds no landing in that step (7.13): each arc begins with 1e-5/p
-    without events, in which none can land that the rule of rest has let rise.
-    """
+@cache
+def _integrators():
+    """heyoka's of the arc on either side, which end with the landing, and without events."""
     heyoka = pytest.importorskip("heyoka", reason="the extra `bench` is not installed")
     angle, velocity = heyoka.make_vars("angle", "velocity")
     side, base, slope = heyoka.par[0], heyoka.par[1], heyoka.par[2]
@@ -105,21 +53,39 @@ def _heyoka():
     for sign, direction in ((1.0, heyoka.event_direction.negative), (-1.0, heyoka.event_direction.positive)):
         landing = heyoka.t_event(angle, direction=direction)
         integrators[sign] = heyoka.taylor_adaptive(system, [0.0, 0.0], pars=[0.0] * 3, t_events=[landing])
+    return integrators, heyoka.taylor_outcome(-1)
 
-    def run(which, t, end, state, pars):
+
+class _Heyoka(Reference):
+    """
+    The same by heyoka's Taylor integrator.
+
+    Where θ is exactly 0 at the start of a step it finds no landing in that step (7.13): each arc begins with 1e-5/p
+    without events, in which none can land that the rule of rest has let rise.
+    """
+
+    def arc(self, t, dt, angle, velocity, sign, pull, lift):
+        given = sign, pull(0.0), (pull(dt) - pull(0.0)) / dt
+        if angle == 0.0:
+            t, angle, velocity, _ = self._run(0.0, t, min(dt, t + 1e-5 / P), (angle, velocity), given)
+        return self._run(sign, t, dt, (angle, velocity), given) if t < dt else (t, angle, velocity, False)
+
+    def _run(self, which, t, end, state, pars):
+        integrators, landing = _integrators()
         integrator = integrators[which]
         if which:
             integrator.reset_cooldowns()
         integrator.time, integrator.state[:], integrator.pars[:] = t, state, pars
-        landed = integrator.propagate_until(end)[0] == heyoka.taylor_outcome(-1)
+        landed = integrator.propagate_until(end)[0] == landing
         return integrator.time, *integrator.state, landed
 
-    def arc(t, end, angle, velocity, side, base, slope):
-        if angle == 0.0:
-            t, angle, velocity, _ = run(0.0, t, min(end, t + 1e-5 / P), (angle, velocity), (side, base, slope))
-        return run(side, t, end, (angle, velocity), (side, base, slope)) if t < end else (t, angle, velocity, False)
 
-    return arc
+def _walked(kind):
+    def walk(base, restitution, horizon):
+        motion = Motion(base[:horizon] * GRAVITY, INTERVAL)
+        return kind(PRISM, motion, lambda *_: restitution, "linear").angles(0.0, 0.0)
+
+    return walk
 
 
 def _series(base, restitution, horizon):
@@ -127,9 +93,9 @@ def _series(base, restitution, horizon):
 
 
 PEERS = {
-    "the Taylor series of the nonlinear engine": lambda: _series,
-    "SciPy's DOP853": lambda: lambda *record: _walked(*record, _dop853),
-    "heyoka": lambda: (lambda arc: lambda *record: _walked(*record, arc))(_heyoka()),
+    "the Taylor series of the nonlinear engine": _series,
+    "SciPy's DOP853": _walked(Reference),
+    "heyoka": _walked(_Heyoka),
 }
 
 
@@ -142,7 +108,7 @@ def _largest_difference(peer, seed, duration=40 / P):
 
 @pytest.mark.parametrize("name", PEERS)
 def test_the_exact_engine_agrees_with(name):
-    peer = PEERS[name]()
+    peer = PEERS[name]
     rocked = 0
     for seed in range(4):
         difference, _, mine = _largest_difference(peer, seed, 10 / P)
@@ -154,7 +120,7 @@ def test_the_exact_engine_agrees_with(name):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PEERS)
 def test_the_exact_engine_agrees_on_two_hundred_records_with(name, capsys):
-    peer = PEERS[name]()
+    peer = PEERS[name]
     found = [_largest_difference(peer, seed)[:2] for seed in range(200)]
     differences, horizons = (np.array(values) for values in zip(*found, strict=True))
     with capsys.disabled():
