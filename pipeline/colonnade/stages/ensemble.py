@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.channel import ALONG
 from colonnade.campaign.settings import ContactEnsembleSettings, MeasurementSettings, PlaneEnsembleSettings
 from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.contact.body import ContactBody
@@ -24,7 +23,7 @@ from colonnade.identification.response.rank import Measurement
 from colonnade.stages.contact import assembly_law, body_of, law_of, refusals
 from colonnade.stages.parts.beginning import RECORDED, Beginning, begin
 from colonnade.stages.parts.rank import describe_bands
-from colonnade.stages.parts.transducers import transducers
+from colonnade.stages.parts.transducers import along, transducers
 from colonnade.stages.predict import PredictInputs, sides
 from colonnade.stages.specimen import centre, spread_of
 from colonnade.store.provenance import Inputs
@@ -70,7 +69,7 @@ class EnsembleInputs(Inputs):
             contact=settings.contact.model_copy(update=members) if in_space else None,
             measured=settings,
             filter_order=campaign.processing.filter_order,
-            table=tuple(name for name, axis in known.accelerations.items() if abs(axis[0]) >= ALONG),
+            table=tuple(along(known.accelerations, 0)),
             specimen=known.on_specimen,
         )
 

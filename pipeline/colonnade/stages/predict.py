@@ -8,7 +8,6 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.channel import ALONG
 from colonnade.dynamics.history import History, amplitude
 from colonnade.dynamics.models import model_of
 from colonnade.dynamics.rock import rock
@@ -16,7 +15,7 @@ from colonnade.findings import serious
 from colonnade.stages.contact import ContactInputs, assembly_law, body_of, law_of, law_variables, refusals
 from colonnade.stages.parts.beginning import Beginning, BeginningInputs, begin
 from colonnade.stages.parts.bodies import AssemblyInputs, predicted_variables
-from colonnade.stages.parts.transducers import transducers
+from colonnade.stages.parts.transducers import along, transducers
 from colonnade.stages.specimen import centre
 
 if TYPE_CHECKING:
@@ -48,14 +47,14 @@ class PredictInputs(BeginningInputs):
     @classmethod
     def of(cls, campaign: Campaign, test: Test, model: str) -> PredictInputs:
         """Gather what `predict` reads for one test and model."""
-        along, in_space = transducers(campaign.channels(test)).accelerations.values(), model_of(model).in_space
+        known, in_space = transducers(campaign.channels(test)), model_of(model).in_space
         return cls(
             block=campaign.block(test.specimen),
             model=model,
             rest_angle=campaign.processing.predict.rest_angle,
             free_vibration=test.kind == "free-vibration",
             tilt=campaign.setups[test.setup].table_tilt or 0.0,
-            has_vertical=any(abs(direction[2]) >= ALONG for direction in along),
+            has_vertical=bool(along(known.accelerations, 2)),
             is_in_space=in_space,
             space=ContactInputs.of(campaign, test.specimen) if in_space else None,
             assembly=AssemblyInputs.of(campaign, test) if in_space else None,

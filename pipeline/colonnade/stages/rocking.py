@@ -10,7 +10,6 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.kinematics import Outline
 from colonnade.errors import StageError
 from colonnade.findings import Finding, serious, warning
 from colonnade.identification.fusion.motion import SEEN, Circumstances, specimen_motion
@@ -24,15 +23,13 @@ from colonnade.signals.timing import STRONG
 from colonnade.stages.parts.bodies import AssemblyInputs, measure, measured_variables, together
 from colonnade.stages.parts.transducers import (
     LEAST_NOISE,
+    SeenInputs,
     Transducers,
     axes,
     base_motion,
     misplaced,
-    outline,
     readings,
-    transducers,
 )
-from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -45,25 +42,18 @@ LEAST_RISE = 0.02
 """Of the peak; what the block cannot rise by within missing samples is not worth a word."""
 
 
-class RockingInputs(Inputs):
+class RockingInputs(SeenInputs):
     """
     What `rocking` reads of the campaign.
 
     Attributes
     ----------
-    block : Block
-    outline : Outline
-        Of the specimen: its base, and the side that transducers look at.
-    transducers : Transducers
     catch : float or None
         Angle of the safety frame, rad.
     assembly : AssemblyInputs or None
         Of several bodies; the others then describe the one block as which they rock together.
     """
 
-    block: Block
-    outline: Outline
-    transducers: Transducers
     catch: float | None
     assembly: AssemblyInputs | None = None
     free_vibration: bool
@@ -72,14 +62,9 @@ class RockingInputs(Inputs):
     @classmethod
     def of(cls, campaign: Campaign, test: Test) -> RockingInputs:
         """Gather what `rocking` reads for one test."""
-        setup = campaign.setups[test.setup]
-        specimen = campaign.specimens[test.specimen]
-        block = specimen.block(campaign.gravity)
         return cls(
-            block=block,
-            outline=outline(specimen, block),
-            transducers=transducers(campaign.channels(test)),
-            catch=setup.catch,
+            **cls.seen(campaign, test),
+            catch=campaign.setups[test.setup].catch,
             assembly=AssemblyInputs.of(campaign, test),
             free_vibration=test.kind == "free-vibration",
             rest_duration=campaign.processing.rest_duration,

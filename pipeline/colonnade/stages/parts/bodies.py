@@ -15,7 +15,7 @@ from colonnade.dynamics.assembly import Assembly, as_one, is_frame, standing_on
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.start import rotation_matrices
 from colonnade.dynamics.history import NO_ROCKING_RATIO
-from colonnade.dynamics.kinematics import Outline, pole_displacement, pole_position, rotation_matrix
+from colonnade.dynamics.kinematics import pole_displacement, pole_position, rotation_matrix
 from colonnade.errors import count
 from colonnade.findings import Finding, warning
 from colonnade.identification.fusion.motion import Circumstances, specimen_motion
@@ -23,7 +23,7 @@ from colonnade.identification.fusion.pose import SpecimenMotion
 from colonnade.identification.fusion.sensors import Readings, Transducer, UnseenRotationError
 from colonnade.identification.response.outcome import angle_features
 from colonnade.stages.parts.beginning import Beginning
-from colonnade.stages.parts.transducers import MarkerInputs, Transducers, markers_of, outline, readings, transducers
+from colonnade.stages.parts.transducers import MarkerInputs, SeenInputs, markers_of, outline, readings, transducers
 from colonnade.store.description import variable_name
 from colonnade.store.provenance import Inputs
 
@@ -49,26 +49,19 @@ OUTCOMES = ("overturned", "rocking", "no-rocking")
 """The worst first."""
 
 
-class BodyInputs(Inputs):
+class BodyInputs(SeenInputs):
     """
-    What is read of one body.
+    What is read of one body; its transducers are about its own base.
 
     Attributes
     ----------
-    block : Block
     part : Block
         The body with all that stands on it alone, as one: its α is that of the joint below.
-    outline : Outline
-    transducers : Transducers
-        On it, about its own base.
     against : dict of str to str
         Body that a transducer measures against, by its variable.
     """
 
-    block: Block
     part: Block
-    outline: Outline
-    transducers: Transducers
     against: dict[str, str]
 
 

@@ -9,13 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Vector
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.channel import ALONG
-from colonnade.dynamics.block import Block
-from colonnade.dynamics.kinematics import Outline, Pose
+from colonnade.dynamics.kinematics import Pose
 from colonnade.findings import Finding, serious
-from colonnade.identification.fusion.sensors import Transducer, predict
+from colonnade.identification.fusion.sensors import predict
 from colonnade.identification.plausibility import table_motion
 from colonnade.identification.plausibility.rotation import Gauge, Rotation, lever
 from colonnade.identification.plausibility.scale import as_expected, cause
@@ -25,10 +23,9 @@ from colonnade.signals.named_motion import Series, check_motion
 from colonnade.signals.quality import Flag
 from colonnade.signals.samples import filled_in
 from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load, reference_files
-from colonnade.stages.parts.transducers import outline, transducers
+from colonnade.stages.parts.transducers import SeenInputs, along
 from colonnade.stages.parts.zeroing import COUPLED, Effect, on_angle, on_base
 from colonnade.store.description import variable_name
-from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,20 +47,14 @@ PEAKS = 0.8
 """Of the largest value, above which samples are its peaks."""
 
 
-class PlausibilityInputs(Inputs):
+class PlausibilityInputs(SeenInputs):
     """
     What is known of a test's channels and of the motion that its table was to make.
 
     Attributes
     ----------
-    block : Block
-    outline : Outline
-    positions : dict of str to Transducer
-        Displacement transducers and inclinometers on the specimen, by variable.
     gains : dict of str to float
-        SI value of one recorded unit, of these.
-    accelerations, displacements : dict of str to float
-        Table channels along x, by variable: the x-part of their direction.
+        SI value of one recorded unit, of the displacement transducers and inclinometers on the specimen.
     motion : str or None
         The motion's name.
     time_scale : float or None
@@ -71,12 +62,7 @@ class PlausibilityInputs(Inputs):
         Reference motions by name; empty if the test names no motion.
     """
 
-    block: Block
-    outline: Outline
-    positions: dict[str, Transducer]
     gains: dict[str, float]
-    accelerations: dict[str, float]
-    displacements: dict[str, float]
     motion: str | None
     time_scale: float | None
     references: dict[str, ReferenceMotionFile]
@@ -84,17 +70,11 @@ class PlausibilityInputs(Inputs):
     @classmethod
     def of(cls, campaign: Campaign, test: Test) -> PlausibilityInputs:
         """Gather what the channels of one test are compared with."""
-        specimen = campaign.specimens[test.specimen]
-        block = specimen.block(campaign.gravity)
-        known = transducers(campaign.channels(test))
+        seen = cls.seen(campaign, test)
         gains = {variable_name(name): channel.factor for name, channel in campaign.channels(test).items()}
         return cls(
-            block=block,
-            outline=outline(specimen, block),
-            positions=known.positions,
-            gains={name: gains[name] for name in known.positions},
-            accelerations={name: along[0] for name, along in known.accelerations.items() if abs(along[0]) >= ALONG},
-            displacements={name: along[0] for name, along in known.displacements.items() if abs(along[0]) >= ALONG},
+            **seen,
+            gains={name: gains[name] for name in seen["transducers"].positions},
             motion=test.motion,
             time_scale=test.time_scale,
             references=reference_files(campaign) if test.motion else {},
@@ -105,8 +85,8 @@ def doubts(conditioned: xr.Dataset, inputs: PlausibilityInputs) -> list[Finding]
     """Say which of a test's channels, zeroed on the clock `elapsed`, cannot be right, with the probable cause."""
     time, block = conditioned["elapsed"].to_numpy(), inputs.block
     interval = float(time[1] - time[0])
-    accelerations = _along_x(conditioned, inputs.accelerations)
-    displacements = _along_x(conditioned, inputs.displacements)
+    accelerations = _along_x(conditioned, inputs.transducers.accelerations)
+    displacements = _along_x(conditioned, inputs.transducers.displacements)
     rotation = _rotation(conditioned, inputs, displacements)
     acceleration = None
     if accelerations:
@@ -136,21 +116,22 @@ def zero_effects(inputs: PlausibilityInputs) -> dict[str, Effect]:
         for name, length in angles.items()
         if abs(length) >= HALF_LEVER * longest > 0
     }
-    return on_angles | {name: on_base(along, inputs.block) for name, along in inputs.accelerations.items()}
+    table = along(inputs.transducers.accelerations, 0)
+    return on_angles | {name: on_base(part, inputs.block) for name, part in table.items()}
 
 
 def _responses(inputs: PlausibilityInputs) -> dict[str, Array]:
     """What each displacement transducer and inclinometer on the specimen reads at `ANGLES`, by variable."""
-    sides = []
+    sides, positions = [], inputs.transducers.positions
     for side, angles in ((-1.0, ANGLES[ANGLES < 0]), (1.0, ANGLES[ANGLES >= 0])):
         pose = Pose(angles, *[np.zeros_like(angles)] * 5)
-        sides.append(predict([*inputs.positions.values()], pose, side, inputs.block, inputs.outline)[0])
-    return dict(zip(inputs.positions, np.concatenate(sides, axis=-1), strict=True))
+        sides.append(predict([*positions.values()], pose, side, inputs.block, inputs.outline)[0])
+    return dict(zip(positions, np.concatenate(sides, axis=-1), strict=True))
 
 
-def _along_x(conditioned: xr.Dataset, channels: Mapping[str, float]) -> list[TableChannel]:
+def _along_x(conditioned: xr.Dataset, channels: Mapping[str, Vector]) -> list[TableChannel]:
     found = []
-    for name, part in channels.items():
+    for name, part in along(channels, 0).items():
         if name in conditioned:
             given, values = conditioned[name].attrs, np.nan_to_num(conditioned[name].to_numpy() / part)
             # The scale of a channel can be judged where its largest values are beyond doubt.
@@ -165,12 +146,13 @@ def _rotation(
     conditioned: xr.Dataset, inputs: PlausibilityInputs, displacements: list[TableChannel]
 ) -> Rotation | None:
     """Readings of the transducers that see the rotation, relative to the table; None if no transducer does."""
-    names = [name for name in inputs.positions if name in conditioned]
+    names = [name for name in inputs.transducers.positions if name in conditioned]
     if not names:
         return None
     time, responses, gauges = conditioned["elapsed"].to_numpy(), _responses(inputs), []
     for name in names:
-        known, given, reading = inputs.positions[name], conditioned[name].attrs, conditioned[name].to_numpy()
+        known, given = inputs.transducers.positions[name], conditioned[name].attrs
+        reading = conditioned[name].to_numpy()
         is_angle, refixed = known.sensing == "angle", None
         if displacements:
             refixed = displacements[0].values * (0.0 if is_angle else known.direction[0])

@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from colonnade.arrays import Array, Vector
-from colonnade.campaign import Channel
+from colonnade.campaign import Campaign, Channel, Test
 from colonnade.campaign.channel import ALONG
 from colonnade.campaign.setup import Marker, Tracking
 from colonnade.campaign.specimen import Cone, Cylinder, Prism, Specimen
@@ -209,6 +209,35 @@ def _sorted(channels: tuple[tuple[str, Channel], ...]) -> Transducers:
     return Transducers(**found)
 
 
+class SeenInputs(Inputs):
+    """
+    A body, and what sees it and the table.
+
+    Attributes
+    ----------
+    block : Block
+    outline : Outline
+        Its base, and the side that transducers look at.
+    transducers : Transducers
+    """
+
+    block: Block
+    outline: Outline
+    transducers: Transducers
+
+    @classmethod
+    def seen(cls, campaign: Campaign, test: Test) -> dict[str, Any]:
+        """Gather it for the specimen of a test."""
+        specimen = campaign.specimens[test.specimen]
+        block, known = specimen.block(campaign.gravity), transducers(campaign.channels(test))
+        return {"block": block, "outline": outline(specimen, block), "transducers": known}
+
+
+def along(table: Mapping[str, Vector], axis: int) -> dict[str, float]:
+    """Give the channels of the table that record its motion along an axis, with that part of their direction."""
+    return {name: direction[axis] for name, direction in table.items() if abs(direction[axis]) >= ALONG}
+
+
 def outline(specimen: Specimen, block: Block) -> Outline:
     """Outline of a specimen; one of unknown shape is as wide as its poles are apart, without depth."""
     match specimen:
@@ -247,12 +276,12 @@ def base_motion(conditioned: xr.Dataset, channels: Transducers, warnings: list[F
     base: dict[str, Array] = {}
     for quantity, table in (("acceleration", channels.accelerations), ("displacement", channels.displacements)):
         for prefix, axis in AXES.items():
-            along = {name: direction[axis] for name, direction in table.items() if abs(direction[axis]) >= ALONG}
-            values = [conditioned[name].to_numpy() / part for name, part in along.items() if name in conditioned]
+            used = {name: part for name, part in along(table, axis).items() if name in conditioned}
+            values = [conditioned[name].to_numpy() / part for name, part in used.items()]
             if values:
                 base[f"{prefix}base_{quantity}"] = mean = np.mean(values, axis=0)
             if len(values) > 1:
-                names = [str(conditioned[name].attrs.get("channel", name)) for name in along if name in conditioned]
+                names = [str(conditioned[name].attrs.get("channel", name)) for name in used]
                 warnings.append(_several(f"{quantity} along {'xyz'[axis]}", names, np.array(values), mean))
     if "base_acceleration" not in base and "base_displacement" in base:
         base["base_acceleration"], finding = _derived(conditioned, channels, base["base_displacement"])
@@ -264,8 +293,7 @@ def _derived(conditioned: xr.Dataset, channels: Transducers, displacement: Array
     """Differentiate the table's displacement twice; a warning if an accelerometer along x was to give the motion."""
     interval = float(np.diff(conditioned["elapsed"].to_numpy()[:2])[0])
     cutoff = min(float(conditioned[name].attrs["cutoff_hz"]) for name in channels.displacements if name in conditioned)
-    is_meant = not any(abs(direction[0]) >= ALONG for direction in channels.accelerations.values())
-    weight = note if is_meant else warning
+    weight = warning if along(channels.accelerations, 0) else note
     text = (
         "The base acceleration is the second derivative of the table's displacement, because no table accelerometer is "
         f"usable. It contains nothing above {cutoff:.3g} Hz."
