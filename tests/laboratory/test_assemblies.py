@@ -6,6 +6,7 @@ import pytest
 from colonnade.campaign import load
 from colonnade.errors import CampaignError
 from colonnade.laboratory import assemblies
+from colonnade.laboratory.runs import with_truth
 from colonnade.laboratory.table import ramped_sine
 from colonnade.workflow import run
 
@@ -31,7 +32,7 @@ def test_two_blocks_on_one_table_are_two_tests_on_one_file(recorded, tmp_path):
     written = recorded("pair")
     result = run(tmp_path, only=list(written.truth["tests"]), until="compare", workers=1)
     assert not result.failed
-    compared = assemblies.with_truth(written.truth, result.summary)["tests"]
+    compared = with_truth(written.truth, result.summary)["tests"]
     assert {name: test["outcome"] for name, test in compared.items()} == {
         "pair-slender": "rocking",
         "pair-stout": "no-rocking",
@@ -65,7 +66,7 @@ def test_nine_of_ten_outcomes_are_right_and_bodies_are_where_they_stand(tmp_path
     written = assemblies.write_assemblies(tmp_path, workers=2)
     result = run(tmp_path, workers=2)
     assert not result.failed
-    compared = assemblies.with_truth(written.truth, result.summary)["tests"]
+    compared = with_truth(written.truth, result.summary)["tests"]
     assert len(compared) == 10
     assert sum(test["outcome"] == test["true_outcome"] for test in compared.values()) >= 9
     moved = {name: (test["moved"], test["true_moved"]) for name, test in compared.items() if "body" in test}

@@ -53,7 +53,6 @@ def demo(
     from colonnade.campaign import FILE_NAME
     from colonnade.errors import ReadError
     from colonnade.laboratory import paper_programme, prism_programme, write_campaign
-    from colonnade.laboratory.assemblies import with_truth as with_several
     from colonnade.laboratory.assemblies import write_assemblies
     from colonnade.laboratory.runs import with_truth
 
@@ -73,12 +72,11 @@ def demo(
         except ReadError as error:
             raise click.UsageError(str(error)) from error
     result = run_with_progress(folder, workers=choices["workers"])
-    compare, show = (with_several, _show_bodies) if assemblies else (with_truth, _show)
-    comparison = compare(written.truth, result.summary) | {"report": result.report}
+    comparison = with_truth(written.truth, result.summary) | {"report": result.report}
     if as_json:
         show_json(comparison)
     else:
-        show(comparison)
+        (_show_bodies if assemblies else _show)(comparison)
         show_table(("failed", "stage", "reason"), failed_rows(result))
         say(f"campaign: {written.path}")
         say(f"report: {result.report}")

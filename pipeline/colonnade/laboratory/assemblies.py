@@ -7,7 +7,6 @@ optical system sees their markers, with noise. What became of each body is kept 
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Collection, Mapping
 from functools import partial
 from importlib.resources import files as resources
@@ -210,22 +209,3 @@ def became(assembly: Assembly, moved: Moved) -> dict[str, dict[str, Any]]:
         outcome = "overturned" if fell else "rocking" if rocked else "no-rocking"
         found[name] = {"outcome": outcome, "residual_x": float(off[0]), "residual_y": float(off[1])}
     return found
-
-
-def with_truth(truth: Mapping[str, Any], summary: Path) -> dict[str, Any]:
-    """Put what a run measured of each test next to what is true: its outcome, and the body that moved farthest."""
-    read = json.loads(summary.read_text(encoding="utf-8"))["tests"]
-    tests: dict[str, dict[str, Any]] = {}
-    for name, true in truth["tests"].items():
-        tests[name] = {"outcome": read[name]["outcome"], "true_outcome": true["outcome"]}
-        tests[name]["predicted"] = read[name]["predicted"]
-        stood = {body: _moved(each) for body, each in true["bodies"].items() if each["outcome"] != "overturned"}
-        measured = {body: each for body, each in read[name]["bodies"].items() if each["residual_x"] is not None}
-        if farthest := max(stood.keys() & measured.keys(), key=lambda body: stood[body], default=None):
-            own = {"body": farthest, "moved": _moved(measured[farthest]), "true_moved": stood[farthest]}
-            tests[name] |= own
-    return {"tests": tests}
-
-
-def _moved(body: Mapping[str, Any]) -> float:
-    return float(np.hypot(body["residual_x"], body["residual_y"]))

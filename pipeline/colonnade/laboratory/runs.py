@@ -215,16 +215,29 @@ def truth_of(plan: Plan, campaign: Campaign, records: Mapping[str, Mapping[str, 
 
 
 def with_truth(truth: Mapping[str, Any], summary: Path) -> dict[str, Any]:
-    """Put what a run found next to what is true: e by specimen; outcome, peak, release by test."""
+    """
+    Put what a run found next to what is true.
+
+    Of a specimen e, of a test its outcome, peak and release; of one of several bodies the one that moved farthest.
+    """
     read = json.loads(summary.read_text(encoding="utf-8"))
     tests: dict[str, dict[str, Any]] = {}
     for name, true in truth["tests"].items():
         found = read["tests"][name]
         tests[name] = {"predicted": found["predicted"]}
         for key in ("outcome", "peak_ratio", "release_ratio"):
-            tests[name] |= {f"true_{key}": true[key], key: found[key]}
+            tests[name] |= {f"true_{key}": true[key], key: found[key]} if key in true else {}
+        stood = {body: _moved(each) for body, each in true.get("bodies", {}).items() if each["outcome"] != "overturned"}
+        bodies = found.get("bodies", {})
+        measured = [body for body in stood if body in bodies and bodies[body]["residual_x"] is not None]
+        if farthest := max(measured, key=lambda body: stood[body], default=None):
+            tests[name] |= {"body": farthest, "moved": _moved(bodies[farthest]), "true_moved": stood[farthest]}
     restitution = {
         name: {"true": true["restitution"]} | read["specimens"][name]["restitution"]
-        for name, true in truth["specimens"].items()
+        for name, true in truth.get("specimens", {}).items()
     }
-    return {"restitution": restitution, "tests": tests}
+    return {"restitution": restitution, "tests": tests} if restitution else {"tests": tests}
+
+
+def _moved(body: Mapping[str, Any]) -> float:
+    return float(np.hypot(body["residual_x"], body["residual_y"]))
