@@ -5,34 +5,22 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from colonnade.dynamics.rock import rock
 from colonnade.identification.restitution import identify
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.identification.restitution.result import Estimate
+from colonnade.laboratory.truth import simulate
 from prism import PRISM
 
-ALPHA, P = PRISM.critical_angle, PRISM.p
+ALPHA = PRISM.critical_angle
 
 
 @functools.cache
-def _nonlinear_decay(restitution, released=0.5, interval=0.002, duration=14.0, tilt=0.0):
+def _nonlinear_decay(restitution, interval=0.002, duration=14.0, tilt=0.0):
     time = np.arange(0, duration, interval)
-    angle = np.zeros_like(time)
-    start, state, side = 0.0, [released * ALPHA, 0.0], 1.0
-    while start < duration and abs(state[0]) + abs(state[1]) > 1e-5:
-        landing = lambda t, y: y[0]  # noqa: E731
-        landing.terminal, landing.direction = True, -side
-        solution = solve_ivp(
-            lambda t, y, s=side: [y[1], -(P**2) * np.sin(ALPHA * s + tilt - y[0])],
-            (start, duration), state, method="DOP853", rtol=1e-11, atol=1e-13, events=landing, dense_output=True,
-        )  # fmt: skip
-        inside = (time >= start) & (time < solution.t[-1])
-        if inside.any():
-            angle[inside] = solution.sol(time[inside])[0]
-        start, side, state = solution.t[-1], -side, [0.0, restitution * solution.y[1, -1]]
-    return time, angle
+    leaning = PRISM.override(critical_angle=(ALPHA - tilt, ALPHA + tilt))
+    return time, simulate(leaning, time, restitution=restitution, theta0=0.5 * ALPHA).angle
 
 
 @pytest.mark.parametrize("restitution", [0.85, 0.93, 0.976, 0.99])
