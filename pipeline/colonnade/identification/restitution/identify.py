@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from math import exp, hypot, log
@@ -229,7 +229,7 @@ def _result(
     if fit is not None:
         seen, zero, of_peaks = fit.peaks, fit.offset, _estimate(of_peaks, fit.solved, fit.logarithm)
     history, joint, constancy = None, None, Constancy()
-    doubts: list[tuple[str, str]] = []
+    doubts: tuple[tuple[str, str], ...] = ()
     if found is not None:
         path, counted = found.path, np.flatnonzero(found.path.counted)
         zero = found.zero - record.zero if fit is None else zero
@@ -238,10 +238,9 @@ def _result(
         history = FittedHistory(path.samples.time[inside], path.seen[inside], path.residual[inside], cutoff)
         of_history = chosen = _estimate(of_history, found.answer, found.logarithm_of_path)
         joint, constancy = found.joint, _constancy(found)
-        doubts = [*_shifts(joint, uncertainty), ("two values of e", _disagreement(of_history, of_peaks))]
+        doubts = tuple(_doubts(joint, uncertainty, of_history, of_peaks))
     else:
-        chosen = of_peaks
-        joint = _joint_of_peaks(chosen, uncertainty)
+        chosen, joint = of_peaks, _joint_of_peaks(of_peaks, uncertainty)
     refused = next((each.sentence for each in departing if each.refuses), "") or _objection(chosen, why)
     value, low, high, error = chosen.value, chosen.low, chosen.high, chosen.standard_error
     return Restitution(
@@ -258,7 +257,7 @@ def _result(
         recommended="" if refused else chosen.name,
         constancy=constancy,
         joint=None if refused else joint,
-        doubts=tuple(doubt for doubt in doubts if doubt[1]),
+        doubts=doubts,
     )
 
 
@@ -308,9 +307,8 @@ def _constancy(found: Estimated) -> Constancy:
     return Constancy(change / extent, error / extent, change, scatter)
 
 
-def _shifts(joint: Joint, uncertainty: Uncertainty) -> list[tuple[str, str]]:
-    """Doubts about what was given of the block and of the angle, if the record asks for something else."""
-    doubts = []
+def _doubts(joint: Joint, uncertainty: Uncertainty, history: Estimate, of_peaks: Estimate) -> Iterator[tuple[str, str]]:
+    """Doubts if the record asks for another block or angle than given, or the peaks for another e."""
     scale, known = float(joint.mean[1]) + joint.gain, hypot(uncertainty.critical_angle, uncertainty.angle_gain)
     for kind, fitted, shift, width, check in (
         ("critical angle or gain", "a critical angle, or a gain of the angle,", scale, known,
@@ -319,28 +317,23 @@ def _shifts(joint: Joint, uncertainty: Uncertainty) -> list[tuple[str, str]]:
          "the sampling rate, and the dimensions and the mass of the block"),
     ):  # fmt: skip
         if abs(shift) > FAR * width > 0:
-            off = format_percent(shift, 1, signed=True)
-            said = (
-                f"The record fits {fitted} that differs by {off} from what was given, {abs(shift) / width:.2g} times "
+            yield (
+                kind,
+                f"The record fits {fitted} that differs by {format_percent(shift, 1, signed=True)} from what was "
+                f"given, {abs(shift) / width:.2g} times what its uncertainty allows. Check {check}.",
             )
-            doubts.append((kind, f"{said}what its uncertainty allows. Check {check}."))
-    return doubts
-
-
-def _disagreement(history: Estimate, peaks: Estimate) -> str:
-    """Say by how much the history is off the peaks, if this is beyond their errors."""
-    if history.value is None or peaks.value is None:
-        return ""
-    difference = history.value - peaks.value
-    error = hypot(history.standard_error or 0.0, peaks.standard_error or 0.0)
-    if abs(difference) <= max(DISAGREEMENT * error, NEGLIGIBLE * (1 - peaks.value)):
-        return ""
-    return (
-        f"The whole history gives e = {history.value:.5f}, the peaks alone {peaks.value:.5f}: "
-        f"{abs(difference) / error:.2g} standard errors apart; at most {DISAGREEMENT:g} were expected. The times of "
-        "impact are not quite those of this block: check the sampling rate, its dimensions and mass, and for slide or "
-        "rotation out of plane. The value of the whole history is used."
-    )
+    if history.value is None or of_peaks.value is None:
+        return
+    difference = abs(history.value - of_peaks.value)
+    error = hypot(history.standard_error or 0.0, of_peaks.standard_error or 0.0)
+    if difference > max(DISAGREEMENT * error, NEGLIGIBLE * (1 - of_peaks.value)):
+        yield (
+            "two values of e",
+            f"The whole history gives e = {history.value:.5f}, the peaks alone {of_peaks.value:.5f}: "
+            f"{difference / error:.2g} standard errors apart; at most {DISAGREEMENT:g} were expected. The times of "
+            "impact are not quite those of this block: check the sampling rate, its dimensions and mass, and for slide "
+            "or rotation out of plane. The value of the whole history is used.",
+        )
 
 
 def _refused(reason: str, level: float, seen: Peaks) -> Restitution:
