@@ -177,7 +177,7 @@ def _stuck(*angles, noise=1e-4, flagged=None):
         Gauge(name, angle, ANGLES, ANGLES, noise, 1.0, "angle", flagged=flagged)
         for name, angle in zip(("tilt", "other"), noisy, strict=False)
     )
-    return stuck(Rotation(tuple(gauges), PRISM, INTERVAL))
+    return list(stuck(Rotation(tuple(gauges), PRISM, INTERVAL)))
 
 
 @pytest.fixture(scope="module")

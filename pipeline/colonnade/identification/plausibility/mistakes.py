@@ -158,7 +158,7 @@ def _coupled_alone(rotation: Rotation) -> Finding | None:
     )
 
 
-def stuck(rotation: Rotation) -> list[Finding]:
+def stuck(rotation: Rotation) -> Iterator[Finding]:
     """
     Name transducers that stand still during an arc, or jump.
 
@@ -169,7 +169,7 @@ def stuck(rotation: Rotation) -> list[Finding]:
     Where most of the others come to rest beyond the critical angle, the specimen fell, and what jumps with it did not
     tear: drums of a column fall faster than a block turns.
     """
-    found, interval = [], rotation.interval
+    interval = rotation.interval
     fell = [_lies(each.angle(), rotation.block) for each in rotation.gauges]
     for gauge, scale, has_fallen in zip(rotation.gauges, rotation.scales, fell, strict=True):
         of_angle = scale.value if scale.is_known else 1.0
@@ -188,7 +188,7 @@ def stuck(rotation: Rotation) -> list[Finding]:
                 "specimen on: its transducer or recorder saturates, or its core sticks. The peak is a lower bound, and "
                 "the specimen may have overturned. Give the channel's `range`; repeat the test with a larger one"
             )
-            found.append(serious("end of the range", text))
+            yield serious("end of the range", text)
         elif sum(fell) - has_fallen <= (len(fell) - 1) / 2 and (torn := _torn(rotation, angle, noise)):
             sample, size = torn
             text = (
@@ -196,8 +196,7 @@ def stuck(rotation: Rotation) -> list[Finding]:
                 "after the start, faster than the specimen can turn, and stands still from then on: its cable tore, or "
                 "its core came off. The peak is a lower bound, and the specimen may have overturned"
             )
-            found.append(serious("dead channel", text))
-    return found
+            yield serious("dead channel", text)
 
 
 def _flat(interval: float, angle: Array, noise: float, acceleration: Array | None, block: Block) -> list[slice]:

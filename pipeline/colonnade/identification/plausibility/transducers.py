@@ -63,7 +63,7 @@ class Judged(NamedTuple):
 def judge(rotation: Rotation) -> Judged:
     """Hold each transducer against the equation of motion."""
     mistake = undone(rotation)
-    return Judged(rotation, [mistake] if mistake else stuck(rotation))
+    return Judged(rotation, [mistake] if mistake else list(stuck(rotation)))
 
 
 def suspicions(judged: Judged) -> list[Finding]:
@@ -103,22 +103,21 @@ def _names(gauges: Iterable[Gauge], between: str = ", ") -> str:
     return between.join(each.name for each in gauges)
 
 
-def _gains(known: Seen, block: Block) -> list[Finding]:
+def _gains(known: Seen, block: Block) -> Iterator[Finding]:
     """Name transducers whose rotation is not that of the equation of motion, or what all of them share."""
     wrong = [(each, scale) for each, scale in known if scale.differs]
     if not wrong:
-        return []
+        return
     common = min((scale for _, scale in wrong), key=lambda scale: scale.error / scale.value)
     if all(_is_near(scale, common.value) for _, scale in known):
-        return [_of_all([each for each, _ in known], common, block)]
+        yield _of_all([each for each, _ in known], common, block)
+        return
     others = [each for each, scale in known if not scale.differs]
     shown = f", and that {_names(others)} {'shows' if len(others) == 1 else 'show'}" if others else ""
-    found = []
     for each, scale in wrong:
         text = f"channel {each.name} shows {scale.value:.3g} times the rotation that the equation of motion gives"
         build = serious if scale.misleads else warning
-        found.append(build("gain", f"{text}{shown}: {_why(each, scale.value)}", follows=("unit",)))
-    return found
+        yield build("gain", f"{text}{shown}: {_why(each, scale.value)}", follows=("unit",))
 
 
 def _is_near(scale: Scale, value: float) -> bool:
@@ -178,47 +177,44 @@ def _why(gauge: Gauge, scale: float) -> str:
     return f"its gain × {1 / scale:.3g}{'' if is_angle else place} would make them agree"
 
 
-def _dead(seen: Seen) -> list[Finding]:
+def _dead(seen: Seen) -> Iterator[Finding]:
     """Name transducers that stand still while others turn."""
     right = [each for each, scale in seen if scale.is_known and not scale.differs]
     if not right:
-        return []
-    found = []
+        return
     angle = np.median([filled_in(each.reading) / each.lever for each in right], axis=0)
     for each, scale in seen:
         due, shown = float(np.std(each.lever * angle)), float(np.nanstd(each.reading))
         if not scale.is_known and due > STANDING * max(each.noise, 1e-12) and shown < DEAD * due:
-            found.append(dead(each.name, 1e3 * shown, 1e3 * due, "mm", f"the rotation measured by {_names(right)}"))
-    return found
+            yield dead(each.name, 1e3 * shown, 1e3 * due, "mm", f"the rotation measured by {_names(right)}")
 
 
-def _signs(known: Seen) -> list[Finding]:
+def _signs(known: Seen) -> Iterator[Finding]:
     """Name transducers that turn against the others, or all of them if they turn against the table."""
     groups = _sides(known)
     turning = groups[0] + groups[1]
-    against = [each for each, scale in turning if scale.base_is_known and scale.base < 0]
-    is_shown = any(scale.base_is_known for _, scale in turning)
+    shown = [(each, scale.base) for each, scale in turning if scale.base_is_known]
+    against = [each for each, base in shown if base < 0]
     wrong = "(`direction`, or the sign of the gain)"
     if all(groups):
         # Wrong are those that turn against the table if that is known, else the fewer.
         fewer, more = ([each for each, _ in group] for group in sorted(groups, key=len))
-        sure = len(fewer) < len(more)
-        if is_shown:
-            fewer, sure = against or fewer, True
+        sure = bool(shown) or len(fewer) < len(more)
+        if shown:
+            fewer = against or fewer
             more = [each for each, _ in turning if each not in fewer]
         names, others = _names(fewer), _names(more)
         which = f"the sign of {names} is wrong" if sure else f"the sign of one of the two is wrong, {names} or {others}"
-        return [serious("sign", f"channel {names} turns opposite to {others}: {which} {wrong}")]
-    if not against or any(scale.base_is_known and scale.base > 0 for _, scale in turning):
-        return []
-    several = len(turning) > 1
-    names = _names((each for each, _ in turning), " and ")
-    channels = f"channels {names} turn" if several else f"channel {names} turns"
-    text = (
-        f"{channels} opposite to the table's acceleration: the sign of the table's acceleration is wrong, or that of "
-        f"{'all of them' if several else 'this channel'} {wrong}"
-    )
-    return [serious("sign", text)]
+        yield serious("sign", f"channel {names} turns opposite to {others}: {which} {wrong}")
+    elif against and len(against) == len(shown):
+        several = len(turning) > 1
+        names = _names((each for each, _ in turning), " and ")
+        yield serious(
+            "sign",
+            f"{f'channels {names} turn' if several else f'channel {names} turns'} opposite to the table's "
+            "acceleration: the sign of the table's acceleration is wrong, or that of "
+            f"{'all of them' if several else 'this channel'} {wrong}",
+        )
 
 
 def _sides(known: Seen) -> tuple[Seen, Seen]:
