@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from colonnade.arrays import Array
@@ -55,32 +57,31 @@ LEAST_FALL = 2.0
 THREE_DIMENSIONAL, UNEQUAL_SIDES, MOVING = "three-dimensional rocking", "unequal sides", "moving table"
 
 
-def find_rotation(time: Array, out_of_plane: Array, record: Record) -> Departure | None:
+def find_rotation(time: Array, out_of_plane: Array, record: Record) -> Iterator[Departure]:
     """Hold a measured rotation out of the plane (rad) against the rocking angle; first arcs with much are left out."""
     finite = np.isfinite(out_of_plane)
     if not finite.any():
-        return None
+        return
     time, values = time[finite], out_of_plane[finite] - np.median(out_of_plane[finite])
     noise, seen = noise_level(values), record.counted
     amplitude = np.array([np.abs(values[piece]).max(initial=0.0) for piece in seen.pieces(time, 0.0, 1.0)])
     share = amplitude / seen.height
     large = (share > LARGEST_SHARE) & (amplitude > NOISE_MARGIN * noise)
-    if not large.any():
-        return None
-    size, error = float(share[large].max()), float(noise / seen.height[np.argmax(np.where(large, share, 0))])
-    return _spatial(
-        record, int(np.flatnonzero(large)[-1]) + 1, size, error,
-        f"The block turns out of its plane by up to {format_percent(size)} of the rocking angle (measured); more than "
-        f"{format_percent(LARGEST_SHARE)}",
-    )  # fmt: skip
+    if large.any():
+        size, error = float(share[large].max()), float(noise / seen.height[np.argmax(np.where(large, share, 0))])
+        finding = (
+            f"The block turns out of its plane by up to {format_percent(size)} of the rocking angle (measured); more "
+            f"than {format_percent(LARGEST_SHARE)}"
+        )
+        yield _spatial(record, int(np.flatnonzero(large)[-1]) + 1, size, error, finding)
 
 
-def find_first_loss(found: Estimated, record: Record) -> Departure | None:
+def find_first_loss(found: Estimated, record: Record) -> Iterator[Departure]:
     """Look for first cycles that lose more than later ones, as large ones do that turn out of the plane."""
     impacts = found.path.count - 1
     most = min(impacts - FEWEST_LATER, impacts // 2)
     if most < 2:
-        return None
+        return
     deviations = found.path.deviations
     after = np.cumsum(deviations)
     counts = np.arange(2, most + 1)
@@ -91,13 +92,12 @@ def find_first_loss(found: Estimated, record: Record) -> Departure | None:
     slope, slope_error = found.trend
     e = float(np.exp(found.logarithm - change * count / impacts))
     loss = -e * float(np.expm1(min(change, 1.0)))
-    if loss < LEAST_LOSS * (1 - e) or abs(change) < SURE * error:
-        return None
-    if (change / error) ** 2 < (slope / slope_error) ** 2 + BETTER:
-        return None
+    is_step = (change / error) ** 2 >= (slope / slope_error) ** 2 + BETTER
+    if loss < LEAST_LOSS * (1 - e) or abs(change) < SURE * error or not is_step:
+        return
     # The part from the release on ends with an impact that no arc seen begins.
     count = max(count - (1 if found.path.from_release else 0), 1)
-    return _spatial(
+    yield _spatial(
         record, count, loss, error * e,
         f"The first {count} impacts lose more than the later ones, e is lower by {loss:.4f} ± {e * error:.4f}, in a "
         "step and not gradually with the speed of impact, as large cycles that turn out of the plane do",
@@ -115,7 +115,7 @@ def _spatial(record: Record, count: int, size: float, error: float, finding: str
     return Departure(THREE_DIMENSIONAL, size, error, "1", finding + end, left_out, refuses)
 
 
-def find_sliding(time: Array, angle: Array, slide: Array, record: Record) -> Departure | None:
+def find_sliding(time: Array, angle: Array, slide: Array, record: Record) -> Iterator[Departure]:
     """
     Look for jumps of the pole (m) at impacts, by the work of friction over the energy lost in all impacts.
 
@@ -148,11 +148,11 @@ def find_sliding(time: Array, angle: Array, slide: Array, record: Record) -> Dep
     lost = float(speed[0] ** 2 - speed[1] ** 2) * block.inertia / 2
     work = FRICTION * block.mass * block.gravity * total / max(lost, 1e-300)
     if not work > LEAST_WORK:
-        return None
+        return
     refuses = work > LARGEST_WORK
     share = f"{format_percent(work)} of" if work < 10 else "more than 10 times"
     end = "; too much for an e of rocking alone." if refuses else "; e includes this loss."
-    return Departure(
+    yield Departure(
         "sliding", total, total_error, "m",
         f"The block slides at {int(large.sum())} of {jumps.size} impacts, by {1e3 * total:.3g} ± "
         f"{1e3 * total_error:.1g} mm in all: with a friction of {FRICTION:g} this is {share} the energy lost" + end,
@@ -160,28 +160,27 @@ def find_sliding(time: Array, angle: Array, slide: Array, record: Record) -> Dep
     )  # fmt: skip
 
 
-def find_bouncing(time: Array, uplift: Array, record: Record) -> Departure | None:
+def find_bouncing(time: Array, uplift: Array, record: Record) -> Iterator[Departure]:
     """Look for impacts after which the base (height in m) is in the air."""
     noise = noise_level(uplift[np.isfinite(uplift)])
     threshold = max(LEAST_LIFT * record.block.governing.half_width, NOISE_MARGIN * noise)
     lifts = np.array([np.nanmax(uplift[piece], initial=0.0) for piece in record.counted.pieces(time, 0.0, 0.4)])
     count, size = int((lifts > threshold).sum()), float(lifts.max(initial=0.0))
-    if not count:
-        return None
-    return Departure(
-        "bouncing", size, noise, "m",
-        f"The base leaves the table after {count} of {lifts.size} impacts, by up to {1e3 * size:.3g} ± "
-        f"{1e3 * noise:.1g} mm: the block bounces, and e includes that loss.",
-    )  # fmt: skip
+    if count:
+        yield Departure(
+            "bouncing", size, noise, "m",
+            f"The base leaves the table after {count} of {lifts.size} impacts, by up to {1e3 * size:.3g} ± "
+            f"{1e3 * noise:.1g} mm: the block bounces, and e includes that loss.",
+        )  # fmt: skip
 
 
-def unequal_sides(found: Estimated) -> Departure | None:
+def unequal_sides(found: Estimated) -> Iterator[Departure]:
     """Name critical angles of the two sides that differ."""
     tilt, error = found.tilt
     critical = float(np.prod([side.critical_angle for side in found.path.block.sides]) ** 0.5)
     if abs(tilt) < max(SURE * error, LEAST_TILT):
-        return None
-    return Departure(
+        return
+    yield Departure(
         UNEQUAL_SIDES, tilt * critical, error * critical, "rad",
         f"The critical angles of the two sides differ by 2 × ({1e3 * tilt * critical:+.2f} ± "
         f"{1e3 * error * critical:.2f}) mrad from those of the block: arcs on one side last longer than on the other "
@@ -198,30 +197,28 @@ def scatters(found: Estimated) -> bool:
     return bool(found.answer.weights[large].sum() > SURELY)
 
 
-def find_turned(turned: Estimated | None, *others: Estimated | None) -> list[Departure]:
+def find_turned(turned: Estimated | None, *others: Estimated | None) -> Iterator[Departure]:
     """Name a base whose acceleration explains the angle with its sign turned only: as recorded it would bend e."""
     if turned is None:
-        return []
+        return
     residual, *rest = (float(each.path.power**0.5) for each in (turned, *others) if each is not None)
     if rest and min(rest) < LEAST_FALL * residual:
-        return []
+        return
     otherwise = f"it is {1e3 * min(rest):.2g} mrad off" if rest else "no history follows it"
-    return [
-        Departure(
-            MOVING, min(rest, default=0.0), residual, "rad",
-            "With the sign of the table's acceleration turned, a history follows the angle to "
-            f"{1e3 * residual:.2g} mrad; as recorded, or with a table at rest, {otherwise}. Correct the `direction` of "
-            "the accelerometer or of the transducers, or the sign of a gain.",
-            refuses=True,
-        )
-    ]  # fmt: skip
+    yield Departure(
+        MOVING, min(rest, default=0.0), residual, "rad",
+        f"With the sign of the table's acceleration turned, a history follows the angle to {1e3 * residual:.2g} mrad; "
+        f"as recorded, or with a table at rest, {otherwise}. Correct the `direction` of the accelerometer or of the "
+        "transducers, or the sign of a gain.",
+        refuses=True,
+    )  # fmt: skip
 
 
-def found_by_impact(found: Estimated, *, driven: bool) -> Departure | None:
+def found_by_impact(found: Estimated, *, driven: bool) -> Iterator[Departure]:
     """Name an e of single impacts that scatters more than impacts do, or that changes with their speed."""
     e = found.path.restitution
     if e.size < FEWEST_IMPACTS:
-        return None
+        return
     mean = float(np.exp(found.logarithm))
     change, error = (mean * each for each in found.trend)
     scatter = mean * found.answer.scatter
@@ -232,16 +229,15 @@ def found_by_impact(found: Estimated, *, driven: bool) -> Departure | None:
             else "the table moves, somebody touched the block, or a transducer slipped. No value is given; record the "
             'table\'s acceleration (on = "table", quantity = "acceleration"), or repeat the test on a table at rest.'
         )
-        return Departure(
+        yield Departure(
             MOVING, scatter, scatter / (2 * e.size) ** 0.5, "1",
             f"e of single impacts scatters by {scatter:.3g}, from {e.min():.3f} to {e.max():.3f}; up to "
             f"{LARGEST_SCATTER:g} was expected of impacts alone: {cause}",
             refuses=True,
         )  # fmt: skip
-    if not found.has_trend or abs(change) <= LEAST_CHANGE:
-        return None
-    return Departure(
-        "speed-dependent restitution", change, error, "1",
-        f"e is not constant: it changes by {change:+.4f} ± {error:.4f} from the slowest to the fastest impact; the "
-        "value given is the mean over the impacts seen.",
-    )  # fmt: skip
+    elif found.has_trend and abs(change) > LEAST_CHANGE:
+        yield Departure(
+            "speed-dependent restitution", change, error, "1",
+            f"e is not constant: it changes by {change:+.4f} ± {error:.4f} from the slowest to the fastest impact; the "
+            "value given is the mean over the impacts seen.",
+        )  # fmt: skip

@@ -148,7 +148,7 @@ def identify_restitution(
         (recorded, why_not), (otherwise, _) = (
             follow(replace(record, samples=thinned(times, angles, block, sign * base))) for sign in (1.0, -1.0)
         )
-        turned = departures.find_turned(otherwise, recorded, found)
+        turned = list(departures.find_turned(otherwise, recorded, found))
         # An accelerometer may have more noise than a table at rest may move.
         better = found is None or (recorded is not None and recorded.path.power < found.path.power)
         driven = better or bool(turned) or (found is not None and departures.scatters(found))
@@ -156,8 +156,8 @@ def identify_restitution(
     seen = turned
     if not driven:
         record, found, why, seen = _departed(record, found, why, follow, times, measured)
-    if found is not None and not turned and (by_impact := departures.found_by_impact(found, driven=driven)) is not None:
-        seen.append(by_impact)
+    if found is not None and not turned:
+        seen += departures.found_by_impact(found, driven=driven)
     moves = driven if "base_acceleration" in measured else None
     return replace(_result(record, found, why, uncertainty, level, seen, driven=driven), table_moves=moves)
 
@@ -184,20 +184,21 @@ def _departed(
     record = record.about(zero)
     if record.counted.start.size < FEWEST_SEEN:
         return record, found, why, []
-    spatial = sliding = bouncing = None
+    seen: list[Departure] = []
     if "out_of_plane" in measured:
-        spatial = departures.find_rotation(times, measured["out_of_plane"], record)
+        seen += departures.find_rotation(times, measured["out_of_plane"], record)
     elif found is not None:
-        spatial = departures.find_first_loss(found, record)
+        seen += departures.find_first_loss(found, record)
     if "slide" in measured:
-        sliding = departures.find_sliding(times, measured["angle"] - zero, measured["slide"], record)
+        seen += departures.find_sliding(times, measured["angle"] - zero, measured["slide"], record)
     if "uplift" in measured:
-        bouncing = departures.find_bouncing(times, measured["uplift"], record)
-    if spatial is not None:
-        record = replace(record, usable=record.usable & (np.arange(record.usable.size) >= spatial.left_out))
-        found, why = follow(record, spatial.left_out)
-    sides = None if found is None else departures.unequal_sides(found)
-    return record, found, why, [each for each in (spatial, sliding, bouncing, sides) if each is not None]
+        seen += departures.find_bouncing(times, measured["uplift"], record)
+    if left_out := max((each.left_out for each in seen), default=0):
+        record = replace(record, usable=record.usable & (np.arange(record.usable.size) >= left_out))
+        found, why = follow(record, left_out)
+    if found is not None:
+        seen += departures.unequal_sides(found)
+    return record, found, why, seen
 
 
 def _in_other_units(times: Array, angles: Array, block: Block) -> str:
