@@ -83,13 +83,11 @@ def test_a_peak_above_the_critical_angle_is_not_usable(samples):
 
 def test_about_another_zero_peaks_move_and_impacts_stay(samples):
     record = seen(samples)
-    moved = record.about(0.003)
-    assert moved.zero == 0.003
+    moved = replace(record, zero=0.003)
     assert moved.arcs.start.tolist() == record.arcs.start.tolist()
     usable = record.usable & moved.usable
     shift = record.arcs.peak_angle[usable] - moved.arcs.peak_angle[usable]
     np.testing.assert_allclose(shift, 0.003, atol=1e-5)
-    assert moved.samples is record.samples
 
 
 def test_peaks_are_given_without_a_fit(samples):
@@ -107,11 +105,11 @@ def test_a_record_without_rocking_has_no_arcs(angle):
 
 def test_the_longest_run_on_alternating_sides_begins_a_path(samples):
     record = seen(samples)
-    peaks, times = record.run(0)
+    peaks, times = record.run()
     assert peaks.tolist() == record.arcs.peak_angle[record.usable].tolist() or peaks.size >= record.usable.sum()
     assert (np.diff(np.sign(peaks)) != 0).all()
     assert (np.diff(times) > 0).all()
-    later, _ = record.run(3)
+    later, _ = replace(record, left_out=3).run()
     assert later.tolist() == peaks[3:].tolist()
 
 

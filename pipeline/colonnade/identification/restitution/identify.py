@@ -162,17 +162,17 @@ def identify_restitution(
     return replace(_result(record, found, why, uncertainty, level, seen, driven=driven), table_moves=moves)
 
 
-def _followed(record: Record, left_out: int = 0, *, widths: Array, lowpass: float | None) -> Attempt:
+def _followed(record: Record, *, widths: Array, lowpass: float | None) -> Attempt:
     """Follow a record from the first arc that enters; what is found, or why nothing is."""
     try:
-        path = first_path(record.samples, record.block, widths, *record.run(left_out))
-        return estimate(path, lowpass, record.least, whole=left_out == 0), ""
+        path = first_path(record.samples, record.block, widths, *record.run())
+        return estimate(path, lowpass, record.least, whole=record.left_out == 0), ""
     except (UnfollowedError, np.linalg.LinAlgError) as error:
         return None, f"No simulated history follows the record: {error}."
 
 
 def _departed(
-    record: Record, found: Estimated | None, why: str, follow: Callable[[Record, int], Attempt], times: Array,
+    record: Record, found: Estimated | None, why: str, follow: Callable[[Record], Attempt], times: Array,
     measured: dict[str, Array],
 ) -> tuple[Record, Estimated | None, str, list[Departure]]:  # fmt: skip
     """Find departures from plane rocking on a table at rest, and leave out the arcs that they spoil."""
@@ -181,7 +181,7 @@ def _departed(
     else:
         fit = peaks.fit_peaks(record.peaks, record.block, record.noise, (0.0, 0.0))
         zero = 0.0 if fit is None else fit.offset
-    record = record.about(zero)
+    record = replace(record, zero=zero)
     if record.counted.start.size < FEWEST_SEEN:
         return record, found, why, []
     seen: list[Departure] = []
@@ -194,8 +194,8 @@ def _departed(
     if "uplift" in measured:
         seen += departures.find_bouncing(times, measured["uplift"], record)
     if left_out := max((each.left_out for each in seen), default=0):
-        record = replace(record, usable=record.usable & (np.arange(record.usable.size) >= left_out))
-        found, why = follow(record, left_out)
+        record = replace(record, left_out=left_out)
+        found, why = follow(record)
     if found is not None:
         seen += departures.unequal_sides(found)
     return record, found, why, seen

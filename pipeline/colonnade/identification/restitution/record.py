@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -137,50 +137,54 @@ class Record:
     block : Block
     samples : AngleSamples
         About the zero of the record.
-    arcs : Arcs
-        n of them, about the block's zero as far as it is known.
-    usable : ndarray of bool, shape (n,)
-        Arcs whose peak is known, below α and above `lowest`.
+    impacts : ndarray, shape (n + 1,)
+        s.
     lowest, least : float
         rad; lower peaks are not counted, and not followed by the whole history.
     noise : float
         Standard deviation of the averaged angle at rest, rad.
     zero : float
-        rad, what was taken off the angle for `arcs`.
+        rad, what is taken off the angle for `arcs`: the block's zero as far as it is known.
+    left_out : int
+        Number of the first arcs that do not count.
     """
 
     block: Block
     samples: AngleSamples
-    arcs: Arcs
-    usable: Mask
+    impacts: Array
     lowest: float
     least: float
     noise: float
     zero: float = 0.0
+    left_out: int = 0
 
     @classmethod
     def seen(cls, samples: AngleSamples, block: Block, lowest_amplitude: float, noise: float | None) -> Record:
-        """Find the arcs in the averaged samples, and fit them in the samples themselves."""
+        """Find the impacts in the averaged samples."""
         length = max(int(SMOOTHED / (block.p * samples.interval)), 1)
         smooth = _averaged(samples.angle, length)
         sampled = smooth[::length]
         scatter = noise_level(sampled[np.isfinite(sampled)]) if noise is None else noise
         least = lowest_amplitude * block.critical_angle
         lowest = max(least, NOISE_MARGIN * scatter)
-        impacts = find_impacts(samples.time, smooth, lowest=lowest)
-        arcs = arcs_between(impacts, samples.time, samples.angle, block.p, critical=block.critical_angle)
-        return cls(block, samples, arcs, _usable(arcs, lowest, block), lowest, least, scatter)
+        return cls(block, samples, find_impacts(samples.time, smooth, lowest=lowest), lowest, least, scatter)
 
-    def about(self, zero: float) -> Record:
-        """Return the record with its arcs about another zero (rad)."""
-        impacts = np.append(self.arcs.start, self.arcs.end[-1:])
-        angle = self.samples.angle - zero
-        arcs = arcs_between(impacts, self.samples.time, angle, self.block.p, critical=self.block.critical_angle)
-        return replace(self, arcs=arcs, usable=_usable(arcs, self.lowest, self.block), zero=zero)
+    @cached_property
+    def arcs(self) -> Arcs:
+        """All arcs, fitted in the samples themselves."""
+        angle, block = self.samples.angle - self.zero, self.block
+        return arcs_between(self.impacts, self.samples.time, angle, block.p, critical=block.critical_angle)
 
-    def run(self, first: int) -> tuple[Array, Array]:
-        """Peaks (rad, signed) and their times (s) of the longest run of arcs on alternating sides, from one arc on."""
-        peaks, times = self.arcs.peak_angle[first:], self.arcs.peak_time[first:]
+    @cached_property
+    def usable(self) -> Mask:
+        """Arcs whose peak is known, below α and above `lowest`."""
+        arcs = self.arcs
+        high = (arcs.height > self.lowest) & (arcs.height < self.block.critical_angle_at(arcs.peak_angle))
+        return np.isfinite(arcs.peak_standard_error) & high & (np.arange(high.size) >= self.left_out)
+
+    def run(self) -> tuple[Array, Array]:
+        """Peaks (rad, signed) and times (s) of the longest run of arcs on alternating sides that is not left out."""
+        peaks, times = self.arcs.peak_angle[self.left_out :], self.arcs.peak_time[self.left_out :]
         seen = np.isfinite(peaks) & (np.abs(peaks) < self.block.critical_angle_at(peaks))
         follows = seen[1:] & seen[:-1] & (np.sign(peaks[1:]) == -np.sign(peaks[:-1]))
         breaks = np.flatnonzero(np.concatenate(([True], ~follows, [True])))
@@ -199,12 +203,6 @@ class Record:
         arcs = self.arcs
         unfitted = np.full(arcs.peak_angle.shape, np.nan)
         return Peaks(arcs.peak_time, arcs.peak_angle, arcs.peak_standard_error, unfitted, self.usable)
-
-
-def _usable(arcs: Arcs, lowest: float, block: Block) -> Mask:
-    size = np.abs(arcs.peak_angle)
-    high = size < block.critical_angle_at(arcs.peak_angle)
-    return np.asarray(np.isfinite(arcs.peak_standard_error) & (size > lowest) & high)
 
 
 def _averaged(angle: Array, length: int) -> Array:
