@@ -115,11 +115,6 @@ def test_records_that_drift_have_an_answer_when_corrected_and_a_reason_as_they_a
     assert found.variants[0].records == 6
 
 
-def test_without_enough_records_with_the_measure_there_is_no_answer():
-    with pytest.raises(StageError, match=r"1 ground motion with a .*; at least 2"):
-        _plan(_records(0.05))
-
-
 @pytest.mark.whole
 @every(("levels", "side"), [(["0.01 m/s", "0.02 m/s"], "above"), (["80 m/s", "90 m/s"], "below")])
 def test_what_is_beyond_the_levels_is_so_on_its_side(levels, side):
