@@ -180,14 +180,6 @@ def _answer(
     uplift, rate, asked = found.uplift, found.rate, plan.inputs.asked
     one = plan.inputs.several is None
     low, high = column.restitution_range or (None, None)
-    of_rate: dict[str, Any] = {}
-    if rate is not None:
-        of_rate = {
-            "annual_rate": _estimate(rate.rate),
-            "probability_50_years": _estimate(rate.in_50_years),
-            "annual_rate_isotonic": rate.isotonic,
-            "rate_outside": rate.outside_hazard,
-        }
     measures = tuple(JudgedMeasure(**vars(each)) for each in found.measures)
     # Nobody asked for measures that are compared by default.
     missing = [name for name in study.values if name not in {each.measure for each in measures}]
@@ -209,7 +201,7 @@ def _answer(
         friction_range=column.friction_range,
         uplift_acceleration=column.block.uplift_acceleration,
         baseline=asked.baseline,
-        uplift=Estimate() if uplift is None else _estimate(uplift.median),
+        uplift=_estimate(None if uplift is None else uplift.median),
         median=_estimate(found.lognormal.median),
         dispersion=_estimate(found.lognormal.beta),
         dispersion_records=found.betas.records,
@@ -221,7 +213,10 @@ def _answer(
         misfit=found.misfit,
         resurrected=found.resurrected,
         sliding=sliding,
-        **of_rate,
+        annual_rate=_estimate(None if rate is None else rate.rate),
+        probability_50_years=_estimate(None if rate is None else rate.in_50_years),
+        annual_rate_isotonic=None if rate is None else rate.isotonic,
+        rate_outside=None if rate is None else rate.outside_hazard,
         variants=tuple(_variants(plan, fragilities)),
         measures=measures,
         criteria=_judged_criteria(study, outcomes, drift=asked.drift, overturned=asked.overturned),
@@ -240,7 +235,9 @@ def _both(column: RealColumn) -> float:
     return float(np.mean(pair(column.restitution)))
 
 
-def _estimate(interval: Interval) -> Estimate:
+def _estimate(interval: Interval | None) -> Estimate:
+    if interval is None:
+        return Estimate()
     # 0 and infinity stand for what lies beyond the levels.
     value, low, high = (float(each) if 0.0 < each < np.inf else None for each in interval)
     beyond: Literal["below", "above"] | None = None

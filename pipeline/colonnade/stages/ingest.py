@@ -300,8 +300,7 @@ def find_column(recording: Recording, name: str, channel: ChannelInputs, rate: f
         return recording.on_clock(channel.column, channel.time)
     column = recording.channel(channel.column)
     if rate is not None:
-        time = np.arange(column.values.size) / rate
-        return RecordedChannel(column.name, column.unit, column.values, time, column.heading)
+        return replace(column, time=np.arange(column.values.size) / rate)
     if column.time is None:
         raise StageError(
             f"channel {name}: {recording.path.name} has no recognised time column, and the set-up "

@@ -48,14 +48,8 @@ class ReferenceMotionFile(BaseModel):
 def reference_files(campaign: Campaign) -> dict[str, ReferenceMotionFile]:
     """Reference motions of a campaign, by name."""
     found = {
-        name: ReferenceMotionFile(
-            path=motion.file,
-            digest=_digest(motion.file),
-            interval=motion.interval,
-            column=motion.column,
-            layout=motion.layout,
-        )
-        for name, motion in campaign.motions.items()
+        name: ReferenceMotionFile(path=each.file, digest=_digest(each.file), **each.model_dump(exclude={"file"}))
+        for name, each in campaign.motions.items()
     }
     if EL_CENTRO not in found and is_installed():
         found[EL_CENTRO] = ReferenceMotionFile(path=None, digest="")
