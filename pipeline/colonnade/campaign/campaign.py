@@ -98,15 +98,14 @@ class Campaign(CampaignKeys):
     @classmethod
     def of(cls, written: CampaignFile, path: Path, warnings: tuple[Finding, ...]) -> Campaign:
         """Make the campaign of a valid file."""
-        tests = {test.id: test for test in written.tests}
-        awaited = missing_files((test for test in written.tests if test.planned), path.parent)
-        keys: dict[str, Any] = {name: getattr(written, name) for name in CampaignKeys.model_fields}
-        wholes = [each for each in written.specimens.values() if isinstance(each, Whole)]
-        parts = {body.specimen for whole in wholes for body in whole.placed.values()}
+        parts = {body.specimen for table in written.assemblies.values() for body in table.placed.values()}
         tested = {test.specimen for test in written.tests}
-        keys["of_interest"] = tuple(name for name in written.specimens if name in tested or name not in parts)
-        keys |= {"tests": tests, "path": path, "folder": path.parent, "warnings": warnings, "awaited": awaited}
-        return cls.model_construct(**keys)
+        found: dict[str, Any] = {
+            "tests": {test.id: test for test in written.tests},
+            "awaited": missing_files((test for test in written.tests if test.planned), path.parent),
+            "of_interest": tuple(name for name in written.specimens if name in tested or name not in parts),
+        }
+        return cls.model_construct(**dict(written) | found, path=path, folder=path.parent, warnings=warnings)
 
     def but(self, **changed: Any) -> Campaign:
         """Return the campaign with some attributes changed."""

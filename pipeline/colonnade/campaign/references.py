@@ -113,16 +113,14 @@ def _assemblies(campaign: CampaignFile) -> Problems:
 
 def _faces(campaign: CampaignFile) -> Problems:
     """Find transducers that look at the face of a specimen that is not round, without its normal."""
-    found: dict[Place, str] = {}
-    for test in campaign.tests:
-        specimen, setup = campaign.specimens.get(test.specimen), campaign.setups.get(test.setup)
+    for where, what in dict.fromkeys((test.setup, test.specimen) for test in campaign.tests):
+        specimen, setup = campaign.specimens.get(what), campaign.setups.get(where)
         if specimen is None or setup is None or specimen.shape not in ("prism", "measured"):
             continue
         for name, channel in setup.channels.items():
             if channel.sensing == "surface" and channel.normal is None:
-                found.setdefault(
-                    ("setups", test.setup, "channels", name, "normal"),
-                    f'It is missing. Specimen "{test.specimen}" is not round, so a "surface" transducer '
-                    "needs the outward normal of the face that it looks at, such as [1, 0, 0].",
+                message = (
+                    f'It is missing. Specimen "{what}" is not round, so a "surface" transducer needs the outward '
+                    "normal of the face that it looks at, such as [1, 0, 0]."
                 )
-    yield from found.items()
+                yield ("setups", where, "channels", name, "normal"), message

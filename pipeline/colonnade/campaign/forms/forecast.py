@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, NonNegativeFloat, PositiveFloat, model_validator
 
 from colonnade.campaign.syntax.table import Record
 from colonnade.dynamics.block import Block, Side
@@ -16,30 +16,28 @@ MOST_MEMBERS = 1_000_000
 """Of an ensemble; as many as the settings allow."""
 
 Probability = Annotated[float, Field(ge=0.0, le=1.0)]
-NotNegative = Annotated[float, Field(ge=0.0)]
 Correlation = Annotated[float, Field(ge=-1.0, le=1.0)]
-Positive = Annotated[float, Field(gt=0.0)]
-Peaks = Annotated[tuple[NotNegative | None, ...], Field(min_length=2, max_length=MOST_MEMBERS)]
+Peaks = Annotated[tuple[NonNegativeFloat | None, ...], Field(min_length=2, max_length=MOST_MEMBERS)]
 Sha256 = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
 
 
 class ForecastSide(Record):
     """A side of the block: rocking about one edge of its base."""
 
-    critical_angle: Positive
+    critical_angle: PositiveFloat
     """α, rad."""
-    pole_distance: Positive
+    pole_distance: PositiveFloat
     """R, m."""
-    inertia: Positive
+    inertia: PositiveFloat
     """I₀ about the pole, kg m²."""
 
 
 class ForecastBlock(Record):
     """The block."""
 
-    mass: Positive
+    mass: PositiveFloat
     """kg."""
-    gravity: Positive
+    gravity: PositiveFloat
     """m/s²."""
     negative: ForecastSide
     """At θ < 0."""
@@ -77,19 +75,19 @@ class ForecastRestitution(Record):
 class ForecastSpread(Record):
     """Standard deviations of what is not exactly known."""
 
-    restitution: NotNegative
+    restitution: NonNegativeFloat
     """Of e in a new test."""
-    restitution_freedom: Positive | None = None
+    restitution_freedom: PositiveFloat | None = None
     """Degrees of freedom of Student's t that it is the scale of; null if e is normal."""
-    critical_angle: NotNegative
+    critical_angle: NonNegativeFloat
     """Of α, relative."""
-    p: NotNegative
+    p: NonNegativeFloat
     """Of p, relative."""
     correlations: tuple[Correlation, Correlation, Correlation] = (0.0, 0.0, 0.0)
     """Of e with α, of e with p, and of α with p."""
-    gain: NotNegative
+    gain: NonNegativeFloat
     """Of the calibration of the table's acceleration, relative."""
-    clock: NotNegative
+    clock: NonNegativeFloat
     """Of the sampling interval, relative."""
 
     def uncertainty(self) -> Uncertainty:
@@ -108,7 +106,7 @@ class ForecastInputs(Record):
     """Standard deviations."""
     table_tilt: float
     """Tilt of the table at rest, rad."""
-    rest_angle: NotNegative
+    rest_angle: NonNegativeFloat
     """Largest arc after an impact that counts as rest, of α."""
     members: Annotated[int, Field(ge=2, le=MOST_MEMBERS)]
     """Runs of each model."""
@@ -131,24 +129,24 @@ class ForecastMotion(Record):
     """Where it was taken from."""
     sha256: Sha256
     """Of the accelerations that the models got: m/s², little-endian float64."""
-    interval: Positive
+    interval: PositiveFloat
     """Between these samples, s."""
     samples: Annotated[int, Field(ge=1)]
     """Their number."""
-    time_scale: Positive
+    time_scale: PositiveFloat
     """Factor on the motion's own time."""
 
 
 class ForecastTable(Record):
     """What the table has to do."""
 
-    peak_acceleration: NotNegative
+    peak_acceleration: NonNegativeFloat
     """m/s²."""
-    peak_velocity: NotNegative | None
+    peak_velocity: NonNegativeFloat | None
     """m/s, by integration; null if the integral drifts."""
-    peak_displacement: NotNegative | None
+    peak_displacement: NonNegativeFloat | None
     """m from the position at rest, by integrating twice; null if the integral drifts."""
-    drift: NotNegative
+    drift: NonNegativeFloat
     """What a line takes off the integral so that the motion ends at rest, over its peak: of the displacement, or of the
     velocity if that drifts already. Above 0.25 the integral is not given."""
 
@@ -175,7 +173,7 @@ class ModelForecast(Record):
     """Share of those that overturn."""
     bands: tuple[ForecastBand, ForecastBand, ForecastBand]
     """Of 50, 80 and 95 %."""
-    required_friction: NotNegative | None
+    required_friction: NonNegativeFloat | None
     """Largest |H|/N between impacts while the specimen stands, of the run with nothing varied; null if it lifts off."""
     peak_ratio: Peaks
     """max |θ|/α of each member; null if it overturns."""
