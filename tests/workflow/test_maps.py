@@ -20,6 +20,7 @@ from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId
 from colonnade.workflow import map_plans as plans
 from colonnade.workflow import run
+from colonnade.workflow.executors import Where
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.map_plans import Wanted, measured_points
@@ -267,7 +268,7 @@ def kept(small, summary, **options):
     """Bring the maps up to date as a run does; return model, action and reason of each."""
     campaign = load(small.folder)
     with only_run(small.layout) as run_id:
-        walk = Walk(Graph(campaign, small.layout, Catalogue(small.layout)), run_id, workers=1, **options)
+        walk = Walk(Graph(campaign, small.layout, Catalogue(small.layout)), run_id, where=Where(workers=1), **options)
         walk.map(summary)
     return [(stage.model, stage.action, stage.because) for stage in walk.stages]
 

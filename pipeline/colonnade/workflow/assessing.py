@@ -81,9 +81,9 @@ def assess_campaign(campaign: Campaign, layout: Layout, names: Sequence[str], wh
         )
     with only_run(layout) as run_id:
         catalogue = Catalogue(layout)
-        walk = Walk(Graph(campaign, layout, catalogue), run_id, workers=where.workers, scheduler=where.scheduler)
+        walk = Walk(Graph(campaign, layout, catalogue), run_id, where=where)
         walk.pool(sorted({asked.specimen for asked in chosen.values()}))
-        walk.assess(chosen, where.progress)
+        walk.assess(chosen)
         catalogue.save(is_whole=False)
     failed = walk.failed["assessment"]
     found = []

@@ -11,6 +11,7 @@ from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.units.text import listed
+from colonnade.workflow.executors import Where
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import expect_known
@@ -80,7 +81,7 @@ def calibrate(
             is_given = loaded.specimens[name].restitution is not None
             if not is_given and stored_attributes(layout.stage(name, "specimen")).get("status") != "done":
                 raise CampaignError(f"{name}: its restitution is not known yet. Run `colonnade identify` first.")
-        walk = Walk(Graph(loaded, layout, Catalogue(layout)), run_id, workers=workers)
+        walk = Walk(Graph(loaded, layout, Catalogue(layout)), run_id, where=Where(workers))
         walk.pool()
         failed = walk.failed["specimen"]
         for name in chosen:

@@ -136,12 +136,10 @@ def make_maps(
     expect_known(loaded, "specimen", specimens)
     layout, where = Layout.of(loaded.path, results), Where(workers, scheduler, progress)
     with only_run(layout) as run_id:
-        walk = Walk(Graph(loaded, layout, Catalogue(layout)), run_id)
+        walk = Walk(Graph(loaded, layout, Catalogue(layout)), run_id, where=where)
         usual = [name for name in loaded.of_interest if models_moving(loaded, name, wanted.models)]
         return [
-            made
-            for name in (specimens or usual or loaded.of_interest)
-            for made in _of_specimen(walk, name, wanted, where)
+            made for name in (specimens or usual or loaded.of_interest) for made in _of_specimen(walk, name, wanted)
         ]
 
 
@@ -181,11 +179,11 @@ def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Itera
                 yield usual if asked.recipe().why(stored) else asked
 
 
-def _of_specimen(walk: Walk, specimen: str, wanted: Wanted, where: Where) -> list[MapMade]:
+def _of_specimen(walk: Walk, specimen: str, wanted: Wanted) -> list[MapMade]:
     """Make the maps of one specimen, one for each model, and a common picture of several models."""
     layout, models = walk.graph.layout, list(dict.fromkeys(wanted.models))
     measured = Measured(measured_points(layout, specimen), *restitution_of(walk.graph.campaign, layout, specimen))
-    made = [_made(walk, specimen, wanted, model, measured, where) for model in models]
+    made = [_made(walk, specimen, wanted, model, measured) for model in models]
     if len(models) > 1:
         together = layout.together(specimen, models)
         _draw([files.read(each.path) for each in made], measured.points, together, specimen)
@@ -193,17 +191,17 @@ def _of_specimen(walk: Walk, specimen: str, wanted: Wanted, where: Where) -> lis
     return made
 
 
-def _made(walk: Walk, specimen: str, wanted: Wanted, model: str, measured: Measured, where: Where) -> MapMade:
+def _made(walk: Walk, specimen: str, wanted: Wanted, model: str, measured: Measured) -> MapMade:
     from colonnade.figures.maps import response_orders
 
     started, layout = time.perf_counter(), walk.graph.layout
-    plan, product = _map(walk.graph, specimen, wanted, model, measured, where)
+    plan, product = _map(walk.graph, specimen, wanted, model, measured, walk.where)
     stored, because = _brought(walk, product)
     figure = layout.figure(product.result)
     _draw([stored], measured.points, figure, specimen)
     responses = responses_figure = None
     if wanted.responses:
-        asked = _responses(walk.graph, specimen, plan, measured.source, where)
+        asked = _responses(walk.graph, specimen, plan, measured.source, walk.where)
         responses, responses_figure = asked.paths[0], layout.figure(asked.result)
         steady, why = _brought(walk, asked)
         because = why or because

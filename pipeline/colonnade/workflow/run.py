@@ -17,6 +17,7 @@ from colonnade.store.records.advice import Advice
 from colonnade.store.results import RUN_STAGES, ResultId
 from colonnade.validation import described, whole
 from colonnade.workflow.chain import RunResult, remove_later
+from colonnade.workflow.executors import Where
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.pages import update_report
@@ -105,7 +106,8 @@ def run(
                 if loaded.left_out(test.id):
                     remove_later(layout, ResultId(test.id, "ingest"), itself=True)
             graph = Graph(loaded, layout, catalogue, raw)
-            walk = Walk(graph, run_id, start_from, last, workers, scheduler, progress or unseen, notices.append)
+            where = Where(workers, scheduler)
+            walk = Walk(graph, run_id, start_from, last, where, progress or unseen, notices.append)
             walk.through(tests)
             loaded, outdated, summary = _summed_up(walk, awaiting=awaiting)
             report = None
@@ -147,7 +149,7 @@ def _summed_up(walk: Walk, *, awaiting: bool) -> tuple[Campaign, dict[str, str],
         failed=walk.failed,
         outdated_assessments=walk.stale_assessments(),
         foreseen=foreseen_of(layout, forecasts, chosen, outdated.keys() | walk.failed["test"].keys()),
-        workers=walk.workers,
+        workers=walk.where.workers,
     )
     return campaign, outdated, summary
 
@@ -161,8 +163,8 @@ def _reported(walk: Walk, campaign: Campaign, outdated: Mapping[str, str], summa
     if campaign.awaited or campaign.next.model_fields_set or campaign.table.model_fields_set:
         from colonnade.workflow.advising.next import advice_shown
 
-        advice = advice_shown(campaign, layout, catalogue, summary, walk.workers)
-    made = update_report(campaign, layout, catalogue, outdated, summary.forecasts, advice, photos, walk.workers)
+        advice = advice_shown(campaign, layout, catalogue, summary, walk.where.workers)
+    made = update_report(campaign, layout, catalogue, outdated, summary.forecasts, advice, photos, walk.where.workers)
     return campaign, made
 
 

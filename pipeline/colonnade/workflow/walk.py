@@ -27,7 +27,7 @@ from colonnade.workflow.chain import (
     why_pending,
     worker_lost,
 )
-from colonnade.workflow.executors import Counted, Tell, Where, spread
+from colonnade.workflow.executors import HERE, Tell, Where, spread
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.product import Product
 
@@ -52,8 +52,8 @@ class Walk:
         First stage whose results are recomputed whatever their state.
     until : str
         Last stage.
-    workers, scheduler : optional
-        Where the work is done, see `spread`.
+    where : Where
+        Where the work is done, and who is told of the blocks of assessments and maps.
     progress : callable
         Called with each stage of a test that ended, the number of tests done, and their total.
     tell : callable
@@ -68,8 +68,7 @@ class Walk:
     run_id: str
     start_from: str | None = None
     until: str = "report"
-    workers: int | None = None
-    scheduler: str | None = None
+    where: Where = HERE
     progress: Progress = unseen
     tell: Tell = lambda sentence: None
     stages: list[StageRun] = field(default_factory=list)
@@ -130,10 +129,10 @@ class Walk:
         known = [name for name in self._campaign.specimens if name not in self.failed["specimen"]]
         self.follow([product] for product in kept_maps(self.graph, summary, known))
 
-    def assess(self, assessments: Mapping[str, Assessment], tell: Counted = lambda done, total: None) -> None:
+    def assess(self, assessments: Mapping[str, Assessment]) -> None:
         """Bring assessments up to date, their histories in blocks on all processes."""
         for name, asked in assessments.items():
-            product = self._assessing(name, asked, tell)
+            product = self._assessing(name, asked)
             if self._is_blocked("assessment", name, asked.specimen):
                 files.remove(product.paths[0])
             self.follow([[product]])
@@ -171,12 +170,12 @@ class Walk:
         """
         every = [list(products) for products in chains if self._is_standing(products)]
         alone = [list(takewhile(lambda product: product.where is None, products)) for products in every]
-        self._bring([products for products in alone if products], self.workers, self.scheduler)
+        self._bring([products for products in alone if products], self.where)
         later = []
         for before, products in zip(alone, every, strict=True):
             shared, rest = products[len(before) : len(before) + 1], products[len(before) + 1 :]
             if self._is_standing(shared):
-                self._bring([shared], workers=1)
+                self._bring([shared], Where(workers=1))
             later.append(rest)
         if any(later):
             self.follow(later)
@@ -185,28 +184,27 @@ class Walk:
         """Whether there are any, and what they are of has not failed."""
         return any(each.result.subject not in self.failed[each.result.of] for each in products)
 
-    def _bring(self, chains: Sequence[Sequence[Product]], workers: int | None, scheduler: str | None = None) -> None:
-        every = [self.chain(products) for products in chains]
-        for done, runs in enumerate(self._ended(every, workers, scheduler), 1):
+    def _bring(self, chains: Sequence[Sequence[Product]], where: Where) -> None:
+        for done, runs in enumerate(self._ended(chains, where), 1):
             for stage in runs:
                 self.stages.append(stage)
                 if stage.action == "failed":
                     self.failed[stage.of][stage.subject] = stage.reason
                 if stage.of == "test":
-                    self.progress(stage, done, len(every))
+                    self.progress(stage, done, len(chains))
 
-    def _ended(self, chains: Iterable[Chain], workers: int | None, scheduler: str | None) -> Iterator[list[StageRun]]:
+    def _ended(self, chains: Sequence[Sequence[Product]], where: Where) -> Iterator[list[StageRun]]:
         waiting = []
-        for chain in chains:
+        for chain in map(self.chain, chains):
             expect_none()
             standing = if_up_to_date(chain, self.graph.catalogue.attributes)
             if standing is None:
                 waiting.append(chain)
             else:
                 yield standing
-        work = bring_up_to_date if scheduler is None else on_a_cluster
+        work = bring_up_to_date if where.scheduler is None else on_a_cluster
         told = partial(spread, tell=self.tell, lost=worker_lost, names=lambda chain: chain.subject)
-        yield from (runs for _, runs in told(work, waiting, workers=workers, scheduler=scheduler))
+        yield from (runs for _, runs in told(work, waiting, workers=where.workers, scheduler=where.scheduler))
 
     def chain(self, products: Sequence[Product], *, redo: bool = True) -> Chain:
         """Return the chain of some results of one test or specimen; without `redo`, ignore `start_from`."""
@@ -229,7 +227,7 @@ class Walk:
     def _all(self, name: str) -> list[Product]:
         """Return the results of a test, made once: gathering what they read of the campaign takes time."""
         if name not in self._known:
-            where = Where(self.workers, self.scheduler, partial(self._tell_members, name))
+            where = self.where._replace(progress=partial(self._tell_members, name))
             self._known[name] = self.graph.of_test(self._test(name), where)
         return self._known[name]
 
@@ -250,10 +248,10 @@ class Walk:
             self.failed[of].setdefault(name, f"specimen {specimen}: {reason}")
         return bool(reason)
 
-    def _assessing(self, name: str, asked: Assessment, *tell: Counted) -> Product:
+    def _assessing(self, name: str, asked: Assessment) -> Product:
         from colonnade.workflow.assessing import assessing
 
-        return assessing(self.graph, name, asked, Where(self.workers, self.scheduler, *tell))
+        return assessing(self.graph, name, asked, self.where)
 
     @property
     def _campaign(self) -> Campaign:

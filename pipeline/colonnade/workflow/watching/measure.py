@@ -24,6 +24,7 @@ from colonnade.store.records.stored import Failure, Stored, as_map
 from colonnade.store.records.test import record_of_specimen, record_of_test
 from colonnade.store.results import ResultId
 from colonnade.units.text import listed, number
+from colonnade.workflow.executors import Where
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import restitution_taken
@@ -124,7 +125,7 @@ def measure(campaign: Campaign, layout: Layout, name: str, finished: float) -> L
     with only_run(layout) as run_id:
         catalogue = Catalogue(layout)
         raw = {name: raw_files(campaign, test, catalogue)}
-        walk = Walk(Graph(campaign, layout, catalogue, raw), run_id, until="predict", workers=1)
+        walk = Walk(Graph(campaign, layout, catalogue, raw), run_id, until="predict", where=Where(workers=1))
         made = walk.at_once(name)
         catalogue.save(is_whole=False)
     stored = Stored()
