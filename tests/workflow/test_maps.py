@@ -74,10 +74,6 @@ def made(small, wanted=FEW, **options):
     return only
 
 
-def content(small, **options):
-    return files.read(made(small, **options).path).attrs["content"]
-
-
 def test_a_map_takes_the_identified_restitution_and_is_that_of_the_library(small):
     result = made(small)
     assert (result.restitution_source, result.action, result.because) == ("identified", "done", "never run")
@@ -89,12 +85,6 @@ def test_a_map_takes_the_identified_restitution_and_is_that_of_the_library(small
     for name in ("outcome", "overturning_fraction", "no_rocking", "lower", "upper", "interval_start", "interval_end"):
         np.testing.assert_array_equal(getattr(stored, name), getattr(expected, name), err_msg=name)
     assert stored.options == expected.options
-
-
-def test_several_processes_give_the_same_bit_for_bit(small):
-    alone = content(small)
-    small.layout.stage("prism", "map", "linear").unlink()
-    assert content(small, workers=2) == alone
 
 
 def test_the_table_motion_of_a_sine_test_is_stretched_over_a_map(sine_test):
