@@ -55,7 +55,7 @@ def test_the_frozen_inputs_give_the_same_members_again(foreseen):
     folder, made = foreseen
     forecast = made[0].forecast
     asked = motion_asked_for(load(folder), Layout(folder), TEST, None, None)
-    factor = level_of(forecast.level, asked).factor
+    factor = level_of(forecast.level, asked)
     motion = type(asked.motion)(factor * asked.motion.acceleration, asked.motion.dt)
     again = plan_of(forecast.inputs, "linear", felt(forecast.inputs, motion)).run()
     assert again.peak_ratio.tolist() == list(forecast.models["linear"].peak_ratio)

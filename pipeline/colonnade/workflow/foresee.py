@@ -117,7 +117,7 @@ def foresee(
     if time_scale is not None and (expected := outside(time_scale, PLAIN)):
         raise CampaignError(f"--time-scale {time_scale:g}: {expected}")
     asked = motion_asked_for(loaded, layout, motion, own, time_scale)
-    wanted = [level_of(text, asked) for text in dict.fromkeys(levels)]
+    wanted = {text.strip(): level_of(text, asked) for text in levels}
     if own is not None and len(wanted) > 1:
         raise CampaignError(f"{len(wanted)} levels were found. A forecast of a test, here of {own.id}, has one level.")
     catalogue = Catalogue(layout)
@@ -127,16 +127,16 @@ def foresee(
         raise CampaignError(f"processing.predict.ensemble.members: a forecast needs at least {LEAST_MEMBERS} members.")
     inputs, models = inputs_of(loaded, layout, name, tilt), _models(loaded)
     code, there, found = catalogue.code(MADE_BY), _raw_files(loaded, layout, catalogue, own), []
-    for number, level in enumerate(wanted, 1):
+    for number, (level, factor) in enumerate(wanted.items(), 1):
         expect_none()
-        moved = Motion(level.factor * asked.motion.acceleration, asked.motion.dt)
+        moved = Motion(factor * asked.motion.acceleration, asked.motion.dt)
         forecast = ForecastFile(
             made=datetime.now(UTC).replace(microsecond=0),
             colonnade=colonnade.__version__,
             code=code,
             test=None if own is None else own.id,
             specimen=name,
-            level=level.asked,
+            level=level,
             motion=_described(asked, moved),
             table=_table(moved),
             inputs=inputs,

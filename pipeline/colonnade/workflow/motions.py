@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
@@ -49,13 +48,6 @@ class AskedMotion:
     test: Test | None
 
 
-class Level(NamedTuple):
-    """A level as it was asked for, and what the motion is multiplied by."""
-
-    asked: str
-    factor: float
-
-
 def motion_asked_for(
     campaign: Campaign, layout: Layout, name: str, test: Test | None, time_scale: float | None
 ) -> AskedMotion:
@@ -90,9 +82,9 @@ def motion_asked_for(
     return AskedMotion(name, source, Motion(motion.acceleration, motion.dt * scale), scale, None)
 
 
-def level_of(text: str, asked: AskedMotion) -> Level:
+def level_of(text: str, asked: AskedMotion) -> float:
     """
-    Read a level.
+    Read a level: give what the motion is multiplied by.
 
     Parameters
     ----------
@@ -114,14 +106,14 @@ def level_of(text: str, asked: AskedMotion) -> Level:
         factor = float(found[1])
         if expected := outside(factor, PLAIN):
             raise CampaignError(f"--level {text}: {expected}")
-        return Level(text.strip(), factor)
+        return factor
     try:
         peak = Quantity("acceleration").take(text)
     except ValueError as error:
         raise CampaignError(f'--level {text}: {error} Or a factor on a recorded motion, such as "1.5x".') from None
     if not asked.motion.peak > 0.0:
         raise CampaignError(f'"{asked.name}" does not move ({asked.source}): it cannot be brought to a level.')
-    return Level(text.strip(), peak / asked.motion.peak)
+    return peak / asked.motion.peak
 
 
 def _strongest(campaign: Campaign, layout: Layout, name: str) -> tuple[Test, Motion] | None:
