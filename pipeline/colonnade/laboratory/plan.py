@@ -158,9 +158,9 @@ def begun(position: int) -> datetime:
 
 def claim(folder: Path) -> None:
     """
-    Make the folders of a campaign.
+    Make the folders of a campaign, without the links to files that were put into them.
 
-    One with a campaign file that the laboratory did not write is refused, or with links where it would write.
+    Refused is a folder with a campaign file that the laboratory did not write, or with a link in place of a folder.
     """
     path = folder / FILE_NAME
     if path.exists() and (irregular(path) or not path.read_bytes().startswith(MARK.encode())):
@@ -169,6 +169,7 @@ def claim(folder: Path) -> None:
             "for the demo."
         )
     for place in (folder / "raw", folder / "truth"):
-        own_files(place)
         with writing(place):
+            for link in filter(Path.is_symlink, own_files(place)):  # what it leads to is not ours
+                link.unlink()
             place.mkdir(parents=True, exist_ok=True)
