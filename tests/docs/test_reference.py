@@ -32,13 +32,13 @@ def test_every_link_of_a_page_leads_to_a_page_or_a_place(pages):
 
 
 def test_every_setting_has_its_place_default_and_unit(pages):
-    for setting in settings(Processing(), NextSettings()):
-        table_of, _, key = setting.key.rpartition(".")
+    for place, setting in (settings(Processing(), "processing") | settings(NextSettings(), "next")).items():
+        table_of, _, key = place.rpartition(".")
         page = pages[f"campaign/{contract.page_of(table_of)}.md"]
-        section = page.partition(f"({contract.place('campaign', setting.key)})=\n## `{key}`")[2].partition("\n(")[0]
-        assert setting.description in section, setting.key
-        assert setting.unit in section, setting.key
-        assert "| default |" in section, setting.key
+        section = page.partition(f"({contract.place('campaign', place)})=\n## `{key}`")[2].partition("\n(")[0]
+        assert setting["description"] in section, place
+        assert setting["unit"] in section, place
+        assert "| default |" in section, place
 
 
 @pytest.mark.parametrize(
