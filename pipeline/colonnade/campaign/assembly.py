@@ -60,6 +60,8 @@ class Whole(Specimen):
     as one rigid block.
     """
 
+    is_assembly = True
+
     shape: str = "assembly"
     """Its shape."""
     placed: dict[str, Body]
@@ -88,11 +90,6 @@ class Whole(Specimen):
     def block(self, gravity: float) -> Block:
         """Return the block as which its bodies rock together."""
         return as_one(self.assembly(gravity))
-
-    @property
-    def is_assembly(self) -> bool:
-        """Whether it is several bodies."""
-        return True
 
     @property
     def is_in_plane(self) -> bool:

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable
 from functools import lru_cache
 from math import cos, tan
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
@@ -74,10 +74,8 @@ class Specimen(Table):
     uncertainty: SpecimenUncertainty | None = None
     """How well its critical angle, p and measured angle are known, if not as the settings say."""
 
-    @property
-    def is_assembly(self) -> bool:
-        """Whether it is several bodies."""
-        return False
+    is_assembly: ClassVar[bool] = False
+    """Whether it is several bodies."""
 
     @property
     def is_in_plane(self) -> bool:
