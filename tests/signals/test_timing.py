@@ -4,9 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from colonnade.signals.timing import (
-    check_gaps,
-    check_jitter,
     check_order,
+    check_steps,
     read_clock,
     resample,
     sampling_interval,
@@ -22,8 +21,7 @@ def _reasons(stamps):
     clock = read_clock(stamps)
     return [
         check_order(stamps, clock).reason,
-        check_gaps(clock, factor=1.5).reason,
-        check_jitter(clock, share=0.05, factor=1.5).reason,
+        *(verdict.reason for verdict in check_steps(clock, share=0.05, factor=1.5)),
     ]
 
 
@@ -43,7 +41,7 @@ def test_stamps_that_only_look_exact_where_numbers_are_coarse_are_not():
     """Seconds since 1970 are told to 0.24 µs, which is more than 1e-7 of a step."""
     clock = read_clock(1.7e9 + EVEN)
     assert not clock.is_exact
-    assert "off an even clock" in check_jitter(clock, share=1e-6, factor=1.5).reason
+    assert "off an even clock" in check_steps(clock, share=1e-6, factor=1.5)[1].reason
 
 
 def test_an_even_clock_is_left_as_it_is():
@@ -70,7 +68,7 @@ def test_a_gap_in_rounded_times_stays_a_gap(digits):
     stamps = np.delete(np.round(NUMBERS / 400, digits), slice(1000, 1400))
     clock = read_clock(stamps)
     assert 1 / clock.interval == pytest.approx(400, rel=1e-4)
-    verdict = check_gaps(clock, factor=1.5)
+    verdict = check_steps(clock, share=0.05, factor=1.5)[0]
     assert np.flatnonzero(verdict.where).tolist() == [999, 1000]
     assert "1 gap in time, about 400 samples lost" in verdict.reason
 
@@ -80,7 +78,7 @@ def test_times_of_too_few_digits_for_their_length_are_not_read_as_an_even_clock(
 
 
 def test_a_gap_is_told_with_the_samples_lost():
-    verdict = check_gaps(read_clock(np.delete(EVEN, slice(100, 110))), factor=1.5)
+    verdict = check_steps(read_clock(np.delete(EVEN, slice(100, 110))), share=0.05, factor=1.5)[0]
     assert np.flatnonzero(verdict.where).tolist() == [99, 100]
     assert "about 10 samples lost" in verdict.reason
 

@@ -115,29 +115,30 @@ def loses_motion(values: Array, where: Mask) -> bool:
     )
 
 
-def check_gaps(clock: Clock, *, factor: float) -> Verdict:
-    """Flag the samples on either side of a step of the clock longer than `factor` intervals, lost stamps apart."""
-    kept, steps, counts = _steps(clock)
+def check_steps(clock: Clock, *, share: float, factor: float) -> list[Verdict]:
+    """
+    Flag the samples on either side of a gap, and those whose step is uneven; where stamps are lost, these are no gap.
+
+    A gap is a step longer than `factor` intervals; another step is uneven if it differs from one by more than `share`.
+    """
+    kept = np.flatnonzero(np.isfinite(clock.time))
+    steps, counts = np.diff(clock.time[kept]) / clock.interval, np.diff(kept)
     longer = steps - (counts - 1)
     after = np.flatnonzero(longer > factor)
-    where = np.zeros(clock.time.size, dtype=bool)
-    where[kept[after]] = where[kept[after + 1]] = True
-    lost = count(int(np.rint(longer[after] - 1).sum()), "sample")
-    reason = f"{count(after.size, 'gap')} in time, about {lost} lost{first_at(clock.time, where)}"
-    return Verdict.of(Flag.SUSPECT, where, reason, "lost samples")
-
-
-def check_jitter(clock: Clock, *, share: float, factor: float) -> Verdict:
-    """Flag samples whose step differs from the interval by more than `share` of it, gaps (`factor`) apart."""
-    kept, steps, counts = _steps(clock)
     # Where a stamp is lost, its sample may be lost with it or not.
     off = np.minimum(np.abs(steps - 1), np.abs(steps - counts))
-    uneven = (off > share) & (steps - (counts - 1) <= factor)
-    where = np.zeros(clock.time.size, dtype=bool)
-    where[kept[1:][uneven]] = True
+    uneven = (off > share) & (longer <= factor)
+    beside, odd = np.zeros((2, clock.time.size), dtype=bool)
+    beside[kept[after]] = beside[kept[after + 1]] = True
+    odd[kept[1:][uneven]] = True
+    lost = count(int(np.rint(longer[after] - 1).sum()), "sample")
+    gaps = f"{count(after.size, 'gap')} in time, about {lost} lost{first_at(clock.time, beside)}"
     largest = 1e3 * clock.interval * float(off[uneven].max(initial=0.0))
-    reason = f"{counted(where)} up to {largest:.3g} ms off an even clock of {1e3 * clock.interval:.6g} ms"
-    return Verdict.of(Flag.SUSPECT, where, reason, "time column")
+    jitter = f"{counted(odd)} up to {largest:.3g} ms off an even clock of {1e3 * clock.interval:.6g} ms"
+    return [
+        Verdict.of(Flag.SUSPECT, beside, gaps, "lost samples"),
+        Verdict.of(Flag.SUSPECT, odd, jitter, "time column"),
+    ]
 
 
 def _is_exact(stamps: Array) -> bool:
@@ -147,12 +148,6 @@ def _is_exact(stamps: Array) -> bool:
         np.abs(stamps[part] - stamps[0] - interval * np.arange(part.start, part.stop)).max() <= EXACT * interval
         for part in blocks(stamps.size)
     )
-
-
-def _steps(clock: Clock) -> tuple[NDArray[np.intp], Array, NDArray[np.intp]]:
-    """Indices of the samples with a time, and the steps between them in intervals and in samples."""
-    kept = np.flatnonzero(np.isfinite(clock.time))
-    return kept, np.diff(clock.time[kept]) / clock.interval, np.diff(kept)
 
 
 def _in_place(kept: NDArray[np.intp], times: Array, size: int) -> Array:

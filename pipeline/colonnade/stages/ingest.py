@@ -258,8 +258,7 @@ def _clock_verdicts(stamps: Array, clock: timing.Clock, settings: QualitySetting
         return []
     return [
         timing.check_order(stamps, clock),
-        timing.check_gaps(clock, factor=settings.gap),
-        timing.check_jitter(clock, share=settings.jitter, factor=settings.gap),
+        *timing.check_steps(clock, share=settings.jitter, factor=settings.gap),
     ]
 
 
