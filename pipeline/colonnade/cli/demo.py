@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import complain, say, show_json, show_table, shown, work_progress
+from colonnade.cli.common.console import complain, say, show_json, show_table, work_progress
 from colonnade.cli.common.options import FILE, json_option, workers_option
-from colonnade.cli.run import failed_rows, run_with_progress
+from colonnade.cli.run import run_with_progress, show_result
 from colonnade.errors import count
 
 if TYPE_CHECKING:
@@ -72,47 +71,23 @@ def demo(
         except ReadError as error:
             raise click.UsageError(str(error)) from error
     result = run_with_progress(folder, workers=choices["workers"])
-    comparison = with_truth(written.truth, result.summary) | {"report": result.report}
+    compared = with_truth(written.truth, result.summary)
     if as_json:
-        show_json(comparison)
+        show_json(compared | {"report": result.report})
     else:
-        (_show_bodies if assemblies else _show)(comparison)
-        show_table(("failed", "stage", "reason"), failed_rows(result))
+        show_result(result)
+        say()
+        _show_truth(compared)
         say(f"campaign: {written.path}")
-        say(f"report: {result.report}")
     return int(result.failed)
 
 
-def _show_tests(
-    tests: dict[str, dict[str, Any]], heads: tuple[str, ...], cells: Callable[[dict[str, Any]], tuple[str, ...]]
-) -> None:
-    """Write the outcome of each test beside the truth, and `cells` of its own; then how often they agree."""
-    from colonnade.store.records.wording import agreement
-
-    rows = []
-    for name, test in tests.items():
-        right = "right" if test["outcome"] == test["true_outcome"] else "wrong"
-        rows.append((name, shown(test["outcome"]), test["true_outcome"], right, *cells(test)))
-    show_table(("test", "outcome", "true", "", *heads), rows)
-    say(f"{sum(row[3] == 'right' for row in rows)} of {len(rows)} measured outcomes are right")
-    for sentence in agreement(tests):
-        say(sentence)
-
-
-def _show_bodies(comparison: dict[str, Any]) -> None:
-    def moved(test: dict[str, Any]) -> tuple[str, ...]:
-        model = test["predicted"].get("contact", {}).get("outcome")
-        farthest = [f"{1e3 * test[key]:.2f} mm" if "body" in test else "" for key in ("moved", "true_moved")]
-        return shown(model), test.get("body", ""), *farthest
-
-    _show_tests(comparison["tests"], ("contact model", "moved farthest", "by", "true"), moved)
-
-
-def _show(comparison: dict[str, Any]) -> None:
+def _show_truth(compared: dict[str, Any]) -> None:
+    """Write what was measured beside what is true."""
     from colonnade.laboratory.programme import KEPT_AWAY
-    from colonnade.units.text import interval, ratio
+    from colonnade.units.text import interval, listed
 
-    for specimen, restitution in comparison["restitution"].items():
+    for specimen, restitution in compared.get("restitution", {}).items():
         true, value, low, high = (restitution[key] for key in ("true", "value", "low", "high"))
         if value is None or low is None:
             say(f"{specimen}: {restitution['reason'] or restitution['source']}; true is {true:g}")
@@ -120,13 +95,26 @@ def _show(comparison: dict[str, Any]) -> None:
             held = "inside" if low <= true <= high else "outside"
             found = interval(value, low, high, restitution["level"])
             say(f"{specimen}: e {found}; true is {true:g}, {held} the interval")
-    say()
+    tests = compared["tests"]
+    wrong = [name for name, test in tests.items() if test["outcome"] != test["true_outcome"]]
+    say(f"{len(tests) - len(wrong)} of {len(tests)} measured outcomes are right")
+    if wrong:
+        say(f"wrong: {listed(wrong)}")
+    _show_farthest(tests, "peak_ratio", "Peaks |θ|/α", "")
+    _show_farthest(tests, "moved", "Displacements at the end", "mm")
+    if "restitution" in compared:
+        say(KEPT_AWAY)
 
-    def peaks(test: dict[str, Any]) -> tuple[str, ...]:
-        return ratio(test["peak_ratio"], 4), ratio(test["true_peak_ratio"], 4)
 
-    _show_tests(comparison["tests"], ("|θ|/α", "true"), peaks)
-    say(KEPT_AWAY)
+def _show_farthest(tests: dict[str, dict[str, Any]], key: str, what: str, unit: str) -> None:
+    """Say how far at most a measured value is from the true one, if any is known."""
+    from colonnade.units.text import quantity
+
+    both = {name: (test[key], test[f"true_{key}"]) for name, test in tests.items() if key in test}
+    off = {name: abs(found - true) for name, (found, true) in both.items() if None not in (found, true)}
+    if off:
+        worst = max(off, key=lambda name: off[name])
+        say(f"{what} are within {quantity(off[worst], unit, 2)} of the true ones, farthest off in {worst}")
 
 
 DRAWING = "drawing.svg"

@@ -55,7 +55,7 @@ def _run_and_show(
     if as_json:
         show_json(_record(result) | written)
     else:
-        _show_result(result, verbose=verbose)
+        show_result(result, verbose=verbose)
         for name, path in written.items():
             say(f"{name}: {path}")
     return int(result.failed or (strict and result.has_warnings))
@@ -134,7 +134,7 @@ def run_with_progress(campaign: Path, **choices: Any) -> RunResult:
         return run(campaign, progress=progress, **choices)
 
 
-def _show_result(result: RunResult, *, verbose: bool) -> None:
+def show_result(result: RunResult, *, verbose: bool = False) -> None:
     """Show each redone test, agreement, findings, failures, and the paths of the results."""
     from colonnade.campaign.forms.summary import Summary
     from colonnade.store.records.wording import LEGEND, agreement, pooled, predicted
@@ -154,8 +154,13 @@ def _show_result(result: RunResult, *, verbose: bool) -> None:
             say(f"specimen {name}  {pooled(known.specimens[name].restitution)}")
     for sentence in agreement(known.model_dump(mode="json")["tests"]):
         say(sentence)
-    show_by_kind(result.findings)
-    failed = failed_rows(result)
+    findings = result.findings
+    show_by_kind(findings)
+    failed = [
+        (stage.subject, stage.stage, probable_cause(findings.get(stage.heading, []), where="above") + stage.reason)
+        for stage in result.stages
+        if stage.action == "failed"
+    ]
     show_table(("failed", "stage", "reason"), alike(failed))
     for notice in result.notices:
         say(notice)
@@ -163,7 +168,7 @@ def _show_result(result: RunResult, *, verbose: bool) -> None:
     say(f"{len(redone)} redone, {kept} up to date, {len(failed)} failed")
     say(f"summary: {result.summary}")
     if result.report is not None:
-        if result.findings:
+        if findings:
             say(f"all findings: {result.report.parent / 'problems.html'}")
         say(f"report: {result.report}")
 
@@ -182,16 +187,6 @@ def rows_of_tests(summary: Summary, last: Mapping[str, str]) -> list[list[str]]:
         models = {} if test.restitution else predicted(test)
         rows.append([name, found, *(f" {model} {said}" for model, said in models.items())])
     return rows
-
-
-def failed_rows(result: RunResult) -> list[tuple[str, str, str]]:
-    """Test or specimen, stage and reason of all that failed, now or in an earlier run; its probable cause first."""
-    findings = result.findings
-    return [
-        (stage.subject, stage.stage, f"{probable_cause(findings.get(stage.heading, []), where='above')}{stage.reason}")
-        for stage in result.stages
-        if stage.action == "failed"
-    ]
 
 
 def _grouped(stages: Iterable[StageRun]) -> Iterator[tuple[str, str, str, str]]:
