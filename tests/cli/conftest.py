@@ -82,6 +82,7 @@ def campaign(tmp_path):
 
     from colonnade import Block, rock
     from colonnade.dynamics.kinematics import point_displacement
+    from short_campaign import write_columns
 
     block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
     history = rock(block, theta0=0.4 * block.critical_angle, restitution=0.95, model="nonlinear", duration=12.0)
@@ -91,10 +92,8 @@ def campaign(tmp_path):
     random = np.random.default_rng(1)
     (tmp_path / "raw").mkdir()
     for name, delimiter in (("free-01", ","), ("free-02", ";")):
-        recorded = top + random.normal(0.0, 0.01, time.size)
-        rows = [f"{instant:.4f}{delimiter}{value:.5f}" for instant, value in zip(time, recorded, strict=True)]
-        text = "\n".join([delimiter.join(("Time [s]", "top [mm]")), *rows, ""])
-        (tmp_path / "raw" / f"{name}.csv").write_text(text, encoding="utf-8")
+        columns = {"Time [s]": time, "top [mm]": top + random.normal(0.0, 0.01, time.size)}
+        write_columns(tmp_path / "raw" / f"{name}.csv", columns, delimiter)
     (tmp_path / "campaign.toml").write_text(CAMPAIGN + TEST.format("free-01") + TEST.format("free-02"))
     return tmp_path
 

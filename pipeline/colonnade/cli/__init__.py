@@ -71,12 +71,9 @@ def invoke(arguments: Sequence[str] | None = None) -> int:
     except (KeyboardInterrupt, click.Abort):
         complain(INTERRUPTION)
         return INTERRUPTED
-    except CampaignError as error:
-        complain(str(error))
-        return 2
     except ColonnadeError as error:
         complain(str(error))
-        return 1
+        return 2 if isinstance(error, CampaignError) else 1
     except (MemoryError, ImportError) as error:
         if isinstance(error, ImportError) and "failed to map segment" not in str(error):
             raise

@@ -13,6 +13,7 @@ from colonnade.cli.common.console import complain, say, show_json, show_table, w
 from colonnade.cli.common.options import FILE, json_option, workers_option
 from colonnade.cli.run import run_with_progress, show_result
 from colonnade.errors import count
+from colonnade.units.text import interval, listed, quantity
 
 if TYPE_CHECKING:
     from colonnade.campaign.draft.write import CampaignDraft
@@ -85,7 +86,6 @@ def demo(
 def _show_truth(compared: dict[str, Any]) -> None:
     """Write what was measured beside what is true."""
     from colonnade.laboratory.programme import KEPT_AWAY
-    from colonnade.units.text import interval, listed
 
     for specimen, restitution in compared.get("restitution", {}).items():
         true, value, low, high = (restitution[key] for key in ("true", "value", "low", "high"))
@@ -108,8 +108,6 @@ def _show_truth(compared: dict[str, Any]) -> None:
 
 def _show_farthest(tests: dict[str, dict[str, Any]], key: str, what: str, unit: str) -> None:
     """Say how far at most a measured value is from the true one, if any is known."""
-    from colonnade.units.text import quantity
-
     both = {name: (test[key], test[f"true_{key}"]) for name, test in tests.items() if key in test}
     off = {name: abs(found - true) for name, (found, true) in both.items() if None not in (found, true)}
     if off:

@@ -18,6 +18,7 @@ from colonnade.cli.common.options import (
     workers_option,
 )
 from colonnade.errors import count
+from colonnade.units.text import NOTHING, number, quantity, written
 
 if TYPE_CHECKING:
     from colonnade.identification.response.boundaries import Misfit
@@ -116,7 +117,6 @@ def calibrate(
     Mesh and step are those of the settings (processing.predict.contact). Writes processed/contact/<SPECIMEN>.nc, as a
     run does.
     """
-    from colonnade.units.text import NOTHING, number, quantity, written
     from colonnade.workflow.calibration import calibrate as calibrated
 
     made = calibrated(campaign, specimens=specimen, workers=workers, results=results)

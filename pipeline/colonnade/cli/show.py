@@ -21,6 +21,7 @@ from colonnade.cli.common.options import (
     result_options,
 )
 from colonnade.findings import Severity
+from colonnade.units.text import interval
 
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign
@@ -180,8 +181,6 @@ def _specimen_cells(record: Record) -> tuple[str, ...]:
 
 def _estimate(e: Mapping[str, Any]) -> str:
     """Write a coefficient of restitution with its interval, if it has one."""
-    from colonnade.units.text import interval
-
     return shown(e["value"]) if e["low"] is None else interval(e["value"], e["low"], e["high"], e.get("level"))
 
 
