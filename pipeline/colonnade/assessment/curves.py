@@ -12,15 +12,7 @@ import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
-from colonnade.assessment.intervals import (
-    FEWEST_RECORDS,
-    MOST_WITHOUT,
-    Band,
-    Interval,
-    Resampling,
-    shows_spread,
-    studentised,
-)
+from colonnade.assessment.intervals import FEWEST_RECORDS, MOST_WITHOUT, Band, Interval, Resampling, studentised
 from colonnade.assessment.outcomes import Cells, Outcomes
 from colonnade.assessment.probit import Parameters, fit_parameters
 from colonnade.units.text import format_percent
@@ -147,19 +139,19 @@ def fit_lognormal(outcomes: Outcomes, resampling: Resampling, *, event: Mask | N
     one record are not independent, so the standard errors are those of records (sandwich) and the intervals are
     studentised, of ln median and ln β.
     """
-    cells = outcomes.cells(event)
-    parameters, _, reasons = fit_parameters(cells, resampling.weights(len(outcomes.records)))
+    cells, records = outcomes.cells(event), len(outcomes.records)
+    parameters, _, reasons = fit_parameters(cells, resampling.weights(records))
     has_curve = reasons[1:] == ""
     counted = cells.histories.any(axis=0)
     shares = cells.events.sum(axis=0)[counted] / cells.histories.sum(axis=0)[counted]
     mixed = float(np.minimum(shares, 1 - shares).sum())
-    shows = len(outcomes.records) >= ENOUGH_RECORDS or mixed >= LEAST_MIXED
-    usable = has_curve & (shows and shows_spread(has_curve, len(outcomes.records)))
+    shows = records >= ENOUGH_RECORDS or mixed >= LEAST_MIXED
+    usable = has_curve & (shows and records >= FEWEST_RECORDS and has_curve.mean() >= 1 - MOST_WITHOUT)
     return LognormalFit(
         cast("Reason", str(reasons[0])),
         _rises(cells),
         resampling.level,
-        len(outcomes.records),
+        records,
         float(1 - has_curve.mean()),
         Parameters(*(each[:1] for each in parameters)),
         Parameters(*(each[1:][usable] for each in parameters)),

@@ -12,13 +12,7 @@ import scipy
 
 from colonnade.arrays import Array
 from colonnade.assessment.comparison import MeasureScore, compare_measures
-from colonnade.assessment.curves import (
-    IsotonicCurve,
-    LognormalFit,
-    fit_isotonic,
-    fit_lognormal,
-    lognormal_misfit,
-)
+from colonnade.assessment.curves import IsotonicCurve, LognormalFit, fit_isotonic, fit_lognormal, lognormal_misfit
 from colonnade.assessment.hazard import AnnualRate, Hazard, annual_rate, lognormal_rate
 from colonnade.assessment.intervals import Interval, Resampling
 from colonnade.assessment.measures import measure_of

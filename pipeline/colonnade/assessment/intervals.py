@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from colonnade.arrays import Array, Mask
+from colonnade.arrays import Array
 from colonnade.dynamics.ensemble import LARGEST_SEED
 from colonnade.validation import number, whole
 
@@ -76,11 +76,6 @@ class Resampling:
         """
         drawn = np.random.default_rng(self.seed).multinomial(records, np.full(records, 1 / records), size=self.count)
         return np.vstack((np.ones(records), drawn))
-
-
-def shows_spread(usable: Mask, records: int) -> bool:
-    """Whether resamples, of which some give a value, show how much records differ: else there is no interval."""
-    return bool(records >= FEWEST_RECORDS and usable.mean() >= 1 - MOST_WITHOUT)
 
 
 def studentised(value: Array, error: Array, values: Array, errors: Array, level: float, records: int) -> Band:

@@ -9,12 +9,7 @@ from typing import TYPE_CHECKING, Any
 import rich_click as click
 
 from colonnade.cli.common.console import say, show_json, show_paragraph, show_table, work_progress
-from colonnade.cli.common.options import (
-    campaign_argument,
-    one_specimen_option,
-    result_options,
-    specimen_option,
-)
+from colonnade.cli.common.options import campaign_argument, one_specimen_option, result_options, specimen_option
 
 if TYPE_CHECKING:
     from colonnade.store.records.advice import Advice
