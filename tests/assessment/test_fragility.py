@@ -5,7 +5,7 @@ import pytest
 import scipy
 
 from colonnade.assessment.curves import fit_lognormal
-from colonnade.assessment.fragility import Fragility, influence, split_beta
+from colonnade.assessment.fragility import Fragility, split_beta
 from colonnade.assessment.hazard import hazard_curve, lognormal_rate
 from colonnade.assessment.intervals import Resampling, studentised
 from colonnade.assessment.outcomes import Outcomes, gather
@@ -94,12 +94,12 @@ def test_what_cannot_be_split_has_no_value():
 def test_a_record_unlike_the_others_comes_first():
     capacity = MEDIAN * np.exp(np.random.default_rng(1).normal(0, 0.1, (20, 4)))
     capacity[7] /= 2.5
-    assert influence(outcomes_of(capacity)).records[0] == "record 7"
+    assert Fragility(outcomes_of(capacity), Resampling(2)).influence.records[0] == "record 7"
 
 
 def test_it_is_the_curve_of_all_other_records():
     outcomes = lognormal(2)
-    found = influence(outcomes, hazard_curve([0.1, 1.0], [1e-2, 1e-5]))
+    found = Fragility(outcomes, Resampling(2), hazard=hazard_curve([0.1, 1.0], [1e-2, 1e-5])).influence
     place = found.records.index("record 3")
     kept = np.arange(30) != 3
     others = gather(names(29), outcomes.levels, outcomes.peak[kept], outcomes.overturned[kept])
@@ -112,7 +112,7 @@ def test_it_is_the_curve_of_all_other_records():
 def test_a_record_without_which_there_is_no_curve_comes_first():
     capacity = np.full((6, 2), MEDIAN)
     capacity[4] *= 3
-    found = influence(outcomes_of(capacity))
+    found = Fragility(outcomes_of(capacity), Resampling(2)).influence
     assert (found.records[0], np.isnan(found.median[0])) == ("record 4", True)
 
 
@@ -132,3 +132,9 @@ def test_of_a_mean_of_normal_values_it_is_about_students_interval():
     band = studentised(np.array([mean]), np.array([error]), means[:, None], errors[:, None], 0.95, 40)
     reach = scipy.stats.t.ppf(0.975, 39) * error
     assert (band.low[0], band.high[0]) == pytest.approx((mean - reach, mean + reach), abs=0.25 * reach)
+
+
+def test_histories_that_survive_more_than_overturned_their_record_and_draw_are_counted():
+    peak = [[[0.5, 0.5], [2, 0.5], [0.5, 0.5], [0.5, 2]], [[0.5, 0.5], [2, 2], [2, 2], [2, 2]]]
+    found = Fragility(gather(["one", "two"], [1, 2, 3, 4.0], peak), Resampling(2))
+    assert found.resurrected == pytest.approx(2 / 16)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from colonnade.assessment.outcomes import gather, resurrected
+from colonnade.assessment.outcomes import gather
 
 PEAK = np.array([[0.0, 0.4, 2.0], [0.2, np.nan, 0.9]])
 LEVELS = np.array([1.0, 2.0, 3.0])
@@ -47,8 +47,3 @@ def test_a_level_at_which_nothing_was_run_makes_no_stripe():
     found = gather(["a", "b"], LEVELS, PEAK * [1.0, 1.0, np.nan]).stripes()
     np.testing.assert_allclose(np.exp(found.log_intensity), [[1.0, 2.0]] * 2)
     assert found.histories.tolist() == [[1, 1], [1, 0]]
-
-
-def test_histories_that_survive_more_than_overturned_their_record_and_draw_are_counted():
-    peak = [[[0.5, 0.5], [2, 0.5], [0.5, 0.5], [0.5, 2]], [[0.5, 0.5], [2, 2], [2, 2], [2, 2]]]
-    assert resurrected(gather(["one", "two"], [1, 2, 3, 4.0], peak)) == pytest.approx(2 / 16)

@@ -16,7 +16,7 @@ from colonnade.assessment.curves import IsotonicCurve, LognormalFit, fit_isotoni
 from colonnade.assessment.hazard import AnnualRate, Hazard, annual_rate, lognormal_rate
 from colonnade.assessment.intervals import Interval, Resampling
 from colonnade.assessment.measures import measure_of
-from colonnade.assessment.outcomes import Outcomes, resurrected
+from colonnade.assessment.outcomes import Outcomes
 from colonnade.assessment.probit import fit_parameters
 from colonnade.units.text import Digested, written
 from colonnade.validation import number
@@ -96,7 +96,9 @@ class Fragility(Digested):
     @property
     def resurrected(self) -> float:
         """Share of all histories that survive although the same record and draw overturned at a lower level."""
-        return resurrected(self.outcomes)
+        run, fallen = self.outcomes.was_run, self.outcomes.overturned
+        before = np.logical_or.accumulate(fallen, axis=1)
+        return float((before & ~fallen & run).sum() / run.sum())
 
     @cached_property
     def betas(self) -> Betas:
@@ -104,9 +106,22 @@ class Fragility(Digested):
         return split_beta(self.outcomes, self.lognormal)
 
     @cached_property
+    @np.errstate(over="ignore", divide="ignore", invalid="ignore")  # without a record the curve may be nearly flat
     def influence(self) -> Influence:
-        """The curve without each record."""
-        return influence(self.outcomes, self.hazard)
+        """The curve without each record, one left out after the other."""
+        rows = len(self.outcomes.records)
+        weights = np.vstack((np.ones(rows), 1.0 - np.eye(rows)))
+        parameters = fit_parameters(self.outcomes.cells(), weights)[0]
+        median, beta = np.exp(parameters.log_median), np.exp(parameters.log_beta)
+        rate = None if self.hazard is None else lognormal_rate(self.hazard, median, beta)
+        decides = median if rate is None else rate
+        change = np.abs(np.log(decides[1:] / decides[0]))
+        order = np.argsort(-np.where(np.isnan(change), np.inf, change), kind="stable")
+        return Influence(
+            tuple(self.outcomes.records[place] for place in order),
+            median[1:][order],
+            None if rate is None else rate[1:][order],
+        )
 
     @cached_property
     def measures(self) -> tuple[MeasureScore, ...]:
@@ -237,21 +252,3 @@ class Influence:
     records: tuple[str, ...]
     median: Array
     rate: Array | None
-
-
-@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # without a record the curve may be nearly flat
-def influence(outcomes: Outcomes, hazard: Hazard | None = None) -> Influence:
-    """Leave out one record after the other; `hazard` is of the same measure."""
-    rows = len(outcomes.records)
-    weights = np.vstack((np.ones(rows), 1.0 - np.eye(rows)))
-    parameters = fit_parameters(outcomes.cells(), weights)[0]
-    median, beta = np.exp(parameters.log_median), np.exp(parameters.log_beta)
-    rate = None if hazard is None else lognormal_rate(hazard, median, beta)
-    decides = median if rate is None else rate
-    change = np.abs(np.log(decides[1:] / decides[0]))
-    order = np.argsort(-np.where(np.isnan(change), np.inf, change), kind="stable")
-    return Influence(
-        tuple(outcomes.records[place] for place in order),
-        median[1:][order],
-        None if rate is None else rate[1:][order],
-    )

@@ -113,13 +113,3 @@ def gather(records: Sequence[str], levels: ArrayLike, peak: ArrayLike, overturne
     peaks = peaks.reshape(*peaks.shape, *(1,) * (4 - peaks.ndim))
     over = peaks > 1.0 if overturned is None else overturned.reshape(peaks.shape)
     return Outcomes(tuple(records), np.asarray(levels, dtype=np.float64), peaks, over & ~np.isnan(peaks))
-
-
-def resurrected(outcomes: Outcomes) -> float:
-    """
-    Give the share of all histories that survive although the same record and draw overturned at a lower level.
-
-    That is what the curve would gain if overturning once were overturning at all higher levels.
-    """
-    before = np.logical_or.accumulate(outcomes.overturned, axis=1)
-    return float((before & ~outcomes.overturned & outcomes.was_run).sum() / outcomes.was_run.sum())
