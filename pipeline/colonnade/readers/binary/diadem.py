@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.errors import ReadError
+from colonnade.errors import ReadError, quoted
 from colonnade.readers.binary.numbers import numbers_at
 from colonnade.readers.clock import even_times, with_clocks
 from colonnade.readers.format import Format, Options, Recognition
@@ -24,8 +24,6 @@ FORMS = {
 }
 EXPLICIT, SCALED = ("explicit", "explicit_external"), ("raw_linear", "raw_linear_external")
 """How values of a file of their own are stored: as they are, or to be scaled."""
-LONGEST_NAME = 80
-"""Characters of another file's name that are shown."""
 
 
 @from_head
@@ -131,10 +129,10 @@ class _Header:
         (path,) = companions(self.path)
         other = PureWindowsPath(file.get("url", "")).name
         if other.casefold() != path.name.casefold() or not path.is_file():
-            named = other if len(other) <= LONGEST_NAME else f"{other[:LONGEST_NAME]}…"
             raise ReadError(
-                f'{self.path.name}: its values are in the file "{named}"; they were expected next to it in {path.name}.'
-                " Copy the file there, or save the data set from DIAdem under a new name instead of renaming it."
+                f"{self.path.name}: its values are in the file {quoted(other)}; they were expected next to it in "
+                f"{path.name}. Copy the file there, or save the data set from DIAdem under a new name instead of renaming "
+                "it."
             )
         content = np.memmap(path, dtype=np.uint8, mode="r") if path.stat().st_size else np.empty(0, dtype=np.uint8)
         return numbers_at(content, name, form, first, count, self.warnings, stride=stride, scale=scale, file=path.name)

@@ -20,6 +20,8 @@ from colonnade.readers.text.encoding import encoding_of
 from colonnade.readers.text.running import read_running
 
 MARK = b"-1"
+FUNCTIONS = ("58", "58b")
+"""Data sets of functions at nodes, in text and in binary."""
 HEADER_LINES = 11
 TIME = 17
 """Kind of abscissa, among the data characteristics."""
@@ -31,10 +33,6 @@ IEEE = "2"
 BYTE_ORDERS = {"1": "<", "2": ">"}
 OPENING = re.compile(rb" {4}-1 *\r?\n *\d{2,4} *\r?\n")
 """As Fortran writes the mark and the number of a data set; numbers of a table look otherwise."""
-KNOWN_SETS = frozenset(
-    (15, 18, 55, 56, 57, 58, 82, 151, 164, 227, 252, 781, 1858, 2400, 2411, 2412, 2414, 2420, 2423, 2429, 2467, 3033)
-)
-"""Data sets of geometry, units, results and functions that programs of modal analysis write."""
 DIRECTIONS = {
     **{1: "+X", -1: "-X", 2: "+Y", -2: "-Y", 3: "+Z", -3: "-Z"},
     **{4: "+RX", -4: "-RX", 5: "+RY", -5: "-RY", 6: "+RZ", -6: "-RZ"},
@@ -48,7 +46,7 @@ def recognise(head: Head) -> Recognition:
     opened = lines[0] == MARK and len(lines) > 1
     if opened and any(one == MARK and two.split(b" ")[0] in (b"58", b"58b") for one, two in pairwise(lines)):
         return Recognition(True, "it opens with -1 and holds a data set 58")
-    if opened and OPENING.match(head.content) and int(lines[1]) in KNOWN_SETS:
+    if opened and OPENING.match(head.content):
         return Recognition(True, f"it opens with -1 and a data set {int(lines[1])}")
     return Recognition(False, "it does not open with -1 and the number of a data set")
 
@@ -65,24 +63,22 @@ def read(path: Path, options: Options) -> Recording:
     warnings: list[str] = []
     notes: list[str] = []
     channels: list[RecordedChannel] = []
-    others: list[str] = []
-    has_functions = False
+    held: list[str] = []
     with path.open("rb") as stream:
         for place, fields in _data_sets(stream):
-            if fields[0] not in ("58", "58b"):
+            held.append(fields[0])
+            if fields[0] not in FUNCTIONS:
                 notes.append(f"data set {fields[0]} at byte {place}: left out")
-                others.append(fields[0])
                 continue
-            has_functions = True
             try:
                 channels += _function(stream, fields, warnings, notes)
             except (ValueError, IndexError, OverflowError) as error:
                 warnings.append(f"the data set 58 at byte {place} is damaged or was cut off ({error}); left out")
-    if not has_functions:
-        held = ", ".join(dict.fromkeys(others)) or "of no kind"
+    if not {*FUNCTIONS} & {*held}:
         raise ReadError(
-            f"{path.name}: a universal file without functions: it holds data sets {held}, but no data set 58, the one "
-            'with recorded histories. Export the time histories ("functions at nodal DOF", data set 58).'
+            f"{path.name}: a universal file without functions: it holds data sets {', '.join(dict.fromkeys(held))}, "
+            'but no data set 58, the one with recorded histories. Export the time histories ("functions at nodal '
+            'DOF", data set 58).'
         )
     if any(channel.time is not None for channel in channels):
         notes.append("clock: each function's own abscissa")
