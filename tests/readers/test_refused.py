@@ -53,7 +53,7 @@ HEADS = {
     "CSMIP/DMG, volume 3": (
         ["Response and Fourier Amplitude Spectra   00000001", *CSMIP_2[:2], *["a line of text"] * 22],
         (8, "%10.6f"),
-        "CSMIP/DMG .* Response spectra hold no motion",
+        "CSMIP/DMG",
     ),
     "USC, volume 1": (
         ["OF UNCORRECTED ACCELEROGRAM DATA OF", *numbered(USC), *WHOLE],

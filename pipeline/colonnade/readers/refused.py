@@ -51,8 +51,7 @@ def _record(network: str) -> str:
     return (
         f"this is a strong-motion record in the format of {network}, which is not read here. Download the record "
         "as COSMOS V1 or V2, miniSEED or SAC if the network offers it; or convert it (gmprocess of the USGS reads this "
-        "format), or export it as text with a column of times and one of accelerations, with names and units above. "
-        "Response spectra hold no motion: download volume 1 or 2 of the same record in their place."
+        "format), or export it as text with a column of times and one of accelerations, with names and units above."
     )
 
 

@@ -130,9 +130,9 @@ class _Header:
         other = PureWindowsPath(file.get("url", "")).name
         if other.casefold() != path.name.casefold() or not path.is_file():
             raise ReadError(
-                f"{self.path.name}: its values are in the file {quoted(other)}; they were expected next to it in "
-                f"{path.name}. Copy the file there, or save the data set from DIAdem under a new name instead of renaming "
-                "it."
+                f"{self.path.name}: its values are in the file {quoted(other)}; they were expected next to it "
+                f"in {path.name}. Copy the file there, or save the data set from DIAdem under a new name instead of "
+                "renaming it."
             )
         content = np.memmap(path, dtype=np.uint8, mode="r") if path.stat().st_size else np.empty(0, dtype=np.uint8)
         return numbers_at(content, name, form, first, count, self.warnings, stride=stride, scale=scale, file=path.name)
