@@ -60,28 +60,23 @@ def read_hazard(path: Path, measure: str) -> Hazard:
 
 def _factor(table: SmallTable, measure: str, unit: str) -> float:
     """Check the heads; return the SI units in one of the measure's."""
+    heads = ", ".join(map(_written, table.heads))
+    wrong = f'{table.name}: its heads are {quoted(heads)}; "{measure} [{unit}], rate [1/year]" was expected.'
     if len(table.heads) != 2:
-        raise ReadError(
-            f"{table.name}: {len(table.heads)} columns; two were expected, the measure with its unit and the annual "
-            f'rate: "{measure} [{unit}], rate [1/year]".'
-        )
+        raise ReadError(wrong)
     intensity, rate = table.heads
     if _same(intensity.name) != _same(measure):
         raise ReadError(
             f"{table.name}: the hazard is given for {quoted(intensity.name)} and the fragility for {quoted(measure)}. "
             "A hazard curve of the same measure was expected."
         )
-    if rate.name.casefold() not in RATES or (rate.unit is not None and rate.unit.casefold() not in PER_YEAR):
-        raise ReadError(f'{table.name}: the second column is {quoted(_written(rate))}; "rate [1/year]" was expected.')
-    wanted = units.resolve(unit).si_unit
-    if intensity.unit is None and wanted != "1":
-        raise ReadError(f'{table.name}: {quoted(intensity.name)} has no unit; "{measure} [{unit}]" was expected.')
     try:
         found = units.resolve(intensity.unit or "1")
     except UnitError as error:
         raise ReadError(f"{table.name}: {error}") from None
-    if found.si_unit != wanted:
-        raise ReadError(f'{table.name}: {quoted(_written(intensity))} was found; "{measure} [{unit}]" was expected.')
+    is_rate = rate.name.casefold() in RATES and (rate.unit is None or rate.unit.casefold() in PER_YEAR)
+    if not is_rate or found.si_unit != units.resolve(unit).si_unit:
+        raise ReadError(wrong)
     return found.factor
 
 

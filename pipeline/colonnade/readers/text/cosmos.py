@@ -29,7 +29,7 @@ REALS = re.compile(
 )
 DATA = re.compile(
     r"\s*(?P<points>\d{1,12})\s+(?P<quantity>\w+)\s+(?:pts|points|data)\b"
-    r"(?:.*?approx\s+(?P<seconds>\d+\.?\d*|\.\d+)\s+secs)?.*?units?\s*=\s*(?P<unit>[^(,\s]*).*?\((?P<count>\d{0,4})[EFI](?P<width>[1-9]\d{0,3})",
+    r".*?units?\s*=\s*(?P<unit>[^(,\s]*).*?\((?P<count>\d{0,4})[EFI](?P<width>[1-9]\d{0,3})",
     re.IGNORECASE,
 )
 STEP = 61
@@ -94,12 +94,6 @@ def _channel(path: Path, lines: list[str], first: int, end: int, warnings: list[
     values, told_of = read_running(enumerate(lines[at + 1 : stop], at + 2), width=int(data["width"]))
     values = values[:points]
     warnings += [*told_of, *shortage(f"line {at + 1}", points, values.size)]
-    seconds = float(data["seconds"] or "nan")
-    if abs(points * step - seconds) > max(1.0, 0.02 * seconds):
-        warnings.append(
-            f"line {at + 1} gives {seconds:g} s, but {points} points at {step:g} s are {points * step:g} s: "
-            "the step is in doubt"
-        )
     above = lines[first:at]
     component = next((" ".join(found["name"].split()) for text in above if (found := COMPONENT.match(text))), "")
     times, unit, start = even_times(values.size, step), spelled(data["unit"]), _start(above)
