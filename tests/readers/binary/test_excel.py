@@ -40,7 +40,7 @@ def test_the_sheet_with_the_samples_is_found_or_given(tmp_path):
     assert read(path, options={"sheet": 2}).channel("x").unit == "mm"
     with pytest.raises(ReadError, match=r'sheet "Date" is missing\. Did you mean "Daten"'):
         read(path, options={"sheet": "Date"})
-    with pytest.raises(ReadError, match="it has sheets 1 to 2"):
+    with pytest.raises(ReadError, match=r'sheet "3" is missing\. Choose one of: "Cover"'):
         read(path, options={"sheet": 3})
 
 

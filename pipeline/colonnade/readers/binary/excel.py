@@ -92,13 +92,11 @@ def _sheet(path: Path, wanted: str | int | None) -> tuple[list[list[Any]], str]:
 
     book = python_calamine.CalamineWorkbook.from_path(str(path))
     names = list(book.sheet_names)
-    if isinstance(wanted, int) and not 1 <= wanted <= len(names):
-        raise ReadError(f"{path.name}: sheet {wanted} is missing; it has sheets 1 to {len(names)}.")
-    if isinstance(wanted, str) and wanted not in names:
-        raise ReadError(f'{path.name}: sheet "{wanted}" is missing.{nearest(wanted, names)}')
-    chosen = names if wanted is None else [names[wanted - 1] if isinstance(wanted, int) else wanted]
+    numbered: dict[str | int, str] = {**dict(enumerate(names, 1)), **{name: name for name in names}}
+    if wanted is not None and wanted not in numbered:
+        raise ReadError(f'{path.name}: sheet "{wanted}" is missing.{nearest(str(wanted), names)}')
     sheets = {}
-    for name in chosen:
+    for name in names if wanted is None else [numbered[wanted]]:
         rows = book.get_sheet_by_name(name).to_python(skip_empty_area=False)
         sheets[name] = [row[: max((end for end, cell in enumerate(row, 1) if cell != ""), default=0)] for row in rows]
     samples = {name: sum(any(map(_is_number, row)) for row in rows) for name, rows in sheets.items()}

@@ -64,12 +64,6 @@ class TableOptions(Options):
         description='"columns" if each column is a channel, "running" if numbers run on from row to row.',
     )
 
-    @model_validator(mode="after")
-    def _unit_has_column(self) -> Self:
-        if self.time_unit is not None and self.time is None:
-            raise ValueError("time_unit needs `time`: the column it belongs to")
-        return self
-
     @property
     def lines_to_pass(self) -> int:
         """Lines at the top of the file that cannot be samples."""
