@@ -34,14 +34,7 @@ def recognise(head: Head) -> Recognition:
 
 
 def read(path: Path, options: Options) -> Recording:
-    """
-    Read markers and analog channels; a marker that was not seen is NaN.
-
-    Raises
-    ------
-    ReadError
-        If it is not C3D, or is damaged.
-    """
+    """Read markers and analog channels; a marker that was not seen is NaN."""
     from ezc3d import c3d
 
     head = recognise.expected(path).content

@@ -42,14 +42,7 @@ def recognise(head: Head) -> Recognition:
 
 
 def read(path: Path, options: Options) -> Recording:
-    """
-    Read a DIAdem data set by its header.
-
-    Raises
-    ------
-    ReadError
-        If a file with the values is not in its folder, or no channel is described.
-    """
+    """Read a DIAdem data set by its header; ReadError if the file with the values is not in its folder."""
     header = _Header(path)
     channels, warnings = [], header.warnings
     elements = [element for element in header.root.iter() if element.tag.endswith("tdm_channel")]

@@ -47,14 +47,7 @@ def recognise(head: Head) -> Recognition:
 
 
 def read(path: Path, options: ExcelOptions) -> Recording:
-    """
-    Read a sheet of a workbook, as the text that its rows would be.
-
-    Raises
-    ------
-    ReadError
-        If it is none, is damaged, holds no rows of numbers, or lacks what the options name.
-    """
+    """Read a sheet of a workbook, as the text that its rows would be."""
     recognise.expected(path)
     rows, note = _sheet(path, options.sheet)
     text = Text(path, Encoding("utf-8", ""), "".join(f"{line}\n" for line in _lines(rows)))

@@ -89,14 +89,7 @@ def recognise(head: Head) -> Recognition:
 
 
 def read(path: Path, options: MatlabOptions) -> Recording:
-    """
-    Read a MATLAB file.
-
-    Raises
-    ------
-    ReadError
-        If it is not MATLAB's, holds no column of numbers, or lacks a variable that the options name.
-    """
+    """Read a MATLAB file; ReadError if it holds no column of numbers, or lacks a variable that the options name."""
     told = Told()
     is_hdf5 = recognise.expected(path).content[USER_BLOCK:].startswith(HDF5)
     variables = (read_v73 if is_hdf5 else read_v5)(path, told)

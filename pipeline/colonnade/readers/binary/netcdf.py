@@ -47,14 +47,7 @@ recognise = by_mark((*NETCDF, HDF5), "the mark of NetCDF or HDF5")
 
 
 def read(path: Path, options: NetcdfOptions) -> Recording:
-    """
-    Read a NetCDF or HDF5 file.
-
-    Raises
-    ------
-    ReadError
-        If it is neither, holds no column of numbers, or lacks a group or variable that the options name.
-    """
+    """Read a NetCDF or HDF5 file; ReadError if no column of numbers is where the options say."""
     is_classic = recognise.expected(path).content.startswith(NETCDF)
     told = Told()
     variables, attributes = (read_classic if is_classic else read_hdf5)(path, told)

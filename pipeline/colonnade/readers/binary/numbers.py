@@ -70,14 +70,7 @@ def columns_of(table: NDArray[Any]) -> dict[str, NDArray[Any]]:
 
 
 def member(group: h5py.Group, name: str) -> h5py.Group | h5py.Dataset:
-    """
-    Open a member of a group.
-
-    Raises
-    ------
-    UnreadableError
-        If it is a link, or its numbers are elsewhere: netCDF4 and h5py would follow both into other files.
-    """
+    """Open a member of a group; UnreadableError for what netCDF4 and h5py would follow into other files."""
     import h5py
 
     if not isinstance(group.get(name, getlink=True), h5py.HardLink):

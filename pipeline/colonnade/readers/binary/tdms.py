@@ -49,14 +49,7 @@ recognise = by_mark((b"TDSm",), "TDSm, the mark of LabVIEW's TDMS")
 
 
 def read(path: Path, options: TdmsOptions, window: tuple[float, float] | None = None) -> Recording:
-    """
-    Read a TDMS file, or of a long one what a window needs, where the properties of all channels give their clocks.
-
-    Raises
-    ------
-    ReadError
-        If it is not TDMS, is damaged, or lacks the group or channel that the options name.
-    """
+    """Read a TDMS file, or of a long one what a window needs, where all channels have a clock of their own."""
     from nptdms import TdmsFile
     from nptdms.log import log_manager
 

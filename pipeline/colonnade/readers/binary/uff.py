@@ -52,14 +52,7 @@ def recognise(head: Head) -> Recognition:
 
 
 def read(path: Path, options: Options) -> Recording:
-    """
-    Read the functions of time in a universal file.
-
-    Raises
-    ------
-    ReadError
-        If it holds none.
-    """
+    """Read the functions of time in a universal file; ReadError if it holds no functions."""
     warnings: list[str] = []
     notes: list[str] = []
     channels: list[RecordedChannel] = []

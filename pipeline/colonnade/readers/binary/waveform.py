@@ -123,14 +123,7 @@ def read(path: Path, options: WaveformOptions) -> Recording:
 
 
 def kind_of_waveform(head: Head) -> str | None:
-    """
-    Name the kind of a seismic file.
-
-    Returns
-    -------
-    kind : str or None
-        As ObsPy calls it; None if the first bytes are none of those known here.
-    """
+    """Name the kind of a seismic file as ObsPy calls it; None if its first bytes are none of those known here."""
     known = (kind for kind, start in STARTS.items() if re.match(start, head.content, re.DOTALL))
     return next(known, "SAC" if _is_sac(head.content) else None)
 

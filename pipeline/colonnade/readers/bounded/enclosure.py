@@ -108,15 +108,7 @@ class ForbiddenError(PermissionError):
 
 
 def enclose(bounds: Bounds, within: Path) -> None:
-    """
-    Bind this process for good to a file's bounds and to the files of one folder.
-
-    Parameters
-    ----------
-    bounds : Bounds
-    within : Path
-        Folder whose files may be read, in addition to those of Python itself.
-    """
+    """Bind this process for good to a file's bounds and to the files of one folder, besides those of Python itself."""
     limit(bounds)
     readable = [within, *own_folders()]
     with suppress(OSError):  # a kernel that refuses its own rules: what follows holds nevertheless

@@ -106,20 +106,7 @@ def send(stream: IO[bytes], arrays: Arrays, **answer: Any) -> None:
 
 
 def receive(stream: IO[bytes], largest: int) -> tuple[Answer, Arrays]:
-    """
-    Read an answer and its arrays.
-
-    Parameters
-    ----------
-    stream : binary stream
-    largest : int
-        Bytes that all arrays may have together.
-
-    Raises
-    ------
-    BrokenAnswerError
-        If the message is not a valid answer, or the stream ends before it does.
-    """
+    """Read an answer and its arrays, of so many bytes at most; BrokenAnswerError if it is not valid or not whole."""
     line = stream.readline(LONGEST_LINE)
     if not line.endswith(b"\n"):
         raise BrokenAnswerError("the answer has no end")
@@ -176,14 +163,7 @@ def told(recording: Recording) -> tuple[dict[str, Any], Arrays]:
 
 
 def recording_of(path: Path, header: Any, arrays: Arrays) -> Recording:
-    """
-    Put a recording together again.
-
-    Raises
-    ------
-    ValueError
-        If a part is missing or of another form, or a channel names an array that is missing or has another length.
-    """
+    """Put a recording together again; ValueError if a part is missing or of another form."""
     found = Header.model_validate(header)
     if any(array.dtype != np.float64 or array.ndim != 1 for array in arrays):
         raise ValueError("channels of numbers were expected")

@@ -42,14 +42,7 @@ recognise = by_first_line(FIRST_LINE, '"(Format v… with … text lines)"')
 
 
 def read(path: Path, options: Options) -> Recording:
-    """
-    Read a COSMOS record, with one or more channels.
-
-    Raises
-    ------
-    ReadError
-        If a header is not whole or gives no time step.
-    """
+    """Read a COSMOS record of one or more channels; ReadError if a header is not whole or gives no time step."""
     lines = Text.of(path).lines()
     starts = [number for number, line in enumerate(lines) if FIRST_LINE.search(line)]
     channels: list[RecordedChannel] = []

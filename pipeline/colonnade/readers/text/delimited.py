@@ -133,14 +133,7 @@ class Header:
 
 
 def read_header(text: Text, options: DelimitedOptions) -> Header:
-    """
-    Find out how a text is written and what its columns are called, from its head.
-
-    Raises
-    ------
-    ReadError
-        If it is empty, not text, or has no rows of numbers.
-    """
+    """Find out from a text's head how it is written and what its columns are; ReadError without rows of numbers."""
     lines = _head(text, options)
     start = max(options.skip_rows, options.lines_to_pass)
     given = Dialect(

@@ -45,15 +45,7 @@ class Encoding(NamedTuple):
 
 
 def encoding_of(head: bytes) -> Encoding:
-    """
-    Find a text's encoding from its first bytes.
-
-    Returns
-    -------
-    encoding : Encoding
-        By a byte order mark; else UTF-16 where every second byte is zero; else UTF-8 where that is valid; else
-        Windows-1252, the extension of Latin-1 that loggers on Windows write.
-    """
+    """Find a text's encoding: by its mark, by zeros at every second byte, UTF-8 if that is valid, else Windows-1252."""
     # A block of zeros at the end is what a power failure leaves; it says nothing of the encoding.
     head = head.rstrip(b"\0") or head
     for mark, name in BYTE_ORDER_MARKS:

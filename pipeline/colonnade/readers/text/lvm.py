@@ -148,16 +148,7 @@ recognise = by_first_line(re.compile(f"^{SIGNATURE}"), f'"{SIGNATURE}"')
 
 
 def read(path: Path, options: TextOptions) -> Recording:
-    """
-    Read a LabVIEW measurement file.
-
-    Channels of the same name are joined over the segments by each segment's own date and time.
-
-    Raises
-    ------
-    ReadError
-        If a header is not whole.
-    """
+    """Read a LabVIEW file; channels of one name are joined over its segments by each segment's own date and time."""
     text = Text.of(path, options.encoding)
     lines = text.lines()
     preamble = read_preamble(path, lines)

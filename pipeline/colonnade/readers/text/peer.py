@@ -63,14 +63,7 @@ def _size(head: Head) -> tuple[int, re.Match[str] | None]:
 
 
 def read(path: Path, options: Options) -> Recording:
-    """
-    Read a PEER record.
-
-    Raises
-    ------
-    ReadError
-        If NPTS and DT are not given.
-    """
+    """Read a PEER record."""
     head = recognise.expected(path)
     line, size = _size(head)
     assert size is not None

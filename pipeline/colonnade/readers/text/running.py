@@ -171,14 +171,7 @@ def rows_that_touch(lines: Sequence[str], start: int, first: int, claims: Header
 
 
 def read_series(text: Text, dialect: Dialect, first: int) -> Array:
-    """
-    Read numbers row by row, from the line with index `first` on; text may follow.
-
-    Raises
-    ------
-    ReadError
-        If something else is between the numbers.
-    """
+    """Read numbers row by row, from the line with index `first` on; text may follow, but not be between."""
     lines = [line.replace(dialect.delimiter, " ").replace(dialect.decimal, ".") for line in text.lines()[first:]]
     while lines and not looks_like_numbers(lines[-1]):
         lines.pop()
