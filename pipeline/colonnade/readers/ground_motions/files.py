@@ -217,9 +217,9 @@ class Component:
     files: tuple[tuple[str, str], ...]
 
 
-def in_folder(folder: Path, left_out: list[LeftOut]) -> list[Entry]:
-    """Give the files of a folder, by name; folders in it and hidden files do not count."""
-    entries, root = [], folder.resolve()
+def in_folder(folder: Path) -> tuple[list[Entry], list[LeftOut], list[str]]:
+    """Give the files of a folder, by name, as `read_list` does; folders in it and hidden files do not count."""
+    entries, left_out, root = [], [], folder.resolve()
     try:
         for path in sorted(folder.iterdir()):
             if path.name.startswith(".") or path.is_dir():
@@ -230,7 +230,7 @@ def in_folder(folder: Path, left_out: list[LeftOut]) -> list[Entry]:
                 left_out.append(LeftOut(path.name, "it is a link to outside this folder. Put the file itself there."))
     except OSError as error:
         raise ReadError(unreachable(folder, error)) from None
-    return entries
+    return entries, left_out, []
 
 
 def components_of(entry: Entry, notes: list[str]) -> Iterator[Component]:

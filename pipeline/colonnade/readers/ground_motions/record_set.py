@@ -75,7 +75,7 @@ def files_of(path: Path) -> list[Path]:
         If there is no such folder or list, or the list is none.
     """
     if path.is_dir():
-        return [entry.path for entry in in_folder(path, [])]
+        return [entry.path for entry in in_folder(path)[0]]
     listed = [path, *(entry.path for entry in read_list(path)[0])]
     for each in listed[1:]:
         with suppress(ReadError, OSError):
@@ -109,16 +109,10 @@ def read_record_set(path: Path | str) -> RecordSet:
     component is taken as the first horizontal one.
     """
     path = Path(path)
-    left_out: list[LeftOut] = []
-    notes: list[str] = []
-    if path.is_dir():
-        entries = in_folder(path, left_out)
-    else:
-        entries, refused, notes = read_list(path)
-        left_out += refused
+    entries, left_out, notes = in_folder(path) if path.is_dir() else read_list(path)
     if len(entries) > MOST_FILES:
         raise ReadError(f"{path.name}: {len(entries)} files are too many; a set of at most {MOST_FILES} was expected.")
-    components: list[Component] = []
+    grouped: dict[str, list[Component]] = {}
     samples = 0
     for entry in entries:
         try:
@@ -126,13 +120,11 @@ def read_record_set(path: Path | str) -> RecordSet:
             samples += sum(component.motion.acceleration.size for component in found)
             if samples > MOST_SAMPLES:
                 raise ReadError(f"with it the set has more than {MOST_SAMPLES:.3g} samples. Divide the set.")
-            components += found
+            for component in found:
+                grouped.setdefault(component.entry.record, []).append(component)
         except (ColonnadeError, ValueError, OSError, MemoryError) as error:
             said = str(error) if isinstance(error, (ColonnadeError, ValueError)) else in_one_line(error)
             left_out.append(LeftOut(entry.place, said))
-    grouped: dict[str, list[Component]] = {}
-    for component in components:
-        grouped.setdefault(component.entry.record, []).append(component)
     records = []
     for name, members in grouped.items():
         try:
