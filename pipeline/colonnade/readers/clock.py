@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from datetime import datetime, timedelta
@@ -42,7 +42,7 @@ def with_clocks(
     time: str | int | None = None,
     unit: str | None = None,
     scalars: Mapping[str, float] | None = None,
-    otherwise: Mapping[int, Array] | None = None,
+    yielding: Collection[int] = (),
 ) -> Recording:
     """
     Give each channel its times, and say how they were found.
@@ -60,18 +60,16 @@ def with_clocks(
         Unit of that column, or of those that are found.
     scalars : mapping of str to float, optional
         Single numbers of the file, by path.
-    otherwise : mapping of int to ndarray, optional
-        Times, by a channel's number from 0, that it has if no column gives it others.
+    yielding : collection of int, optional
+        Numbers, from 0, of the channels that keep their times only if no column gives them others.
 
     Raises
     ------
     ReadError
         If the column that is named is missing or holds no number.
     """
-    otherwise = otherwise or {}
-    known = [replace(each, time=otherwise.get(number, each.time)) for number, each in enumerate(recording.channels)]
-    timed, start = on_one_zero(known)
-    channels = [replace(each, time=None) if number in otherwise else each for number, each in enumerate(timed)]
+    timed, start = on_one_zero(recording.channels)
+    channels = [replace(each, time=None) if number in yielding else each for number, each in enumerate(timed)]
     notes: list[str] = []
     warnings: list[str] = []
     clocks: dict[int, Array] = {}

@@ -9,7 +9,6 @@ from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
 
-from colonnade.arrays import Array
 from colonnade.readers.binary.numbers import numbers_at
 from colonnade.readers.clock import even_times, moment_after, with_clocks
 from colonnade.readers.format import Format, Options, Recognition
@@ -65,8 +64,7 @@ def read(path: Path, options: Options) -> Recording:
     numeric = [header for header in headers if header.is_numeric and header.length]
     channels: list[RecordedChannel] = []
     warnings: list[str] = []
-    otherwise: dict[int, Array] = {}
-    for number, header in enumerate(numeric):
+    for header in numeric:
         size, scale = int(header.precision[-1]), (0.0, 1.0)
         if size == 2:  # steps between the smallest and the largest value, which stand before them
             low, high = np.frombuffer(content[place : place + 16].tobytes().ljust(16, b"\0"), "<f8")
@@ -77,13 +75,12 @@ def read(path: Path, options: Options) -> Recording:
             values[values == OVERFLOW] = np.nan
             what = "catman's sign of an overflow or an open input"
             warnings.append(f'"{header.name}": {over} of {values.size} values are {what}; missing')
-        channels.append(RecordedChannel(header.name, header.unit or None, values))
-        if header.step:
-            otherwise[number] = even_times(values.size, header.step)
+        times = even_times(values.size, header.step) if header.step else None
+        channels.append(RecordedChannel(header.name, header.unit or None, values, times))
     notes = [f'no numbers in "{header.name}": left out' for header in headers if not header.is_numeric]
     start = moment_after(DAY_ZERO, 86400 * numeric[0].date) if numeric and numeric[0].date > 1 else None
     recording = Recording(path, "catman", tuple(channels), start, tuple(notes), tuple(warnings))
-    return with_clocks(recording, otherwise=otherwise)
+    return with_clocks(recording, yielding=range(len(channels)))
 
 
 def _taken(stream: BinaryIO, form: str) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -152,7 +152,7 @@ def recorded(
     told: Told,
     options: ClockOptions,
     scalars: Mapping[str, float] | None = None,
-    otherwise: Mapping[int, Array] | None = None,
+    yielding: Collection[int] = (),
     where: str = "in it",
 ) -> Recording:
     """
@@ -179,5 +179,5 @@ def recorded(
             values = np.where(np.isinf(values), np.nan, values)
         channels.append(replace(column, name=short if counts[short] == 1 else column.heading, values=values))
     recording = Recording(path, format, tuple(channels), warnings=tuple(told.warnings))
-    found = with_clocks(recording, options.time, options.time_unit, scalars, otherwise)
+    found = with_clocks(recording, options.time, options.time_unit, scalars, yielding)
     return replace(found, notes=(*told.notes, *found.notes, *left_out))

@@ -72,7 +72,7 @@ def _recording(path: Path, options: TdmsOptions, file: TdmsFile, window: tuple[f
     zero = min((own.start for own in waveforms if own is not None and own.start is not None), default=None)
     columns = []
     shared: dict[object, Array] = {}  # channels with the same properties share their times
-    unsure: dict[int, Array] = {}
+    yielding: set[int] = set()
     for number, (channel, own) in enumerate(zip(channels, waveforms, strict=True)):
         part = slice(None) if window is None or own is None else own.part(window, zero, len(channel))
         column = _column(channel, part)
@@ -80,15 +80,15 @@ def _recording(path: Path, options: TdmsOptions, file: TdmsFile, window: tuple[f
             first, size = part.start or 0, column.values.size
             if (key := (own, first, size)) not in shared:
                 shared[key] = own.offset + own.step * np.arange(first, first + size, dtype=np.float64)
-            times = shared[key]
-            column = replace(column, start=own.start, time=None if own.step == NO_TIMING else times)
-            unsure |= {number: times} if own.step == NO_TIMING else {}
+            column = replace(column, start=own.start, time=shared[key])
+            if own.step == NO_TIMING:
+                yielding.add(number)
         columns.append(column)
     for step, number in Counter(own.step for own in waveforms if own is not None).items():
         why = "LabVIEW's default, which yields to a channel of times" if step == NO_TIMING else f"{1 / step:.9g} Hz"
         told.notes.append(f"clock of {count(number, 'channel')}: a step of {step:.9g} s ({why}), by wf_increment")
     # LabVIEW's default step yields to a channel of times, and is all that is known where there is none.
-    return recorded(path, "tdms", columns, told, options, otherwise=unsure)
+    return recorded(path, "tdms", columns, told, options, yielding=yielding)
 
 
 def cut_off(path: Path, channels: list[TdmsChannel]) -> list[str]:
