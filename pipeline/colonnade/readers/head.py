@@ -108,16 +108,7 @@ class from_head:  # noqa: N801 - a decorator
 
 
 def by_mark(marks: tuple[bytes, ...], expected: str) -> from_head:
-    """
-    Give what recognises files by how they start.
-
-    Parameters
-    ----------
-    marks : tuple of bytes
-        Marks of the format; a file starts with one of them.
-    expected : str
-        What that is called: `TDSm, as LabVIEW writes it`.
-    """
+    """Give what recognises files by how they start, and what that is called: `TDSm, as LabVIEW writes it`."""
     return _by(lambda head: head.content.startswith(marks), expected)
 
 

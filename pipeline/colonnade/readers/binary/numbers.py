@@ -107,28 +107,8 @@ def numbers_at(
     """
     Take a channel's numbers out of the bytes of a file; that some are missing is warned of.
 
-    Parameters
-    ----------
-    content : ndarray of uint8
-        Those that may be the channel's.
-    name : str
-        Of the channel.
-    form : str
-        As numpy spells it, `<f8`.
-    first, count : int
-        Byte of the first number, and how many there should be.
-    warnings : list of str
-    stride : int
-        Bytes from one number to the next; their size by default.
-    scale : (float, float)
-        Offset and factor: value = offset + number × factor.
-    file : str
-        What the bytes are of, in a warning.
-
-    Returns
-    -------
-    values : ndarray, shape (n,)
-        As many as there are; NaN where one is missing.
+    `count` numbers of a numpy `form` begin at the byte `first`, one every `stride` bytes, by default without gaps. A
+    value is offset + number × factor, by the `scale`, NaN where that is infinite. As many are given as there are.
     """
     kind = np.dtype(form)
     stride = stride or kind.itemsize

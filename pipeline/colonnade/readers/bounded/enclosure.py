@@ -181,20 +181,7 @@ def restrict(readable: Iterable[Path]) -> bool:
     """
     Let this thread, and what it starts, read some files and folders, and nothing else: no writing, no programs, no TCP.
 
-    Parameters
-    ----------
-    readable : iterable of Path
-        Missing ones are skipped.
-
-    Returns
-    -------
-    done : bool
-        False if the kernel has no Landlock.
-
-    Raises
-    ------
-    OSError
-        If the kernel has it and refuses the rules.
+    False if the kernel has no Landlock; OSError if it has it and refuses the rules.
     """
     known = landlock_version()
     if not known:

@@ -47,31 +47,12 @@ def run_bounded(
     others: tuple[Path, ...] = (),
 ) -> Taken:
     """
-    Have a function read a file in the bounded process.
+    Have a function `module:name` read a file in the bounded process.
 
-    Parameters
-    ----------
-    function : str
-        `module:name`; it is called with the path and the options, and returns a header for JSON and arrays.
-    path : Path
-    options : dict
-        For JSON.
-    take : callable
-        Makes what is wanted of the header and the arrays, neither of which can be trusted; ValueError if they are not
-        what the function returns.
-    kind : str
-        What the file is read as, for messages.
-    within : Path
-        Folder whose files may be read.
-    modules : tuple of str
-        Heavy packages that the function imports.
-    others : tuple of Path
-        Other files that a part of it is in, whose sizes count too.
-
-    Raises
-    ------
-    ReadError
-        If the function refuses the file, or reading it crashes, swells or does not end.
+    It is called with the path and the options, and returns a header for JSON and arrays; `take` makes what is wanted
+    of these, and trusts neither: ValueError if they are not what the function returns. `kind` is what the file is read
+    as, `within` the folder whose files may be read, `modules` what the function imports, `others` further files of
+    which a part is read. ReadError if the function refuses the file, or reading it crashes, swells or does not end.
     """
     request = Request(
         function=function,

@@ -38,18 +38,11 @@ class Mended(NamedTuple):
 
 def mend(rows: Rows, headings: Sequence[str]) -> Mended:
     """
-    Take out of the columns what is wrong with their rows.
+    Take out of the columns, which are changed, what is wrong with their rows.
 
     A line without any number, with text, is left out, as is a last line that was cut off. A row with too many or too
     few cells counts as missing, because a value may be in its neighbour's column; unless all rows to the end lack
     last cells: then these columns are shorter.
-
-    Parameters
-    ----------
-    rows : Rows
-        Their columns are changed.
-    headings : sequence of str
-        Of the columns.
     """
     width = len(headings)
     faulty = [row for row in rows.odd if row.fault is not None]

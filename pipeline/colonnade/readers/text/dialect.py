@@ -191,14 +191,8 @@ def sniff(lines: list[str], given: Dialect, *, delimiter: str | None, decimal: s
     """
     Find the dialect that makes most cells numbers and gives most lines the same number of cells.
 
-    Parameters
-    ----------
-    lines : list of str
-        The head of the file; its later part is looked at, as there the samples are surest.
-    given : Dialect
-        What is known otherwise: comment signs, missing values, perhaps the sign between thousands.
-    delimiter, decimal : str or None
-        Not sniffed if they are given.
+    The later lines of a head are looked at, as there the samples are surest. Comment signs, missing values and perhaps
+    the sign between thousands are `given`; so may be the delimiter and the decimal sign.
     """
     filled = [line for line in lines if line.strip() and not given.is_comment(line)]
     first, sample = filled[:SAMPLE_LINES], filled[-SAMPLE_LINES:]
@@ -277,16 +271,9 @@ def _weight(cell: str, dialect: Dialect) -> float | None:
 
 def column_kinds(lines: list[str], dialect: Dialect, columns: int) -> tuple[str, ...]:
     """
-    Find what each column holds: `number`, `time` (date or time of day), `text` or `empty`.
+    Find what each column holds in the later lines of a head: `number`, `time` (date or time of day), `text` or `empty`.
 
-    Parameters
-    ----------
-    lines : list of str
-        Head of the file; its later part is looked at.
-    dialect : Dialect
-    columns : int
-        Cells on most lines of numbers; a nameless empty last column, made by a delimiter at the end of each line, is
-        among them.
+    A nameless empty last column, made by a delimiter at the end of each line, is among the columns.
     """
     counts: list[Counter[str]] = [Counter() for _ in range(columns)]
     for line in [line for line in lines if line.strip()][-SAMPLE_LINES:]:

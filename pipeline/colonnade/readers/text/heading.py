@@ -46,22 +46,9 @@ def read_heading(
     lines: list[str], where: Lines, dialect: Dialect, kinds: tuple[str, ...], *, is_given: bool = False
 ) -> Heading:
     """
-    Take names and units from their lines.
+    Take names and units from the lines `where` they are; columns without a name are called by their number.
 
-    Parameters
-    ----------
-    lines : list of str
-    where : Lines
-    dialect : Dialect
-    kinds : tuple of str
-        What each column holds; an empty one at the end without a name is left out.
-    is_given : bool
-        Whether the line of names was given, not found.
-
-    Returns
-    -------
-    heading : Heading
-        Columns without a name are called by their number.
+    An empty column at the end without a name is left out. A line of names that was given is one whatever it looks like.
     """
     names_row, units_row = (_row(lines, index, dialect, len(kinds)) for index in where)
     width = len(kinds)

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from colonnade.arrays import Array, Mask
+from colonnade.readers.recording import DAY
 from colonnade.readers.text.dialect import MARKED, WHITESPACE, Dialect, is_sample, kind_of, looks_like_numbers
 from colonnade.readers.text.encoding import UNREADABLE, Piece
 from colonnade.signals.samples import side_by_side, threads
@@ -295,7 +296,6 @@ def _values(cells: pd.Series, kind: str, form: RowForm, column: int) -> Array:
     return values if np.isfinite(values).all() else np.where(np.isinf(values), np.nan, values)
 
 
-DAY = 86400.0
 DATED = r"\d+-\d+-\d+[T ]"
 DOTTED = r"^(\d{1,2})\.(\d{1,2})\.(\d{4})"
 

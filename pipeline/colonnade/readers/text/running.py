@@ -106,22 +106,8 @@ def why_running(
     """
     Decide by what a file says of its nameless rows of numbers whether they run on, and why; empty if they do not.
 
-    Parameters
-    ----------
-    path : Path
-    columns : sequence of ndarray, shape (n,)
-        As if it were a table; NaN if a row is too short.
-    claims : HeaderClaims
-        What the lines above say.
-    series : callable
-        Gives the numbers as one series.
-    is_free : bool
-        Whether only blanks are between numbers, as in what a Fortran program wrote.
-
-    Raises
-    ------
-    ReadError
-        If only blanks are between the numbers, and the file declares neither names, nor times, nor a count of points.
+    `columns` are as of a table; `series` gives the numbers as one. ReadError if only blanks are between numbers, and
+    the file declares neither names, nor times, nor a count of points.
     """
     width, rows = len(columns), max(filled_length(column) for column in columns)
     if width < 2 or rows < 2:
@@ -205,21 +191,9 @@ def numbers_in(line: str, width: int | None = None) -> list[float]:
 
 def read_running(lines: Iterable[tuple[int, str]], *, width: int | None = None) -> tuple[Array, list[str]]:
     """
-    Read numbers row by row.
+    Read numbers row by row; what is none is NaN, and warned of with its line.
 
-    Parameters
-    ----------
-    lines : iterable of (int, str)
-        Number and text of each line.
-    width : int, optional
-        Characters of a field, as in `8F10.5`; without it, spaces or signs separate the fields.
-
-    Returns
-    -------
-    values : ndarray, shape (n,)
-        NaN for a field that is not a number.
-    warnings : list of str
-        Lines with such fields.
+    A field has a `width`, as in `8F10.5`; without it, spaces or signs separate the fields.
     """
     numbers: list[float] = []
     faults: list[str] = []
