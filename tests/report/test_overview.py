@@ -71,19 +71,19 @@ def test_each_kind_of_trouble_is_in_its_place(row_of):
         row_of("odd", "rocking", 0.2, warnings=(warned("warning", "it drifts"), warned("note", "a spike"))),
     ]
     found = looked_at(rows)
-    assert found.is_needed
-    assert [row.id for row in found.failed] == ["dead"]
-    assert [(group.first.text, group.subjects) for group in found.serious] == [("ten times off", ["gain"])]
-    assert [(model, cell.tests) for model, cell in found.missed] == [("linear", ("missed",))]
-    assert [group.first.text for group in found.warnings] == ["it drifts"]
-    assert found.outside == [("linear", ["missed"], pytest.approx(0.1))]  # 5 % of the two that are judged
-    assert (found.explained, found.notes) == (1, 1)
+    assert found["is_needed"]
+    assert [row.id for row in found["failed"]] == ["dead"]
+    assert [(group.first.text, group.subjects) for group in found["serious"]] == [("ten times off", ["gain"])]
+    assert [(model, cell.tests) for model, cell in found["missed"]] == [("linear", ("missed",))]
+    assert [group.first.text for group in found["warnings"]] == ["it drifts"]
+    assert found["outside"] == [("linear", ["missed"], pytest.approx(0.1))]  # 5 % of the two that are judged
+    assert (found["explained"], found["notes"]) == (1, 1)
 
 
 def test_a_note_needs_no_look(row_of):
     found = looked_at([row_of("a", "rocking", 0.2, warnings=(warned("note", "a spike"),))])
-    assert not found.is_needed
-    assert found.notes == 1
+    assert not found["is_needed"]
+    assert found["notes"] == 1
 
 
 def test_an_excluded_test_has_not_failed(row_of):

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from contextlib import suppress
+from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 
-from colonnade.arrays import Array
 from colonnade.assessment.criteria import CRITERIA, Criterion
 from colonnade.assessment.measures import measure_of
 from colonnade.assessment.study import counted_draws
@@ -17,7 +17,7 @@ from colonnade.campaign.forms.summary import Summary, Warned
 from colonnade.errors import StoreError
 from colonnade.figures import fragility as figures
 from colonnade.figures.files.output import Picture
-from colonnade.findings import at_stage, warning
+from colonnade.findings import Severity
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.assessment import estimated, level, sentences, unit_of
@@ -31,16 +31,18 @@ ROWS = (0.02, 0.1, 0.25, 0.5, 0.75, 0.95)
 """Probabilities about which the levels of the twenty columns are chosen."""
 
 
-class AssessmentShown(NamedTuple):
-    """One assessment: its record, the answer in words, and its pictures."""
+@dataclass(frozen=True)
+class Assessment:
+    """One assessment: its record, and what is stored of it, None if it failed."""
 
     name: str
     record: AssessmentSummary
-    answer: list[str]
-    columns: Picture | None
-    curves: Picture | None
-    rate: Picture | None
-    spectra: Picture | None
+    stored: xr.Dataset | None
+
+    @property
+    def answer(self) -> list[str]:
+        """The answer in words."""
+        return sentences(self.record)
 
     @property
     def symbol(self) -> str:
@@ -62,29 +64,42 @@ class AssessmentShown(NamedTuple):
 
     def warned(self) -> list[Warned]:
         """Give its warnings as those of a test."""
-        found = (warning("assessment", said) for said in self.record.warnings)
-        return [Warned.of(each, explained=False) for each in at_stage(found, "assessment")]
+        kind = stage = "assessment"
+        return [Warned(severity=Severity.WARNING, kind=kind, text=each, stage=stage) for each in self.record.warnings]
 
     def heads(self) -> list[str]:
         """Heads of the measures in the table of records, marked as those of numbers."""
         return [f"#{_label(name)}" for name in self._measures()]
 
     def row(self, used: RecordUsed) -> list[str]:
-        """Measures of a record."""
-        return [_plain(name, used.measures[name]) for name in self._measures()]
+        """Measures of a record, without the units, which are in the heads."""
+        shown = ((used.measures[name], _factor(name)) for name in self._measures())
+        return [number(None if value is None else factor * value) for value, factor in shown]
 
     def _measures(self) -> list[str]:
         known = self.record.records_used[0].measures if self.record.records_used else {}
         return [name for name in dict.fromkeys((*SHOWN, self.record.measure)) if name in known]
 
+    def pictures(self) -> dict[str, Picture | None]:
+        """Draw what it found, by the names that the template uses."""
+        drawn = {"columns": _columns, "curves": curves, "rate": _rate, "spectra": _spectra}
+        if self.stored is None:
+            return dict.fromkeys(drawn)
+        return {name: draw(self.name, self.record, self.stored) for name, draw in drawn.items()}
 
-def assessments_page(campaign: Campaign, layout: Layout, summary: Summary | None) -> list[AssessmentShown]:
+
+def assessments_page(campaign: Campaign, layout: Layout, summary: Summary | None) -> list[Assessment]:
     """Gather the assessments that were made or failed, in the order of the campaign file."""
-    if summary is None:
-        return []
-    return [
-        _shown(layout, name, summary.assessments[name]) for name in campaign.assessments if name in summary.assessments
-    ]
+    found = {} if summary is None else summary.assessments
+    return [_assessment(layout, name, found[name]) for name in campaign.assessments if name in found]
+
+
+def _assessment(layout: Layout, name: str, record: AssessmentSummary) -> Assessment:
+    stored = None
+    if record.status != "failed":
+        with suppress(StoreError):
+            stored = files.read(layout.stage(name, "assessment"))
+    return Assessment(name, record, stored)
 
 
 def symbol(measure: str) -> str:
@@ -97,63 +112,39 @@ def _label(measure: str) -> str:
     return f"{symbol(measure)} ({unit})" if unit else symbol(measure)
 
 
-def _plain(measure: str, value: float | None) -> str:
-    """Write a value without its unit, which is in the head."""
+def _factor(measure: str) -> float:
+    """Of the unit in which a measure is shown."""
     unit = unit_of(measure)
-    return number(value if value is None or not unit else from_si(value, unit))
+    return from_si(1.0, unit) if unit else 1.0
 
 
-def _shown(layout: Layout, name: str, record: AssessmentSummary) -> AssessmentShown:
-    try:
-        stored = files.read(layout.stage(name, "assessment"))
-    except StoreError:
-        stored = None
-    if record.status == "failed" or stored is None:
-        return AssessmentShown(name, record, sentences(record), None, None, None, None)
-    return AssessmentShown(
-        name,
-        record,
-        sentences(record),
-        _columns(name, record, stored),
-        curves(name, record, stored),
-        _rate(name, record, stored),
-        _spectra(name, stored),
-    )
-
-
-def _curve(stored: xr.Dataset, kind: str, over: str, factor: float) -> figures.Curve:
-    bands = (stored[f"{kind}_probability{end}"].to_numpy() for end in ("", "_low", "_high"))
-    return figures.Curve(stored[over].to_numpy() / factor, *bands)
-
-
-def _factor(record: AssessmentSummary) -> float:
-    """SI value of one unit in which the measure is shown."""
-    unit = unit_of(record.measure)
-    return 1.0 / from_si(1.0, unit) if unit else 1.0
+def _curve(record: AssessmentSummary, stored: xr.Dataset, kind: str) -> figures.Curve:
+    over = _factor(record.measure) * stored["curve_intensity" if kind == "lognormal" else "stripe_intensity"].to_numpy()
+    return figures.Curve(over, *(stored[f"{kind}_probability{end}"].to_numpy() for end in ("", "_low", "_high")))
 
 
 def curves(name: str, record: AssessmentSummary, stored: xr.Dataset) -> Picture:
     """Draw the curves of an assessment that was made."""
-    factor, counted = _factor(record), counted_draws(stored.sizes["draw"])
+    counted, isotonic = counted_draws(stored.sizes["draw"]), _curve(record, stored, "isotonic")
     outcome, overturned = (stored[f"case_{name}"].to_numpy()[:, :, counted] for name in ("outcome", "overturned"))
     run = (outcome >= 0).sum(axis=(0, 2, 3, 4))
     shares = overturned.sum(axis=(0, 2, 3, 4)) / np.maximum(run, 1)
-    isotonic = _curve(stored, "isotonic", "stripe_intensity", factor)
-    lognormal = None if record.median.value is None else _curve(stored, "lognormal", "curve_intensity", factor)
+    label = _label(record.measure)
     drawn = figures.fragility(
-        lognormal,
+        None if record.median.value is None else _curve(record, stored, "lognormal"),
         isotonic,
-        label=_label(record.measure),
+        label=label,
         taken=record.curve or "isotonic",
         shares=shares if shares.size == isotonic.intensity.size else None,
     )
     five, fifty = (estimated(record.measure, each) for each in (record.five_percent, record.fifty_percent))
-    described = f"Probability of overturning over {_label(record.measure)}: 5 % at {five}, 50 % at {fifty}."
+    described = f"Probability of overturning over {label}: 5 % at {five}, 50 % at {fifty}."
     return Picture(drawn, f"fragility-{name}", f"Probability of overturning, {name}", described)
 
 
 def _columns(name: str, record: AssessmentSummary, stored: xr.Dataset) -> Picture | None:
-    over, probability = _taken(record, stored)
+    """Draw columns that fall by the curve from which the answer is read."""
+    over, probability, *_ = _curve(record, stored, "lognormal" if record.curve == "lognormal" else "isotonic")
     reached = [float(np.interp(share, probability, over)) for share in ROWS if probability[-1] >= share]
     levels = list(dict.fromkeys(float(f"{value:.2g}") for value in reached))
     if not levels:
@@ -166,15 +157,7 @@ def _columns(name: str, record: AssessmentSummary, stored: xr.Dataset) -> Pictur
     return Picture(drawn, f"columns-{name}", title, f"{listed(said)} of {figures.COLUMNS} fall.")
 
 
-def _taken(record: AssessmentSummary, stored: xr.Dataset) -> tuple[Array, Array]:
-    """The curve from which the answer is read, in the unit that is shown."""
-    lognormal = record.curve == "lognormal"
-    kind, over = ("lognormal", "curve_intensity") if lognormal else ("isotonic", "stripe_intensity")
-    curve = _curve(stored, kind, over, _factor(record))
-    return curve.intensity, curve.probability
-
-
-def _spectra(name: str, stored: xr.Dataset) -> Picture:
+def _spectra(name: str, _: AssessmentSummary, stored: xr.Dataset) -> Picture:
     found = from_si(1.0, "g") * stored["record_spectrum"].to_numpy().reshape(-1, stored.sizes["period"])
     found = found[np.isfinite(found).all(axis=1)]
     drawn = figures.response_spectra(stored["spectrum_period"].to_numpy(), found)
@@ -185,7 +168,7 @@ def _spectra(name: str, stored: xr.Dataset) -> Picture:
 def _rate(name: str, record: AssessmentSummary, stored: xr.Dataset) -> Picture | None:
     if "rate_share" not in stored:
         return None
-    edges, shares = stored["rate_edge"].to_numpy() / _factor(record), stored["rate_share"].to_numpy()
+    edges, shares = _factor(record.measure) * stored["rate_edge"].to_numpy(), stored["rate_share"].to_numpy()
     largest = int(np.argmax(shares))
     ends = f"{number(edges[largest])} to {number(edges[largest + 1])} {unit_of(record.measure)}".strip()
     described = f"The largest share of the rate is from {symbol(record.measure)} {ends}."

@@ -6,9 +6,8 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from math import inf, log
-from typing import NamedTuple, get_args
+from typing import Any, NamedTuple, get_args
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.forms.assessed import AssessmentSummary
@@ -48,7 +47,7 @@ class Confusion(NamedTuple):
 
     model: str
     predicted: tuple[str, ...]
-    rows: tuple[tuple[Cell, ...], ...]
+    rows: list[tuple[Cell, ...]]
 
     @property
     def wrong(self) -> list[Cell]:
@@ -59,19 +58,18 @@ class Confusion(NamedTuple):
 
 def confusions(tests: Sequence[TestRow], models: Sequence[str]) -> list[Confusion]:
     """Count the outcomes of each model that predicts a test whose outcome is known."""
-    found = (_of_model(tests, model) for model in models)
-    return [confusion for confusion in found if confusion.rows]
-
-
-def _of_model(tests: Sequence[TestRow], model: str) -> Confusion:
-    known = [row for row in tests if row.agrees(model) is not None]
-    outcomes = get_args(Outcome)
-    rows = []
-    for measured in MEASURED:
-        own = [row for row in known if row.outcome == measured]
-        if own:
-            rows.append(tuple(_cell(own, measured, predicted, model) for predicted in outcomes))
-    return Confusion(model, outcomes, tuple(rows))
+    predicted, found = get_args(Outcome), []
+    for model in models:
+        known = [row for row in tests if row.agrees(model) is not None]
+        by_outcome = {measured: [row for row in known if row.outcome == measured] for measured in MEASURED}
+        rows = [
+            tuple(_cell(own, measured, each, model) for each in predicted)
+            for measured, own in by_outcome.items()
+            if own
+        ]
+        if rows:
+            found.append(Confusion(model, predicted, rows))
+    return found
 
 
 def _cell(own: Sequence[TestRow], measured: str, predicted: str, model: str) -> Cell:
@@ -142,67 +140,37 @@ def peaks_picture(found: Mapping[str, Sequence[PeakPoint]]) -> Picture | None:
     return Picture(predicted_over_measured(found), "peaks", title, f"{described}.")
 
 
-@dataclass(frozen=True)
-class Attention:
-    """
-    What needs a look, the most urgent first.
-
-    Attributes
-    ----------
-    failed : list of TestRow
-    unanswered : dict of str to Failure
-        Why assessments failed.
-    serious : list of WarningGroup
-        Findings that make results wrong; what follows from another one is not among them.
-    missed : list of (str, Cell)
-        Model, and tests whose outcome it misses.
-    warnings : list of WarningGroup
-    outside : list of (str, list of str, float)
-        Model, tests whose measured angle is outside its own spread, and how many of those judged are so by chance.
-    explained, notes : int
-        Findings that follow from another one, and notes; they are counted only.
-    """
-
-    failed: list[TestRow]
-    unanswered: dict[str, Failure]
-    serious: list[WarningGroup]
-    missed: list[tuple[str, Cell]]
-    warnings: list[WarningGroup]
-    outside: list[tuple[str, list[str], float]]
-    explained: int
-    notes: int
-
-    @property
-    def is_needed(self) -> bool:
-        """Whether there is anything to look at."""
-        return bool(self.failed or self.unanswered or self.serious or self.missed or self.warnings or self.outside)
-
-
 def attention(
     tests: Sequence[TestRow],
     models: Sequence[str],
     groups: Sequence[WarningGroup],
     confusions: Sequence[Confusion],
     assessed: Mapping[str, AssessmentSummary] | None = None,
-) -> Attention:
-    """Gather what needs a look; `groups` are the findings of all tests, specimens and assessments, the worst first."""
+) -> dict[str, Any]:
+    """
+    Gather what needs a look, the most urgent first; `groups` are all findings, the worst first.
+
+    `outside` has of each model the tests whose measured angle is outside its own spread, and how many of those judged
+    are so by chance. Findings that follow from another one, and notes, are counted only: they need no look.
+    """
     causes = [group for group in groups if not group.first.explained]
-    judged = [(model, {row.id: said for row in tests if (said := row.verdict(model))}) for model in models]
-    outside = [(model, [id for id, said in own.items() if said == "outside"], own) for model, own in judged]
-    return Attention(
-        failed=[row for row in tests if row.record.status == "failed"],
-        unanswered={
+    by_severity = {each: [group for group in causes if group.first.severity == each] for each in Severity}
+    judged = {model: [(row.id, said) for row in tests if (said := row.verdict(model))] for model in models}
+    outside = {model: [name for name, said in own if said == "outside"] for model, own in judged.items()}
+    needed = {
+        "failed": [row for row in tests if row.record.status == "failed"],
+        "unanswered": {
             name: Failure("assessment", each.reason or "")
             for name, each in (assessed or {}).items()
             if each.status == "failed"
         },
-        serious=[group for group in causes if group.first.severity == Severity.SERIOUS],
-        missed=[(each.model, cell) for each in confusions for cell in each.wrong],
-        warnings=[group for group in causes if group.first.severity == Severity.WARNING],
-        outside=[(model, names, (1 - WITHIN) * len(own)) for model, names, own in outside if names],
-        explained=len(groups) - len(causes),
-        notes=sum(group.first.severity == Severity.NOTE for group in causes),
-    )
+        "serious": by_severity[Severity.SERIOUS],
+        "missed": [(each.model, cell) for each in confusions for cell in each.wrong],
+        "warnings": by_severity[Severity.WARNING],
+        "outside": [(model, names, (1 - WITHIN) * len(judged[model])) for model, names in outside.items() if names],
+    }
+    counted = {"explained": len(groups) - len(causes), "notes": len(by_severity[Severity.NOTE])}
+    return needed | counted | {"is_needed": any(needed.values())}
 
 
 _NUMBER = re.compile(r"(?<![A-Za-z_-])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?: (\w+?)s?\b)?")

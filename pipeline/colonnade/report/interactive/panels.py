@@ -7,7 +7,7 @@ import json
 import zlib
 from base64 import b64encode
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, NamedTuple, TypeVar
 
@@ -45,17 +45,16 @@ class Samples:
     _known: dict[bytes, int] = field(default_factory=dict)
     _known_clocks: dict[bytes, int] = field(default_factory=dict)
 
-    def with_more(self, add: Callable[[Samples], Found]) -> tuple[Samples, Found | None]:
-        """Return samples to which `add` has added, and what that returned; these and None if they would be too many."""
-        more = replace(
-            self,
-            series=[*self.series],
-            clocks=[*self.clocks],
-            _known={**self._known},
-            _known_clocks={**self._known_clocks},
-        )
-        found = add(more)
-        return (more, found) if sum(values.size for values in more.series) <= MOST else (self, None)
+    def with_more(self, add: Callable[[Samples], Found]) -> Found | None:
+        """Return what `add` returns that adds to these; None, with nothing added, if they would be too many."""
+        series, clocks = len(self.series), len(self.clocks)
+        found = add(self)
+        if sum(values.size for values in self.series) <= MOST:
+            return found
+        del self.series[series:], self.clocks[clocks:]
+        self._known = {name: number for name, number in self._known.items() if number < series}
+        self._known_clocks = {name: number for name, number in self._known_clocks.items() if number < clocks}
+        return None
 
     def add(self, values: Array) -> int:
         """Keep a series."""
@@ -67,18 +66,16 @@ class Samples:
 
     def clock(self, time: Array) -> int:
         """Keep times (s): the first, the interval and, where they are not even, how far each is from even ones."""
-        name = _hash(time)
-        known = self._known_clocks.get(name)
-        if known is not None:
-            return known
+        number = self._known_clocks.setdefault(_hash(time), len(self.clocks))
+        if number < len(self.clocks):
+            return number
         interval = float((time[-1] - time[0]) / (time.size - 1)) if time.size > 1 else 1.0
         uneven = time - (time[0] + interval * np.arange(time.size))
         described = {"start": float(time[0]), "interval": interval, "count": int(time.size)}
         if np.abs(uneven).max() > EVEN * interval:
             described["uneven"] = self.add(uneven)
         self.clocks.append(described)
-        self._known_clocks[name] = len(self.clocks) - 1
-        return len(self.clocks) - 1
+        return number
 
     def curve(self, name: str, time: Array, values: Array, **look: Any) -> dict[str, Any]:
         """Keep a curve and describe it: its name, and its look (`colour`, `dash`, `width`)."""
@@ -182,12 +179,11 @@ LONG = 2000
 """Cells up to which a table is CSV text; the columns of a longer one are packed with the samples of the page."""
 
 
-def tables_of(pictures: Iterable[Picture], samples: Samples) -> tuple[Samples, dict[str, Any]]:
+def tables_of(pictures: Iterable[Picture], samples: Samples) -> dict[str, Any]:
     """
     Give the table of each picture by its id: CSV text, or headings with columns. One that is too long has none.
 
-    A column is a list of words, or names a series or, if it rises throughout, a clock of the samples, which are
-    returned with those of the tables.
+    A column is a list of words, or names a series or, if it rises throughout, a clock of the samples.
     """
     found: dict[str, Any] = {}
     for picture in pictures:
@@ -195,16 +191,16 @@ def tables_of(pictures: Iterable[Picture], samples: Samples) -> tuple[Samples, d
         if sum(map(len, table.values())) <= LONG:
             found[picture.identity] = as_csv(table)
         else:
-            samples, columns = samples.with_more(partial(_columns, table))
+            columns = samples.with_more(partial(_columns, table))
             if columns is not None:
                 found[picture.identity] = {"heads": list(table), "columns": columns}
-    return samples, found
+    return found
 
 
 def of_page(address: str, pictures: Iterable[Picture]) -> str:
     """Return the script with the data of a page that has no histories: the tables of its pictures."""
-    samples, tables = tables_of(pictures, Samples())
-    return script(address, samples, tables=tables)
+    samples = Samples()
+    return script(address, samples, tables=tables_of(pictures, samples))
 
 
 def _columns(table: Columns, samples: Samples) -> list[Any]:
@@ -214,10 +210,8 @@ def _columns(table: Columns, samples: Samples) -> list[Any]:
 def _column(column: Array | list[str], samples: Samples) -> Any:
     if isinstance(column, list):
         return column
-    column = np.asarray(column, dtype=np.float64)
-    if column.size > 1 and (column[1:] > column[:-1]).all():
-        return {"clock": samples.clock(column)}
-    return {"series": samples.add(column)}
+    rises = column.size > 1 and (column[1:] > column[:-1]).all()
+    return {"clock": samples.clock(column)} if rises else {"series": samples.add(column)}
 
 
 def look_of(who: str) -> dict[str, Any]:

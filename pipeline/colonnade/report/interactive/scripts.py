@@ -27,18 +27,14 @@ def scripts() -> dict[str, str]:
     found = find_spec("bokeh")
     folder = Path(*(found.submodule_search_locations or [""])[:1] if found else "") / "server" / "static" / "js"
     try:
-        library = {address: (folder / Path(address).name).read_text(encoding="utf-8") for address in LIBRARY}
+        library = {address: (folder / Path(address).name).read_text(encoding="utf-8") + "\n" for address in LIBRARY}
     except OSError as error:
         raise StoreError(
             f"{error.filename}: the report's plots need this script of the package bokeh. Install it again: "
             "`pip install --force-reinstall bokeh`."
         ) from error
     own = "".join((FOLDER / f"{name}.js").read_text(encoding="utf-8") for name in PARTS)
-    return {**{address: _ended(text) for address, text in library.items()}, OWN: own}
-
-
-def _ended(text: str) -> str:
-    return text if text.endswith("\n") else text + "\n"
+    return library | {OWN: own}
 
 
 EVERY = 5.0

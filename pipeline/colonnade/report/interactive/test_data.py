@@ -41,7 +41,7 @@ def of_test(one: OfTest, pictures: Iterable[Picture]) -> str:
     ]
     shown: list[dict[str, Any]] = []
     for title, is_open, panels_of in groups:
-        samples, found = samples.with_more(partial(panels_of, one))
+        found = samples.with_more(partial(panels_of, one))
         if found is None or found:
             note = TOO_MANY if found is None else ""
             shown.append({"title": title, "is_open": is_open, "panels": found or [], "note": note})
@@ -50,10 +50,10 @@ def of_test(one: OfTest, pictures: Iterable[Picture]) -> str:
         drawn[0]["is_open"] = True
     moves = None
     if any(panel.get("is_angle") for group in drawn for panel in group["panels"]):
-        samples, moves = samples.with_more(partial(panels.of_test, one))
+        moves = samples.with_more(partial(panels.of_test, one))
     critical = [one.block.negative.critical_angle, one.block.positive.critical_angle]
-    samples, tables = tables_of(pictures, samples)
-    return script(one.test.id, samples, groups=shown if drawn else [], critical=critical, moving=moves, tables=tables)
+    shown, tables = shown if drawn else [], tables_of(pictures, samples)
+    return script(one.test.id, samples, groups=shown, critical=critical, moving=moves, tables=tables)
 
 
 def _described(panel: Panel, samples: Samples) -> Described:
