@@ -44,23 +44,21 @@ colonnade.cell = function (value) {
 // Curves as a table: those on one clock share the column of time.
 colonnade.tableOf = function (panels, page) {
   const clocks = new Map();
-  for (const panel of panels) {
-    const named = (name, series) => ({ head: `${panel.title}, ${name}${panel.unit ? ` (${panel.unit})` : ""}`, of: page.series[series] });
-    const add = (clock, ...columns) => clocks.set(clock, [...(clocks.get(clock) || []), ...columns]);
-    for (const curve of panel.curves) {
-      add(curve.clock, named(curve.name, curve.values));
-      if (panel.second) {
-        const { unit, factor, offset } = panel.second;
-        const of = page.series[curve.values].map((value) => factor * value + offset);
-        add(curve.clock, { head: `${panel.title}, ${curve.name} (${unit})`, of });
-      }
+  for (const { title, unit, second, curves, bands = [] } of panels) {
+    const add = (clock, name, values, shown = unit) => {
+      if (!clocks.has(clock)) clocks.set(clock, []);
+      clocks.get(clock).push({ head: `${title}, ${name}${shown ? ` (${shown})` : ""}`, values });
+    };
+    for (const { clock, name, values } of curves) {
+      add(clock, name, page.series[values]);
+      if (second) add(clock, name, page.series[values].map((value) => second.factor * value + second.offset), second.unit);
     }
-    for (const band of panel.bands || []) add(band.clock, named(`${band.name}, low`, band.low), named(`${band.name}, high`, band.high));
+    for (const band of bands) for (const end of ["low", "high"]) add(band.clock, `${band.name}, ${end}`, page.series[band[end]]);
   }
   const table = { heads: [], columns: [] };
   for (const [clock, found] of clocks) {
     table.heads.push("time (s)", ...found.map(({ head }) => head));
-    table.columns.push(page.clocks[clock], ...found.map(({ of }) => ({ count: of.length, at: (row) => of[row] })));
+    table.columns.push({ clock }, ...found.map(({ values }) => values));
   }
   return colonnade.csvText(table);
 };
@@ -76,10 +74,9 @@ colonnade.csvText = async function (table) {
   if (typeof table === "string") return table;
   const { series, clocks } = await colonnade.samples();
   const columns = table.columns.map((column) => {
-    if (Array.isArray(column)) return { count: column.length, at: (row) => column[row] };
-    if (column.at) return column;
     if (column.clock !== undefined) return clocks[column.clock];
-    return { count: series[column.series].length, at: (row) => series[column.series][row] };
+    const values = column.series === undefined ? column : series[column.series];
+    return { count: values.length, at: (row) => values[row] };
   });
   const lines = [table.heads.map(colonnade.cell).join(",")];
   const rows = Math.max(...columns.map((column) => column.count));
