@@ -1,4 +1,4 @@
-"""Channels as recorded: both scales, flags, spikes enlarged, spectra; and that nothing grows without bound."""
+"""Channels as recorded: both scales, flags, spectra; and that nothing grows without bound."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ import xarray as xr
 
 from colonnade.campaign import Test
 from colonnade.figures import channels
-from colonnade.figures.channels import MOST_SPIKES, Channel, Scale, Spike, channels_as_recorded
+from colonnade.figures.channels import Channel, Scale, channels_as_recorded
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored.subject import OfTest
 from colonnade.signals.metrics import Density
@@ -31,12 +31,8 @@ def channel(**changed):
     return Channel(**given | changed)
 
 
-def spike(name="top"):
-    return Spike(name, Curve(TIME[40:60], TIME[40:60]), Curve(TIME[50:51], TIME[50:51]))
-
-
 def test_a_channel_has_its_physical_scale_and_that_of_its_recorder():
-    history = channels_as_recorded([channel()], []).axes[0]
+    history = channels_as_recorded([channel()]).axes[0]
     assert history.get_ylabel() == "mm"
     right = {text.get_text(): text.xy[1] for text in history.texts}
     assert "V" in right
@@ -44,33 +40,27 @@ def test_a_channel_has_its_physical_scale_and_that_of_its_recorder():
 
 
 def test_a_channel_recorded_in_its_own_unit_has_one_scale():
-    history = channels_as_recorded([channel(recorded=None)], []).axes[0]
+    history = channels_as_recorded([channel(recorded=None)]).axes[0]
     assert [text.get_text() for text in history.texts] == ["top"]
 
 
 def test_flagged_samples_are_marked_where_they_are_and_missing_ones_at_the_foot():
     values, flags = 10 * np.sin(TIME), np.full(TIME.size, Flag.GOOD)
     values[50:61:10], flags[50], flags[60] = [90.0, np.nan], Flag.FAIL, Flag.MISSING
-    history = channels_as_recorded([channel(curve=Curve(TIME, values), flags=flags)], []).axes[0]
+    history = channels_as_recorded([channel(curve=Curve(TIME, values), flags=flags)]).axes[0]
     marked = next(line for line in history.lines if line.get_label() == "failed or missing")
     assert marked.get_xdata().tolist() == [0.5, 0.6]
     assert marked.get_ydata().tolist() == [90.0, pytest.approx(0.0)]
 
 
 def test_the_cut_off_is_marked_in_the_spectrum():
-    spectrum = channels_as_recorded([channel()], []).axes[1]
+    spectrum = channels_as_recorded([channel()]).axes[1]
     assert [line.get_label() for line in spectrum.lines] == ["spectrum before the filter", "after it", "cut-off"]
     assert spectrum.lines[2].get_xdata()[0] == 25.0
 
 
-def test_the_first_spikes_are_enlarged():
-    few, many = (channels_as_recorded([channel()], [spike()] * number) for number in (2, 500))
-    assert [len(figure.axes) for figure in (few, many)] == [4, 2 + MOST_SPIKES]
-    assert few.axes[2].get_title(loc="left") == "top\n0.500 s"
-
-
 def test_a_channel_without_samples_enough_has_no_spectrum():
-    figure = channels_as_recorded([channel(before=None, after=None)], [])
+    figure = channels_as_recorded([channel(before=None, after=None)])
     assert [text.get_text() for text in figure.axes[1].texts] == ["no spectrum"]
 
 
@@ -104,17 +94,15 @@ def test_the_recorders_scale_follows_from_the_samples():
     assert heights["2"] == pytest.approx(4.5)  # 2 mm/V and 0.5 mm
 
 
-def test_each_spike_is_drawn_and_a_long_failed_stretch_is_none():
+def test_failed_samples_are_counted():
     found = stored(spikes=[100, 300, 301, *range(500, 560)])
-    assert [axes.get_title(loc="left") for axes in found.figure.axes[2:]] == ["laser0\n0.500 s", "laser0\n1.500 s"]
     assert "63 failed or missing samples" in found.description
 
 
-def test_many_channels_and_spikes_are_summarised():
+def test_of_many_channels_twelve_are_drawn():
     found = stored(number=30, spikes=range(10, 700, 10))
-    assert "12 of 30 channels are drawn." in found.note
-    assert "spikes are enlarged" in found.note
-    assert len(found.figure.axes) < 40
+    assert found.note == "12 of 30 channels are drawn."
+    assert len(found.figure.axes) == 24
 
 
 def test_without_samples_there_is_nothing_to_draw():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from colonnade.figures.base_motion import BaseSpectra, base_motion
-from colonnade.figures.channels import Channel, Scale, Spike, channels_as_recorded
+from colonnade.figures.channels import Channel, Scale, channels_as_recorded
 from colonnade.figures.closer import Enlarged, Phase, closer_look, separatrix
 from colonnade.figures.histories import Panel, Spread, bands_over_time
 from colonnade.figures.panels.curve import Curve
@@ -71,10 +71,7 @@ def test_channels():
         Density(frequency, 1 / frequency**2 / (1 + (frequency / 25) ** 8)),
         25.0,
     )
-    spike = Spike("top", Curve(TIME[290:312], values[290:312]), Curve(TIME[300:302], np.full(2, 25.0)))
-    return channels_as_recorded(
-        [channel, channel._replace(name="bottom", flags=np.full(TIME.size, Flag.GOOD))], [spike]
-    )
+    return channels_as_recorded([channel, channel._replace(name="bottom", flags=np.full(TIME.size, Flag.GOOD))])
 
 
 @looks

@@ -31,7 +31,7 @@ def test_the_page_says_the_answer_and_shows_its_pictures(assessed):
     assert "broken.csv" in words
     assert "West" in words
     assert "ASCE 43" in words
-    assert unescape(shown.columns.description).count("m/s") >= 3
+    assert unescape(shown.pictures()["columns"].description).count("m/s") >= 3
 
 
 def test_it_is_on_the_way_of_the_pages_and_on_paper(assessed):

@@ -6,7 +6,7 @@ import pytest
 from jinja2 import UndefinedError
 
 from colonnade.report import addresses, build
-from colonnade.report.pages import rendered
+from colonnade.report.build import rendered
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow.product import Catalogue

@@ -13,10 +13,9 @@ from colonnade.campaign.forms.summary import PredictionSummary, TestSummary, War
 from colonnade.dynamics.maps import stability_map
 from colonnade.figures.panels.curve import Curve
 from colonnade.report import overview
-from colonnade.report.overview import attention, confusions, warning_groups
-from colonnade.report.pages import rendered
+from colonnade.report.build import rendered
+from colonnade.report.overview import HEIGHT, WIDTH, TestRow, attention, confusions, polyline, warning_groups
 from colonnade.report.pictures import of_specimen, picture, span_of
-from colonnade.report.rows import HEIGHT, WIDTH, TestRow, polyline
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import as_dataset
@@ -88,7 +87,7 @@ def test_a_note_needs_no_look(row_of):
 
 def test_an_excluded_test_has_not_failed(row_of):
     row = replace(row_of("a", None, status="pending"), excluded="left out by N. N.")
-    assert not looked_at([row]).is_needed
+    assert not looked_at([row])["is_needed"]
 
 
 def test_of_many_missed_tests_a_few_are_named_and_the_table_has_all(row_of, filled_campaign):

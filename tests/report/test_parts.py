@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from colonnade.campaign import load
 from colonnade.report.asked import asked_of
-from colonnade.report.parts import Part, drawn, seldom_collected
+from colonnade.report.build import Part, drawn, seldom_collected
 from colonnade.store.layout import Layout
 from colonnade.workflow import run
 
@@ -91,7 +91,7 @@ def test_a_page_is_known_by_all_of_the_campaign_that_it_shows(started, tmp_path)
 
 def test_curves_and_peaks_come_back_to_the_last_bit(filled_campaign, monkeypatch):
     kept = {}
-    monkeypatch.setattr("colonnade.report.parts.Kept", lambda *given: kept.setdefault("given", given))
+    monkeypatch.setattr("colonnade.report.build.Kept", lambda *given: kept.setdefault("given", given))
     campaign, layout = filled_campaign
     for test in ("free-01", SHAKEN):
         kept.clear()
@@ -108,7 +108,7 @@ def test_curves_and_peaks_come_back_to_the_last_bit(filled_campaign, monkeypatch
         else:
             assert np.array_equal(back.kept.free_vibration.peaks.angle, free.peaks.angle)
             assert back.kept.free_vibration.peaks.used.dtype == np.bool_
-        monkeypatch.setattr("colonnade.report.parts.Kept", lambda *given: kept.setdefault("given", given))
+        monkeypatch.setattr("colonnade.report.build.Kept", lambda *given: kept.setdefault("given", given))
 
 
 def test_a_failure_keeps_its_stage(filled_campaign):

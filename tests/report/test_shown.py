@@ -7,7 +7,7 @@ import pytest
 
 from colonnade.report import addresses
 from colonnade.report.asked import Photo, Photos
-from colonnade.report.pages import rendered
+from colonnade.report.build import rendered
 from colonnade.report.pictures import OfSpecimen
 from colonnade.report.specimens_page import of_specimen
 from colonnade.store.layout import Layout

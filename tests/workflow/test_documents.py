@@ -7,7 +7,7 @@ import pytest
 
 from colonnade.campaign import load
 from colonnade.errors import CampaignError, StoreError
-from colonnade.report.interactive.scripts import state_script
+from colonnade.report.addresses import state_script
 from colonnade.store.provenance import key_of, stamped
 from colonnade.workflow.documents import chosen, draw, write_bundle, write_pdf
 from every import every

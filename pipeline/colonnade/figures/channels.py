@@ -1,8 +1,8 @@
-"""Channels as recorded, with what is flagged; their spectra before and after the filter; each spike enlarged."""
+"""Channels as recorded, with what is flagged; and their spectra before and after the filter."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,7 +27,7 @@ from colonnade.figures.panels.layout import (
     plain_decades,
 )
 from colonnade.figures.stored.subject import OfTest
-from colonnade.figures.style import FAINT, LIMIT, MEASURED, SOFT, shortened, styled, width
+from colonnade.figures.style import FAINT, LIMIT, MEASURED, SOFT, styled, width
 from colonnade.signals.metrics import Density, density
 from colonnade.signals.quality import Flag
 from colonnade.units import from_si
@@ -36,20 +36,11 @@ from colonnade.units.text import CHANNEL_UNITS
 HEIGHT, GAP = 0.62, 0.21
 """Of a channel's row, and between rows; inches."""
 
-HISTORY, SPECTRUM, SPIKE_WIDTH = 0.575, 0.235, 0.16
+HISTORY, SPECTRUM = 0.575, 0.235
 """Widths of the panels over the room for them."""
 
 RIGHT = 0.1
 """Right margin, inches."""
-
-SPIKE_HEIGHT, SPIKE_TITLE = 0.6, 0.34
-"""Of an enlarged spike and the room above it, inches."""
-
-MOST_SPIKES = 6
-"""Spikes that are enlarged."""
-
-LONGEST_NAME = 16
-"""Letters of a channel's name above a spike."""
 
 UNIT_ROOM = 0.06
 """Of a row's height, in which the recorder's unit leaves no room for a value."""
@@ -69,14 +60,6 @@ class Scale(NamedTuple):
     unit: str
     gain: float
     offset: float
-
-
-class Spike(NamedTuple):
-    """A spike: its channel, the samples about it, and those of them that are flagged."""
-
-    channel: str
-    near: Curve
-    flagged: Curve
 
 
 class Channel(NamedTuple):
@@ -114,13 +97,12 @@ class Channel(NamedTuple):
 
 
 @styled()
-def channels_as_recorded(channels: Sequence[Channel], spikes: Sequence[Spike]) -> Figure:
-    """Draw a row a channel: as recorded over time, and its spectra; below them the first `MOST_SPIKES`, enlarged."""
+def channels_as_recorded(channels: Sequence[Channel]) -> Figure:
+    """Draw a row a channel: as recorded over time, and its spectra."""
     rows = len(channels) * (HEIGHT + GAP) - GAP
-    strip = SPIKE_TITLE + SPIKE_HEIGHT if spikes else 0.0
     across, (left, _) = width(), margins()
     room = across - left - RIGHT
-    figure = Figure(figsize=(across, TOP + rows + BOTTOM + strip))
+    figure = Figure(figsize=(across, TOP + rows + BOTTOM))
     histories: list[Axes] = []
     spectra: list[Axes] = []
     for index, channel in enumerate(channels):
@@ -136,10 +118,6 @@ def channels_as_recorded(channels: Sequence[Channel], spikes: Sequence[Spike]) -
     histories[0].set_xlim(*time_limits(channel.curve for channel in channels))
     if spectra[-1].get_xscale() == "log":
         plain_decades(spectra[-1].xaxis, subs=(1.0,))
-    for index, spike in enumerate(spikes[:MOST_SPIKES]):
-        place = left + index * (1 - SPIKE_WIDTH) * room / (MOST_SPIKES - 1)
-        top = TOP + rows + BOTTOM + SPIKE_TITLE - 0.06
-        _draw_spike(add_panel(figure, place, top, SPIKE_WIDTH * room, SPIKE_HEIGHT), spike)
     legend_above(figure, [*histories, *spectra])
     return figure
 
@@ -203,15 +181,6 @@ def _draw_spectrum(axes: Axes, channel: Channel) -> None:
         axes.axvline(channel.cutoff, label="cut-off", **LIMIT)
 
 
-def _draw_spike(axes: Axes, spike: Spike) -> None:
-    axes.plot(*spike.near, ".-", color=MEASURED["color"], linewidth=0.7, markersize=2.5)
-    axes.plot(*spike.flagged, "x", color=FAILED, markersize=5)
-    axes.set_xticks([])
-    axes.set_yticks([])
-    axes.margins(0.05, 0.12)
-    axes.set_title(f"{shortened(spike.channel, LONGEST_NAME)}\n{spike.flagged.time[0]:.3f} s", fontsize=7.5, pad=2)
-
-
 def _power_of_ten(value: float, _: int) -> str:
     return "10" + str(round(float(np.log10(value)))).translate(DIGITS)
 
@@ -221,12 +190,6 @@ PROPORTIONAL = 1e-6
 
 MOST_CHANNELS = 12
 """Channels that are drawn."""
-
-LONGEST_SPIKE = 20
-"""Samples; longer failed stretches are no spikes."""
-
-AROUND = 12
-"""Samples before and after a spike that are drawn with it."""
 
 
 def picture(one: OfTest) -> Picture | None:
@@ -240,20 +203,15 @@ def picture(one: OfTest) -> Picture | None:
     shown = names[:MOST_CHANNELS]
     attributes = {name: stored.channels.get(str(recorded[name].attrs["channel"]), {}) for name in shown}
     channels = [_channel(name, recorded, conditioned, attributes[name]) for name in shown]
-    spikes = [spike for channel in channels for spike in _spikes(channel)]
     failed = {channel.name: channel.flagged(Flag.FAIL, Flag.MISSING).time.size for channel in channels}
     flagged = [f"{name}: {count(number, 'failed or missing sample')}" for name, number in failed.items()]
-    notes = []
-    if len(names) > MOST_CHANNELS:
-        notes.append(f"{MOST_CHANNELS} of {len(names)} channels are drawn.")
-    if len(spikes) > MOST_SPIKES:
-        notes.append(f"The first {MOST_SPIKES} of {len(spikes)} spikes are enlarged.")
+    said = f"{MOST_CHANNELS} of {len(names)} channels are drawn." if len(names) > MOST_CHANNELS else ""
     return Picture(
-        channels_as_recorded(channels, spikes),
+        channels_as_recorded(channels),
         f"channels-{one.test.id}",
         f"{one.test.id}: channels as recorded, and their spectra before and after the filter",
-        f"{'; '.join(flagged)}. {count(len(spikes), 'spike')}.",
-        " ".join(notes),
+        f"{'; '.join(flagged)}.",
+        said,
     )
 
 
@@ -308,12 +266,3 @@ def line_between(recorded: Array, values: Array) -> tuple[float, float] | None:
 def _density(time: Array, values: Array, usable: Mask) -> Density | None:
     interval = float(np.nanmedian(np.diff(time))) if time.size > 1 else 0.0
     return density(values, interval, usable)
-
-
-def _spikes(channel: Channel) -> Iterator[Spike]:
-    """Yield short stretches of failed samples with what is around them."""
-    at, (time, values) = np.flatnonzero(channel.flags == Flag.FAIL), channel.curve
-    for stretch in np.split(at, np.flatnonzero(np.diff(at) > 1) + 1):
-        if 0 < stretch.size <= LONGEST_SPIKE:
-            near = slice(max(stretch[0] - AROUND, 0), stretch[-1] + AROUND + 1)
-            yield Spike(channel.name, Curve(time[near], values[near]), Curve(time[stretch], values[stretch]))

@@ -12,7 +12,7 @@ from matplotlib.patches import Rectangle
 
 from colonnade.arrays import Array
 from colonnade.figures.panels.layout import legend_outside, plain_decades
-from colonnade.figures.style import FAINT, FIT, INK, LIMIT, MEASURED, SOFT, LineStyle, blank_figure, styled
+from colonnade.figures.style import FAINT, FIT, INK, LIMIT, MEASURED, SOFT, LineStyle, one_panel, styled
 
 COLUMNS = 20
 """Columns that stand for all: one is 5 %."""
@@ -38,8 +38,7 @@ def fragility(lognormal: Curve | None, isotonic: Curve, *, label: str, taken: st
     `label` is that of the measure with its unit, `taken` the curve from which the answer is read ("lognormal" or
     "isotonic"), `shares` are those of the histories that overturn at the levels of `isotonic`.
     """
-    figure = blank_figure(3.4)
-    axes = figure.subplots()
+    figure, axes = one_panel(3.4)
     draw_fragility(axes, lognormal, isotonic, label=label, taken=taken)
     if shares is not None:
         name = "share at a level"
@@ -67,8 +66,7 @@ def draw_fragility(axes: Axes, lognormal: Curve | None, isotonic: Curve, *, labe
 @styled()
 def twenty_columns(levels: Sequence[str], probability: Array) -> Figure:
     """Draw, for levels with their units, how many of twenty columns fall at these probabilities of overturning."""
-    figure = blank_figure(0.42 * len(levels) + 0.35)
-    axes = figure.subplots()
+    figure, axes = one_panel(0.42 * len(levels) + 0.35)
     for row, (level, share) in enumerate(zip(levels, np.asarray(probability), strict=True)):
         fallen = round(COLUMNS * float(share))
         base = -1.35 * row
@@ -88,8 +86,7 @@ def twenty_columns(levels: Sequence[str], probability: Array) -> Figure:
 @styled()
 def rate_by_intensity(edges: Array, shares: Array, *, label: str) -> Figure:
     """Draw the shares of the annual rate of overturning between edges of the measure; `label` has its unit."""
-    figure = blank_figure(2.4)
-    axes = figure.subplots()
+    figure, axes = one_panel(2.4)
     axes.stairs(100 * shares, edges, fill=True, color=SOFT, alpha=0.6)
     axes.set(xscale="log", xlabel=label, ylabel="share of the annual rate (%)")
     plain_decades(axes.xaxis)
@@ -99,8 +96,7 @@ def rate_by_intensity(edges: Array, shares: Array, *, label: str) -> Figure:
 @styled()
 def response_spectra(period: Array, acceleration: Array) -> Figure:
     """Draw spectra of ground motions (g; a row each) over period (s) as recorded, with their median."""
-    figure = blank_figure(2.8)
-    axes = figure.subplots()
+    figure, axes = one_panel(2.8)
     lines = axes.plot(period, acceleration.T, color=FAINT, linewidth=0.6)
     lines[0].set_label("a ground motion")
     axes.plot(period, np.median(acceleration, axis=0), color=INK, linewidth=1.6, label="median")

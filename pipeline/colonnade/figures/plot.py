@@ -23,11 +23,10 @@ from colonnade.figures import fragility
 from colonnade.figures.drawing.view import Rocking
 from colonnade.figures.files.output import Movie
 from colonnade.figures.histories import Spread, draw_angle, limit_of, shade
-from colonnade.figures.maps.stability_map import draw_map
+from colonnade.figures.maps.stability_map import draw_map, draw_overturning, draw_rocking
 from colonnade.figures.moving import SIZE, moving_bodies, rocking_block
 from colonnade.figures.panels.curve import Curve, draw_curve
 from colonnade.figures.restitution.decay import ImpactSeries, Level, draw_impacts
-from colonnade.figures.spectra import draw_overturning, draw_rocking
 from colonnade.figures.style import MEASURED, model_style, styled
 from colonnade.identification.restitution.result import Restitution
 from colonnade.validation import described, instance

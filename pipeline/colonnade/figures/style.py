@@ -11,6 +11,7 @@ from typing import Any, TypedDict
 
 import matplotlib
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import text_to_path
@@ -129,6 +130,12 @@ def _settings(narrow: bool) -> Any:
 def blank_figure(height: float) -> Figure:
     """Return an empty figure of the common width and of `height` (inches), laid out so that no label is cut off."""
     return Figure(figsize=(width(), height), layout="constrained")
+
+
+def one_panel(height: float) -> tuple[Figure, Axes]:
+    """Return such a figure with one panel."""
+    figure = blank_figure(height)
+    return figure, figure.subplots()
 
 
 def legend_columns(labels: Sequence[str], spacing: Mapping[str, float], room: float) -> int:

@@ -13,7 +13,7 @@ from math import isfinite
 from typing import Any, Literal, NamedTuple
 
 from colonnade.campaign import Campaign
-from colonnade.campaign.forms.summary import TestSummary
+from colonnade.campaign.forms.summary import IdentifiedSummary, TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps import StabilityMap
 from colonnade.figures import base_motion, channels, closer, moving
@@ -23,21 +23,25 @@ from colonnade.figures.files.output import Movie, Picture
 from colonnade.figures.maps import response_orders
 from colonnade.figures.restitution import decay, estimators
 from colonnade.figures.restitution.decay import STAGE, ImpactSeries, PeakSeries, impact_series, peak_series
-from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimate_rows
+from colonnade.figures.restitution.estimators import EstimateRow, estimate_rows
 from colonnade.figures.stored import bodies, record
 from colonnade.figures.stored.subject import OfTest, some_of
 from colonnade.identification.response.boundaries import MapPoint, makes_map
 from colonnade.report import forecasts_page, overview
 from colonnade.report.forecasts_page import calibrations_of
-from colonnade.report.overview import SpanTest, charts_of, span_groups
-from colonnade.report.rows import TestRow
-from colonnade.report.test_page.found import value_of
+from colonnade.report.overview import SpanTest, TestRow, charts_of, span_groups
 from colonnade.store.layout import Layout
 from colonnade.store.records.forecast import FEWEST
 from colonnade.store.records.stored import Failure, Stored, read_specimen, read_test
 from colonnade.store.records.summary import map_points, read_summary, records_of_tests
 from colonnade.store.results import models_shown
-from colonnade.units.text import listed
+from colonnade.units.text import interval, listed
+
+
+def value_of(one: OfTest) -> str:
+    """Write e of a free vibration with the half-width of its interval."""
+    found = one.record.restitution or IdentifiedSummary()
+    return interval(found.value, found.low, found.high, one.stored.value(STAGE, "level"))
 
 
 class FreeVibration(NamedTuple):
@@ -56,7 +60,7 @@ class FreeVibration(NamedTuple):
         """Read it from what is stored of a test."""
         return cls(
             one.test.id,
-            value_of(one.stored, one.record.restitution),
+            value_of(one),
             one.stored.text(STAGE, "reason"),
             one.stored.texts(STAGE, "departures"),
             estimate_rows(one.stored),
@@ -193,8 +197,8 @@ class Entry(NamedTuple):
 
 
 def _estimators_of_test(one: OfTest) -> Picture | None:
-    groups = [EstimateGroup("", estimators.estimate_rows(one.stored))]
-    return estimators.estimators(f"estimators-{one.test.id}", groups, one.block.restitution)
+    rows = estimators.estimate_rows(one.stored)
+    return estimators.estimators(f"estimators-{one.test.id}", {"": rows}, one.block.restitution)
 
 
 def _peaks_of_test(one: OfTest) -> Picture | None:
@@ -218,10 +222,10 @@ def _setup(one: OfTest) -> Picture:
 
 def _estimators(one: OfSpecimen) -> Picture | None:
     shown, note = some_of(one.decays, "free vibrations")
-    groups = [EstimateGroup(each.test, each.estimates) for each in shown]
+    groups = {each.test: each.estimates for each in shown}
     level = decay.level_of(one.pooled, "specimen", "e pooled")
     if isfinite(level.low):
-        groups.append(EstimateGroup("all together", [EstimateRow("pooled", *level[:3], recommended=True)]))
+        groups["all together"] = [EstimateRow("pooled", *level[:3], recommended=True)]
     return estimators.estimators(f"estimators-{one.name}", groups, one.block.restitution, note)
 
 

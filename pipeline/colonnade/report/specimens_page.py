@@ -16,8 +16,8 @@ from colonnade.dynamics.size import at_prototype
 from colonnade.figures.drawing import described
 from colonnade.findings import in_order
 from colonnade.report import addresses, overview
+from colonnade.report.overview import TestRow
 from colonnade.report.pictures import OfSpecimen
-from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import known
 from colonnade.store.records.stored import Stored
 from colonnade.units.text import NOTHING, acceleration, interval, listed, number, percent, quantity

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from colonnade.campaign import Campaign, load
 from colonnade.errors import CampaignError, StoreError, nearest
 from colonnade.report import addresses
-from colonnade.report.interactive.scripts import UNWATCHED
+from colonnade.report.addresses import UNWATCHED
 from colonnade.report.test_page import facts
 from colonnade.store import bundle
 from colonnade.store.layout import STATE, Layout

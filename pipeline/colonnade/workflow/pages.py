@@ -12,8 +12,8 @@ from pathlib import Path
 from colonnade.campaign import Campaign
 from colonnade.campaign.forms.foreseen import ForecastsSummary
 from colonnade.report import addresses
+from colonnade.report.addresses import UNWATCHED
 from colonnade.report.asked import Asked, Photos, asked_of
-from colonnade.report.interactive.scripts import UNWATCHED
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
@@ -171,14 +171,13 @@ def _drawing(campaign: Campaign, specimen: str, setup: str) -> Contents:
 
 
 def _page(layout: Layout, asked: Asked) -> Contents:
-    from colonnade.report.parts import drawn
+    from colonnade.report.build import drawn
 
     return drawn(layout, asked)
 
 
 def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[Drawn]) -> Contents:
-    from colonnade.report.build import specimen_page
-    from colonnade.report.parts import Part, seldom_collected
+    from colonnade.report.build import Part, seldom_collected, specimen_page
 
     with seldom_collected():
         return [text for _, text in specimen_page(campaign, layout, name, [Part.of(*each) for each in parts])], ""
@@ -187,8 +186,7 @@ def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[Dra
 def _whole(
     campaign: Campaign, layout: Layout, parts: Sequence[Drawn], advice: Sequence[Advice], places: Sequence[str]
 ) -> Contents:
-    from colonnade.report.build import whole_pages
-    from colonnade.report.parts import Part, seldom_collected
+    from colonnade.report.build import Part, seldom_collected, whole_pages
 
     with seldom_collected():
         texts = dict(whole_pages(campaign, layout, [Part.of(*each) for each in parts], advice))

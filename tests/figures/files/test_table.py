@@ -15,7 +15,7 @@ from colonnade.figures.files.table import columns_of
 from colonnade.figures.histories import Panel, Spread
 from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
 from colonnade.figures.restitution.decay import ImpactSeries, Level, impact_restitution
-from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
+from colonnade.figures.restitution.estimators import EstimateRow, estimators_side_by_side
 from colonnade.figures.stored.record import whole_record
 
 TIME = np.linspace(0.0, 20.0, 20_001)
@@ -162,9 +162,7 @@ def test_single_values_are_rows_with_their_names():
 
 def test_estimates_are_a_row_each():
     rows = [EstimateRow("by peaks", 0.97, 0.96, 0.98), EstimateRow("by history", 0.975, 0.973, 0.977, True)]
-    table = table_of(
-        estimators_side_by_side([EstimateGroup("free-01", rows), EstimateGroup("free-02", rows)], rigid=0.95)
-    )
+    table = table_of(estimators_side_by_side({"free-01": rows, "free-02": rows}, rigid=0.95))
     assert list(table["series"])[:4] == [
         "free-01, by peaks",
         "free-01, by history",

@@ -118,7 +118,7 @@ def test_another_kind_of_test_has_none(known):
     one = known("span-2.0")
     for made in (decay.peak_series, decay.impact_series, estimators.fitted, estimators.region):
         assert made(one) is None
-    assert estimators.estimators("estimators", [], 0.95) is None
+    assert estimators.estimators("estimators", {}, 0.95) is None
 
 
 def test_sine_tests_are_counted_by_outcome():

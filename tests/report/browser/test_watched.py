@@ -10,7 +10,7 @@ from time import monotonic, sleep
 
 import pytest
 
-from colonnade.report.interactive.scripts import state_script
+from colonnade.report.addresses import state_script
 from colonnade.workflow import run
 from short_campaign import write_campaign
 

@@ -8,9 +8,9 @@ from colonnade.campaign.forms.summary import PredictionSummary
 from colonnade.figures.restitution.estimators import estimate_rows
 from colonnade.report.asked import NO_PHOTOS, Photo, Photos
 from colonnade.report.pictures import picture
-from colonnade.report.test_page import channels, found, page
+from colonnade.report.test_page import channels, page
 from colonnade.report.test_page.facts import known
-from colonnade.report.test_page.found import verdict_sentence
+from colonnade.report.test_page.page import verdict_sentence
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import predicted_peak_time
 from colonnade.units.text import NOTHING
@@ -51,7 +51,7 @@ def test_a_test_that_was_not_run_has_its_drawing_and_nothing_that_was_measured(m
 
 
 def found_of(reported, name):
-    return dict(found.of_test(reported[name]))
+    return dict(page.measured_of(reported[name]))
 
 
 def test_the_largest_angle_is_the_stored_one_in_mrad(reported):
@@ -111,13 +111,13 @@ def test_a_clock_is_given_in_milliseconds_and_its_drift_in_millionths(given, wri
 
 def test_a_free_vibration_has_e_its_peaks_and_its_figures(reported):
     free = reported["free-01"]
-    assert found.facts_of(free.stored, free.record.restitution)
+    assert page.facts_of(free)
     assert estimate_rows(free.stored)
     assert [picture(name, free).identity for name in ("fitted", "peaks")] == ["fitted-free-01", "peaks-free-01"]
 
 
 def test_each_peak_is_a_row_of_number_time_angle_error_fitted_angle_and_use(reported):
-    peaks = found.peaks_of(reported["free-01"].stored)
+    peaks = page.peaks_of(reported["free-01"].stored)
     assert [row[0] for row in peaks] == list(range(1, len(peaks) + 1))
     times = [row[1] for row in peaks]
     assert times == sorted(times)
@@ -128,15 +128,15 @@ def test_each_peak_is_a_row_of_number_time_angle_error_fitted_angle_and_use(repo
 
 def test_any_other_test_has_no_decay(reported):
     one = reported["span-2.0"]
-    assert found.facts_of(one.stored, one.record.restitution) == []
-    assert estimate_rows(one.stored) == found.peaks_of(one.stored) == []
+    assert page.facts_of(one) == []
+    assert estimate_rows(one.stored) == page.peaks_of(one.stored) == []
     names = ("fitted", "estimators", "peaks", "impacts", "region")
     assert [picture(name, one) for name in names] == [None] * len(names)
 
 
 def test_the_recommended_estimator_gives_the_value_with_its_interval(reported):
     one = reported["free-01"]
-    facts = dict(found.facts_of(one.stored, one.record.restitution))
+    facts = dict(page.facts_of(one))
     assert facts["e"].startswith("0.930")
     assert " ± 0.0" in facts["e"]
     assert "refused" not in facts

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +17,7 @@ from colonnade.figures.panels.curve import Curve, draw_curve
 from colonnade.figures.panels.layout import add_panel, legend_above, legend_outside, note, stacked_panels
 from colonnade.figures.restitution.decay import STAGE, Level, level_of
 from colonnade.figures.stored.subject import OfTest
-from colonnade.figures.style import FAINT, FIT, INK, LIMIT, MEASURED, SOFT, blank_figure, model_style, styled, width
+from colonnade.figures.style import FAINT, FIT, INK, LIMIT, MEASURED, SOFT, model_style, one_panel, styled, width
 from colonnade.store.records.stored import Stored
 from colonnade.units.text import format_percent, interval, number
 
@@ -51,12 +51,8 @@ class EstimateRow(NamedTuple):
         return interval(self.value, self.low, self.high)
 
 
-class EstimateGroup(NamedTuple):
-    """Estimates of one free vibration, or of all together."""
-
-    title: str
-    rows: Sequence[EstimateRow]
-
+Groups = Mapping[str, Sequence[EstimateRow]]
+"""Estimates by what they are of: a free vibration, or all together."""
 
 LABELS = {"history": "whole history", "peaks": "peaks, a cross-check"}
 """Of the two values of e."""
@@ -73,21 +69,21 @@ def estimate_rows(stored: Stored) -> list[EstimateRow]:
     ]
 
 
-def estimators(identity: str, groups: Sequence[EstimateGroup], rigid: float, note: str = "") -> Picture | None:
-    """Draw estimators side by side; None without any estimate."""
-    shown = [group for group in groups if group.rows]
+def estimators(identity: str, groups: Groups, rigid: float, note: str = "") -> Picture | None:
+    """Draw estimates side by side, by what they are of; None without any."""
+    shown = {title: rows for title, rows in groups.items() if rows}
     if not shown:
         return None
-    said = [f"{group.title}: {row.name} {number(row.value, 5)}." for group in shown for row in group.rows]
+    said = [f"{of}: {row.name} {number(row.value, 5)}." for of, rows in shown.items() for row in rows]
     title = "Estimates of e side by side, with their intervals"
     return Picture(estimators_side_by_side(shown, rigid=rigid), identity, title, " ".join(said), note)
 
 
 @styled()
-def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float) -> Figure:
+def estimators_side_by_side(groups: Groups, *, rigid: float) -> Figure:
     """Draw points with intervals, a row an estimate, groups below each other; `rigid` is the rigid-body value."""
-    rows = [row for group in groups for row in group.rows]
-    titles = sum(bool(group.title) for group in groups)
+    rows = [row for group in groups.values() for row in group]
+    titles = sum(map(bool, groups))
     body = len(rows) * ROW + titles * GROUP + GROUP
     height = TOP + body + BOTTOM
     figure = Figure(figsize=(width(), height))
@@ -96,12 +92,12 @@ def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float) ->
     axes.tick_params(axis="y", left=False, labelleft=False)
     axes.grid(visible=False, axis="y")
     place = 0.05
-    for group in groups:
-        if group.title:
-            _write(axes, place + GROUP / 2, group.title, -LEFT + 0.1, weight="bold")
+    for title, group in groups.items():
+        if title:
+            _write(axes, place + GROUP / 2, title, -LEFT + 0.1, weight="bold")
             place += GROUP
-        for row in group.rows:
-            _draw_row(axes, place + ROW / 2, row, group.title)
+        for row in group:
+            _draw_row(axes, place + ROW / 2, row, title)
             place += ROW
     if any(np.isfinite(row.value) for row in rows):
         axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
@@ -258,8 +254,7 @@ def joint_region(title: str, centre: Array, covariance: Array, *, fixed: Level) 
     `centre` is e and the critical angle over the one given, `covariance` that of both, positive definite; `fixed` is e
     from the fit with the given α: drawn at 1 if it is known with its interval.
     """
-    figure = blank_figure(3.0)
-    axes = figure.subplots()
+    figure, axes = one_panel(3.0)
     for level in (0.5, 0.95):
         outline = _ellipse(centre, covariance, level)
         axes.plot(*outline, label=format_percent(level), color=FIT["color"], linewidth=0.6 + 0.8 * level)

@@ -16,7 +16,7 @@ from colonnade.campaign.forms.summary import TestSummary
 from colonnade.campaign.found import WITHOUT_TEST, files_in
 from colonnade.errors import CampaignError, StoreError
 from colonnade.interruption import expect_none
-from colonnade.report.interactive.scripts import EVERY, state_script
+from colonnade.report.addresses import EVERY, state_script
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice

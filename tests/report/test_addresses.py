@@ -6,8 +6,7 @@ import pytest
 
 from colonnade.errors import StoreError
 from colonnade.report import addresses
-from colonnade.report.interactive import scripts as module
-from colonnade.report.interactive.scripts import FOLDER, PARTS, UNWATCHED, scripts, state_script
+from colonnade.report.addresses import FOLDER, PARTS, UNWATCHED, scripts, state_script
 
 
 def test_a_page_of_a_test_loads_every_script_and_then_the_state_and_its_data():
@@ -29,7 +28,7 @@ def test_a_library_without_its_scripts_is_said_plainly(monkeypatch, tmp_path):
     class Found:
         submodule_search_locations = (str(tmp_path),)
 
-    monkeypatch.setattr(module, "find_spec", lambda name: Found())
+    monkeypatch.setattr(addresses, "find_spec", lambda name: Found())
     with pytest.raises(StoreError, match="pip install --force-reinstall bokeh"):
         scripts()
 
