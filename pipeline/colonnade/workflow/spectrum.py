@@ -107,8 +107,8 @@ class Rocking:
 
     def picture(self) -> Picture:
         """Draw the spectrum."""
-        from colonnade.figures import spectra
         from colonnade.figures.files.output import Picture
+        from colonnade.figures.maps import stability_map as spectra
 
         figure = spectra.rocking_spectrum(self.spectrum, period=2 * pi / self.column.block.p, title=self.source)
         angles = ", ".join(f"{angle:.4g}" for angle in self.spectrum.critical_angle)
@@ -196,8 +196,8 @@ class Overturning:
 
     def picture(self) -> Picture:
         """Draw the spectrum."""
-        from colonnade.figures import spectra
         from colonnade.figures.files.output import Picture
+        from colonnade.figures.maps import stability_map as spectra
 
         title, seen = f"Overturning spectrum: {self.spectrum.pulse}", "lower and upper limit over frequency."
         figure = spectra.overturning_spectrum(self.spectrum)

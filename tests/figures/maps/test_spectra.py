@@ -6,8 +6,8 @@ import pytest
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.pulses import overturning_spectrum
 from colonnade.dynamics.spectra import rocking_spectrum
-from colonnade.figures import spectra
 from colonnade.figures.files.table import columns_of
+from colonnade.figures.maps import stability_map as spectra
 from prism import PRISM
 
 

@@ -17,7 +17,9 @@ from math import isfinite
 from typing import Any
 from xml.etree import ElementTree
 
+import numpy as np
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 from PIL import Image
 
 from colonnade.figures.files.table import Columns, columns_of
@@ -220,7 +222,7 @@ def _shorten(root: ElementTree.Element) -> None:
         for name in element.attrib.keys() & {"x", "y", "transform", "points"}:
             element.set(name, _BEYOND_HUNDREDTHS.sub("", element.attrib[name]))
         if "d" in element.attrib:
-            element.set("d", _BEYOND_HUNDREDTHS.sub("", element.attrib["d"]).replace("\n", ""))
+            element.set("d", shorter(element.attrib["d"]))
         if "style" in element.attrib:
             element.set("style", _FONT.sub(rf"font\1:\2{FONTS}", element.attrib["style"]))
         if element.text is not None and not element.text.strip():
@@ -255,3 +257,38 @@ def _describe(root: ElementTree.Element, identity: str, title: str, description:
         element = ElementTree.Element(f"{{{NAMESPACE}}}{tag}", id=f"{identity}-{name}")
         element.text = text
         root.insert(position, element)
+
+
+_NUMBERS_ONLY = str.maketrans("MLz", "   ")
+_LEADING_ZERO = re.compile(r"(?<!\d)0\.")
+
+
+def shorter(path: str) -> str:
+    """
+    Write a path of straight lines by steps, rounded to hundredths; one with curves comes back as it is.
+
+    Points are rounded first, so that no error grows along a line.
+
+    Examples
+    --------
+    >>> shorter("M 72 50.404 L 72.5 49.1 L 73 60 z")
+    'M72 50.4l.5-1.3 .5 10.9z'
+    """
+    if "C" in path or "Q" in path:
+        return _BEYOND_HUNDREDTHS.sub("", path).replace("\n", "")
+    points = np.rint(100 * np.fromstring(path.translate(_NUMBERS_ONLY), sep=" ")).astype(np.int64).reshape(-1, 2)
+    written: list[str] = []
+    for line in path.split("M")[1:]:
+        count = 1 + line.count("L")
+        own, points = points[:count], points[count:]
+        written += ["M", _hundredths(own[0])]
+        if count > 1:
+            written += ["l", _hundredths(np.diff(own, axis=0).ravel())]
+        if "z" in line:
+            written.append("z")
+    return _LEADING_ZERO.sub(".", "".join(written))
+
+
+def _hundredths(numbers: NDArray[np.int64]) -> str:
+    """Write hundredths; the sign or a space parts each from what is before."""
+    return " ".join(f"{number / 100:.6g}" for number in numbers.tolist()).replace(" -", "-")
