@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from colonnade.campaign import load
+from colonnade.campaign.forms.forecast import ForecastBlock
 from colonnade.campaign.forms.schema import json_schema
+from colonnade.dynamics.block import Block
 from colonnade.errors import CampaignError
 from colonnade.stages.forecast import felt, plan_of
 from colonnade.store import files
@@ -15,6 +17,7 @@ from colonnade.store.provenance import hash_of
 from colonnade.workflow.foresee import foresee
 from colonnade.workflow.motions import level_of, motion_asked_for
 from foreseeing import LATER, TEST
+from prism import PRISM
 
 
 def test_a_weak_motion_does_not_rock_and_a_strong_one_overturns(foreseen):
@@ -102,3 +105,8 @@ def test_what_cannot_be_foreseen_is_refused_and_nothing_is_written(foreseen, cha
     with pytest.raises(CampaignError, match=said):
         foresee(folder, **{"motion": TEST, "levels": ["0.1 g"], "specimen": "prism", **change})
     assert len(list((folder / "forecasts").iterdir())) == len(made)
+
+
+def test_a_frame_is_forecast_with_its_beam():
+    frame = Block.frame(PRISM, beam_mass=20.0, columns=2)
+    assert ForecastBlock.of(frame).block() == frame

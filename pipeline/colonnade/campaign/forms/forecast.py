@@ -43,6 +43,8 @@ class ForecastBlock(Record):
     """At θ < 0."""
     positive: ForecastSide
     """At θ > 0."""
+    beam_ratio: NonNegativeFloat = 0.0
+    """γ: mass of the beam over that of all columns of a frame; 0 for a block."""
 
     @classmethod
     def of(cls, block: Block) -> ForecastBlock:
@@ -52,7 +54,7 @@ class ForecastBlock(Record):
     def block(self) -> Block:
         """Return the block; ValueError if a value is out of its range."""
         negative, positive = (Side(**side.model_dump()) for side in (self.negative, self.positive))
-        return Block(self.mass, self.gravity, negative, positive)
+        return Block(self.mass, self.gravity, negative, positive, beam_ratio=self.beam_ratio)
 
 
 class ForecastRestitution(Record):
