@@ -153,20 +153,8 @@ Restitution = tuple[float, float] | RestitutionLaw
 
 def law_of(block: Block, restitution: Given, largest_speed: float | None = None) -> Restitution:
     """
-    Put e into the form that the kernels take.
-
-    Parameters
-    ----------
-    block : Block
-    restitution : float, pair of float, RestitutionLaw or function, optional
-        As of `rock`.
-    largest_speed : float, optional
-        rad/s, up to which a function is sampled; default: a few times that of a fall from α.
-
-    Raises
-    ------
-    ValueError
-        If e is not between 0 and 1.
+    Put e into the form that the kernels take; a function is sampled up to a speed (rad/s), by default a few times that
+    of a fall from α. ValueError if e is not between 0 and 1.
     """
     if isinstance(restitution, RestitutionLaw):
         return restitution

@@ -69,14 +69,7 @@ class Limits(NamedTuple):
 
 
 def checked_ratios(name: str, values: ArrayLike, *, fewest: int = 1) -> Array:
-    """
-    Check values of Ω or A.
-
-    Raises
-    ------
-    ValueError
-        If one is out of the range of all motions and blocks.
-    """
+    """Check values of Ω or A; ValueError if one is out of the range of all motions and blocks."""
     ratios = samples(name, values, dimensions=(0, 1), fewest=fewest).ravel()
     if not (ratios.min() >= 1 / LARGEST_RATIO and ratios.max() <= LARGEST_RATIO):
         raise ValueError(
@@ -88,12 +81,7 @@ def checked_ratios(name: str, values: ArrayLike, *, fewest: int = 1) -> Array:
 
 def checked_widths(width: float, edge: float, height: float) -> tuple[float, float]:
     """
-    Check the least width of a limit and the closeness of its edges where A goes over `height`.
-
-    Raises
-    ------
-    ValueError
-        If one is so small that the search would not end, or the edge is wider than the width.
+    Check the least width of a limit and the closeness of its edges where A goes over `height`, so that the search ends.
     """
     finest = STEPS_A_WIDTH * height / MOST_STEPS
     width = number("width", width, f"a width in A, at least {finest:.3g} for the scan to end,", above=0.0, low=finest)
@@ -120,17 +108,8 @@ def runs_of(
     space: InSpace | None = None,
 ) -> Runs:
     """
-    Give what runs a motion at some A.
-
-    Parameters
-    ----------
-    block : Block
-    motion : Harmonic, or ndarray and float
-        Of a record its acceleration at A = 1, m/s², and its sampling interval, s.
-    restitution : pair of float or RestitutionLaw
-    model : str
-    space : InSpace, optional
-        Of a model that has no kernels in the plane.
+    Give what runs a motion at some A: of a record its acceleration at A = 1 (m/s²) and its sampling interval (s);
+    `space` is for a model that has no kernels in the plane.
     """
     if isinstance(motion, Harmonic) and space is None:
         return lambda amplitudes: harmonic_outcomes(block, motion, amplitudes, restitution, model)
@@ -155,19 +134,8 @@ def runs_of(
 
 def limits_of(scan: Array, codes: Codes, runs: Runs, *, width: float, edge: float) -> Limits:
     """
-    Find the limits between outcomes.
-
-    Parameters
-    ----------
-    scan : ndarray, shape (n,)
-        A that were run, rising.
-    codes : ndarray of int8, shape (n,)
-        Their outcomes.
-    runs : callable
-    width : float
-        In A: narrower intervals make no limit.
-    edge : float
-        In A: how closely the edges of intervals are found.
+    Find the limits between the outcomes of some A, rising; intervals narrower than `width` make no limit, edges are
+    found to `edge`.
     """
     intervals = _intervals(scan, codes == OVERTURNS, lambda amplitudes: runs(amplitudes) == OVERTURNS, edge)
     stands = np.concatenate([scan[:1], intervals.ravel(), scan[-1:]]).reshape(-1, 2)
@@ -258,12 +226,8 @@ def over_frequency(frequency_ratio: Array, limits: Sequence[Limits]) -> dict[str
 
 def in_threads(function: Callable[[Of], To], values: Iterable[Of], threads: int) -> list[To]:
     """
-    Compute something of many values, some at a time, in their order.
-
-    Raises
-    ------
-    ValueError
-        If the number of threads is out of its range.
+    Compute something of many values, some at a time, in their order; ValueError if the number of threads is out of its
+    range.
     """
     with ThreadPoolExecutor(whole("threads", threads, 1, MOST_THREADS)) as pool:
         return list(pool.map(function, values))

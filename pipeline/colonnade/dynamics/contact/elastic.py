@@ -68,26 +68,11 @@ def assemble(
     mesh: Mesh, mass: float, *, modulus: float = STEELS_MODULUS, poisson_ratio: float = STEELS_POISSON_RATIO
 ) -> ElasticBody:
     """
-    Assemble the finite elements of a body of uniform density.
+    Assemble the finite elements of a body of uniform density; its mass in kg, Young's modulus in Pa.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        From `prism_mesh` or `round_mesh`.
-    mass : float
-        kg. The density is this mass over the mesh's volume, so that a round body's polygon costs it no mass.
-    modulus : float, optional
-        Young's modulus, Pa.
-    poisson_ratio : float, optional
-
-    Returns
-    -------
-    body : ElasticBody
-
-    Notes
-    -----
     Trilinear bricks, integrated at 2 × 2 × 2 points (scikit-fem's `intorder=2`; its default takes longer for the same
-    matrix). They bend too stiffly, by a share that falls with the square of their size.
+    matrix). They bend too stiffly, by a share that falls with the square of their size. The density is the mass over
+    the mesh's volume, so that a round body's polygon costs it no mass.
     """
     from scipy.sparse import csr_array
     from skfem import Basis, ElementHex1, ElementVector, FacetBasis, LinearForm, MeshHex
@@ -144,19 +129,8 @@ def _largest_faces(mesh: Mesh) -> Array:
 
 def rigid_modes(points: Array, node_mass: Array) -> Array:
     """
-    Translations and rotations of a body, orthonormal to the mass.
-
-    Parameters
-    ----------
-    points : ndarray, shape (n, 3)
-        Nodes relative to the centre of mass, in principal axes, m.
-    node_mass : ndarray, shape (n,)
-        kg.
-
-    Returns
-    -------
-    modes : ndarray, shape (3n, 6)
-        kg^-½: along x, y, z, then about x, y, z.
+    Translations along x, y, z and rotations about them of a body (points about its centre of mass, in principal axes,
+    m), orthonormal to the mass, kg^-½, shape (3n, 6).
     """
     axes = np.eye(3)
     shapes = [np.broadcast_to(axis, points.shape) for axis in axes] + [np.cross(axis, points) for axis in axes]
@@ -176,32 +150,14 @@ SHIFT = 1e-3
 
 def reduce_body(body: ElasticBody, *, vibration_modes: int = VIBRATION_MODES) -> ContactBody:
     """
-    Reduce a meshed body to modes that the contact engine can advance one by one.
+    Reduce a meshed body to modes that the contact engine can advance one by one: its lowest free vibration modes, exact
+    for the mesh, and the residual deformation under a unit force at each base node along each axis. So the base's
+    static flexibility is the mesh's own, whatever the number of vibration modes.
 
-    Beside vibration modes it keeps the residual deformation under a unit force at each base node along each axis: so
-    the base's static flexibility is the mesh's own, whatever the number of vibration modes.
-
-    Parameters
-    ----------
-    body : ElasticBody
-    vibration_modes : int, optional
-        Lowest free vibration modes, exact for the mesh.
-
-    Returns
-    -------
-    reduced : ContactBody
-        Modes by rising frequency. Its inertia is that of the volume, its rigid motion is free of the modes.
-
-    Raises
-    ------
-    ValueError
-        If the number of modes is negative or not below the mesh's.
-
-    Notes
-    -----
     Craig and Chang's method for a free body: inertia-relieved attachment modes less their share in the vibration modes,
     made orthogonal to each other through the small eigenproblem of their flexibility, so that stiffness and mass are
-    both diagonal. Inertia forces of the rotation on the deformation are left out (strains are small).
+    both diagonal. Inertia forces of the rotation on the deformation are left out (strains are small). The inertia is
+    that of the volume.
     """
     from scipy.sparse import diags_array, eye_array
     from scipy.sparse.linalg import splu
@@ -287,27 +243,13 @@ LINEAR_VISCOSITY = 0.06
 
 def modal_damping(body: ElasticBody, modes: Array, frequencies: Array) -> Array:
     """
-    Give each mode the damping that the linear bulk viscosity is to it.
+    Give each mode (mass-normalised shapes, (3n, m); rad/s) the damping, a fraction of critical, that the linear bulk
+    viscosity is to it.
 
-    Parameters
-    ----------
-    body : ElasticBody
-    modes : ndarray, shape (3n, m)
-        Mass-normalised shapes, kg^-½.
-    frequencies : ndarray, shape (m,)
-        rad/s.
-
-    Returns
-    -------
-    damping : ndarray, shape (m,)
-        Fraction of critical.
-
-    Notes
-    -----
     ζ = φᵀ C φ / 2ω with C = Σ_e V_e b₁ ρ c L_e d_e d_eᵀ; d_e is the brick's mean divergence, L_e its volume over its
-    largest face and c the speed of dilatational waves. For a mode of pure volume change it grows with the frequency,
-    b₁ L ω / 2c; a mode of pure shear or torsion has none. What C couples between modes is left out. It is damping of
-    the material and has a share of its own in the balance of energy, apart from that of the contact.
+    largest face and c the speed of dilatational waves. For a mode of pure volume change it grows with the frequency, b₁
+    L ω / 2c; a mode of pure shear or torsion has none. What C couples between modes is left out. It is damping of the
+    material and has a share of its own in the balance of energy, apart from that of the contact.
     """
     pressures = LINEAR_VISCOSITY * np.sqrt(body.dilatation * body.density) * body.element_lengths
     return np.asarray((body.volumes * pressures) @ (body.volume_rate @ modes) ** 2 / (2 * frequencies))

@@ -168,26 +168,13 @@ def tilt(orientation: Array) -> Array:
 
 def impacts_of(table: Array, block: Block) -> tuple[Array, Array, Array]:
     """
-    Turn contacts on both sides into impacts between two arcs.
+    Turn contacts on both sides (rows of the engine's table) into impacts between two arcs of a symmetric block: times
+    (s, of their begin), velocities before and rebounds after (rad/s), shape (k,) each.
 
-    Parameters
-    ----------
-    table : ndarray, shape (m, IMPACT)
-        As the engine gives them.
-    block : Block
-        Symmetric.
-
-    Returns
-    -------
-    times, velocities, rebounds : ndarray, shape (k,)
-        s, when the impact begins; rad/s, just before and after it. A rebound that did not end within the run, or that
-        leaves the block at rest, is 0.
-
-    Notes
-    -----
     An impact lasts. Speeds at its two ends are carried to θ = 0 by the energy of rocking about the pole at the base's
     acceleration of that instant, so that they are those of an impact without duration. Contacts that follow each other
-    without an arc between them are one impact.
+    without an arc between them are one impact. A rebound that did not end within the run, or that leaves the block at
+    rest, is 0.
     """
     alpha = block.critical_angle
     kept: list[Array] = []

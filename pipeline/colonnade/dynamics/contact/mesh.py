@@ -50,16 +50,7 @@ class Mesh:
 
 
 def prism_mesh(width: float, depth: float, height: float, divisions: tuple[int, int, int]) -> Mesh:
-    """
-    Divide a rectangular block into equal bricks.
-
-    Parameters
-    ----------
-    width, depth, height : float
-        Along x, y, z, m.
-    divisions : tuple of int
-        Bricks along x, y, z.
-    """
+    """Divide a rectangular block (lengths in m) into equal bricks, so many along x, y and z."""
     along_x, along_y, layers = divisions
     edges = (np.linspace(-size / 2, size / 2, bricks + 1) for size, bricks in ((width, along_x), (depth, along_y)))
     section = np.stack(np.meshgrid(*edges, indexing="ij"), axis=-1).reshape(-1, 2)
@@ -69,17 +60,9 @@ def prism_mesh(width: float, depth: float, height: float, divisions: tuple[int, 
 
 def round_mesh(base_diameter: float, top_diameter: float, height: float, divisions: tuple[int, int, int]) -> Mesh:
     """
-    Divide a cylinder or truncated cone into bricks: a square core within rings.
+    Divide a cylinder or truncated cone (lengths in m) into bricks: a square core within rings; divisions are bricks
+    along a side of the core (the rim has four times as many), rings around it, and layers.
 
-    Parameters
-    ----------
-    base_diameter, top_diameter, height : float
-        m; equal diameters make a cylinder.
-    divisions : tuple of int
-        Bricks along a side of the core (the rim then has four times as many), rings around it, layers.
-
-    Notes
-    -----
     The nodes of the rim lie on the true circle, so that the body rocks on its true edge; the section is the polygon
     through them, smaller than the disc by 2 (π/n)²/3 for n nodes (1.6 % with 20, 0.4 % with 40).
     """
@@ -93,21 +76,11 @@ def round_mesh(base_diameter: float, top_diameter: float, height: float, divisio
 
 def prism_divisions(width: float, depth: float, height: float, degrees_of_freedom: int) -> tuple[int, int, int]:
     """
-    Find the grid of a prism whose number of degrees of freedom is nearest to one asked for.
+    Find the bricks along x, y, z of the prism's grid whose number of degrees of freedom is nearest to one asked for.
 
-    Returns
-    -------
-    divisions : tuple of int
-        Bricks along x, y, z. Among grids of bricks no longer than 1.7 times their shortest edge the one with the
-        nearest number; of equals the one with the most cubic bricks, then the finer one along x. Where the body's
-        proportions allow no such brick, the most cubic ones.
-
-    Examples
-    --------
-    The paper's prism; 1224 is met exactly, the others by 5481 and 20328:
-
-    >>> [prism_divisions(0.086, 0.086, 0.456, number) for number in (1224, 5478, 20322)]
-    [(5, 3, 16), (8, 6, 28), (10, 10, 55)]
+    Among grids of bricks no longer than `PRISM_ASPECT` times their shortest edge the one with the nearest number; of
+    equals the one with the most cubic bricks, then the finer one along x. Where the body's proportions allow no such
+    brick, the most cubic ones.
     """
     nodes = degrees_of_freedom / 3
     grids = (
@@ -121,21 +94,7 @@ def prism_divisions(width: float, depth: float, height: float, degrees_of_freedo
 def round_divisions(
     base_diameter: float, top_diameter: float, height: float, degrees_of_freedom: int
 ) -> tuple[int, int, int]:
-    """
-    Find core, rings and layers of a round body whose number of degrees of freedom is nearest to one asked for.
-
-    Returns
-    -------
-    divisions : tuple of int
-        As `round_mesh` takes them, chosen as by `prism_divisions` with edges at half height.
-
-    Examples
-    --------
-    The paper's cylinder, with 1224, 5472 and 20328 degrees of freedom:
-
-    >>> [round_divisions(0.097, 0.097, 0.455, number) for number in (1224, 5478, 20322)]
-    [(2, 1, 23), (4, 2, 31), (6, 3, 55)]
-    """
+    """Find core, rings and layers of a round body likewise, with edges at half height and `ROUND_ASPECT`."""
     radius, nodes = (base_diameter + top_diameter) / 4, degrees_of_freedom / 3
     discs = (
         (
@@ -208,26 +167,12 @@ RIM_NODES = 288
 
 def refine_rim(body: ContactBody, around: int = RIM_NODES) -> ContactBody:
     """
-    Put more nodes on the rim of a round body than its mesh has there.
+    Put more nodes on the rim of a round body, whose outermost nodes are on a circle, than its mesh has there: at least
+    `around`, in a multiple of the mesh's own number.
 
-    Parameters
-    ----------
-    body : ContactBody
-        Whose outermost nodes are on a circle about its axis.
-    around : int, optional
-        Nodes on the rim; the next multiple of the mesh's own.
-
-    Returns
-    -------
-    body : ContactBody
-        Its rim's nodes stand on the circle at equal parts of each edge of the mesh. Between two of the mesh's nodes the
-        modes are linear, as the displacements of its bricks are, and area and mass are those of the two in proportion:
-        the rim's stiffness and damping are spread, not changed. The other nodes are as they were.
-
-    Raises
-    ------
-    ValueError
-        If the rim has less than three nodes.
+    They stand on the circle at equal parts of each edge of the mesh. Between two of the mesh's nodes the modes are
+    linear, as the displacements of its bricks are, and area and mass are those of the two in proportion: the rim's
+    stiffness and damping are spread, not changed. The other nodes are as they were.
     """
     radii = np.hypot(body.nodes[:, 0], body.nodes[:, 1])
     rim = np.flatnonzero(radii > (1.0 - 1e-6) * radii.max())
@@ -263,20 +208,10 @@ def refine_rim(body: ContactBody, around: int = RIM_NODES) -> ContactBody:
 
 def mesh_of(sizes: Mapping[str, float], degrees_of_freedom: int) -> Mesh:
     """
-    Mesh a body by its outer dimensions.
+    Mesh a body by its outer dimensions, m, with about so many degrees of freedom, three a node.
 
-    Parameters
-    ----------
-    sizes : mapping of str to float
-        m; "width", "depth", "height" of a prism, "diameter", "height" of a cylinder, "base_diameter", "top_diameter",
-        "height" of a truncated cone.
-    degrees_of_freedom : int
-        About how many, three a node.
-
-    Raises
-    ------
-    ValueError
-        If the dimensions are those of no known shape.
+    Of a prism they are "width", "depth", "height", of a cylinder "diameter", "height", of a truncated cone
+    "base_diameter", "top_diameter", "height".
     """
     if sizes.keys() == {"width", "depth", "height"}:
         edges = sizes["width"], sizes["depth"], sizes["height"]

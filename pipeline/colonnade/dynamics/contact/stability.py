@@ -48,10 +48,8 @@ def longest_step(structure: Structure) -> float:
     """
     Compute the longest stable step of the engine, s, at which the fastest motion of all would begin to grow.
 
-    Notes
-    -----
-    From the spectral radius of the very step that the engine takes, for one mass of frequency ω and damping fraction
-    ζ = ω c / 2 k (the largest c/k of a node): about 2/ω without damping, and less with it.
+    From the spectral radius of the very step that the engine takes, for one mass of frequency ω and damping fraction ζ
+    = ω c / 2 k (the largest c/k of a node): about 2/ω without damping, and less with it.
     """
     frequency, damping = highest_frequency(structure), 0.0
     for side in structure.interfaces:
@@ -82,19 +80,7 @@ FOLLOWED = 0.25
 
 def keep_modes(body: ContactBody, highest_frequency: float) -> ContactBody:
     """
-    Leave out the modes above a frequency.
-
-    Parameters
-    ----------
-    body : ContactBody
-        As reduced; its low modes stay as accurate as they are, the base becomes stiffer.
-    highest_frequency : float
-        rad/s; `keep_modes_for_step` finds the one that a step and a contact allow.
-
-    Returns
-    -------
-    body : ContactBody
-        The rigid body if no mode is as low.
+    Leave out the modes above a frequency, rad/s; the low ones stay as accurate as they are, the base becomes stiffer.
     """
     kept = int(np.searchsorted(body.frequencies, highest_frequency, side="right"))
     if kept == body.frequencies.size:

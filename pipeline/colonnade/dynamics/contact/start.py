@@ -53,24 +53,11 @@ def standing(
     weight: float | None = None,
 ) -> Start:
     """
-    Put a body on the table, so deep that its contact bears its weight, and give it a rocking velocity.
+    Put a body on the table, so deep that its contact bears its weight (or the `weight` given, N), and give it a rocking
+    velocity.
 
-    Parameters
-    ----------
-    body : ContactBody
-    law : ContactLaw
-    gravity : float
-        m/s².
-    theta0, out_of_plane : float, optional
-        rad.
-    omega0 : float, optional
-        rad/s, about the pole at ±x on the side of θ₀ (of ω₀ where θ₀ is 0), which is where the upright body has it.
-    weight : float, optional
-        N, what the contact bears; default: the body's own.
-
-    Returns
-    -------
-    start : Start
+    `theta0` and `out_of_plane` in rad; `omega0`, rad/s, is about the pole at ±x on the side of θ₀ (of ω₀ where θ₀ is
+    0), which is where the upright body has it.
     """
     axis = np.array([tan(theta0), -tan(out_of_plane), 1.0])
     axis /= np.linalg.norm(axis)

@@ -74,26 +74,12 @@ def follow(
     height: float, rate: float, critical: float, push: Push, remaining: float, is_top_wanted: bool, work: Series | None
 ) -> tuple[bool, float, float, float, float, float, float, float]:
     """
-    Follow an arc from h, h' = dh/dx: to its end, over all that remains, or up to the impact.
+    Follow an arc from h (rad) and h' = dh/dx: to its end, over all that remains (in x), or up to the impact; in closed
+    form without `work`.
 
-    Parameters
-    ----------
-    height, rate, critical : float
-        h, h' and α, rad.
-    push : Push
-    remaining : float
-        In x, at most.
-    is_top_wanted : bool
-        Whether the top of the arc counts if it is inside the step.
-    work : Series or None
-        None for the closed form.
-
-    Returns
-    -------
-    landed, x, height, rate, top, passing, sine, cosine
-        Whether the step ends in an impact; its length; h and h' at its end; the largest height at its end or, if
-        wanted, inside; where in x it passes α outwards, NaN if it is not above α at the end, or was before; in closed
-        form, sin φ and cos φ at its end.
+    Returns whether the step ends in an impact; its length in x; h and h' at its end; the largest height at its end or,
+    if wanted, inside; where in x it passes α outwards, NaN if it is not above α at the end, or was before; in closed
+    form, sin φ and cos φ at its end.
     """
     wave, terms = NO_WAVE, 0
     if work is None:

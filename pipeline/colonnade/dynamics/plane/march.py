@@ -245,26 +245,11 @@ def propagate(
     floor: float = 0.0,
 ) -> tuple[Array, Array, Array, Array, End]:
     """
-    Run a block through a motion, keeping what it does.
+    Run a block from θ (rad) and ω (rad/s) through a motion, keeping what it does: θ and ω at the knots; times (s) of
+    impacts and ω just before each; its `End`. A block past return lies at ±π/2 in the end.
 
-    Parameters
-    ----------
-    forcing : Forcing
-    sides : Sides
-    is_linearised : bool
-        Whether the equation is linear in θ; it is solved in closed form where the base moves along x only.
-    angle, velocity : float, optional
-        Initial θ (rad) and ω (rad/s).
-    since, floor : int, float, optional
-        See `Watch`; without `since` no peaks count.
-
-    Returns
-    -------
-    angles, velocities : ndarray, shape (n,)
-        θ (rad) and ω (rad/s) at the knots. A block past return lies at ±π/2 in the end.
-    impact_times, impact_velocities : ndarray, shape (m,)
-        s; rad/s just before each impact.
-    end : End
+    The equation that is linear in θ is solved in closed form where the base moves along x only. `since` and `floor` as
+    of `Watch`; without `since` no peaks count.
     """
     work = None if is_linearised and forcing.weights.size == 0 else empty_series(is_linearised)
     knots = forcing.levels.size

@@ -36,14 +36,7 @@ STANDS, ROCKS, OVERTURNS = range(len(OUTCOMES))
 def run(
     model: Model, block: Block, motion: Motion, restitution: Given, *, theta0: float, omega0: float, rest_angle: float
 ) -> History:
-    """
-    Run a plane model; arguments as of `rock`.
-
-    Raises
-    ------
-    ValueError
-        If e is not between 0 and 1, or the motion is not usable.
-    """
+    """Run a plane model; arguments and errors as of `rock`."""
     # The kernels are decorated on import.
     from colonnade.dynamics.plane.march import propagate
     from colonnade.dynamics.plane.sides import sides_of
@@ -247,23 +240,9 @@ class HarmonicRun:
 
 def restitution_up_to(block: Block, restitution: Given, amplitude_ratio: float) -> Restitution:
     """
-    Put e into the form that the kernels take: a function is sampled as far as impacts can go.
+    Put e into the form that the kernels take: a function is sampled as far as impacts can go up to an A of the base
+    motion.
 
-    Parameters
-    ----------
-    block : Block
-    restitution : float, pair of float, RestitutionLaw or function, optional
-        As of `rock`.
-    amplitude_ratio : float
-        Largest A that the base motion comes to.
-
-    Raises
-    ------
-    ValueError
-        If e is not between 0 and 1.
-
-    Notes
-    -----
     With q the largest a/g, no impact of a block that has not overturned is faster than p (α + q) in the linear model,
     whose S = h' − (h − α) obeys S' = −S − q sin φ; nor, in the nonlinear one, than the fall from α + atan q inwards
     under −q throughout, ω²/p² = 2 (sqrt(1 + q²) − cos α + q sin α).
@@ -290,26 +269,8 @@ def harmonic_run(
     """
     Run a block from rest under a harmonic motion, without sampling that motion.
 
-    Parameters
-    ----------
-    block : Block
-    motion : Harmonic
-    amplitude_ratio : float
-        A = a / (g tan α).
-    restitution : float, pair of float, RestitutionLaw or function
-        As of `rock`; None for the rigid-body value.
-    model : str, optional
-        A plane one.
-    samples : int, optional
-        Number of samples of the history wanted, at `interval` (s) from time 0.
-    interval : float, optional
-    peaks_from : float, optional
-        s, from when on `peak_ratio` counts.
-
-    Raises
-    ------
-    ValueError
-        If e is not between 0 and 1 or the model is not known.
+    A = a / (g tan α) is `amplitude_ratio`. The history has so many `samples` at an `interval` (s) from time 0, and
+    `peak_ratio` counts from `peaks_from` (s) on.
     """
     # Its kernels are compiled on import.
     from colonnade.dynamics.plane.march import propagate
