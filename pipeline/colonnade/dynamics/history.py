@@ -119,7 +119,12 @@ class History(Digested):
     @property
     def impacts(self) -> int:
         """Number of impacts that are followed by a peak above `NO_ROCKING_RATIO` α."""
-        return count_impacts(self.time, self.amplitude, self.impact_times, NO_ROCKING_RATIO)
+        if self.impact_times.size == 0:
+            return 0
+        starts = np.searchsorted(self.time, self.impact_times)
+        ends = np.append(starts[1:], self.time.size)
+        rises = [self.amplitude[start:end].max(initial=0.0) for start, end in zip(starts, ends, strict=True)]
+        return int((np.array(rises) > NO_ROCKING_RATIO).sum())
 
 
 def amplitude(angle: Array, block: Block) -> Array:
@@ -147,26 +152,3 @@ def capped(time: Array, angle: Array, overturning_time: float, block: Block) -> 
         to_negative = known.size > 0 and known[-1] < 0
         inside[fallen] = -block.negative.critical_angle if to_negative else block.positive.critical_angle
     return np.asarray(inside, dtype=np.float64)
-
-
-def count_impacts(time: Array, amplitude: Array, impact_times: Array, threshold: float) -> int:
-    """
-    Count the impacts that are followed, before the next one, by an amplitude above a threshold.
-
-    Parameters
-    ----------
-    time, amplitude : ndarray, shape (n,)
-        s; |θ|/α.
-    impact_times : ndarray, shape (m,)
-        s, in order.
-    threshold : float
-        As a fraction of α.
-    """
-    if impact_times.size == 0:
-        return 0
-    edges = np.searchsorted(time, impact_times)
-    ends = np.append(edges[1:], time.size)
-    return sum(
-        bool(end > start and np.nanmax(amplitude[start:end]) > threshold)
-        for start, end in zip(edges, ends, strict=True)
-    )

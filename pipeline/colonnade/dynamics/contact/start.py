@@ -107,12 +107,11 @@ def standing_assembly(
 
 def _carried(below: Start, rest: Array, placed: Placed, turns: bool) -> Start:
     """Give the start of a body that at rest is `rest` from the centre of mass of the one that it stands on."""
-    matrix = rotation_matrices(below.orientation)
+    matrix, solid = rotation_matrices(below.orientation), placed.block.solid
     if turns:
         arm = matrix @ rest
         velocity = below.velocity + np.cross(below.angular_velocity, arm)
         return Start(below.position + arm, velocity, below.orientation, below.angular_velocity)
-    solid = placed.block.solid
     assert solid is not None  # the assembly has seen to it
     tilted = -np.sign(matrix[0, 2]) if abs(matrix[0, 2]) > 0.0 else 0.0
     corner = np.array([tilted * solid.top[0], 0.0, solid.height - placed.centre_height])

@@ -45,8 +45,6 @@ class Interface:
         Of the bodies; the target may be `TABLE`.
     law : ContactLaw
         With its stiffness.
-    flip : float
-        −1 for nodes of the body below against the base of the one above, which look at it from the other side.
     face : float
         Height of the target's face over its centre of mass, out of that face, m.
     outline : tuple of float
@@ -60,7 +58,6 @@ class Interface:
     carrier: int
     target: int = TABLE
     law: ContactLaw
-    flip: float = 1.0
     face: float = 0.0
     outline: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
     apart: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -166,7 +163,7 @@ class Structure:
             np.array(self.lowest),
             np.array([side.carrier for side in sides]),
             np.array([side.target for side in sides]),
-            np.array([side.flip for side in sides]),
+            np.array([1.0 if side.carrier > side.target else -1.0 for side in sides]),
             np.array([side.face for side in sides]),
             np.array([side.outline for side in sides]),
             np.array([side.law.friction for side in sides], dtype=np.float64),
@@ -220,7 +217,6 @@ class _Patch:
                 carrier=bodies[which],
                 target=bodies[other],
                 law=law,
-                flip=1.0 - 2.0 * which,
                 face=(self._depths[1], -self._depths[0])[which],
                 outline=(*self._sizes[other], band, float(self._round[other])),
                 apart=tuple((2.0 * which - 1.0) * apart),
