@@ -24,16 +24,15 @@ def kick(system: System, state: State, step: float) -> None:
     """Take the contact's impulse on all bodies, and book it."""
     rigid, matrix, change, total, force = state.rigid, state.matrix, state.change, state.total, state.force
     mass, begins, sides, strain = system.mass, system.sides, system.carrier.size, state.strain
-    gain, rates = strain[2], strain[3]
-    change[:, :], gain[:], total[:, :], force[:, :] = 0.0, 0.0, 0.0, 0.0
+    change[:, :], total[:, :], force[:, :], strain[2:, :] = 0.0, 0.0, 0.0, 0.0
     if state.listed[sides] == 0:
         return
     for turn in range(PASSES + 1):
         # Means of the velocities before and after the impulse found so far: of bodies, modes and points.
         if turn > 0:
             fill_twists(system, state, 0.5)
-        for mode in range(gain.size):
-            rates[mode] = strain[1, mode] + 0.5 * gain[mode]
+        for mode in range(strain.shape[1]):
+            strain[3, mode] = strain[1, mode] + 0.5 * strain[2, mode]
         for side in range(sides):
             _fill_velocities(system, state, side)
             if turn == 0:
@@ -42,7 +41,9 @@ def kick(system: System, state: State, step: float) -> None:
             # The last turn only gives the mean velocities that the ledger needs.
             break
         # The forces at these velocities, and what their impulse changes.
-        total[:, :], gain[:], force[:, :] = 0.0, 0.0, 0.0
+        total[:, :], force[:, :] = 0.0, 0.0
+        for mode in range(strain.shape[1]):
+            strain[2, mode] = 0.0
         for joint in range(force.shape[0]):
             for side in range(begins[joint], begins[joint + 1]):
                 _fill_forces(system, state, side, step)
@@ -57,8 +58,8 @@ def kick(system: System, state: State, step: float) -> None:
         for axis in range(3):
             rigid[body, 3 + axis] += change[body, axis]
             rigid[body, 10 + axis] += change[body, 3 + axis]
-    for mode in range(gain.size):
-        strain[1, mode] += gain[mode]
+    for mode in range(strain.shape[1]):
+        strain[1, mode] += strain[2, mode]
     for side in range(sides):
         _settle(system, state, side, step)
 
@@ -66,17 +67,17 @@ def kick(system: System, state: State, step: float) -> None:
 @kernel_in_place
 def _fill_velocities(system: System, state: State, side: int) -> None:
     """Fill the velocities of an interface's points relative to the target, v + ω × r + R Φ η̇."""
-    rates, modes, turned, nodes = state.strain[3], system.modes, state.turned, state.node
+    strain, modes, turned, nodes = state.strain, system.modes, state.turned, state.node
     lever, load, twist, listed = state.lever, state.load, state.twist, state.listed
     u, v, w, p, q, r = twist[side, 0], twist[side, 1], twist[side, 2], twist[side, 3], twist[side, 4], twist[side, 5]
     for index in range(listed[side], listed[side + 1]):
         x, y, z = lever[index, 0], lever[index, 1], lever[index, 2]
         load[index, 9], load[index, 10], load[index, 11] = u + q * z - r * y, v + r * x - p * z, w + p * y - q * x
-        for own in range(3 if rates.size > 0 else 0):
+        for own in range(3 if strain.shape[1] > 0 else 0):
             # The modes' own velocity, turned from the body's axes to the table's.
             speed = 0.0
-            for mode in range(rates.size):
-                speed += modes[nodes[index], own, mode] * rates[mode]
+            for mode in range(strain.shape[1]):
+                speed += modes[nodes[index], own, mode] * strain[3, mode]
             for axis in range(3):
                 load[index, 9 + axis] += turned[side, axis, own] * speed
 
@@ -150,7 +151,7 @@ def _add_forces(system: System, state: State, joint: int, side: int, step: float
         state.listed,
         state.rigid,
     )
-    gain, turned, modes, nodes, force = state.strain[2], state.turned, system.modes, state.node, state.force
+    strain, turned, modes, nodes, force = state.strain, state.turned, system.modes, state.node, state.force
     upper, lower, flip = system.carrier[side], system.target[side], system.flip[side]
     u, v, w, p, q, r = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for index in range(listed[side], listed[side + 1]):
@@ -159,10 +160,10 @@ def _add_forces(system: System, state: State, joint: int, side: int, step: float
         p += lever[index, 1] * z - lever[index, 2] * y
         q += lever[index, 2] * x - lever[index, 0] * z
         r += lever[index, 0] * y - lever[index, 1] * x
-        for own in range(3 if gain.size > 0 else 0):
+        for own in range(3 if strain.shape[1] > 0 else 0):
             impulse = step * (turned[side, 0, own] * x + turned[side, 1, own] * y + turned[side, 2, own] * z)
-            for mode in range(gain.size):
-                gain[mode] += modes[nodes[index], own, mode] * impulse
+            for mode in range(strain.shape[1]):
+                strain[2, mode] += modes[nodes[index], own, mode] * impulse
     if lower >= 0:
         u, v, w = _turned(frame, side, u, v, w)
         p, q, r = _turned(frame, side, p, q, r)
