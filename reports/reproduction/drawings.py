@@ -14,7 +14,7 @@ from colonnade.figures.histories import ANGLE_LABEL, draw_angle, limit_of, scale
 from colonnade.figures.maps import response_orders
 from colonnade.figures.panels.curve import draw_curve
 from colonnade.figures.panels.layout import legend_above, side_by_side
-from colonnade.figures.stored.record import SpanPanel, motion, ratios
+from colonnade.figures.stored.record import SpanPanel
 from colonnade.figures.style import BASE, styled
 from reproduction.campaign import ANALYTICAL, NUMERICAL, SPECIMEN
 from reproduction.printed import SHOWN, SHOWN_FREQUENCY, SPANS
@@ -70,10 +70,10 @@ def overlays(panels: Sequence[SpanPanel], *, until: float | None = None) -> Figu
 
 def _panel(found: Found, test: str, title: str, shown: Sequence[str], *, based: bool = True) -> SpanPanel:
     """Gather a panel; `shown` are "measured" and models."""
-    stored = found.stored[test]
-    curves = ratios(stored, found.block)
+    one = found.of(test)
+    curves = one.ratios()
     chosen = {who: curves[who] for who in shown if who in curves}
-    return SpanPanel(title, chosen, motion(stored, "base_acceleration", "m/s²") if based else None)
+    return SpanPanel(title, chosen, one.motion("base_acceleration", "m/s²") if based else None)
 
 
 def _free(found: Found, shown: Sequence[str]) -> Figure:

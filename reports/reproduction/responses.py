@@ -18,7 +18,7 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import amplitude, capped
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
-from colonnade.figures.stored.record import measured_ratio, predicted_ratios
+from colonnade.figures.stored.subject import OfTest
 from colonnade.identification.response.boundaries import MapPoint, bracket_boundaries
 from colonnade.identification.response.order import response_order
 from colonnade.signals.metrics import nrmse
@@ -183,12 +183,12 @@ def _test(record: TestSummary, true: Mapping[str, Any]) -> Numbers:
     }
 
 
-def free_vibration(stored: Stored, block: Block) -> Numbers:
+def free_vibration(one: OfTest) -> Numbers:
     """Give how far each model is from the measured angle, in its first large arcs and after them, RMS over α."""
-    measured, predicted = measured_ratio(stored, block), predicted_ratios(stored, block)
-    assert measured is not None
+    predicted = one.ratios()
+    measured = predicted.pop("measured")
     found: Numbers = {}
-    impacts = stored.array("predict", "impact_time", ANALYTICAL)
+    impacts = one.stored.array("predict", "impact_time", ANALYTICAL)
     for model, curve in predicted.items():
         early = curve.time < impacts[LARGE_ARCS]
         late = (curve.time >= impacts[LARGE_ARCS]) & (curve.time < impacts[4 * LARGE_ARCS])
@@ -196,10 +196,10 @@ def free_vibration(stored: Stored, block: Block) -> Numbers:
             "early": nrmse(measured.values[early], curve.values[early], 1.0),
             "late": nrmse(measured.values[late], curve.values[late], 1.0),
         }
-    one, other = predicted[ANALYTICAL], predicted[NUMERICAL]
+    linear, numerical = predicted[ANALYTICAL], predicted[NUMERICAL]
     return found | {
-        "numerical_to_analytical": nrmse(one.values, other.values, 1.0),
-        "best_linear": _best_linear(measured.time, measured.values, one.values, block),
+        "numerical_to_analytical": nrmse(linear.values, numerical.values, 1.0),
+        "best_linear": _best_linear(measured.time, measured.values, linear.values, one.block),
     }
 
 
@@ -221,10 +221,10 @@ def _best_linear(time: Array, measured: Array, predicted: Array, block: Block) -
     return {"restitution": float(found.x), "misfit": float(found.fun)}
 
 
-def sine(stored: Stored, block: Block) -> Numbers:
+def sine(one: OfTest) -> Numbers:
     """Give how a test built up, the order of its response to the first periods, and what the contact model adds."""
-    measured = measured_ratio(stored, block)
-    assert measured is not None
+    curves, stored, block = one.ratios(), one.stored, one.block
+    measured, angle = curves["measured"], curves[NUMERICAL].values
     frequency, begin = (stored.value("compare", name) for name in ("forcing_frequency", "steady_start"))
     impacts, fall = stored.array("rocking", "impact_time"), stored.value("rocking", "overturning_time")
     first = response_order(
@@ -236,7 +236,6 @@ def sine(stored: Stored, block: Block) -> Numbers:
         threshold=stored.value("rocking", "noise_threshold") / block.critical_angle,
     )
     slide = stored.array("predict", "slide", NUMERICAL)
-    angle = predicted_ratios(stored, block)[NUMERICAL].values
     standing = np.isfinite(angle) & (np.abs(angle) < 1.0)
     return {
         "impacts_before_overturning": None if np.isnan(fall) else int((impacts < fall).sum()),
@@ -265,14 +264,13 @@ def boundaries(points: list[MapPoint]) -> list[Numbers]:
     ]
 
 
-def earthquake(stored: Stored, block: Block) -> Numbers:
+def earthquake(one: OfTest) -> Numbers:
     """Give what an earthquake test recorded, and how far the two computed responses are from each other."""
-    predicted = predicted_ratios(stored, block)
-    one, other = predicted[ANALYTICAL], predicted[NUMERICAL]
+    stored, curves = one.stored, one.ratios()
     return {
-        "pattern": {model: _pattern(stored, block, model) for model in (ANALYTICAL, NUMERICAL)},
+        "pattern": {model: _pattern(stored, one.block, model) for model in (ANALYTICAL, NUMERICAL)},
         "recorded": [name for name in RECORDED if np.isfinite(stored.array("rocking", name)).any()],
-        "numerical_to_analytical": nrmse(one.values, other.values, 1.0),
+        "numerical_to_analytical": nrmse(curves[ANALYTICAL].values, curves[NUMERICAL].values, 1.0),
         "restitution_source": stored.text("predict", "restitution_source", ANALYTICAL),
         "driven_by": stored.text("predict", "driven_by", ANALYTICAL),
     }

@@ -10,6 +10,7 @@ from colonnade.campaign import Campaign, load
 from colonnade.campaign.forms.summary import Summary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps import StabilityMap
+from colonnade.figures.stored.subject import OfTest
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
@@ -58,6 +59,10 @@ class Found:
         """Return the ids of the prism's tests of a kind."""
         return [name for name in self.stored if self.campaign.tests[name].kind == kind]
 
+    def of(self, test: str) -> OfTest:
+        """Return a test of the prism as figures see it."""
+        return OfTest(self.campaign, self.campaign.tests[test], self.summary.tests[test], self.stored[test])
+
 
 def read(path: Path) -> Found:
     """Read the results of a campaign that `campaign.perform` has run."""
@@ -100,16 +105,14 @@ def gather(found: Found, kept: Numbers) -> Numbers:
             "restitution": responses.restitution(found.summary, truth),
             "tests": responses.tests(found.summary, truth),
             "free_vibrations": {
-                test: responses.free_vibration(found.stored[test], found.block)
-                for test in found.of_kind("free-vibration")
+                test: responses.free_vibration(found.of(test)) for test in found.of_kind("free-vibration")
             },
-            "sines": {test: responses.sine(found.stored[test], found.block) for test in found.of_kind("sine")},
+            "sines": {test: responses.sine(found.of(test)) for test in found.of_kind("sine")},
             "boundaries": responses.boundaries(found.points),
             "maps": {model: computed.limits(chart, found.points) for model, chart in found.charts.items()},
             "fine_map": computed.limits(found.fine, found.points),
             "earthquakes": {
-                span: {"test": test} | responses.earthquake(found.stored[test], found.block)
-                for span, test in spans.items()
+                span: {"test": test} | responses.earthquake(found.of(test)) for span, test in spans.items()
             },
             "schemes": computed.schemes(found.block, {span: recorded[test] for span, test in spans.items()}),
             "in_space": computed.in_space(found.campaign, found.layout, {test: recorded[test] for test in shaken}),

@@ -4,7 +4,7 @@ import shutil
 
 import pytest
 
-from colonnade.report import parts
+from colonnade.report import build
 
 pytestmark = pytest.mark.whole
 
@@ -13,8 +13,8 @@ pytestmark = pytest.mark.whole
 def read_again(monkeypatch):
     """Ids of the tests whose results the report reads."""
     tests = []
-    read = parts.read_test
-    monkeypatch.setattr(parts, "read_test", lambda *given, **more: tests.append(given[2].id) or read(*given, **more))
+    read = build.read_test
+    monkeypatch.setattr(build, "read_test", lambda *given, **more: tests.append(given[2].id) or read(*given, **more))
     return tests
 
 
