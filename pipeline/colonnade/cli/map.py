@@ -131,10 +131,10 @@ def calibrate(
             number(each["damping_fraction"]),
             number(each["effective_damping"]),
             written(each["stiffness"] and 1e-9 * each["stiffness"], "N/mm³", 3),
-            number(each["restitution"], 4),
+            _e(each["restitution"]),
             each["source"] or NOTHING,
-            number(each["target"], 4),
-            number(each["velocity_ratio"], 4),
+            _e(each["target"]),
+            _e(each["velocity_ratio"]),
         )
         for each in made
     ]
@@ -145,3 +145,7 @@ def calibrate(
         if each["path"] is not None:
             say("law: {path}".format_map(each))
     return int(any(each["restitution"] is None for each in made))
+
+
+def _e(value: float | None) -> str:
+    return NOTHING if value is None else f"{value:.4f}"
