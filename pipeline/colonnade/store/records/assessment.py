@@ -176,9 +176,10 @@ def _rate(record: AssessmentSummary) -> list[str]:
     if record.annual_rate.value is None:
         return []
     years = record.probability_50_years
+    interval = "" if None in (years.low, years.high) else f" ({percent(years.low)} to {percent(years.high)})"
     return [
         f"With the hazard given it overturns {with_minus(f'{record.annual_rate.value:.2g}')} times a year, within 50 "
-        f"years with a probability of {percent(years.value)} ({percent(years.low)} to {percent(years.high)})."
+        f"years with a probability of {percent(years.value)}{interval}."
     ]
 
 
