@@ -36,7 +36,7 @@ def test_run_gives_a_line_a_redone_test_then_agreement_and_says_where_the_report
     assert "\n0 redone" in again.stdout
     assert times(campaign) == before
 
-    changed("raw/free-02.csv", "\n0.0000;", "\n0.0001;")
+    changed("raw/free-02.csv", "\n0.000000;", "\n0.000100;")
     third = json.loads(colonnade("run", "--workers", "1", "--json").stdout)
     redone = [stage for stage in third["stages"] if stage["action"] == "done"]
     assert {stage["subject"] for stage in redone} == {"free-02", "prism", "free-01"}

@@ -146,7 +146,7 @@ def drawn(monkeypatch):
     """Tests whose pages were drawn."""
     names = []
     of_test = page.of_test
-    monkeypatch.setattr(page, "of_test", lambda *given: names.append(given[1].id) or of_test(*given))
+    monkeypatch.setattr(page, "of_test", lambda *given: names.append(given[0].test.id) or of_test(*given))
     return names
 
 

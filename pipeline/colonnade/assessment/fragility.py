@@ -58,6 +58,14 @@ class Fragility(Digested):
     >>> found = colonnade.fragility(block, motions, restitution=0.95, levels=[0.5, 1.0, 2.0, 4.0], draws=1)
     >>> found.measure, found.taken, 0.5 < found.reaches(0.5).value < 4.0
     ('pgv', 'isotonic', True)
+    >>> found.isotonic.probability.value.tolist(), found.resurrected
+    ([0.0, 0.25, 1.0, 1.0], 0.0)
+    >>> found.lognormal.reason, found.uplift.reason  # what follows from the curve is not a number then
+    ('separated', 'separated')
+    >>> found.misfit, found.betas.records, found.influence.median.tolist(), found.rate
+    (nan, nan, [nan, nan, nan, nan], None)
+    >>> len(found.measures), found.measures[0].measure
+    (10, 'pgd')
     >>> found.digest()["records"]
     '4'
     """
