@@ -146,8 +146,3 @@ def test_each_model_has_its_horizon_marked_unless_it_is_the_records_end():
     marks = [[line.get_xdata()[0] for line in axes.lines if len(line.get_xdata()) == 2] for axes in figure.axes]
     assert marks == [[4.0], [7.0], []]
     assert ["horizon" in [text.get_text() for text in axes.texts] for axes in figure.axes] == [True, True, False]
-
-
-def test_unpaired_levels_are_refused():
-    with pytest.raises(ValueError, match="not paired"):
-        bands_over_time({}, {"linear": Spread(FINE, np.array([0.05, 0.5]), BANDS[:2], 0.0, 10.0)})

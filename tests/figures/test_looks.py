@@ -12,7 +12,7 @@ from colonnade.figures.channels import Channel, Scale, channels_as_recorded
 from colonnade.figures.closer import Enlarged, Phase, closer_look, separatrix
 from colonnade.figures.histories import Panel, Spread, bands_over_time
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.restitution.decay import ImpactSeries, Level, PeakSeries, impact_restitution, peak_decay
+from colonnade.figures.restitution.decay import EstimateRow, ImpactSeries, PeakSeries, impact_restitution, peak_decay
 from colonnade.figures.stored.record import whole_record
 from colonnade.figures.style import STYLE_FILE
 from colonnade.identification.restitution.peaks import angle_of_energy
@@ -106,7 +106,7 @@ def test_impacts():
     error = 2e-3 / speed
     return impact_restitution(
         [ImpactSeries("free-01", speed, 0.95 + error * random.standard_normal(30), error, speed > 0.15)],
-        level=Level(0.95, 0.948, 0.952, "e identified"),
+        level=EstimateRow("e identified", 0.95, 0.948, 0.952),
         rigid=0.9485,
     )
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from matplotlib.figure import Figure
 
 from colonnade.figures.moving import MOST_FRAMES, RATE, rocking_block, turn
 from colonnade.figures.panels.curve import Curve
@@ -35,7 +36,7 @@ def test_a_positive_angle_moves_the_top_to_plus_x():
 def movie(duration, base=None):
     time = np.linspace(0.0, duration, 2000)
     angles = {"measured": Curve(time, 0.1 * np.sin(time)), "linear": Curve(time, 0.1 * np.cos(time))}
-    return rocking_block(angles, CORNERS, POLES, base)
+    return rocking_block(angles, CORNERS, POLES, base, figure=Figure())
 
 
 def test_a_short_test_is_shown_at_its_own_speed_and_a_long_one_faster():

@@ -18,7 +18,7 @@ from colonnade.campaign import load
 from colonnade.errors import StoreError
 from colonnade.figures.files.output import to_svg
 from colonnade.report import paper
-from colonnade.report.paper import Gatherer, as_data, document_of, pdf_of, prepared
+from colonnade.report.paper import Document, as_data, document_of, pdf_of, prepared
 from every import every
 
 
@@ -32,7 +32,7 @@ def taken(tmp_path_factory):
     def take(inside, head=""):
         page = f"<html><body><header>{head}</header><main>{inside}</main></body></html>"
         (folder / "a.html").write_text(page, encoding="utf-8")
-        gatherer = Gatherer(folder, {"b.html"})
+        gatherer = Document(folder, {"b.html"})
         return [list(map(as_data, part)) for part in gatherer.page("a.html")], gatherer
 
     return take

@@ -80,15 +80,14 @@ def predicted_over_measured(points: Mapping[str, Sequence[PeakPoint]]) -> Figure
     Bars are the bands of the model's runs. A triangle at the upper edge is a test that the model overturns, one at the
     lower edge a prediction too small for the axis.
     """
-    drawn = {model: own for model, own in points.items() if own}
-    limits = _limits([point for own in drawn.values() for point in own])
+    limits = _limits([point for own in points.values() for point in own])
     # Square panels, with room for titles and labels.
-    side = width() / max(len(drawn), 2)
+    side = width() / max(len(points), 2)
     figure = Figure(figsize=(width(), side + 0.4), layout="constrained")
-    panels = figure.subplots(1, max(len(drawn), 2), sharex=True, sharey=True, squeeze=False)[0]
-    for axes in panels[len(drawn) :]:
+    panels = figure.subplots(1, max(len(points), 2), sharex=True, sharey=True, squeeze=False)[0]
+    for axes in panels[len(points) :]:
         axes.remove()
-    for axes, (model, own) in zip(panels, drawn.items(), strict=False):
+    for axes, (model, own) in zip(panels, points.items(), strict=False):
         _scale(axes, limits)
         _draw(axes, model, own, limits, 72 * PANEL * side)
         axes.set(title=f"{model} model", xlabel="measured max |θ|/α")

@@ -194,9 +194,6 @@ HEIGHT = 1.9
 @styled()
 def bands_over_time(measured: Mapping[str, Curve], spreads: Mapping[str, Spread]) -> Figure:
     """Draw the "measured" θ/α, if there is any, over the bands of each model, one panel a model, which says whose."""
-    for model, spread in spreads.items():
-        if not np.allclose(spread.levels + spread.levels[::-1], 1.0):
-            raise ValueError(f"{model}: the levels {spread.levels.tolist()} are not paired about 0.5")
     figure, axes = stacked_panels([HEIGHT] * len(spreads))
     curves = [Curve(spread.time, band) for spread in spreads.values() for band in spread.bands]
     curves += measured.values()

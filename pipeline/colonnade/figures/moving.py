@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from math import ceil
 
 import numpy as np
@@ -10,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
 from colonnade.arrays import Array
+from colonnade.figures.drawing.body import STEEL
 from colonnade.figures.drawing.described import body_of
 from colonnade.figures.drawing.view import Rocking, Spot
 from colonnade.figures.files.output import Movie
@@ -24,38 +26,28 @@ RATE, MOST_FRAMES = 25.0, 250
 SIZE = (3.6, 4.0)
 """Of the picture, inches."""
 
-FACE = "#e8ecf1"
-"""Colour of a body."""
-
 
 @styled()
 def rocking_block(
-    angles: Mapping[str, Curve],
-    corners: Sequence[Spot],
-    poles: Spot,
-    base: Curve | None = None,
-    *,
-    title: str = "",
-    description: str = "",
-    figure: Figure | None = None,
+    angles: Mapping[str, Curve], corners: Sequence[Spot], poles: Spot, base: Curve | None = None, *, figure: Figure
 ) -> Movie:
     """
     Draw the rocking block, one outline for each history: "measured", and by model.
 
     `angles` are θ (rad) over time (s), `corners` x and z (m) of the block at rest, `poles` x of those that it rocks
     about with θ < 0 and θ > 0. A base whose displacement (m) is not known is drawn at rest. The movie is drawn into
-    the empty `figure`, or a new one.
+    the empty `figure`.
     """
     times = _times(*time_limits(angles.values()))
     shift = np.zeros_like(times) if base is None else _at(base, times) - _at(base, times[:1])
     aside = np.column_stack((shift, np.zeros_like(shift)))[:, None]
     outlines = {who: turn(np.array(corners), _at(curve, times), poles) + aside for who, curve in angles.items()}
     table = shift[:, None] + 0.5 * max(high for _, high in corners) * np.array([-1.0, 1.0])
-    movie = _movie(figure or Figure(figsize=SIZE), outlines, times, table, title, description)
+    movie = _movie(figure, outlines, times, table)
     for who, block in zip(angles, movie.figure.axes[0].patches, strict=True):
         style = style_of(who)
         block.set(edgecolor=style["color"], linestyle=style["linestyle"], label=name_of(who))
-        block.set_facecolor(FACE if who == "measured" else "none")
+        block.set_facecolor(STEEL if who == "measured" else "none")
     movie.figure.legend(loc="upper left", ncols=2, fontsize=7, borderaxespad=0.3, columnspacing=1.0)
     return movie
 
@@ -70,7 +62,7 @@ def moving_bodies(outlines: Mapping[str, Array], time: Array, figure: Figure) ->
     times = _times(float(time[0]), float(time[-1]))
     samples = np.clip(np.searchsorted(time, times), 0, time.size - 1)
     table = np.tile([-1e3, 1e3], (times.size, 1))
-    return _movie(figure, {name: outline[samples] for name, outline in outlines.items()}, times, table, "", "")
+    return _movie(figure, {name: outline[samples] for name, outline in outlines.items()}, times, table)
 
 
 def _times(first: float, last: float) -> Array:
@@ -78,9 +70,7 @@ def _times(first: float, last: float) -> Array:
     return np.linspace(first, last, min(max(ceil((last - first) * RATE), 2), MOST_FRAMES))
 
 
-def _movie(
-    figure: Figure, outlines: Mapping[str, Array], times: Array, table: Array, title: str, description: str
-) -> Movie:
+def _movie(figure: Figure, outlines: Mapping[str, Array], times: Array, table: Array) -> Movie:
     """Show outlines on the ends of a table (x, m), a frame each; the picture says how much faster it is."""
     corners = np.concatenate([outline.reshape(-1, 2) for outline in outlines.values()])
     low, high = corners.min(axis=0), corners.max(axis=0)
@@ -90,7 +80,7 @@ def _movie(
     axes.set_aspect("equal")
     axes.set(xlim=(low[0] - margin, high[0] + margin), ylim=(min(0.0, low[1]) - margin, high[1] + margin))
     (ground,) = axes.plot([], [], color=INK, linewidth=2.0)
-    blocks = [Polygon(each[0], edgecolor=INK, facecolor=FACE) for each in outlines.values()]
+    blocks = [Polygon(each[0], edgecolor=INK, facecolor=STEEL) for each in outlines.values()]
     for block in blocks:
         axes.add_patch(block)
     clock = axes.text(0.98, 0.02, "", transform=axes.transAxes, ha="right", fontsize=8, color=SOFT)
@@ -101,7 +91,7 @@ def _movie(
         ground.set_data(table[frame], [0.0, 0.0])
         clock.set_text(f"{times[frame]:.2f} s" + (f", {speed:.2g} × faster" if speed > 1.01 else ""))
 
-    return Movie(figure, show, times.size, RATE, title, description)
+    return Movie(figure, show, times.size, RATE)
 
 
 def turn(outline: Array, angle: Array, poles: Sequence[float]) -> Array:
@@ -139,8 +129,7 @@ def _at(curve: Curve, times: Array) -> Array:
 def animation(one: OfTest) -> Movie | None:
     """Draw the block of a test as it rocks, measured and by each model; None without an angle."""
     angles, stored, block = dict[str, Curve](), one.stored, one.block
-    histories = [("measured", "rocking", None), *((model, "predict", model) for model in stored.models("predict"))]
-    for name, stage, model in histories:
+    for name, (stage, model) in one.sources.items():
         if stored.has(stage, "rocking_angle", model):
             times, values = (stored.array(stage, each, model) for each in ("elapsed", "rocking_angle"))
             angles[name] = Curve(times, one.true_angle(values) if stage == "rocking" else values)
@@ -149,5 +138,5 @@ def animation(one: OfTest) -> Movie | None:
     base, how = one.base_displacement()
     said = "measured and predicted" if len(angles) > 1 else next(iter(angles))
     corners, poles = body_of(one.specimen, block).outline(), Rocking.of(block).poles
-    title, description = f"{one.test.id}: the rocking block", f"{said}; base: {how}."
-    return rocking_block(angles, corners, poles, base, title=title, description=description)
+    movie = rocking_block(angles, corners, poles, base, figure=Figure(figsize=SIZE))
+    return replace(movie, title=f"{one.test.id}: the rocking block", description=f"{said}; base: {how}.")

@@ -26,7 +26,7 @@ from colonnade.figures.histories import Spread, draw_angle, limit_of, shade
 from colonnade.figures.maps.stability_map import draw_map, draw_overturning, draw_rocking
 from colonnade.figures.moving import SIZE, moving_bodies, rocking_block
 from colonnade.figures.panels.curve import Curve, draw_curve
-from colonnade.figures.restitution.decay import ImpactSeries, Level, draw_impacts
+from colonnade.figures.restitution.decay import EstimateRow, ImpactSeries, draw_impacts
 from colonnade.figures.style import MEASURED, model_style, styled
 from colonnade.identification.restitution.result import Restitution
 from colonnade.validation import described, instance
@@ -101,7 +101,7 @@ def _draw_restitution(axes: Axes, result: Restitution) -> None:
         "impacts", impacts.velocity, impacts.restitution, impacts.restitution_standard_error, impacts.used
     )
     value, low, high = (np.nan if each is None else each for each in (result.value, result.low, result.high))
-    draw_impacts([axes], [series], level=Level(value, low, high, "e identified"))
+    draw_impacts([axes], [series], level=EstimateRow("e identified", value, low, high))
 
 
 def _draw_ensemble(axes: Axes, result: Ensemble) -> None:

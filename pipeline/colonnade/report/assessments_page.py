@@ -12,7 +12,7 @@ from colonnade.assessment.criteria import CRITERIA, Criterion
 from colonnade.assessment.measures import measure_of
 from colonnade.assessment.study import counted_draws
 from colonnade.campaign import Campaign
-from colonnade.campaign.forms.assessed import AssessmentSummary, Estimate, JudgedCriterion, RecordUsed
+from colonnade.campaign.forms.assessed import AssessmentSummary, JudgedCriterion, RecordUsed
 from colonnade.campaign.forms.summary import Summary, Warned
 from colonnade.errors import StoreError
 from colonnade.figures import fragility as figures
@@ -20,7 +20,7 @@ from colonnade.figures.files.output import Picture
 from colonnade.findings import Severity
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.store.records.assessment import estimated, level, sentences, unit_of
+from colonnade.store.records.assessment import estimated, sentences, unit_of
 from colonnade.units import from_si
 from colonnade.units.text import listed, number
 
@@ -43,19 +43,6 @@ class Assessment:
     def answer(self) -> list[str]:
         """The answer in words."""
         return sentences(self.record)
-
-    @property
-    def symbol(self) -> str:
-        """Symbol of its measure."""
-        return symbol(self.record.measure)
-
-    def level(self, value: float | None) -> str:
-        """Write a value of its measure."""
-        return level(self.record.measure, value)
-
-    def estimated(self, value: Estimate) -> str:
-        """Write a value of its measure with its interval."""
-        return estimated(self.record.measure, value)
 
     def criteria(self) -> list[tuple[Criterion, JudgedCriterion]]:
         """Give the criteria of practice with what was counted."""

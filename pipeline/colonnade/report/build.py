@@ -37,7 +37,7 @@ from colonnade.report.asked import Asked
 from colonnade.report.assessments_page import assessments_page, symbol
 from colonnade.report.forecasts_page import forecasts_page
 from colonnade.report.interactive import panels, test_data
-from colonnade.report.methods import REFERENCES, Used
+from colonnade.report.methods import Used
 from colonnade.report.overview import SpanTest, TestRow
 from colonnade.report.pictures import FreeVibration, has_span, picture, span_of
 from colonnade.report.test_page import channels, facts, page
@@ -46,6 +46,7 @@ from colonnade.store.layout import Layout
 from colonnade.store.records import advice as advising
 from colonnade.store.records import wording
 from colonnade.store.records.advice import Advice
+from colonnade.store.records.assessment import estimated, level
 from colonnade.store.records.forecast import shown_table
 from colonnade.store.records.stored import Failure, read_test
 from colonnade.store.records.summary import read_summary
@@ -101,7 +102,6 @@ def _environment() -> Environment:
         keep_trailing_newline=True,
     )
     environment.globals |= {
-        "kinds": overview.KINDS,
         "count": count,
         "picture": picture,
         "listed": text.listed,
@@ -112,6 +112,8 @@ def _environment() -> Environment:
         "peak_time": predicted_peak_time,
         "registry": MODELS,
         "symbol": symbol,
+        "level": level,
+        "estimated": estimated,
         "version": __version__,
         "way": way,
         "who_and_when": facts.who_and_when,
@@ -274,11 +276,8 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
     warned = [(row.id, found) for row in rows for found in row.record.warnings]
     warned += [(f"specimen {one['id']}", found) for one in specimens for found in one["warnings"]]
     warned += [(f"assessment {one.name}", found) for one in assessed for found in one.warned()]
-    warnings, mistaken, furthest = (
-        overview.warning_groups(warned),
-        overview.confusions(rows, models),
-        overview.worst(rows, models),
-    )
+    warnings = overview.warning_groups(warned)
+    mistaken, furthest = overview.confusions(rows, models), overview.worst(rows, models)
     shown = {
         "tests": rows,
         "thumbnails": {part.row.id: part.kept.thumbnail for part in parts},
@@ -297,7 +296,6 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
         ],
         "used": used,
         "settings": settings(campaign.processing, "processing") | settings(campaign.next, "next"),
-        "references": REFERENCES,
         "software": methods.software(),
         "within": format_percent(WITHIN),
         "least_motion": format_percent(LEAST_MOTION, 1),

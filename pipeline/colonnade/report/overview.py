@@ -35,17 +35,6 @@ from colonnade.store.records.stored import Failure, as_map
 from colonnade.store.results import models_shown
 from colonnade.units.text import NOTHING, number, quantity
 
-KINDS = {
-    "free-vibration": "Free vibration",
-    "sine": "Sine test",
-    "earthquake": "Earthquake test",
-    "pulse": "Pulse test",
-    "noise": "Noise test",
-    "tilt": "Tilt test",
-    "other": "Other test",
-}
-"""Kinds of test in words."""
-
 
 @dataclass(frozen=True)
 class TestRow:

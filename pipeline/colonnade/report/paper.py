@@ -7,7 +7,6 @@ import posixpath
 import re
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from html import unescape
 from importlib.resources import files as resources
 from pathlib import Path
@@ -42,7 +41,7 @@ PHOTO, DRAWING = ".jpg", ".svg"
 """Endings of the files that pages show as pictures."""
 
 
-class Gatherer:
+class Document:
     """
     Takes pages apart; numbers pictures through the whole document and leads links to its own places.
 
@@ -55,6 +54,8 @@ class Gatherer:
 
     Attributes
     ----------
+    data : dict
+        All that the template shows, as JSON can hold it.
     pictures : dict of str to str
         SVG by the name of its file.
     files : dict of str to Path
@@ -62,6 +63,7 @@ class Gatherer:
     """
 
     def __init__(self, folder: Path, labels: Collection[str]) -> None:
+        self.data: dict[str, Any] = {}
         self.pictures: dict[str, str] = {}
         self.files: dict[str, Path] = {}
         self._folder, self._labels = folder, labels
@@ -125,26 +127,6 @@ SPANS = "spans"
 """Section of the overview that is a chapter of its own. A section that is not printed says so: `data-paper="no"`."""
 
 
-@dataclass(frozen=True)
-class Document:
-    """
-    A document.
-
-    Attributes
-    ----------
-    data : dict
-        All that the template shows, as JSON can hold it.
-    pictures : dict of str to str
-        SVG by the name of its file.
-    files : dict of str to Path
-        Photos and drawings that are files of the report, by the name of their file here.
-    """
-
-    data: dict[str, Any]
-    pictures: dict[str, str]
-    files: dict[str, Path]
-
-
 def document_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> Document:
     """
     Gather the document of a campaign.
@@ -161,19 +143,19 @@ def document_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> D
     specimens = {addresses.of_specimen(name): f"Specimen {name}" for name in campaign.of_interest}
     overview, methods = addresses.WHOLE["overview"], addresses.WHOLE["methods"]
     optional = {page: title for page, title in addresses.OPTIONAL.items() if (folder / page).is_file()}
-    gather = Gatherer(folder, {*tests, *specimens, *optional, overview, methods})
-    _, summary = gather.page(overview)
+    document = Document(folder, {*tests, *specimens, *optional, overview, methods})
+    _, summary = document.page(overview)
     spans = [node for node in summary if node.get("id") == SPANS]
     chapters = [_chapter("Summary", overview, [node for node in summary if node not in spans])]
-    chapters += [_chapter(title, page, gather.page(page)[1]) for page, title in specimens.items()]
+    chapters += [_chapter(title, page, document.page(page)[1]) for page, title in specimens.items()]
     chapters += [_chapter(node.findtext("h2", ""), "", [node]) for node in spans]
-    chapters += [_chapter(title, page, gather.page(page)[1]) for page, title in optional.items()]
-    chapters.append(_chapter("Methods", methods, gather.page(methods)[1]) | {"equations": True})
+    chapters += [_chapter(title, page, document.page(page)[1]) for page, title in optional.items()]
+    chapters.append(_chapter("Methods", methods, document.page(methods)[1]) | {"equations": True})
     of_tests = [
-        _chapter(name, page, (part for parts in gather.page(page) for part in parts)) for page, name in tests.items()
+        _chapter(name, page, (part for parts in document.page(page) for part in parts)) for page, name in tests.items()
     ]
-    shown = [image for part in (*chapters, *of_tests) for image in part.pop("images") if image["src"] in gather.files]
-    data = {
+    shown = [image for part in (*chapters, *of_tests) for image in part.pop("images") if image["src"] in document.files]
+    document.data = {
         "title": campaign.title,
         "campaign": campaign.campaign,
         "facts": facts.on_cover(campaign),
@@ -182,7 +164,7 @@ def document_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> D
         "appendix": of_tests,
         "version": __version__,
     }
-    return Document(data, gather.pictures, gather.files)
+    return document
 
 
 def _chapter(title: str, address: str, inside: Iterable[HtmlElement]) -> dict[str, Any]:

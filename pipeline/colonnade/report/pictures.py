@@ -22,8 +22,8 @@ from colonnade.figures.drawing import described
 from colonnade.figures.files.output import Movie, Picture
 from colonnade.figures.maps import response_orders
 from colonnade.figures.restitution import decay, estimators
-from colonnade.figures.restitution.decay import STAGE, ImpactSeries, PeakSeries, impact_series, peak_series
-from colonnade.figures.restitution.estimators import EstimateRow, estimate_rows
+from colonnade.figures.restitution.decay import STAGE, EstimateRow, ImpactSeries, PeakSeries
+from colonnade.figures.restitution.estimators import estimate_rows
 from colonnade.figures.stored import bodies, record
 from colonnade.figures.stored.subject import OfTest, some_of
 from colonnade.identification.response.boundaries import MapPoint, makes_map
@@ -64,8 +64,8 @@ class FreeVibration(NamedTuple):
             one.stored.text(STAGE, "reason"),
             one.stored.texts(STAGE, "departures"),
             estimate_rows(one.stored),
-            peak_series(one),
-            impact_series(one),
+            decay.peak_series(one),
+            decay.impact_series(one),
         )
 
 
@@ -225,7 +225,7 @@ def _estimators(one: OfSpecimen) -> Picture | None:
     groups = {each.test: each.estimates for each in shown}
     level = decay.level_of(one.pooled, "specimen", "e pooled")
     if isfinite(level.low):
-        groups["all together"] = [EstimateRow("pooled", *level[:3], recommended=True)]
+        groups["all together"] = [level._replace(name="pooled", recommended=True)]
     return estimators.estimators(f"estimators-{one.name}", groups, one.block.restitution, note)
 
 
@@ -245,7 +245,7 @@ def _measured_map(one: OfSpecimen) -> Picture | None:
 
 
 def _map(one: OfSpecimen) -> Picture | None:
-    return response_orders.computed(one.name, one.charts, one.points, linked=True) if one.charts else None
+    return response_orders.computed(one.name, one.charts, one.points) if one.charts else None
 
 
 def _spans(one: OfSpecimen) -> Picture | None:

@@ -220,8 +220,3 @@ def drawing_of(campaign: Campaign, specimen: str, setup: str) -> Drawing:
     tests = listed(campaign.combinations[specimen, setup])
     said = described.said_of(campaign, specimen, setup)
     return Drawing(specimen, setup, tests, addresses.of_setup(specimen, setup), said)
-
-
-def drawing_svg(campaign: Campaign, specimen: str, setup: str) -> str:
-    """Draw a specimen with the transducers of a setup."""
-    return described.picture(campaign, specimen, setup).svg + "\n"

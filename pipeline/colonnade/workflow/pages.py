@@ -165,9 +165,9 @@ class _Report:
 
 
 def _drawing(campaign: Campaign, specimen: str, setup: str) -> Contents:
-    from colonnade.report.specimens_page import drawing_svg
+    from colonnade.figures.drawing.described import picture
 
-    return [drawing_svg(campaign, specimen, setup)], ""
+    return [f"{picture(campaign, specimen, setup).svg}\n"], ""
 
 
 def _page(layout: Layout, asked: Asked) -> Contents:

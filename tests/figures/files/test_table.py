@@ -14,8 +14,8 @@ from colonnade.figures.files.output import to_csv
 from colonnade.figures.files.table import columns_of
 from colonnade.figures.histories import Panel, Spread
 from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
-from colonnade.figures.restitution.decay import ImpactSeries, Level, impact_restitution
-from colonnade.figures.restitution.estimators import EstimateRow, estimators_side_by_side
+from colonnade.figures.restitution.decay import EstimateRow, ImpactSeries, impact_restitution
+from colonnade.figures.restitution.estimators import estimators_side_by_side
 from colonnade.figures.stored.record import whole_record
 
 TIME = np.linspace(0.0, 20.0, 20_001)
@@ -152,7 +152,7 @@ def test_a_field_gives_each_cell():
 
 
 def test_single_values_are_rows_with_their_names():
-    level = Level(0.97, 0.96, 0.98, "e identified")
+    level = EstimateRow("e identified", 0.97, 0.96, 0.98)
     impacts = ImpactSeries("free-01", np.array([1.0, 2.0]), np.array([0.9, 0.95]), np.full(2, 0.01), np.ones(2, bool))
     table = table_of(impact_restitution([impacts], level=level, rigid=0.955))
     assert list(table["series"]) == ["e identified", "rigid body", "e identified, interval"]

@@ -10,19 +10,14 @@ from colonnade.dynamics.block import Block
 from colonnade.figures.files.table import columns_of
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.restitution.decay import (
+    EstimateRow,
     ImpactSeries,
-    Level,
     PeakSeries,
     draw_marks,
     impact_restitution,
     peak_decay,
 )
-from colonnade.figures.restitution.estimators import (
-    EstimateRow,
-    estimators_side_by_side,
-    fitted_history,
-    joint_region,
-)
+from colonnade.figures.restitution.estimators import estimators_side_by_side, fitted_history, joint_region
 from colonnade.figures.style import MEASURED, model_style
 from colonnade.identification.restitution.peaks import angle_of_energy
 from prism import PRISM
@@ -65,7 +60,7 @@ def test_a_refusal_by_all_estimators_has_no_scale():
     assert [text.get_text() for text in axes.texts] == ["impact by impact", "none"]
 
 
-UNKNOWN = Level(np.nan, np.nan, np.nan, "")
+UNKNOWN = EstimateRow("", np.nan, np.nan, np.nan)
 
 
 def impacts(title="free-01", *, count=20, error=1e-3, used=True):
@@ -79,7 +74,7 @@ def named(axes):
 
 
 def test_each_impact_has_its_bar_and_the_constant_its_band():
-    level = Level(0.95, 0.949, 0.951, "e = 0.9500 ± 0.0010")
+    level = EstimateRow("e = 0.9500 ± 0.0010", 0.95, 0.949, 0.951)
     axes = impact_restitution([impacts()], level=level, rigid=0.9505).axes[0]
     assert set(named(axes)) == {"impact used", "e = 0.9500 ± 0.0010", "rigid body"}
     segments = axes.containers[0].lines[2][0].get_segments()
@@ -125,7 +120,7 @@ def decay(title="free-01", *, count=20, restitution=0.95, used=None):
 def test_bars_that_would_merge_are_a_band_about_e_and_stay_in_the_table():
     speed = np.geomspace(1.0, 0.1, 80)
     series = ImpactSeries("free-01", speed, np.full(80, 0.95), 2e-3 / speed, np.full(80, True))
-    figure = impact_restitution([series], level=Level(0.95, 0.948, 0.952, "e identified"), rigid=0.8)
+    figure = impact_restitution([series], level=EstimateRow("e identified", 0.95, 0.948, 0.952), rigid=0.8)
     axes = figure.axes[0]
     (band,) = (each for each in axes.collections if each.get_label() == "± two standard errors of an impact")
     outline = band.get_paths()[0].vertices
@@ -212,7 +207,7 @@ def test_a_fitted_history_shows_measured_fit_and_what_is_left_over():
 def test_the_joint_region_holds_its_share_of_a_normal_distribution():
     centre = np.array([0.95, 1.01])
     covariance = np.array([[4e-6, 3e-6], [3e-6, 9e-6]])
-    axes = joint_region("free-01", centre, covariance, fixed=Level(0.949, 0.948, 0.95, "")).axes[0]
+    axes = joint_region("free-01", centre, covariance, fixed=EstimateRow("", 0.949, 0.948, 0.95)).axes[0]
     for line, level in zip(axes.lines[:2], (0.5, 0.95), strict=True):
         away = np.column_stack(line.get_data()) - centre
         distance = np.einsum("ij,jk,ik->i", away, np.linalg.inv(covariance), away)

@@ -88,8 +88,8 @@ class Movie:
     show: Callable[[int], None]
     frames: int
     rate: float
-    title: str
-    description: str
+    title: str = ""
+    description: str = ""
 
 
 def to_gif(movie: Movie, *, dpi: int = 100) -> bytes:

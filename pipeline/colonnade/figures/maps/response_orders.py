@@ -147,20 +147,18 @@ def tested(identity: str, points: Sequence[MapPoint]) -> Picture:
     outcomes = [point.outcome for point in points]
     described = ", ".join(f"{outcomes.count(outcome)} {outcome}" for outcome in dict.fromkeys(outcomes))
     return Picture(
-        measured_map(points, linked=True),
+        measured_map(points),
         identity,
         "Sine tests by outcome over frequency ratio Ω and amplitude ratio A",
         f"{len(points)} tests: {described}.",
     )
 
 
-def computed(
-    specimen: str, charts: Sequence[StabilityMap], points: Sequence[MapPoint], *, linked: bool = False
-) -> Picture:
-    """Draw the stability maps of a specimen, one for each model, with its sine tests, as links if `linked`."""
+def computed(specimen: str, charts: Sequence[StabilityMap], points: Sequence[MapPoint]) -> Picture:
+    """Draw the stability maps of a specimen, one for each model, with its sine tests."""
     models = [str(chart.options["model"]) for chart in charts]
     return Picture(
-        stability_map(charts, points, linked=linked),
+        stability_map(charts, points),
         f"map-{specimen}-{'-'.join(models)}",
         f"Stability map of {specimen}, {' and '.join(models)} model",
         f"Outcomes over frequency ratio Ω and amplitude ratio A, with {len(points)} measured points.",

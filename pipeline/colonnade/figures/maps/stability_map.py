@@ -50,28 +50,29 @@ LOGARITHMIC = 6.0
 
 
 @styled()
-def measured_map(points: Sequence[MapPoint], *, linked: bool = False) -> Figure:
+def measured_map(points: Sequence[MapPoint]) -> Figure:
     """
-    Draw the sine tests of a specimen by outcome, each as a link to its page if `linked`.
+    Draw the sine tests of a specimen by outcome.
 
     A bar spans the tests between which a boundary, met going up in A, lies; a line joins the middles of the bars of
     neighbouring frequencies. A sub-harmonic response is labelled by its order.
     """
     figure, axes = one_panel(3.6)
-    _draw_scale(axes, points)
+    amplitudes = [point.amplitude_ratio for point in points]
+    low, high = min([*amplitudes, 1.0]), max([*amplitudes, 1.0])
+    is_logarithmic = _name_axes(axes, low, high)
+    axes.set_ylim((low / 1.15, high * 1.15) if is_logarithmic else (0.0, 1.1 * high))
+    axes.set_xlim(0.0, 1.08 * max(point.frequency_ratio for point in points))
+    axes.axhline(1.0, **LIMIT)
     for name, label, style in BOUNDARIES:
         _draw_boundary(axes, bracket_boundaries(points), name, label, style)
-    draw_points(axes, points, linked=linked)
+    draw_points(axes, points)
     legend_outside(figure, [axes])
     return figure
 
 
-def draw_points(axes: Axes, points: Sequence[MapPoint], *, prefix: str = "", linked: bool = False) -> None:
-    """
-    Draw sine tests by outcome, those with a sub-harmonic response with its order.
-
-    `prefix` begins their labels; if `linked`, each leads to its test.
-    """
+def draw_points(axes: Axes, points: Sequence[MapPoint], *, prefix: str = "") -> None:
+    """Draw sine tests by outcome, each as a link to its page, a sub-harmonic response with its order."""
     for outcome, look in MARKERS.items():
         chosen = [point for point in points if point.outcome == outcome]
         if chosen:
@@ -84,37 +85,21 @@ def draw_points(axes: Axes, points: Sequence[MapPoint], *, prefix: str = "", lin
                 zorder=4,
                 **look,
             )
-            if linked:
-                places.set_urls([link_to(point.test) for point in chosen])
+            places.set_urls([link_to(point.test) for point in chosen])
     for point in points:
         if isinstance(point.order, int) and point.order > 1:
             at, clear = (point.frequency_ratio, point.amplitude_ratio), [withStroke(linewidth=2.5, foreground="white")]
             note(axes, f"1/{point.order}", at, (6, 0), va="center", fontsize=7, path_effects=clear)
 
 
-def _draw_scale(axes: Axes, points: Sequence[MapPoint]) -> None:
-    amplitudes = np.array([point.amplitude_ratio for point in points])
-    frequencies = np.array([point.frequency_ratio for point in points])
-    axes.axhline(1.0, **LIMIT)
-    axes.set_xlim(0.0, 1.08 * float(frequencies.max()))
-    low, high = min(float(amplitudes.min()), 1.0), max(float(amplitudes.max()), 1.0)
-    if low > 0 and high / low > LOGARITHMIC:
-        label_logarithmic(axes)
-        axes.set_ylim(low / 1.15, high * 1.15)
-    else:
-        axes.set_ylim(0.0, 1.1 * high)
-    name_axes(axes)
-
-
-def label_logarithmic(axes: Axes) -> None:
-    """Make the axis of A logarithmic, with plain numbers at several of each decade."""
-    axes.set_yscale("log")
-    plain_decades(axes.yaxis, subs=(1.0, 1.5, 2.0, 3.0, 5.0, 7.0))
-
-
-def name_axes(axes: Axes) -> None:
-    """Label the axes of a map."""
+def _name_axes(axes: Axes, low: float, high: float) -> bool:
+    """Label the axes of a map, that of A as a logarithmic one if it spans much; return whether it does."""
     axes.set(xlabel="Ω = ω / p", ylabel="A = a / (g tan α)")
+    is_logarithmic = low > 0 and high / low > LOGARITHMIC
+    if is_logarithmic:
+        axes.set_yscale("log")
+        plain_decades(axes.yaxis, subs=(1.0, 1.5, 2.0, 3.0, 5.0, 7.0))
+    return is_logarithmic
 
 
 def _draw_boundary(axes: Axes, boundaries: Sequence[Boundaries], name: str, label: str, style: LineStyle) -> None:
@@ -136,9 +121,9 @@ SHADE = LinearSegmentedColormap.from_list("overturning", ["#ffffff", OVERTURNED_
 
 
 @styled()
-def stability_map(charts: Sequence[StabilityMap], points: Sequence[MapPoint] = (), *, linked: bool = False) -> Figure:
+def stability_map(charts: Sequence[StabilityMap], points: Sequence[MapPoint] = ()) -> Figure:
     """
-    Draw stability maps of one block, one for each model, with its sine tests, as links if `linked`.
+    Draw stability maps of one block, one for each model, with its sine tests.
 
     The first is shaded by the share of each cell that overturns; of each the limits are drawn.
     """
@@ -146,7 +131,7 @@ def stability_map(charts: Sequence[StabilityMap], points: Sequence[MapPoint] = (
     draw_map(axes, first, points)
     for chart in charts[1:]:
         _draw_model(axes, chart)
-    draw_points(axes, points, prefix="measured: ", linked=linked)
+    draw_points(axes, points, prefix="measured: ")
     caption(axes, _words(charts))
     shade = Patch(facecolor=SHADE(1.0), label=f"overturned, share of cell ({first.options['model']})")
     legend_outside(figure, [axes], below=True, patches=[shade])
@@ -198,11 +183,8 @@ def scale_axes(axes: Axes, frequency_ratio: Array, amplitude_ratio: Array, point
     amplitudes = [point.amplitude_ratio for point in points]
     low = min([float(amplitude_ratio[0]), *amplitudes])
     high = max([float(amplitude_ratio[-1]), *amplitudes])
-    axes.set_xlim(float(frequency_ratio[0]), float(frequency_ratio[-1]))
-    if high / low > LOGARITHMIC:
-        label_logarithmic(axes)
-    axes.set_ylim(low, high)
-    name_axes(axes)
+    _name_axes(axes, low, high)
+    axes.set(xlim=(float(frequency_ratio[0]), float(frequency_ratio[-1])), ylim=(low, high))
 
 
 def _words(charts: Sequence[StabilityMap]) -> str:
@@ -265,10 +247,8 @@ def draw_overturning(axes: Axes, spectrum: OverturningSpectrum) -> None:
     axes.grid(False)
     axes.set_xlim(float(ratios.min()), float(ratios.max()))
     lowest = float(starts.min(initial=1.0))
-    if largest / lowest > LOGARITHMIC:
-        label_logarithmic(axes)
+    _name_axes(axes, lowest, largest)
     axes.set_ylim(0.8 * lowest, largest)
-    name_axes(axes)
 
 
 def _words_of(spectrum: OverturningSpectrum) -> str:

@@ -50,8 +50,6 @@ def side_by_side(columns: int, heights: Sequence[float], *, title: float = 0.2) 
     More than `COLUMNS` are continued below, in bands. `heights` are those of the panels of a column from the top,
     `title` is the room above each column; inches.
     """
-    if columns < 1 or not heights:
-        raise ValueError(f"{columns} columns of {len(heights)} panels; at least one column with one panel was expected")
     across = 1 if is_narrow() else min(columns, COLUMNS)
     bands = -(-columns // across)
     room = title + GAP * (len(heights) - 1) + BOTTOM

@@ -30,12 +30,29 @@ from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, blank_figure, is_narrow, shortened, styled, width
 from colonnade.identification.restitution.peaks import confidence_band, released_energy
 from colonnade.store.records.stored import Stored
-from colonnade.units.text import PERCENT, number
+from colonnade.units.text import PERCENT, interval, number
 
 STAGE = "restitution"
 
 LONGEST_NAME = 26
 """Letters of a test's name above a panel."""
+
+
+class EstimateRow(NamedTuple):
+    """A value of e, by what it is from, with its interval, NaN if it is not known; whether and why it is given."""
+
+    name: str
+    value: float
+    low: float
+    high: float
+    recommended: bool = False
+    assumptions: str = ""
+    reason: str = ""
+
+    @property
+    def text(self) -> str:
+        """Its e with its interval."""
+        return interval(self.value, self.low, self.high)
 
 
 def draw_marks(
@@ -223,17 +240,8 @@ class ImpactSeries(NamedTuple):
     used: Mask
 
 
-class Level(NamedTuple):
-    """A value of e with its interval, NaN where it has none."""
-
-    value: float
-    low: float
-    high: float
-    name: str
-
-
 @styled()
-def impact_restitution(series: Sequence[ImpactSeries], *, level: Level, rigid: float) -> Figure:
+def impact_restitution(series: Sequence[ImpactSeries], *, level: EstimateRow, rigid: float) -> Figure:
     """Draw e of each impact with its error over speed and number, the value identified with its band, and the rigid."""
     left, right = margins()
     figure = Figure(figsize=(width(), TOP + HEIGHT + BOTTOM))
@@ -250,7 +258,7 @@ def impact_restitution(series: Sequence[ImpactSeries], *, level: Level, rigid: f
     return figure
 
 
-def draw_impacts(panels: Sequence[Axes], series: Sequence[ImpactSeries], level: Level) -> None:
+def draw_impacts(panels: Sequence[Axes], series: Sequence[ImpactSeries], level: EstimateRow) -> None:
     """
     Draw e of the impacts of each free vibration over their speed and, in a second panel, over their number.
 
@@ -289,7 +297,7 @@ def draw_impacts(panels: Sequence[Axes], series: Sequence[ImpactSeries], level: 
     axes.set_ylabel("e of each impact")
 
 
-def _draw_errors(axes: Axes, place: Array, series: Sequence[ImpactSeries], level: Level) -> None:
+def _draw_errors(axes: Axes, place: Array, series: Sequence[ImpactSeries], level: EstimateRow) -> None:
     """Draw where e of an impact is expected to lie if it is constant, by the errors of its neighbours."""
     error = np.concatenate([2 * one.standard_error for one in series])
     values = np.concatenate([one.restitution for one in series])
@@ -304,7 +312,7 @@ def _draw_errors(axes: Axes, place: Array, series: Sequence[ImpactSeries], level
     axes.fill_between(place[order], middle - wide, middle + wide, color=FAINT, alpha=0.3, linewidth=0, label=name)
 
 
-def draw_level(axes: Axes, level: Level) -> None:
+def draw_level(axes: Axes, level: EstimateRow) -> None:
     """Draw a value of e, if it is known, over the whole panel, with its interval."""
     if not np.isfinite(level.value):
         return
@@ -324,10 +332,10 @@ def draw_rigid(axes: Axes, rigid: float) -> None:
     note(axes, f"rigid body {rigid:.4f} {arrow}", at, xycoords="axes fraction", ha="right", va=side)
 
 
-def _limits(series: Sequence[ImpactSeries], level: Level) -> tuple[float, float]:
+def _limits(series: Sequence[ImpactSeries], level: EstimateRow) -> tuple[float, float]:
     """Return the range that shows nearly all impacts, and the interval of the level."""
     values = np.concatenate([one.restitution[np.isfinite(one.restitution)] for one in series])
-    bounds = [value for value in level[:3] if np.isfinite(value)]
+    bounds = [value for value in (level.value, level.low, level.high) if np.isfinite(value)]
     if values.size:
         middle = float(np.median(values))
         spread = max(SPREAD * 1.4826 * float(np.median(np.abs(values - middle))), SMALLEST_RANGE / 2)
@@ -351,7 +359,7 @@ def impact_series(one: OfTest) -> ImpactSeries | None:
 
 
 def impacts(
-    identity: str, series: Sequence[ImpactSeries], level: Level, rigid: float, note: str = ""
+    identity: str, series: Sequence[ImpactSeries], level: EstimateRow, rigid: float, note: str = ""
 ) -> Picture | None:
     """Draw e of each impact against its speed, with the value and interval identified from all; None without any."""
     if not series:
@@ -366,10 +374,10 @@ def impacts(
     )
 
 
-def level_of(stored: Stored, stage: str, name: str) -> Level:
+def level_of(stored: Stored, stage: str, name: str) -> EstimateRow:
     """Return the e that a stage identified, with its interval, as a figure shows it; NaN if it is not known."""
     value, low, high = (stored.value(stage, f"restitution{end}") for end in ("", "_low", "_high"))
-    return Level(value, low, high, name)
+    return EstimateRow(name, value, low, high)
 
 
 def _columns(one: OfTest, *names: str) -> list[Array]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -15,11 +14,11 @@ from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import draw_angle, largest_of, limit_of, scale_symmetric, time_limits
 from colonnade.figures.panels.curve import Curve, draw_curve
 from colonnade.figures.panels.layout import add_panel, legend_above, legend_outside, note, stacked_panels
-from colonnade.figures.restitution.decay import STAGE, Level, level_of
+from colonnade.figures.restitution.decay import SMALLEST_RANGE, STAGE, EstimateRow, level_of
 from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import FAINT, FIT, INK, LIMIT, MEASURED, SOFT, model_style, one_panel, styled, width
 from colonnade.store.records.stored import Stored
-from colonnade.units.text import format_percent, interval, number
+from colonnade.units.text import format_percent, number
 
 ROW, GROUP = 0.21, 0.26
 """Heights of an estimate's row, and of a group's title or the rigid-body value; inches."""
@@ -27,28 +26,8 @@ ROW, GROUP = 0.21, 0.26
 LEFT, RIGHT, TOP, BOTTOM = 2.05, 1.6, 0.12, 0.46
 """Room for names, for values in figures, and for the axis; inches."""
 
-SMALLEST_RANGE = 2e-3
-"""No axis of e is narrower than this."""
-
 BEYOND = 8.0
 """Median widths of an interval about the median estimate that the axis shows; what is beyond has an arrow."""
-
-
-class EstimateRow(NamedTuple):
-    """One estimator's e and interval, NaN if it gives none, and why; what it assumes; whether it is recommended."""
-
-    name: str
-    value: float
-    low: float
-    high: float
-    recommended: bool = False
-    assumptions: str = ""
-    reason: str = ""
-
-    @property
-    def text(self) -> str:
-        """Its e with its interval."""
-        return interval(self.value, self.low, self.high)
 
 
 Groups = Mapping[str, Sequence[EstimateRow]]
@@ -128,7 +107,7 @@ def _draw_row(axes: Axes, place: float, row: EstimateRow, title: str) -> None:
 
 def draw_estimate(
     axes: Axes,
-    known: EstimateRow | Level,
+    known: EstimateRow,
     place: float,
     label: str,
     *,
@@ -247,7 +226,7 @@ def region(one: OfTest) -> Picture | None:
 
 
 @styled()
-def joint_region(title: str, centre: Array, covariance: Array, *, fixed: Level) -> Figure:
+def joint_region(title: str, centre: Array, covariance: Array, *, fixed: EstimateRow) -> Figure:
     """
     Draw the ellipses inside which e and α together lie with a confidence of 50 and of 95 %.
 
@@ -264,7 +243,7 @@ def joint_region(title: str, centre: Array, covariance: Array, *, fixed: Level) 
     axes.margins(0.06)
     axes.autoscale_view()
     axes.axhline(1.0, label="α as given", **LIMIT)
-    if np.isfinite(fixed[:3]).all():
+    if np.isfinite((fixed.value, fixed.low, fixed.high)).all():
         draw_estimate(axes, fixed, 1.0, "e with α as given", mark="D")
     axes.xaxis.set_major_locator(MaxNLocator(nbins=6))
     axes.yaxis.set_major_locator(MaxNLocator(nbins=6))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import cos, sin
 
 import numpy as np
@@ -41,29 +40,25 @@ def panels(one: OfTest) -> list[Panel]:
     return found
 
 
+@styled()
 def joints(one: OfTest) -> Picture | None:
     """Draw the rocking angle in the joint below each body, the upper ones above; None without several bodies."""
     shown = panels(one)
     if not shown:
         return None
-    said = [f"{name}: {_said(record.outcome, record.opening)}" for name, record in one.record.bodies.items()]
-    title = f"{one.test.id}: rocking angle in the joint below each body, measured and predicted"
-    return Picture(_joints(shown), f"joints-{one.test.id}", title, f"{'; '.join(said)}.")
-
-
-def _said(outcome: str | None, opening: float | None) -> str:
-    far = "" if opening is None else f", joint open by up to {quantity(opening, 'mm')}"
-    return f"{outcome or 'not measured'}{far}"
-
-
-@styled()
-def _joints(shown: Sequence[Panel]) -> Figure:
     figure, axes = stacked_panels([HEIGHT] * len(shown))
     for place, panel in zip(axes, shown, strict=True):
         draw_panel(place, panel)
     axes[-1].set_xlabel("time (s)")
     legend_above(figure, axes)
-    return figure
+    said = [f"{name}: {_said(record.outcome, record.opening)}" for name, record in one.record.bodies.items()]
+    title = f"{one.test.id}: rocking angle in the joint below each body, measured and predicted"
+    return Picture(figure, f"joints-{one.test.id}", title, f"{'; '.join(said)}.")
+
+
+def _said(outcome: str | None, opening: float | None) -> str:
+    far = "" if opening is None else f", joint open by up to {quantity(opening, 'mm')}"
+    return f"{outcome or 'not measured'}{far}"
 
 
 def plan(one: OfTest) -> Picture | None:

@@ -31,7 +31,6 @@ from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side,
 from colonnade.figures.stored.subject import OfTest, some_of
 from colonnade.figures.style import MEASURED, is_narrow, styled
 from colonnade.stages.parts.beginning import RECORDED
-from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import driven_by, predicted_peak_time
 from colonnade.units.text import format_percent, number, quantity
 
@@ -95,7 +94,7 @@ def record(one: OfTest) -> Picture | None:
         impacts=stored.array("rocking", "impact_time"),
         peak=_peak(one.record, curves.get("measured")),
         spreads=shaded,
-        until=_end(stored, curves),
+        until=_end(one, curves),
     )
     return Picture(figure, f"record-{test.id}", f"{test.id}: rocking angle, measured and predicted", seen(one))
 
@@ -241,10 +240,10 @@ def _peak(record: TestSummary, measured: Curve | None) -> tuple[float, float] | 
     return record.peak_time, float(measured.values[nearest])
 
 
-def _end(stored: Stored, curves: Mapping[str, Curve]) -> float | None:
+def _end(one: OfTest, curves: Mapping[str, Curve]) -> float | None:
     """Return when all that rocks has overturned, s; None if something stands to the end."""
-    sources = [("rocking", None) if who == "measured" else ("predict", who) for who in curves]
-    falls = [stored.value(stage, "overturning_time", model) for stage, model in sources]
+    sources = [one.sources[who] for who in curves]
+    falls = [one.stored.value(stage, "overturning_time", model) for stage, model in sources]
     return None if not falls or np.isnan(falls).any() else max(falls)
 
 

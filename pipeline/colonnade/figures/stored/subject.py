@@ -60,6 +60,11 @@ class OfTest:
         """Of its specimen."""
         return self.campaign.block(self.test.specimen)
 
+    @property
+    def sources(self) -> dict[str, tuple[str, str | None]]:
+        """Stage and model of what was "measured", and of each model's prediction."""
+        return {"measured": ("rocking", None)} | {model: ("predict", model) for model in self.stored.models("predict")}
+
     def measured_ratio(self, *, as_recorded: bool = False) -> Curve | None:
         """Return the measured θ/α about the zero of the predictions, or as recorded; None if it was not measured."""
         return self._ratio("rocking", as_recorded=as_recorded)
@@ -71,16 +76,15 @@ class OfTest:
 
     def ratios(self) -> dict[str, Curve]:
         """Return θ/α as "measured" and by model."""
-        found = {"measured": self.measured_ratio()}
-        found |= {model: self._ratio("predict", model) for model in self.stored.models("predict")}
+        found = {who: self._ratio(*source) for who, source in self.sources.items()}
         return known({who: curve for who, curve in found.items() if curve is not None})
 
-    def _ratio(self, stage: str, model: str | None = None, *, as_recorded: bool = True) -> Curve | None:
+    def _ratio(self, stage: str, model: str | None = None, *, as_recorded: bool = False) -> Curve | None:
         stored = self.stored
         if not stored.has(stage, "rocking_angle", model):
             return None
         time, angle = stored.array(stage, "elapsed", model), stored.array(stage, "rocking_angle", model)
-        angle = angle if as_recorded else self.true_angle(angle)
+        angle = self.true_angle(angle) if stage == "rocking" and not as_recorded else angle
         # An overturned test ends where it overturns: what a frame or a floor does to it then is no rocking.
         fall = stored.value(stage, "overturning_time", model)
         ended = time.size if np.isnan(fall) else int(np.searchsorted(time, fall)) + 1
@@ -128,11 +132,10 @@ class OfTest:
 
     def bodies(self, place: int, name: str) -> dict[str, Curve]:
         """Return what was "measured", and what each model predicts, of the body at a place: `body_…`, SI."""
-        found = {"measured": ("rocking", None)} | {model: ("predict", model) for model in self.stored.models("predict")}
         return known(
             {
                 who: Curve(self.stored.array(stage, "elapsed", model), self.stored.array(stage, name, model)[place])
-                for who, (stage, model) in found.items()
+                for who, (stage, model) in self.sources.items()
                 if self.stored.has(stage, name, model)
             }
         )

@@ -50,7 +50,7 @@ def of_test(one: OfTest, photos: Photos) -> dict[str, Any]:
         "found": measured_of(one),
         "bodies": bodies_of(one.record),
         "table": base.of_test(one),
-        "spread": verdicts_of(one.record),
+        "spread": [said for each in one.record.predicted.items() if (said := verdict_sentence(*each))],
         "decay": facts_of(one),
         "estimates": estimate_rows(stored),
         "peaks": peaks_of(stored),
@@ -176,11 +176,6 @@ def _place(body: BodyPrediction) -> tuple[str, str, str]:
     far = None if x is None or y is None else round(hypot(x, y), FINEST)
     along = ", ".join(number(None if each is None else 1e3 * each) for each in (x, y))
     return quantity(far, "mm"), along, quantity(yaw, "mrad")
-
-
-def verdicts_of(record: TestSummary) -> list[str]:
-    """Say of each model whether the measured angle is within its spread."""
-    return list(filter(None, (verdict_sentence(model, each) for model, each in record.predicted.items())))
 
 
 def verdict_sentence(model: str, predicted: PredictionSummary) -> str:
