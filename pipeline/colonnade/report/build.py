@@ -39,7 +39,7 @@ from colonnade.report.forecasts_page import forecasts_page
 from colonnade.report.interactive import panels, test_data
 from colonnade.report.methods import Used
 from colonnade.report.overview import SpanTest, TestRow
-from colonnade.report.pictures import FreeVibration, has_span, picture, span_of
+from colonnade.report.pictures import FreeVibration, picture, span_of
 from colonnade.report.test_page import channels, facts, page
 from colonnade.report.test_page.channels import ChannelRow
 from colonnade.store.layout import Layout
@@ -213,11 +213,9 @@ def drawn(layout: Layout, asked: Asked) -> tuple[list[str], str]:
     """Read a test and draw its page: the page, the script with its samples, and its part as text."""
     campaign, test = asked.campaign, asked.campaign.tests[asked.test]
     stored = read_test(campaign, layout, test, outdated="" if asked.is_outdated else None, with_samples=True)
-    one, used, panel, described = OfTest(campaign, test, asked.record, stored), Used(), None, ""
+    one, used = OfTest(campaign, test, asked.record, stored), Used()
     used.gather(test.id, stored)
-    if has_span(one):
-        span = span_of(one)
-        panel, described = span.panel.thinned(), span.description
+    span = span_of(one)
     shown = page.of_test(one, asked.photos) | {"before": asked.before, "after": asked.after}
     text, pictures = rendered(campaign, "test", addresses.of_test(test.id), **shown)
     data = test_data.of_test(one, pictures)
@@ -225,8 +223,8 @@ def drawn(layout: Layout, asked: Asked) -> tuple[list[str], str]:
         tuple(one.failures),
         channels.of_test(stored),
         overview.polyline(one.measured_ratio()),
-        panel,
-        described,
+        None if span is None else span.panel.thinned(),
+        "" if span is None else span.description,
         FreeVibration.of(one) if stored.has("restitution") else None,
         used,
     )

@@ -135,7 +135,8 @@ def read_of_specimen(campaign: Campaign, layout: Layout, specimen: str) -> OfSpe
     tests = [read_of_test(campaign, layout, name, with_samples=False) for name in own]
     records = {each.test.id: each.record for each in tests}
     decays = [FreeVibration.of(each) for each in tests if each.stored.has(STAGE)]
-    return of_specimen(campaign, layout, specimen, records, decays, [span_of(each) for each in tests if has_span(each)])
+    spans = [span for each in tests if (span := span_of(each))]
+    return of_specimen(campaign, layout, specimen, records, decays, spans)
 
 
 def of_specimen(
@@ -159,13 +160,10 @@ def read_of_campaign(campaign: Campaign, layout: Layout) -> OfCampaign:
     return OfCampaign(campaign, rows, calibrations_of(layout, summary))
 
 
-def has_span(one: OfTest) -> bool:
-    """Whether it is an earthquake test with a Span and an angle, measured or predicted."""
-    return one.test.span is not None and any("rocking_angle" in dataset for dataset in one.stored.datasets.values())
-
-
-def span_of(one: OfTest) -> SpanTest:
-    """Gather of an earthquake test what the figure of all Spans shows."""
+def span_of(one: OfTest) -> SpanTest | None:
+    """Gather what the figure of all Spans shows of a test; None without a Span, or an angle measured or predicted."""
+    if one.test.span is None or not any("rocking_angle" in dataset for dataset in one.stored.datasets.values()):
+        return None
     return SpanTest(TestRow.of(one), record.span_panel(one), record.seen(one))
 
 
