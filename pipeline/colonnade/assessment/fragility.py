@@ -81,7 +81,7 @@ class Fragility(Digested):
 
     @cached_property
     def lognormal(self) -> LognormalFit:
-        """Curve of overturning, or why there is none."""
+        """Lognormal curve of overturning; its `reason` is why there is none, else empty."""
         return fit_lognormal(self.outcomes, self.resampling)
 
     @cached_property

@@ -144,7 +144,7 @@ def entries(values: Mapping[str, object]) -> list[str]:
 
 def begun(position: int) -> datetime:
     """
-    Return when a test is said to begin, by its place in the plan from 0: on working days, one after the other.
+    Return the date and time at which a test starts, by its number in the plan from 0; tests are run on working days.
 
     Examples
     --------

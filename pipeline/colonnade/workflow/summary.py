@@ -260,7 +260,7 @@ def _record(known: Known, *, blind: bool, scores: xr.Dataset | None, reason: str
 
 
 def _together(forecasts: Forecasts, chosen: Chosen, scored: Mapping[str, xr.Dataset]) -> ForecastsSummary | None:
-    """Return what is said of all forecasts, given the scores by test; None if there is no file."""
+    """Return the summary of all forecasts, given the scores by test; None without a forecast file."""
     if not (forecasts.known or forecasts.refused):
         return None
     from colonnade.store.records.forecast import judge
