@@ -1,4 +1,4 @@
-"""A watched folder: its bell, files copied from a share, and the command that is told of each."""
+"""A watched folder: what ends a wait, files copied from a share, and the command that is told of each."""
 
 import json
 import sys
@@ -7,9 +7,8 @@ import time
 import pytest
 
 from colonnade.errors import CampaignError
-from colonnade.workflow.watching import arrivals as folders
 from colonnade.workflow.watching import measure as module
-from colonnade.workflow.watching.arrivals import Arrivals, Bell, Share, listening
+from colonnade.workflow.watching.arrivals import Arrivals, Share, listening
 from colonnade.workflow.watching.measure import command_of, notify
 
 
@@ -61,31 +60,18 @@ def test_a_share_that_is_gone_is_said_and_may_come_back(share):
     assert (share.target / "a.csv").exists()
 
 
-def test_a_file_that_is_written_rings(tmp_path):
-    with listening(tmp_path) as bell:
-        if not bell.has_events:
-            pytest.skip("this system gives no events")
-        (tmp_path / "a.csv").write_text("1\n")
-        began = time.monotonic()
-        bell.wait()
-        assert time.monotonic() - began < folders.REST / 2
-
-
-def test_a_folder_that_is_not_there_is_polled(tmp_path):
-    with listening(tmp_path / "none") as bell:
-        assert not bell.has_events
-
-
-def test_a_remote_folder_is_polled(tmp_path, monkeypatch):
-    monkeypatch.setattr(folders, "_is_remote", lambda folder: True)
-    with listening(tmp_path) as bell:
-        assert not bell.has_events
-
-
-def test_a_wait_ends_when_it_is_due():
+def waited(wait, longest):
     began = time.monotonic()
-    Bell(has_events=False).wait(0.05)
-    assert 0.04 < time.monotonic() - began < 1.0
+    wait(longest)
+    return time.monotonic() - began
+
+
+def test_a_file_that_is_written_ends_a_wait_and_a_folder_that_gives_no_events_is_looked_at_when_it_is_due(tmp_path):
+    with listening(tmp_path) as wait:
+        (tmp_path / "a.csv").write_text("1\n")
+        assert waited(wait, 60.0) < 30.0
+    with listening(tmp_path / "none") as wait:
+        assert 0.04 < waited(wait, 0.05) < 5.0
 
 
 LINE = {"test": "säule-01", "outcome": "rocking"}

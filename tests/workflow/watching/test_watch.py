@@ -2,6 +2,7 @@
 
 import shutil
 import time
+from contextlib import nullcontext
 from dataclasses import dataclass
 
 import pytest
@@ -10,7 +11,6 @@ from colonnade.errors import StoreError
 from colonnade.store.records.advice import Advice
 from colonnade.workflow.lock import only_watch
 from colonnade.workflow.watching import watch as module
-from colonnade.workflow.watching.arrivals import Bell
 from colonnade.workflow.watching.behind import Ended
 from colonnade.workflow.watching.measure import Line
 from colonnade.workflow.watching.watch import watch
@@ -85,7 +85,7 @@ class Crashing:
 def crashing(monkeypatch):
     """What stands in for the run behind every watch of a test."""
     said = "Traceback (most recent call last):\n  x\nOSError: y"
-    behind = Crashing([Ended(-11, (), was_refused=False, problem=said)])
+    behind = Crashing([Ended(-11, (), said)])
     monkeypatch.setattr(module, "Behind", lambda *_: behind)
     return behind
 
@@ -105,7 +105,7 @@ def test_a_run_behind_that_is_refused_is_tried_again_and_a_share_that_is_gone_is
     small, crashing, monkeypatch
 ):
     monkeypatch.setattr(module, "AGAIN", 0.1)
-    crashing.ends = [Ended(1, (), was_refused=True, problem=""), Ended(0, (), was_refused=False, problem="")]
+    crashing.ends = [Ended(1, (), "small: this campaign is already being run"), Ended(0, (), "")]
     code, said = watched(small, share=small.folder / "gone")
     assert (code, crashing.starts, len(said)) == (0, 2, 2)
     assert "this folder cannot be seen" in said[0]
@@ -121,20 +121,21 @@ def test_a_watch_for_once_ends_if_results_cannot_be_written(small, crashing, mon
     assert (code, said[0]) == (1, "a.nc: the disk is full.")
 
 
-def test_a_deleted_file_starts_the_run_behind(small, crashing, monkeypatch):
-    crashing.ends = [Ended(0, (), was_refused=False, problem="")]
+@pytest.mark.parametrize("change", [lambda small: small.raw("pulse-02").unlink(), lambda small: small.edit("A small", "B")])
+def test_a_deleted_file_or_another_word_in_the_campaign_starts_the_run_behind(small, crashing, monkeypatch, change):
+    crashing.ends = [Ended(0, (), "")]
     starts = []
 
-    def wait(bell, longest=None):
+    def wait(longest):
         starts.append(crashing.starts)
         if len(starts) == 3:
-            small.raw("pulse-02").unlink()
+            change(small)
         if crashing.starts == 2:
             raise KeyboardInterrupt
         assert len(starts) < 100
         time.sleep(0.05)
 
-    monkeypatch.setattr(Bell, "wait", wait)
+    monkeypatch.setattr(module, "listening", lambda folder: nullcontext(wait))
     with pytest.raises(KeyboardInterrupt):
         watch(small.folder, show=lambda line: None, say=lambda sentence: None)
     assert starts[:3] == [1, 1, 1]

@@ -7,30 +7,21 @@ into the watched folder; nothing is overwritten.
 
 from __future__ import annotations
 
-import contextlib
 import os
 import shutil
 import threading
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from colonnade.campaign.found import files_in
 from colonnade.readers.files import sha256_of
+from colonnade.store.files import PARTIAL
 from colonnade.workflow.product import Mark, mark_of
 
-POLL = 1.0
-"""Seconds between two looks at a folder without events."""
-
-REST = 5.0
-"""Seconds between two looks at a folder with events, in case one was lost."""
-
-REMOTE = ("nfs", "cifs", "smb", "9p", "sshfs", "fuse", "afs", "vboxsf", "drvfs", "virtiofs", "ceph", "gluster")
-"""Beginnings of kinds of file systems on which changes made elsewhere give no event."""
-
-UNFINISHED = ".partial"
-"""Ending of a copy until it is whole."""
+POLL = 2.0
+"""Seconds between two looks where no event came: a folder of another machine gives none, and one may be lost."""
 
 
 def marks_of(paths: Iterable[Path]) -> dict[Path, Mark]:
@@ -131,7 +122,7 @@ def _copy(source: Path, target: Path) -> str:
     if target.exists():
         same = sha256_of(target) == digest
         return "" if same else f"{source}: {target.name} is there already and differs. It was kept; rename one of them."
-    partial = target.with_name(target.name + UNFINISHED)
+    partial = target.with_name(target.name + PARTIAL)
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, partial)
@@ -147,68 +138,32 @@ def _copy(source: Path, target: Path) -> str:
     return ""
 
 
-class Bell:
-    """Rings when something happens in a folder; with events it is waited for, without it is a pause."""
-
-    def __init__(self, *, has_events: bool) -> None:
-        self.has_events = has_events
-        self._rung = threading.Event()
-
-    def ring(self) -> None:
-        """Say that something happened."""
-        self._rung.set()
-
-    def wait(self, longest: float | None = None) -> None:
-        """Wait until something happened, or a look is due."""
-        due = REST if self.has_events else POLL
-        if self._rung.wait(due if longest is None else min(longest, due)):
-            self._rung.clear()
-
-
 @contextmanager
-def listening(folder: Path) -> Iterator[Bell]:
-    """Listen to a folder; where the system gives no events it is polled."""
-    if not folder.is_dir() or _is_remote(folder):
-        yield Bell(has_events=False)
-        return
+def listening(folder: Path) -> Iterator[Callable[[float], None]]:
+    """Listen to a folder: give what waits until something happens in it, for so many seconds at most."""
     from watchdog.events import FileSystemEvent, FileSystemEventHandler
     from watchdog.observers import Observer
 
-    bell = Bell(has_events=True)
+    rung = threading.Event()
+
+    def wait(longest: float) -> None:
+        if rung.wait(longest):
+            rung.clear()
 
     class Ringing(FileSystemEventHandler):
         """Rings for what changes a file; reading one is no event."""
 
         def on_any_event(self, event: FileSystemEvent) -> None:
             if event.event_type not in ("opened", "closed_no_write"):
-                bell.ring()
+                rung.set()
 
     observer = Observer()
-    try:
+    with suppress(OSError):  # no such folder, or no watches left
         observer.schedule(Ringing(), str(folder), recursive=True)
         observer.start()
-    except OSError:  # no watches left
-        yield Bell(has_events=False)
-        return
     try:
-        yield bell
+        yield wait
     finally:
         observer.stop()
-        with contextlib.suppress(RuntimeError):
+        with suppress(RuntimeError):  # it was never started
             observer.join(2.0)
-
-
-def _is_remote(folder: Path) -> bool:
-    """Whether a folder is on a file system of another machine, as far as the system says."""
-    try:
-        mounts = Path("/proc/mounts").read_text(encoding="utf-8", errors="replace").splitlines()
-        resolved = os.path.realpath(folder)
-    except OSError:
-        return False
-    best, kind = "", ""
-    for mount in mounts:
-        _, point, system, *_ = [*mount.split(" "), "", "", ""]
-        point = point.replace("\\040", " ")
-        if (resolved == point or resolved.startswith(point.rstrip("/") + "/")) and len(point) >= len(best):
-            best, kind = point, system
-    return kind.startswith(REMOTE)

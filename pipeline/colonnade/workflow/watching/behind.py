@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import signal
 import subprocess
 import sys
 import tempfile
@@ -23,6 +22,11 @@ PATIENCE = 3.0
 """Seconds in which it has to give way; then it is killed, which loses nothing but the steps in progress."""
 
 
+_WINDOWS_FLAGS = sum(
+    getattr(subprocess, flag, 0) for flag in ("BELOW_NORMAL_PRIORITY_CLASS", "CREATE_NEW_PROCESS_GROUP")
+)
+
+
 @dataclass(frozen=True)
 class Ended:
     """
@@ -34,16 +38,18 @@ class Ended:
         Its exit code.
     failures : tuple of str
         A sentence on each test or specimen that failed.
-    was_refused : bool
-        Whether another run held the campaign.
     problem : str
-        What it wrote to stderr if it gave no result and was not refused: a crash, or a disk that is full.
+        What it wrote to stderr if it gave no result: it was refused, it crashed, or the disk is full.
     """
 
     code: int
     failures: tuple[str, ...]
-    was_refused: bool
     problem: str
+
+    @property
+    def was_refused(self) -> bool:
+        """Whether another run held the campaign."""
+        return is_refusal(self.problem)
 
     @property
     def headline(self) -> str:
@@ -79,9 +85,13 @@ class Behind:
         command += ["run", str(self.campaign_file), "--await", "--json"]
         command += [] if self.results is None else ["--results", str(self.results)]
         command += [] if self.workers is None else ["--workers", str(self.workers)]
-        options = {"process_group": 0} if os.name == "posix" else {"creationflags": _windows_flags()}
-        process: subprocess.Popen[bytes] = subprocess.Popen(  # type: ignore[call-overload]
-            command, stdin=subprocess.DEVNULL, stdout=output, stderr=complaints, **options
+        process = subprocess.Popen(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=complaints,
+            process_group=0 if os.name == "posix" else None,
+            creationflags=_WINDOWS_FLAGS,
         )
         self._running = process, output, complaints
         if os.name == "posix":
@@ -90,7 +100,7 @@ class Behind:
 
     @property
     def is_running(self) -> bool:
-        """Whether it has been started, and its end not been taken note of."""
+        """Whether it was started and its end is not taken note of yet."""
         return self._running is not None
 
     def ended(self) -> Ended | None:
@@ -103,10 +113,10 @@ class Behind:
             return
         process, *_ = self._running
         process.terminate()
-        with contextlib.suppress(subprocess.TimeoutExpired):
+        try:
             process.wait(PATIENCE)
-        if process.poll() is None:
-            _kill(process)
+        except subprocess.TimeoutExpired:
+            process.kill()  # its workers end with it
         self._end(*self._running)
 
     def _end(self, process: subprocess.Popen[bytes], output: IO[bytes], complaints: IO[bytes]) -> Ended:
@@ -119,22 +129,6 @@ class Behind:
                 stages = json.loads(output.read() or b"{}").get("stages")
             except (ValueError, RecursionError):
                 stages = None
-        was_refused = stages is None and is_refusal(said)
-        problem = "" if was_refused or stages is not None else said or f"It ended with exit code {code}."
+        problem = "" if stages is not None else said or f"It ended with exit code {code}."
         failed = [each for each in stages or () if each["action"] == "failed"]
-        return Ended(code, tuple(f"{each['subject']}: {each['reason']}" for each in failed), was_refused, problem)
-
-
-def _kill(process: subprocess.Popen[bytes]) -> None:
-    """End a run and its workers at once."""
-    with contextlib.suppress(ProcessLookupError, PermissionError):
-        if os.name == "posix":
-            os.killpg(process.pid, signal.SIGKILL)
-        else:
-            process.kill()
-
-
-def _windows_flags() -> int:
-    return int(getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0)) | int(
-        getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)
-    )
+        return Ended(code, tuple(f"{each['subject']}: {each['reason']}" for each in failed), problem)

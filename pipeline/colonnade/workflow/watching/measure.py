@@ -246,16 +246,3 @@ def notify(command: Sequence[str], line: Mapping[str, Any]) -> str:
         said = (done.stderr or "").strip().splitlines()
         return f"{command[0]} ended with {done.returncode}{f': {said[-1][:200]}' if said else ''}."
     return ""
-
-
-def shown_now(layout: Layout) -> str:
-    """
-    Give a mark of what the report shows: that of its overview.
-
-    The overview is the last page that is written, so the mark changes when all pages are there.
-    """
-    try:
-        status = layout.report.stat()
-    except OSError:
-        return ""
-    return f"{status.st_mtime_ns:x}-{status.st_size:x}"

@@ -22,9 +22,9 @@ from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.workflow.advising.next import advise_after
 from colonnade.workflow.lock import is_refusal, only_watch
-from colonnade.workflow.watching.arrivals import Arrivals, Bell, Share, last_change, listening, marks_of
+from colonnade.workflow.watching.arrivals import POLL, Arrivals, Share, last_change, listening, marks_of
 from colonnade.workflow.watching.behind import Behind
-from colonnade.workflow.watching.measure import Line, measure, measured, notify, shown_now
+from colonnade.workflow.watching.measure import Line, measure, measured, notify
 
 TEXTS = ("review.toml", "tests.csv", "tests.xlsx")
 """Files next to the campaign file that people change while it is watched."""
@@ -93,11 +93,11 @@ def watch(
     """
     loaded = load(Path(campaign)).awaiting()
     layout = Layout.of(loaded.path, results)
-    with only_watch(layout), _logged(layout) as log, listening(loaded.folder / loaded.watch.folder) as bell:
+    folder = loaded.folder / loaded.watch.folder
+    shared = None if share is None else Share(share, folder, Arrivals(loaded.watch.settle))
+    with only_watch(layout), _logged(layout) as log, listening(folder) as wait:
         behind = Behind(loaded.path, layout.results, workers)
-        watching = _Watching(loaded, layout, bell, behind, command, show, say, log, once)
-        if share is not None:
-            watching.share = Share(share, loaded.folder / loaded.watch.folder, Arrivals(loaded.watch.settle))
+        watching = _Watching(loaded, layout, wait, behind, command, show, say, log, once, shared)
         try:
             return watching.until_done()
         finally:
@@ -124,16 +124,15 @@ class _Watching:
 
     campaign: Campaign
     layout: Layout
-    bell: Bell
+    wait: Callable[[float], None]
     behind: Behind
     command: Sequence[str]
     show: Show
     say: Say
     log: logging.Logger
     is_once: bool
-    share: Share | None = None
+    share: Share | None
     _arrivals: Arrivals = field(init=False)
-    _texts: object = None
     _due: dict[str, float] = field(default_factory=dict)
     _is_outdated: bool = True
     _code: int = 0
@@ -145,11 +144,10 @@ class _Watching:
     _line_written: float = 0.0
 
     def __post_init__(self) -> None:
-        """Take the files of tests that are measured already for known."""
+        """Take the files of tests that are measured already for known, and what people change as it is."""
         self._arrivals = Arrivals(self.campaign.watch.settle)
-        self._texts = self._marks_of_texts()
-        known = measured(self.campaign, self.layout)
-        self._arrivals.know(marks_of(path for name in known for path in self._files(name)))
+        known = [path for name in measured(self.campaign, self.layout) for path in self._files(name)]
+        self._arrivals.know(marks_of([*known, *self._texts]))
 
     def until_done(self) -> int:
         """Watch until a signal ends it or, if it is only asked for once, until nothing is left to do."""
@@ -160,16 +158,18 @@ class _Watching:
             is_busy = self._arrivals.is_waiting or self._due or self.behind.is_running
             if self.is_once and not (is_busy or self._is_outdated):
                 return self._code
-            self.bell.wait(BUSY if is_busy or self.is_once else None)
+            self.wait(BUSY if is_busy or self.is_once else POLL)
             self._look()
 
     def tell_pages(self, *, is_watched: bool = True) -> None:
         """Give a sign of life to open pages."""
         self._alive = time.monotonic()
+        # The overview is the last page that is written, so its mark changes when all pages are there.
+        mark = marks_of([self.layout.report]).get(self.layout.report, ())
         text = state_script(
             is_watched=is_watched,
             written=time.time(),
-            shown=shown_now(self.layout),
+            shown="-".join(map(str, mark)),
             line=self._line,
             line_written=self._line_written,
         )
@@ -183,10 +183,8 @@ class _Watching:
         for problem in () if self.share is None else self.share.copy_finished(now):
             self._say_once(problem)
         finished = self._arrivals.look(marks_of(self._watched()), now)
-        texts = self._marks_of_texts()
-        if finished or texts != self._texts:
-            self._is_outdated |= texts != self._texts
-            self._texts = texts
+        if finished:
+            self._is_outdated |= not finished.isdisjoint(self._texts)
             self._reload()
             self._due |= {name: now for name in self.campaign.tests if finished & {*self._files(name)}}
         for name in [name for name, due in self._due.items() if due <= now]:
@@ -232,14 +230,14 @@ class _Watching:
             self._code = max(ended.code, int(ended.code != 0))
             for failure in ended.failures:
                 self._say_once(failure)
-            if ended.problem and ended.code != WRONG_CAMPAIGN:
+            if ended.was_refused:
+                self._is_outdated, self._behind_from = True, now + AGAIN
+            elif ended.problem and ended.code != WRONG_CAMPAIGN:
                 self.log.info(ended.problem)
                 self._say_once(
                     f"The run behind the watch failed: {ended.headline}\n"
                     f"All that it said is in {self.layout.watch_log}. It starts again after the next file."
                 )
-            if ended.was_refused:
-                self._is_outdated, self._behind_from = True, now + AGAIN
         is_free = not (self._due or self._arrivals.is_waiting or self.behind.is_running)
         if self._is_outdated and is_free and now >= self._behind_from:
             self._is_outdated = False
@@ -267,11 +265,11 @@ class _Watching:
     def _files(self, name: str) -> list[Path]:
         return [*self.campaign.tests[name].files.values()]
 
+    @property
+    def _texts(self) -> list[Path]:
+        return [self.campaign.path, *(self.campaign.folder / name for name in TEXTS)]
+
     def _watched(self) -> list[Path]:
         folder = self.campaign.folder / self.campaign.watch.folder
         listed = (path for name in self.campaign.tests for path in self._files(name))
-        return [*{*(folder / name for name in files_in(folder)), *listed}]
-
-    def _marks_of_texts(self) -> dict[Path, object]:
-        folder = self.campaign.folder
-        return dict(marks_of([self.campaign.path, *(folder / name for name in TEXTS)]))
+        return [*{*(folder / name for name in files_in(folder)), *listed}, *self._texts]
