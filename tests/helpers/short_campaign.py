@@ -70,9 +70,10 @@ def copied(campaign, folder):
     layout = Layout(Path(shutil.copytree(campaign, folder)))
     known = json.loads(layout.catalogue.read_text(encoding="utf-8"))
     del known["sha256"]
-    for kind in ("raw", "results", "pages"):
-        for name, entry in known[kind].items():
-            entry[0] = list(mark_of(folder / name.partition(" ")[0]))
+    for name, entry in known.items():
+        kind, place, *_ = name.split(" ")
+        if kind in ("raw", "results", "pages"):
+            entry[0] = list(mark_of(folder / place))
     known["sha256"] = hash_of(known)
     layout.catalogue.write_text(json.dumps(known, separators=(",", ":")), encoding="utf-8")
     return folder

@@ -15,7 +15,7 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin
 from colonnade.store.results import ResultId
-from colonnade.workflow.chain import Chain, bring_up_to_date, if_up_to_date, why_pending, worker_lost
+from colonnade.workflow.chain import Chain, bring_up_to_date, worker_lost
 from colonnade.workflow.executors import WorkersEndedError
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.product import Product, stored_attributes
@@ -131,19 +131,6 @@ def test_a_fault_of_colonnade_has_a_log_until_it_is_gone(layout):
     assert "Internal error in rocking, ZeroDivisionError" in stored_attributes(layout.stage("toy", "rocking"))["reason"]
     ran(layout, start_from="rocking")
     assert not log.exists()
-
-
-def test_what_is_pending_says_how_far_it_was_run(layout):
-    with only_run(layout) as run_id:
-        whole = chain(layout, run_id, toys(layout))
-        assert why_pending(whole, stored_attributes) == ""
-        bring_up_to_date(replace(whole, products=whole.products[:1]))
-        assert why_pending(whole, stored_attributes) == "run only as far as ingest; `colonnade run` does the rest"
-        bring_up_to_date(whole)
-        assert why_pending(whole, stored_attributes) is None
-        changed = chain(layout, run_id, toys(layout, value=7))
-        assert "out of date (settings changed)" in why_pending(changed, stored_attributes)
-        assert if_up_to_date(changed, stored_attributes) is None
 
 
 def test_what_lost_its_worker_is_not_stored_as_failed(layout):

@@ -21,7 +21,6 @@ from colonnade.workflow.lock import expect_run, only_run
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import make_maps
 from colonnade.workflow.product import Catalogue
-from colonnade.workflow.raw_files import raw_files
 from colonnade.workflow.walk import Walk
 
 distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
@@ -160,11 +159,8 @@ def test_a_campaign_run_on_the_cluster_is_that_of_one_process(cluster, untouched
 
 def ingesting(small, run):
     """Return the chain that only ingests a test."""
-    campaign, catalogue = load(small.folder), Catalogue(small.layout)
-    test = campaign.tests["pulse-01"]
-    graph = Graph(campaign, small.layout, catalogue, {test.id: raw_files(campaign, test, catalogue)})
-    walk = Walk(graph, run)
-    return walk.chain(graph.of_test(test)[:1])
+    graph = Graph(load(small.folder), small.layout, Catalogue(small.layout))
+    return Walk(graph, run).chain(graph.of_test(graph.campaign.tests["pulse-01"])[:1])
 
 
 def test_workers_that_do_not_see_the_campaign_are_told(cluster, untouched):

@@ -12,14 +12,11 @@ from colonnade.store.results import results_of
 from colonnade.workflow.chain import RunResult, StageRun
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.product import Catalogue
-from colonnade.workflow.raw_files import raw_files
 
 
 @pytest.fixture
 def graph(small):
-    campaign, catalogue = load(small.folder), Catalogue(small.layout)
-    raw = {test.id: raw_files(campaign, test, catalogue) for test in campaign.tests.values()}
-    return Graph(campaign, small.layout, catalogue, raw)
+    return Graph(load(small.folder), small.layout, Catalogue(small.layout))
 
 
 @pytest.mark.parametrize("name", ["free-01", "pulse-01"])
@@ -46,10 +43,10 @@ def test_the_code_is_hashed_again_only_if_a_source_changed(graph, monkeypatch):
     before = [step.code for step in graph.of_test(test)]
     graph.catalogue.save()
     monkeypatch.setattr("colonnade.workflow.product.code_hash", lambda *given, **more: "parsed again")
-    again = Graph(graph.campaign, graph.layout, Catalogue(graph.layout), graph.raw)
+    again = Graph(graph.campaign, graph.layout, Catalogue(graph.layout))
     assert [step.code for step in again.of_test(test)] == before
     monkeypatch.setattr("colonnade.workflow.product.package_hash", lambda: "other sources")
-    again = Graph(graph.campaign, graph.layout, Catalogue(graph.layout), graph.raw)
+    again = Graph(graph.campaign, graph.layout, Catalogue(graph.layout))
     assert {step.code for step in again.of_test(test)} == {"parsed again"}
 
 

@@ -94,7 +94,7 @@ def test_an_interrupt_in_this_process_frees_the_lock_and_leaves_whole_files(unto
     with pytest.raises(KeyboardInterrupt):
         untouched.run(progress=interrupt)
     looked_at = json.loads(untouched.layout.catalogue.read_text(encoding="utf-8"))
-    assert any("pulse-01.csv" in name for name in looked_at["raw"])
+    assert any("pulse-01.csv" in name for name in looked_at)
     resumes()
 
 

@@ -111,6 +111,10 @@ class Campaign(CampaignKeys):
         """Return the campaign with some attributes changed."""
         return self.model_copy(update=changed)
 
+    def warned(self, findings: Iterable[Finding]) -> Campaign:
+        """Return the campaign with some findings more."""
+        return self.but(warnings=(*self.warnings, *findings))
+
     def told(self, value: object) -> str:
         """Write a part of the campaign as text, without its folder, so that a copy elsewhere gives the same."""
         return repr(value).replace(self.folder.as_posix(), ".")

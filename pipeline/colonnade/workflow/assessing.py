@@ -22,12 +22,11 @@ from colonnade.store.provenance import hash_of
 from colonnade.store.results import ResultId
 from colonnade.workflow.executors import MOST_BLOCKS, Arrays, Run, Where, in_blocks
 from colonnade.workflow.graph import FORMATS, Graph
-from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import expect_known
 from colonnade.workflow.product import Catalogue, Product
 from colonnade.workflow.real_column import Given, checked, find_column
 from colonnade.workflow.summary import record_of_assessment
-from colonnade.workflow.walk import Walk
+from colonnade.workflow.walk import walking
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -79,12 +78,9 @@ def assess_campaign(campaign: Campaign, layout: Layout, names: Sequence[str], wh
         raise CampaignError(
             f"{campaign.path.name} has no [assessments.<name>]. Add one, or ask with --specimen ID --records DIR."
         )
-    with only_run(layout) as run_id:
-        catalogue = Catalogue(layout)
-        walk = Walk(Graph(campaign, layout, catalogue), run_id, where=where)
+    with walking(campaign, layout, where) as walk:
         walk.pool(sorted({asked.specimen for asked in chosen.values()}))
         walk.assess(chosen)
-        catalogue.save(is_whole=False)
     failed = walk.failed["assessment"]
     found = []
     for name, asked in chosen.items():

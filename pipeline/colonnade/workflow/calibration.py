@@ -12,11 +12,9 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.units.text import listed
 from colonnade.workflow.executors import Where
-from colonnade.workflow.graph import Graph
-from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import expect_known
-from colonnade.workflow.product import Catalogue, stored_attributes
-from colonnade.workflow.walk import Walk
+from colonnade.workflow.product import stored_attributes
+from colonnade.workflow.walk import walking
 
 NUMBERS = {
     "step": "contact_step",
@@ -76,12 +74,11 @@ def calibrate(
             "law of the settings under processing.predict.contact."
         )
     mesh = loaded.processing.predict.contact.mesh
-    with only_run(layout) as run_id:
+    with walking(loaded, layout, Where(workers)) as walk:
         for name in chosen:
             is_given = loaded.specimens[name].restitution is not None
             if not is_given and stored_attributes(layout.stage(name, "specimen")).get("status") != "done":
                 raise CampaignError(f"{name}: its restitution is not known yet. Run `colonnade identify` first.")
-        walk = Walk(Graph(loaded, layout, Catalogue(layout)), run_id, where=Where(workers))
         walk.pool()
         failed = walk.failed["specimen"]
         for name in chosen:

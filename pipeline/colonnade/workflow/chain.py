@@ -16,7 +16,7 @@ from colonnade.findings import Finding, Severity, at_stage, in_order
 from colonnade.interruption import expect_none
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.store.provenance import NEVER_RUN, Origin, Recipe, global_attributes
+from colonnade.store.provenance import Origin, Recipe, global_attributes
 from colonnade.store.results import RUN_STAGES, STAGES, ResultId, Subject
 from colonnade.workflow.executors import WorkersEndedError, forget, in_blocks
 from colonnade.workflow.lock import expect_run
@@ -170,6 +170,17 @@ class Chain:
             return "asked for"
         return (recipe or product.recipe(look)).why(look(product.paths[0]))
 
+    def standing(self, look: Look) -> tuple[list[StageRun], Product | None, str]:
+        """Give what became of its results so far; and the first that has to be made, if any has to, and why."""
+        runs: list[StageRun] = []
+        for product in self.products:
+            if why := self.why(product, look):
+                return runs, product, why
+            runs.append(_unchanged(product, look(product.paths[0])))
+            if runs[-1].action == "failed":
+                break
+        return runs, None, ""
+
 
 def bring_up_to_date(chain: Chain) -> list[StageRun]:
     """
@@ -200,37 +211,10 @@ def on_a_cluster(chain: Chain) -> list[StageRun]:
     return bring_up_to_date(chain)
 
 
-def if_up_to_date(chain: Chain, look: Look) -> list[StageRun] | None:
-    """Return what `bring_up_to_date` would for a chain with nothing to do, by the attributes from `look`; else None."""
-    runs: list[StageRun] = []
-    for product in chain.products:
-        if chain.why(product, look):
-            return None
-        runs.append(_unchanged(product, look(product.paths[0])))
-        if runs[-1].action == "failed":
-            break
-    return runs
-
-
-def why_pending(chain: Chain, look: Look) -> str | None:
-    """Say why the results of a test cannot be shown: empty if it was never run, None if they are up to date."""
-    for number, product in enumerate(chain.products):
-        why = chain.why(product, look)
-        if why == NEVER_RUN and number:
-            return f"run only as far as {chain.products[number - 1].result.stage}; `colonnade run` does the rest"
-        if why == NEVER_RUN:
-            return ""
-        if why:
-            return f"its results are out of date ({why}); run again"
-        if look(product.paths[0])["status"] == "failed":
-            break
-    return None
-
-
 def worker_lost(chain: Chain) -> list[StageRun]:
     """Report a chain whose process was stopped; no failure is stored, so that the next run tries again."""
-    late = (product for product in chain.products if chain.why(product, stored_attributes))
-    stopped = next(late, chain.products[-1]).result
+    _, late, _ = chain.standing(stored_attributes)
+    stopped = (late or chain.products[-1]).result
     remove_later(chain.layout, stopped, itself=True)
     return [StageRun(stopped.subject, stopped.stage, "failed", stopped.model, WORKER_LOST)]
 

@@ -17,10 +17,11 @@ from colonnade.store.layout import Layout
 from colonnade.store.results import models_of
 from colonnade.workflow.chain import WORKER_LOST, RunResult, StageRun
 from colonnade.workflow.executors import Counted, spread
+from colonnade.workflow.graph import Graph
 from colonnade.workflow.photos import unshown_photos
-from colonnade.workflow.pooling import with_contradictions
+from colonnade.workflow.pooling import contradictions
 from colonnade.workflow.product import Catalogue
-from colonnade.workflow.raw_files import raw_files, with_copies
+from colonnade.workflow.raw_files import copies
 
 MANY = 16
 """Files from which starting other processes is sooner done than reading them one after the other."""
@@ -42,11 +43,9 @@ def check(campaign: Campaign, progress: Counted = lambda done, total: None) -> R
         As of a run up to there: each problem is a stage that failed. Nothing is written.
     """
     layout = Layout.of(campaign.path, None)
-    catalogue = Catalogue(layout)
-    campaign = with_copies(
-        campaign, {test.id: raw_files(campaign, test, catalogue) for test in campaign.tests.values()}
-    )
-    campaign = campaign.but(warnings=(*campaign.warnings, *unshown_photos(campaign), *_overnight(campaign)))
+    graph = Graph(campaign, layout, Catalogue(layout))
+    same = copies(campaign, {name: graph.raw(test) for name, test in campaign.tests.items()})
+    campaign = campaign.warned([*same, *unshown_photos(campaign), *_overnight(campaign)])
     found: dict[str, list[StageRun]] = {}
     for name in campaign.tests:
         if excluded := campaign.review(name).excluded:
@@ -62,7 +61,7 @@ def check(campaign: Campaign, progress: Counted = lambda done, total: None) -> R
         found |= read
         progress(len(found), len(campaign.tests))
     stages = [stage for name in campaign.tests for stage in found[name]]
-    campaign = with_contradictions(campaign, {name: found[name][-1].findings for name in campaign.tests})
+    campaign = campaign.warned(contradictions(campaign, {name: found[name][-1].findings for name in campaign.tests}))
     concerning = {name: campaign.concerning(name) for name in campaign.tests}
     stages += [stage for each in campaign.assessments.items() for stage in _records_checked(campaign, *each)]
     return RunResult(tuple(stages), layout.summary_json, None, campaign.warnings, concerning)

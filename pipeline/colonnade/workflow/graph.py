@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,10 +13,10 @@ from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.models import MODELS
 from colonnade.store.forecasts import Known
 from colonnade.store.layout import Layout
-from colonnade.store.results import ResultId, models_of
+from colonnade.store.results import ResultId, results_of
 from colonnade.workflow.executors import HERE, Arrays, Run, Where, blocks_of
 from colonnade.workflow.product import Catalogue, Product
-from colonnade.workflow.raw_files import RawFiles, expect_unchanged
+from colonnade.workflow.raw_files import RawFiles, expect_unchanged, raw_files
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 
 COMPARED = {"predict": "predicted", "ensemble": "ensembles"}
 """Stages whose results `compare` takes by model, and the name of the argument."""
+
+ARGUMENTS = {"ingest": "recorded", "condition": "conditioned", "restitution": "identified"}
+"""Stages whose results have other names where they are read; of those that a release tells, the zero of its angle."""
 
 FORMATS = "colonnade.readers"
 """The readers: formats are loaded by name, so that no import of a stage shows that they are used."""
@@ -46,40 +49,64 @@ class Graph:
     campaign : Campaign
     layout : Layout
     catalogue : Catalogue
-        Gives the hash of the code.
-    raw : mapping of str to mapping of str to RawFile
-        Raw files by test.
+        Gives the hash of the code and of raw files.
     """
 
     campaign: Campaign
     layout: Layout
     catalogue: Catalogue
-    raw: Mapping[str, RawFiles] = field(default_factory=dict)
+
+    def raw(self, test: Test) -> RawFiles:
+        """Hash the raw files of a test."""
+        return raw_files(self.campaign, test, self.catalogue)
 
     def of_test(self, test: Test, where: Where = HERE) -> list[Product]:
         """Return the results of a test in their order; `where` members of the contact model's ensembles are run."""
-        return [*self._measuring(test), *self._predicting(test, where)]
+        results = results_of(self.campaign, test)
+        return [self._of_test(test, result, results, where) for result in results]
 
-    def _measuring(self, test: Test) -> list[Product]:
-        from colonnade.stages import condition, ingest, restitution, rocking
+    def _of_test(self, test: Test, result: ResultId, results: Sequence[ResultId], where: Where) -> Product:
+        """Return one of the results of a test."""
+        from colonnade.stages import compare, condition, ensemble, ingest, predict, restitution, rocking
 
-        recorded, conditioned, measured, identified = (
-            ResultId(test.id, stage) for stage in ("ingest", "condition", "rocking", "restitution")
-        )
-        read, raw = ingest.IngestInputs.of(self.campaign, test), self.raw[test.id]
-        digests = {name: file.sha256 for name, file in raw.items()}
-        ingests = partial(_ingest, self.campaign.folder, test.files, raw)
-        cleaned = condition.ConditionInputs.of(self.campaign, test)
-        turned = rocking.RockingInputs.of(self.campaign, test)
-        products = [
-            self.product(recorded, read, digests, ingests, FORMATS),
-            self.product(conditioned, cleaned, {"recorded": recorded}, condition.condition, FORMATS),
-            self.product(measured, turned, {"conditioned": conditioned}, rocking.rocking),
-        ]
-        if test.kind == "free-vibration":
-            of_free = restitution.RestitutionInputs.of(self.campaign, test)
-            products.append(self.product(identified, of_free, {"rocking": measured}, restitution.restitution))
-        return products
+        campaign, model = self.campaign, str(result.model)
+        there = {each.stage: each for each in results} | {"specimen": ResultId(test.specimen, "specimen")}
+        is_in_space = model in MODELS and MODELS[model].in_space
+        if is_in_space and not campaign.specimens[test.specimen].is_assembly:
+            there["contact"] = ResultId(test.specimen, "contact")
+
+        def read(*stages: str) -> dict[str, ResultId]:
+            return {ARGUMENTS.get(stage, stage): there[stage] for stage in stages if stage in there}
+
+        inputs: BaseModel
+        match result.stage:
+            case "ingest":
+                inputs, raw = ingest.IngestInputs.of(campaign, test), self.raw(test)
+                work = partial(_ingest, campaign.folder, test.files, raw)
+                return self.product(result, inputs, {name: file.sha256 for name, file in raw.items()}, work, FORMATS)
+            case "condition":
+                inputs = condition.ConditionInputs.of(campaign, test)
+                return self.product(result, inputs, read("ingest"), condition.condition, FORMATS)
+            case "rocking":
+                inputs = rocking.RockingInputs.of(campaign, test)
+                return self.product(result, inputs, read("condition"), rocking.rocking)
+            case "restitution":
+                inputs = restitution.RestitutionInputs.of(campaign, test)
+                return self.product(result, inputs, read("rocking"), restitution.restitution)
+            case "predict":
+                inputs = predict.PredictInputs.of(campaign, test, model)
+                upstream = read("rocking", "restitution", "specimen", "contact")
+                return self.product(result, inputs, upstream, predict.predict)
+            case "ensemble":
+                inputs = ensemble.EnsembleInputs.of(campaign, test, model)
+                upstream = read("condition", "rocking", "restitution", "contact" if is_in_space else "specimen")
+                if is_in_space:
+                    return self.product(result, inputs, upstream, _in_blocks, where=where)
+                return self.product(result, inputs, upstream, ensemble.ensemble)
+            case _:
+                inputs = compare.CompareInputs.of(campaign, test)
+                predicted = {str(each): each for each in results if each.stage in COMPARED}
+                return self.product(result, inputs, read("rocking") | predicted, _compare)
 
     def pooling(self, specimen_id: str, tests: list[str]) -> Product:
         """Return the result that pools the free vibrations of a specimen: those of some tests."""
@@ -96,33 +123,6 @@ class Graph:
 
         inputs, upstream = contact.ContactInputs.of(self.campaign, specimen_id), ResultId(specimen_id, "specimen")
         return self.product(ResultId(specimen_id, "contact"), inputs, {"specimen": upstream}, contact.contact)
-
-    def _predicting(self, test: Test, where: Where) -> list[Product]:
-        from colonnade.stages import compare, ensemble, predict
-
-        conditioned, rocking = ({name: ResultId(test.id, stage)} for name, stage in _MEASURED.items())
-        specimen = {"specimen": ResultId(test.specimen, "specimen")}
-        # A free vibration's own identification gives the zero of its angle.
-        own = {"identified": ResultId(test.id, "restitution")} if test.kind == "free-vibration" else {}
-        predictions, ensembles = [], []
-        for model in models_of(self.campaign, test):
-            is_calibrated = MODELS[model].in_space and not self.campaign.specimens[test.specimen].is_assembly
-            law = {"contact": ResultId(test.specimen, "contact")} if is_calibrated else {}
-            inputs = predict.PredictInputs.of(self.campaign, test, model)
-            upstream = {**rocking, **specimen, **law, **own}
-            predictions.append(self.product(ResultId(test.id, "predict", model), inputs, upstream, predict.predict))
-            if not self.campaign.members(test, model):
-                continue
-            result, upstream = ResultId(test.id, "ensemble", model), {**conditioned, **rocking, **own}
-            varied = ensemble.EnsembleInputs.of(self.campaign, test, model)
-            if MODELS[model].in_space:
-                ensembles.append(self.product(result, varied, upstream | law, _in_blocks, where=where))
-            else:
-                ensembles.append(self.product(result, varied, upstream | specimen, ensemble.ensemble))
-        predicted = [*predictions, *ensembles]
-        upstream = rocking | {str(product.id): product.result for product in predicted}
-        compared = ResultId(test.id, "compare")
-        return [*predicted, self.product(compared, compare.CompareInputs.of(self.campaign, test), upstream, _compare)]
 
     def scoring(self, test: Test, known: Known) -> Product:
         """Return the scores of a forecast by what was measured in its test."""
@@ -166,10 +166,6 @@ class Graph:
         path = self.layout.path(result)
         make = partial(_made, work, inputs)
         return Product(result, inputs.model_dump_json(), read, code, make, (path,), where=where)
-
-
-_MEASURED = {"conditioned": "condition", "rocking": "rocking"}
-"""Arguments of later stages, and the stage of a test that gives each."""
 
 
 def _made(

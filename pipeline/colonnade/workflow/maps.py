@@ -26,11 +26,10 @@ from colonnade.store.records.summary import map_points
 from colonnade.store.results import ResultId, models_moving
 from colonnade.workflow.executors import Arrays, Counted, Run, Where, blocks_of
 from colonnade.workflow.graph import Graph
-from colonnade.workflow.lock import only_run
 from colonnade.workflow.map_plans import Measured, Wanted, measured_points, plan_of, restitution_of
 from colonnade.workflow.pooling import expect_known
-from colonnade.workflow.product import Catalogue, Product, stored_attributes
-from colonnade.workflow.walk import Walk
+from colonnade.workflow.product import Product, stored_attributes
+from colonnade.workflow.walk import Walk, walking
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -135,8 +134,7 @@ def make_maps(
     loaded = load(Path(campaign))
     expect_known(loaded, "specimen", specimens)
     layout, where = Layout.of(loaded.path, results), Where(workers, scheduler, progress)
-    with only_run(layout) as run_id:
-        walk = Walk(Graph(loaded, layout, Catalogue(layout)), run_id, where=where)
+    with walking(loaded, layout, where) as walk:
         usual = [name for name in loaded.of_interest if models_moving(loaded, name, wanted.models)]
         return [
             made for name in (specimens or usual or loaded.of_interest) for made in _of_specimen(walk, name, wanted)

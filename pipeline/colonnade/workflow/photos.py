@@ -27,7 +27,7 @@ MADE_BY = ("colonnade.readers.photo", "colonnade.workflow.photos")
 """What the photos of the report are made by."""
 
 
-def with_photos(campaign: Campaign, layout: Layout, catalogue: Catalogue) -> tuple[Campaign, dict[str, Photos]]:
+def photos_shown(campaign: Campaign, layout: Layout, catalogue: Catalogue) -> tuple[dict[str, Photos], list[Finding]]:
     """
     Write the photos of all tests into the report, where they are not there already, and remove others.
 
@@ -40,10 +40,10 @@ def with_photos(campaign: Campaign, layout: Layout, catalogue: Catalogue) -> tup
 
     Returns
     -------
-    campaign : Campaign
-        With a warning of each photo that cannot be shown.
     photos : dict of str to Photos
         Those of each test that has any.
+    unshown : list of Finding
+        A warning of each photo that cannot be shown.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def with_photos(campaign: Campaign, layout: Layout, catalogue: Catalogue) -> tup
         else:
             shown = Photo(address, f"Photo {number} of test {test}", written)
             photos[test] = replace(before, shown=(*before.shown, shown))
-    return campaign.but(warnings=(*campaign.warnings, *found)), photos
+    return photos, found
 
 
 def unshown_photos(campaign: Campaign) -> list[Finding]:

@@ -22,9 +22,9 @@ CALIBRATED = 0.05
 """Relative difference of two gains up to which they are those of one transducer."""
 
 
-def with_contradictions(campaign: Campaign, found: Mapping[str, Iterable[Finding]]) -> Campaign:
+def contradictions(campaign: Campaign, found: Mapping[str, Iterable[Finding]]) -> Iterator[Finding]:
     """
-    Return the campaign, with a finding where free vibrations contradict sizes or gains of shaken tests that are silent.
+    Say where free vibrations contradict sizes or gains of shaken tests that are silent.
 
     Parameters
     ----------
@@ -32,10 +32,6 @@ def with_contradictions(campaign: Campaign, found: Mapping[str, Iterable[Finding
     found : mapping of str to iterable of Finding
         What the stage `condition` found, by test.
     """
-    return campaign.but(warnings=(*campaign.warnings, *_contradictions(campaign, found)))
-
-
-def _contradictions(campaign: Campaign, found: Mapping[str, Iterable[Finding]]) -> Iterator[Finding]:
     said = {name: next(filter(_is_of_scale, findings), None) for name, findings in found.items()}
     free = [name for name in said if campaign.tests[name].kind == "free-vibration"]
     silent: dict[str, list[str]] = {}

@@ -12,6 +12,7 @@ import json
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -38,8 +39,6 @@ OWN_CODE_ONLY = ("colonnade.campaign", "colonnade.store", "colonnade.workflow")
 Mark = tuple[int, int, int]
 """Size (bytes), time (ns) and inode of a file. A file that replaces another by a rename has another inode."""
 
-_KINDS = ("raw", "results", "pages", "kept", "code")
-
 
 def mark_of(path: Path) -> Mark:
     """Return the present mark of a file; raises OSError if there is no such file."""
@@ -64,14 +63,13 @@ class Catalogue:
     def __init__(self, layout: Layout, *, verify: bool = False) -> None:
         self._layout, self._verify = layout, verify
         self._home = os.path.join(layout.home, "")  # noqa: PTH118 — a text, with the separator at its end
-        self._known: dict[str, dict[str, Any]] = {kind: {} for kind in _KINDS}
+        self._known, self._seen = dict[str, Any](), dict[str, Any]()
         try:
             known = json.loads(layout.catalogue.read_text(encoding="utf-8"))
             if known.pop("sha256") == hash_of(known):
-                self._known |= {kind: dict(known[kind]) for kind in _KINDS}
+                self._known = known
         except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
             pass
-        self._seen: dict[str, dict[str, Any]] = {kind: {} for kind in _KINDS}
 
     def entry(self, kind: str, path: Path, ask: Callable[[Path], Any], *more: Any) -> list[Any] | None:
         """
@@ -95,17 +93,15 @@ class Catalogue:
         place = os.fspath(path).removeprefix(self._home)
         if os.path.isabs(place):  # noqa: PTH117
             place = os.path.relpath(path, self._home)  # ten times as slow
-        name = " ".join([place.replace(os.sep, "/"), *map(hash_of, more)])
+        name = " ".join([kind, place.replace(os.sep, "/"), *map(hash_of, more)])
         try:
             mark = mark_of(path)
         except OSError:
             return None
-        for known in (self._seen[kind].get(name), None if self._verify else self._known[kind].get(name)):
-            if known is not None and known[0] == list(mark):
-                break
-        else:
+        known: list[Any] | None = self._seen.get(name) or (None if self._verify else self._known.get(name))
+        if known is None or known[0] != list(mark):
             known = [list(mark), ask(path)]
-        self._seen[kind][name] = known
+        self._seen[name] = known
         return known
 
     def attributes(self, path: Path) -> Mapping[str, Any]:
@@ -125,16 +121,15 @@ class Catalogue:
 
         The sources are parsed only if one of them changed.
         """
-        if "package" not in self._seen["code"]:
-            self._seen["code"]["package"] = package_hash()
-        package = self._seen["code"]["package"]
-        name = " ".join([*made_by, *([model] if model else [])])
-        if name not in self._seen["code"]:
-            known = self._known["code"] if self._known["code"].get("package") == package else {}
-            self._seen["code"][name] = known.get(name) or code_hash(
-                made_by, alone=OWN_CODE_ONLY, without=[] if model is None else _of_other_models(model)
-            )
-        return str(self._seen["code"][name])
+        name = " ".join(["code", self._package, *made_by, *([model] if model else [])])
+        if name not in self._seen:
+            others = {each.engine for each in MODELS.values()} - {MODELS[model].engine} if model else ()
+            self._seen[name] = self._known.get(name) or code_hash(made_by, alone=OWN_CODE_ONLY, without=others)
+        return str(self._seen[name])
+
+    @cached_property
+    def _package(self) -> str:
+        return package_hash()
 
     def remove_altered(self) -> list[str]:
         """
@@ -159,28 +154,22 @@ class Catalogue:
 
     def kept(self, product: str, key: str) -> tuple[str, str] | None:
         """Return the text that is kept of a product under this key, and why it could not be made; None without one."""
-        for known in (self._seen["kept"].get(product), self._known["kept"].get(product)):
-            if known is not None and known[0] == key:
-                self._seen["kept"][product] = known
-                return str(known[1]), str(known[2])
-        return None
+        name = f"kept {product}"
+        known = self._seen.get(name) or self._known.get(name)
+        if known is None or known[0] != key:
+            return None
+        self._seen[name] = known
+        return str(known[1]), str(known[2])
 
     def keep(self, product: str, key: str, text: str, reason: str = "") -> None:
         """Keep the text of a product for the next run, or why it could not be made."""
-        self._seen["kept"][product] = [key, text, reason]
+        self._seen[f"kept {product}"] = [key, text, reason]
 
     def save(self, *, is_whole: bool = True) -> None:
         """Write what was looked at; other entries belong to files that are gone, unless the run was not whole."""
-        known: dict[str, Any] = dict(self._seen)
-        if not is_whole:
-            known |= {kind: self._known[kind] | self._seen[kind] for kind in _KINDS if kind != "code"}
-        known["sha256"] = hash_of(known)
-        files.write_text(self._layout.catalogue, json.dumps(known, separators=(",", ":"), sort_keys=True) + "\n")
-
-
-def _of_other_models(name: str) -> set[str]:
-    """Give the modules that only other models use."""
-    return {model.engine for model in MODELS.values()} - {MODELS[name].engine}
+        known = self._seen if is_whole else self._known | self._seen
+        text = json.dumps(known | {"sha256": hash_of(known)}, separators=(",", ":"), sort_keys=True)
+        files.write_text(self._layout.catalogue, f"{text}\n")
 
 
 def stored_attributes(path: Path) -> dict[str, Any]:

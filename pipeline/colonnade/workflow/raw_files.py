@@ -94,10 +94,10 @@ def _looked_at(folder: Path, path: Path, how: FileOptions | None, catalogue: Cat
     return RawFile(digest, tuple(mark)), companion_names
 
 
-def with_copies(campaign: Campaign, raw: Mapping[str, RawFiles]) -> Campaign:
-    """Return the campaign, with a warning if different tests are of one recording or of copies of it."""
+def copies(campaign: Campaign, raw: Mapping[str, RawFiles]) -> list[Finding]:
+    """Say which tests, that are not left out, are of one recording or of copies of it."""
     run = {name: files for name, files in raw.items() if not campaign.left_out(name)}
-    return campaign.but(warnings=(*campaign.warnings, *_copies(run), *_shared(campaign)))
+    return [*_copies(run), *_shared(campaign)]
 
 
 def _shared(campaign: Campaign) -> Iterator[Finding]:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from pathlib import Path
 from types import NoneType
 from typing import Any
 
 from colonnade.campaign import Campaign, load
 from colonnade.campaign.forms.summary import Summary
-from colonnade.errors import CampaignError, StoreError, nearest
+from colonnade.errors import CampaignError, nearest
 from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
@@ -18,15 +17,12 @@ from colonnade.store.results import RUN_STAGES, ResultId
 from colonnade.validation import described, whole
 from colonnade.workflow.chain import RunResult, remove_later
 from colonnade.workflow.executors import Where
-from colonnade.workflow.graph import Graph
-from colonnade.workflow.lock import only_run
 from colonnade.workflow.pages import update_report
-from colonnade.workflow.photos import with_photos
-from colonnade.workflow.pooling import expect_known, with_contradictions
-from colonnade.workflow.product import Catalogue
-from colonnade.workflow.raw_files import raw_files, with_copies
+from colonnade.workflow.photos import photos_shown
+from colonnade.workflow.pooling import contradictions, expect_known
+from colonnade.workflow.raw_files import RawFiles, copies
 from colonnade.workflow.summary import choose, finding_of, foreseen_of, write_summary
-from colonnade.workflow.walk import Progress, Walk, unseen
+from colonnade.workflow.walk import Progress, Walk, unseen, walking
 
 MOST_WORKERS = 10_000
 """Processes; no machine has as many cores."""
@@ -95,48 +91,38 @@ def run(
     loaded = load(Path(campaign)).awaiting() if awaiting else load(Path(campaign))
     last = _last_stage(start_from, until)
     tests = _chosen(loaded, (only,) if isinstance(only, str) else only)
-    layout = Layout.of(loaded.path, results)
-    with only_run(layout) as run_id:
-        catalogue = Catalogue(layout, verify=verify)
-        try:
-            notices = catalogue.remove_altered()
-            raw = {test.id: raw_files(loaded, test, catalogue) for test in loaded.tests.values()}
-            loaded = with_copies(loaded, raw)
-            for test in loaded.tests.values():
-                if loaded.left_out(test.id):
-                    remove_later(layout, ResultId(test.id, "ingest"), itself=True)
-            graph = Graph(loaded, layout, catalogue, raw)
-            where = Where(workers, scheduler)
-            walk = Walk(graph, run_id, start_from, last, where, progress or unseen, notices.append)
-            walk.through(tests)
-            loaded, outdated, summary = _summed_up(walk, awaiting=awaiting)
-            report = None
-            if last == "report":
-                loaded, report = _reported(walk, loaded, outdated, summary)
-        except BaseException:
-            with suppress(StoreError):  # many files were looked at, and pages drawn, that the next run need not
-                catalogue.save(is_whole=False)
-            raise
-        catalogue.save(is_whole=last == "report")
+    layout, report, notices = Layout.of(loaded.path, results), None, list[str]()
+    with walking(loaded, layout, Where(workers, scheduler), verify=verify) as walk:
+        walk.start_from, walk.until = start_from, last
+        walk.progress, walk.tell = progress or unseen, notices.append
+        notices += walk.graph.catalogue.remove_altered()
+        raw = {name: walk.graph.raw(test) for name, test in loaded.tests.items()}
+        for name in loaded.tests.keys() - set(walk.included):
+            remove_later(layout, ResultId(name, "ingest"), itself=True)
+        walk.through(tests)
+        loaded, outdated, summary = _summed_up(loaded.warned(copies(loaded, raw)), walk, raw, awaiting=awaiting)
+        if last == "report":
+            loaded, report = _reported(walk, loaded, outdated, summary)
+            walk.is_whole = True
     concerning = {name: loaded.concerning(name) for name in loaded.tests}
     return RunResult(tuple(walk.stages), layout.summary_json, report, loaded.warnings, concerning, tuple(notices))
 
 
-def _summed_up(walk: Walk, *, awaiting: bool) -> tuple[Campaign, dict[str, str], Summary]:
+def _summed_up(
+    campaign: Campaign, walk: Walk, raw: Mapping[str, RawFiles], *, awaiting: bool
+) -> tuple[Campaign, dict[str, str], Summary]:
     """
     Write the summary; before it, if the run goes to the report, score forecasts and assess real columns.
 
     Return the campaign with what is wrong with forecasts and shaken tests, and why which tests are out of date.
     """
-    campaign, layout = walk.graph.campaign, walk.graph.layout
+    layout = walk.graph.layout
     stale = {name: why for name, why in walk.stale().items() if name not in walk.failed["test"]}
     outdated = stale | dict.fromkeys(campaign.tests.keys() - set(walk.included), "")
     forecasts = read_forecasts(layout)
-    campaign = campaign.but(warnings=(*campaign.warnings, *map(finding_of, forecasts.refused)))
-    campaign = with_contradictions(
-        campaign, {stage.subject: stage.findings for stage in walk.stages if stage.stage == "condition"}
-    )
-    chosen = choose(campaign, forecasts, walk.graph.raw)
+    conditioned = {stage.subject: stage.findings for stage in walk.stages if stage.stage == "condition"}
+    campaign = campaign.warned([*map(finding_of, forecasts.refused), *contradictions(campaign, conditioned)])
+    chosen = choose(campaign, forecasts, raw)
     if walk.until == "report":
         walk.score(chosen.scored, outdated)
         if not awaiting:  # while tests arrive, the answers about real columns wait for the last of them
@@ -158,7 +144,8 @@ def _reported(walk: Walk, campaign: Campaign, outdated: Mapping[str, str], summa
     """Bring maps, photos, advice and pages up to date; return the campaign with what is wrong with photos."""
     layout, catalogue = walk.graph.layout, walk.graph.catalogue
     walk.map(summary)
-    campaign, photos = with_photos(campaign, layout, catalogue)
+    photos, unshown = photos_shown(campaign, layout, catalogue)
+    campaign = campaign.warned(unshown)
     advice: list[Advice] = []
     if campaign.awaited or campaign.next.model_fields_set or campaign.table.model_fields_set:
         from colonnade.workflow.advising.next import advice_shown

@@ -4,32 +4,27 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field, replace
 from functools import partial
-from itertools import takewhile
+from itertools import groupby, zip_longest
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.assessment import Assessment
 from colonnade.campaign.forms.summary import Summary
 from colonnade.dynamics.models import MODELS
+from colonnade.errors import StoreError
 from colonnade.interruption import expect_none
 from colonnade.store import files
 from colonnade.store.forecasts import Known
-from colonnade.store.provenance import Origin
+from colonnade.store.layout import Layout
+from colonnade.store.provenance import NEVER_RUN, Origin
 from colonnade.store.results import RUN_STAGES, ResultId, Subject, models_of
-from colonnade.workflow.chain import (
-    Chain,
-    StageRun,
-    bring_up_to_date,
-    if_up_to_date,
-    on_a_cluster,
-    remove_later,
-    why_pending,
-    worker_lost,
-)
+from colonnade.workflow.chain import Chain, StageRun, bring_up_to_date, on_a_cluster, remove_later, worker_lost
 from colonnade.workflow.executors import HERE, Tell, Where, spread
 from colonnade.workflow.graph import Graph
-from colonnade.workflow.product import Product
+from colonnade.workflow.lock import only_run
+from colonnade.workflow.product import Catalogue, Product
 
 Progress = Callable[[StageRun, int, int], None]
 
@@ -58,6 +53,8 @@ class Walk:
         Called with each stage of a test that ended, the number of tests done, and their total.
     tell : callable
         Called with a sentence if a worker was stopped.
+    is_whole : bool
+        Whether everything of the campaign was looked at: what is known of other files is then forgotten.
     stages : list of StageRun
         What became of each stage so far.
     failed : dict of dict of str to str
@@ -71,10 +68,10 @@ class Walk:
     where: Where = HERE
     progress: Progress = unseen
     tell: Tell = lambda sentence: None
+    is_whole: bool = False
     stages: list[StageRun] = field(default_factory=list)
     failed: dict[Subject, dict[str, str]] = field(default_factory=lambda: defaultdict(dict))
     _known: dict[str, list[Product]] = field(default_factory=dict)
-    _fresh: set[str] = field(default_factory=set)  # tests that were brought up to date to their last result
 
     def through(self, tests: Sequence[str]) -> None:
         """Bring tests up to date, and the specimens that they need."""
@@ -91,8 +88,6 @@ class Walk:
                 if self._is_blocked("test", name, self._test(name).specimen):
                     remove_later(self.graph.layout, ResultId(name, "restitution"))
             self.follow(self._products(name, since="predict") for name in tests)
-        if self._asks_for("compare"):
-            self._fresh |= {name for name in tests if name not in self.failed["test"]}
 
     def at_once(self, name: str) -> list[ResultId]:
         """
@@ -140,7 +135,7 @@ class Walk:
     def stale_assessments(self) -> set[str]:
         """Names of the assessments whose result is missing or outdated."""
         asked = self._campaign.assessments.items()
-        return {name for name, each in asked if self._why([self._assessing(name, each)]) is not None}
+        return {name for name, each in asked if self._why_pending([self._assessing(name, each)]) is not None}
 
     def score(self, forecasts: Mapping[str, Known], outdated: Collection[str]) -> None:
         """
@@ -153,32 +148,35 @@ class Walk:
 
     def stale(self, *, until: str = "compare") -> dict[str, str]:
         """Ids of the tests that have a missing or outdated result up to a stage, and what to say of it."""
-        whys, last = dict[str, str | None](), RUN_STAGES.index(until)
-        for name in [each for each in self.included if each not in self._fresh]:
-            whys[name] = self._why([product for product in self._all(name) if product.result.order <= last])
+        last, compared = RUN_STAGES.index(until), {stage.subject for stage in self.stages if stage.stage == "compare"}
+        whys = {
+            name: self._why_pending([product for product in self._all(name) if product.result.order <= last])
+            for name in self.included
+            if name not in compared
+        }
         return {name: why for name, why in whys.items() if why is not None}
 
-    def _why(self, products: Sequence[Product]) -> str | None:
-        return why_pending(self.chain(products, redo=False), self.graph.catalogue.attributes)
+    def _why_pending(self, products: Sequence[Product]) -> str | None:
+        """Say why results cannot be shown: empty if they were never made, None if they are up to date."""
+        runs, _, why = replace(self.chain(products), start_from=None).standing(self.graph.catalogue.attributes)
+        if why != NEVER_RUN:
+            return f"its results are out of date ({why}); run again" if why else None
+        return f"run only as far as {runs[-1].stage}; `colonnade run` does the rest" if runs else ""
 
     def follow(self, chains: Iterable[Sequence[Product]]) -> None:
         """
-        Bring chains of results up to date that do not depend on each other.
+        Bring chains of results up to date that do not depend on each other; nothing follows a failure.
 
         Those with nothing to do end here; the others are worked on by workers, but for results that several workers
-        share in: those are made one after the other when what is before them is there. Nothing follows a failure.
+        share in: those are made one after the other when what is before them is there.
         """
-        every = [list(products) for products in chains if self._is_standing(products)]
-        alone = [list(takewhile(lambda product: product.where is None, products)) for products in every]
-        self._bring([products for products in alone if products], self.where)
-        later = []
-        for before, products in zip(alone, every, strict=True):
-            shared, rest = products[len(before) : len(before) + 1], products[len(before) + 1 :]
-            if self._is_standing(shared):
-                self._bring([shared], Where(workers=1))
-            later.append(rest)
-        if any(later):
-            self.follow(later)
+        parts = ([list(part) for _, part in groupby(chain, lambda each: each.where is None)] for chain in chains)
+        for side_by_side in zip_longest(*parts, fillvalue=list[Product]()):
+            standing = [part for part in side_by_side if self._is_standing(part)]
+            self._bring([part for part in standing if part[0].where is None], self.where)
+            for part in standing:
+                if part[0].where is not None:
+                    self._bring([part], Where(workers=1))
 
     def _is_standing(self, products: Sequence[Product]) -> bool:
         """Whether there are any, and what they are of has not failed."""
@@ -197,19 +195,18 @@ class Walk:
         waiting = []
         for chain in map(self.chain, chains):
             expect_none()
-            standing = if_up_to_date(chain, self.graph.catalogue.attributes)
-            if standing is None:
-                waiting.append(chain)
+            runs, late, _ = chain.standing(self.graph.catalogue.attributes)
+            if late is None:
+                yield runs
             else:
-                yield standing
+                waiting.append(chain)
         work = bring_up_to_date if where.scheduler is None else on_a_cluster
         told = partial(spread, tell=self.tell, lost=worker_lost, names=lambda chain: chain.subject)
         yield from (runs for _, runs in told(work, waiting, workers=where.workers, scheduler=where.scheduler))
 
-    def chain(self, products: Sequence[Product], *, redo: bool = True) -> Chain:
-        """Return the chain of some results of one test or specimen; without `redo`, ignore `start_from`."""
-        start_from = self.start_from if redo else None
-        return Chain(products, self.graph.layout, Origin.of(self._campaign), self.run_id, start_from)
+    def chain(self, products: Sequence[Product]) -> Chain:
+        """Return the chain of some results of one test or specimen."""
+        return Chain(products, self.graph.layout, Origin.of(self._campaign), self.run_id, self.start_from)
 
     @property
     def included(self) -> list[str]:
@@ -259,3 +256,32 @@ class Walk:
 
     def _test(self, name: str) -> Test:
         return self._campaign.tests[name]
+
+
+@contextmanager
+def walking(campaign: Campaign, layout: Layout, where: Where = HERE, *, verify: bool = False) -> Iterator[Walk]:
+    """
+    Hold a campaign's lock, walk over it, and keep what was looked at: the next walk need not look again.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    layout : Layout
+    where : Where, optional
+    verify : bool, optional
+        See `Catalogue`.
+
+    Raises
+    ------
+    StoreError
+        As `only_run`.
+    """
+    with only_run(layout) as run_id:
+        walk = Walk(Graph(campaign, layout, Catalogue(layout, verify=verify)), run_id, where=where)
+        try:
+            yield walk
+        except BaseException:
+            with suppress(StoreError):
+                walk.graph.catalogue.save(is_whole=False)
+            raise
+        walk.graph.catalogue.save(is_whole=walk.is_whole)

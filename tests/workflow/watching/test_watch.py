@@ -121,7 +121,9 @@ def test_a_watch_for_once_ends_if_results_cannot_be_written(small, crashing, mon
     assert (code, said[0]) == (1, "a.nc: the disk is full.")
 
 
-@pytest.mark.parametrize("change", [lambda small: small.raw("pulse-02").unlink(), lambda small: small.edit("A small", "B")])
+@pytest.mark.parametrize(
+    "change", [lambda small: small.raw("pulse-02").unlink(), lambda small: small.edit("A small", "B")]
+)
 def test_a_deleted_file_or_another_word_in_the_campaign_starts_the_run_behind(small, crashing, monkeypatch, change):
     crashing.ends = [Ended(0, (), "")]
     starts = []

@@ -26,11 +26,9 @@ from colonnade.store.results import ResultId
 from colonnade.units.text import listed, number
 from colonnade.workflow.executors import Where
 from colonnade.workflow.graph import Graph
-from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import restitution_taken
 from colonnade.workflow.product import Catalogue, read_done
-from colonnade.workflow.raw_files import raw_files
-from colonnade.workflow.walk import Walk
+from colonnade.workflow.walk import Walk, walking
 from colonnade.workflow.watching.arrivals import last_change
 
 if TYPE_CHECKING:
@@ -122,12 +120,8 @@ def measure(campaign: Campaign, layout: Layout, name: str, finished: float) -> L
         If a run holds the campaign, or results cannot be written.
     """
     test = campaign.tests[name]
-    with only_run(layout) as run_id:
-        catalogue = Catalogue(layout)
-        raw = {name: raw_files(campaign, test, catalogue)}
-        walk = Walk(Graph(campaign, layout, catalogue, raw), run_id, until="predict", where=Where(workers=1))
+    with walking(campaign, layout, Where(workers=1)) as walk:
         made = walk.at_once(name)
-        catalogue.save(is_whole=False)
     stored = Stored()
     for result in made:
         stored.add(result, layout.path(result))
@@ -144,9 +138,7 @@ def measure(campaign: Campaign, layout: Layout, name: str, finished: float) -> L
 
 def measured(campaign: Campaign, layout: Layout) -> set[str]:
     """Give the tests that nothing has to be measured of: their results are up to date, or they are left out."""
-    catalogue = Catalogue(layout)
-    raw = {test.id: raw_files(campaign, test, catalogue) for test in campaign.tests.values()}
-    walk = Walk(Graph(campaign, layout, catalogue, raw), "")
+    walk = Walk(Graph(campaign, layout, Catalogue(layout)), "")
     return set(campaign.tests) - walk.stale(until="restitution").keys()
 
 
