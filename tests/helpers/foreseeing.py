@@ -2,7 +2,10 @@
 
 import shutil
 
-from colonnade.workflow.foresee import foresee
+from colonnade.campaign import load
+from colonnade.store.layout import Layout
+from colonnade.workflow.foresee import AskedForecast, foresee
+from colonnade.workflow.real_column import checked
 
 TEST, LATER = "span-2.0", "span-9"
 ENTRY = f"""
@@ -17,9 +20,14 @@ planned = true
 """
 
 
+def foreseen_of(folder, **asked):
+    """Make forecasts as the command does."""
+    return foresee(load(folder), Layout(folder), checked(AskedForecast, asked))
+
+
 def foresee_a_planned_test(filled, folder):
     """Copy the filled campaign, plan a test, and make two forecasts of it: one too weak to rock, one that overturns."""
     shutil.copytree(filled, folder)
     with (folder / "campaign.toml").open("a", encoding="utf-8") as campaign_file:
         campaign_file.write(ENTRY)
-    return [made for level in ("0.01 g", "9x") for made in foresee(folder, motion=TEST, levels=[level], test=LATER)]
+    return [made for level in ("0.01 g", "9x") for made in foreseen_of(folder, motion=TEST, levels=[level], test=LATER)]

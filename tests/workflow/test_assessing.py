@@ -18,7 +18,6 @@ from colonnade.store.layout import Layout
 from colonnade.workflow.assessing import _given, assess_campaign, assess_own, outcomes_of
 from colonnade.workflow.executors import Where, in_blocks
 from colonnade.workflow.product import Catalogue
-from colonnade.workflow.real_column import given_of
 from colonnade.workflow.run import run
 from every import every
 from short_campaign import Small
@@ -29,11 +28,11 @@ HERE = Where(workers=1)
 
 
 def own(folder, base="site", **options):
-    return assess_own(load(folder), Layout(folder), base, given_of(options), HERE)
+    return assess_own(load(folder), Layout(folder), base, options, HERE)
 
 
 def without_campaign(**options):
-    return assess_own(None, None, None, given_of(options), HERE)
+    return assess_own(None, None, None, options, HERE)
 
 
 def test_options_replace_keys_and_store_nothing(assessed):

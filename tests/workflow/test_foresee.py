@@ -9,14 +9,15 @@ from colonnade.campaign import load
 from colonnade.campaign.forms.forecast import ForecastBlock
 from colonnade.campaign.forms.schema import json_schema
 from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError
 from colonnade.stages.forecast import felt, plan_of
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
-from colonnade.workflow.foresee import foresee
-from colonnade.workflow.motions import level_of, motion_asked_for
-from foreseeing import LATER, TEST
+from colonnade.workflow.foresee import factor_of
+from colonnade.workflow.motions import motion_asked_for
+from foreseeing import LATER, TEST, foreseen_of
 from prism import PRISM
 
 
@@ -57,16 +58,16 @@ def test_a_file_says_all_that_it_follows_from(foreseen):
 def test_the_frozen_inputs_give_the_same_members_again(foreseen):
     folder, made = foreseen
     forecast = made[0].forecast
-    asked = motion_asked_for(load(folder), Layout(folder), TEST, None, None)
-    factor = level_of(forecast.level, asked)
-    motion = type(asked.motion)(factor * asked.motion.acceleration, asked.motion.dt)
+    asked = motion_asked_for(TEST, load(folder), Layout(folder))
+    factor = factor_of(forecast.level, asked)
+    motion = Motion(factor * asked.motion.acceleration, asked.motion.dt)
     again = plan_of(forecast.inputs, "linear", felt(forecast.inputs, motion)).run()
     assert again.peak_ratio.tolist() == list(forecast.models["linear"].peak_ratio)
 
 
 def test_forecasts_never_replace_each_other(foreseen_copy):
-    first = foresee(foreseen_copy, motion=TEST, levels=["0.01 g", "0.01 g"], specimen="prism")
-    second = foresee(foreseen_copy, motion=TEST, levels=["0.01 g"], specimen="prism")
+    first = foreseen_of(foreseen_copy, motion=TEST, levels=["0.01 g", "0.01 g"], specimen="prism")
+    second = foreseen_of(foreseen_copy, motion=TEST, levels=["0.01 g"], specimen="prism")
     assert len(first) == 1
     assert second[0].path != first[0].path
     assert all(each.path.is_file() for each in (*first, *second))
@@ -76,11 +77,11 @@ def test_a_file_counts_by_its_shape(foreseen_copy):
     motion = foreseen_copy / "pulse.txt"
     values = np.sin(np.arange(200) * 0.1)
     motion.write_text("".join(f"{0.01 * k:.2f} {value:.9f}\n" for k, value in enumerate(values)), encoding="utf-8")
-    made = foresee(foreseen_copy, motion="pulse.txt", levels=["0.02 g"], specimen="statue", time_scale=0.5)
+    made = foreseen_of(foreseen_copy, motion="pulse.txt", levels=["0.02 g"], specimen="statue", time_scale=0.5)
     assert made[0].forecast.motion.interval == pytest.approx(0.005)
     assert made[0].forecast.table.peak_acceleration == pytest.approx(0.02 * 9.80665)
     with pytest.raises(CampaignError, match="only the shape"):
-        foresee(foreseen_copy, motion="pulse.txt", levels=["2x"], specimen="statue")
+        foreseen_of(foreseen_copy, motion="pulse.txt", levels=["2x"], specimen="statue")
 
 
 @pytest.mark.parametrize(
@@ -94,7 +95,7 @@ def test_a_file_counts_by_its_shape(foreseen_copy):
         ({"levels": ["1e9 g"]}, "was expected"),
         ({"levels": ["0x"]}, "was expected"),
         ({"test": "span-99"}, "planned = true"),
-        ({"test": LATER, "levels": ["1x", "2x"]}, "one level"),
+        ({"test": LATER, "levels": ["1x", "2x"]}, "has one"),
         ({"test": "free-01"}, "free-vibration"),
         ({"test": "watched"}, "is a test of statue"),
         ({"time_scale": 0.0}, "--time-scale"),
@@ -103,7 +104,7 @@ def test_a_file_counts_by_its_shape(foreseen_copy):
 def test_what_cannot_be_foreseen_is_refused_and_nothing_is_written(foreseen, change, said):
     folder, made = foreseen
     with pytest.raises(CampaignError, match=said):
-        foresee(folder, **{"motion": TEST, "levels": ["0.1 g"], "specimen": "prism", **change})
+        foreseen_of(folder, **({"motion": TEST, "levels": ["0.1 g"], "specimen": "prism"} | change))
     assert len(list((folder / "forecasts").iterdir())) == len(made)
 
 

@@ -9,7 +9,7 @@ from colonnade.campaign.assessment import Prototype
 from colonnade.errors import CampaignError
 from colonnade.stages.assessment_plan import real_column
 from colonnade.store.layout import Layout
-from colonnade.workflow.real_column import find_column, given_of
+from colonnade.workflow.real_column import find_column
 from every import every
 
 
@@ -22,7 +22,7 @@ def campaign(assessed):
 def found(campaign, is_real=False, **options):
     """Column and source of its e."""
     layout = None if campaign is None else Layout(campaign.folder)
-    asked = find_column(given_of(options), campaign, layout, is_real=is_real)
+    asked = find_column(options, campaign, layout, is_real=is_real)
     return real_column(asked.inputs, asked.pooled)
 
 
@@ -38,7 +38,7 @@ def test_a_specimen_stands_for_itself_with_the_e_of_its_predictions(campaign):
 def test_of_another_column_e_is_not_that_of_the_model_unless_it_is_said(campaign, options):
     with pytest.raises(CampaignError, match="The e of the real column is not given"):
         found(campaign, **options)
-    assert found(campaign, **options, restitution="0.9")[1] == "given"
+    assert found(campaign, **options, restitution=0.9)[1] == "given"
     assert found(campaign, **options, restitution="identified")[0].restitution == found(campaign)[0].restitution
     assert found(campaign, **options, restitution="rigid-body")[1] == "rigid-body"
 
@@ -120,7 +120,7 @@ def test_a_column_without_a_campaign_that_cannot_be_is_refused(options, words):
     [
         ({"specimen": "prsm"}, 'no specimen "prsm"'),
         ({"scale": -2.0}, "--scale: -2"),
-        ({"restitution": "1.5", "scale": 2.0}, "--restitution: 1.5"),
+        ({"restitution": 1.5, "scale": 2.0}, "--restitution: 1.5"),
         ({"restitution": "soft", "scale": 2.0}, "--restitution: "),
     ],
 )

@@ -10,10 +10,9 @@ from colonnade.campaign.forms.summary import Summary
 from colonnade.store import files
 from colonnade.store.forecasts import Forecasts, Known
 from colonnade.workflow import run
-from colonnade.workflow.foresee import foresee
 from colonnade.workflow.raw_files import RawFile
 from colonnade.workflow.summary import choose, is_blind
-from foreseeing import LATER, TEST
+from foreseeing import LATER, TEST, foreseen_of
 
 
 def test_the_summary_has_the_contracts_form(undisturbed):
@@ -145,7 +144,7 @@ def test_what_was_foreseen_is_scored_after_the_test_and_only_that_is_redone(fore
     assert found.forecasts.models["nonlinear"].tests == 1
     assert found.forecasts.models["nonlinear"].skill_rigid_body is None
     assert done(run(folder, only=[LATER], workers=1)) == set()
-    late = foresee(folder, motion=TEST, levels=["1x"], test=LATER)[0]
+    late = foreseen_of(folder, motion=TEST, levels=["1x"], test=LATER)[0]
     (folder / "forecasts" / "odd.json").write_text(json.dumps({"a": 1}), encoding="utf-8")
     last = run(folder, only=[LATER], workers=1)
     assert done(last) == set()

@@ -33,6 +33,7 @@ def _baseline(name: str) -> str:
     return name
 
 
+Baseline = Annotated[fields.Text, AfterValidator(_baseline)]
 Friction = Annotated[fields.Number, Field(ge=0.01, le=10.0)]
 
 
@@ -96,7 +97,7 @@ class Assessment(Table):
     """Times that the records are drawn again for the intervals."""
     drift: fields.Number = setting(LARGEST_DRIFT, "of the peak velocity", ge=0.0, le=1.0)
     """Largest velocity at the end of a record without drift, over its peak velocity."""
-    baseline: Annotated[fields.Text, AfterValidator(_baseline)] = setting(NONE)
+    baseline: Baseline = setting(NONE)
     """Correction of records that drift: linear, quadratic or highpass(0.1 Hz); "none" leaves them as they are."""
     seed: fields.Whole = setting(0, ge=0, le=2**31 - 1)
     """Of all that is drawn."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import say_marked, show_json, work_progress
+from colonnade.cli.common.console import saved, say_marked, show_json, work_progress
 from colonnade.cli.common.findings import STYLES, alike, probable_cause, records_of, show_by_kind
 from colonnade.cli.common.options import campaign_argument, file_option, json_option, strict_option
 from colonnade.errors import count
@@ -44,10 +44,8 @@ def check(campaign: Path, drawing: Path | None, strict: bool, as_json: bool) -> 
     loaded = load(campaign)
     if drawing is not None:
         from colonnade.figures.drawing.described import of_campaign
-        from colonnade.figures.files.saving import expect_place, save
 
-        expect_place(drawing)
-        save(of_campaign(loaded), drawing)
+        saved(lambda: of_campaign(loaded), drawing)
     with work_progress("Reading raw files") as progress:
         checked = check_campaign(loaded, progress)
     if as_json:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import complain, say, show_json, show_table, work_progress
+from colonnade.cli.common.console import complain, expect_places, saved, say, show_json, show_table, work_progress
 from colonnade.cli.common.options import FILE, json_option, workers_option
 from colonnade.cli.run import run_with_progress, show_result
 from colonnade.errors import count
@@ -136,17 +136,14 @@ def init(folder: Path, as_json: bool) -> int:
     """
     from colonnade.campaign.draft.write import draft
     from colonnade.figures.drawing.described import of_draft
-    from colonnade.figures.files.saving import expect_place, save
     from colonnade.store.files import write_text
 
     with work_progress("Reading raw files") as advance:
         drafted = draft(folder, progress=advance)
     drawing = None if drafted.asks_first else drafted.path.with_name(DRAWING)
-    if drawing:
-        expect_place(drawing)
+    expect_places(drawing)
     write_text(drafted.path, drafted.text)
-    if drawing:
-        save(of_draft(drafted.text), drawing)
+    saved(lambda: of_draft(drafted.text), drawing)
     if as_json:
         show_json(
             {"campaign": drafted.path, "drawing": drawing}

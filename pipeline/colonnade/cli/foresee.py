@@ -9,38 +9,34 @@ from typing import TYPE_CHECKING, Any
 import rich_click as click
 
 from colonnade.cli.common.console import say, show_json, show_paragraph, show_table, work_progress
-from colonnade.cli.common.options import campaign_argument, one_specimen_option, result_options, specimen_option
+from colonnade.cli.common.options import (
+    Asking,
+    campaign_argument,
+    opened,
+    options_of,
+    result_options,
+    specimen_option,
+)
 
 if TYPE_CHECKING:
     from colonnade.store.records.advice import Advice
     from colonnade.workflow.foresee import Forecast
 
 
+def _foresee_keys() -> list[click.Option]:
+    from colonnade.workflow.foresee import AskedForecast
+
+    return options_of(AskedForecast.model_fields, alone=True)
+
+
 @click.command(
-    epilog='Example: colonnade foresee demo --specimen prism --motion "El Centro 1940 NS" --level "0.3 g" --level 1.5x'
+    cls=Asking,
+    keys=_foresee_keys,
+    epilog='Example: colonnade foresee demo --specimen prism --motion "El Centro 1940 NS" --level "0.3 g" --level 1.5x',
 )
 @campaign_argument
-@click.option(
-    "--motion",
-    required=True,
-    metavar="NAME|FILE",
-    help="A test that recorded it, a motion that tests name, one of [motions], or a file.",
-)
-@click.option(
-    "--level",
-    required=True,
-    multiple=True,
-    metavar="LEVEL",
-    help='Peak acceleration of the table, "0.3 g", or a factor on a recorded motion, 1.5x. Without --test it may be '
-    "repeated.",
-)
-@one_specimen_option
-@click.option("--test", metavar="ID", help="The test that the forecast is for, such as one with planned = true.")
-@click.option(
-    "--time-scale", type=float, metavar="FACTOR", help="On the motion's own time; by default that of the test, else 1."
-)
 @result_options
-def foresee(campaign: Path, level: tuple[str, ...], as_json: bool, **options: Any) -> int:
+def foresee(campaign: Path, given: dict[str, Any], results: Path | None, as_json: bool) -> int:
     """
     Forecast what a specimen does on a base motion.
 
@@ -49,12 +45,14 @@ def foresee(campaign: Path, level: tuple[str, ...], as_json: bool, **options: An
     Writes a file for each level into forecasts/, which is never changed. After the test `run` scores the last one with
     --test that was made before the raw file of that test was there.
     """
+    from colonnade.workflow.foresee import AskedForecast
     from colonnade.workflow.foresee import foresee as make
+    from colonnade.workflow.real_column import picked
 
     with work_progress("Foreseeing") as progress:
-        made = make(campaign, levels=level, progress=progress, **options)
+        made = make(*opened(campaign, results), picked(AskedForecast, given), progress)
     if as_json:
-        show_json([{"file": each.path, **each.forecast.model_dump(mode="json", by_alias=True)} for each in made])
+        show_json([{"file": each.path, **each.forecast.model_dump(by_alias=True)} for each in made])
         return 0
     for each in made:
         _show(each)

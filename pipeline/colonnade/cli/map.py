@@ -9,7 +9,7 @@ import rich_click as click
 
 from colonnade.cli.common.console import say, show_json, show_rows, show_table, work_progress
 from colonnade.cli.common.options import (
-    WithKeys,
+    Asking,
     campaign_argument,
     options_of,
     result_options,
@@ -28,12 +28,12 @@ if TYPE_CHECKING:
 def _keys() -> list[click.Option]:
     from colonnade.workflow.map_plans import Wanted
 
-    return options_of(Wanted.model_fields, with_defaults=True)
+    return options_of(Wanted.model_fields, alone=True)
 
 
 @click.command(
     "map",
-    cls=WithKeys,
+    cls=Asking,
     keys=_keys,
     epilog="Example: colonnade map demo --specimen prism --omega 1.1 7.8 --ramp 3",
 )
@@ -42,7 +42,9 @@ def _keys() -> list[click.Option]:
 @workers_option
 @scheduler_option
 @result_options
-def map_command(campaign: Path, specimen: tuple[str, ...], results: Path | None, as_json: bool, **options: Any) -> int:
+def map_command(
+    campaign: Path, specimen: tuple[str, ...], given: dict[str, Any], results: Path | None, as_json: bool, **where: Any
+) -> int:
     """
     Compute stability maps over frequency and amplitude, with the measured points on them.
 
@@ -58,7 +60,7 @@ def map_command(campaign: Path, specimen: tuple[str, ...], results: Path | None,
     from colonnade.workflow.maps import make_maps
     from colonnade.workflow.real_column import picked
 
-    asked, where = picked(Wanted, options), {key: options[key] for key in ("workers", "scheduler")}
+    asked = picked(Wanted, given)
     with work_progress(f"Mapping by the {' and the '.join(asked.models)} model") as progress:
         made = make_maps(campaign, asked, specimens=specimen, results=results, progress=progress, **where)
     if as_json:

@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import complain, say, say_drawn, show_json, show_rows, show_table, work_progress
+from colonnade.cli.common.console import (
+    complain,
+    expect_places,
+    saved,
+    say,
+    say_drawn,
+    show_json,
+    show_rows,
+    show_table,
+    work_progress,
+)
 from colonnade.cli.common.options import (
-    WithKeys,
+    Asking,
     campaign_argument,
     column_keys,
-    data_option,
-    file_option,
-    one_specimen_option,
+    drawing_options,
     opened,
     options_of,
     result_options,
@@ -24,37 +31,26 @@ from colonnade.cli.common.options import (
 )
 
 if TYPE_CHECKING:
-    from colonnade.figures.files.output import Picture
     from colonnade.workflow.assessing import Assessed
     from colonnade.workflow.executors import Where
-
-ONLY_FOR = {
-    "--motion": ("unit", "interval", "column", "peak", "baseline", "drift", "slenderness", "periods"),
-    "--pulse": ("omega", "cycles", "phase", "largest", "least_width"),
-    "--pulse mavroeidis-papageorgiou": ("cycles", "phase"),
-}
-"""Options that say nothing without another, and are then refused."""
 
 
 def _spectrum_keys() -> list[click.Option]:
     from colonnade.workflow.spectrum import AskedSpectrum
 
-    return [*column_keys(), *options_of(AskedSpectrum.model_fields, with_defaults=True)]
+    return [*options_of(AskedSpectrum.model_fields, alone=True), *column_keys()]
 
 
 @click.command(
-    cls=WithKeys,
+    cls=Asking,
     keys=_spectrum_keys,
     epilog='Example: colonnade spectrum --motion record.AT2 --shape prism --width "1 m" --height "5 m"',
 )
 @campaign_argument
-@click.option("--motion", metavar="FILE|NAME", help="A file, a test that recorded it, or one of [motions].")
-@one_specimen_option
-@file_option("--out", "Draw it: .svg, .pdf or .png.")
-@data_option
+@drawing_options("Draw it: .svg, .pdf or .png.")
 @result_options
 def spectrum(
-    campaign: Path, motion: str | None, results: Path | None, out: Path | None, data: Path | None, **options: Any
+    campaign: Path, given: dict[str, Any], results: Path | None, out: Path | None, data: Path | None, as_json: bool
 ) -> int:
     """
     Show what a base motion or a pulse does to a column.
@@ -68,55 +64,24 @@ def spectrum(
     it: by --restitution or [prototype.ID].
     {CAMPAIGN}
     """
-    pulse = options["pulse"]
-    if (motion is None) == (pulse is None):
-        raise click.UsageError("Give either --motion or --pulse.")
-    asked_for = ("--motion",) if pulse is None else ("--pulse", f"--pulse {pulse}")
-    for other, names in ONLY_FOR.items():
-        for name in names:
-            if other not in asked_for and options[name] not in (None, ()):
-                raise click.UsageError(f"--{name.replace('_', '-')} is only for {other}.")
-    from colonnade.workflow.real_column import given_of, picked
-    from colonnade.workflow.spectrum import AskedSpectrum, Overturning, Rocking, overturning_of, rocking_of
+    from colonnade.workflow.real_column import picked
+    from colonnade.workflow.spectrum import AskedSpectrum, spectrum_of
 
-    _expect_places(out, data)
+    asked = picked(AskedSpectrum, given)
+    expect_places(out, data)
     is_here = campaign != Path() or Path("campaign.toml").is_file()
-    known, layout = opened(campaign, results) if is_here else (None, None)
-    column, asked = given_of(options), picked(AskedSpectrum, options)
-    found: Rocking | Overturning
-    if motion is not None:
-        found = rocking_of(known, layout, column, motion, asked)
-    else:
-        found = overturning_of(known, layout, column, asked)
-    written = _saved(found.picture, out, data)
-    if options["as_json"]:
-        show_json(found.record() | {"figure": out, "data": data})
+    found = spectrum_of(asked, given, *(opened(campaign, results) if is_here else (None, None)))
+    written = saved(found.draw, out, data)
+    if as_json:
+        show_json(found.record | {"figure": out, "data": data})
         return 0
-    say(found.verdict())
-    show_rows(found.fields())
-    for heads, rows in found.tables():
+    say(found.verdict)
+    show_rows(found.fields)
+    for heads, rows in found.tables:
         say()
         show_table(heads, rows)
     say_drawn(written)
     return 0
-
-
-def _expect_places(out: Path | None, data: Path | None) -> None:
-    """Refuse places for a picture and its table before the work is done; the module of figures loads matplotlib."""
-    if out or data:
-        from colonnade.figures.files.saving import expect_places
-
-        expect_places(out, data)
-
-
-def _saved(draw: Callable[[], Picture], *places: Path | None) -> list[Path]:
-    """Write a picture and its table where they are asked for."""
-    if not any(places):
-        return []
-    from colonnade.figures.files.saving import save
-
-    picture = draw()
-    return [save(picture, place) for place in places if place is not None]
 
 
 def _fragility_keys() -> list[click.Option]:
@@ -128,19 +93,27 @@ def _fragility_keys() -> list[click.Option]:
 
 
 @click.command(
-    cls=WithKeys,
+    cls=Asking,
     keys=_fragility_keys,
     epilog="Example: colonnade fragility demo --name prism",
 )
 @campaign_argument
 @click.option("--name", multiple=True, metavar="NAME", help="Only this assessment of the campaign; may be repeated.")
-@one_specimen_option
-@file_option("--out", "Draw the curve: .svg, .pdf or .png.")
-@data_option
+@drawing_options("Draw the curve: .svg, .pdf or .png.")
 @workers_option
 @scheduler_option
 @result_options
-def fragility(campaign: Path, name: tuple[str, ...], results: Path | None, as_json: bool, **options: Any) -> int:
+def fragility(
+    campaign: Path,
+    name: tuple[str, ...],
+    given: dict[str, Any],
+    out: Path | None,
+    data: Path | None,
+    workers: int | None,
+    scheduler: str | None,
+    results: Path | None,
+    as_json: bool,
+) -> int:
     """
     Say how probably a real column overturns on a set of ground motions.
 
@@ -154,16 +127,15 @@ def fragility(campaign: Path, name: tuple[str, ...], results: Path | None, as_js
     from colonnade.report.assessments_page import curves
     from colonnade.workflow.executors import Where
 
-    out, data, workers, scheduler = (options.pop(key) for key in ("out", "data", "workers", "scheduler"))
-    _expect_places(out, data)
+    expect_places(out, data)
     with work_progress("Assessing") as progress:
-        found = _assessed(campaign, name, options, results, Where(workers, scheduler, progress))
+        found = _assessed(campaign, name, given, results, Where(workers, scheduler, progress))
     if (out or data) and len(found) > 1:
         raise click.UsageError(f"{len(found)} assessments were found. Name one with --name to draw it.")
     first, result = found[0], found[0].result
-    written = [] if result is None else _saved(lambda: curves(first.name, first.record, result), out, data)
+    written = [] if result is None else saved(lambda: curves(first.name, first.record, result), out, data)
     if as_json:
-        show_json([{"name": each.name, "file": each.path, **each.record.model_dump(mode="json")} for each in found])
+        show_json([{"name": each.name, "file": each.path, **dict(each.record)} for each in found])
     else:
         for each in found:
             _show_assessed(each)
@@ -172,12 +144,11 @@ def fragility(campaign: Path, name: tuple[str, ...], results: Path | None, as_js
 
 
 def _assessed(
-    path: Path, names: tuple[str, ...], options: dict[str, Any], results: Path | None, where: Where
+    path: Path, names: tuple[str, ...], given: dict[str, Any], results: Path | None, where: Where
 ) -> list[Assessed]:
     from colonnade.workflow.assessing import assess_campaign, assess_own
-    from colonnade.workflow.real_column import given_of, needs_specimen
+    from colonnade.workflow.real_column import needs_specimen
 
-    given = given_of(options)
     if not names and not needs_specimen(given):
         return [assess_own(None, None, None, given, where)]
     loaded, layout = opened(path, results)

@@ -36,9 +36,6 @@ if TYPE_CHECKING:
 MADE_BY = ("colonnade.stages.assessment", "colonnade.workflow.assessing")
 """Modules whose code makes assessments; what they import counts too."""
 
-OPTIONS = {"levels": "level"}
-"""Options that are not called like their keys, as they are repeated."""
-
 OWN = "column"
 """Name of a question of one's own."""
 
@@ -147,7 +144,7 @@ def _asked(written: dict[str, Any], given: Given) -> Assessment:
     paths: dict[str, Path] = {key: Path(keys.pop(key)) for key in ("records", "hazard") if key in keys}
     if "records" not in paths:
         raise CampaignError("Say which ground motions are run, with --records DIR or a CSV list of them.")
-    return checked(Assessment, keys | {"records": "records"}, OPTIONS).model_copy(update=paths)
+    return checked(Assessment, keys | {"records": "records"}).model_copy(update=paths)
 
 
 def assessing(graph: Graph, name: str, asked: Assessment, where: Where) -> Product:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+import re
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -13,28 +13,19 @@ import numpy as np
 
 import colonnade
 from colonnade.arrays import Array
-from colonnade.campaign import Campaign, Test, load
-from colonnade.campaign.forms.forecast import (
-    ForecastBand,
-    ForecastBlock,
-    ForecastFile,
-    ForecastInputs,
-    ForecastMotion,
-    ForecastRestitution,
-    ForecastSpread,
-    ForecastTable,
-    ModelForecast,
-)
-from colonnade.campaign.syntax.fields import PLAIN, outside
+from colonnade.campaign import Campaign, Test
+from colonnade.campaign.forms import forecast as forms
+from colonnade.campaign.syntax.fields import PLAIN, PositiveNumber, Quantity, Several, Text, outside
+from colonnade.campaign.syntax.table import Problems, Table
 from colonnade.dynamics.models import MODELS
 from colonnade.dynamics.motion import Motion
-from colonnade.errors import CampaignError
+from colonnade.errors import CampaignError, ReadError
 from colonnade.interruption import expect_none
 from colonnade.store.forecasts import write_forecast
 from colonnade.store.layout import Layout
 from colonnade.store.results import WITHOUT_PREDICTION
 from colonnade.workflow.executors import Counted
-from colonnade.workflow.motions import AskedMotion, level_of, motion_asked_for
+from colonnade.workflow.motions import AskedMotion, motion_asked_for
 from colonnade.workflow.pooling import expect_known, one_specimen, restitution_taken
 from colonnade.workflow.product import Catalogue, stored_attributes
 from colonnade.workflow.raw_files import raw_files
@@ -55,44 +46,48 @@ SPREAD = ("restitution", "restitution_freedom", "critical_angle", "p", "correlat
 """Of an `Uncertainty`, what is known of the specimen."""
 
 
+_FACTOR = re.compile(r"\s*([0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?)\s*[x×]\s*", re.IGNORECASE)
+
+
+class AskedForecast(Table):
+    """What a forecast is asked for with."""
+
+    motion: Text
+    """A test that recorded it, a motion that tests name, one of [motions], or a file."""
+    levels: Several
+    """Peak acceleration of the table, "0.3 g", or a factor on a recorded motion, 1.5x; with --test one."""
+    specimen: str | None = None
+    """The specimen; needed if there are several and nothing else names it."""
+    test: str | None = None
+    """The test that the forecast is for, such as one with planned = true."""
+    time_scale: PositiveNumber | None = None
+    """On the motion's own time; by default that of the test, else 1."""
+
+    def contradictions(self) -> Problems:
+        """Say that a test has one level."""
+        if self.test is not None and len(self.levels) > 1:
+            yield ("levels",), f"{len(self.levels)} were found. A forecast of a test, here of {self.test}, has one."
+
+
 @dataclass(frozen=True)
 class Forecast:
     """A forecast, and its file."""
 
     path: Path
-    forecast: ForecastFile
+    forecast: forms.ForecastFile
 
 
 def foresee(
-    campaign: Path | str,
-    *,
-    motion: str,
-    levels: Sequence[str],
-    specimen: str | None = None,
-    test: str | None = None,
-    time_scale: float | None = None,
-    results: Path | str | None = None,
-    progress: Counted = lambda done, total: None,
+    campaign: Campaign, layout: Layout, asked: AskedForecast, progress: Counted = lambda done, total: None
 ) -> list[Forecast]:
     """
     Forecast what a specimen does on a base motion, with what is known so far.
 
     Parameters
     ----------
-    campaign : Path or str
-        A campaign.toml or its folder.
-    motion : str
-        See `motion_asked_for`.
-    levels : sequence of str
-        See `level_of`; of a test one.
-    specimen : str, optional
-        Default: that of the test, or the only one.
-    test : str, optional
-        Id of the test that the forecasts are for.
-    time_scale : float, optional
-        Factor on the motion's own time; default that of the test, else 1.
-    results : Path or str, optional
-        Folder that holds `processed` and `forecasts`.
+    campaign : Campaign
+    layout : Layout
+    asked : AskedForecast
     progress : callable, optional
         Called with the number of forecasts that are done and their total.
 
@@ -104,68 +99,98 @@ def foresee(
     Raises
     ------
     CampaignError
-        If the campaign or an argument is not usable.
+        If something that is asked for is not usable.
     StoreError
         If a file cannot be written.
     """
-    loaded = load(Path(campaign))
-    layout = Layout.of(loaded.path, results)
-    own = _test(loaded, test)
-    name = one_specimen(loaded, specimen or (None if own is None else own.specimen))
+    own = _test(campaign, asked.test)
+    name = one_specimen(campaign, asked.specimen or (None if own is None else own.specimen))
     if own is not None and own.specimen != name:
         raise CampaignError(f"{own.id} is a test of {own.specimen}, not of {name}.")
-    if time_scale is not None and (expected := outside(time_scale, PLAIN)):
-        raise CampaignError(f"--time-scale {time_scale:g}: {expected}")
-    asked = motion_asked_for(loaded, layout, motion, own, time_scale)
-    wanted = {text.strip(): level_of(text, asked) for text in levels}
-    if own is not None and len(wanted) > 1:
-        raise CampaignError(f"{len(wanted)} levels were found. A forecast of a test, here of {own.id}, has one level.")
-    catalogue = Catalogue(layout)
-    setup = own or asked.test
-    tilt = (loaded.setups[setup.setup].table_tilt or 0.0) if setup is not None else 0.0
-    if loaded.processing.predict.ensemble.members < LEAST_MEMBERS:
+    try:
+        base = motion_asked_for(asked.motion, campaign, layout, by_shape=True)
+    except ReadError as error:
+        raise CampaignError(
+            f"{error} A motion that needs options (interval, column, layout) can be entered in [motions] of "
+            f"{campaign.path.name}, and then given by its name."
+        ) from error
+    time_scale = asked.time_scale or _time_scale(own, base.test)
+    factors = {level: factor_of(level, base) for level in asked.levels}
+    setup = own or base.test
+    tilt = (campaign.setups[setup.setup].table_tilt or 0.0) if setup is not None else 0.0
+    if campaign.processing.predict.ensemble.members < LEAST_MEMBERS:
         raise CampaignError(f"processing.predict.ensemble.members: a forecast needs at least {LEAST_MEMBERS} members.")
-    inputs, models = inputs_of(loaded, layout, name, tilt), _models(loaded)
-    code, there, found = catalogue.code(MADE_BY), _raw_files(loaded, layout, catalogue, own), []
-    for number, (level, factor) in enumerate(wanted.items(), 1):
+    models = [model for model in campaign.processing.predict.models if not MODELS[model].in_space]
+    if not models:
+        raise CampaignError(
+            "processing.predict.models: forecasts need a model in the plane, linear or nonlinear, among them."
+        )
+    inputs, catalogue = inputs_of(campaign, layout, name, tilt), Catalogue(layout)
+    code, there, found = catalogue.code(MADE_BY), _raw_files(campaign, layout, catalogue, own), []
+    for number, (level, factor) in enumerate(factors.items(), 1):
         expect_none()
-        moved = Motion(factor * asked.motion.acceleration, asked.motion.dt)
-        forecast = ForecastFile(
+        moved = Motion(factor * base.motion.acceleration, base.motion.dt * time_scale)
+        forecast = forms.ForecastFile(
             made=datetime.now(UTC).replace(microsecond=0),
             colonnade=colonnade.__version__,
             code=code,
-            test=None if own is None else own.id,
+            test=asked.test,
             specimen=name,
             level=level,
-            motion=_described(asked, moved),
+            motion=forms.ForecastMotion(
+                name=asked.motion,
+                source=base.source,
+                sha256=hashlib.sha256(moved.acceleration.astype("<f8").tobytes()).hexdigest(),
+                interval=moved.dt,
+                samples=moved.acceleration.size,
+                time_scale=time_scale,
+            ),
             table=_table(moved),
             inputs=inputs,
             models={model: _by_model(inputs, model, moved) for model in models},
             raw_files=there,
         )
         found.append(Forecast(write_forecast(layout, forecast), forecast))
-        progress(number, len(wanted))
+        progress(number, len(factors))
     return found
 
 
-def _described(asked: AskedMotion, moved: Motion) -> ForecastMotion:
-    return ForecastMotion(
-        name=asked.name,
-        source=asked.source,
-        sha256=hashlib.sha256(moved.acceleration.astype("<f8").tobytes()).hexdigest(),
-        interval=moved.dt,
-        samples=moved.acceleration.size,
-        time_scale=asked.time_scale,
-    )
+def factor_of(level: str, base: AskedMotion) -> float:
+    """
+    Read a level: give what the motion is multiplied by.
 
+    Parameters
+    ----------
+    level : str
+        A peak acceleration with its unit, "0.3 g", or a factor on a recorded motion, "1.5x".
+    base : AskedMotion
 
-def _models(campaign: Campaign) -> list[str]:
-    models = [model for model in campaign.processing.predict.models if not MODELS[model].in_space]
-    if not models:
+    Raises
+    ------
+    CampaignError
+        If it is neither, out of its range, or a factor on a motion of which only the shape counts.
+    """
+    found = _FACTOR.fullmatch(level)
+    if found and base.is_shape:
         raise CampaignError(
-            "processing.predict.models: forecasts need a model in the plane, linear or nonlinear, among them."
+            f'--level {level}: only the shape of "{base.name}" counts ({base.source}), so a factor on it says '
+            'nothing. Give the peak acceleration, such as "0.3 g".'
         )
-    return models
+    if found and (expected := outside(float(found[1]), PLAIN)):
+        raise CampaignError(f"--level {level}: {expected}")
+    if found:
+        return float(found[1])
+    try:
+        return base.factor_to(Quantity("acceleration").take(level))
+    except ValueError as error:
+        raise CampaignError(f'--level {level}: {error} Or a factor on a recorded motion, such as "1.5x".') from None
+
+
+def _time_scale(test: Test | None, recorded: Test | None) -> float:
+    """Factor on the time of a motion for a test: its own, over that of the test in which the motion was recorded."""
+    wanted = None if test is None else test.time_scale
+    own = 1.0 if recorded is None else recorded.time_scale
+    return wanted / own if wanted is not None and own is not None else 1.0
 
 
 def _test(campaign: Campaign, name: str | None) -> Test | None:
@@ -178,7 +203,7 @@ def _test(campaign: Campaign, name: str | None) -> Test | None:
     return test
 
 
-def inputs_of(campaign: Campaign, layout: Layout, specimen: str, tilt: float) -> ForecastInputs:
+def inputs_of(campaign: Campaign, layout: Layout, specimen: str, tilt: float) -> forms.ForecastInputs:
     """Put together what a forecast of a specimen runs the models with, on a table of this tilt (rad)."""
     from colonnade.stages.predict import sides
     from colonnade.stages.specimen import centre, spread_of
@@ -188,16 +213,16 @@ def inputs_of(campaign: Campaign, layout: Layout, specimen: str, tilt: float) ->
     spread = spread_of(pooled, settings)
     negative, positive = sides(pooled)
     ends = {name: float(pooled[f"restitution_{name}"]) for name in ("low", "high")}
-    return ForecastInputs(
-        block=ForecastBlock.of(centre(pooled, block)),
-        restitution=ForecastRestitution(
+    return forms.ForecastInputs(
+        block=forms.ForecastBlock.of(centre(pooled, block)),
+        restitution=forms.ForecastRestitution(
             value=(max(negative, 0.0), max(positive, 0.0)),
             **{name: min(max(end, 0.0), 1.0) if np.isfinite(end) else None for name, end in ends.items()},
             level=float(pooled["level"]),
             source=pooled.attrs["restitution_source"],
             rigid_body=(block.restitution, block.restitution),
         ),
-        spread=ForecastSpread(
+        spread=forms.ForecastSpread(
             **{name: getattr(spread, name) for name in SPREAD},
             gain=settings.gain,
             clock=settings.clock,
@@ -222,11 +247,11 @@ def _raw_files(campaign: Campaign, layout: Layout, catalogue: Catalogue, test: T
     return dict(sorted(found.items()))
 
 
-def _table(motion: Motion) -> ForecastTable:
+def _table(motion: Motion) -> forms.ForecastTable:
     from colonnade.assessment.measures import table_measures
 
     measured, drift = table_measures(motion.acceleration, motion.dt)
-    return ForecastTable(
+    return forms.ForecastTable(
         peak_acceleration=motion.peak,
         peak_velocity=_known(measured["pgv"]),
         peak_displacement=_known(measured["pgd"]),
@@ -234,7 +259,7 @@ def _table(motion: Motion) -> ForecastTable:
     )
 
 
-def _by_model(inputs: ForecastInputs, model: str, motion: Motion) -> ModelForecast:
+def _by_model(inputs: forms.ForecastInputs, model: str, motion: Motion) -> forms.ModelForecast:
     from colonnade.identification.calibration import BANDS
     from colonnade.identification.forecasts import OUTCOMES, forecast_of
     from colonnade.stages.forecast import felt, plan_of
@@ -247,7 +272,7 @@ def _by_model(inputs: ForecastInputs, model: str, motion: Motion) -> ModelForeca
         outcome.replace("-", "_"): float(np.mean(expected.outcomes == place)) for place, outcome in enumerate(OUTCOMES)
     }
     half, most, widest = (_band(expected.amplitudes, band) for band in BANDS)
-    return ModelForecast(
+    return forms.ModelForecast(
         **shares,
         bands=(half, most, widest),
         required_friction=_friction(plan.central(), shaken),
@@ -256,10 +281,10 @@ def _by_model(inputs: ForecastInputs, model: str, motion: Motion) -> ModelForeca
     )
 
 
-def _band(amplitudes: Array, probability: float) -> ForecastBand:
+def _band(amplitudes: Array, probability: float) -> forms.ForecastBand:
     ends = [(1 - probability) / 2, (1 + probability) / 2]
     low, high = np.quantile(amplitudes, ends, method="inverted_cdf")
-    return ForecastBand(probability=probability, low=float(low), high=float(high))
+    return forms.ForecastBand(probability=probability, low=float(low), high=float(high))
 
 
 def _friction(history: History, motion: Motion) -> float | None:

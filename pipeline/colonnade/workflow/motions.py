@@ -1,25 +1,22 @@
-"""The base motion that a forecast asks for: recorded in a test, a reference motion, or a file."""
+"""The base motion that a command asks for: recorded in a test, a reference motion, or a file."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from colonnade import units
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.syntax.fields import PLAIN, Quantity, outside
 from colonnade.dynamics.motion import Motion
-from colonnade.errors import CampaignError, ReadError, nearest
+from colonnade.errors import CampaignError, nearest
 from colonnade.findings import Finding
 from colonnade.store.layout import Layout
 from colonnade.workflow.product import read_done
-
-_FACTOR = re.compile(r"\s*([0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?)\s*[x×]\s*", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -34,98 +31,85 @@ class AskedMotion:
     source : str
         Where it comes from, in words.
     motion : Motion
-        Along x, m/s², at the time scale.
-    time_scale : float
-        Factor on its own time.
+        m/s², in its own time.
     test : Test or None
-        In which it was recorded: its amplitude counts then. Of any other motion only the shape does.
+        In which it was recorded.
+    is_shape : bool
+        Whether its amplitude says nothing, as that of a reference motion.
     """
 
     name: str
     source: str
     motion: Motion
-    time_scale: float
-    test: Test | None
+    test: Test | None = None
+    is_shape: bool = False
+
+    def factor_to(self, peak: float) -> float:
+        """Give the factor that brings it to a peak, m/s²."""
+        if not self.motion.peak > 0.0:
+            raise CampaignError(f'"{self.name}" does not move ({self.source}): it cannot be brought to a peak.')
+        return peak / self.motion.peak
 
 
 def motion_asked_for(
-    campaign: Campaign, layout: Layout, name: str, test: Test | None, time_scale: float | None
+    name: str, campaign: Campaign | None, layout: Layout | None, *, by_shape: bool = False, **reading: Any
 ) -> AskedMotion:
     """
     Find a base motion by its name.
 
     Parameters
     ----------
-    campaign : Campaign
-    layout : Layout
     name : str
         Id of a test that recorded it; a motion that tests name, of which the strongest recording is taken; a reference
         motion; a file that `read_motion` reads, from the present folder or that of the campaign.
-    test : Test or None
-        The one that the forecast is for: its time scale counts.
-    time_scale : float or None
-        In place of that.
+    campaign, layout : optional
+        None without a campaign.
+    by_shape : bool, optional
+        Of a file, too, only the shape counts.
+    **reading
+        How a file is read, as of `read_motion`: if anything is said, it is a file.
 
     Raises
     ------
     CampaignError
-        If there is no such motion or it cannot be read.
+        If there is no such motion, or a reference motion cannot be read.
+    ReadError
+        If a file cannot be read.
     """
-    recorded = _strongest(campaign, layout, name)
-    if recorded is not None:
-        own, motion = recorded
-        scale = time_scale or _ratio(test, own)
-        source = f"recorded in {own.id}, peak {motion.peak / units.factor_to_si('g', 'acceleration'):.3g} g"
-        return AskedMotion(name, source, Motion(motion.acceleration, motion.dt * scale), scale, own)
-    scale = time_scale or (test.time_scale if test is not None else None) or 1.0
-    source, motion = _reference(campaign, name) or _in_file(campaign, name)
-    return AskedMotion(name, source, Motion(motion.acceleration, motion.dt * scale), scale, None)
+    from colonnade.readers.motion import read_motion
+
+    if campaign is not None and layout is not None and not reading:
+        found = _strongest(campaign, layout, name) or _reference(campaign, name)
+        if found is not None:
+            return found
+    folders = [Path()] if campaign is None else [Path(), campaign.folder]
+    path = next((folder / name for folder in folders if (folder / name).is_file()), None)
+    if path is not None and by_shape:
+        return AskedMotion(name, "a file, by its shape", read_motion(path, unit="m/s^2"), is_shape=True)
+    if path is not None:
+        return AskedMotion(name, f"file {path.name}", read_motion(path, **reading))
+    if campaign is None:
+        raise CampaignError(f"--motion {name}: there is no such file and no campaign.")
+    raise CampaignError(
+        f'There is no motion "{name}".{nearest(name, sorted(set(_names(campaign))))} A test that recorded one, a '
+        "motion that tests name, a reference motion of [motions] or a file was expected."
+    )
 
 
-def level_of(text: str, asked: AskedMotion) -> float:
-    """
-    Read a level: give what the motion is multiplied by.
-
-    Parameters
-    ----------
-    text : str
-        A peak acceleration with its unit, "0.3 g", or a factor on a recorded motion, "1.5x".
-    asked : AskedMotion
-
-    Raises
-    ------
-    CampaignError
-        If it is neither, out of its range, or a factor on a motion of which only the shape counts.
-    """
-    if found := _FACTOR.fullmatch(text):
-        if asked.test is None:
-            raise CampaignError(
-                f'--level {text}: only the shape of "{asked.name}" counts ({asked.source}), so a factor on it says '
-                'nothing. Give the peak acceleration, such as "0.3 g".'
-            )
-        factor = float(found[1])
-        if expected := outside(factor, PLAIN):
-            raise CampaignError(f"--level {text}: {expected}")
-        return factor
-    try:
-        peak = Quantity("acceleration").take(text)
-    except ValueError as error:
-        raise CampaignError(f'--level {text}: {error} Or a factor on a recorded motion, such as "1.5x".') from None
-    if not asked.motion.peak > 0.0:
-        raise CampaignError(f'"{asked.name}" does not move ({asked.source}): it cannot be brought to a level.')
-    return peak / asked.motion.peak
-
-
-def _strongest(campaign: Campaign, layout: Layout, name: str) -> tuple[Test, Motion] | None:
-    """Return the test of this id, or of those with this motion the one whose table moved most, with its motion."""
+def _strongest(campaign: Campaign, layout: Layout, name: str) -> AskedMotion | None:
+    """Return what the test of this id recorded, or of those with this motion the one whose table moved most."""
     if name in campaign.tests:
-        motion = recorded(layout, campaign.tests[name])
-        if motion is None:
+        tests = [campaign.tests[name]]
+    else:
+        tests = [test for test in campaign.tests.values() if test.motion == name]
+    found = [(test, motion) for test in tests if (motion := recorded(layout, test)) is not None]
+    if not found:
+        if name in campaign.tests:
             raise CampaignError(f"{name}: its table motion is not known. Run `colonnade run` first.")
-        return campaign.tests[name], motion
-    named = [test for test in campaign.tests.values() if test.motion == name]
-    found = [(test, motion) for test in named if (motion := recorded(layout, test)) is not None]
-    return max(found, key=lambda pair: pair[1].peak, default=None)
+        return None
+    test, motion = max(found, key=lambda pair: pair[1].peak)
+    source = f"recorded in {test.id}, peak {motion.peak / units.factor_to_si('g', 'acceleration'):.3g} g"
+    return AskedMotion(name, source, motion, test)
 
 
 def recorded(layout: Layout, test: Test) -> Motion | None:
@@ -138,13 +122,7 @@ def recorded(layout: Layout, test: Test) -> Motion | None:
     return Motion(base, float(time[1] - time[0])) if np.isfinite(base).all() and base.size > 1 else None
 
 
-def _ratio(test: Test | None, own: Test) -> float:
-    """Factor on the time of a motion that was recorded in one test, for another."""
-    wanted = None if test is None else test.time_scale
-    return wanted / own.time_scale if wanted is not None and own.time_scale is not None else 1.0
-
-
-def _reference(campaign: Campaign, name: str) -> tuple[str, Motion] | None:
+def _reference(campaign: Campaign, name: str) -> AskedMotion | None:
     from colonnade.stages.parts.reference_motions import load, reference_files
 
     known = reference_files(campaign)
@@ -154,26 +132,8 @@ def _reference(campaign: Campaign, name: str) -> tuple[str, Motion] | None:
     series = load({name: known[name]}, refusals).get(name)
     if series is None:
         raise CampaignError(" ".join(map(str, refusals)))
-    return "a reference motion, by its shape", Motion(series.acceleration, series.interval)
-
-
-def _in_file(campaign: Campaign, name: str) -> tuple[str, Motion]:
-    from colonnade.readers.motion import read_motion
-
-    path = next((path for path in (Path(name), campaign.folder / name) if path.is_file()), None)
-    if path is None:
-        known = sorted(set(_names(campaign)))
-        raise CampaignError(
-            f'There is no motion "{name}".{nearest(name, known)} A test that recorded one, a motion that tests name, '
-            "a reference motion of [motions] or a file was expected."
-        )
-    try:
-        return "a file, by its shape", read_motion(path, unit="m/s^2")
-    except ReadError as error:
-        raise CampaignError(
-            f"{error} A motion that needs options (interval, column, layout) can be entered in [motions] of "
-            f"{campaign.path.name}, and then given by its name."
-        ) from error
+    motion = Motion(series.acceleration, series.interval)
+    return AskedMotion(name, "a reference motion, by its shape", motion, is_shape=True)
 
 
 def _names(campaign: Campaign) -> Iterator[str]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from math import pi
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
@@ -27,17 +26,30 @@ from colonnade.workflow.pooling import one_specimen, restitution_taken
 if TYPE_CHECKING:
     import xarray as xr
 
-Written = TypeVar("Written", bound=Table)
+Asked = TypeVar("Asked", bound=Table)
 
 IDENTIFIED, RIGID_BODY = "identified", "rigid-body"
 """Words for e in place of its value."""
 
-
 SIZES = ("shape", *OUTER_DIMENSIONS)
 """Keys of [specimens.<id>] by which a column is given that is no specimen."""
 
+FLAGS = {"levels": "level", "models": "model"}
+"""Options that are not called like their keys, as they are repeated."""
+
 Given = Mapping[str, Any]
-"""Options that are given, as in a campaign file; of a column: `specimen`, `scale`, `SIZES` and keys of `Prototype`."""
+"""Options that are given, as in a campaign file; of a column: keys of `Which`, `SIZES` and keys of `Prototype`."""
+
+
+class Which(Table):
+    """Options that say which column is meant, besides its sizes and what is assumed of it."""
+
+    specimen: str | None = None
+    """The specimen; needed if there are several and nothing else names it."""
+    scale: Scale | None = None
+    """How many times larger the column is."""
+    shape: Annotated[str, OneOf(tuple(SIZED))] | None = None
+    """Shape of a column that is given by its sizes."""
 
 
 def needs_specimen(given: Given) -> bool:
@@ -60,37 +72,27 @@ class FoundColumn:
         The e of the model, as of `stages.specimen`.
     scale : float or None
         How many times larger it is than what the campaign tests; None if that is not said.
+    real : RealColumn
+    source : str
+        Of its e: given, identified or rigid-body.
     """
 
     specimen: str | None
     inputs: ColumnInputs
     pooled: xr.Dataset
     scale: float | None
-
-    @cached_property
-    def real(self) -> tuple[RealColumn, str]:
-        """
-        The column, and where its e comes from: given, identified or rigid-body.
-
-        Raises
-        ------
-        CampaignError
-            If there can be no such column.
-        """
-        try:
-            return real_column(self.inputs, self.pooled)
-        except ValueError as error:
-            raise CampaignError(f"The column cannot be: {error}.") from None
+    real: RealColumn
+    source: str
 
     @property
     def block(self) -> Block:
         """Of the column."""
-        return self.real[0].block
+        return self.real.block
 
     @property
     def restitution(self) -> tuple[float, float]:
         """e of impacts that end an arc at θ < 0, and at θ > 0."""
-        return pair(self.real[0].restitution)
+        return pair(self.real.restitution)
 
     @property
     def name(self) -> str:
@@ -109,17 +111,13 @@ class FoundColumn:
             ("critical angle α", quantity(self.block.critical_angle, "rad", 4)),
             ("p", quantity(self.block.p, "rad/s", 4)),
             ("uplift from", acceleration(self.block.uplift_acceleration)),
-            ("restitution e", f"{e} ({self.real[1]})"),
+            ("restitution e", f"{e} ({self.source})"),
         ]
 
     def record(self) -> dict[str, Any]:
         """Give it for programs, SI."""
-        return {
-            "name": self.name,
-            **{key: getattr(self.block, key) for key in ("critical_angle", "p", "uplift_acceleration")},
-            "restitution": list(self.restitution),
-            "restitution_source": self.real[1],
-        }
+        of_block = {key: getattr(self.block, key) for key in ("critical_angle", "p", "uplift_acceleration")}
+        return {"name": self.name, **of_block, "restitution": self.restitution, "restitution_source": self.source}
 
 
 def find_column(
@@ -138,88 +136,79 @@ def find_column(
         A specimen stands for its real column, at the scale of the campaign file if none is given. Else it stands for
         itself, with the e of its predictions, unless a scale, α or p make it another column.
 
-    Returns
-    -------
-    found : FoundColumn
-
     Raises
     ------
     CampaignError
         If it is not said which, an option is out of its range, or the e of a real column is not said.
     """
-    if "specimen" in given and given.keys() & set(SIZES):
+    which = picked(Which, given)
+    if which.specimen is not None and given.keys() & set(SIZES):
         raise CampaignError(
             "--shape and its sizes are for a column that is not a specimen. Leave --specimen and --name out."
         )
-    if campaign is None or layout is None or not needs_specimen(given):
-        return _without_specimen(given, has_campaign=campaign is not None)
-    name = one_specimen(campaign, given.get("specimen"))
-    known = campaign.specimens[name]
-    scale = checked(Size, {"scale": given.get("scale")}).scale or (known.scale if is_real else None) or 1.0
+    try:
+        if campaign is None or layout is None or not needs_specimen(given):
+            inputs, pooled = _without_specimen(which, given, has_campaign=campaign is not None)
+            return FoundColumn(None, inputs, pooled, which.scale, *real_column(inputs, pooled))
+        name = one_specimen(campaign, which.specimen)
+        inputs, pooled = _of_specimen(campaign, name, which, given, is_real), restitution_taken(campaign, layout, name)
+        has_own_size = which.scale is None and "p" in given
+        scale = None if has_own_size else inputs.scale
+        return FoundColumn(name, inputs, pooled, scale, *real_column(inputs, pooled))
+    except ValueError as error:
+        raise CampaignError(f"The column cannot be: {error}.") from None
+
+
+def _of_specimen(campaign: Campaign, name: str, which: Which, given: Given, is_real: bool) -> ColumnInputs:
+    known, written = campaign.specimens[name], {"restitution": IDENTIFIED}
+    scale = which.scale or (known.scale if is_real else None) or 1.0
     if is_real or scale != 1.0 or {"critical_angle", "p"} & given.keys():
         own = campaign.prototype.get(name)
         written = {} if own is None else own.model_dump(exclude_none=True)
-    else:
-        written = {"restitution": IDENTIFIED}
-    inputs = ColumnInputs(
+    return ColumnInputs(
         block=known.block(campaign.gravity),
         scale=scale,
         prototype=_prototype(written, given),
         usual_scatter=campaign.processing.predict.ensemble.restitution,
     )
-    has_own_size = "scale" not in given and "p" in given
-    return FoundColumn(name, inputs, restitution_taken(campaign, layout, name), None if has_own_size else scale)
 
 
-class Size(Table):
-    """Options that are not keys of [prototype.<specimen>]."""
-
-    scale: Scale | None = None
-    """How many times larger the column is."""
-    shape: Annotated[str, OneOf(tuple(SIZED))] | None = None
-    """Shape of a column that is given by its sizes."""
-
-
-def _without_specimen(given: Given, *, has_campaign: bool) -> FoundColumn:
+def _without_specimen(which: Which, given: Given, *, has_campaign: bool) -> tuple[ColumnInputs, xr.Dataset]:
     from colonnade.stages.specimen import SpecimenInputs, taken
 
-    if "specimen" in given:
+    if which.specimen is not None:
         raise CampaignError(
-            f"--specimen {given['specimen']}: there is no campaign here. Give CAMPAIGN, or --shape with the sizes."
+            f"--specimen {which.specimen}: there is no campaign here. Give CAMPAIGN, or --shape with the sizes."
         )
-    if given.get("scale", 1.0) != 1.0:
+    if which.scale not in (None, 1.0):
         raise CampaignError("--scale is for a specimen. Sizes, or --critical-angle and --p, are of the real column.")
     if given.get("restitution") == IDENTIFIED:
         where = "name it with --specimen" if has_campaign else "give CAMPAIGN and --specimen"
         raise CampaignError(f"--restitution identified: e is identified of a specimen; {where}.")
     prototype = _prototype({"restitution": RIGID_BODY}, given)
-    if sizes := {key: given[key] for key in SIZES if key in given}:
-        block = _sized(sizes)
+    if given.keys() & set(SIZES):
+        block = _sized({key: given[key] for key in SIZES if key in given})
     elif prototype.critical_angle is None or prototype.p is None:
         raise CampaignError(
             'The column is not known. Give --shape prism --width "1 m" --height "5 m", or --critical-angle "0.2 rad" '
             'and --p "2 rad/s", or a CAMPAIGN with --specimen.'
         )
     else:
-        try:
-            block = rectangular(prototype.critical_angle, 2 * pi / prototype.p)
-        except ValueError as error:
-            raise CampaignError(f"The column cannot be: {error}.") from None
+        block = rectangular(prototype.critical_angle, 2 * pi / prototype.p)
         prototype = prototype.model_copy(update={"critical_angle": None, "p": None})
-    inputs = ColumnInputs(block=block, scale=1.0, prototype=prototype)
     pooled = taken(None, SpecimenInputs(block=block, given=None, level=0.95))
-    return FoundColumn(None, inputs, pooled, given.get("scale"))
+    return ColumnInputs(block=block, scale=1.0, prototype=prototype), pooled
 
 
-def _sized(sizes: Mapping[str, Any]) -> Block:
+def _sized(sizes: dict[str, Any]) -> Block:
     """Make the block of a shape and its sizes; neither its depth nor its mass changes how it rocks."""
     if "shape" not in sizes:
         raise CampaignError(f"--{next(iter(sizes)).replace('_', '-')}: give its --shape too: {', '.join(SIZED)}.")
     other = {"mass": "1 kg", "depth": "1 m"} if sizes["shape"] == "prism" else {"mass": "1 kg"}
-    return checked(SIZED[sizes["shape"]], other | dict(sizes)).block(STANDARD_GRAVITY)
+    return checked(SIZED[sizes["shape"]], other | sizes).block(STANDARD_GRAVITY)
 
 
-def _prototype(written: dict[str, Any], given: Mapping[str, Any]) -> Prototype:
+def _prototype(written: Given, given: Given) -> Prototype:
     """Put options over what a campaign says of the real column."""
     given = {key: given[key] for key in Prototype.model_fields if key in given}
     # Limits of another value are none of this one.
@@ -233,16 +222,9 @@ def _prototype(written: dict[str, Any], given: Mapping[str, Any]) -> Prototype:
     return new.model_copy(update={key: value for key, value in written.items() if key not in given})
 
 
-def checked(model: type[Written], written: Mapping[str, Any], names: Mapping[str, str] | None = None) -> Written:
+def checked(model: type[Asked], written: Given) -> Asked:
     """
     Check options as the keys of a table of the campaign file.
-
-    Parameters
-    ----------
-    model : type
-    written : mapping
-    names : mapping, optional
-        Names of options that are not called like their keys.
 
     Raises
     ------
@@ -252,26 +234,13 @@ def checked(model: type[Written], written: Mapping[str, Any], names: Mapping[str
     try:
         return model.model_validate(written)
     except ValidationError as error:
-        named = ((str(each["loc"][0] if each["loc"] else "shape"), each["msg"]) for each in error.errors())
-        problems = [f"--{(names or {}).get(key, key).replace('_', '-')}: {said}" for key, said in named]
+        problems = []
+        for each in error.errors():
+            key = str(each["loc"][0]) if each["loc"] else ""
+            problems.append(f"--{FLAGS.get(key, key).replace('_', '-')}: {each['msg']}" if key else each["msg"])
         raise CampaignError("\n".join(problems)) from None
 
 
-def given_of(options: Mapping[str, Any]) -> Given:
-    """Take from the options of a command those that are given, neither None nor (); lists and numbers as in a file."""
-    given = {key: value for key, value in options.items() if value is not None and value != ()}
-    return {key: _as_written(key, value) for key, value in given.items()}
-
-
-def _as_written(key: str, value: Any) -> Any:
-    if key == "restitution" and isinstance(value, str):
-        try:
-            return float(value)
-        except ValueError:
-            return value  # "identified" or "rigid-body"
-    return list(value) if isinstance(value, tuple) else value
-
-
-def picked(model: type[Written], options: Mapping[str, Any]) -> Written:
-    """Pick from the options of a command those that are given and keys of a table; as `checked`."""
-    return checked(model, {key: value for key, value in given_of(options).items() if key in model.model_fields})
+def picked(model: type[Asked], given: Given) -> Asked:
+    """Pick the options that are keys of a table; as `checked`."""
+    return checked(model, {key: value for key, value in given.items() if key in model.model_fields})

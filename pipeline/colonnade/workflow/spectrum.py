@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import isfinite, pi, radians, sqrt
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from colonnade.arrays import Array
 from colonnade.assessment.ground import NONE, Ground, corrected
 from colonnade.assessment.measures import IntensityMeasures, intensity_measures, measure_of
 from colonnade.campaign import Campaign
+from colonnade.campaign.assessment import Baseline
 from colonnade.campaign.syntax.fields import Duration, Limits, MapPoints, MapRatio, OneOf, Quantity
-from colonnade.campaign.syntax.table import Table
-from colonnade.dynamics.history import History
+from colonnade.campaign.syntax.table import Problems, Table
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.models import NONLINEAR, PLANE_MODELS
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.pulses import PULSES, OverturningSpectrum, overturning_spectrum, pulse_of
@@ -25,6 +25,7 @@ from colonnade.dynamics.spectra import RockingSpectrum, rocking_spectrum
 from colonnade.errors import CampaignError
 from colonnade.store.layout import Layout
 from colonnade.units.text import NOTHING, acceleration, number, quantity, ratio
+from colonnade.workflow.motions import motion_asked_for
 from colonnade.workflow.real_column import FoundColumn, Given, find_column
 
 if TYPE_CHECKING:
@@ -37,9 +38,19 @@ FREQUENCIES = (0.5, 8.0)
 """Ω of an overturning spectrum."""
 
 
+ONLY_FOR = {
+    "--motion": ("unit", "interval", "column", "peak", "baseline", "drift", "slenderness", "periods"),
+    "--pulse": ("omega", "cycles", "phase", "largest", "least_width"),
+    "--pulse mavroeidis-papageorgiou": ("cycles", "phase"),
+}
+"""Options that say nothing without another, and are then refused."""
+
+
 class AskedSpectrum(Table):
     """What a spectrum is asked for with, besides its column; quantities as in a campaign file."""
 
+    motion: str | None = None
+    """A file, a test that recorded it, or one of [motions]."""
     pulse: Annotated[str, OneOf(tuple(PULSES))] | None = None
     """Kind of pulse."""
     unit: str | None = None
@@ -50,7 +61,7 @@ class AskedSpectrum(Table):
     """Name or number of the column of the accelerations in a file."""
     peak: Annotated[float, Quantity("acceleration")] | None = None
     """Peak that the motion is brought to, such as "0.3 g"."""
-    baseline: str = NONE
+    baseline: Baseline = NONE
     """Correction of the motion's baseline: linear, quadratic or highpass(0.1 Hz)."""
     drift: float | None = None
     """Largest drift over PGV of a motion with PGV; by default 0.1, or 0.25 of a table at rest at both ends."""
@@ -73,212 +84,57 @@ class AskedSpectrum(Table):
     least_width: float = WIDTH
     """In A: narrower intervals are islands, not limits."""
 
+    def contradictions(self) -> Problems:
+        """Say that it is not of one thing, or which option is not for it."""
+        if (self.motion is None) == (self.pulse is None):
+            yield (), "Give either --motion or --pulse."
+            return
+        of = ("--motion",) if self.pulse is None else ("--pulse", f"--pulse {self.pulse}")
+        for other, keys in ONLY_FOR.items():
+            for key in self.model_fields_set.intersection(keys) if other not in of else ():
+                yield (), f"--{key.replace('_', '-')} is only for {other}."
+
 
 Row = tuple[str, ...]
-Fields = list[tuple[str, str]]
-Tables = list[tuple[Row, list[Row]]]
-"""Heads and rows of each."""
 
 
 @dataclass(frozen=True)
-class Rocking:
+class Answer:
     """
-    A rocking spectrum and what belongs to it.
+    What a motion or a pulse does to a column, as it is shown.
 
     Attributes
     ----------
-    column : FoundColumn
-    motion : Motion
-    source : str
-        Where the motion comes from.
-    history : History
-        Of the column itself.
-    spectrum : RockingSpectrum
-        Of rectangular blocks over their size, the slenderness of the column first.
-    measures : IntensityMeasures
+    verdict : str
+        In a sentence.
+    fields : sequence of (str, str)
+        What column and motion or pulse are.
+    tables : sequence of (Row, sequence of Row)
+        Heads and rows of each.
+    record : dict
+        For programs: SI, NaN for what there is not.
+    draw : callable
+        Gives the picture.
     """
 
-    column: FoundColumn
-    motion: Motion
-    source: str
-    history: History
-    spectrum: RockingSpectrum
-    measures: IntensityMeasures
-
-    def picture(self) -> Picture:
-        """Draw the spectrum."""
-        from colonnade.figures.files.output import Picture
-        from colonnade.figures.maps import stability_map as spectra
-
-        figure = spectra.rocking_spectrum(self.spectrum, period=2 * pi / self.column.block.p, title=self.source)
-        angles = ", ".join(f"{angle:.4g}" for angle in self.spectrum.critical_angle)
-        seen = f"Largest angle over the size of blocks with α = {angles} rad."
-        return Picture(figure, "rocking-spectrum", f"Rocking spectrum: {self.source}", seen)
-
-    def verdict(self) -> str:
-        """Say in a sentence what the motion does to the column."""
-        peak, model = self.history.peak_ratio, self.history.model
-        rocks = "does not rock" if not peak else f"rocks to |θ|/α = {ratio(peak)} and stands"
-        return f"The column {'overturns' if self.history.outcome == 'overturned' else rocks} ({model} model)."
-
-    def fields(self) -> Fields:
-        """Write what column and motion are."""
-        motion, drift = self.motion, self.measures.drift
-        allowed = f"{self.measures.largest_drift:g} is allowed"
-        return [
-            *self.column.fields(),
-            ("motion", f"{self.source}; {motion.duration:.4g} s in steps of {motion.dt:.4g} s"),
-            ("drift", f"the velocity drifts by {drift:.2g} of its peak; {allowed}"),
-        ]
-
-    def tables(self) -> Tables:
-        """Write the measures of the motion, and the spectrum, a row for each slenderness and size."""
-        return [
-            (("measure", "symbol", "value", "why not"), [self._measured(name) for name in self.measures.values]),
-            (
-                ("α", "2π/p", "p", "outcome", "largest |θ|/α", "largest |θ'|"),
-                [self._row(*place) for place in np.ndindex(self.spectrum.overturned.shape)],
-            ),
-        ]
-
-    def _measured(self, name: str) -> Row:
-        each, value = measure_of(name), self.measures.values[name]
-        shown = f"{number(value)} {each.unit}".rstrip() if isfinite(value) else NOTHING
-        why_not = self.measures.reasons.get(name, "").partition(":")[0]
-        return each.name, each.symbol, acceleration(value) if each.dimension == "acceleration" else shown, why_not
-
-    def _row(self, *place: int) -> Row:
-        spectrum, p = self.spectrum, 2 * pi / float(self.spectrum.period[place[1]])
-        peak = float(spectrum.peak_ratio[place])
-        return (
-            quantity(float(spectrum.critical_angle[place[0]]), "rad", 4),
-            quantity(2 * pi / p, "s"),
-            quantity(p, "rad/s"),
-            "overturned" if spectrum.overturned[place] else "rocking" if peak > 0.0 else "no-rocking",
-            ratio(peak),
-            quantity(float(spectrum.peak_velocity_ratio[place]) * p, "rad/s"),
-        )
-
-    def record(self) -> dict[str, Any]:
-        """Give it for programs: SI, null for what there is not."""
-        measures, of = self.measures, ("unit", "definition", "source", "filter")
-        return {
-            "column": self.column.record(),
-            "motion": self.source,
-            "interval": self.motion.dt,
-            "duration": self.motion.duration,
-            "model": self.spectrum.model,
-            "outcome": self.history.outcome,
-            "peak_ratio": self.history.peak_ratio,
-            "period": _plain(self.spectrum.period),
-            "critical_angle": _plain(self.spectrum.critical_angle),
-            "spectrum_peak_ratio": [_plain(row) for row in self.spectrum.peak_ratio],
-            "spectrum_overturned": self.spectrum.overturned.tolist(),
-            "drift": measures.drift,
-            "largest_drift": measures.largest_drift,
-            "measures": {
-                name: {
-                    "value": value if isfinite(value) else None,
-                    **{key: getattr(measure_of(name), key) for key in of},
-                    "reason": measures.reasons.get(name, ""),
-                }
-                for name, value in measures.values.items()
-            },
-        }
+    verdict: str
+    fields: Sequence[tuple[str, str]]
+    tables: Sequence[tuple[Row, Sequence[Row]]]
+    record: dict[str, Any]
+    draw: Callable[[], Picture]
 
 
-@dataclass(frozen=True)
-class Overturning:
-    """An overturning spectrum and its column."""
-
-    column: FoundColumn
-    spectrum: OverturningSpectrum
-
-    def picture(self) -> Picture:
-        """Draw the spectrum."""
-        from colonnade.figures.files.output import Picture
-        from colonnade.figures.maps import stability_map as spectra
-
-        title, seen = f"Overturning spectrum: {self.spectrum.pulse}", "lower and upper limit over frequency."
-        figure = spectra.overturning_spectrum(self.spectrum)
-        return Picture(figure, "overturning-spectrum", title, f"{self.column.name}: {seen}")
-
-    def verdict(self) -> str:
-        """Say in a sentence what the least of the pulses does to the column."""
-        spectrum, by = self.spectrum, f"({self.spectrum.model} model)"
-        if not np.isfinite(spectrum.lower).any():
-            return f"No {spectrum.pulse} pulse up to A = {spectrum.options['largest']:g} overturns the column {by}."
-        least = int(np.nanargmin(spectrum.lower))
-        level = float(spectrum.lower[least])
-        return (
-            f"The least {spectrum.pulse} pulse that overturns the column has A = {number(level)}, "
-            f"{acceleration(level * self.column.block.uplift_acceleration)}, at Ω = "
-            f"{number(float(spectrum.frequency_ratio[least]))} {by}."
-        )
-
-    def fields(self) -> Fields:
-        """Write what column and pulse are, and what the limits are."""
-        kind, options = pulse_of(self.spectrum.pulse), self.spectrum.options
-        shape = f"; γ = {options['cycles']:g}, ν = {options['phase']:.3g} rad" if "cycles" in options else ""
-        return [
-            *self.column.fields(),
-            ("pulse", f"{kind.name}: {kind.definition}, φ = ω t{shape} ({kind.source})"),
-            ("limits", f"of intervals at least {options['width']:g} wide in A, up to A = {options['largest']:g}"),
-        ]
-
-    def tables(self) -> Tables:
-        """Write the spectrum, a row for each frequency."""
-        heads = ("Ω", "frequency", "lower limit A", "acceleration", "upper limit A", "acceleration", "islands")
-        return [(heads, [self._row(place) for place in range(self.spectrum.lower.size)])]
-
-    def _row(self, place: int) -> Row:
-        spectrum, block = self.spectrum, self.column.block
-        omega, lower, upper = (
-            float(each[place]) for each in (spectrum.frequency_ratio, spectrum.lower, spectrum.upper)
-        )
-        return (
-            number(omega),
-            quantity(omega * block.p / (2 * pi), "Hz"),
-            number(lower, 5),
-            acceleration(lower * block.uplift_acceleration),
-            number(upper, 5),
-            acceleration(upper * block.uplift_acceleration),
-            str(int((spectrum.islands[:, 0] == omega).sum())),
-        )
-
-    def record(self) -> dict[str, Any]:
-        """Give it for programs: SI, null for what there is not."""
-        spectrum = self.spectrum
-        edges = np.column_stack([spectrum.interval_frequency_ratio, spectrum.interval_start, spectrum.interval_end])
-        return {
-            "column": self.column.record(),
-            "pulse": spectrum.pulse,
-            "model": spectrum.model,
-            "options": spectrum.options,
-            **{key: _plain(getattr(spectrum, key)) for key in ("frequency_ratio", "lower", "upper")},
-            "intervals": edges.tolist(),
-        }
-
-
-def _plain(values: Array) -> list[float | None]:
-    return [value if isfinite(value) else None for value in values.tolist()]
-
-
-def rocking_of(
-    campaign: Campaign | None, layout: Layout | None, column: Given, motion: str, asked: AskedSpectrum
-) -> Rocking:
+def spectrum_of(asked: AskedSpectrum, given: Given, campaign: Campaign | None, layout: Layout | None) -> Answer:
     """
-    Compute the rocking spectrum of a motion around a column.
+    Compute the spectrum that is asked for.
 
     Parameters
     ----------
+    asked : AskedSpectrum
+    given : Given
+        Which column: a specimen stands for itself unless options make it another column.
     campaign, layout : optional
         None without a campaign.
-    column : Given
-        A specimen stands for itself unless options make it another column.
-    motion : str
-        A file, a test that recorded it, a motion that tests name or one of [motions].
-    asked : AskedSpectrum
 
     Raises
     ------
@@ -287,101 +143,178 @@ def rocking_of(
     ReadError
         If the file of the motion cannot be read.
     """
-    known = find_column(column, campaign, layout)
-    base, source, is_table = _motion(motion, asked, campaign, layout, known)
-    block, own = known.block, 2 * pi / known.block.p
+    column = find_column(given, campaign, layout)
     try:
-        spectrum = rocking_spectrum(
-            base,
-            critical_angle=[block.critical_angle, *asked.slenderness],
-            period=np.geomspace(*(asked.periods or (own / REACH, own * REACH)), asked.points),
-            restitution=known.restitution,
-            model=asked.model,
-            gravity=block.gravity,
-        )
-        history = rock(block, base, restitution=known.restitution, model=asked.model)
-        measures = intensity_measures(base, block, drift=asked.drift, at_rest=is_table)
+        if asked.motion is None:
+            return _overturning(column, asked)
+        return _rocking(column, asked, *_base(asked, campaign, layout, column.scale))
     except ValueError as error:
         raise CampaignError(str(error)) from None
-    return Rocking(known, base, source, history, spectrum, measures)
 
 
-def overturning_of(
-    campaign: Campaign | None, layout: Layout | None, column: Given, asked: AskedSpectrum
-) -> Overturning:
-    """Compute the overturning spectrum of the pulse that is asked for; as of `rocking_of`."""
-    known = find_column(column, campaign, layout)
-    try:
-        spectrum = overturning_spectrum(
-            known.block,
-            str(asked.pulse),
-            cycles=asked.cycles,
-            phase=radians(asked.phase),
-            frequency_ratio=np.linspace(*asked.omega, asked.points),
-            restitution=known.restitution,
-            model=asked.model,
-            largest=asked.largest,
-            width=asked.least_width,
+def _rocking(column: FoundColumn, asked: AskedSpectrum, motion: Motion, source: str, is_table: bool) -> Answer:
+    """Answer by rectangular blocks over their size, the slenderness of the column first."""
+    block, own = column.block, 2 * pi / column.block.p
+    spectrum = rocking_spectrum(
+        motion,
+        critical_angle=[block.critical_angle, *asked.slenderness],
+        period=np.geomspace(*(asked.periods or (own / REACH, own * REACH)), asked.points),
+        restitution=column.restitution,
+        model=asked.model,
+        gravity=block.gravity,
+    )
+    history = rock(block, motion, restitution=column.restitution, model=asked.model)
+    measures = intensity_measures(motion, block, drift=asked.drift, at_rest=is_table)
+    peak = history.peak_ratio
+    rocks = "does not rock" if not peak else f"rocks to |θ|/α = {ratio(peak)} and stands"
+    drift = f"the velocity drifts by {measures.drift:.2g} of its peak; {measures.largest_drift:g} is allowed"
+    sizes = [_size(spectrum, *place) for place in np.ndindex(spectrum.overturned.shape)]
+
+    def draw() -> Picture:
+        from colonnade.figures.files.output import Picture
+        from colonnade.figures.maps import stability_map as spectra
+
+        figure = spectra.rocking_spectrum(spectrum, period=own, title=source)
+        angles = ", ".join(f"{angle:.4g}" for angle in spectrum.critical_angle)
+        seen = f"Largest angle over the size of blocks with α = {angles} rad."
+        return Picture(figure, "rocking-spectrum", f"Rocking spectrum: {source}", seen)
+
+    return Answer(
+        f"The column {'overturns' if history.outcome == 'overturned' else rocks} ({history.model} model).",
+        [
+            *column.fields(),
+            ("motion", f"{source}; {motion.duration:.4g} s in steps of {motion.dt:.4g} s"),
+            ("drift", drift),
+        ],
+        [
+            (("measure", "symbol", "value", "why not"), [_measured(measures, name) for name in measures.values]),
+            (("α", "2π/p", "p", "outcome", "largest |θ|/α", "largest |θ'|"), sizes),
+        ],
+        {
+            "column": column.record(),
+            "motion": {"source": source, "interval": motion.dt, "duration": motion.duration},
+            "outcome": history.outcome,
+            "peak_ratio": peak,
+            "spectrum": spectrum,
+            "measures": measures,
+        },
+        draw,
+    )
+
+
+def _measured(measures: IntensityMeasures, name: str) -> Row:
+    each, value = measure_of(name), measures.values[name]
+    shown = f"{number(value)} {each.unit}".rstrip() if isfinite(value) else NOTHING
+    why_not = measures.reasons.get(name, "").partition(":")[0]
+    return each.name, each.symbol, acceleration(value) if each.dimension == "acceleration" else shown, why_not
+
+
+def _size(spectrum: RockingSpectrum, *place: int) -> Row:
+    """Write what the motion does to blocks of one slenderness and size."""
+    period, peak = float(spectrum.period[place[1]]), float(spectrum.peak_ratio[place])
+    p = 2 * pi / period
+    return (
+        quantity(float(spectrum.critical_angle[place[0]]), "rad", 4),
+        quantity(period, "s"),
+        quantity(p, "rad/s"),
+        "overturned" if spectrum.overturned[place] else "rocking" if peak > 0.0 else "no-rocking",
+        ratio(peak),
+        quantity(float(spectrum.peak_velocity_ratio[place]) * p, "rad/s"),
+    )
+
+
+def _overturning(column: FoundColumn, asked: AskedSpectrum) -> Answer:
+    """Answer by the limits of the pulses over their frequency."""
+    kind, block = pulse_of(str(asked.pulse)), column.block
+    spectrum = overturning_spectrum(
+        block,
+        kind.name,
+        cycles=asked.cycles,
+        phase=radians(asked.phase),
+        frequency_ratio=np.linspace(*asked.omega, asked.points),
+        restitution=column.restitution,
+        model=asked.model,
+        largest=asked.largest,
+        width=asked.least_width,
+    )
+    shape = f"; γ = {asked.cycles:g}, ν = {radians(asked.phase):.3g} rad" if "cycles" in spectrum.options else ""
+    verdict = f"No {kind.name} pulse up to A = {asked.largest:g} overturns the column ({asked.model} model)."
+    if np.isfinite(spectrum.lower).any():
+        least = int(np.nanargmin(spectrum.lower))
+        level = float(spectrum.lower[least])
+        verdict = (
+            f"The least {kind.name} pulse that overturns the column has A = {number(level)}, "
+            f"{acceleration(level * block.uplift_acceleration)}, at Ω = "
+            f"{number(float(spectrum.frequency_ratio[least]))} ({asked.model} model)."
         )
-    except ValueError as error:
-        raise CampaignError(str(error)) from None
-    return Overturning(known, spectrum)
+    heads = ("Ω", "frequency", "lower limit A", "acceleration", "upper limit A", "acceleration", "islands")
+
+    def draw() -> Picture:
+        from colonnade.figures.files.output import Picture
+        from colonnade.figures.maps import stability_map as spectra
+
+        title, seen = f"Overturning spectrum: {kind.name}", f"{column.name}: lower and upper limit over frequency."
+        return Picture(spectra.overturning_spectrum(spectrum), "overturning-spectrum", title, seen)
+
+    return Answer(
+        verdict,
+        [
+            *column.fields(),
+            ("pulse", f"{kind.name}: {kind.definition}, φ = ω t{shape} ({kind.source})"),
+            ("limits", f"of intervals at least {asked.least_width:g} wide in A, up to A = {asked.largest:g}"),
+        ],
+        [(heads, [_limits(spectrum, block, place) for place in range(spectrum.lower.size)])],
+        {"column": column.record(), "spectrum": spectrum},
+        draw,
+    )
 
 
-def _motion(
-    name: str, asked: AskedSpectrum, campaign: Campaign | None, layout: Layout | None, column: FoundColumn
+def _limits(spectrum: OverturningSpectrum, block: Block, place: int) -> Row:
+    """Write the limits at one frequency."""
+    omega, lower, upper = (float(each[place]) for each in (spectrum.frequency_ratio, spectrum.lower, spectrum.upper))
+    return (
+        number(omega),
+        quantity(omega * block.p / (2 * pi), "Hz"),
+        number(lower, 5),
+        acceleration(lower * block.uplift_acceleration),
+        number(upper, 5),
+        acceleration(upper * block.uplift_acceleration),
+        str(int((spectrum.islands[:, 0] == omega).sum())),
+    )
+
+
+def _base(
+    asked: AskedSpectrum, campaign: Campaign | None, layout: Layout | None, scale: float | None
 ) -> tuple[Motion, str, bool]:
-    """Find the base motion that is asked for, where it comes from, and whether it was recorded on a table."""
-    motion, source, kind = _found(name, asked, campaign, layout, column.scale)
-    if asked.peak is None and kind == "shape":
-        raise CampaignError(f'--motion {name}: it is {source}. Give its peak acceleration, --peak "0.3 g".')
-    factor = 1.0
-    if asked.peak is not None:
-        if not motion.peak > 0.0:
-            raise CampaignError(f"--motion {name}: it does not move, so that it cannot be brought to --peak.")
-        factor, source = asked.peak / motion.peak, f"{source}, brought to a peak of {quantity(asked.peak, 'g')}"
-    if asked.baseline != NONE:
-        source = f"{source}, baseline corrected: {asked.baseline}"
-    try:
-        base = corrected(Ground(factor * motion.acceleration, motion.dt), asked.baseline).acceleration
-    except ValueError as error:
-        raise CampaignError(f"--baseline: {error}") from None
-    vertical = None if motion.vertical is None else abs(factor) * motion.vertical
-    return Motion(base, motion.dt, vertical), source, kind == "table"
-
-
-def _found(
-    name: str, asked: AskedSpectrum, campaign: Campaign | None, layout: Layout | None, scale: float | None
-) -> tuple[Motion, str, Literal["file", "shape", "table"]]:
     """
-    Return the motion in the time of the column, its source, and what is known of it: its shape alone or all.
+    Find the base motion that is asked for, in the time of the column: where it comes from, whether a table did it.
 
     What a campaign recorded is in the time of its model. It is stretched by the root of the scale of the column; if
     that is not said (None), of the specimen that was tested.
     """
-    from colonnade.readers.motion import read_motion
-
-    path = Path(name)
-    is_of_file = asked.model_fields_set & {"unit", "interval", "column"}
-    if path.is_file() or campaign is None or layout is None or is_of_file:
-        if not path.is_file():
-            raise CampaignError(f"--motion {name}: there is no such file{' and no campaign' * (not campaign)}.")
-        column = int(asked.column) if asked.column is not None and asked.column.isdigit() else asked.column
-        return read_motion(path, unit=asked.unit, dt=asked.interval, column=column), f"file {path.name}", "file"
-    from colonnade.workflow.motions import motion_asked_for
-
-    found = motion_asked_for(campaign, layout, name, None, None)
-    if found.test is None:
-        return found.motion, found.source, "shape"
-    own = found.test.specimen
-    if not (scale := scale or campaign.specimens[own].scale):
-        raise CampaignError(
-            f"--motion {name}: it was recorded in the time of the model {own}, and how many times larger the "
-            f"column is, is not known. Give the `scale` of specimens.{own}, or --specimen {own} with --scale (1 for "
-            "its own size)."
-        )
-    if scale == 1.0:
-        return found.motion, found.source, "table"
-    slower = sqrt(scale)
-    source = f"{found.source}, {number(slower)} times slower for a column {scale:g} times larger"
-    return Motion(found.motion.acceleration, found.motion.dt * slower), source, "table"
+    column = int(asked.column) if asked.column is not None and asked.column.isdigit() else asked.column
+    reading: dict[str, Any] = {"unit": asked.unit, "dt": asked.interval, "column": column}
+    said = {key: value for key, value in reading.items() if value is not None}
+    found = motion_asked_for(str(asked.motion), campaign, layout, **said)
+    if asked.peak is None and found.is_shape:
+        raise CampaignError(f'--motion {found.name}: it is {found.source}. Give its peak acceleration, --peak "0.3 g".')
+    source, dt = found.source, found.motion.dt
+    if found.test is not None and campaign is not None:
+        own = found.test.specimen
+        if not (scale := scale or campaign.specimens[own].scale):
+            raise CampaignError(
+                f"--motion {found.name}: it was recorded in the time of the model {own}, and how many times larger the "
+                f"column is, is not known. Give the `scale` of specimens.{own}, or --specimen {own} with --scale (1 "
+                "for its own size)."
+            )
+        if scale != 1.0:
+            dt *= sqrt(scale)
+            source = f"{source}, {number(sqrt(scale))} times slower for a column {scale:g} times larger"
+    factor = 1.0
+    if asked.peak is not None:
+        factor, source = found.factor_to(asked.peak), f"{source}, brought to a peak of {quantity(asked.peak, 'g')}"
+    base, vertical = factor * found.motion.acceleration, found.motion.vertical
+    if asked.baseline != NONE:
+        source = f"{source}, baseline corrected: {asked.baseline}"
+        base = corrected(Ground(base, dt), asked.baseline).acceleration
+    return Motion(base, dt, None if vertical is None else abs(factor) * vertical), source, found.test is not None

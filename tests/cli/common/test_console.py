@@ -1,9 +1,11 @@
 """How results are written, and progress where there is no terminal."""
 
+import json
 import time
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from colonnade.cli.common import console
@@ -33,9 +35,9 @@ def test_a_record_is_written_by_the_names_of_its_fields(capsys):
     assert capsys.readouterr().out == '[\n  {\n    "name": "θ",\n    "path": "a/b"\n  }\n]\n'
 
 
-def test_what_json_has_no_word_for_is_no_result():
-    with pytest.raises(ValueError, match="JSON"):
-        console.show_json(float("nan"))
+def test_what_is_not_known_is_null_and_arrays_are_lists(capsys):
+    console.show_json({"a": np.array([1.5, np.nan]), "b": np.inf})
+    assert json.loads(capsys.readouterr().out) == {"a": [1.5, None], "b": None}
 
 
 def test_a_row_is_one_line_whatever_its_length_and_a_table_without_rows_is_nothing(capsys):

@@ -11,7 +11,7 @@ from colonnade.dynamics.rock import rock
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store.records.summary import read_summary
 from colonnade.workflow.advising.sine import STEP, Known, advise_earthquakes, advise_sines
-from colonnade.workflow.foresee import foresee
+from foreseeing import foreseen_of
 from prism import entry
 
 OMEGA = 5.0
@@ -101,7 +101,7 @@ def test_the_next_span_is_a_bounded_step_beyond_those_that_only_rocked(small):
 def test_the_tilt_of_the_table_counts_as_in_a_forecast(small):
     """The advice and the forecast of one motion, on a table that leans, give one probability."""
     _, _, advice = as_earthquake(small, setup='table_tilt = "4 deg"')
-    (made,) = foresee(small.folder, motion="pulse-01", levels=[f"{advice.values['span']!r}x"])
+    (made,) = foreseen_of(small.folder, motion="pulse-01", levels=[f"{advice.values['span']!r}x"])
     assert advice.risk == pytest.approx(made.forecast.models["nonlinear"].overturned)
     assert np.degrees(made.forecast.inputs.table_tilt) == pytest.approx(4.0)
     assert advice.risk > 0.0

@@ -101,7 +101,7 @@ def _explained(table: type[Table], data: Any, errors: list[ErrorDetails]) -> Ite
     for error in errors:
         of_keys.setdefault(error["loc"][0] if error["loc"] else "", []).append((_place(data, error), error))
     for key, found in of_keys.items():
-        has_parts = isinstance(data, Mapping) and isinstance(data.get(key), (list, Mapping))
+        has_parts = isinstance(data, Mapping) and isinstance(data.get(key), (list, tuple, Mapping))
         meant = [each for each in found if has_parts == (len(each[0]) > 1 or each[1]["type"] in _OF_LISTS)] or found
         words = [error for _, error in meant if error["type"] == "literal_error"] if len(meant) > 1 else []
         others = [each for each in meant if each[1] not in words]
@@ -120,7 +120,7 @@ def _place(data: Any, error: ErrorDetails) -> Place:
     is_absent = error["type"] == "problem" or (error["type"] == "missing" and isinstance(error["loc"][-1], str))
     for part in error["loc"]:
         is_key = isinstance(data, Mapping) and part in data
-        is_there = is_key or (isinstance(data, list) and isinstance(part, int) and part < len(data))
+        is_there = is_key or (isinstance(data, (list, tuple)) and isinstance(part, int) and part < len(data))
         is_mark = "[" in str(part) or (isinstance(data, Mapping) and part == data.get("shape"))
         if is_there or (is_absent and isinstance(part, str) and not is_mark):
             place.append(part)

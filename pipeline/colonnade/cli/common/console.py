@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import sys
 import threading
@@ -12,11 +11,15 @@ from contextlib import contextmanager
 from itertools import zip_longest
 from pathlib import Path
 from textwrap import fill as wrap
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 from rich.text import Text
+
+if TYPE_CHECKING:
+    from colonnade.figures.files.output import Picture
 
 
 class _Output(Console):
@@ -47,6 +50,24 @@ def say_marked(mark: str, style: str, text: str) -> None:
     say(Text.assemble((mark, style), text))
 
 
+def expect_places(picture: Path | None, table: Path | None = None) -> None:
+    """Refuse places for a picture and its table before the work is done; the module of figures loads matplotlib."""
+    if picture or table:
+        from colonnade.figures.files.saving import expect_places
+
+        expect_places(picture, table)
+
+
+def saved(draw: Callable[[], Picture], *places: Path | None) -> list[Path]:
+    """Write a picture and its table where they are asked for."""
+    if not any(places):
+        return []
+    from colonnade.figures.files.saving import save
+
+    picture = draw()
+    return [save(picture, place) for place in places if place is not None]
+
+
 def say_drawn(places: Iterable[Path]) -> None:
     """Write where figures and their tables are."""
     for place in places:
@@ -59,12 +80,10 @@ def complain(text: str) -> None:
 
 
 def show_json(value: object) -> None:
-    """Write a result for machines; paths as text, records by the names of their fields."""
-    say(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False, default=_plain))
+    """Write a result for machines: arrays as lists, records by their fields, null for what there is not."""
+    from pydantic_core import to_json
 
-
-def _plain(value: object) -> object:
-    return str(value) if isinstance(value, Path) else vars(value)
+    say(to_json(value, indent=2, inf_nan_mode="null", fallback=lambda array: array.tolist()).decode())
 
 
 def show_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:

@@ -15,31 +15,42 @@ if TYPE_CHECKING:
     from colonnade.store.layout import Layout
 
 
-class WithKeys(click.RichCommand):
-    """A command with options that `keys` gives, made only when it is used: a table loads pydantic."""
+class Asking(click.RichCommand):
+    """
+    A command with the options of tables, which are made only when it is used: a table loads pydantic.
 
-    def __init__(self, *given: Any, keys: Callable[[], list[click.Option]], **more: Any) -> None:
-        super().__init__(*given, **more)
-        self._keys: Callable[[], list[click.Option]] | None = keys
+    It gets those that are given as `given`, by their keys and as in a campaign file.
+    """
+
+    def __init__(self, *args: Any, keys: Callable[[], list[click.Option]], **more: Any) -> None:
+        super().__init__(*args, **more)
+        self._make, self._keys = keys, list[click.Option]()
 
     def get_params(self, ctx: click.Context) -> list[click.Parameter]:
         """Give its own arguments and options, and those of the tables ahead of where results go."""
-        if self._keys is not None:
-            place = next(number for number, each in enumerate(self.params) if each.name in ("out", "workers"))
-            self.params[place:place], self._keys = self._keys(), None
+        if not self._keys:
+            self._keys = self._make()
+            place = next(place for place, each in enumerate(self.params) if each.name in ("out", "workers", "results"))
+            self.params[place:place] = self._keys
         return super().get_params(ctx)
 
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run it."""
+        found = {str(each.name): ctx.params.pop(each.name) for each in self._keys}
+        ctx.params["given"] = {key: value for key, value in found.items() if value not in (None, ())}
+        return super().invoke(ctx)
 
-def options_of(keys: Mapping[str, FieldInfo], *, with_defaults: bool = False) -> list[click.Option]:
+
+def options_of(keys: Mapping[str, FieldInfo], *, alone: bool = False) -> list[click.Option]:
     """
-    Make an option of each key; one that is not given is None or (), so that the table takes its own default.
+    Make an option of each key.
 
     Parameters
     ----------
     keys : mapping
         Fields of a table. A list of texts is an option that may be repeated, without the "s" of its key.
-    with_defaults : bool, optional
-        Whether the help says the defaults.
+    alone : bool, optional
+        Whether nothing but the options says the values: the help says the defaults, and what is needed.
     """
     from colonnade.campaign.syntax.fields import OneOf, Quantity
 
@@ -51,23 +62,33 @@ def options_of(keys: Mapping[str, FieldInfo], *, with_defaults: bool = False) ->
         words = [click.Choice(each.words) for each in found if isinstance(each, OneOf)]
         dimension = [each.dimension for each in found if isinstance(each, Quantity)]
         plain = str if dimension else next(each for each in (str, Path, float, bool, int) if each in found)
+        kind = FILE if plain is Path else number_or_word if plain is str and not dimension and float in found else plain
         said = str(field.description) + " Repeat it for several." * is_many
-        if with_defaults and field.default not in (None, (), False):
+        if alone and not field.is_required() and field.default not in (None, (), False):
             default = field.default if isinstance(field.default, tuple) else (field.default,)
             said += f" Default: {' '.join(map(str, default))}."
         flag = key.removesuffix("s") if is_many and not dimension else key
         made.append(
             click.Option(
                 ["--" + flag.replace("_", "-"), key],
-                type=words[0] if words else FILE if plain is Path else plain,
+                type=words[0] if words else kind,
                 is_flag=plain is bool or None,
                 nargs=2 if is_pair else 1,
                 multiple=is_many,
+                required=alone and field.is_required(),
                 metavar="LOW HIGH" if is_pair and plain is float else dimension[0].upper() if dimension else None,
                 help=said,
             )
         )
     return made
+
+
+def number_or_word(text: str) -> float | str:
+    """Take a number if it is one."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 def _parts(annotation: Any) -> Iterator[Any]:
@@ -120,21 +141,17 @@ specimen_option = click.option(
     "--specimen", multiple=True, metavar="ID", help="Only this specimen. Repeat the option for several."
 )
 
-one_specimen_option = click.option(
-    "--specimen", metavar="ID", help="The specimen; needed if there are several and nothing else names it."
-)
-
 
 def column_keys(*more: str) -> list[click.Option]:
     """Make the options that say which column: its sizes, and keys of [prototype.<specimen>]: e, α, p and `more`."""
     from colonnade.campaign.assessment import Prototype
     from colonnade.campaign.specimen import SIZED
-    from colonnade.workflow.real_column import Size
+    from colonnade.workflow.real_column import Which
 
     known = {key: field for model in SIZED.values() for key, field in model.model_fields.items()}
     sizes = {key: known[key] for key in ("width", "diameter", "base_diameter", "top_diameter", "height")}
     prototype = {key: Prototype.model_fields[key] for key in ("critical_angle", "p", "restitution", *more)}
-    return options_of(Size.model_fields | sizes | prototype)
+    return options_of(Which.model_fields | sizes | prototype)
 
 
 def file_option(flag: str, help: str) -> Callable[[Command], Command]:
@@ -142,7 +159,11 @@ def file_option(flag: str, help: str) -> Callable[[Command], Command]:
     return click.option(flag, type=FILE, metavar="FILE", help=help)
 
 
-data_option = file_option("--data", "Write what is drawn as a .csv table.")
+def drawing_options(help: str) -> Callable[[Command], Command]:
+    """Add the options of a picture and its table, see `expect_places` and `saved`."""
+    data = file_option("--data", "Write what is drawn as a .csv table.")
+    return lambda command: file_option("--out", help)(data(command))
+
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
 
