@@ -46,10 +46,6 @@ def test_a_band_that_ends_with_overturning_reaches_the_upper_edge():
     assert bars[3:5].tolist() == [0.45, axes.get_ylim()[1]]
 
 
-def test_named_tests_carry_their_number():
-    assert [text.get_text() for text in panel(point(0.2, 0.3, number=7), point(0.4, 0.4)).texts] == ["7"]
-
-
 @pytest.mark.whole
 @every("column", ["", "single", "double"])
 @every("models", [MODELS[:1], MODELS[:2], MODELS], ids=len)

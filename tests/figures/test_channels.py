@@ -39,11 +39,6 @@ def test_a_channel_has_its_physical_scale_and_that_of_its_recorder():
     assert right["−1"] == pytest.approx(6.0)  # 10 mm/V turned: −1 V is −5 × −1 + 1 mm
 
 
-def test_a_channel_recorded_in_its_own_unit_has_one_scale():
-    history = channels_as_recorded([channel(recorded=None)]).axes[0]
-    assert [text.get_text() for text in history.texts] == ["top"]
-
-
 def test_flagged_samples_are_marked_where_they_are_and_missing_ones_at_the_foot():
     values, flags = 10 * np.sin(TIME), np.full(TIME.size, Flag.GOOD)
     values[50:61:10], flags[50], flags[60] = [90.0, np.nan], Flag.FAIL, Flag.MISSING
@@ -51,12 +46,6 @@ def test_flagged_samples_are_marked_where_they_are_and_missing_ones_at_the_foot(
     marked = next(line for line in history.lines if line.get_label() == "failed or missing")
     assert marked.get_xdata().tolist() == [0.5, 0.6]
     assert marked.get_ydata().tolist() == [90.0, pytest.approx(0.0)]
-
-
-def test_the_cut_off_is_marked_in_the_spectrum():
-    spectrum = channels_as_recorded([channel()]).axes[1]
-    assert [line.get_label() for line in spectrum.lines] == ["spectrum before the filter", "after it", "cut-off"]
-    assert spectrum.lines[2].get_xdata()[0] == 25.0
 
 
 def test_a_channel_without_samples_enough_has_no_spectrum():

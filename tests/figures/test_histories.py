@@ -14,8 +14,7 @@ from colonnade.figures.histories import (
     time_limits,
 )
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.stored.record import HEIGHT, LOWER, rocking_angle
-from colonnade.figures.style import COLUMNS, MEASURED, journal, model_style
+from colonnade.figures.style import MEASURED, model_style
 
 TIME = np.linspace(0.0, 10.0, 2001)
 
@@ -35,27 +34,6 @@ def test_measured_and_models_have_their_own_colours_and_dashes():
     expected = [MEASURED["color"], *(model_style(model)["color"] for model in MODELS)]
     assert [to_hex(line.get_color()) for line in axes.lines] == expected
     assert len({model_style(model)["linestyle"] for model in MODELS}) == len(MODELS)
-
-
-def test_in_small_panels_only_the_models_lines_are_thinner():
-    measured, linear = drawn({"measured": swing(0.4), "linear": swing(0.3)}, thinness=0.5).lines
-    assert measured.get_linewidth() == MEASURED["linewidth"]
-    assert linear.get_linewidth() == 0.5 * model_style("linear")["linewidth"]
-
-
-def test_the_widest_band_of_an_ensemble_is_shaded_below_the_lines():
-    levels = np.array([0.05, 0.25, 0.5, 0.75, 0.95])
-    centre = swing(0.3).values
-    spread = Spread(TIME, levels, centre + np.linspace(-0.1, 0.1, 5)[:, None], 0.0, 3.0)
-    axes = drawn({"measured": swing(0.3), "nonlinear": swing(0.3)}, spreads={"nonlinear": spread})
-    (band,) = axes.collections
-    assert band.get_label() == "nonlinear 90\u00a0% band"
-    assert to_hex(band.get_facecolor()[0]) == model_style("nonlinear")["color"]
-    assert band.get_zorder() < min(line.get_zorder() for line in axes.lines)
-    heights = band.get_paths()[0].vertices[:, 1]
-    assert (heights.min(), heights.max()) == pytest.approx((-0.4, 0.4), abs=1e-3)
-    (mark,) = (text for text in axes.texts if text.get_text() == "horizon")
-    assert mark.xy[0] == 3.0
 
 
 def test_without_any_angle_the_panel_says_so():
@@ -82,29 +60,6 @@ def test_curves_without_values_have_limits_too():
     assert time_limits([]) == (0.0, 1.0)
 
 
-MEASURED_CURVE = Curve(TIME, 0.4 * np.sin(6 * TIME))
-LINEAR = Curve(TIME, 0.3 * np.sin(6 * TIME))
-
-
-def test_measured_and_models_are_drawn_with_what_was_done_above_them():
-    (axes,) = rocking_angle({"measured": MEASURED_CURVE, "linear": LINEAR}, title="prism, Ω = 4.00").axes
-    assert axes.get_title(loc="left") == "prism, Ω = 4.00"
-    assert axes.get_xlabel() == "time (s)"
-    measured, linear = axes.lines[:2]
-    assert measured.get_color() == MEASURED["color"]
-    np.testing.assert_allclose(np.abs(linear.get_ydata()).max(), 0.3, rtol=1e-3)
-    assert axes.get_xlim() == pytest.approx((0.0, 10.0), abs=0.5)
-
-
-def test_in_a_single_column_the_panel_is_lower():
-    with journal("double"):
-        wide = rocking_angle({"measured": MEASURED_CURVE}, title="").get_size_inches()
-    with journal("single"):
-        narrow = rocking_angle({"measured": MEASURED_CURVE}, title="").get_size_inches()
-    assert (wide[0], narrow[0]) == pytest.approx((COLUMNS["double"], COLUMNS["single"]))
-    assert wide[1] - narrow[1] == pytest.approx(HEIGHT - LOWER, abs=0.2)
-
-
 LEVELS = np.array([0.05, 0.25, 0.5, 0.75, 0.95])
 FINE = np.linspace(0.0, 10.0, 5001)
 CENTRE = 0.4 * np.sin(4 * FINE)
@@ -113,24 +68,6 @@ BANDS = CENTRE + np.array([[-0.1], [-0.05], [0.0], [0.05], [0.1]]) * FINE / 10
 
 def spread(probability=0.0, horizon=10.0):
     return Spread(FINE, LEVELS, BANDS, probability, horizon)
-
-
-def shades(axes):
-    """Outlines of the bands, the widest first."""
-    return [collection.get_paths()[0].vertices for collection in axes.collections]
-
-
-def test_each_model_has_a_panel_with_its_bands_and_the_measured_angle():
-    figure = bands_over_time({"measured": Curve(FINE, CENTRE)}, {"linear": spread(), "nonlinear": spread()})
-    said = [axes.get_title(loc="right") for axes in figure.axes]
-    assert said[0] == "measured, and bands of 90\u00a0% and 50\u00a0% of the linear model's runs"
-    assert "of the nonlinear model's runs" in said[1]
-    for axes in figure.axes:
-        assert len(shades(axes)) == 2
-        assert [line.get_label() for line in axes.lines] == ["measured"]
-    assert figure.axes[0].collections[0].get_facecolor()[0, :3] != pytest.approx(
-        figure.axes[1].collections[0].get_facecolor()[0, :3]
-    )
 
 
 def test_the_probability_of_overturning_is_written_where_there_is_one():

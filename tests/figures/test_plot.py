@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from matplotlib import pyplot
-from matplotlib.axes import Axes
 
 import colonnade
 from colonnade.figures.files.table import columns_of
@@ -70,10 +69,6 @@ def test_a_result_is_drawn_into_the_axes_that_are_given(result):
     assert columns_of(axes.figure)
 
 
-def test_without_axes_a_figure_is_made(result):
-    assert isinstance(colonnade.plot(result), Axes)
-
-
 def test_what_is_drawn_is_the_history(history):
     table = columns_of(colonnade.plot(history).figure)
     np.testing.assert_array_equal(table["time (s)"], history.time)
@@ -123,13 +118,6 @@ def test_a_history_says_what_happened(history):
     assert repr(history) == (
         f"<History: outcome rocking, max |θ|/α 0.5, impacts {history.impacts}, duration 6 s, model linear>"
     )
-
-
-def test_a_fragility_is_drawn_over_its_measure_with_its_unit(fragility):
-    axes = colonnade.plot(fragility)
-    assert axes.get_xlabel() == "PGV (m/s)"
-    drawn = {line.get_label(): line for line in axes.lines}
-    assert drawn["curve that only rises"].get_xdata().tolist() == fragility.isotonic.intensity.tolist()
 
 
 def test_an_assembly_is_drawn_joint_by_joint_and_moves_body_by_body():

@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_hex
 
-from colonnade.dynamics.models import MODELS
-from colonnade.figures.histories import Panel, Spread
+from colonnade.figures.histories import Panel
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.panels.layout import PAGE
 from colonnade.figures.stored.record import SpanPanel, spans_side_by_side, whole_record
@@ -43,20 +42,9 @@ def test_the_uplift_acceleration_is_drawn_where_the_motion_reaches_it(level, lin
     assert len(figure.axes[1].lines) == lines
 
 
-def test_impacts_stand_at_their_times():
-    line = whole(impacts=np.array([1.0, 2.5])).axes[0].lines[-1]
-    assert set(np.asarray(line.get_xdata())[[0, 1, 3, 4]]) == {1.0, 2.5}
-
-
 def test_the_largest_angle_is_ringed_but_not_where_it_leaves_the_axis():
     assert len(whole(peak=(1.25, 0.4)).axes[0].lines) == 3
     assert len(whole(peak=(1.25, 40.0)).axes[0].lines) == 2
-
-
-def test_the_legend_names_measured_and_models_once():
-    figure = whole(MISFIT, impacts=np.array([1.0]), peak=(1.25, 0.4))
-    names = [text.get_text() for box in figure.legends for text in box.get_texts()]
-    assert names == ["measured", "linear model"]
 
 
 def test_no_label_leaves_the_figure_or_meets_another():
@@ -77,16 +65,6 @@ def test_no_label_leaves_the_figure_or_meets_another():
     for axes in figure.axes:
         for text in axes.texts:
             assert text.get_window_extent().x1 <= page.x1
-
-
-def test_the_legend_of_all_models_and_a_band_stays_within_the_figure():
-    band = Spread(TIME, np.array([0.05, 0.95]), np.array([swing(0.2).values, swing(0.5).values]), 0.0, 3.0)
-    models = {name: swing(0.3) for name in MODELS}
-    figure = whole_record({"measured": swing(0.4)} | models, spreads={"nonlinear": band})
-    (legend,) = figure.legends
-    assert len(legend.get_texts()) == len(MODELS) + 2
-    figure.canvas.draw()
-    assert legend.get_window_extent().x1 < figure.bbox.x1
 
 
 def panels(count=3, models=("linear", "nonlinear"), base=True):
@@ -130,17 +108,6 @@ def test_each_model_has_a_row_on_the_measured():
         model_style("nonlinear")["color"],
     ]
     assert len(base.lines) == 1
-
-
-def test_a_fourth_span_begins_a_new_band():
-    figure = spans_side_by_side(panels(4, ("linear",), base=False))
-    bottoms = [axes.get_position().y0 for axes in figure.axes]
-    assert bottoms[0] == bottoms[1] == bottoms[2] > bottoms[3]
-
-
-def test_without_prediction_and_base_the_measured_stands_alone():
-    figure = spans_side_by_side(panels(2, (), base=False))
-    assert [len(axes.lines) for axes in figure.axes] == [1, 1]
 
 
 def test_three_spans_fit_a_column_of_a_page_each_with_its_labels():

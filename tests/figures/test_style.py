@@ -4,7 +4,7 @@ from pathlib import Path
 import matplotlib
 import pytest
 
-from colonnade.figures.style import WIDTH, blank_figure, journal, styled
+from colonnade.figures.style import journal, styled
 
 PROJECT = Path(__file__).resolve().parents[2]
 OUTPUT = {"savefig": "figures/files/output.py", "rcParams": "figures/style.py", "rc_context": "figures/style.py"}
@@ -44,7 +44,3 @@ def test_the_style_is_applied_again_after_an_error():
         raise ZeroDivisionError
     with matplotlib.rc_context({"font.size": 20}), styled():
         assert matplotlib.rcParams["font.size"] == 9
-
-
-def test_every_figure_has_the_common_width():
-    assert blank_figure(2.5).get_size_inches().tolist() == [WIDTH, 2.5]

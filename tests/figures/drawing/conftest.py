@@ -14,9 +14,6 @@ cylinder = {shape = "cylinder", diameter = "97 mm", height = "455 mm", mass = "2
 cone = {shape = "cone", base_diameter = "97 mm", top_diameter = "75.5 mm", height = "480 mm", mass = "21.94 kg"}
 statue = {shape = "measured", mass = "80 kg", pole_distance = ["610 mm", "600 mm"], critical_angle = ["0.21 rad", "0.24 rad"], inertia = "41.2 kg m^2", restitution = 0.9}
 [setups.frame.channels]
-"""  # noqa: E501
-
-CHANNELS = """
 top = {column = "1", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], direction = [1, 0, 0], relative_to = "table"}
 laser = {column = "2", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "300 mm"], direction = [-1, 0, 0], relative_to = "ground", sensing = "surface", normal = [1, 0, 0]}
 string = {column = "3", quantity = "displacement", unit = "mm", on = "specimen", at = ["-43 mm", "0 mm", "400 mm"], direction = [-1, 0, 0], relative_to = "ground", sensing = "wire", anchor = ["-300 mm", "0 mm", "420 mm"]}
@@ -32,14 +29,9 @@ oil = {column = "9", quantity = "other"}
 @pytest.fixture
 def drawn_campaign(tmp_path):
     """Write and read a campaign with these channels and a test of each specimen."""
-
-    def write(channels=CHANNELS):
-        (tmp_path / "a.csv").write_text("t,1\n", encoding="utf-8")
-        tests = "".join(
-            f'[[tests]]\nid = "{name}-1"\nkind = "other"\nspecimen = "{name}"\nsetup = "frame"\nfile = "a.csv"\n'
-            for name in ("prism", "cylinder", "cone", "statue")
-        )
-        (tmp_path / "campaign.toml").write_text(HEAD + channels + tests, encoding="utf-8")
-        return load(tmp_path)
-
-    return write
+    tests = "".join(
+        f'[[tests]]\nid = "{name}-1"\nkind = "other"\nspecimen = "{name}"\nsetup = "frame"\nfile = "a.csv"\n'
+        for name in ("prism", "cylinder", "cone", "statue")
+    )
+    (tmp_path / "campaign.toml").write_text(HEAD + tests, encoding="utf-8")
+    return load(tmp_path)

@@ -1,7 +1,5 @@
 """A specimen in its views: outline and dimensions to scale, poles, angles, senses, table and axes."""
 
-from math import degrees
-
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
@@ -24,35 +22,23 @@ def written(one):
     return {text.get_text() for text in one.axes.texts} - {""}
 
 
-def outlines(one):
-    """Corners of the closed outlines, without the first that comes again at the end."""
-    return [patch.get_xy()[:-1] for patch in one.axes.patches]
-
-
-@pytest.mark.parametrize(("orientation", "half"), [(ELEVATION, 0.043), (SIDE, 0.03)], ids=["elevation", "side"])
-def test_a_prism_is_as_wide_as_the_view_sees_it_and_as_high_as_it_is(orientation, half):
+@pytest.mark.parametrize(
+    ("orientation", "body", "largest"),
+    [
+        (ELEVATION, PRISM, [[0.043, 0.456]]),
+        (SIDE, PRISM, [[0.03, 0.456]]),
+        (PLAN, PRISM, [[0.043, 0.03]]),
+        (ELEVATION, CONE, [[0.0485, 0.48]]),
+        (PLAN, CONE, [[0.0485, 0.0485], [0.03775, 0.03775]]),
+    ],
+)
+def test_an_outline_is_as_wide_and_high_as_the_view_sees_it(orientation, body, largest):
     one = view(orientation)
-    drawing.draw_body(one, PRISM)
-    (outline,) = outlines(one)
-    np.testing.assert_allclose(outline, [(-half, 0), (half, 0), (half, 0.456), (-half, 0.456)])
-
-
-def test_a_cone_is_narrower_at_its_top_and_two_circles_from_above():
-    one = view()
-    drawing.draw_body(one, CONE)
-    (outline,) = outlines(one)
-    np.testing.assert_allclose(outline[2:], [(0.03775, 0.48), (-0.03775, 0.48)])
-    above = view(PLAN)
-    drawing.draw_body(above, CONE)
-    radii = [np.unique(np.hypot(*circle.T).round(9)).tolist() for circle in outlines(above)]
-    assert radii == [[0.0485], [0.03775]]
-
-
-def test_a_prism_from_above_is_one_rectangle_of_width_and_depth():
-    one = view(PLAN)
-    drawing.draw_body(one, PRISM)
-    (outline,) = outlines(one)
-    assert np.abs(outline).max(axis=0).tolist() == [0.043, 0.03]
+    drawing.draw_body(one, body)
+    corners = [patch.get_xy() for patch in one.axes.patches]
+    np.testing.assert_allclose([np.abs(each).max(axis=0) for each in corners], largest, rtol=1e-3)
+    if body is CONE and orientation is ELEVATION:
+        assert np.abs(corners[0][corners[0][:, 1] > 0.4, 0]) == pytest.approx(0.03775)
 
 
 def test_an_outline_that_is_not_known_is_dashed_and_its_sizes_are_asked_for():
@@ -88,29 +74,7 @@ def test_the_critical_angle_is_drawn_from_the_vertical_to_the_centre_of_mass():
     assert (turns[0], turns[-1]) == pytest.approx((0.0, BLOCK.critical_angle))
     np.testing.assert_allclose(np.hypot(across, up), 0.62 * 0.228)
     assert written(one) == {"α"}
-
-
-@pytest.mark.parametrize(("orientation", "place"), [(SIDE, (0.0, 0.228)), (PLAN, (0.0, 0.0))], ids=["side", "plan"])
-def test_the_other_views_mark_the_centre_of_mass_alone(orientation, place):
-    one = view(orientation)
-    drawing.draw_rocking(one, Rocking.of(BLOCK))
-    places = {(float(line.get_xdata()[0]), round(float(line.get_ydata()[0]), 9)) for line in one.axes.lines}
-    assert places == {place}
-    assert written(one) == set()
-
-
-@pytest.mark.parametrize(
-    ("orientation", "names"), [(ELEVATION, "xzy"), (SIDE, "yzx"), (PLAN, "xyz")], ids=["elevation", "side", "plan"]
-)
-def test_the_axes_of_a_view_are_named_across_up_and_through(orientation, names):
-    one = view(orientation)
-    drawing.draw_axes(one, (0.1, 0.1))
-    places = {text.get_text(): text.get_position() for text in one.axes.texts if text.get_text()}
-    across, up, through = (places[name] for name in names)
-    assert across[0] > 0.1 == across[1]
-    assert up[1] > 0.1 == up[0]
-    assert through[0] < 0.1
-
-
-def test_an_angle_is_written_in_both_units():
-    assert drawing.words_of_angle(0.1864) == f"0.1864 rad = {degrees(0.1864):.4g}°"
+    for orientation, place in ((SIDE, (0.0, 0.228)), (PLAN, (0.0, 0.0))):
+        one = view(orientation)
+        drawing.draw_rocking(one, Rocking.of(BLOCK))
+        assert all((mark.get_xdata()[0], mark.get_ydata()[0]) == pytest.approx(place) for mark in one.axes.lines)

@@ -8,24 +8,19 @@ from colonnade.errors import CampaignError
 from colonnade.figures.drawing import described
 
 
-@pytest.mark.parametrize(
-    ("specimen", "base", "width", "depth", "height"),
-    [
+def test_a_body_has_the_dimensions_of_its_shape(drawn_campaign):
+    for specimen, base, width, depth, height in (
         ("prism", "rectangle", (0.086, 0.086), (0.06, 0.06), 0.456),
         ("cylinder", "circle", (0.097, 0.097), (0.097, 0.097), 0.455),
         ("cone", "circle", (0.097, 0.0755), (0.097, 0.0755), 0.48),
-    ],
-)
-def test_a_body_has_the_dimensions_of_its_shape(drawn_campaign, specimen, base, width, depth, height):
-    body = described.drawn_of(drawn_campaign(), specimen, "frame").body
-    assert (body.base, body.is_known) == (base, True)
-    assert body.width == pytest.approx(width)
-    assert body.depth == pytest.approx(depth)
-    assert body.height == pytest.approx(height)
+    ):
+        body = described.drawn_of(drawn_campaign, specimen, "frame").body
+        assert (body.base, body.is_known) == (base, True)
+        assert (*body.width, *body.depth, body.height) == pytest.approx((*width, *depth, height))
 
 
 def test_a_measured_body_is_drawn_from_its_poles_and_says_so(drawn_campaign):
-    body = described.drawn_of(drawn_campaign(), "statue", "frame").body
+    body = described.drawn_of(drawn_campaign, "statue", "frame").body
     assert not body.is_known
     assert body.height == pytest.approx(2 * body.rocking.centre[1])
     assert body.width[0] == pytest.approx(body.rocking.poles[1] - body.rocking.poles[0])
@@ -34,7 +29,7 @@ def test_a_measured_body_is_drawn_from_its_poles_and_says_so(drawn_campaign):
 
 
 def test_channels_become_transducers_and_those_fixed_to_nothing_are_named(drawn_campaign):
-    drawn = described.drawn_of(drawn_campaign(), "prism", "frame")
+    drawn = described.drawn_of(drawn_campaign, "prism", "frame")
     by_name = drawn.transducers
     assert "oil" not in by_name
     assert "not drawn: oil" in drawn.body.words
@@ -44,23 +39,18 @@ def test_channels_become_transducers_and_those_fixed_to_nothing_are_named(drawn_
     assert "hollow: place not given" in drawn.body.words  # the gyro has no place
 
 
-def test_a_drawing_is_told_to_those_who_do_not_see_it(drawn_campaign):
-    said = described.said_of(drawn_campaign(), "prism", "frame")
-    told = "top: displacement of the specimen at (43, 0, 440) mm, positive along (1, 0, 0), relative to the table."
-    assert told in said
-
-
-def test_all_that_tests_combine_is_drawn(drawn_campaign):
-    picture = described.of_campaign(drawn_campaign())
+def test_all_that_tests_combine_is_drawn_and_told_to_those_who_do_not_see_it(drawn_campaign):
+    picture = described.of_campaign(drawn_campaign)
     assert len(picture.figure.axes) == 3 * 4
+    told = "top: displacement of the specimen at (43, 0, 440) mm, positive along (1, 0, 0), relative to the table."
+    assert told in described.picture(drawn_campaign, "prism", "frame").description
     assert "statue in frame: 8 transducers." in picture.description
 
 
 def test_a_campaign_without_tests_has_nothing_to_draw(drawn_campaign):
-    campaign = drawn_campaign()
-    campaign.tests.clear()
+    drawn_campaign.tests.clear()
     with pytest.raises(CampaignError, match="no test"):
-        described.of_campaign(campaign)
+        described.of_campaign(drawn_campaign)
 
 
 DRAFT = """

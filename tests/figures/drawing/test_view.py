@@ -3,30 +3,18 @@
 from itertools import pairwise
 from math import cos, sin
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
 
 from colonnade.dynamics.block import Block
-from colonnade.figures.drawing.setup import ELEVATION, PLAN, SIDE
+from colonnade.figures.drawing.setup import ELEVATION, PLAN
 from colonnade.figures.drawing.view import Label, Rocking, View, _spaced
 
 
 def view(orientation):
     return View.within(Figure(figsize=(4, 4)), (0.0, 0.0, 4.0, 4.0), (4.0, 4.0), orientation, 0.1, (2.0, 1.0))
-
-
-@pytest.mark.parametrize(
-    ("orientation", "spot"), [(ELEVATION, (1.0, 3.0)), (SIDE, (2.0, 3.0)), (PLAN, (1.0, 2.0))],
-    ids=["elevation", "side", "plan"],
-)  # fmt: skip
-def test_each_view_shows_two_axes_and_the_third_by_the_right_hand(orientation, spot):
-    one = view(orientation)
-    assert one.spot((1.0, 2.0, 3.0)) == spot
-    right, up = np.eye(3)[orientation[0]], np.eye(3)[orientation[1]]
-    assert one.depth(tuple(np.cross(right, up))) == 1.0
 
 
 @given(st.lists(st.floats(-1.0, 11.0), max_size=9))

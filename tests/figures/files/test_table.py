@@ -15,7 +15,6 @@ from colonnade.figures.files.table import columns_of
 from colonnade.figures.histories import Panel, Spread
 from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
 from colonnade.figures.restitution.decay import EstimateRow, ImpactSeries, impact_restitution
-from colonnade.figures.restitution.estimators import estimators_side_by_side
 from colonnade.figures.stored.record import whole_record
 
 TIME = np.linspace(0.0, 20.0, 20_001)
@@ -31,11 +30,6 @@ def panel():
     axes = Figure().subplots()
     axes.set(xlabel="time (s)", ylabel="slide\n(mm)")
     return axes
-
-
-def read(text):
-    heads, *rows = csv.reader(io.StringIO(text))
-    return dict(zip(heads, zip(*rows, strict=True), strict=True))
 
 
 @settings(max_examples=50, deadline=None)
@@ -158,17 +152,3 @@ def test_single_values_are_rows_with_their_names():
     assert list(table["series"]) == ["e identified", "rigid body", "e identified, interval"]
     assert table["e of each impact"][:2] == [0.97, 0.955]
     assert table["e of each impact, high"][2] == pytest.approx(0.98)
-
-
-def test_estimates_are_a_row_each():
-    rows = [EstimateRow("by peaks", 0.97, 0.96, 0.98), EstimateRow("by history", 0.975, 0.973, 0.977, True)]
-    table = table_of(estimators_side_by_side({"free-01": rows, "free-02": rows}, rigid=0.95))
-    assert list(table["series"])[:4] == [
-        "free-01, by peaks",
-        "free-01, by history",
-        "free-02, by peaks",
-        "free-02, by history",
-    ]
-    for ending, index in (("", 1), (", low", 2), (", high", 3)):
-        given = [row[index] for row in rows] * 2
-        assert list(table[f"coefficient of restitution e{ending}"])[:4] == pytest.approx(given)

@@ -50,12 +50,6 @@ def test_sub_harmonic_tests_are_labelled_by_their_order_and_others_not():
     assert [text.get_text() for text in axes.texts] == ["1/2"]
 
 
-def test_outcomes_differ_by_shape_as_well_as_by_colour():
-    axes, _ = drawn(POINTS)
-    shapes = {collection.get_paths()[0].vertices.tobytes() for collection in axes.collections[-3:]}
-    assert len(shapes) == 3
-
-
 @pytest.mark.parametrize(("largest", "scale"), [(2.5, "linear"), (9.0, "log")])
 def test_amplitudes_far_apart_are_drawn_on_a_logarithmic_axis(largest, scale):
     axes, _ = drawn([*POINTS, MapPoint("i", 7.8, largest, "rocking")])

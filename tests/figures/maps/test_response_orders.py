@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.steady import SteadyResponse
-from colonnade.figures.maps.response_orders import REGIONS, response_orders
-from colonnade.identification.response.boundaries import MapPoint
+from colonnade.figures.maps.response_orders import response_orders
 
 OMEGAS, LEVELS = np.linspace(2.0, 8.0, 7), np.linspace(0.8, 3.0, 5)
 OPTIONS = {"model": "linear", "settling": 400, "ramp": 2.0, "phase": 0.0}
@@ -31,11 +30,6 @@ def test_every_order_has_the_colour_that_its_legend_names():
     np.testing.assert_allclose(shown, [patch.get_facecolor() for patch in named.values()], atol=1e-6)
 
 
-def test_no_order_is_left_without_a_colour():
-    orders = sorted(order for region in REGIONS for order in region.orders)
-    assert orders == list(range(-2, 9))
-
-
 def test_curves_break_where_the_order_changes_and_dots_mark_what_is_not_every_cycle():
     over_amplitude = response_orders(response(), [], OPTIONS).axes[2]
     curve, dots = over_amplitude.lines[:2]
@@ -51,12 +45,6 @@ def test_a_block_that_nowhere_rocks_has_no_curves():
     resting = SteadyResponse(OMEGAS, LEVELS, order, np.full(order.shape, np.nan), np.zeros(order.shape))
     figure = response_orders(resting, [], OPTIONS)
     assert [len(axes.lines) for axes in figure.axes[1:]] == [0, 0]
-
-
-def test_measured_points_carry_their_sub_harmonic_order():
-    axes = response_orders(response(), [MapPoint("a", 6.0, 2.0, "rocking", 3)], OPTIONS).axes[0]
-    assert [text.get_text() for text in axes.texts] == ["1/3"]
-    assert axes.collections[1].get_offsets().tolist() == [[6.0, 2.0]]
 
 
 def test_what_the_responses_depend_on_stands_above():

@@ -31,10 +31,3 @@ def test_an_overturning_spectrum_shows_both_limits_and_every_interval():
     edges = table["A = a / (g tan α), edges of the intervals that overturn"]
     assert sorted(edges) == pytest.approx(sorted([*spectrum.interval_start, *spectrum.interval_end]))
     assert "sine; linear model; e = 0.9" in figure.axes[0].get_title(loc="left")
-
-
-def test_the_title_of_mavroeidis_and_papageorgious_pulse_has_its_parameters():
-    spectrum = overturning_spectrum(
-        PRISM, "mavroeidis-papageorgiou", frequency_ratio=[2.0, 3.0], cycles=1.5, phase=1.0, largest=1.5
-    )
-    assert "γ = 1.5, ν = 1 rad" in spectra._words_of(spectrum)

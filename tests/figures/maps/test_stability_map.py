@@ -40,24 +40,12 @@ def test_cells_are_shaded_by_the_share_that_overturns(charts):
     np.testing.assert_array_equal(mesh.get_array().reshape(12, 3), charts[0].overturning_fraction.T)
 
 
-def test_what_the_limits_depend_on_stands_above(charts):
-    title = stability_map(charts[:1]).axes[0].get_title(loc="left")
-    assert "4 cycles, no ramp" in title
-    assert "at least 0.1 wide, scanned in steps of" in title
-    assert stability_map(charts).axes[0].get_title(loc="left").endswith("at least 0.1 wide")
-
-
 def test_ramps_and_a_law_of_e_are_told_above():
     law = RestitutionLaw.table([0.0, 2.0], [0.95, 0.85])
     chart = computed(PRISM, **(OPTIONS | {"restitution": law, "ramp": 2}))
     title = stability_map([chart]).axes[0].get_title(loc="left")
     assert "linear ramps of 2" in title
     assert "e = 0.95 … 0.85 over the speed of the impact" in title
-
-
-def test_a_sub_harmonic_point_carries_its_order(charts):
-    axes = stability_map(charts[:1], [MapPoint("a", 5.0, 3.0, "rocking", 3)]).axes[0]
-    assert [text.get_text() for text in axes.texts] == ["1/3"]
 
 
 def test_measured_points_beyond_the_map_widen_it(charts):

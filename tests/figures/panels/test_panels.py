@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from colonnade.figures.files.output import to_png, to_svg
@@ -28,30 +27,6 @@ def test_more_columns_than_fit_are_continued_below():
     assert grid[COLUMNS][0].get_ylim() == (-3, 3)
 
 
-def test_without_a_name_there_is_no_legend():
-    figure, axes = stacked_panels([1.0])
-    legend_above(figure, axes)
-    assert figure.legends == []
-
-
-def test_an_upper_panel_has_the_upright_grid_of_the_lowest_one_without_its_numbers():
-    with styled():
-        figure, (upper, lower) = stacked_panels([1.0, 1.0])
-    lower.set_xlim(0, 7)
-    canvas = FigureCanvasAgg(figure)
-    canvas.draw()
-    ink = 255 - np.asarray(canvas.buffer_rgba())[::-1, :, :3].min(axis=2).astype(int)
-    for panel in (upper, lower):
-        assert panel.get_xticks().tolist() == [0, 1, 2, 3, 4, 5, 6, 7]
-        rows = ink[int(panel.bbox.y0) + 3 : int(panel.bbox.y1) - 3]
-        at = panel.transData.transform([(place, 0.0) for place in np.arange(0.5, 7, 0.5)])[:, 0].astype(int)
-        is_ruled = [np.median(rows[:, column - 1 : column + 2].max(axis=1)) > 5 for column in at]
-        assert is_ruled == [False, True] * 6 + [False]
-    left, right = int(upper.bbox.x0) + 3, int(upper.bbox.x1)
-    assert not ink[int(lower.bbox.y1) + 3 : int(upper.bbox.y0) - 3, left:right].any()
-    assert ink[: int(lower.bbox.y0) - 3, left:right].any()
-
-
 def noisy(samples=60_000):
     return Curve(np.arange(samples) / 1000, np.random.default_rng(3).normal(size=samples))
 
@@ -64,16 +39,6 @@ def test_a_long_curve_is_thinned_and_keeps_its_ends_and_extremes():
     assert thinned.values.min() == curve.values.min()
     assert (thinned.time[0], thinned.time[-1]) == (curve.time[0], curve.time[-1])
     assert (np.diff(thinned.time) > 0).all()
-
-
-def test_every_interval_of_time_keeps_its_lowest_and_highest_value():
-    curve = noisy(10_000)
-    thinned = envelope(curve, intervals=10)
-    for start, end in zip(range(0, 10_000, 1000), range(1000, 10_001, 1000), strict=True):
-        part = curve.values[start:end]
-        kept = thinned.values[(thinned.time >= curve.time[start]) & (thinned.time <= curve.time[end - 1])]
-        assert kept.max() == pytest.approx(part.max(), abs=0.05)
-        assert kept.min() == pytest.approx(part.min(), abs=0.05)
 
 
 def test_a_gap_stays_a_gap():
@@ -161,14 +126,6 @@ def test_a_band_keeps_every_sample_and_breaks_where_nothing_is_known():
     assert max(map(len, outlines)) < 1500
     assert outlines[0][:, 1].max() == pytest.approx(np.nanmax(above[TIME <= 20]))
     assert outlines[0][:, 0].max() == pytest.approx(20.0, abs=0.1)
-
-
-def test_a_band_scales_its_axis():
-    _, axes = panel()
-    draw_band(axes, TIME, np.full(TIME.size, -3.0), np.full(TIME.size, 7.0))
-    low, high = axes.get_ylim()
-    assert low <= -3.0
-    assert high >= 7.0
 
 
 @pytest.mark.parametrize(

@@ -73,28 +73,6 @@ def named(axes):
     return axes.get_legend_handles_labels()[1]
 
 
-def test_each_impact_has_its_bar_and_the_constant_its_band():
-    level = EstimateRow("e = 0.9500 ± 0.0010", 0.95, 0.949, 0.951)
-    axes = impact_restitution([impacts()], level=level, rigid=0.9505).axes[0]
-    assert set(named(axes)) == {"impact used", "e = 0.9500 ± 0.0010", "rigid body"}
-    segments = axes.containers[0].lines[2][0].get_segments()
-    assert [np.ptp(segment[:, 1]) for segment in segments] == pytest.approx([4e-3] * 20)
-
-
-def test_a_rigid_body_value_off_the_axis_is_told_at_its_edge():
-    axes = impact_restitution([impacts()], level=UNKNOWN, rigid=0.8).axes[0]
-    assert axes.get_ylim()[0] > 0.8
-    assert [text.get_text() for text in axes.texts] == ["rigid body 0.8000 ↓"]
-
-
-def test_impacts_left_out_are_hollow_and_several_tests_have_marks_of_their_own():
-    figure = impact_restitution([impacts(), impacts("free-02", used=False)], level=UNKNOWN, rigid=0.8)
-    first, second = figure.axes[0].containers
-    assert first.lines[0].get_markerfacecolor() != second.lines[0].get_markerfacecolor()
-    assert first.lines[0].get_marker() != second.lines[0].get_marker()
-    assert named(figure.axes[0]) == ["free-01", "impact left out"]
-
-
 @pytest.mark.parametrize("count", [2, 60])
 def test_the_axis_of_e_shows_the_bars_of_the_surest_impacts_and_not_what_scatters_at_the_end(count):
     series = impacts(count=count)
@@ -229,15 +207,3 @@ def drawn(bars, shown=ALL, used=ALL):
 def ends(container):
     (bars,) = container.lines[2]
     return [tuple(segment[:, 1]) for segment in bars.get_segments()]
-
-
-def test_bars_go_as_far_down_and_up_as_they_say():
-    (both,) = drawn(np.array([[1.0, 2.0, 3.0, 4.0], [0.1, 0.2, 0.3, 0.4]]))
-    assert ends(both) == [(9.0, 10.1), (9.0, 11.2), (9.0, 12.3), (9.0, 13.4)]
-    (even,) = drawn(np.full(4, 0.5))
-    assert ends(even)[0] == (9.5, 10.5)
-
-
-def test_an_unknown_error_has_no_bar():
-    (container,) = drawn(np.array([np.nan, 1.0, 1.0, 1.0]))
-    assert ends(container)[0] == (10.0, 10.0)

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from colonnade.figures import base_motion
-from colonnade.figures.base_motion import BaseMotion, base_of, base_picture
+from colonnade.figures.base_motion import BaseMotion, BaseSpectra, base_of, base_picture
 from colonnade.figures.files.table import columns_of
+from colonnade.figures.panels.curve import Curve
 from colonnade.signals.named_motion import Laid, Series
 
 STEP = 0.01
@@ -63,14 +64,6 @@ def test_the_target_is_laid_on_the_record_with_its_factor(based, known, monkeypa
     assert based("span-2.0", np.zeros_like).target is None
 
 
-def test_a_motion_is_found_by_its_name_in_any_case(filled_campaign, monkeypatch):
-    monkeypatch.setattr(base_motion, "reference_files", lambda campaign: {"El Centro": "a file"})
-    monkeypatch.setattr(base_motion, "_loaded", lambda source: source)
-    assert base_motion._reference(filled_campaign[0], "EL CENTRO") == "a file"
-    assert base_motion._reference(filled_campaign[0], "Kobe") is None
-    assert base_motion._reference(filled_campaign[0], None) is None
-
-
 def test_a_target_half_as_strong_has_half_the_spectrum(known):
     half = Laid(SHAKING / 2, 1.0, 1.0, 1.0)
     drawn = base_picture(known("span-2.0"), BaseMotion(TIME, SHAKING, half))
@@ -97,3 +90,14 @@ def test_kinds_whose_spectrum_is_nothing_or_one_line_have_no_picture(known, kind
 def test_a_table_that_stood_has_no_picture(known):
     assert base_picture(known("span-2.0"), None) is None
     assert base_picture(known("span-2.0"), BaseMotion(TIME, np.zeros_like(TIME), None)) is None
+
+
+ACHIEVED, PERIOD = Curve(TIME, SHAKING), np.geomspace(0.02, 2, 30)
+
+
+@pytest.mark.parametrize(("ratio", "reach"), [(1.02, 0.2), (0.6, 0.44), (4.0, 1.0)])
+def test_the_axis_of_the_ratio_fits_what_it_shows(ratio, reach):
+    spectra = BaseSpectra(PERIOD, ratio * np.sqrt(PERIOD), np.sqrt(PERIOD))
+    axes = base_motion.base_motion(ACHIEVED, ACHIEVED, spectra, uplift=9.0).axes[2]
+    assert axes.get_ylim() == pytest.approx((1 - reach, 1 + reach))
+    assert axes.lines[0].get_ydata() == pytest.approx(min(ratio, 1 + reach))

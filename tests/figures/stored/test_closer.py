@@ -11,7 +11,6 @@ from colonnade.campaign import Test
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.figures import closer
 from colonnade.figures.moving import animation
-from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored.subject import OfTest
 from colonnade.store.records.stored import Stored
 from prism import PRISM
@@ -27,11 +26,6 @@ def test_the_free_motion_on_the_separatrix_arrives_at_the_critical_angle_at_rest
         angle -= step * velocity
     assert found.velocity[40] == pytest.approx(velocity / (p * alpha), rel=1e-3)
     assert (found.velocity[0], found.velocity[-1]) == (0.0, 0.0)
-
-
-def test_a_small_block_has_nearly_straight_lines_as_the_linear_model():
-    found = closer.separatrix(PRISM)
-    assert found.velocity == pytest.approx(1 - np.abs(found.ratio), abs=2e-3)
 
 
 def sine(record, stored):
@@ -64,13 +58,6 @@ def test_a_steady_sine_is_drawn_over_the_phase_of_the_base():
     assert portrait.get_ylabel() == "θ′ / (p α)"
     velocity = np.abs(portrait.lines[0].get_ydata()).max()
     assert velocity == pytest.approx(0.05 * np.pi * 2.0 / (PRISM.p * PRISM.critical_angle), rel=1e-2)
-
-
-def test_the_base_rises_through_zero_at_phase_zero():
-    time = np.arange(0, 10, 0.002)
-    base = 3 * np.sin(2 * np.pi * 2.0 * (time - 0.123))
-    zero = closer._rising(Curve(time, base).within(4.0, 9.0), 2.0)
-    assert (zero - 0.123) * 2.0 == pytest.approx(round((zero - 0.123) * 2.0), abs=1e-3)
 
 
 def test_an_earthquake_is_enlarged_about_its_largest_angle(known):

@@ -89,10 +89,6 @@ def test_an_earthquake_is_named_by_its_motion_and_span_and_a_sine_by_its_ratios(
     assert title(record.angle(sine)) == "prism, Ω = 3.46, A = 2.00"
 
 
-def test_any_other_test_is_named_by_its_id(known):
-    assert title(record.angle(known("free-01"))) == "prism, free-01"
-
-
 def test_without_an_angle_there_is_nothing_to_draw(known):
     assert record.angle(known("later")) is None
 
@@ -132,23 +128,10 @@ def test_sine_tests_are_counted_by_outcome():
     assert picture.description == "3 tests: 2 rocking, 1 overturned."
 
 
-def test_measured_and_predicted_are_over_the_critical_angle(known):
-    one = known("span-2.0")
-    found = one.ratios()
-    assert np.nanmax(np.abs(found["measured"].values)) == pytest.approx(one.record.peak_ratio, rel=1e-6)
-    assert set(found) == {"measured", "linear", "nonlinear"}
-
-
 def test_misfits_end_where_the_comparison_ends(known):
     one = known("span-3.0")
     for model, misfit in one.misfits().items():
         assert misfit.time[-1] <= one.stored.compared("compared_until", model) < one.measured_ratio().time[-1]
-
-
-def test_each_model_has_the_bands_of_its_ensemble(known):
-    for spread in known("span-2.0").spreads().values():
-        assert spread.bands.shape == (spread.levels.size, spread.time.size)
-        assert 0.0 < spread.horizon <= spread.time[-1]
 
 
 def test_what_was_not_measured_is_none(known):
