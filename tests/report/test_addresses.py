@@ -6,16 +6,7 @@ import pytest
 
 from colonnade.errors import StoreError
 from colonnade.report import addresses
-from colonnade.report.addresses import FOLDER, PARTS, UNWATCHED, scripts, state_script
-
-
-def test_a_page_of_a_test_loads_every_script_and_then_the_state_and_its_data():
-    assert addresses.scripts_of("tests/a.html") == [*scripts(), "state.js", "data/a.js"]
-
-
-def test_ours_is_all_of_the_folder():
-    assert {path.stem for path in FOLDER.glob("*.js")} == set(PARTS)
-    assert all((FOLDER / f"{name}.js").read_text(encoding="utf-8") in scripts()[addresses.OWN] for name in PARTS)
+from colonnade.report.addresses import UNWATCHED, scripts, state_script
 
 
 def test_nothing_is_loaded_that_a_file_cannot_load():

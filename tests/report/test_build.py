@@ -3,7 +3,6 @@
 import shutil
 
 import pytest
-from jinja2 import UndefinedError
 
 from colonnade.report import addresses, build
 from colonnade.report.build import rendered
@@ -116,8 +115,3 @@ def test_a_damaged_result_is_told_as_a_failure(empty_campaign, tmp_path):
     text = built(campaign, layout).read_text(encoding="utf-8")
     assert "rocking:</span>" in text[text.index('id="failures"') :]
     assert "1 failed" in Page(text).words
-
-
-def test_a_template_without_what_it_shows_is_an_error(filled_campaign):
-    with pytest.raises(UndefinedError):
-        rendered(filled_campaign[0], "quality", "quality.html")

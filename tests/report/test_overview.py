@@ -79,15 +79,11 @@ def test_each_kind_of_trouble_is_in_its_place(row_of):
     assert (found["explained"], found["notes"]) == (1, 1)
 
 
-def test_a_note_needs_no_look(row_of):
-    found = looked_at([row_of("a", "rocking", 0.2, warnings=(warned("note", "a spike"),))])
+def test_a_note_and_an_excluded_test_need_no_look(row_of):
+    excluded = replace(row_of("b", None, status="pending"), excluded="left out by N. N.")
+    found = looked_at([row_of("a", "rocking", 0.2, warnings=(warned("note", "a spike"),)), excluded])
     assert not found["is_needed"]
     assert found["notes"] == 1
-
-
-def test_an_excluded_test_has_not_failed(row_of):
-    row = replace(row_of("a", None, status="pending"), excluded="left out by N. N.")
-    assert not looked_at([row])["is_needed"]
 
 
 def test_of_many_missed_tests_a_few_are_named_and_the_table_has_all(row_of, filled_campaign):
@@ -258,19 +254,7 @@ def test_it_is_some_hundred_bytes_of_whole_numbers_within_the_picture(values):
     assert [across for across, _ in points(text)] == sorted(across for across, _ in points(text))
 
 
-def test_the_highest_peak_is_not_lost(row_of):
-    time = np.linspace(0.0, 30.0, 30_001)
-    angle = np.zeros(time.size)
-    angle[12_345] = 0.8
-    angle[20_000] = -3.0
-    found = [down for _, down in points(polyline(Curve(time, angle)))]
-    assert (min(found), max(found)) == (2, HEIGHT)
-
-
-def test_a_still_test_is_two_points():
+def test_a_still_test_is_two_points_and_nothing_measured_nothing():
     time = np.linspace(0.0, 30.0, 3001)
     assert polyline(Curve(time, np.full(time.size, 1e-4))) == "0,10 64,10"
-
-
-def test_nothing_measured_gives_nothing():
     assert polyline(None) == polyline(Curve(np.array([1.0]), np.array([0.0]))) == ""

@@ -198,13 +198,6 @@ def test_the_cover_says_who_where_when_and_by_which_campaign_file(campaign, fold
     assert data["cover"] == {"tag": "img", "src": "photos-free-02-1.jpg", "alt": "it lies", "in": []}
 
 
-def test_each_figure_has_a_file_of_its_own(campaign, folder):
-    document = document_of(campaign, folder)
-    assert list(document.pictures) == ["figure-1.svg", "figure-2.svg"]
-    assert document.files == {"photos-free-02-1.jpg": folder / "photos" / "free-02-1.jpg"}
-    assert "not on paper" not in str(document.data)
-
-
 def test_no_picture_is_taken_from_outside_the_report(campaign, folder, tmp_path):
     (tmp_path / "secret.jpg").write_bytes(b"secret")
     (folder / "photos" / "link.jpg").symlink_to(tmp_path / "secret.jpg")
@@ -231,15 +224,6 @@ def test_without_a_photo_the_cover_has_the_first_drawing_of_a_setup(campaign, fo
     (folder / "specimens" / "prism.html").write_text(f"<main>{drawn}</main>", encoding="utf-8")
     cover = document_of(campaign, folder).data["cover"]
     assert cover == {"tag": "img", "src": "setups-prism+frame.svg", "alt": "drawn", "in": []}
-
-
-def test_every_section_of_a_test_is_printed_unless_it_says_no(campaign, folder):
-    kinds = ("found", "channels", "a-new-one")
-    inside = "".join(f'<section id="{kind}"><p>{kind}</p></section>' for kind in kinds)
-    no = '<section id="setup" data-paper="no"><p>no</p></section><section id="histories" hidden><p>no</p></section>'
-    (folder / "tests" / "free-01.html").write_text(f"<main>{inside}{no}</main>", encoding="utf-8")
-    sheet = document_of(campaign, folder).data["appendix"][0]
-    assert [section["in"] for section in sheet["in"]] == [[{"tag": "p", "in": [kind]}] for kind in kinds]
 
 
 TYPESET = """

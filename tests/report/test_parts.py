@@ -59,13 +59,6 @@ def test_a_test_is_part_of_the_pages_of_its_kind(started, test, has_span, has_fr
         assert part.kept.free_vibration.e
 
 
-def test_results_that_are_out_of_date_are_not_read(started):
-    text, part = part_of(*started, outdated={SHAKEN})
-    assert (part.span, part.kept.channels, part.kept.used.values) == (None, (), {})
-    assert "<svg" not in text
-    assert "<svg" in part_of(*started)[0]
-
-
 def test_a_page_is_known_by_all_of_the_campaign_that_it_shows(started, tmp_path):
     campaign, layout = started
     predict = campaign.processing.predict.model_copy(update={"models": ("linear",)})
@@ -111,10 +104,6 @@ def test_curves_and_peaks_come_back_to_the_last_bit(filled_campaign, monkeypatch
         monkeypatch.setattr("colonnade.report.build.Kept", lambda *given: kept.setdefault("given", given))
 
 
-def test_a_failure_keeps_its_stage(filled_campaign):
-    assert part_of(*filled_campaign, "sine-dead")[1].row.failures[0].stage == "ingest"
-
-
 def test_what_a_page_made_is_gone_after_it():
     before = gc.get_threshold()
     with seldom_collected():
@@ -125,18 +114,3 @@ def test_what_a_page_made_is_gone_after_it():
         assert made() is not None  # an axes and its figure refer to each other
     assert made() is None
     assert gc.get_threshold() == before
-
-
-def test_no_figure_of_a_page_is_left_after_it(started):
-    def left():
-        return sum(isinstance(each, Figure) for each in gc.get_objects())
-
-    campaign, layout = started
-    part_of(campaign, layout)
-    before = left()
-    gc.disable()
-    try:
-        part_of(campaign, layout)
-        assert left() == before
-    finally:
-        gc.enable()

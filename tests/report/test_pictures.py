@@ -19,20 +19,6 @@ def prism(filled_campaign):
     return pictures.read_of_specimen(*filled_campaign, "prism")
 
 
-def test_a_test_has_its_record_its_samples_and_the_block_of_its_specimen(filled_campaign):
-    found = pictures.read_of_test(*filled_campaign, "span-2.0")
-    assert (found.test.id, found.record.outcome) == ("span-2.0", "rocking")
-    assert found.block == filled_campaign[0].block("prism")
-    assert found.stored.has("ingest", "top")
-    assert found.failures == []
-
-
-def test_a_failed_test_says_why(filled_campaign):
-    (failure,) = pictures.read_of_test(*filled_campaign, "sine-dead").failures
-    assert failure.stage == "ingest"
-    assert "the file is empty" in failure.text
-
-
 def test_a_specimen_has_its_free_vibrations_its_spans_and_its_sine_tests(prism, filled_campaign):
     assert prism.block == filled_campaign[0].block("prism")
     assert [decay.test for decay in prism.decays] == ["free-01", "free-refused"]
@@ -41,23 +27,12 @@ def test_a_specimen_has_its_free_vibrations_its_spans_and_its_sine_tests(prism, 
     assert list(prism.failures) == []
 
 
-def test_another_specimen_has_nothing_of_it(filled_campaign):
-    statue = pictures.read_of_specimen(*filled_campaign, "statue")
-    assert (list(statue.decays), list(statue.points), list(statue.spans)) == ([], [], [])
-
-
 def test_a_refused_free_vibration_is_listed_with_the_peaks_that_it_has(prism):
     sound, refused = prism.decays
     assert any(row.recommended for row in sound.estimates)
     assert not any(row.recommended for row in refused.estimates)
     assert sound.peaks is not None
     assert sound.impacts is not None
-
-
-def test_the_campaign_has_a_row_a_test_without_reading_samples(filled_campaign):
-    found = pictures.read_of_campaign(*filled_campaign)
-    assert [row.id for row in found.rows] == list(filled_campaign[0].tests)
-    assert found.failures == ()
 
 
 SUBJECTS = {"test": ("free-01", "span-2.0"), "specimen": ("prism",), "campaign": ("",)}
@@ -105,12 +80,6 @@ def test_the_journals_column_gives_the_width_and_nothing_leaves_it(read, entry, 
         drawn.figure.draw_without_rendering()
         for legend in drawn.figure.legends:
             assert legend.get_window_extent().x1 <= wide * drawn.figure.dpi * 1.01
-
-
-def test_a_page_and_the_command_draw_the_same(read):
-    same = picture("fitted", read["free-01"])
-    assert same is not None
-    assert same.identity == "fitted-free-01"
 
 
 def test_spans_of_one_motion_alone_need_no_note_and_of_several_say_which_is_shown(read):

@@ -43,36 +43,6 @@ def test_a_result_comes_back_as_it_went(tmp_path):
     assert files.read_attributes(path)["content"] == content
 
 
-@pytest.mark.parametrize("models", [["linear", "nonlinear"], ["linear"]])
-def test_names_of_models_come_back_as_the_dimensions_labels(tmp_path, models):
-    dataset = xr.Dataset(
-        {"nrmse": ("model", np.arange(len(models)) / 10)}, coords={"model": np.array(models, dtype=object)}
-    )
-    files.write(dataset, tmp_path / "compared.nc", attributes={"stage": "compare"})
-    assert files.read(tmp_path / "compared.nc")["nrmse"].sel(model="linear") == 0.0
-
-
-def test_empty_columns_of_numbers_and_text_come_back_empty(tmp_path):
-    dataset = xr.Dataset(
-        {"test_restitution": ("test", np.array([])), "impact_time": ("impact", np.array([]))},
-        coords={"test_id": ("test", np.array([], dtype=object))},
-    )
-    files.write(dataset, tmp_path / "specimen.nc", attributes={})
-    stored = files.read(tmp_path / "specimen.nc")
-    assert stored["test_id"].to_numpy().tolist() == []
-    assert stored["impact_time"].shape == (0,)
-
-
-def test_the_content_is_that_of_values_and_warnings_and_not_of_dates_or_keys(tmp_path):
-    first = files.write(record(), tmp_path / "a.nc", attributes={"date_created": "2024-01-01", "key": "a"})
-    same = files.write(record(), tmp_path / "b.nc", attributes={"date_created": "2025-01-01", "key": "b"})
-    assert same.attrs["content"] == first.attrs["content"]
-    other = files.write(record([0.0, 1.0 + 1e-15, np.nan]), tmp_path / "c.nc", attributes={})
-    assert other.attrs["content"] != first.attrs["content"]
-    warned = files.write(record().assign_attrs(warnings=[]), tmp_path / "d.nc", attributes={})
-    assert warned.attrs["content"] != first.attrs["content"]
-
-
 def test_no_number_gets_a_fill_value_whatever_text_is_stored_before_it(tmp_path):
     dataset = xr.Dataset(
         {

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from colonnade.store.layout import Layout
-from colonnade.store.results import RUN_STAGES, STAGES, ResultId, models_of, results_of
+from colonnade.store.results import RUN_STAGES, ResultId, results_of
 
 TEST = '[[tests]]\nid = "{kind}"\nkind = "{kind}"\nspecimen = "prism"\nsetup = "frame"\nfile = "raw.csv"\n'
 PREDICTED = "predict-linear predict-contact ensemble-linear compare"
@@ -29,11 +29,6 @@ def test_what_is_of_a_specimen_comes_with_a_stage_of_its_tests(stage, with_):
     assert ResultId("prism", stage).order == RUN_STAGES.index(with_)
 
 
-def test_no_two_results_share_a_file():
-    files = [ResultId("same", stage, "linear").file for stage in STAGES]
-    assert len(set(files)) == len(files)
-
-
 @pytest.mark.parametrize(
     ("test", "names"),
     [
@@ -48,29 +43,21 @@ def test_a_test_has_the_results_of_its_kind_and_of_the_models_in_their_order(cam
     assert [result.order for result in results] == sorted(result.order for result in results)
 
 
-def test_without_base_motion_nothing_is_predicted(campaign):
-    assert models_of(campaign, campaign.tests["pulse"]) == ("linear", "contact")
-    assert models_of(campaign, campaign.tests["tilt"]) == ()
-
-
-def test_each_stage_has_its_file_in_the_tests_folder():
-    stages = ("ingest", "condition", "rocking", "restitution", "compare")
-    found = [Layout(Path("c")).stage("free-01", stage) for stage in stages]
-    names = ("recorded", "conditioned", "rocking", "restitution", "compared")
-    assert found == [Path(f"c/processed/tests/free-01/{name}.nc") for name in names]
-
-
-def test_each_model_has_a_file():
-    layout = Layout(Path("c"))
-    assert layout.stage("free-01", "predict", "linear").name == "predicted-linear.nc"
-    assert layout.stage("free-01", "ensemble", "linear").name == "ensemble-linear.nc"
-    assert layout.stage("prism", "contact") == Path("c/processed/contact/prism.nc")
-    assert layout.stage("prism", "responses", "linear") == Path("c/processed/maps/prism-linear-response.nc")
-
-
-def test_specimens_summary_and_report_lie_where_the_contract_says():
-    layout = Layout(Path("c"))
-    assert layout.stage("prism", "specimen") == Path("c/processed/specimens/prism.nc")
-    assert layout.summary_json == Path("c/processed/summary.json")
-    assert layout.report == Path("c/report/index.html")
-    assert layout.stage("prism", "map", "linear") == Path("c/processed/maps/prism-linear.nc")
+@pytest.mark.parametrize(
+    ("result", "file"),
+    [
+        (("free-01", "ingest"), "tests/free-01/recorded.nc"),
+        (("free-01", "condition"), "tests/free-01/conditioned.nc"),
+        (("free-01", "rocking"), "tests/free-01/rocking.nc"),
+        (("free-01", "restitution"), "tests/free-01/restitution.nc"),
+        (("free-01", "compare"), "tests/free-01/compared.nc"),
+        (("free-01", "predict", "linear"), "tests/free-01/predicted-linear.nc"),
+        (("free-01", "ensemble", "linear"), "tests/free-01/ensemble-linear.nc"),
+        (("prism", "contact"), "contact/prism.nc"),
+        (("prism", "specimen"), "specimens/prism.nc"),
+        (("prism", "map", "linear"), "maps/prism-linear.nc"),
+        (("prism", "responses", "linear"), "maps/prism-linear-response.nc"),
+    ],
+)
+def test_results_lie_where_the_contract_says(result, file):
+    assert Layout(Path("c")).stage(*result) == Path("c/processed") / file

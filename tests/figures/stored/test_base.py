@@ -9,7 +9,7 @@ from colonnade.figures import base_motion
 from colonnade.figures.base_motion import BaseMotion, BaseSpectra, base_of, base_picture
 from colonnade.figures.files.table import columns_of
 from colonnade.figures.panels.curve import Curve
-from colonnade.signals.named_motion import Laid, Series
+from colonnade.signals.named_motion import Laid
 
 STEP = 0.01
 TIME = STEP * np.arange(1000)
@@ -53,15 +53,6 @@ def test_a_hole_in_it_a_standing_table_and_a_test_that_was_not_run_have_none(bas
     assert based("span-2.0", kind="tilt") is None
     assert based("free-01") is None
     assert based("later") is None
-
-
-def test_the_target_is_laid_on_the_record_with_its_factor(based, known, monkeypatch):
-    acceleration = known("span-2.0").stored.array("rocking", "base_acceleration")
-    reference = Series(acceleration / 2.5, based("span-2.0").interval)
-    monkeypatch.setattr(base_motion, "_reference", lambda campaign, motion: reference)
-    target = based("span-2.0", time_scale=1.0).target
-    assert (target.factor, target.correlation) == pytest.approx((2.5, 1.0), rel=1e-3)
-    assert based("span-2.0", np.zeros_like).target is None
 
 
 def test_a_target_half_as_strong_has_half_the_spectrum(known):

@@ -12,7 +12,6 @@ pytestmark = pytest.mark.whole
 SHOWN = (
     "() => [...document.querySelectorAll('#tests table tbody tr:not([hidden]) th')].map(th => th.textContent.trim())"
 )
-STRONG = "sine-3hz-too-strong-for-the-block-1"
 
 
 @pytest.fixture
@@ -47,23 +46,14 @@ def test_it_is_filtered_by_each_choice_and_by_words(overview):
     assert overview.evaluate(SHOWN) == ["span-2.5", "span-3.0"]
     choose(overview, "linear", "outside")
     assert overview.evaluate(SHOWN) == ["span-2.5"]
+    choose(overview, "specimen", "")
+    for name, value in (("linear", ""), ("kind", ""), ("outcome", "not-overturned")):
+        choose(overview, name, value)
+    assert overview.evaluate(SHOWN) == ["watched"]
     overview.click("#filter button[type=reset]")
     overview.wait_for_function("document.querySelector('#filter output').textContent === '9 of 9 tests'")
     overview.fill("#filter input[name=words]", "sine Failed")
     assert overview.evaluate(SHOWN) == ["sine-dead"]
-
-
-@pytest.mark.parametrize(
-    ("name", "value", "expected"),
-    [
-        ("status", "failed", ["sine-dead"]),
-        ("outcome", "overturned", [STRONG]),
-        ("outcome", "not-overturned", ["watched"]),
-    ],
-)
-def test_a_status_and_an_outcome_are_found(overview, name, value, expected):
-    choose(overview, name, value)
-    assert overview.evaluate(SHOWN) == expected
 
 
 def test_a_count_of_missed_outcomes_leads_to_its_tests_in_the_table(overview):

@@ -1,18 +1,11 @@
 """An open page of a report that is watched: it follows what is on disk, and stays as the person left it."""
 
 import shutil
-import signal
-import subprocess
-import sys
-from contextlib import contextmanager
 from pathlib import Path
-from time import monotonic, sleep
 
 import pytest
 
 from colonnade.report.addresses import state_script
-from colonnade.workflow import run
-from short_campaign import write_campaign
 
 pytestmark = pytest.mark.whole
 
@@ -153,45 +146,3 @@ def test_it_is_not_printed(visit, folder, tell):
     assert page.locator(".watched").is_visible()
     page.emulate_media(media="print")
     assert page.locator(".watched").is_hidden()
-
-
-@contextmanager
-def watching(folder):
-    """Run `colonnade watch` in a process of its own from its first sign of life on, and end it as Ctrl-C does."""
-    state = folder / "report" / "state.js"
-    process = subprocess.Popen([sys.executable, "-m", "colonnade", "watch", str(folder), "--workers", "1"])
-    try:
-        until = monotonic() + 60
-        while '"watched": true' not in state.read_text(encoding="utf-8"):
-            assert monotonic() < until, "no sign of life"
-            sleep(0.1)
-        yield
-    finally:
-        process.send_signal(signal.SIGINT)
-        process.wait(60)
-
-
-@pytest.mark.slow
-def test_an_open_page_follows_a_real_watch(visit, tmp_path):
-    folder = write_campaign(tmp_path / "small", {"free-01": "free-vibration", "pulse-01": "pulse"})
-    run(folder, workers=1)
-    with watching(folder):
-        page = visit("tests/pulse-01.html", folder=folder / "report")
-        page.wait_for_function("document.documentElement.classList.contains('scripted')")
-        page.locator(".panels").press("+")
-        page.evaluate("document.querySelector('.panels').blur()")
-        before = page.evaluate(CHOSEN)
-        measured = page.evaluate("[...colonnade.page.series[0]]")
-        page.evaluate("window.is_first = true")
-        raw = folder / "raw" / "pulse-01.csv"
-        lines = raw.read_text(encoding="utf-8").splitlines()
-        halved = [
-            f"{time},{float(top) / 2:.6f},{table}" for time, top, table in (line.split(",") for line in lines[1:])
-        ]
-        raw.write_text("\n".join([lines[0], *halved]) + "\n", encoding="utf-8")
-        page.wait_for_function("document.querySelector('.watched').textContent.includes('pulse-01: ')", timeout=60_000)
-        page.wait_for_function("!window.is_first", timeout=120_000)
-        page.wait_for_function(READY)
-        assert page.evaluate(CHOSEN)["view"] == pytest.approx(before["view"])
-        assert page.evaluate("[...colonnade.page.series[0]]") != measured
-    says(page, "The watch has ended. Last: ")

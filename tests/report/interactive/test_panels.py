@@ -22,9 +22,11 @@ def test_even_times_are_a_start_and_an_interval():
     assert samples.series == []
 
 
-def test_one_clock_is_kept_once():
-    samples, time = Samples(), np.arange(5.0)
+def test_equal_clocks_and_equal_series_are_kept_once():
+    samples, time, values = Samples(), np.arange(5.0), np.array([1.0, np.nan, 3.0])
     assert [samples.clock(time), samples.clock(time + 1), samples.clock(time.copy())] == [0, 1, 0]
+    assert [samples.add(values), samples.add(values + 1), samples.add(values.copy())] == [0, 1, 0]
+    assert len(samples.series) == 2
 
 
 def test_uneven_times_are_kept_as_they_are():
@@ -33,19 +35,6 @@ def test_uneven_times_are_kept_as_they_are():
     (clock,) = samples.clocks
     again = clock["start"] + clock["interval"] * np.arange(5) + samples.series[clock["uneven"]]
     np.testing.assert_allclose(again, time)
-
-
-def test_equal_series_are_kept_once():
-    samples, values = Samples(), np.array([1.0, np.nan, 3.0])
-    assert [samples.add(values), samples.add(values + 1), samples.add(values.copy())] == [0, 1, 0]
-    assert len(samples.series) == 2
-
-
-@pytest.mark.parametrize("time", [np.array([2.0]), np.array([2.0, 3.0])], ids=["one sample", "two samples"])
-def test_short_clocks(time):
-    samples = Samples()
-    samples.clock(time)
-    assert samples.clocks[0]["start"] == 2.0
 
 
 def test_the_data_is_one_call_with_what_was_given_and_no_text_ends_it():
@@ -105,11 +94,6 @@ def test_what_is_unpacked_is_what_was_packed_to_a_millionth_of_the_largest(unpac
         np.testing.assert_allclose(after, before, rtol=0, atol=1e-6 * largest + 1e-37, equal_nan=True)
 
 
-def test_the_largest_jumps_fit(unpacked):
-    jumps = np.array([1.0, -1.0, 1.0, -1.0, -1.0, 1.0])
-    assert np.array_equal(unpacked(packed([jumps]))[0], jumps)
-
-
 def test_a_test_of_half_a_minute_with_eight_channels_and_two_models_takes_two_megabytes_at_most():
     random, time = np.random.default_rng(1), np.arange(30_000) / 1000
     smooth = butter(4, 35, fs=1000, output="sos")
@@ -120,8 +104,3 @@ def test_a_test_of_half_a_minute_with_eight_channels_and_two_models_takes_two_me
     # Angles, their misfits, two bands of each model, motions and base motion.
     series += [sosfiltfilt(smooth, random.normal(size=time.size)) for _ in range(17)]
     assert len(packed(series).text) < 2_000_000
-
-
-@pytest.mark.parametrize("count", [0, 1, 2])
-def test_short_series(unpacked, count):
-    assert unpacked(packed([np.arange(count, dtype=float)]))[0].tolist() == list(range(count))

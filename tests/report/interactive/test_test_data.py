@@ -28,15 +28,6 @@ def panels_of(given, group):
     return {panel["title"]: panel for each in given["groups"] if each["title"] == group for panel in each["panels"]}
 
 
-def test_groups_in_their_order_and_what_is_shown_at_first(shaken):
-    assert [(group["title"], group["is_open"]) for group in shaken[0]["groups"]] == [
-        ("Response", True),
-        ("Table motion", False),
-        ("Channels, conditioned", False),
-        ("Channels, as recorded", False),
-    ]
-
-
 def test_the_angle_has_every_model_with_its_bands(shaken):
     panel = panels_of(shaken[0], "Response")["Rocking angle θ/α"]
     assert [curve["name"] for curve in panel["curves"]] == ["measured", "linear model", "nonlinear model"]
@@ -74,11 +65,6 @@ def test_flagged_samples_are_those_that_are_not_good(shaken):
             flags[first:last] = flag
         assert np.array_equal(flags, recorded[f"{channel}_quality"])
         assert (flags > 1).any()
-
-
-def test_a_test_without_results_has_no_groups(reported):
-    given = data_of(reported["sine-dead"])
-    assert (given["groups"], given["moving"], given["series"]) == ([], None, [])
 
 
 def test_a_test_without_transducers_on_the_specimen_shows_the_models_on_the_table(reported):

@@ -64,7 +64,3 @@ def test_a_velocity_that_the_drift_does_not_permit_is_not_given(table):
     assert velocity["how it is computed"].startswith(
         "not given: the integral of the acceleration drifts by more than 25\u00a0%"
     )
-
-
-def test_a_free_vibration_has_no_such_section(table):
-    assert table("free-01") == {}

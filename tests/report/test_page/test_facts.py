@@ -20,16 +20,6 @@ def dated(campaign, *said):
     return campaign.but(tests=tests)
 
 
-def test_a_campaign_says_from_when_to_when_and_names_each_operator_once(campaign):
-    first, last = date(2013, 4, 26), date(2013, 5, 2)
-    said = facts.who_and_when(dated(campaign, (last, "K. Papas"), (first, "M. Rossi"), (last, "K. Papas")))
-    assert said == [
-        ("facility", "Simulator <1>"),
-        ("tested", "2013-04-26 to 2013-05-02"),
-        ("operators", "K. Papas, M. Rossi"),
-    ]
-
-
 def test_one_day_and_one_operator_are_one(campaign):
     said = facts.who_and_when(dated(campaign, *[(date(2013, 4, 26), "M. Rossi")] * 3))
     assert said[1:] == [("tested", "2013-04-26"), ("operator", "M. Rossi")]

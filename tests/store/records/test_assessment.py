@@ -70,12 +70,6 @@ def test_a_correction_is_said_with_the_answer_without_it():
     assert "As they are, they give no curve: all drift." in text
 
 
-def test_what_was_drawn_and_what_was_not_is_said():
-    text = said(AssessmentSummary(**KNOWN, p_range=(1.2, 1.3), friction=0.6))
-    assert "α 0.186 rad, p 1.26 rad/s (drawn between 1.2 and 1.3), e 0.976 (identified" in text
-    assert "that it does not slide on friction 0.6. The records are scaled as they are." in text
-
-
 def test_a_failure_gives_its_reason_alone():
     failed = AssessmentSummary(status="failed", reason="no record", specimen="prism", measure="pgv")
     assert sentences(failed) == ["There is no answer: no record"]

@@ -65,11 +65,6 @@ def test_a_free_vibrations_peak_is_known_once_it_was_compared(campaign):
     assert (test.peak_ratio, test.peak_time, test.release_ratio) == (0.3, 2.0, 0.5)
 
 
-def test_a_test_without_an_angle_has_no_peak_and_no_impacts(campaign):
-    test = record(campaign, {"rocking": rocking().drop_vars(["rocking_angle", "slide"])})
-    assert (test.peak_ratio, test.impacts, test.peak_slide, test.pga) == (None, None, None, 3.0)
-
-
 @pytest.mark.parametrize(("stored", "order"), [("", None), ("1", 1), ("3", 3), ("irregular", "irregular")])
 def test_a_sine_tests_forcing_and_order_are_the_comparisons(stored, order, campaign):
     sine = campaign.tests["pulse-01"].model_copy(update={"kind": "sine", "frequency": 3.0})
@@ -122,14 +117,6 @@ def test_the_record_says_who_and_when_if_that_is_known(written, more, known):
 def of_specimen(written):
     campaign = written()
     return lambda name: record_of_specimen(campaign, name, taken(None, SpecimenInputs.of(campaign, name)))
-
-
-def test_prototype_sizes_stand_beside_those_of_the_model(of_specimen):
-    prototype = of_specimen("prism").prototype
-    assert prototype.sizes == pytest.approx({"width": 1.72, "depth": 1.72, "height": 9.12})
-    assert prototype.p == pytest.approx(of_specimen("prism").p / np.sqrt(20))
-    assert prototype.mass == pytest.approx(26.10 * 20**3)
-    assert of_specimen("statue").prototype is None
 
 
 def test_an_e_is_one_value_or_one_a_side_with_its_source(of_specimen):

@@ -1,8 +1,6 @@
 import pytest
 
-import rebuild
 from colonnade.campaign.forms import summary
-from colonnade.laboratory.programme import KEPT_AWAY
 from colonnade.store.records import wording
 
 
@@ -104,11 +102,3 @@ def test_a_spread_that_was_not_computed_is_told():
 )
 def test_without_a_known_outcome_nothing_is_said(tests):
     assert wording.agreement(tests) == []
-
-
-def test_the_reference_reports_tell_them_too():
-    test = {"outcome": {}, "peak_ratio": {}, "nrmse": {}, "order": None}
-    numbers = {"seed": 0, "restitution": {}, "tests": {"right": test}, "agreement": wording.agreement(TESTS)}
-    page = rebuild.demo_table(numbers, "A demo", {})
-    assert all(told in page for told in wording.agreement(TESTS))
-    assert KEPT_AWAY in page
