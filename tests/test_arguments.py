@@ -16,7 +16,6 @@ from prism import PRISM
 TIME = np.arange(0.0, 4.0, 0.01)
 MOTION = colonnade.Motion(3.0 * np.sin(10.0 * TIME), 0.01)
 HISTORY = colonnade.rock(PRISM, MOTION)
-FREE = colonnade.rock(PRISM, theta0=0.5 * PRISM.critical_angle, duration=4.0, restitution=0.9)
 LAW = colonnade.RestitutionLaw.table([0.0, 1.0], [1.0, 0.9])
 SURE = colonnade.Uncertainty()
 ENSEMBLE = colonnade.ensemble(PRISM, MOTION, uncertainty=SURE, count=2)
@@ -283,22 +282,6 @@ def test_hostile_arguments_are_refused_by_their_names(name):
     assert not [each for each in faults if each]
 
 
-def test_a_hostile_value_that_is_taken_misnamed_or_crashes_is_a_fault():
-    def refuses(width):
-        raise ValueError("width is negative")
-
-    def misnames(width):
-        raise ValueError("a size is negative")
-
-    def crashes(width):
-        raise KeyError("width")
-
-    found = [fault(Call(each, {}), "width", "negative", -1.0, {}) for each in (refuses, misnames, crashes)]
-    assert found[0] is None
-    assert ["does not name it" in str(found[1]), "KeyError" in str(found[2])] == [True, True]
-    assert fault(Call(lambda width: width, {}), "width", "negative", -1.0, {}) == "width, negative: not refused"
-
-
 def test_no_public_call_and_none_of_its_arguments_is_left_out():
     found = dict(public())
     assert found.keys() == CALLS.keys()
@@ -370,8 +353,3 @@ def test_a_duration_beside_a_motion_is_refused():
 def test_a_masked_array_without_a_gap_is_plain():
     whole = np.ma.masked_array([0.0, 1.0, 0.0])
     np.testing.assert_array_equal(colonnade.Motion(whole, 0.01).acceleration, [0.0, 1.0, 0.0])
-
-
-@pytest.mark.parametrize("value", [np.float32(0.5), np.int64(1), np.array(0.5), 1], ids=str)
-def test_numbers_of_any_kind_are_taken(value):
-    assert colonnade.Motion([0.0, 1.0], value).dt == float(value)

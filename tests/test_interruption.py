@@ -17,11 +17,6 @@ def nothing_noted(monkeypatch):
     monkeypatch.setattr(interruption, "_noted", [])
 
 
-def test_work_goes_on_while_no_signal_came():
-    assert not interruption.noted()
-    interruption.expect_none()
-
-
 def test_a_signal_stops_at_once_and_at_every_point_after():
     with pytest.raises(KeyboardInterrupt):
         interruption.note(signal.SIGTERM, None)

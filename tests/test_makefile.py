@@ -120,12 +120,6 @@ def test_the_demo_installs_only_what_it_needs(clone):
     assert (clone / "calls").read_text().splitlines()[-1].endswith("--editable .[demo,test]")
 
 
-def test_python_keeps_its_bytecode_whatever_the_environment_says(clone):
-    add_interpreter(clone, "python3.12", f'echo "[$PYTHONDONTWRITEBYTECODE]" >> seen\n{FITTING}')
-    assert make(clone, ".venv/installed", PYTHONDONTWRITEBYTECODE="1").returncode == 0
-    assert set((clone / "seen").read_text().split()) == {"[]"}
-
-
 def test_all_tests_are_those_of_every_day_and_the_whole_ones(clone):
     add_interpreter(clone, "python3.12", FITTING)
     [daily], [whole] = (

@@ -107,16 +107,6 @@ def test_the_delimited_example_gives_the_restitution_it_was_made_with():
     assert float(identified["restitution"]) == pytest.approx(0.9, abs=5e-4)
 
 
-def test_the_example_needs_no_options():
-    campaign = load(RAW_SCHEMA / "examples" / "delimited")
-    path, file = campaign.tests["free-01"].files["main"], campaign.setups["frame"].file
-    sniffed, told = read(path), read(path, file.format, file.options)
-    assert [(channel.name, channel.unit) for channel in sniffed.channels] == [
-        (channel.name, channel.unit) for channel in told.channels
-    ]
-    assert all((one.values == other.values).all() for one, other in zip(sniffed.channels, told.channels, strict=True))
-
-
 def section(name):
     page = (RAW_SCHEMA / "README.md").read_text(encoding="utf-8")
     return re.search(rf"^## {name}\n(.*?)(?=^## |\Z)", page, re.MULTILINE | re.DOTALL)[1]

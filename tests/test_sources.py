@@ -10,8 +10,6 @@ from colonnade.sources import code_hash, package_hash
 
 pytestmark = pytest.mark.whole
 
-CONTACT_ENGINE = "dynamics/contact/march.py"
-
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
@@ -113,21 +111,3 @@ def test_an_engine_counts_unless_its_models_are_left_out(package):
     forget()
     assert of("predict") != linear
     assert of("predict", without=others) == contact
-
-
-def test_what_is_imported_only_to_check_types_does_not_count(package):
-    for name in ("one", "two"):
-        (package / f"{name}.py").write_text("VALUE = 1\n")
-    (package / "user.py").write_text(
-        "from typing import TYPE_CHECKING\n"
-        "if TYPE_CHECKING:\n    from colonnade import one\n"
-        "from colonnade.two import VALUE\n"
-    )
-    forget()
-    before = code_hash(["colonnade.user"])
-    (package / "one.py").write_text("VALUE = 2\n")
-    forget()
-    assert code_hash(["colonnade.user"]) == before
-    (package / "two.py").write_text("VALUE = 2\n")
-    forget()
-    assert code_hash(["colonnade.user"]) != before

@@ -73,10 +73,6 @@ def test_what_is_no_such_array_is_told(values, options, message):
         samples("x", values, **options)
 
 
-def test_gaps_are_kept_where_they_may_be():
-    np.testing.assert_array_equal(samples("x", [1.0, math.nan], gaps=True), [1.0, math.nan])
-
-
 def test_an_object_and_a_text_are_of_their_kind():
     assert instance("x", 3, int) == 3
     assert text("x", "a", "a name") == "a"

@@ -30,12 +30,6 @@ def test_the_measure_that_decides_comes_first_by_every_criterion(outcomes, measu
     assert sum(each.best for each in scores) == pytest.approx(1.0)
 
 
-def test_two_measures_that_say_the_same_share_the_first_place(outcomes, measures):
-    twins = {"one": measures["pgv"], "other": measures["pgv"] ** 2}
-    shares = [each.best for each in compare_measures(outcomes, twins, Resampling(50))]
-    assert shares == pytest.approx([0.5, 0.5], abs=0.2)
-
-
 def test_the_auc_is_the_share_of_pairs_in_their_order(outcomes, measures):
     found = compare_measures(outcomes, {"noisy": measures["noisy"]}, Resampling(2))[0].auc
     x = np.broadcast_to(measures["noisy"][:, :, None], outcomes.peak.shape)

@@ -44,12 +44,6 @@ def test_a_record_at_more_levels_or_draws_does_not_narrow_the_interval_as_more_r
     assert np.log(fit.median.high / fit.median.low) == pytest.approx(2 * 2.04 * 0.5 / np.sqrt(32), rel=0.25)
 
 
-def test_the_same_seed_gives_the_same_interval():
-    outcomes = lognormal(6)
-    first, same, other = (fit_lognormal(outcomes, Resampling(100, seed)).median for seed in (3, 3, 4))
-    assert (first == same, first == other) == (True, False)
-
-
 @pytest.mark.parametrize(
     ("peaks", "reason", "rises"),
     [
@@ -118,36 +112,10 @@ def test_lognormal_outcomes_pass():
     assert sum(each < 0.05 for each in found) <= 2
 
 
-def test_without_a_curve_there_is_no_p():
-    separated = outcomes_of(np.full((4, 2), 0.4))
-    assert np.isnan(lognormal_misfit(separated, Resampling(20)))
-
-
-def test_shares_that_rise_are_kept():
-    outcomes = lognormal(1)
-    curve = fit_isotonic(outcomes, Resampling(50))
-    np.testing.assert_allclose(curve.probability.value, outcomes.overturned.mean(axis=(0, 2, 3)))
-    np.testing.assert_allclose(curve.intensity, outcomes.levels)
-
-
 def test_neighbours_that_fall_are_pooled():
     peak = np.array([[0.5, 2, 0.5, 2], [0.5, 2, 2, 2], [0.5, 0.5, 0.5, 2], [0.5, 0.5, 0.5, 2]])
     curve = fit_isotonic(gather(names(4), [1.0, 2, 3, 4], peak), Resampling(50))
     np.testing.assert_allclose(curve.probability.value, [0, 0.375, 0.375, 1])
-
-
-def test_of_n_records_the_limits_are_those_of_n_trials():
-    peak = np.tile([0.5, 0.5, 2.0], (20, 1))
-    curve = fit_isotonic(gather(names(20), [1.0, 2, 3], peak), Resampling(50))
-    assert curve.probability.low.tolist() == pytest.approx([0, 0, 0.025 ** (1 / 20)])  # Clopper and Pearson
-    assert curve.probability.high.tolist() == pytest.approx([1 - 0.025 ** (1 / 20)] * 2 + [1])
-
-
-def test_limits_rise_and_hold_the_curve():
-    band = fit_isotonic(lognormal(2), Resampling(200)).probability
-    assert (np.diff(band.low) >= 0).all()
-    assert (np.diff(band.high) >= 0).all()
-    assert ((band.low <= band.value) & (band.value <= band.high)).all()
 
 
 def test_the_intensity_of_a_probability_is_between_its_stripes():

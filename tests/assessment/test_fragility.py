@@ -53,9 +53,6 @@ def test_answers_are_read_from_the_lognormal_curve_if_it_fits():
     assert found.digest()["median"].endswith("m/s")
 
 
-FINE = MEDIAN * np.exp(np.linspace(-2.5, 2.5, 121))
-
-
 def split(outcomes):
     return split_beta(outcomes, fit_lognormal(outcomes, Resampling(2)))
 
@@ -64,15 +61,6 @@ def test_over_many_sets_of_records_they_are_the_truth():
     found = np.mean([split(lognormal(seed)) for seed in range(40)], axis=0)
     truth = (Population.of_records, Population.of_parameters)
     assert found == pytest.approx(truth, rel=0.04)
-
-
-def test_with_fine_levels_they_are_those_of_an_analysis_of_variance():
-    random = np.random.default_rng(5)
-    logs = random.normal(0, 0.5, (400, 1)) + random.normal(0, 0.2, (400, 8))
-    found = split(outcomes_of(MEDIAN * np.exp(logs), FINE))
-    within = logs.var(axis=1, ddof=1).mean()
-    between = logs.mean(axis=1).var() - within / 8
-    assert (found.records, found.parameters) == pytest.approx(np.sqrt([between, within]), rel=0.03)
 
 
 def test_levels_that_end_below_most_capacities_do_not_mislead_it():
@@ -89,12 +77,6 @@ def test_what_cannot_be_split_has_no_value():
     assert np.isnan(split(outcomes_of(np.tile(records, 5) * 1e6))).all()
     alike = split(outcomes_of(np.tile(records, 5)))
     assert alike.parameters < 0.1 * alike.records
-
-
-def test_a_record_unlike_the_others_comes_first():
-    capacity = MEDIAN * np.exp(np.random.default_rng(1).normal(0, 0.1, (20, 4)))
-    capacity[7] /= 2.5
-    assert Fragility(outcomes_of(capacity), Resampling(2)).influence.records[0] == "record 7"
 
 
 def test_it_is_the_curve_of_all_other_records():
@@ -114,13 +96,6 @@ def test_a_record_without_which_there_is_no_curve_comes_first():
     capacity[4] *= 3
     found = Fragility(outcomes_of(capacity), Resampling(2)).influence
     assert (found.records[0], np.isnan(found.median[0])) == ("record 4", True)
-
-
-def test_each_resample_has_as_many_records_and_draws_them_alike():
-    weights = Resampling(5000, 1).weights(7)[1:]
-    assert (weights.sum(axis=1) == 7).all()
-    assert weights.mean(axis=0) == pytest.approx(np.ones(7), abs=0.05)
-    assert weights.var(axis=0) == pytest.approx(np.full(7, 6 / 7), abs=0.1)
 
 
 def test_of_a_mean_of_normal_values_it_is_about_students_interval():

@@ -1,7 +1,5 @@
 """Rates: the closed form of a power law, quadrature of any hazard curve, and how much is extrapolated."""
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
 import scipy
@@ -39,13 +37,6 @@ def test_between_its_points_it_is_the_quadrature(seed, points, median, beta):
 
         expected += scipy.integrate.quad(density, np.log(low), np.log(high), epsabs=0, epsrel=1e-10)[0]
     assert lognormal_rate(hazard, median, beta, low=x[0], high=x[-1])[0] == pytest.approx(expected, rel=1e-8)
-
-
-def test_parts_add_up_to_the_whole():
-    hazard = hazard_curve([0.1, 0.3, 1.0, 2.0], [1e-1, 2e-2, 2e-2, 1e-4])
-    edges = [0.0, 0.05, 0.2, 0.3, 0.9, 1.5, 4.0, np.inf]
-    parts = [lognormal_rate(hazard, 0.7, 0.5, low=a, high=b)[0] for a, b in pairwise(edges)]
-    assert sum(parts) == pytest.approx(lognormal_rate(hazard, 0.7, 0.5)[0], rel=1e-12)
 
 
 def test_a_curve_of_points_near_a_lognormal_one_gives_its_rate():
@@ -101,10 +92,6 @@ def test_its_contributions_and_what_is_outside_add_up(found):
     assert (found.edges[0], found.edges[-1]) == pytest.approx((LEVELS_OF_RATE[0], LEVELS_OF_RATE[-1]))
     peak = found.edges[np.argmax(found.contributions)]
     assert MEDIAN * np.exp(-3 * BETA) < peak < MEDIAN
-
-
-def test_without_a_distribution_it_is_about_the_same(found):
-    assert found.isotonic == pytest.approx(found.rate.value, rel=0.1)
 
 
 def test_a_hazard_curve_that_ends_too_early_is_seen():

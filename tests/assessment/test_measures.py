@@ -9,7 +9,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import colonnade
-from colonnade.assessment.ground import Ground
 from colonnade.assessment.measures import MEASURES, intensity_measures, measure_of
 from colonnade.dynamics.motion import Motion
 from every import every
@@ -43,12 +42,6 @@ EXACT = {
 @every("name", EXACT)
 def test_a_sine_has_its_closed_forms(name):
     assert intensity_measures(SINE, PRISM, measures=[name]).values[name] == pytest.approx(EXACT[name], rel=1e-7)
-
-
-def test_the_displacement_of_a_line_is_its_cube():
-    ground = Ground(np.linspace(1.0, 3.0, 101), 0.02)
-    time = np.arange(101) * 0.02
-    np.testing.assert_allclose(ground.displacement, time**2 / 2 + time**3 / 6, atol=1e-12)
 
 
 def test_housners_intensity_of_a_step_is_its_closed_form():

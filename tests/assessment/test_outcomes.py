@@ -28,16 +28,6 @@ def test_directions_are_cells_of_their_own_over_a_measure_that_differs_between_t
     assert (apart.events.tolist(), outcomes.cells().events.tolist()) == ([[0, 1], [1, 1]], [[1], [2]])
 
 
-def test_a_peak_that_is_not_known_because_it_overturned_may_be_infinite():
-    found = gather(["a", "b"], LEVELS, np.where(PEAK > 1, np.inf, PEAK))
-    assert found.overturned.sum() == 1
-    assert found.was_run.sum() == 5
-
-
-def test_what_counts_as_overturned_may_be_given():
-    assert gather(["a", "b"], LEVELS, PEAK, PEAK > 0.3).overturned.sum() == 3
-
-
 def test_one_record_is_not_enough():
     with pytest.raises(ValueError, match="1 name; at least 2"):
         gather(["a"], LEVELS, PEAK[:1])

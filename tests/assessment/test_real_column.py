@@ -30,12 +30,6 @@ def test_more_draws_begin_with_the_same_and_the_first_has_nothing_varied():
     assert (draw(COLUMN, 5, seed=4)[1:] != few[1:]).all()
 
 
-def test_each_record_draws_columns_of_its_own():
-    here, there = draw(COLUMN, 5, record=0), draw(COLUMN, 5, record=1)
-    assert (here[0] == there[0]).all()
-    assert (here[1:] != there[1:]).all()
-
-
 def test_draws_fill_their_ranges_evenly():
     values = draw(COLUMN, 2000)[1:]
     for column, (low, high) in enumerate(COLUMN.ranges):
@@ -50,21 +44,6 @@ def test_a_range_that_goes_leaves_the_other_draws_as_they_are():
     without = draw(replace(COLUMN, p_range=None), 9)
     np.testing.assert_array_equal(without[:, [0, 1, 3]], draw(COLUMN, 9)[:, [0, 1, 3]])
     assert set(without[:, UNCERTAIN.index("p")]) == {BLOCK.p}
-
-
-def test_nothing_is_drawn_of_what_is_exactly_known():
-    exact = RealColumn(BLOCK, 0.95)
-    draws = draw(exact, 100)
-    assert len(draws) == 1
-    assert np.isnan(draws[:, UNCERTAIN.index("friction")]).all()
-    assert drawn_column(exact, draws[0]) == (BLOCK, (0.95, 0.95))
-
-
-def test_a_drawn_column_has_what_was_drawn():
-    draws = draw(COLUMN, 3)
-    block, e = drawn_column(COLUMN, draws[2])
-    drawn = (*set(e), block.critical_angle, block.p)
-    np.testing.assert_allclose(drawn, draws[2, :3], rtol=1e-12)
 
 
 def test_the_sides_of_a_column_keep_their_proportions():

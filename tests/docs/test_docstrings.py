@@ -100,8 +100,3 @@ def test_every_method_and_property_is_described_and_shown(name):
             assert taken == names_of(described["Parameters"]), member
             assert described["Returns"], member
             assert without_unit(described["Parameters"]) == [], member
-
-
-def test_a_number_without_a_unit_is_found():
-    found = FunctionDoc(None, doc="Give it.\n\nParameters\n----------\nx : float\n    Of it.\ny : float\n    m.\n")
-    assert without_unit(found["Parameters"]) == ["x"]

@@ -8,7 +8,7 @@ import colonnade
 import verification
 from every import every
 from faults.sound import PRISM, earthquake
-from page_blocks import PROJECT, Block, Reader, assert_shown, assert_valid, blocks_of
+from page_blocks import PROJECT, Reader, blocks_of
 
 SECTIONS = ("tutorial", "how-to", "explanation", "faults")
 PAGES = sorted(page for section in SECTIONS for page in (PROJECT / "docs" / section).rglob("*.md"))
@@ -24,15 +24,6 @@ def page_with(folder, text):
     page = folder / "page.md"
     page.write_text(text, encoding="utf-8")
     return page
-
-
-def test_a_page_is_followed_from_file_to_output(tmp_path):
-    page = page_with(
-        tmp_path,
-        "<!-- file: a/b.txt -->\n```text\nold\n```\n\n```sh\ncd a\ncat b.txt\n```\n\n<!-- output -->\n```text\n"
-        "o…d\n```\n\n```python\nprint(open('b.txt').read())\n```\n<!-- output -->\n\n```text\nold\n```\n",
-    )
-    Reader(tmp_path).follow(page)
 
 
 @pytest.mark.parametrize(
@@ -58,29 +49,6 @@ def test_a_page_that_is_not_true_fails(text, reason, tmp_path):
 def test_a_remark_is_known_and_gives_its_reason(remark, tmp_path):
     with pytest.raises(ValueError, match="line 2"):
         blocks_of(page_with(tmp_path, f"<!-- {remark} -->\n```sh\nfalse\n```\n"))
-
-
-def test_a_part_of_a_campaign_is_enough():
-    assert_valid(Block("", "toml", '[processing.predict]\nmodels = ["linear"]\n'))
-    assert_valid(Block("", "toml", '[[exclude]]\ntest = "free-02"\n'))
-
-
-def test_output_is_compared_in_order():
-    assert_shown(Block("", "text", "a …\nb\n"), "x\na  1\nb\n")
-    with pytest.raises(AssertionError):
-        assert_shown(Block("", "text", "b\na\n"), "a\nb\n")
-
-
-def test_a_file_next_to_the_page_is_saved_by_the_reader(tmp_path):
-    (tmp_path / "pages").mkdir()
-    (tmp_path / "pages" / "three.py").write_text("print(1 + 2)\n", encoding="utf-8")
-    page = page_with(
-        tmp_path / "pages",
-        "<!-- with: three.py -->\n```sh\npython three.py\n```\n<!-- output -->\n```text\n3\n```\n\n"
-        "```python\nimport three\n```\n",
-    )
-    (tmp_path / "reader").mkdir()
-    Reader(tmp_path / "reader").follow(page)
 
 
 DECISIONS = PROJECT / "docs" / "decisions"
@@ -135,17 +103,3 @@ def test_a_motion_that_is_stronger_by_a_thousandth_does_not_overturn_the_block(c
     motion = earthquake(1)
     shaken = colonnade.Motion(STRENGTH * (1 + change) * motion.acceleration, 0.25 * motion.dt)
     assert colonnade.rock(PRISM, shaken, restitution=0.976).outcome == outcome
-
-
-ASSESSMENT = PROJECT / "docs" / "explanation" / "assessment.md"
-
-
-def test_the_example_of_an_assessment_runs(capsys):
-    [block] = re.findall(r"```python\n(.*?)```", ASSESSMENT.read_text(encoding="utf-8"), re.DOTALL)
-    names = {}
-    exec(compile(block, str(ASSESSMENT), "exec"), names)
-    assert names["measured"].values["pga"] < 2.5
-    assert 0.1 < names["found"].isotonic.reaches(0.5).value < 10.0
-    assert names["spectrum"].overturned.shape == (1, 2)
-    assert names["limits"].lower[0] < names["limits"].upper[0]
-    assert capsys.readouterr().out.count("\n") == 4

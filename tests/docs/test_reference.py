@@ -9,12 +9,10 @@ import pytest
 import contract
 import reference
 from colonnade.campaign import test
-from colonnade.campaign.review import ReviewFile
 from colonnade.campaign.settings import NextSettings, Processing, settings
 from colonnade.campaign.specimen import Measured, Prism
 from colonnade.cli.app import app
 from colonnade.store.results import STAGES
-from myst import table
 from page_blocks import PROJECT
 
 
@@ -49,16 +47,6 @@ def test_every_key_of_a_model_has_its_place(pages, page, path, model):
     for key, purpose in model.purposes().items():
         assert f"({contract.place('campaign', f'{path}.{key}')})=" in pages[f"campaign/{page}.md"], key
         assert " ".join(purpose.split()) in pages[f"campaign/{page}.md"]
-
-
-def test_every_entry_of_a_review_has_its_page(pages):
-    entries = set(ReviewFile.purposes()) - {"schema"}
-    assert {f"review/{entry}.md" for entry in entries} <= pages.keys()
-
-
-def test_a_key_without_a_description_is_refused():
-    with pytest.raises(ValueError, match=r"top\.key has no description"):
-        contract._key("top.key", {"type": "string"}, {}, False, "")
 
 
 @pytest.mark.parametrize(
@@ -110,13 +98,3 @@ def test_every_public_name_has_its_group(monkeypatch):
     monkeypatch.setitem(reference.GROUPS, "Pictures", ("plot",))
     with pytest.raises(ValueError, match="animate"):
         reference.pages_of_library()
-
-
-def test_a_docstrings_bars_are_escaped_outside_of_examples():
-    lines = ["Largest |θ|/α.", ">>> a | b", "1 | 2", "", "Of |ω| too."]
-    reference.keep_bars(None, None, None, None, None, lines)
-    assert lines == [r"Largest \|θ\|/α.", ">>> a | b", "1 | 2", "", r"Of \|ω\| too."]
-
-
-def test_a_bar_in_a_table_is_escaped():
-    assert table(("a",), [("|θ| in\ntwo lines",)]).splitlines()[2] == r"| \|θ\| in two lines |"

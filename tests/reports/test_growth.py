@@ -58,14 +58,6 @@ def test_a_prediction_that_overturns_late_is_the_pattern():
     assert place_of_growth(MEASURED, falling, Criterion()) == pytest.approx(6.0, abs=2 * DT)
 
 
-@pytest.mark.parametrize("window", [1.0, 1.01])
-def test_windows_look_before_and_after(window):
-    one = response((5.0, 5.0 + DT, 1.0))
-    before, after = one.largest_before(window) > 0, one.largest_after(window) > 0
-    assert (TIME[before].min(), TIME[before].max()) == (pytest.approx(5.0), pytest.approx(5.0 + window))
-    assert (TIME[after].min(), TIME[after].max()) == (pytest.approx(5.0 - window), pytest.approx(5.0))
-
-
 @every(
     ("changed", "measured", "predicted", "found"),
     [

@@ -8,7 +8,7 @@ import pytest
 
 import restitution_study
 from monte_carlo.bound import cramer_rao_error
-from monte_carlo.design import Kind, draw, kinds, pink_noise
+from monte_carlo.design import Kind, draw, kinds
 from monte_carlo.new_test import SCATTER, NewTest, drawn
 
 HERE = Path(restitution_study.__file__).parent
@@ -49,11 +49,6 @@ def test_a_draw_is_the_same_however_often_it_is_drawn_and_its_errors_have_their_
     assert angle.tolist() == same.tolist()
     errors = np.array([draw(kind, 3, number).errors for number in range(150)])
     assert errors.std() == pytest.approx(0.01, rel=0.1)
-
-
-def test_pink_noise_has_variance_one():
-    noise = [pink_noise(2000, np.random.default_rng(seed)) for seed in range(200)]
-    assert np.mean(np.square(noise)) == pytest.approx(1.0, rel=0.1)
 
 
 def test_the_bound_grows_with_what_is_not_known():

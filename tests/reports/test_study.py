@@ -28,24 +28,11 @@ def test_numbers_are_read_as_they_were_written(tmp_path_factory, numbers):
     assert json.loads(path.read_text(encoding="utf-8")) == numbers
 
 
-def test_a_record_is_a_line_and_what_holds_records_is_not(tmp_path):
-    records = [{"test": f"free-{number}", "peaks": [0.1] * 20} for number in range(10)]
-    study.write_numbers(tmp_path / "numbers.json", {"seed": 1, "tests": records})
-    lines = (tmp_path / "numbers.json").read_text(encoding="utf-8").splitlines()
-    assert lines[:3] == ["{", ' "seed": 1,', ' "tests": [']
-    assert [json.loads(line.strip().removesuffix(",")) for line in lines[3:-2]] == records
-    assert lines[-2:] == [" ]", "}"]
-
-
 def test_a_part_of_a_page_is_replaced_between_its_marks():
     marks = "<!-- (begin) -->", "<!-- (end) -->"
     page = study.renewed("Before <!-- (begin) -->\nold\n<!-- (end) --> after", marks, r"new \1")
     assert page == "Before <!-- (begin) -->\n\nnew \\1\n\n<!-- (end) --> after"
     assert study.renewed(page, marks, r"new \1") == page
-
-
-def test_a_bar_in_a_cell_does_not_end_it():
-    assert study.table(("a", "b"), [("|θ|", 1)]) == "| a | b |\n|---|---|\n| \\|θ\\| | 1 |"
 
 
 REPORTS = Path(__file__).resolve().parents[2] / "reports"

@@ -72,13 +72,6 @@ def test_rounded_times_give_the_record_of_the_even_clock_behind_them():
     np.testing.assert_allclose(record.values, np.sin(20 * record.time), atol=1e-3)
 
 
-def test_the_noise_is_that_of_what_was_recorded():
-    noise = np.random.default_rng(0).normal(0, 1.0, TIME.size)
-    noise[:1400] = np.nan
-    values, left = smoothed(even_record(TIME, noise, GOOD), 35.0, 4)
-    assert values[1450:].std() == pytest.approx(left, rel=0.2)
-
-
 @pytest.mark.parametrize(
     ("stamps", "values", "words"),
     [

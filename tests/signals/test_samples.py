@@ -27,17 +27,6 @@ def test_missing_values_lie_on_the_line_between_their_neighbours():
     np.testing.assert_allclose(filled_in(values), [1.0, 1.0, 2.0, 3.0, 4.0, 4.0])
 
 
-def test_a_whole_record_stays_itself():
-    values = np.arange(3.0)
-    assert filled_in(values) is values
-
-
-@pytest.mark.parametrize("chosen", [np.zeros(0, dtype=bool), np.zeros(5, dtype=bool)], ids=["empty", "none chosen"])
-def test_nothing_chosen_gives_no_stretch(chosen):
-    starts, stops = stretches(chosen)
-    assert starts.size == stops.size == 0
-
-
 def test_results_come_in_the_order_of_the_items_whoever_is_ready_first():
     def slower_first(number):
         time.sleep(0.002 * (8 - number))
@@ -49,7 +38,3 @@ def test_results_come_in_the_order_of_the_items_whoever_is_ready_first():
 def test_an_error_of_one_item_is_raised():
     with pytest.raises(ZeroDivisionError):
         side_by_side(lambda number: 1 / number, [1, 0, 2])
-
-
-def test_nothing_to_do_gives_nothing():
-    assert side_by_side(str, []) == []
