@@ -2,7 +2,7 @@
 # make test     style, types, import rules and tests: what a change is checked with
 # make test-all that, and the wheel, README typed in order, Dask, kills, planted faults, browser and documentation
 # make slow     the slow tests: seeds 0-19 of the virtual campaign, MuJoCo, benchmarks, other laboratories' files
-# make drill    500 kills, full and read-only disks (as root), two runs at once, 2000 damaged files: two hours
+# make drill    500 kills, full and read-only disks (as root), two runs at once, damaged hostile files: two hours
 # make docs     builds the documentation: open docs/build/html/index.html
 # make study NAME=restitution  repeats one study with known truth, into reports/restitution-study.md; see STUDIES
 # make reports  rebuilds the reference reports in reports/ and the pictures of README and tutorial

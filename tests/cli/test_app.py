@@ -4,7 +4,6 @@ import json
 
 import pytest
 
-import colonnade as package
 from colonnade.cli import invoke
 from colonnade.cli.app import COMMANDS, app
 from foreseeing import TEST
@@ -16,10 +15,6 @@ def test_commands_are_listed_in_the_order_in_which_they_are_met(colonnade):
     assert places == sorted(places)
     assert list(app.commands) == [command.name for command in COMMANDS]
     assert all(command.get_short_help_str(200).rstrip(".") for command in COMMANDS)
-
-
-def test_the_version_is_that_of_the_package(colonnade):
-    assert package.__version__ in colonnade("--version").stdout
 
 
 def test_what_was_run_gives_advice(colonnade, campaign):

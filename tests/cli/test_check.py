@@ -51,15 +51,6 @@ def test_what_ingest_would_refuse_is_told_too(colonnade, campaign):
     assert "sampling_rate" in told.stdout
 
 
-def test_json_is_for_machines(colonnade, campaign):
-    (campaign / "raw" / "free-02.csv").unlink()
-    told = colonnade("check", "--json")
-    found = json.loads(told.stdout)
-    assert told.returncode == 1
-    assert found["tests"]["free-01"]["problems"] == []
-    assert len(found["tests"]["free-02"]["problems"]) == 1
-
-
 def test_a_campaign_file_that_cannot_be_used_is_exit_code_2(colonnade, changed):
     changed("campaign.toml", '"86 mm", depth', '"86 mn", depth')
     told = colonnade("check")

@@ -111,7 +111,6 @@ def await_path(path):
     [
         pytest.param("killpg", signal.SIGINT, id="Ctrl-C reaches the workers too"),
         pytest.param("kill", signal.SIGTERM, id="a polite kill reaches the parent alone"),
-        pytest.param("killpg", getattr(signal, "SIGHUP", 0), id="a terminal that closes reaches the workers too"),
     ],
 )
 @pytest.mark.usefixtures("interruptible")

@@ -111,17 +111,6 @@ def test_strict_makes_warnings_an_exit_code_and_notes_do_not_count(command, colo
     assert "warning (lost samples): free-01: channel top: 1 gap in time, about 5 samples lost" in told.stdout
 
 
-def test_json_carries_every_finding_with_its_severity(colonnade, with_gain):
-    with_gain("10 mm/mm")
-    found = json.loads(colonnade("identify", "--workers", "1", "--json").stdout)["warnings"]
-    gains = [each for each in found if each["kind"] == "gain"]
-    assert [(each["subject"], each["severity"]) for each in gains] == [("free-01", "serious"), ("free-02", "serious")]
-    assert all(each["text"] for each in found)
-    again = json.loads(colonnade("identify", "--workers", "1", "--json").stdout)
-    assert not [stage for stage in again["stages"] if stage["action"] == "done"]
-    assert again["warnings"] == found
-
-
 def test_an_appendix_is_left_out_of_a_pdf_only(colonnade):
     refused = colonnade("report", "--no-appendix")
     assert refused.returncode == 2

@@ -15,13 +15,6 @@ def test_tests_that_were_never_run_are_pending(colonnade, campaign):
     assert {test["status"] for test in json.loads(told.stdout).values()} == {"pending"}
 
 
-def test_specimens_show_their_geometry_before_any_run(colonnade, campaign):
-    prism = json.loads(colonnade("show", "specimens", "prism", "--json").stdout)
-    assert prism["critical_angle"] == pytest.approx(0.18641, abs=5e-6)  # atan(86/456)
-    assert prism["p"] == pytest.approx(5.631, abs=5e-4)  # the paper's Table 1
-    assert prism["restitution"]["value"] is None
-
-
 @pytest.mark.parametrize("arguments", [("free-01",), (".", "free-01"), ("campaign.toml", "free-01")])
 def test_one_test_is_shown_by_its_id_with_or_without_the_campaign(colonnade, campaign, arguments):
     told = colonnade("show", "tests", *arguments)

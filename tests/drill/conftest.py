@@ -13,8 +13,6 @@ from short_campaign import Small, write_campaign
 collect_ignore = [
     "damage.py",
     "deliveries.py",
-    "fuzz.py",
-    "read_damaged.py",
     "victim.py",
     "watcher.py",
     "whole_files.py",

@@ -17,14 +17,6 @@ class Made:
     path: Path
 
 
-@pytest.mark.parametrize(
-    ("value", "text"),
-    [(None, ""), (0.41234, "0.4123"), (3, "3"), (["a", None, 0.5], "a; ; 0.5"), ("[bold]θ[/bold] :smile:", None)],
-)
-def test_a_value_is_written_for_people(value, text):
-    assert console.shown(value) == (value if text is None else text)
-
-
 def test_text_is_written_as_it_is(capsys):
     console.say("[bold]θ[/bold] :smile: " + "x" * 300)
     assert capsys.readouterr().out == "[bold]θ[/bold] :smile: " + "x" * 300 + "\n"
@@ -47,11 +39,6 @@ def test_a_row_is_one_line_whatever_its_length_and_a_table_without_rows_is_nothi
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 3
     assert lines[1] == "a     " + ("word " * 60).rstrip()
-
-
-def test_fields_are_under_each_other(capsys):
-    console.show_rows([("id", "a"), ("outcome", "rocking")])
-    assert capsys.readouterr().out == "id       a\noutcome  rocking\n"
 
 
 @pytest.fixture

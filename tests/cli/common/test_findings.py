@@ -42,15 +42,6 @@ def test_many_tests_that_fail_alike_are_counted():
     assert rows[IN_FULL:] == [counted, ("x", "rocking", "other")]
 
 
-def test_of_notes_one_is_in_full(capsys):
-    lines = shown(capsys, {"a": [SPIKE], "b": [SPIKE]})
-    assert lines == ["note (spikes): a: Spikes on 2 samples.", "  and 1 more of this kind: b", "2 notes"]
-
-
-def test_nothing_found_is_nothing_said(capsys):
-    assert shown(capsys, {"a": []}) == []
-
-
 @pytest.mark.parametrize(
     ("findings", "cause"),
     [([GAIN, ARC], "probably because of the serious findings above (gain): "), ([ARC], ""), ([], "")],
