@@ -47,13 +47,6 @@ def test_every_target_that_a_text_names_is_there():
     assert sorted(each for each in named if each[0] not in TARGETS) == []
 
 
-def test_every_study_can_be_named():
-    there = {path.name.removesuffix("_study.py") for path in (PROJECT / "reports").glob("*_study.py")}
-    assert set(re.search(r"^STUDIES := (.*)$", MAKEFILE, re.MULTILINE)[1].split()) == there
-    named = {name for path in TEXTS for name in re.findall(r"make study NAME=(\w+)", path.read_text(encoding="utf-8"))}
-    assert named <= there
-
-
 @pytest.fixture
 def clone(tmp_path):
     """Folder with Makefile and pyproject.toml, and beside it a PATH of the few tools that they use."""
@@ -112,14 +105,6 @@ def test_the_environment_is_enough_for_the_demo_and_only_touched_again_when_pypr
     assert (clone / "calls").read_text().startswith("-m pip install")
 
 
-def test_the_demo_installs_only_what_it_needs(clone):
-    add_interpreter(clone, "python3.12", FITTING)
-    make(clone, ".venv/installed-demo")
-    assert (clone / "calls").read_text().splitlines()[-1].endswith("--editable .[demo]")
-    make(clone, ".venv/installed")
-    assert (clone / "calls").read_text().splitlines()[-1].endswith("--editable .[demo,test]")
-
-
 def test_all_tests_are_those_of_every_day_and_the_whole_ones(clone):
     add_interpreter(clone, "python3.12", FITTING)
     [daily], [whole] = (
@@ -131,12 +116,3 @@ def test_all_tests_are_those_of_every_day_and_the_whole_ones(clone):
         assert {".venv/bin/ruff check", ".venv/bin/mypy", ".venv/bin/lint-imports"} <= set(
             make(clone, "-n", target).stdout.splitlines()
         )
-
-
-def test_a_study_without_its_name_is_asked_for(clone):
-    add_interpreter(clone, "python3.12", FITTING)
-    told = make(clone, "study")
-    assert told.returncode != 0
-    assert "Choose one of: make study NAME=restitution;" in told.stdout
-    made = make(clone, "-n", "study", "NAME=verdict").stdout.splitlines()
-    assert made[-1] == ".venv/bin/python reports/verdict_study.py"

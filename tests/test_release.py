@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 import release
-from release import ReleaseError, checked_version, cited, cut, interpreters, versioned
+from release import ReleaseError, checked_version, cited, cut, versioned
 
 PROJECT = Path(__file__).parents[1]
 CHANGELOG = "# Changelog\n\nWords.\n\n## Unreleased\n\n- New.\n\n## 0.1.0 · 2026-01-02\n\n- Old.\n"
@@ -48,13 +48,6 @@ def test_version_and_citation_are_set_in_the_files_of_this_project():
 def test_what_is_no_version_is_refused(text):
     with pytest.raises(ReleaseError, match="three numbers were expected"):
         checked_version(text)
-
-
-def test_only_interpreters_that_fit_are_found_each_once(capsys):
-    mine = f"{sys.version_info[0]}.{sys.version_info[1]}"
-    assert list(interpreters([sys.executable, "no-such-python", sys.executable], FITS)) == [mine]
-    with pytest.raises(ReleaseError, match="starts a Python that fits"):
-        interpreters([sys.executable, "no-such-python"], "import sys; sys.exit(1)")
 
 
 @pytest.fixture

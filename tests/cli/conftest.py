@@ -77,22 +77,14 @@ def process(tmp_path):
 
 @pytest.fixture
 def campaign(tmp_path):
-    """A campaign of two free vibrations, computed with e = 0.95, one file with commas and one with semicolons."""
-    import numpy as np
+    """A campaign of two free vibrations, computed with e = 0.93, one file with commas and one with semicolons."""
+    from prism import PRISM
+    from short_campaign import record, write_columns
 
-    from colonnade import Block, rock
-    from colonnade.dynamics.kinematics import point_displacement
-    from short_campaign import write_columns
-
-    block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-    history = rock(block, theta0=0.4 * block.critical_angle, restitution=0.95, model="nonlinear", duration=12.0)
-    time = np.arange(0.0, 12.0, 0.005)
-    angle = np.interp(time, history.time, history.angle)
-    top = 1000 * point_displacement(angle, (0.043, 0.0, 0.440), block)[0, :, 0]
-    random = np.random.default_rng(1)
     (tmp_path / "raw").mkdir()
-    for name, delimiter in (("free-01", ","), ("free-02", ";")):
-        columns = {"Time [s]": time, "top [mm]": top + random.normal(0.0, 0.01, time.size)}
+    for number, (name, delimiter) in enumerate((("free-01", ","), ("free-02", ";"))):
+        moved = record(number, theta0=0.4 * PRISM.critical_angle, duration=12.0)
+        columns = {"Time [s]": moved["time"], "top [mm]": moved["top"]}
         write_columns(tmp_path / "raw" / f"{name}.csv", columns, delimiter)
     (tmp_path / "campaign.toml").write_text(CAMPAIGN + TEST.format("free-01") + TEST.format("free-02"))
     return tmp_path
