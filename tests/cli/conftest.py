@@ -77,14 +77,22 @@ def process(tmp_path):
 
 @pytest.fixture
 def campaign(tmp_path):
-    """A campaign of two free vibrations, computed with e = 0.93, one file with commas and one with semicolons."""
-    from prism import PRISM
-    from short_campaign import record, write_columns
+    """A campaign of two free vibrations, computed with e = 0.95, one file with commas and one with semicolons."""
+    import numpy as np
 
+    from colonnade import rock
+    from colonnade.dynamics.kinematics import point_displacement
+    from prism import PRISM
+    from short_campaign import write_columns
+
+    history = rock(PRISM, theta0=0.4 * PRISM.critical_angle, restitution=0.95, model="nonlinear", duration=12.0)
+    time = np.arange(0.0, 12.0, 0.005)
+    angle = np.interp(time, history.time, history.angle)
+    top = 1000 * point_displacement(angle, (0.043, 0.0, 0.440), PRISM)[0, :, 0]
+    random = np.random.default_rng(1)
     (tmp_path / "raw").mkdir()
-    for number, (name, delimiter) in enumerate((("free-01", ","), ("free-02", ";"))):
-        moved = record(number, theta0=0.4 * PRISM.critical_angle, duration=12.0)
-        columns = {"Time [s]": moved["time"], "top [mm]": moved["top"]}
+    for name, delimiter in (("free-01", ","), ("free-02", ";")):
+        columns = {"Time [s]": time, "top [mm]": top + random.normal(0.0, 0.01, time.size)}
         write_columns(tmp_path / "raw" / f"{name}.csv", columns, delimiter)
     (tmp_path / "campaign.toml").write_text(CAMPAIGN + TEST.format("free-01") + TEST.format("free-02"))
     return tmp_path
