@@ -90,7 +90,7 @@ def find_first_loss(found: Estimated, record: Record) -> Iterator[Departure]:
     count = int(counts[np.argmax((later - first) ** 2 * counts * (impacts - counts))])
     change, error = found.along((np.arange(impacts) < count).astype(np.float64))
     slope, slope_error = found.trend
-    e = float(np.exp(found.logarithm - change * count / impacts))
+    e = found.restitution * float(np.exp(-change * count / impacts))
     loss = -e * float(np.expm1(min(change, 1.0)))
     is_step = (change / error) ** 2 >= (slope / slope_error) ** 2 + BETTER
     if loss < LEAST_LOSS * (1 - e) or abs(change) < SURE * error or not is_step:
@@ -193,7 +193,7 @@ def scatters(found: Estimated) -> bool:
     """Whether e of single impacts scatters more than impacts alone explain, beyond any change with their speed."""
     if found.path.count <= FEWEST_IMPACTS:
         return False
-    large = np.exp(found.logarithm) * SCATTERS > LARGEST_SCATTER
+    large = found.restitution * SCATTERS > LARGEST_SCATTER
     return bool(found.answer.weights[large].sum() > SURELY)
 
 
@@ -219,7 +219,7 @@ def found_by_impact(found: Estimated, *, driven: bool) -> Iterator[Departure]:
     e = found.path.restitution
     if e.size < FEWEST_IMPACTS:
         return
-    mean = float(np.exp(found.logarithm))
+    mean = found.restitution
     change, error = (mean * each for each in found.trend)
     scatter = mean * found.answer.scatter
     if scatters(found):

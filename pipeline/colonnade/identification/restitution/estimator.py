@@ -5,30 +5,15 @@ from __future__ import annotations
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import exp
 
 import numpy as np
 import scipy
 
 from colonnade.arrays import Array
-from colonnade.dynamics.block import Block
-from colonnade.identification.restitution.follower import CRITICAL, PEAK, TILT, TIME, P
-from colonnade.identification.restitution.noise import FINEST_CUTOFF, Spectrum, filter_of, find_cutoff, find_knee
-from colonnade.identification.restitution.path import (
-    FIRST_ARCS,
-    FIXED,
-    GAIN,
-    LIKELY_SCATTER,
-    MEAN,
-    ZERO,
-    Path,
-    UnfollowedError,
-    from_release,
-    laid,
-    laid_forward,
-    without_first,
-)
-from colonnade.identification.restitution.peaks import lift
-from colonnade.identification.restitution.record import AngleSamples
+from colonnade.identification.restitution.follower import FIXED, GAIN, MEAN, TILT, ZERO
+from colonnade.identification.restitution.noise import FINEST_CUTOFF, Filter, filter_of, find_cutoff, find_knee
+from colonnade.identification.restitution.path import LIKELY_SCATTER, Path, UnfollowedError
 from colonnade.identification.restitution.result import Joint
 from colonnade.identification.restitution.scatter import LinearModel, Solved
 
@@ -41,6 +26,9 @@ LEAST_NOISE = 1e-6
 MISFIT = 4.0
 """Times as much residual power with a low-pass, or with the part from the release on, from which there is no such."""
 
+FEWEST_SAMPLES = 64
+"""From which a spectrum is looked at."""
+
 MOST_LAID = 4
 """Times that a path is laid with the scatter, and the trend, that the last one shows."""
 
@@ -52,9 +40,6 @@ SURE_TREND = 0.003
 
 FEWEST_OF_TREND = 5
 """Impacts."""
-
-FEWEST_SEEN = 2
-"""Arcs that have to be seen in a row."""
 
 ASSUMPTIONS = (
     "plane rocking without slide or bounce; e of each impact about one mean, independent of the others; α, p and the "
@@ -69,25 +54,11 @@ METHOD = (
 
 @dataclass(frozen=True)
 class Estimated:
-    """
-    A path through the record, and what the record says of its unknowns.
-
-    Attributes
-    ----------
-    path : Path
-    model : LinearModel
-        About the path; unknowns in the order of `path.names`, as steps from it.
-    solved : Solved
-    """
+    """A path through the record, and what it says of the unknowns about it."""
 
     path: Path
     model: LinearModel
     solved: Solved
-
-    @property
-    def logarithm_of_path(self) -> float:
-        """ln e of the path, from which `answer` has steps."""
-        return float(self.path.values[MEAN])
 
     @cached_property
     def trend(self) -> tuple[float, float]:
@@ -113,9 +84,9 @@ class Estimated:
         return self.model.with_direction(bent, 4 / self.trend[0] ** 4).with_direction(self.speeds).solved()
 
     @property
-    def logarithm(self) -> float:
-        """Posterior mean of ln e."""
-        return self.logarithm_of_path + float(self.answer.mean[0])
+    def restitution(self) -> float:
+        """The mean e."""
+        return exp(float(self.answer.mean[MEAN]))
 
     @property
     def zero(self) -> float:
@@ -133,27 +104,16 @@ class Estimated:
         speed = self.landing
         return np.asarray((speed - speed.mean()) / max(float(np.ptp(speed)), 1e-300))
 
-    @cached_property
-    def posterior(self) -> tuple[Array, Array]:
-        """Mean and covariance of the unknowns before the impacts' departures, shapes (9,) and (9, 9)."""
-        solved, moved = self.answer, self.path.names
-        mean, covariance = self.path.values[:FIXED].copy(), np.zeros((FIXED, FIXED))
-        mean[moved] += solved.mean[: len(moved)]
-        covariance[np.ix_(moved, moved)] = solved.covariance[: len(moved), : len(moved)]
-        return mean, covariance
-
     @property
     def joint(self) -> Joint:
         """ln e, and ln of α and of p over those of the block."""
-        mean, covariance = self.posterior
-        names = [MEAN, CRITICAL, P]
-        return Joint(mean[names], covariance[np.ix_(names, names)], float(mean[GAIN]))
+        mean = self.answer.mean
+        return Joint(mean[:GAIN], self.answer.covariance[:GAIN, :GAIN], float(mean[GAIN]))
 
     @property
     def tilt(self) -> tuple[float, float]:
         """Half the difference of ln α of the two sides beyond that of the block, and its error."""
-        mean, covariance = self.posterior
-        return float(mean[TILT]), float(np.sqrt(covariance[TILT, TILT]))
+        return float(self.answer.mean[TILT]), float(np.sqrt(self.answer.covariance[TILT, TILT]))
 
     def along(self, direction: Array) -> tuple[float, float]:
         """Change of ln e along a direction of the impacts, shape (m,), that all else leaves, and its error."""
@@ -161,42 +121,13 @@ class Estimated:
         return float(solved.mean[-1]), float(np.sqrt(solved.covariance[-1, -1]))
 
 
-def first_path(samples: AngleSamples, block: Block, widths: Array, peaks: Array, times: Array) -> Path:
-    """
-    Return the path of a run of arcs on alternating sides, by their peaks.
-
-    Parameters
-    ----------
-    samples : AngleSamples
-    block : Block
-    widths : ndarray, shape (9,)
-        As of `prior_widths`.
-    peaks, times : ndarray, shape (n,)
-        Peaks, rad, signed; s.
-
-    Raises
-    ------
-    UnfollowedError
-        If the arcs are too few.
-    """
-    if peaks.size < FEWEST_SEEN:
-        raise UnfollowedError(f"at least {FEWEST_SEEN} arcs in a row are needed")
-    energies = block.p_at(peaks) ** 2 * lift(peaks, block.critical_angle_at(peaks))
-    # An error of the angle is one of the logarithm in proportion to 1 / |θ|.
-    slope, _ = np.polyfit(np.arange(peaks.size), np.log(energies), 1, w=np.abs(peaks))
-    values = np.zeros(FIXED)
-    values[[PEAK, TIME, MEAN]] = abs(peaks[0]), times[0], np.clip(slope / 2, np.log(0.3), np.log(0.9999))
-    return Path(block, samples, widths, int(peaks[0] > 0), values).with_arcs(min(peaks.size, FIRST_ARCS))
-
-
 def estimate(path: Path, lowpass: float | None, lowest: float, *, whole: bool) -> Estimated:
     """
-    Follow a record from a first path on, and say what is known of the unknowns then.
+    Follow a record from a path of its first arcs on, and say what is known of the unknowns then.
 
     Parameters
     ----------
     path : Path
-        Of its first arcs.
     lowpass : float or None
         Hz, of the record; found from the residual if None.
     lowest : float
@@ -211,16 +142,16 @@ def estimate(path: Path, lowpass: float | None, lowest: float, *, whole: bool) -
     numpy.linalg.LinAlgError
         If the record does not separate the unknowns.
     """
-    path = laid_forward(path, lowest)
-    before = from_release(path) if whole else None
-    if before is not None:
+    path = path.laid_forward(lowest)
+    released = path.with_release() if whole else None
+    if released is not None:
         with suppress(UnfollowedError):
-            found = _estimated(before, lowpass)
+            found = _estimated(released, lowpass)
             # On a table that moves, a release at rest may lead astray.
             if found.path.power < MISFIT * path.power:
                 if not _is_odd(found.path):
                     return found
-                path = without_first(found.path)
+                path = found.path.without_first()
     return _estimated(path, lowpass)
 
 
@@ -241,40 +172,41 @@ def _estimated(path: Path, lowpass: float | None) -> Estimated:
     if path.count < FEWEST_ARCS:
         raise UnfollowedError(f"{FEWEST_ARCS} arcs are needed, and {path.count} could be followed")
     samples, scatter, trend = path.samples, LIKELY_SCATTER, None
-    if lowpass is None and samples.is_even:
-        path = laid(path, scatter)
-        lowpass = find_cutoff(path.residual, samples.interval, samples.step)
+    has_spectrum = samples.is_even and path.counted.sum() >= FEWEST_SAMPLES
+    if lowpass is None and has_spectrum:
+        path = path.laid(scatter)
+        lowpass = find_cutoff(path.residual, filter_of(None, samples.step, samples.group))
         rounded = replace(path, passed=filter_of(lowpass, samples.step, samples.group))
-        if lowpass is not None and rounded.power > MISFIT * path.power:
+        if rounded.power > MISFIT * path.power:
             lowpass = None
     if lowpass is not None and not (samples.is_even and lowpass * samples.interval <= FINEST_CUTOFF):
         lowpass = None
-    path = replace(path, passed=filter_of(lowpass, samples.step, samples.group))
-    spectrum = Spectrum(0.0, lowpass, samples.interval, samples.step) if samples.is_even else None
+    passed = filter_of(lowpass, samples.step, samples.group)
+    path = replace(path, passed=passed)
     for _ in range(MOST_LAID):
-        path = laid(path, scatter, trend)
-        found = _linear(path, spectrum)
+        path = path.laid(scatter, trend)
+        found = _linear(path, passed)
         now, trend = max(found.answer.scatter, 1e-6), found.speeds if found.has_trend else None
         if abs(now - scatter) < 0.1 * scatter:
             break
         scatter = now
-    if spectrum is None or not spectrum.may_be_coloured(path.residual):
+    if not (has_spectrum and passed.bands(path.residual).is_coloured):
         return found
-    rows, frequency, _ = spectrum.transformed(path.columns)
-    knee = find_knee(rows, frequency, path.precision(now)[path.order], found.model.level)
-    return found if knee == 0 else _linear(path, replace(spectrum, knee=knee))
+    rows, frequency, _ = passed.whitened(path.columns, 0.0)
+    knee = find_knee(rows, frequency, path.precision(now), found.model.level)
+    return found if knee == 0 else _linear(path, passed, knee)
 
 
-def _linear(path: Path, spectrum: Spectrum | None) -> Estimated:
-    names, count = path.names, float(path.counted.sum())
-    if spectrum is None or (spectrum.knee == 0 and spectrum.cutoff_hz is None):
-        kept = np.append(0, 1 + path.order)
-        both = path.products[np.ix_(kept, kept)]
+def _linear(path: Path, passed: Filter, knee: float = 0.0) -> Estimated:
+    count = float(path.counted.sum())
+    if knee == 0 and passed.cutoff_hz is None:
+        both = path.products
     else:
-        rows, _, share = spectrum.transformed(path.columns)
+        rows, _, share = passed.whitened(path.columns, knee)
         both, count = rows @ rows.T, count * share
     # As seen from the mean: what the impacts' own departures explain is left in the values.
     turn = np.eye(both.shape[0])
-    turn[1 + len(names) :, 0] = path.deviations
-    model = LinearModel.of(turn.T @ both @ turn, path.precision(1.0)[names], -path.values[names], count, _least(path))
+    turn[1 + FIXED :, 0] = path.deviations
+    origin = path.values[:FIXED]
+    model = LinearModel.of(turn.T @ both @ turn, path.precision(1.0)[:FIXED], origin, count, _least(path))
     return Estimated(path, model, model.solved())

@@ -24,9 +24,11 @@ STEP = 0.04
 LOCAL = 4
 """Derivatives of the angle by height and speed at the start of its arc, by ln α, and by ln p."""
 
-PEAK, TIME, CRITICAL, TILT, P, BY_IMPACT = range(6)
-"""Unknowns: first peak (rad), its time (s), ln α, half the difference of ln α, ln p; ln e of each impact from there."""
+MEAN, CRITICAL, P, GAIN, TILT, PEAK, TIME, ZERO, DRIFT = range(9)
+"""Unknowns: ln of the mean e, of α, of p and of the angle's gain, half the difference of ln α; first peak (rad) and its
+time (s); zero (rad) and its drift over the record (rad). From `FIXED` on: departure of ln e of each impact."""
 
+FIXED = DRIFT + 1
 
 Stages = tuple[float, float, float, float]
 """Of a step, one value each."""
@@ -44,7 +46,7 @@ class Followed(NamedTuple):
         Number of the arc of each sample, −1 where it was not followed.
     local : ndarray, shape (n, 4)
         See `LOCAL`.
-    starts : ndarray, shape (m, 2, 5 + m − 1)
+    starts : ndarray, shape (m, 2, 9 + m − 1)
         Derivatives of height and speed at each arc's start, at a fixed time, by all unknowns.
     peaks, times, ends : ndarray, shape (m,)
         |θ| of each peak, its time, and that of the impact that ends the arc; NaN from where the block overturns.
@@ -105,7 +107,7 @@ def _land(
     starts: Array, number: int, varied: Array, side: float, speed: float, e: float, pull: float, after: float
 ) -> None:
     """Fill in derivatives at the start of an arc from those at the end of the one before, on a side (−1 or 1)."""
-    for k in range(BY_IMPACT + number):
+    for k in range(FIXED + number):
         x = varied[0, 0] * starts[number - 1, 0, k] + varied[1, 0] * starts[number - 1, 1, k]
         u = varied[0, 1] * starts[number - 1, 0, k] + varied[1, 1] * starts[number - 1, 1, k]
         if k == CRITICAL:
@@ -114,7 +116,7 @@ def _land(
             x, u = x + side * varied[2, 0], u + side * varied[2, 1]
         elif k == P:
             x, u = x + varied[3, 0], u + varied[3, 1]
-        later, own = -x / speed, e * speed if k == BY_IMPACT + number - 1 else 0.0
+        later, own = -x / speed, e * speed if k in (MEAN, FIXED + number - 1) else 0.0
         starts[number, 0, k] = e * speed * later
         starts[number, 1, k] = -e * (u + pull * later) - own - after * later
 
@@ -144,7 +146,7 @@ def follow(
     """
     n, m = time.size, restitution.size + 1
     angle, arc, local = np.full(n, np.nan), np.full(n, -1), np.zeros((n, LOCAL))
-    starts, varied = np.zeros((m, 2, BY_IMPACT + m - 1)), np.zeros((LOCAL, 2))
+    starts, varied = np.zeros((m, 2, FIXED + m - 1)), np.zeros((LOCAL, 2))
     peaks, times = np.full(m, np.nan), np.full(m, np.nan)
     ends, speeds = np.full(m, np.nan), np.full(m, np.nan)
     begin = int(np.searchsorted(time, peak_time))
@@ -207,31 +209,3 @@ def follow(
                 varied[0, 0] = varied[1, 1] = 1.0
                 height, speed = 0.0, -e * speed
     return Followed(angle, arc, local, starts, peaks, times, ends, speeds)
-
-
-@kernel
-def arc_products(local: Array, arc: NDArray[np.int64], count: int) -> Array:
-    """Sums over each arc of products of columns, shape (count, l, l); samples of no arc are passed over."""
-    size = local.shape[1]
-    products = np.zeros((count, size, size))
-    for i in range(arc.size):
-        n = arc[i]
-        if n >= 0:
-            for j in range(size):
-                for k in range(size):
-                    products[n, j, k] += local[i, j] * local[i, k]
-    return products
-
-
-@kernel
-def spread_columns(local: Array, arc: NDArray[np.int64], by_unknown: Array) -> Array:
-    """Derivatives by all unknowns at all samples, shape (k, n), of those by arc, shape (m, l, k); 0 if not followed."""
-    unknowns, size = by_unknown.shape[2], local.shape[1]
-    columns = np.zeros((unknowns, arc.size))
-    for k in range(unknowns):
-        for i in range(arc.size):
-            n = arc[i]
-            if n >= 0:
-                for j in range(size):
-                    columns[k, i] += local[i, j] * by_unknown[n, j, k]
-    return columns

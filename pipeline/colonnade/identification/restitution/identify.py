@@ -16,8 +16,8 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.uncertainty import Uncertainty
 from colonnade.identification.restitution import departures, peaks
-from colonnade.identification.restitution.estimator import ASSUMPTIONS, METHOD, Estimated, estimate, first_path
-from colonnade.identification.restitution.path import UnfollowedError, prior_widths
+from colonnade.identification.restitution.estimator import ASSUMPTIONS, METHOD, Estimated, estimate
+from colonnade.identification.restitution.path import Path, UnfollowedError, prior_widths
 from colonnade.identification.restitution.record import Record, moving_base, objection, thinned
 from colonnade.identification.restitution.result import (
     NO_IMPACTS,
@@ -165,7 +165,7 @@ def identify_restitution(
 def _followed(record: Record, *, widths: Array, lowpass: float | None) -> Attempt:
     """Follow a record from the first arc that enters; what is found, or why nothing is."""
     try:
-        path = first_path(record.samples, record.block, widths, *record.run())
+        path = Path.through(record.samples, record.block, widths, *record.run())
         return estimate(path, lowpass, record.least, whole=record.left_out == 0), ""
     except (UnfollowedError, np.linalg.LinAlgError) as error:
         return None, f"No simulated history follows the record: {error}."
@@ -180,7 +180,7 @@ def _departed(
         zero = found.zero
     else:
         fit = peaks.fit_peaks(record.peaks, record.block, record.noise, (0.0, 0.0))
-        zero = 0.0 if fit is None else fit.offset
+        zero = 0.0 if fit is None else fit.zero
     record = replace(record, zero=zero)
     if record.counted.start.size < FEWEST_SEEN:
         return record, found, why, []
@@ -228,7 +228,7 @@ def _result(
         reason = f"At least {peaks.FEWEST_PEAKS} peaks between two impacts, above the noise, are needed."
     of_peaks = Estimate("peaks", level, peaks.ASSUMPTIONS, reason)
     if fit is not None:
-        seen, zero, of_peaks = fit.peaks, fit.offset, _estimate(of_peaks, fit.solved, fit.logarithm)
+        seen, zero, of_peaks = fit.peaks, fit.zero, _estimate(of_peaks, fit.solved)
     history, joint, constancy = None, None, Constancy()
     doubts: tuple[tuple[str, str], ...] = ()
     if found is not None:
@@ -237,7 +237,7 @@ def _result(
         inside = slice(counted[0], counted[-1] + 1)
         cutoff = None if path.passed is None else path.passed.cutoff_hz
         history = FittedHistory(path.samples.time[inside], path.seen[inside], path.residual[inside], cutoff)
-        of_history = chosen = _estimate(of_history, found.answer, found.logarithm_of_path)
+        of_history = chosen = _estimate(of_history, found.answer)
         joint, constancy = found.joint, _constancy(found)
         doubts = tuple(_doubts(joint, uncertainty, of_history, of_peaks))
     else:
@@ -262,13 +262,13 @@ def _result(
     )
 
 
-def _estimate(empty: Estimate, solved: Solved, logarithm: float) -> Estimate:
-    """Fill in e from the distribution of ln e as a step from where the model was made linear."""
+def _estimate(empty: Estimate, solved: Solved) -> Estimate:
+    """Fill in e from the distribution of ln e."""
     # A record that says next to nothing has an interval beyond all numbers.
-    low, high = (exp(min(logarithm + solved.quantile(0.5 + sign * empty.level / 2), WIDEST)) for sign in (-1, 1))
+    low, high = (exp(min(solved.quantile(0.5 + sign * empty.level / 2), WIDEST)) for sign in (-1, 1))
     # Of the normal distribution whose interval is as wide.
     error = (high - low) / 2 / float(scipy.special.ndtri((1 + empty.level) / 2))
-    value = exp(logarithm + float(solved.mean[0]))
+    value = exp(float(solved.mean[0]))
     return replace(empty, reason="", value=value, low=low, high=high, standard_error=error)
 
 
@@ -300,7 +300,8 @@ def _joint_of_peaks(chosen: Estimate, uncertainty: Uncertainty) -> Joint | None:
 
 def _constancy(found: Estimated) -> Constancy:
     """Change of e with the speed of impact, and its scatter."""
-    e, scatter = exp(found.logarithm), exp(found.logarithm) * found.answer.scatter
+    e = found.restitution
+    scatter = e * found.answer.scatter
     extent = float(np.ptp(found.landing))
     if found.landing.size < 3 or not extent > 0:
         return Constancy(scatter=scatter)

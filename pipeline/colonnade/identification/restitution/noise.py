@@ -32,9 +32,6 @@ FLOOR = 1e-4
 SURE = 10.0
 """Gain of the logarithm of the likelihood by which a low-pass that was not given is believed."""
 
-FEWEST = 64
-"""Samples from which a spectrum is looked at."""
-
 BAND = 0.1
 """Width of a band of frequencies, as a share of its lowest, over which a spectrum is averaged."""
 
@@ -47,6 +44,38 @@ def passed(frequency: Array, cutoff_hz: float | None, step: float) -> Array:
     return np.asarray(1.0 / (1.0 + np.minimum(ratio, 1e6) ** (2 * ORDER)))
 
 
+@dataclass(frozen=True)
+class Bands:
+    """A spectrum averaged over bands: mean frequency (Hz), mean power, and degrees of freedom of each; knees (Hz)."""
+
+    frequency: Array
+    power: Array
+    freedom: Array
+    knees: Array
+
+    @classmethod
+    def of(cls, frequency: Array, power: Array, freedom: Array) -> Bands:
+        edges = [0]
+        while edges[-1] < power.size:
+            edges.append(edges[-1] + max(1, int(BAND * edges[-1])))
+        starts = np.array(edges[:-1])
+        total, weight = (np.add.reduceat(each, starts) for each in (power, freedom))
+        middle = np.add.reduceat(frequency, starts) / np.diff([*edges[:-1], power.size])
+        knees = np.append(0.0, np.geomspace(frequency[0], 3 * frequency[-1], KNEES))
+        return cls(middle, total / weight, weight, knees)
+
+    def likelihoods(self, left: Array | float = 1.0) -> Array:
+        """Logarithm of Whittle's likelihood of each of `knees`, at the likeliest level; a low-pass leaves (…, b)."""
+        shape = np.atleast_1d(left)[..., None, :] * (1 + self.knees[:, None] / self.frequency)
+        level = (self.freedom * self.power / shape).sum(axis=-1, keepdims=True) / self.freedom.sum()
+        return np.asarray(-0.5 * (self.freedom * np.log(level * shape)).sum(axis=-1))
+
+    @property
+    def is_coloured(self) -> bool:
+        """Whether any knee is likelier than white noise."""
+        return bool(np.argmax(self.likelihoods()) > 0)
+
+
 @dataclass(frozen=True, eq=False)
 class Filter:
     """
@@ -55,6 +84,8 @@ class Filter:
     Attributes
     ----------
     cutoff_hz : float or None
+    step, interval : float
+        Of the recording, and of the means, s.
     time : ndarray, shape (n,)
         s, evenly from −reach to reach.
     of_speed, of_acceleration : ndarray, shape (n,)
@@ -62,72 +93,29 @@ class Filter:
     """
 
     cutoff_hz: float | None
+    step: float
+    interval: float
     time: Array
     of_speed: Array
     of_acceleration: Array
 
+    def bands(self, residual: Array) -> Bands:
+        """Average the power of a residual, NaN where not counted, before its low-pass."""
+        frequency = scipy.fft.rfftfreq(residual.size, self.interval)[1:]
+        left = passed(frequency, self.cutoff_hz, self.step) ** 2
+        kept = left > PASSED
+        power = np.abs(np.fft.rfft(np.nan_to_num(residual)))[1:][kept] ** 2 / left[kept]
+        return Bands.of(frequency[kept], power, np.full(power.size, 2.0))
 
-@lru_cache(maxsize=32)
-def filter_of(cutoff_hz: float | None, step: float, group: int) -> Filter:
-    """Compute how a low-pass rounds corners in a record of which groups of samples are averaged."""
-    length = group * step
-    reach = max(ABOUT_FILTER / cutoff_hz if cutoff_hz else 0.0, length)
-    half = int(np.ceil(8 * reach / min(length, 0.2 / cutoff_hz if cutoff_hz else length)))
-    time, fine = np.linspace(-reach, reach, 2 * half + 1, retstep=True)
-    frequency = scipy.fft.rfftfreq(8 * half, fine)
-    response = passed(frequency, cutoff_hz, step) * (np.sinc(frequency * length) if group > 1 else 1.0)
-    pulse = np.fft.fftshift(np.fft.irfft(response))[4 * half - half : 4 * half + half + 1] / fine
-    pulse /= scipy.integrate.trapezoid(pulse, dx=fine)
-    once = scipy.integrate.cumulative_trapezoid(pulse, dx=fine, initial=0.0)
-    twice = scipy.integrate.cumulative_trapezoid(once, dx=fine, initial=0.0)
-    thrice = scipy.integrate.cumulative_trapezoid(twice, dx=fine, initial=0.0)
-    after = np.maximum(time, 0.0)
-    of_speed, of_acceleration = twice - after, thrice - after**2 / 2
-    # Beyond the corner the mean of a parabola is above its middle: that is taken off where samples are averaged.
-    return Filter(cutoff_hz, time, of_speed, of_acceleration - np.where(time > 0, of_acceleration[-1], 0.0))
-
-
-@kernel
-def corners(
-    time: Array, ends: Array, jumps: Array, bends: Array, offsets: Array, of_speed: Array, of_acceleration: Array
-) -> Array:
-    """Filtered less unfiltered angle (rad) at times (s), of impacts with jumps of the velocity and acceleration."""
-    total = np.zeros(time.size)
-    reach, fine = offsets[-1], offsets[1] - offsets[0]
-    for k in range(ends.size):
-        if np.isnan(ends[k]) or np.isnan(jumps[k]):
-            continue
-        for i in range(np.searchsorted(time, ends[k] - reach), np.searchsorted(time, ends[k] + reach)):
-            place = (time[i] - ends[k] + reach) / fine
-            low = min(int(place), offsets.size - 2)
-            share = place - low
-            total[i] += jumps[k] * (of_speed[low] + share * (of_speed[low + 1] - of_speed[low]))
-            total[i] += bends[k] * (of_acceleration[low] + share * (of_acceleration[low + 1] - of_acceleration[low]))
-    return total
-
-
-@dataclass(frozen=True)
-class Spectrum:
-    """
-    Shape of the noise's power, (1 + knee / f) of what a low-pass leaves.
-
-    Attributes
-    ----------
-    knee : float
-        Hz; 0 for white noise.
-    cutoff_hz : float or None
-    interval, step : float
-        Of these samples and of the recording, s.
-    """
-
-    knee: float
-    cutoff_hz: float | None
-    interval: float
-    step: float
-
-    def transformed(self, columns: Array) -> tuple[Array, Array, float]:
+    def whitened(self, columns: Array, knee: float) -> tuple[Array, Array, float]:
         """
         Turn columns (1 + k, n), the first of values that were filtered, others not, into rows with white noise.
+
+        Parameters
+        ----------
+        columns : ndarray, shape (1 + k, n)
+        knee : float
+            Hz, of noise whose power is (1 + knee / frequency) of what the low-pass leaves; 0 for white noise.
 
         Returns
         -------
@@ -149,35 +137,56 @@ class Spectrum:
             weight[-1] /= 2
         share = float(weight[kept].sum())
         frequency = np.maximum(frequency, 0.5 / (count * self.interval))[kept]
-        rows = scipy.fft.rfft(padded, overwrite_x=True)[:, kept] * np.sqrt(weight[kept] / (1 + self.knee / frequency))
+        rows = scipy.fft.rfft(padded, overwrite_x=True)[:, kept] * np.sqrt(weight[kept] / (1 + knee / frequency))
         # Only the record was filtered: what is taken off it again is white noise, and the sharp columns.
         rows[0] /= left[kept]
         return np.ascontiguousarray(rows).view(np.float64), frequency, share
 
-    def bands(self, residual: Array) -> _Bands | None:
-        """Average the power of a residual, NaN where not counted, before its low-pass; None of too few samples."""
-        counted = np.isfinite(residual)
-        if counted.sum() < FEWEST:
-            return None
-        frequency = scipy.fft.rfftfreq(residual.size, self.interval)[1:]
-        left = passed(frequency, self.cutoff_hz, self.step) ** 2
-        kept = left > PASSED
-        power = np.abs(np.fft.rfft(np.where(counted, residual, 0.0)))[1:][kept] ** 2 / left[kept]
-        return _Bands.of(frequency[kept], power, np.full(power.size, 2.0))
 
-    def may_be_coloured(self, residual: Array) -> bool:
-        """Whether a residual is likelier with any knee than white, before what a fit took up."""
-        bands = self.bands(residual)
-        return bands is not None and int(np.argmax(bands.likelihoods())) > 0
+@lru_cache(maxsize=32)
+def filter_of(cutoff_hz: float | None, step: float, group: int) -> Filter:
+    """Compute how a low-pass rounds corners in a record of which groups of samples are averaged."""
+    length = group * step
+    reach = max(ABOUT_FILTER / cutoff_hz if cutoff_hz else 0.0, length)
+    half = int(np.ceil(8 * reach / min(length, 0.2 / cutoff_hz if cutoff_hz else length)))
+    time, fine = np.linspace(-reach, reach, 2 * half + 1, retstep=True)
+    frequency = scipy.fft.rfftfreq(8 * half, fine)
+    response = passed(frequency, cutoff_hz, step) * (np.sinc(frequency * length) if group > 1 else 1.0)
+    pulse = np.fft.fftshift(np.fft.irfft(response))[4 * half - half : 4 * half + half + 1] / fine
+    pulse /= scipy.integrate.trapezoid(pulse, dx=fine)
+    once = scipy.integrate.cumulative_trapezoid(pulse, dx=fine, initial=0.0)
+    twice = scipy.integrate.cumulative_trapezoid(once, dx=fine, initial=0.0)
+    thrice = scipy.integrate.cumulative_trapezoid(twice, dx=fine, initial=0.0)
+    after = np.maximum(time, 0.0)
+    of_speed, of_acceleration = twice - after, thrice - after**2 / 2
+    # Beyond the corner the mean of a parabola is above its middle: that is taken off where samples are averaged.
+    return Filter(cutoff_hz, step, length, time, of_speed, of_acceleration - np.where(time > 0, of_acceleration[-1], 0.0))
 
 
-def find_cutoff(residual: Array, interval: float, step: float) -> float | None:
+@kernel
+def corners(
+    time: Array, ends: Array, jumps: Array, bends: Array, offsets: Array, of_speed: Array, of_acceleration: Array
+) -> Array:
+    """Filtered less unfiltered angle (rad) at times (s), of impacts with jumps of the velocity and acceleration."""
+    total = np.zeros(time.size)
+    reach, fine = offsets[-1], offsets[1] - offsets[0]
+    for k in range(ends.size):
+        if np.isnan(ends[k]) or np.isnan(jumps[k]):
+            continue
+        for i in range(np.searchsorted(time, ends[k] - reach), np.searchsorted(time, ends[k] + reach)):
+            place = (time[i] - ends[k] + reach) / fine
+            low = min(int(place), offsets.size - 2)
+            share = place - low
+            total[i] += jumps[k] * (of_speed[low] + share * (of_speed[low + 1] - of_speed[low]))
+            total[i] += bends[k] * (of_acceleration[low] + share * (of_acceleration[low + 1] - of_acceleration[low]))
+    return total
+
+
+def find_cutoff(residual: Array, plain: Filter) -> float | None:
     """Cut-off (Hz) of the low-pass that a residual, NaN where not counted, went through; None if it shows none."""
-    bands = Spectrum(0.0, None, interval, step).bands(residual)
-    if bands is None:
-        return None
-    cutoffs = np.geomspace(4 * bands.frequency[0], FINEST_CUTOFF / interval, CUTOFFS).tolist()
-    left = np.array([passed(bands.frequency, cutoff, step) for cutoff in cutoffs]) ** 2 + FLOOR
+    bands = plain.bands(residual)
+    cutoffs = np.geomspace(4 * bands.frequency[0], FINEST_CUTOFF / plain.interval, CUTOFFS)
+    left = np.array([passed(bands.frequency, cutoff, plain.step) for cutoff in cutoffs]) ** 2 + FLOOR
     found = bands.likelihoods(left).max(axis=-1)
     best = int(np.argmax(found))
     return float(cutoffs[best]) if found[best] > bands.likelihoods().max() + SURE else None
@@ -204,35 +213,8 @@ def find_knee(rows: Array, frequency: Array, precision: Array, level: float) -> 
     taken = (solved / size[:, None] * columns).sum(axis=0) / level
     power = (rows[0] ** 2).reshape(-1, 2).sum(axis=1)
     freedom = np.maximum(1 - taken.reshape(-1, 2).sum(axis=1), 1e-3)
-    bands = _Bands.of(frequency, power, freedom)
+    bands = Bands.of(frequency, power, freedom)
     found = bands.likelihoods()
     best = int(np.argmax(found))
     # White noise is as likely beforehand as all others together.
     return float(bands.knees[best]) if found[best] > found[0] + np.log(KNEES) else 0.0
-
-
-@dataclass(frozen=True)
-class _Bands:
-    """A spectrum averaged over bands: mean frequency (Hz), mean power, and degrees of freedom of each; knees (Hz)."""
-
-    frequency: Array
-    power: Array
-    freedom: Array
-    knees: Array
-
-    @classmethod
-    def of(cls, frequency: Array, power: Array, freedom: Array) -> _Bands:
-        edges = [0]
-        while edges[-1] < power.size:
-            edges.append(edges[-1] + max(1, int(BAND * edges[-1])))
-        starts = np.array(edges[:-1])
-        total, weight = (np.add.reduceat(each, starts) for each in (power, freedom))
-        middle = np.add.reduceat(frequency, starts) / np.diff([*edges[:-1], power.size])
-        knees = np.append(0.0, np.geomspace(frequency[0], 3 * frequency[-1], KNEES))
-        return cls(middle, total / weight, weight, knees)
-
-    def likelihoods(self, left: Array | float = 1.0) -> Array:
-        """Logarithm of Whittle's likelihood of each of `knees`, at the likeliest level; a low-pass leaves (…, b)."""
-        shape = np.atleast_1d(left)[..., None, :] * (1 + self.knees[:, None] / self.frequency)
-        level = (self.freedom * self.power / shape).sum(axis=-1, keepdims=True) / self.freedom.sum()
-        return np.asarray(-0.5 * (self.freedom * np.log(level * shape)).sum(axis=-1))

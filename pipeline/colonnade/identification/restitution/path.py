@@ -7,36 +7,28 @@ from functools import cached_property
 from math import exp, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.uncertainty import Uncertainty
 from colonnade.identification.restitution.follower import (
-    BY_IMPACT,
     CRITICAL,
+    DRIFT,
+    FIXED,
+    GAIN,
     LOCAL,
+    MEAN,
     PEAK,
     TILT,
     TIME,
+    ZERO,
     Followed,
     P,
-    arc_products,
     follow,
-    spread_columns,
 )
 from colonnade.identification.restitution.noise import Filter, corners
-from colonnade.identification.restitution.peaks import angle_of_energy, lift
+from colonnade.identification.restitution.peaks import angle_of_energy, half_duration, lift
 from colonnade.identification.restitution.record import AngleSamples
-
-ZERO, DRIFT, GAIN, MEAN = range(BY_IMPACT, BY_IMPACT + 4)
-"""Further unknowns: zero (rad) and its drift over the record (rad), ln of the angle's gain, mean of ln e."""
-
-FIXED = MEAN + 1
-"""Number of unknowns before the departure of ln e at each impact from its mean."""
-
-ORDER = (MEAN, CRITICAL, P, GAIN, TILT, PEAK, TIME, ZERO, DRIFT)
-"""The same in the order in which the linear model has them, as far as they are moved."""
 
 BLURRED = 0.08
 """Over p: margin about impacts while the record's low-pass is not known; 1 / (2 × default cut-off)."""
@@ -50,6 +42,9 @@ LIKELY_SCATTER = 4e-3
 SCATTERS = 3e-4, 3e-2
 """... then what they show, between these."""
 
+FEWEST_SEEN = 2
+"""Arcs that have to be seen in a row."""
+
 FIRST_ARCS = 10
 FARTHER = 1.6
 """Arcs that are followed first, and times as many that are looked at next; ..."""
@@ -61,8 +56,11 @@ MOST_STEPS, MOST_HALVINGS = 20, 8
 CONVERGED = 1e-3
 """Least lessening of the penalised sum of squares for which another step is made."""
 
+EXACT = 1e-9
+"""Standard deviation, beforehand, of the logarithm of what is known exactly, ..."""
+
 LARGEST_TILT = 0.05
-"""Standard deviation, beforehand, of half the difference of ln α of the two sides beyond that of the block."""
+"""... and of half the difference of ln α of the two sides beyond that of the block."""
 
 
 class UnfollowedError(Exception):
@@ -79,11 +77,11 @@ class Path:
     block : Block
     samples : AngleSamples
     widths : ndarray, shape (9,)
-        What is known of `PEAK`, …, `MEAN` beforehand, as of `prior_widths`.
+        What is known of `MEAN`, …, `DRIFT` beforehand, as of `prior_widths`.
     side : int
         Of the first peak: 0 for θ < 0, 1 for θ > 0.
     values : ndarray, shape (9 + m − 1,)
-        By `PEAK`, …, `MEAN`, then the departure of ln e of each impact between m arcs.
+        By `MEAN`, …, `DRIFT`, then the departure of ln e of each impact between m arcs.
     from_release : bool
         Whether the first peak is a release at rest.
     passed : Filter or None
@@ -97,6 +95,25 @@ class Path:
     values: Array
     from_release: bool = False
     passed: Filter | None = None
+
+    @classmethod
+    def through(cls, samples: AngleSamples, block: Block, widths: Array, peaks: Array, times: Array) -> Path:
+        """
+        Return the path of a run of arcs on alternating sides, by their peaks (rad, signed) and times (s), shape (n,).
+
+        Raises
+        ------
+        UnfollowedError
+            If the arcs are too few.
+        """
+        if peaks.size < FEWEST_SEEN:
+            raise UnfollowedError(f"at least {FEWEST_SEEN} arcs in a row are needed")
+        energies = block.p_at(peaks) ** 2 * lift(peaks, block.critical_angle_at(peaks))
+        # An error of the angle is one of the logarithm in proportion to 1 / |θ|.
+        slope, _ = np.polyfit(np.arange(peaks.size), np.log(energies), 1, w=np.abs(peaks))
+        values = np.zeros(FIXED)
+        values[[PEAK, TIME, MEAN]] = abs(peaks[0]), times[0], np.clip(slope / 2, np.log(0.3), np.log(0.9999))
+        return cls(block, samples, widths, int(peaks[0] > 0), values).with_arcs(min(peaks.size, FIRST_ARCS))
 
     @property
     def count(self) -> int:
@@ -121,30 +138,31 @@ class Path:
         return critical, np.array([self.block.side_p(side) for side in sides]) * exp(self.values[P])
 
     @property
-    def names(self) -> list[int]:
-        """Those of `ORDER` that are moved."""
-        return [name for name in ORDER if self.widths[name] > 0]
-
-    @property
-    def order(self) -> NDArray[np.int64]:
-        """All unknowns that are moved, those of the impacts last."""
-        return np.append(self.names, np.arange(FIXED, self.values.size))
+    def signs(self) -> Array:
+        """Side of each arc, −1 or 1."""
+        return np.where((self.side + np.arange(self.count)) % 2, 1.0, -1.0)
 
     def precision(self, scatter: float) -> Array:
-        """1 / variance of each unknown beforehand, with this scatter of ln e; of those not moved it means nothing."""
-        known = np.where(self.widths > 0, self.widths, 1.0) ** -2.0
-        return np.append(known, np.full(self.count - 1, scatter**-2.0))
+        """1 / variance of each unknown beforehand, with this scatter of ln e."""
+        return np.append(self.widths, np.full(self.count - 1, scatter)) ** -2.0
 
     def with_arcs(self, count: int) -> Path:
         """Return the path with as many arcs; new impacts have the mean e."""
-        kept = self.values[: FIXED + count - 1]
-        return replace(self, values=np.append(kept, np.zeros(FIXED + count - 1 - kept.size)))
+        values = np.zeros(FIXED + count - 1)
+        kept = min(values.size, self.values.size)
+        values[:kept] = self.values[:kept]
+        return replace(self, values=values)
 
     @cached_property
     def followed(self) -> Followed:
         """The history, with its derivatives."""
         samples, values = self.samples, self.values
         return follow(samples.time, samples.base, values[PEAK], values[TIME], self.side, self.restitution, *self.sides)
+
+    @property
+    def start(self) -> float:
+        """When the first arc began with an impact, unless with a release."""
+        return float(2 * self.followed.times[0] - self.followed.ends[0])
 
     @cached_property
     def seen(self) -> Array:
@@ -156,13 +174,11 @@ class Path:
 
     def _rounding(self, passed: Filter) -> Array:
         """What the low-pass changes at corners, rad; the last impact has the e of the one before."""
-        followed, e, (critical, p) = self.followed, self.restitution, self.sides
+        followed, e, (critical, p), signs = self.followed, self.restitution, self.sides, self.signs
         e = np.append(e, e[-1:] if e.size else 1.0)
-        signs = np.where((self.side + np.arange(e.size)) % 2, 1.0, -1.0)
-        # Where the first arc was seen from its start on, it began with an impact too.
-        ends = np.append(2 * followed.times[0] - followed.ends[0], followed.ends)
         jumps = signs * followed.speeds * (1 - e)
-        jumps = np.append(-jumps[0] / e[0], jumps)
+        # Where the first arc was seen from its start on, it began with an impact too.
+        jumps, ends = np.append(-jumps[0] / e[0], jumps), np.append(self.start, followed.ends)
         bends = np.append(-signs[0], signs) * float((p**2 * np.sin(critical)).sum())
         return corners(self.samples.time, ends, jumps, bends, passed.time, passed.of_speed, passed.of_acceleration)
 
@@ -170,14 +186,12 @@ class Path:
     def residual(self) -> Array:
         """Measured less seen, rad; NaN where not counted."""
         residual = self.samples.angle - self.seen
-        times, ends, time = self.followed.times, self.followed.ends, self.samples.time
+        top, ends, time = self.followed.times[0], self.followed.ends, self.samples.time
         margin = BLURRED / float(self.sides[1].max())
-        start = 2 * times[0] - ends[0] + margin
-        if self.from_release:
-            start = times[0] + RELEASED * (ends[0] - times[0])
+        start = top + RELEASED * (ends[0] - top) if self.from_release else self.start + margin
         residual[time < start] = np.nan
         if self.passed is None:
-            residual[_nearest(time, ends[np.isfinite(ends)]) < margin] = np.nan
+            residual[np.searchsorted(ends, time - margin) != np.searchsorted(ends, time + margin)] = np.nan
         return residual
 
     @property
@@ -194,162 +208,138 @@ class Path:
         return max(float(counted @ counted) / counted.size, 1e-30)
 
     @cached_property
-    def _by_arc(self) -> tuple[Array, Array]:
-        """Local columns and the residual, (n, 8); residual and derivatives by all unknowns by these, (m, 8, 1 + k)."""
+    def _by_arc(self) -> tuple[list[Array], Array]:
+        """Residual and local columns of each arc, (n, 8), and by these residual and all derivatives, (m, 8, 1 + k)."""
         followed, gain, samples = self.followed, exp(self.values[GAIN]), self.samples
         ones = np.ones(followed.angle.size)
         local = np.column_stack((gain * followed.local, ones, samples.along, gain * followed.angle, self.residual))
+        local[~self.counted] = 0.0
         arcs = np.zeros((self.count, LOCAL + 4, 1 + self.values.size))
         by = arcs[:, :, 1:]
-        by[:, :2, :BY_IMPACT], by[:, :2, FIXED:] = followed.starts[:, :, :BY_IMPACT], followed.starts[:, :, BY_IMPACT:]
-        by[:, :2, MEAN] = followed.starts[:, :, BY_IMPACT:].sum(axis=2)
+        by[:, :2] = followed.starts
         by[:, 2, CRITICAL] = by[:, 3, P] = by[:, LOCAL, ZERO] = by[:, LOCAL + 1, DRIFT] = by[:, LOCAL + 2, GAIN] = 1.0
-        by[:, 2, TILT] = np.where((self.side + np.arange(self.count)) % 2, 1.0, -1.0)
+        by[:, 2, TILT] = self.signs
         arcs[:, LOCAL + 3, 0] = 1.0
-        return local, arcs
+        return np.split(local, np.searchsorted(samples.time, followed.ends[:-1], "right")), arcs
 
     @cached_property
     def products(self) -> Array:
         """Products of the residual and the angle's derivatives with each other, shape (1 + k, 1 + k)."""
-        local, arcs = self._by_arc
-        products = arc_products(local, np.where(self.counted, self.followed.arc, -1), self.count)
+        pieces, arcs = self._by_arc
+        products = np.array([piece.T @ piece for piece in pieces])
         flat = arcs.reshape(-1, arcs.shape[2])
         return flat.T @ (products @ arcs).reshape(flat.shape)
 
     @property
     def columns(self) -> Array:
-        """Residual and derivatives of the angle by the unknowns in `order`, shape (1 + k, n); 0 where not counted."""
-        local, arcs = self._by_arc
-        by_unknown = np.take(arcs, np.append(0, 1 + self.order), axis=2)
-        return spread_columns(local, np.where(self.counted, self.followed.arc, -1), by_unknown)
+        """Residual and derivatives of the angle by all unknowns, shape (1 + k, n); 0 where not counted."""
+        return np.hstack([arc.T @ piece.T for piece, arc in zip(*self._by_arc, strict=True)])
+
+    def laid(self, scatter: float, free: Array | None = None) -> Path:
+        """
+        Move the path to where it is closest to the record, with departures of ln e that a scatter allows, and any along
+        `free`, shape (m − 1,).
+
+        Raises
+        ------
+        UnfollowedError
+            If an unknown has no effect, or the path leads to where the block overturns.
+
+        Notes
+        -----
+        Least squares by Gauss and Newton, with (value / width)² of each unknown added; noise as the residuals show.
+        """
+        precision = np.diag(self.precision(scatter))
+        if free is not None:
+            precision[FIXED:, FIXED:] -= np.outer(free, free) / (free @ free * scatter**2)
+        path, power = self, self.power
+        here = path._objective(precision, power)
+        if not np.isfinite(here):
+            raise UnfollowedError("the block would overturn")
+        for _ in range(MOST_STEPS):
+            step, gain = path._step(precision, power)
+            if gain < CONVERGED:
+                break
+            for halving in range(MOST_HALVINGS):
+                tried = replace(path, values=path.values + 0.5**halving * step)
+                if tried._objective(precision, power) < here * (1 + 1e-9):
+                    break
+            else:
+                break
+            path, power = tried, tried.power
+            here = path._objective(precision, power)
+        return path
+
+    def _objective(self, precision: Array, power: float) -> float:
+        counted = self.residual[self.counted]
+        if not (np.isfinite(self.followed.peaks).all() and counted.size > self.values.size):
+            return np.inf
+        return float(counted @ counted / power + self.values @ precision @ self.values)
+
+    def _step(self, precision: Array, power: float) -> tuple[Array, float]:
+        matrix = self.products[1:, 1:] / power + precision
+        right = self.products[1:, 0] / power - precision @ self.values
+        scale = np.sqrt(np.diag(matrix))
+        if not (np.isfinite(scale).all() and (scale > 0).all()):
+            raise UnfollowedError("an unknown has no effect")
+        step = np.linalg.solve(matrix / np.outer(scale, scale), right / scale) / scale
+        return step, float(right @ step)
+
+    def laid_forward(self, lowest: float) -> Path:
+        """Follow the record forward: first arcs, then as many more as are foreseen, to its end or lowest peak (rad)."""
+        path, scatter = self, LIKELY_SCATTER
+        while True:
+            path = path.laid(scatter)
+            if path.count > 5:
+                scatter = float(np.clip(1.5 * np.std(path.deviations), *SCATTERS))
+            count = path._foreseen(scatter, lowest)
+            if count <= path.count:
+                return path
+            path = path.with_arcs(count)
+
+    def _foreseen(self, scatter: float, lowest: float) -> int:
+        """How many arcs the record has, and the fit foresees."""
+        further = self.with_arcs(max(int(FARTHER * self.count), self.count + 4))
+        precision, known = further.precision(scatter), self.values.size
+        matrix = np.diag(precision)
+        # Residuals of filtered noise are correlated over a few samples: twice the error that white noise would give.
+        matrix[:known, :known] += self.products[1:, 1:] / (4 * self.power)
+        scale = np.sqrt(np.diag(matrix))
+        covariance = np.linalg.inv(matrix / np.outer(scale, scale)) / np.outer(scale, scale)
+        followed, starts = further.followed, further.followed.starts[:, 0]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            speeds = np.append(np.inf, followed.speeds[:-1] * further.restitution)
+            error = np.sqrt(np.maximum(((starts @ covariance) * starts).sum(axis=1), 0.0)) / speeds
+            duration = followed.ends - np.append(np.nan, followed.ends[:-1])
+            last = np.where(np.isfinite(duration), duration, np.inf)
+            good = (followed.peaks > max(lowest, 2 * sqrt(self.power))) & np.isfinite(followed.times)
+            good &= (followed.times < self.samples.time[-1]) & (error < FORESEEN * last)
+        return self.count + int(np.argmin(np.append(good[self.count :], False)))
+
+    def with_release(self) -> Path | None:
+        """Return the path with the release before its first arc; None if no such release leads to it."""
+        (critical, p), side, values = self.sides, 1 - self.side, np.insert(self.values, FIXED, 0.0)
+        before = critical[side]
+        rise = (p[self.side] / (p[side] * exp(values[MEAN]))) ** 2 * lift(values[PEAK], critical[self.side])
+        height = float(angle_of_energy(rise / (1 - np.cos(before)), before))
+        if not height < 0.99 * before:
+            return None
+        fall = float(half_duration(height, before) / p[side])
+        if self.samples.time[0] > self.start - 0.1 * fall:
+            return None
+        values[[PEAK, TIME]] = height, self.start - fall
+        return replace(self, side=side, values=values, from_release=True)
+
+    def without_first(self) -> Path:
+        """Return the path from its second arc on."""
+        values = np.delete(self.values, FIXED)
+        values[[PEAK, TIME]] = self.followed.peaks[1], self.followed.times[1]
+        return replace(self, side=1 - self.side, values=values, from_release=False)
 
 
 def prior_widths(known: Uncertainty) -> Array:
-    """Standard deviation of each of the first unknowns about 0; infinite if nothing is known, 0 if it is not moved."""
+    """Standard deviation of each of the first unknowns about 0; infinite if nothing is known."""
     widths = np.full(FIXED, np.inf)
-    widths[[CRITICAL, P, GAIN, TILT]] = known.critical_angle, known.p, known.angle_gain, LARGEST_TILT
+    given = known.critical_angle, known.p, known.angle_gain
+    widths[[CRITICAL, P, GAIN]], widths[TILT] = np.maximum(given, EXACT), LARGEST_TILT
     return widths
-
-
-def laid(path: Path, scatter: float, free: Array | None = None) -> Path:
-    """
-    Move a path to where it is closest to the record, with departures of ln e that a scatter allows, and any along
-    `free`, shape (m − 1,).
-
-    Raises
-    ------
-    UnfollowedError
-        If an unknown has no effect, or the path leads to where the block overturns.
-
-    Notes
-    -----
-    Least squares by Gauss and Newton, with (value / width)² of each unknown added; noise as the residuals show.
-    """
-    moved, precision = np.sort(path.order), np.diag(path.precision(scatter))
-    if free is not None:
-        precision[FIXED:, FIXED:] -= np.outer(free, free) / (free @ free * scatter**2)
-    power = path.power
-    here = _objective(path, precision, power)
-    if not np.isfinite(here):
-        raise UnfollowedError("the block would overturn")
-    for _ in range(MOST_STEPS):
-        step, gain = _step(path, moved, precision, power)
-        if gain < CONVERGED:
-            break
-        for halving in range(MOST_HALVINGS):
-            tried = replace(path, values=path.values + 0.5**halving * step)
-            there = _objective(tried, precision, power)
-            if there < here * (1 + 1e-9):
-                break
-        else:
-            break
-        path, power = tried, tried.power
-        here = _objective(path, precision, power)
-    return path
-
-
-def _objective(path: Path, precision: Array, power: float) -> float:
-    counted = path.residual[path.counted]
-    if not (np.isfinite(path.followed.peaks).all() and counted.size > path.values.size):
-        return np.inf
-    return float(counted @ counted / power + path.values @ precision @ path.values)
-
-
-def _step(path: Path, moved: NDArray[np.int64], precision: Array, power: float) -> tuple[Array, float]:
-    matrix = (path.products[1:, 1:] / power + precision)[np.ix_(moved, moved)]
-    right = (path.products[1:, 0] / power - precision @ path.values)[moved]
-    scale = np.sqrt(np.diag(matrix))
-    if not (np.isfinite(scale).all() and (scale > 0).all()):
-        raise UnfollowedError("an unknown has no effect")
-    step = np.zeros(path.values.size)
-    step[moved] = np.linalg.solve(matrix / np.outer(scale, scale), right / scale) / scale
-    return step, float(right @ step[moved])
-
-
-def laid_forward(path: Path, lowest: float) -> Path:
-    """Follow a path forward: the first arcs, then as many more as are foreseen, to the record's end or lowest peak."""
-    scatter = LIKELY_SCATTER
-    while True:
-        path = laid(path, scatter)
-        if path.count > 5:
-            scatter = float(np.clip(1.5 * np.std(path.deviations), *SCATTERS))
-        count = _foreseen(path, scatter, lowest)
-        if count <= path.count:
-            return path
-        path = path.with_arcs(count)
-
-
-def _foreseen(path: Path, scatter: float, lowest: float) -> int:
-    """How many arcs the record has, and the fit foresees."""
-    # Residuals of filtered noise are correlated over a few samples: twice the error that white noise would give.
-    matrix = path.products[1:, 1:] / (4 * path.power) + np.diag(path.precision(scatter))
-    kept = np.sort(path.order)
-    scale = np.sqrt(np.diag(matrix)[kept])
-    further = path.with_arcs(max(int(FARTHER * path.count), path.count + 4))
-    covariance = np.zeros((further.values.size, further.values.size))
-    inverse = np.linalg.inv(matrix[np.ix_(kept, kept)] / np.outer(scale, scale)) / np.outer(scale, scale)
-    covariance[np.ix_(kept, kept)] = inverse
-    new = np.arange(path.values.size, further.values.size)
-    covariance[new, new] = scatter**2
-    followed, starts = further.followed, further._by_arc[1][:, 0, 1:]
-    with np.errstate(invalid="ignore", divide="ignore"):
-        speeds = np.append(np.inf, followed.speeds[:-1] * further.restitution)
-        error = np.sqrt(np.maximum(((starts @ covariance) * starts).sum(axis=1), 0.0)) / speeds
-        duration = followed.ends - np.append(np.nan, followed.ends[:-1])
-        last = np.where(np.isfinite(duration), duration, np.inf)
-        good = (followed.peaks > max(lowest, 2 * sqrt(path.power))) & np.isfinite(followed.times)
-        good &= (followed.times < path.samples.time[-1]) & (error < FORESEEN * last)
-    return path.count + int(np.argmin(np.append(good[path.count :], False)))
-
-
-def from_release(path: Path) -> Path | None:
-    """Return the path with the release before its first arc; None if no such release leads to it."""
-    followed, (critical, p) = path.followed, path.sides
-    side, peak = 1 - path.side, path.values[PEAK]
-    rise = (p[path.side] / (p[side] * exp(path.values[MEAN]))) ** 2 * lift(peak, critical[path.side])
-    height = float(angle_of_energy(rise / (1 - np.cos(critical[side])), critical[side]))
-    if not height < 0.99 * critical[side]:
-        return None
-    impact = 2 * followed.times[0] - followed.ends[0]
-    values = np.concatenate((path.values[:FIXED], [0.0], path.deviations))
-    values[PEAK], values[TIME] = height, 0.0
-    probe = np.linspace(0.0, 8.0 / float(p[side]), 400)
-    fall = follow(probe, np.zeros(400), height, 0.0, side, np.empty(0), critical, p).ends[0]
-    if not np.isfinite(fall) or path.samples.time[0] > impact - 0.1 * fall:
-        return None
-    values[TIME] = impact - fall
-    return replace(path, side=side, values=values, from_release=True)
-
-
-def without_first(path: Path) -> Path:
-    """Return the path from its second arc on."""
-    values = np.concatenate((path.values[:FIXED], path.deviations[1:]))
-    values[PEAK], values[TIME] = path.followed.peaks[1], path.followed.times[1]
-    return replace(path, side=1 - path.side, values=values, from_release=False)
-
-
-def _nearest(time: Array, impacts: Array) -> Array:
-    """Return the time from each of `time` to the nearest impact, s."""
-    edges = np.concatenate(([-np.inf], impacts, [np.inf]))
-    after = np.searchsorted(impacts, time)
-    return np.minimum(time - edges[after], edges[after + 1] - time)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
@@ -19,6 +20,9 @@ LEAST_ERROR = 1e-3
 """Of the noise of the angle, below which the error of a peak is not believed."""
 
 MOST_ROUNDS = 6
+
+EXACT = 1e-9
+"""Standard deviation of ln α, and of ln of the gain, where they are known exactly."""
 
 ASSUMPTIONS = (
     "plane rocking without slide or bounce; e of each impact about one mean; both sides about one zero; "
@@ -42,6 +46,15 @@ def energy_slope(angle: ArrayLike, critical_angle: ArrayLike) -> Array:
     """Return the derivative of ln of the energy by |θ|, 1/rad; infinite or NaN where θ is 0 or NaN."""
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.asarray(np.sin(critical_angle - np.abs(angle)) / lift(angle, critical_angle))
+
+
+def half_duration(peak: Array, critical: Array) -> Array:
+    """Phase p t from peaks of free rocking (|θ|, rad) to the impact; α in rad (an elliptic integral)."""
+    top, turning = np.sin(critical / 2) ** 2, np.sin((critical - peak) / 2) ** 2
+    # sin² of half of α less that at the peak, without the cancellation at small angles.
+    fallen = np.sin(critical - peak / 2) * np.sin(peak / 2)
+    phase = np.arctan2(np.sqrt(fallen), np.sqrt(turning * (1 - top)))
+    return np.asarray(scipy.special.ellipkinc(phase, 1 - turning))
 
 
 def released_energy(angle: ArrayLike, critical_angle: ArrayLike) -> Array:
@@ -84,19 +97,19 @@ class PeakFit:
 
     Attributes
     ----------
-    logarithm : float
-        ln e of the line; `solved` has steps from it, in the order ln e, height, zero.
     solved : Solved
+        ln e, height and zero, then ln of α and of the gain.
     peaks : Peaks
         About the zero that they have in common.
-    offset : float
-        That zero, rad.
     """
 
-    logarithm: float
     solved: Solved
     peaks: Peaks
-    offset: float
+
+    @property
+    def zero(self) -> float:
+        """rad."""
+        return float(self.solved.mean[2])
 
 
 def fit_peaks(seen: Peaks, block: Block, noise: float, known: tuple[float, float]) -> PeakFit | None:
@@ -131,29 +144,25 @@ def fit_peaks(seen: Peaks, block: Block, noise: float, known: tuple[float, float
     error = np.maximum(seen.standard_error[usable], LEAST_ERROR * max(noise, 1e-9))
     p = block.p_at(angle)
     walk = 2.0 * (np.arange(int(number[-1])) < number[:, None])
-    mean, height, offset = 0.0, 0.0, 0.0
+    precision = np.array([0.0, 0.0, 0.0, *(max(width, EXACT) ** -2.0 for width in known)])
+    origin = np.zeros(precision.size)
     for _ in range(MOST_ROUNDS):
-        size = np.maximum(np.sign(angle) * (angle - offset), 1e-3 * error)
+        mean, height, zero = origin[:3]
+        size = np.maximum(np.sign(angle) * (angle - zero), 1e-3 * error)
         slope = energy_slope(size, alpha)
-        by_alpha = alpha * (np.sin(alpha) - np.sin(alpha - size)) / lift(size, alpha)
-        columns = [walk.sum(axis=1), np.ones(size.size), np.sign(angle) * slope]
-        precision = [0.0, 0.0, 0.0]
-        for column, width in ((-by_alpha, known[0]), (size * slope, known[1])):
-            if width > 0:
-                columns.append(column)
-                precision.append(width**-2.0)
+        by_alpha = alpha * (np.sin(alpha - size) - np.sin(alpha)) / lift(size, alpha)
         left = np.log(p**2 * lift(size, alpha)) - height - 2 * mean * number
-        rows = np.column_stack((left, *columns, walk)) / (slope * error)[:, None]
-        model = LinearModel.of(rows.T @ rows, np.array(precision), np.zeros(len(precision)), float(size.size), 1.0)
-        solved = model.solved()
-        step = solved.mean
-        mean, height, offset = mean + step[0], height + step[1], offset + step[2]
-        if abs(step[2]) < 1e-3 * error.min():
+        columns = np.ones(size.size), np.sign(angle) * slope, by_alpha, size * slope, walk
+        rows = np.column_stack((left, walk.sum(axis=1), *columns)) / (slope * error)[:, None]
+        solved = LinearModel.of(rows.T @ rows, precision, origin, float(size.size), 1.0).solved()
+        origin = np.append(solved.mean[:3], [0.0, 0.0])
+        if abs(origin[2] - zero) < 1e-3 * error.min():
             break
+    mean, height, zero = origin[:3]
     fitted = np.full(seen.angle.shape, np.nan)
     rise = np.exp(height + 2 * mean * number) / p**2 / (1 - np.cos(alpha))
     fitted[usable] = np.sign(angle) * angle_of_energy(rise, alpha)
-    return PeakFit(mean - step[0], solved, replace(seen, angle=seen.angle - offset, fitted_angle=fitted), offset)
+    return PeakFit(solved, replace(seen, angle=seen.angle - zero, fitted_angle=fitted))
 
 
 def single_impacts(arcs: Arcs, offset: float, usable: Mask, block: Block) -> Impacts:

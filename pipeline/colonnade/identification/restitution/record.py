@@ -12,6 +12,7 @@ from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.identification.response.base_motion import table_moves
 from colonnade.identification.restitution.arcs import Arcs, arcs_between, find_impacts, noise_level
+from colonnade.identification.restitution.peaks import half_duration
 from colonnade.identification.restitution.result import Peaks
 from colonnade.units.text import format_percent
 
@@ -239,15 +240,6 @@ def moving_base(record: Record, values: Array) -> Array | None:
     if not record.samples.is_even:
         raise ValueError("The table moves, and the record's steps are uneven; a uniform clock was expected.")
     return np.asarray(values / record.block.gravity)
-
-
-def half_duration(peak: Array, critical: Array) -> Array:
-    """Phase p t from peaks of free rocking (|θ|, rad) to the impact; α in rad (an elliptic integral)."""
-    top, turning = np.sin(critical / 2) ** 2, np.sin((critical - peak) / 2) ** 2
-    # sin² of half of α less that at the peak, without the cancellation at small angles.
-    fallen = np.sin(critical - peak / 2) * np.sin(peak / 2)
-    phase = np.arctan2(np.sqrt(fallen), np.sqrt(turning * (1 - top)))
-    return np.asarray(scipy.special.ellipkinc(phase, 1 - turning))
 
 
 def objection(record: Record) -> str:

@@ -34,34 +34,30 @@ class LinearModel:
     ----------
     products : ndarray, shape (1 + k + m, 1 + k + m)
         Of y, X and Z with each other, for noise that is white.
-    precision, known : ndarray, shape (k,)
-        1 / variance of each of b beforehand (0: nothing known), and its mean.
+    precision, origin : ndarray, shape (k,)
+        1 / variance of each of b about 0 beforehand (0: nothing known), and b of the path, from which y is left.
     level : float
         Variance of the noise.
     """
 
     products: Array
     precision: Array
-    known: Array
+    origin: Array
     level: float
 
     @classmethod
-    def of(cls, products: Array, precision: Array, known: Array, samples: float, least: float) -> LinearModel:
+    def of(cls, products: Array, precision: Array, origin: Array, samples: float, least: float) -> LinearModel:
         """Set up the model, the level of the noise being what nothing explains, over so many samples."""
-        unknowns = precision.size
-        impacts = products.shape[0] - 1 - unknowns
-        across, _, _ = _split(products, unknowns)
+        across, _, _ = _split(products, precision.size)
         size = np.sqrt(np.maximum(np.diag(across), 1e-300))
         # The mean of ln e is a sum of columns of Z.
-        free = np.flatnonzero(np.diag(across)[1:] > NEGLIGIBLE * np.diag(products)[1 : 1 + unknowns]) + 1
+        free = np.flatnonzero(np.diag(across)[1:] > NEGLIGIBLE * np.diag(products)[1 : size.size]) + 1
         scaled = across / np.outer(size, size)
-        left = across[0, 0]
-        if free.size:
-            # Columns that are nearly one another leave directions of rounding alone.
-            inverse = np.linalg.pinv(scaled[np.ix_(free, free)], rcond=1e-12, hermitian=True)
-            left *= 1 - scaled[0, free] @ inverse @ scaled[free, 0]
-        level = max(float(left) / max(samples - unknowns - impacts, 1.0), least)
-        return cls(products, precision, known, level)
+        # Columns that are nearly one another leave directions of rounding alone.
+        inverse = np.linalg.pinv(scaled[np.ix_(free, free)], rcond=1e-12, hermitian=True)
+        left = across[0, 0] * (1 - scaled[0, free] @ inverse @ scaled[free, 0])
+        level = max(float(left) / max(samples - products.shape[0] + 1, 1.0), least)
+        return cls(products, precision, origin, level)
 
     def with_direction(self, direction: Array, precision: float = 0.0) -> LinearModel:
         """Return the model with one more unknown, the last of b: Z times a direction, shape (m,); 1 / its variance."""
@@ -71,7 +67,7 @@ class LinearModel:
         added[1 + k :] = direction
         turn = np.insert(turn, 1 + k, added, axis=1)
         return LinearModel(
-            turn.T @ self.products @ turn, np.append(self.precision, precision), np.append(self.known, 0.0), self.level
+            turn.T @ self.products @ turn, np.append(self.precision, precision), np.append(self.origin, 0.0), self.level
         )
 
     def solved(self) -> Solved:
@@ -88,20 +84,20 @@ class LinearModel:
         variance = self.level + SCATTERS[:, None] ** 2 * spread
         matrices = across / self.level + np.einsum("ji,tj,jk->tik", turned, 1 / (spread * variance), turned)
         normal = matrices[:, 1:, 1:] + np.diag(self.precision)
-        right = matrices[:, 1:, 0] + self.precision * self.known
+        right = matrices[:, 1:, 0] - self.precision * self.origin
         scale = np.sqrt(np.maximum(np.diagonal(normal, axis1=1, axis2=2), 1e-300))
         scaled = normal / (scale[:, :, None] * scale[:, None, :])
         sign, volume = np.linalg.slogdet(scaled)
         inverse = np.linalg.inv(scaled) / (scale[:, :, None] * scale[:, None, :])
         solution = (inverse @ right[:, :, None])[:, :, 0]
-        squares = matrices[:, 0, 0] + self.precision @ self.known**2 - (right * solution).sum(axis=1)
+        squares = matrices[:, 0, 0] + self.precision @ self.origin**2 - (right * solution).sum(axis=1)
         likelihood = -0.5 * (
             np.log(variance / self.level).sum(axis=1) + volume + 2 * np.log(scale).sum(axis=1) + squares
         )
         sound = (sign > 0) & np.isfinite(likelihood) & (np.diagonal(inverse, axis1=1, axis2=2) > 0).all(axis=1)
         if not sound.any():
             raise np.linalg.LinAlgError("the record does not separate the unknowns")
-        return Solved(solution, inverse, _weights(np.where(sound, likelihood, -np.inf)))
+        return Solved(self.origin + solution, inverse, _weights(np.where(sound, likelihood, -np.inf)))
 
 
 @dataclass(frozen=True)
