@@ -65,7 +65,7 @@ def test_a_free_vibration_shows_peaks_and_whole_history(undisturbed):
     assert found["value"] == float(stored["restitution"])
     assert set(found["whole_history"]) == {"nonlinear"}
     history = found["whole_history"]["nonlinear"]
-    assert history["value"] == float(stored["restitution_history"].sel(model="nonlinear"))
+    assert history["value"] == float(stored["estimate"].sel(estimator="history"))
     assert history["value"] == pytest.approx(0.93, abs=1e-3)
     assert history["low"] < history["value"] < history["high"]
 

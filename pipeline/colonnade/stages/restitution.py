@@ -31,7 +31,6 @@ PEAKS = {
 }
 IMPACTS = {
     "impact_time": "time",
-    "impact_time_standard_error": "time_standard_error",
     "impact_velocity": "velocity",
     "impact_restitution": "restitution",
     "impact_restitution_standard_error": "restitution_standard_error",
@@ -39,6 +38,7 @@ IMPACTS = {
 }
 ENDS = {"": "value", "_low": "low", "_high": "high", "_standard_error": "standard_error"}
 HISTORY = {"fitted_elapsed": "time", "fitted_history": "angle", "history_residual": "residual"}
+JOINT = {"joint_mean": "mean", "joint_covariance": "covariance"}
 """Variables of a result by the attribute of the identification that they are."""
 
 
@@ -90,11 +90,10 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
     Returns
     -------
     identified : xr.Dataset
-        `restitution` with its interval, the recommended one; `estimate` by each `estimator`, `restitution_history` from
-        the whole history by each model; peaks, impacts with e of each, the fitted history with its residual, and
-        the joint region of e and the critical angle. The attribute `table_moves` says "true" or "false", whether the
-        table's recorded motion drives the history. Where e cannot be identified it is NaN and the attribute `reason`
-        (of the histories, `history_reason`) says why: that is a result, not a failure.
+        `restitution` with its interval, the recommended one; `estimate` by each `estimator`; peaks, impacts with e of
+        each, the fitted history with its residual, and what is known of e, α and p together. The attribute
+        `table_moves` says "true" or "false", whether the table's recorded motion drives the history. Where e cannot be
+        identified it is NaN and the attribute `reason` says why: that is a result, not a failure.
 
     Raises
     ------
@@ -105,43 +104,32 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
 
     expect_angle(rocking)
     result = _identified(rocking, inputs)
-    of_history, estimates = result.estimates[0], result.estimates
-    residual = np.nan if result.history is None else float(np.sqrt(np.nanmean(result.history.residual**2)))
+    estimates, joint = result.estimates, result.joint
     return xr.Dataset(
         {
-            "restitution": _number(result.value),
-            "restitution_low": _number(result.low),
-            "restitution_high": _number(result.high),
-            "restitution_standard_error": _number(result.standard_error),
+            **{f"restitution{end}": _number(getattr(result, field)) for end, field in ENDS.items()},
             "level": _number(result.level),
             "zero_offset": _number(result.zero_offset),
-            "angle_scale": 1.0 if result.joint is None else exp(float(result.joint.mean[1]) + result.joint.gain),
+            "angle_scale": 1.0 if joint is None else exp(float(joint.mean[1]) + joint.gain),
             "restitution_slope": _number(result.constancy.slope),
             "restitution_slope_standard_error": _number(result.constancy.slope_standard_error),
-            "restitution_history_residual": ("model", [residual]),
-            **_along("peak", PEAKS, result.peaks),
-            **_along("impact", IMPACTS, result.impacts),
-            **_along("fitted_elapsed", HISTORY, result.history),
-            **_joint(result),
+            **_along(["peak"], PEAKS, result.peaks),
+            **_along(["impact"], IMPACTS, result.impacts),
+            **_along(["fitted_elapsed"], HISTORY, result.history),
             **{
-                f"{name}{end}": (dimension, [_number(getattr(each, field)) for each in found])
-                for name, dimension, found in (
-                    ("estimate", "estimator", estimates),
-                    ("restitution_history", "model", [of_history]),
-                )
+                f"estimate{end}": ("estimator", [_number(getattr(each, field)) for each in estimates])
                 for end, field in ENDS.items()
             },
+            **_along(["joint", "joint_column"], JOINT, joint),
         },
-        coords={"model": ["nonlinear"], "estimator": [each.name for each in estimates]},
+        coords={"estimator": [each.name for each in estimates]},
         attrs={
             "method": result.method,
             "reason": result.reason,
             "recommended": result.recommended,
             "estimate_assumptions": [each.assumptions for each in estimates],
             "estimate_reasons": [each.reason for each in estimates],
-            "history_model": "" if result.history is None else "nonlinear",
             "departures": [found.sentence for found in result.departures],
-            "history_reason": of_history.reason,
             "table_moves": "" if result.table_moves is None else str(result.table_moves).lower(),
             "warnings": _warnings(result),
         },
@@ -190,32 +178,10 @@ def _number(value: float | None) -> float:
     return np.nan if value is None else float(value)
 
 
-def _along(dimension: str, names: Mapping[str, str], found: Any) -> dict[str, Any]:
+def _along(dimensions: list[str], names: Mapping[str, str], found: Any) -> dict[str, Any]:
     """Describe columns of a part of the result; flags as whole numbers, nothing of a part that is missing."""
     columns = {} if found is None else {name: getattr(found, attribute) for name, attribute in names.items()}
     return {
-        name: (dimension, values.astype(np.int8) if values.dtype == bool else values)
+        name: (dimensions[: values.ndim], values.astype(np.int8) if values.dtype == bool else values)
         for name, values in columns.items()
     }
-
-
-def _joint(result: Restitution) -> dict[str, Any]:
-    """What is known of e, α and p together: logarithms, and the region of e and α."""
-    joint = result.joint
-    if joint is None:
-        return {}
-    variables: dict[str, Any] = {
-        "joint_mean": ("joint", joint.mean),
-        "joint_covariance": (("joint", "joint_column"), joint.covariance),
-    }
-    centre, errors = np.exp(joint.mean[:2]), np.sqrt(np.diag(joint.covariance)[:2])
-    if (errors > 0).all():
-        region = {
-            "restitution": centre[0],
-            "critical_angle": centre[1],
-            "restitution_error": centre[0] * errors[0],
-            "critical_angle_error": centre[1] * errors[1],
-            "correlation": joint.covariance[0, 1] / (errors[0] * errors[1]),
-        }
-        variables |= {f"region_{name}": ((), float(value)) for name, value in region.items()}
-    return variables

@@ -172,7 +172,7 @@ PART = slice(100, 500)
 def test_a_fitted_history_shows_measured_fit_and_what_is_left_over():
     fitted = Curve(TIME[PART], MEASURED_ANGLE.values[PART] + 1e-3)
     residual = Curve(TIME[PART], np.full(400, -1e-3))
-    figure = fitted_history(MEASURED_ANGLE, fitted, residual, model="nonlinear")
+    figure = fitted_history(MEASURED_ANGLE, fitted, residual)
     above, below = figure.axes
     assert named(above) == ["measured", "fitted, nonlinear model"]
     assert above.lines[0].get_color() == MEASURED["color"]

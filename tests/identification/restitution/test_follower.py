@@ -5,14 +5,14 @@ import pytest
 from scipy.special import ellipkinc
 
 from colonnade.identification.restitution.follower import (
-    BY_IMPACT,
     CRITICAL,
+    FIXED,
+    MEAN,
     PEAK,
     TILT,
     TIME,
     P,
     follow,
-    spread_columns,
 )
 
 ALPHA, RATE = np.array([0.186, 0.19]), np.array([5.6, 5.5])
@@ -65,20 +65,19 @@ CHANGES = {
     CRITICAL: lambda x: {"critical": ALPHA * np.exp(x)},
     TILT: lambda x: {"critical": ALPHA * np.exp(x * SIDES)},
     P: lambda x: {"p": RATE * np.exp(x)},
-    BY_IMPACT: lambda x: {"e": E * np.exp(x * (np.arange(E.size) == 0))},
-    BY_IMPACT + 7: lambda x: {"e": E * np.exp(x * (np.arange(E.size) == 7))},
+    MEAN: lambda x: {"e": E * np.exp(x)},
+    FIXED: lambda x: {"e": E * np.exp(x * (np.arange(E.size) == 0))},
+    FIXED + 7: lambda x: {"e": E * np.exp(x * (np.arange(E.size) == 7))},
 }
 
 
 @pytest.mark.parametrize("base", [AT_REST, SHAKEN], ids=["table at rest", "moving table"])
 def test_derivatives_are_those_of_differences(base):
     found = followed(base)
-    count = E.size + 1
-    by_unknown = np.zeros((count, 4, BY_IMPACT + E.size))
-    by_unknown[:, :2] = found.starts
-    by_unknown[:, 2, CRITICAL] = by_unknown[:, 3, P] = 1.0
-    by_unknown[:, 2, TILT] = np.where((1 + np.arange(count)) % 2, 1.0, -1.0)
-    columns = spread_columns(found.local, found.arc, by_unknown)
+    by_start = (found.local[:, :2, None] * found.starts[found.arc]).sum(axis=1)
+    by_start[:, [CRITICAL, P]] += found.local[:, 2:]
+    by_start[:, TILT] += np.where((1 + found.arc) % 2, 1.0, -1.0) * found.local[:, 2]
+    columns = np.where(found.arc >= 0, by_start.T, 0.0)
     for unknown, change in CHANGES.items():
         ahead, behind = followed(base, **change(STEP)), followed(base, **change(-STEP))
         same = (ahead.arc == behind.arc) & (ahead.arc >= 0)

@@ -9,7 +9,6 @@ import pytest
 from colonnade.dynamics.rock import rock
 from colonnade.identification.restitution import identify
 from colonnade.identification.restitution.identify import identify_restitution
-from colonnade.identification.restitution.result import Estimate
 from colonnade.laboratory.truth import simulate
 from prism import PRISM
 
@@ -104,9 +103,8 @@ def test_time_that_does_not_increase_is_an_error():
 
 
 def test_an_interval_beyond_all_numbers_ends_above_one():
-    empty = Estimate("peaks", 0.95, "")
-    solved = SimpleNamespace(mean=[0.0], quantile=lambda share: 4000.0 * (share - 0.5))
-    found = identify._estimate(empty, solved, logarithm=-0.05)
+    solved = SimpleNamespace(mean=[-0.05], quantile=lambda share: 4000.0 * (share - 0.5) - 0.05)
+    found = identify._estimate("peaks", "", 0.95, solved)
     assert (found.low, found.value) == (0.0, pytest.approx(np.exp(-0.05)))
     assert 1.0 < found.high < 10.0
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import scipy
 
+from colonnade.dynamics.uncertainty import Uncertainty
 from colonnade.identification.restitution.peaks import FEWEST_PEAKS, confidence_band, fit_peaks
 from colonnade.identification.restitution.result import Peaks
 from every import every
@@ -25,18 +26,18 @@ class Line:
     """What the peaks say of e, with its interval."""
 
     def __init__(self, found, level):
-        self.found, self.peaks, self.offset = found, found.peaks, found.offset
-        self.value = np.exp(found.logarithm + found.solved.mean[0])
+        self.found, self.peaks, self.offset = found, found.peaks, found.zero
+        self.value = np.exp(found.solved.mean[0])
         ends = (found.solved.quantile(0.5 + sign * level / 2) for sign in (-1, 1))
-        self.low, self.high = (np.exp(found.logarithm + end) for end in ends)
+        self.low, self.high = (np.exp(end) for end in ends)
         self.standard_error = (self.high - self.low) / 2 / scipy.special.ndtri((1 + level) / 2)
 
 
-def fit(peaks, *, usable=None, error=ERROR, block=PRISM, level=0.95, known=(0.0, 0.0)):
+def fit(peaks, *, usable=None, error=ERROR, block=PRISM, level=0.95, known=0.0):
     times = np.arange(peaks.size, dtype=float)
     used = np.ones(peaks.size, dtype=bool) if usable is None else usable
     seen = Peaks(times + 0.5, peaks, np.full(peaks.size, error), np.full(peaks.size, np.nan), used)
-    found = fit_peaks(seen, block, 1e-6, known)
+    found = fit_peaks(seen, block, 1e-6, Uncertainty(critical_angle=known, angle_gain=known))
     return None if found is None else Line(found, level)
 
 
@@ -80,7 +81,7 @@ def test_neither_inertia_nor_gravity_enters():
 
 def test_an_uncertain_critical_angle_widens_the_interval():
     peaks = peaks_of(0.95) + np.random.default_rng(1).normal(0, ERROR, 16)
-    exact, unsure = fit(peaks), fit(peaks, known=(0.01, 0.01))
+    exact, unsure = fit(peaks), fit(peaks, known=0.01)
     assert unsure.standard_error > 2 * exact.standard_error
     assert unsure.value == pytest.approx(exact.value, abs=3 * unsure.standard_error)
 
@@ -145,6 +146,6 @@ def test_the_band_holds_the_true_line_as_often_as_it_says():
         half = confidence_band(peaks, np.full(16, 1e-4), np.ones(16, dtype=bool), PRISM, level=0.9)
         assert half[0] < half[-1]
         found = fit(peaks, error=1e-4).found
-        line = 2 * np.arange(16) * (found.logarithm + found.solved.mean[0])
+        line = 2 * np.arange(16) * found.solved.mean[0]
         held.append(abs((line - truth)[-1]) < 1.05 * half[-1])
     assert np.mean(held) >= 0.8

@@ -14,9 +14,9 @@ def columns(seed=0):
     return own, np.vstack((own.sum(axis=0), np.linspace(-1, 1, SAMPLES)))
 
 
-def model_of(values, own, fixed, precision=(0.0, 0.0), known=(0.0, 0.0)):
+def model_of(values, own, fixed, precision=(0.0, 0.0), origin=(0.0, 0.0)):
     rows = np.vstack((values, fixed, own))
-    return LinearModel.of(rows @ rows.T, np.array(precision), np.array(known), float(SAMPLES), 0.0)
+    return LinearModel.of(rows @ rows.T, np.array(precision), np.array(origin), float(SAMPLES), 0.0)
 
 
 def record(scatter, seed, mean=0.004):
@@ -46,9 +46,10 @@ def test_the_level_of_the_noise_is_found():
 
 def test_a_prior_holds_an_unknown_that_the_record_does_not_show():
     own, fixed = columns()
-    model = model_of(record(0.0, 2), own, np.vstack((fixed, 1e-9 * fixed[1] ** 2)), (0.0, 0.0, 4.0), (0.0, 0.0, 0.3))
+    model = model_of(record(0.0, 2), own, np.vstack((fixed, 1e-9 * fixed[1] ** 2)), (0.0, 0.0, 4.0), (0.1, 0.2, 0.3))
     solved = model.solved()
-    assert solved.mean[2] == pytest.approx(0.3, rel=1e-3)
+    assert solved.mean[:2] == pytest.approx([0.1 + 0.004, 0.2], abs=1e-3)
+    assert solved.mean[2] == pytest.approx(0.0, abs=1e-3)
     assert solved.covariance[2, 2] == pytest.approx(0.25, rel=1e-3)
 
 

@@ -173,24 +173,23 @@ def fitted(one: OfTest) -> Picture | None:
         return None
     critical = one.block.critical_angle_at(angle)
     residual = Curve(time, stored.array(STAGE, "history_residual") / critical)
-    model = stored.text(STAGE, "history_model")
     measured = one.measured_ratio(as_recorded=True)
     rms = float(np.sqrt(np.nanmean(residual.values**2))) if np.isfinite(residual.values).any() else np.nan
     return Picture(
-        fitted_history(measured, Curve(time, angle / critical), residual, model=model),
+        fitted_history(measured, Curve(time, angle / critical), residual),
         f"fitted-{one.test.id}",
-        f"{one.test.id}: measured free vibration and the {model} model fitted to it",
+        f"{one.test.id}: measured free vibration and the nonlinear model fitted to it",
         f"From {time[0]:.2f} s to {time[-1]:.2f} s the two differ by {number(rms)} α RMS.",
     )
 
 
 @styled()
-def fitted_history(measured: Curve | None, fitted: Curve, residual: Curve, *, model: str) -> Figure:
-    """Draw θ/α measured and fitted by a model, and measured minus fitted below, over the part that was fitted."""
+def fitted_history(measured: Curve | None, fitted: Curve, residual: Curve) -> Figure:
+    """Draw θ/α measured and fitted by the nonlinear model, and measured minus fitted below, where it was fitted."""
     figure, (above, below) = stacked_panels([ANGLE_HEIGHT, RESIDUAL_HEIGHT])
     shown = [curve for curve in (measured, fitted) if curve is not None]
     draw_angle(above, {} if measured is None else {"measured": measured}, limit_of(shown))
-    draw_curve(above, fitted, label=f"fitted, {model} model", **model_style(model))
+    draw_curve(above, fitted, label="fitted, nonlinear model", **model_style("nonlinear"))
     residual = Curve(residual.time, 1e3 * residual.values)
     draw_curve(below, residual, label="measured − fitted", color=MEASURED["color"], linewidth=0.7)
     below.axhline(0.0, color=FAINT, linewidth=0.7)
@@ -211,14 +210,15 @@ POINTS = 181
 
 def region(one: OfTest) -> Picture | None:
     """Draw the joint region of e and the critical angle; None if the angle was not freed."""
-    names = ("restitution", "critical_angle", "restitution_error", "critical_angle_error", "correlation")
-    e, ratio, e_error, ratio_error, correlation = (one.stored.value(STAGE, f"region_{name}") for name in names)
-    both = correlation * e_error * ratio_error
-    covariance = np.array([[e_error**2, both], [both, ratio_error**2]])
-    if not (np.isfinite(covariance).all() and np.linalg.eigvalsh(covariance).min() > 0):
+    mean, covariance = (one.stored.array(STAGE, f"joint_{name}") for name in ("mean", "covariance"))
+    if not mean.size:
+        return None
+    e, ratio = centre = np.exp(mean[:2])
+    covariance = covariance[:2, :2] * np.outer(centre, centre)
+    if not np.linalg.eigvalsh(covariance).min() > 0:
         return None
     return Picture(
-        joint_region(one.test.id, np.array([e, ratio]), covariance, fixed=level_of(one.stored, STAGE, "")),
+        joint_region(one.test.id, centre, covariance, fixed=level_of(one.stored, STAGE, "")),
         f"region-{one.test.id}",
         f"{one.test.id}: joint region of e and the critical angle",
         f"Together: e = {e:.4f}, α {ratio:.4f} times that given.",

@@ -42,10 +42,8 @@ class Arcs:
         s; rad, signed.
     peak_standard_error : ndarray, shape (n,)
         rad.
-    rise, fall : ndarray, shape (n,)
-        Times at which the fitted arc passes zero, s: the impacts, seen from within it.
-    rise_standard_error, fall_standard_error : ndarray, shape (n,)
-        s.
+    duration, duration_standard_error : ndarray, shape (n,)
+        s, between the zeros of the fitted arc: how long it lasts, seen from within it.
     """
 
     start: Array
@@ -53,10 +51,8 @@ class Arcs:
     peak_time: Array
     peak_angle: Array
     peak_standard_error: Array
-    rise: Array
-    fall: Array
-    rise_standard_error: Array
-    fall_standard_error: Array
+    duration: Array
+    duration_standard_error: Array
 
     @property
     def height(self) -> Array:
@@ -65,32 +61,13 @@ class Arcs:
 
     def pieces(self, time: Array, first: float, last: float) -> list[slice]:
         """Samples of each arc between two shares of its duration."""
-        duration = self.end - self.start
-        ends = np.searchsorted(time, (self.start + first * duration, self.start + last * duration))
+        length = self.end - self.start
+        ends = np.searchsorted(time, (self.start + first * length, self.start + last * length))
         return list(starmap(slice, ends.T.tolist()))
 
     def only(self, chosen: Mask) -> Arcs:
         """Some of the arcs."""
         return Arcs(*(getattr(self, each.name)[chosen] for each in fields(self)))
-
-    @property
-    def impacts(self) -> tuple[Array, Array]:
-        """
-        Times of the impacts before, between and after the arcs, and their standard errors, s, shape (n + 1,).
-
-        The mean, by their errors, of the two arcs' zeros; where an arc has none, the interpolated zero, without error.
-        """
-        times = np.column_stack((np.append(np.nan, self.fall), np.append(self.rise, np.nan)))
-        errors = np.column_stack(
-            (np.append(np.nan, self.fall_standard_error), np.append(self.rise_standard_error, np.nan))
-        )
-        with np.errstate(invalid="ignore", divide="ignore"):
-            weights = np.where(np.isfinite(times) & (errors > 0), errors**-2.0, 0.0)
-            total = weights.sum(axis=1)
-            known = total > 0
-            mean = (weights * np.nan_to_num(times)).sum(axis=1) / total
-        crossing = np.append(self.start, self.end[-1:])
-        return np.where(known, mean, crossing), np.where(known, np.maximum(total, 1e-300) ** -0.5, np.nan)
 
 
 def noise_level(angle: Array) -> float:
@@ -167,7 +144,7 @@ def arcs_between(impacts: Array, time: Array, angle: Array, p: float, *, critica
     the variance of a mean grows by the sum of the correlations, which is that of the residuals of all arcs.
     """
     if impacts.size < 2:
-        return Arcs(*[np.empty(0)] * 9)
+        return Arcs(*[np.empty(0)] * 7)
     start, end = impacts[:-1], impacts[1:]
     middle, half = (start + end) / 2, (end - start) / 2
     highest = np.full((start.size, 2), np.nan)
@@ -201,36 +178,25 @@ def arcs_between(impacts: Array, time: Array, angle: Array, p: float, *, critica
     residual = np.where(is_known[number], angle - (columns * coefficients[number]).sum(axis=1), 0.0)
     variance = np.bincount(number, residual**2, start.size) / np.maximum(count - 3, 1)
     common = float(np.median(variance[is_known])) if is_known.any() else np.nan
-    variance = _growth(residual, number, int(count.max())) * np.where(count < FEWEST_OWN, common, variance)
-    peak, summit, rise, fall = _read_off(coefficients)
+    variance = growth(residual, number, int(count.max())) * np.where(count < FEWEST_OWN, common, variance)
+    constant, even, odd = coefficients.T
+    with np.errstate(invalid="ignore", divide="ignore"):
+        summit, radius = -np.arctanh(odd / even), np.copysign(np.sqrt(even**2 - odd**2), even)
+        reach = np.arccosh((even - constant) / radius)
     peak_error, rise_error, fall_error = (
-        np.sqrt(variance * np.einsum("mi,mij,mj->m", _shape(x), inverse, _shape(x))) for x in (summit, rise, fall)
+        np.sqrt(variance * np.einsum("mi,mij,mj->m", _shape(x), inverse, _shape(x)))
+        for x in (summit, summit - reach, summit + reach)
     )
     has_top = np.isfinite(summit)
     return Arcs(
         start,
         end,
         np.where(has_top, middle + summit / rate, highest[:, 0]),
-        np.where(has_top, peak, highest[:, 1]),
+        np.where(has_top, constant - even + radius, highest[:, 1]),
         peak_error,
-        middle + rise / rate,
-        middle + fall / rate,
-        rise_error / np.abs(rate * _slope(coefficients, rise)),
-        fall_error / np.abs(rate * _slope(coefficients, fall)),
+        2 * reach / rate,
+        np.hypot(rise_error, fall_error) / np.abs(rate * radius * np.sinh(reach)),
     )
-
-
-def _read_off(coefficients: Array) -> tuple[Array, Array, Array, Array]:
-    """Peak of each fitted arc, rad, and where it is and the arc passes zero; NaN where it has none."""
-    constant, even, odd = coefficients.T
-    with np.errstate(invalid="ignore", divide="ignore"):
-        summit, radius = -np.arctanh(odd / even), np.copysign(np.sqrt(even**2 - odd**2), even)
-        reach = np.arccosh((even - constant) / radius)
-    return constant - even + radius, summit, summit - reach, summit + reach
-
-
-def _slope(coefficients: Array, x: Array) -> Array:
-    return np.asarray(coefficients[:, 1] * np.sinh(x) + coefficients[:, 2] * np.cosh(x))
 
 
 def _shape(x: Array) -> Array:
@@ -238,7 +204,7 @@ def _shape(x: Array) -> Array:
     return np.column_stack((np.ones(x.size), np.cosh(x) - 1.0, np.sinh(x)))
 
 
-def _growth(residual: Array, number: NDArray[np.int64], longest: int) -> float:
+def growth(residual: Array, number: NDArray[np.int64], longest: int) -> float:
     """Sum of the correlations of residuals within arcs up to where they vanish: 1 for white noise."""
     power, growth = float(residual @ residual), 1.0
     for lag in range(1, min(longest // 3, MOST_LAGS)):

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.identification.restitution.arcs import noise_level
+from colonnade.identification.restitution.arcs import FEWEST_SAMPLES, growth, noise_level
 from colonnade.identification.restitution.estimator import Estimated
 from colonnade.identification.restitution.peaks import lift
-from colonnade.identification.restitution.record import Record
+from colonnade.identification.restitution.record import FEWEST_ARCS, Record
 from colonnade.identification.restitution.result import Departure
 from colonnade.identification.restitution.scatter import SCATTERS
 from colonnade.units.text import format_percent
@@ -55,6 +55,29 @@ LEAST_FALL = 2.0
 """Times by which the residual of a history falls with the base turned round, from which it is recorded so."""
 
 THREE_DIMENSIONAL, UNEQUAL_SIDES, MOVING = "three-dimensional rocking", "unequal sides", "moving table"
+
+
+def find_beside(
+    time: Array, measured: dict[str, Array], record: Record, found: Estimated | None
+) -> Iterator[Departure]:
+    """Look for departures in what was measured beside the angle, and in the first impacts, on a table at rest."""
+    if record.counted.start.size < FEWEST_ARCS:
+        return
+    if "out_of_plane" in measured:
+        yield from find_rotation(time, measured["out_of_plane"], record)
+    elif found is not None:
+        yield from find_first_loss(found, record)
+    if "slide" in measured:
+        yield from find_sliding(time, measured["angle"] - record.zero, measured["slide"], record)
+    if "uplift" in measured:
+        yield from find_bouncing(time, measured["uplift"], record)
+
+
+def find_within(found: Estimated, *, driven: bool) -> Iterator[Departure]:
+    """Look for departures in what a history says, of the sides only on a table at rest."""
+    if not driven:
+        yield from unequal_sides(found)
+    yield from found_by_impact(found, driven=driven)
 
 
 def find_rotation(time: Array, out_of_plane: Array, record: Record) -> Iterator[Departure]:
@@ -125,22 +148,22 @@ def find_sliding(time: Array, angle: Array, slide: Array, record: Record) -> Ite
     where it is said to be shows rocking as slide.
     """
     seen, block = record.counted, record.block
-    pieces = [piece.start + np.flatnonzero(np.isfinite(slide[piece])) for piece in seen.pieces(time, 0.1, 0.9)]
-    level, error = np.full((2, len(pieces)), np.nan)
-    for side in (-1.0, 1.0):
-        own = [
-            index for index, piece in enumerate(pieces) if np.sign(seen.peak_angle[index]) == side and piece.size > 3
-        ]
-        turned = {index: angle[pieces[index]] - angle[pieces[index]].mean() for index in own}
-        power = sum(float(theta @ theta) for theta in turned.values())
-        slope = sum(float(theta @ slide[pieces[index]]) for index, theta in turned.items()) / max(power, 1e-300)
-        for index in own:
-            left = slide[pieces[index]] - slope * angle[pieces[index]]
-            level[index], residual = left.mean(), left - left.mean()
-            power = max(float(residual @ residual), 1e-300)
-            correlation = min(max(float(residual[1:] @ residual[:-1]) / power, 0.0), 0.98)
-            error[index] = np.sqrt(power / left.size**2 * (1 + correlation) / (1 - correlation))
-    jumps, errors = np.diff(level), np.hypot(error[1:], error[:-1])
+    places = [np.arange(piece.start, piece.stop) for piece in seen.pieces(time, 0.1, 0.9)]
+    number, place = np.repeat(np.arange(len(places)), [each.size for each in places]), np.concatenate(places)
+    number, place = (each[np.isfinite(slide[place] + angle[place])] for each in (number, place))
+    count = np.bincount(number, minlength=len(places))
+    side = (seen.peak_angle[number] > 0).astype(np.intp)
+
+    def about_mean(values: Array) -> tuple[Array, Array]:
+        mean = np.bincount(number, values, count.size) / np.maximum(count, 1)
+        return mean, values - mean[number]
+
+    _, turned = about_mean(angle[place])
+    slope = np.bincount(side, turned * slide[place], 2) / np.maximum(np.bincount(side, turned**2, 2), 1e-300)
+    level, residual = about_mean(slide[place] - slope[side] * angle[place])
+    level[count < FEWEST_SAMPLES] = np.nan
+    variance = growth(residual, number, int(count.max())) * float(residual @ residual) / max(place.size - count.size, 1)
+    jumps, errors = np.diff(level), np.sqrt(variance * (1 / count[1:] + 1 / count[:-1]))
     large = np.abs(jumps) > NOISE_MARGIN * errors
     total, total_error = float(np.abs(jumps[large]).sum()), float(np.sqrt((errors[large] ** 2).sum()))
     ends = seen.peak_angle[[0, -1]]

@@ -105,6 +105,15 @@ class Estimated:
         return np.asarray((speed - speed.mean()) / max(float(np.ptp(speed)), 1e-300))
 
     @property
+    def slope(self) -> tuple[float, float]:
+        """Change of e with the speed of impact, s/rad, and its error; NaN where it is not seen."""
+        extent = float(np.ptp(self.landing))
+        if self.landing.size < 3 or not extent > 0:
+            return np.nan, np.nan
+        change, error = self.trend
+        return self.restitution * change / extent, self.restitution * error / extent
+
+    @property
     def joint(self) -> Joint:
         """ln e, and ln of α and of p over those of the block."""
         mean = self.answer.mean

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from math import exp, hypot, log
@@ -25,7 +25,6 @@ from colonnade.identification.restitution.result import (
     Constancy,
     Departure,
     Estimate,
-    FittedHistory,
     Joint,
     Peaks,
     Restitution,
@@ -34,8 +33,8 @@ from colonnade.identification.restitution.scatter import Solved
 from colonnade.units.text import format_percent
 from colonnade.validation import instance, number, samples
 
-FEWEST_SAMPLES, FEWEST_SEEN = 8, 3
-"""Samples of a record; arcs in which departures are looked for."""
+FEWEST_SAMPLES = 8
+"""Of a record."""
 
 LARGEST_ERROR = 0.01
 """Standard error of e above which no value is given."""
@@ -54,10 +53,6 @@ FAR = 2.0
 
 KNOWN = Uncertainty(critical_angle=0.005, p=0.005, angle_gain=0.005)
 """How well a laboratory knows its specimen if it does not say."""
-
-
-Attempt = tuple[Estimated | None, str]
-"""What following a record gives, or why it gives nothing."""
 
 
 def identify_restitution(
@@ -140,65 +135,38 @@ def identify_restitution(
     follow = partial(_followed, widths=prior_widths(uncertainty), lowpass=lowpass)
     found, why = follow(record)
     try:
-        base = moving_base(record, measured["base_acceleration"]) if "base_acceleration" in measured else None
+        base = moving_base(record, measured.get("base_acceleration"))
     except ValueError as error:
         return _refused(str(error), level, record.peaks)
-    driven, turned = False, list[Departure]()
+    driven, departing = False, list[Departure]()
     if base is not None:
-        (recorded, why_not), (otherwise, _) = (
+        (recorded, why_not), (turned, _) = (
             follow(replace(record, samples=thinned(times, angles, block, sign * base))) for sign in (1.0, -1.0)
         )
-        turned = list(departures.find_turned(otherwise, recorded, found))
+        departing += departures.find_turned(turned, recorded, found)
         # An accelerometer may have more noise than a table at rest may move.
         better = found is None or (recorded is not None and recorded.path.power < found.path.power)
-        driven = better or bool(turned) or (found is not None and departures.scatters(found))
+        driven = better or bool(departing) or (found is not None and departures.scatters(found))
         found, why = (recorded, why_not) if driven else (found, why)
-    seen = turned
     if not driven:
-        record, found, why, seen = _departed(record, found, why, follow, times, measured)
-    if found is not None and not turned:
-        seen += departures.found_by_impact(found, driven=driven)
+        record = record if found is None else replace(record, zero=found.zero)
+        departing += departures.find_beside(times, measured, record, found)
+        if left_out := max((each.left_out for each in departing), default=0):
+            record = replace(record, left_out=left_out)
+            found, why = follow(record)
+    if found is not None and not (driven and departing):
+        departing += departures.find_within(found, driven=driven)
     moves = driven if "base_acceleration" in measured else None
-    return replace(_result(record, found, why, uncertainty, level, seen, driven=driven), table_moves=moves)
+    return replace(_result(record, found, why, uncertainty, level, departing, driven=driven), table_moves=moves)
 
 
-def _followed(record: Record, *, widths: Array, lowpass: float | None) -> Attempt:
+def _followed(record: Record, *, widths: Array, lowpass: float | None) -> tuple[Estimated | None, str]:
     """Follow a record from the first arc that enters; what is found, or why nothing is."""
     try:
         path = Path.through(record.samples, record.block, widths, *record.run())
         return estimate(path, lowpass, record.least, whole=record.left_out == 0), ""
     except (UnfollowedError, np.linalg.LinAlgError) as error:
         return None, f"No simulated history follows the record: {error}."
-
-
-def _departed(
-    record: Record, found: Estimated | None, why: str, follow: Callable[[Record], Attempt], times: Array,
-    measured: dict[str, Array],
-) -> tuple[Record, Estimated | None, str, list[Departure]]:  # fmt: skip
-    """Find departures from plane rocking on a table at rest, and leave out the arcs that they spoil."""
-    if found is not None:
-        zero = found.zero
-    else:
-        fit = peaks.fit_peaks(record.peaks, record.block, record.noise, (0.0, 0.0))
-        zero = 0.0 if fit is None else fit.zero
-    record = replace(record, zero=zero)
-    if record.counted.start.size < FEWEST_SEEN:
-        return record, found, why, []
-    seen: list[Departure] = []
-    if "out_of_plane" in measured:
-        seen += departures.find_rotation(times, measured["out_of_plane"], record)
-    elif found is not None:
-        seen += departures.find_first_loss(found, record)
-    if "slide" in measured:
-        seen += departures.find_sliding(times, measured["angle"] - zero, measured["slide"], record)
-    if "uplift" in measured:
-        seen += departures.find_bouncing(times, measured["uplift"], record)
-    if left_out := max((each.left_out for each in seen), default=0):
-        record = replace(record, left_out=left_out)
-        found, why = follow(record)
-    if found is not None:
-        seen += departures.unequal_sides(found)
-    return record, found, why, seen
 
 
 def _in_other_units(times: Array, angles: Array, block: Block) -> str:
@@ -220,28 +188,24 @@ def _result(
     driven: bool,
 ) -> Restitution:
     """Give the value of the history, or if none follows the record that of the peaks."""
-    of_history = chosen = Estimate("history", level, ASSUMPTIONS, why)
-    seen, fit, zero, reason = record.peaks, None, 0.0, "The table moves: it is taken to be at rest."
+    fit, reason = None, "The table moves: it is taken to be at rest."
     if not driven:
-        widths = uncertainty.critical_angle, uncertainty.angle_gain
-        fit = peaks.fit_peaks(record.peaks, record.block, record.noise, widths)
+        fit = peaks.fit_peaks(record.peaks, record.block, record.noise, uncertainty)
         reason = f"At least {peaks.FEWEST_PEAKS} peaks between two impacts, above the noise, are needed."
-    of_peaks = Estimate("peaks", level, peaks.ASSUMPTIONS, reason)
-    if fit is not None:
-        seen, zero, of_peaks = fit.peaks, fit.zero, _estimate(of_peaks, fit.solved)
-    history, joint, constancy = None, None, Constancy()
-    doubts: tuple[tuple[str, str], ...] = ()
+    of_history = _estimate("history", ASSUMPTIONS, level, why if found is None else found.answer)
+    of_peaks = _estimate("peaks", peaks.ASSUMPTIONS, level, reason if fit is None else fit.solved)
+    zero, history, joint, doubts = 0.0, None, None, list[tuple[str, str]]()
     if found is not None:
-        path, counted = found.path, np.flatnonzero(found.path.counted)
-        zero = found.zero - record.zero if fit is None else zero
-        inside = slice(counted[0], counted[-1] + 1)
-        cutoff = None if path.passed is None else path.passed.cutoff_hz
-        history = FittedHistory(path.samples.time[inside], path.seen[inside], path.residual[inside], cutoff)
-        of_history = chosen = _estimate(of_history, found.answer)
-        joint, constancy = found.joint, _constancy(found)
-        doubts = tuple(_doubts(joint, uncertainty, of_history, of_peaks))
+        chosen, zero, joint = of_history, found.zero - record.zero, found.joint
+        history = found.path.history
+        doubts += _doubts(joint, uncertainty, of_history, of_peaks)
     else:
-        chosen, joint = of_peaks, _joint_of_peaks(of_peaks, uncertainty)
+        chosen = of_peaks
+        if chosen.value is not None and chosen.standard_error is not None:
+            # Peaks say nothing of α and p.
+            widths = np.array([chosen.standard_error / chosen.value, uncertainty.critical_angle, uncertainty.p])
+            joint = Joint(np.array([log(chosen.value), 0.0, 0.0]), np.diag(widths**2))
+    zero = zero if fit is None else fit.zero
     refused = next((each.sentence for each in departing if each.refuses), "") or _objection(chosen, why)
     value, low, high, error = chosen.value, chosen.low, chosen.high, chosen.standard_error
     return Restitution(
@@ -250,26 +214,27 @@ def _result(
         peaks.METHOD if found is None else METHOD,
         refused,
         zero_offset=record.zero + zero,
-        peaks=seen,
-        impacts=NO_IMPACTS if driven else peaks.single_impacts(record.arcs, zero, record.usable, record.block),
+        peaks=record.peaks if fit is None else fit.peaks,
+        impacts=NO_IMPACTS if driven else record.single_impacts(zero),
         estimates=(of_history, of_peaks),
         history=history,
         departures=tuple(departing),
         recommended="" if refused else chosen.name,
-        constancy=constancy,
+        constancy=Constancy() if found is None else Constancy(*found.slope),
         joint=None if refused else joint,
-        doubts=doubts,
+        doubts=tuple(doubts),
     )
 
 
-def _estimate(empty: Estimate, solved: Solved) -> Estimate:
-    """Fill in e from the distribution of ln e."""
+def _estimate(name: str, assumptions: str, level: float, solved: Solved | str) -> Estimate:
+    """Give e by the distribution of ln e, or the reason why there is none."""
+    if isinstance(solved, str):
+        return Estimate(name, level, assumptions, solved)
     # A record that says next to nothing has an interval beyond all numbers.
-    low, high = (exp(min(solved.quantile(0.5 + sign * empty.level / 2), WIDEST)) for sign in (-1, 1))
+    low, high = (exp(min(solved.quantile(0.5 + sign * level / 2), WIDEST)) for sign in (-1, 1))
     # Of the normal distribution whose interval is as wide.
-    error = (high - low) / 2 / float(scipy.special.ndtri((1 + empty.level) / 2))
-    value = exp(float(solved.mean[0]))
-    return replace(empty, reason="", value=value, low=low, high=high, standard_error=error)
+    error = (high - low) / 2 / float(scipy.special.ndtri((1 + level) / 2))
+    return Estimate(name, level, assumptions, "", exp(float(solved.mean[0])), low, high, error)
 
 
 def _objection(chosen: Estimate, why: str) -> str:
@@ -288,25 +253,6 @@ def _objection(chosen: Estimate, why: str) -> str:
             "too unlike each other; release from a larger angle."
         )
     return ""
-
-
-def _joint_of_peaks(chosen: Estimate, uncertainty: Uncertainty) -> Joint | None:
-    """Peaks say nothing of α and p."""
-    if chosen.value is None or chosen.standard_error is None:
-        return None
-    widths = np.array([chosen.standard_error / chosen.value, uncertainty.critical_angle, uncertainty.p])
-    return Joint(np.array([log(chosen.value), 0.0, 0.0]), np.diag(widths**2))
-
-
-def _constancy(found: Estimated) -> Constancy:
-    """Change of e with the speed of impact, and its scatter."""
-    e = found.restitution
-    scatter = e * found.answer.scatter
-    extent = float(np.ptp(found.landing))
-    if found.landing.size < 3 or not extent > 0:
-        return Constancy(scatter=scatter)
-    change, error = (e * each for each in found.trend)
-    return Constancy(change / extent, error / extent, change, scatter)
 
 
 def _doubts(joint: Joint, uncertainty: Uncertainty, history: Estimate, of_peaks: Estimate) -> Iterator[tuple[str, str]]:
@@ -341,7 +287,7 @@ def _doubts(joint: Joint, uncertainty: Uncertainty, history: Estimate, of_peaks:
 def _refused(reason: str, level: float, seen: Peaks) -> Restitution:
     """Return a result without a value."""
     why = f"No value to start from: {reason}"
-    estimates = Estimate("history", level, ASSUMPTIONS, why), Estimate("peaks", level, peaks.ASSUMPTIONS, why)
+    estimates = _estimate("history", ASSUMPTIONS, level, why), _estimate("peaks", peaks.ASSUMPTIONS, level, why)
     return Restitution(None, None, None, None, level, METHOD, reason, peaks=seen, estimates=estimates)
 
 

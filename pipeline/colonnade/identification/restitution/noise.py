@@ -55,6 +55,7 @@ class Bands:
 
     @classmethod
     def of(cls, frequency: Array, power: Array, freedom: Array) -> Bands:
+        """Average a spectrum's power, that has so many degrees of freedom at each frequency (Hz)."""
         edges = [0]
         while edges[-1] < power.size:
             edges.append(edges[-1] + max(1, int(BAND * edges[-1])))
@@ -160,7 +161,9 @@ def filter_of(cutoff_hz: float | None, step: float, group: int) -> Filter:
     after = np.maximum(time, 0.0)
     of_speed, of_acceleration = twice - after, thrice - after**2 / 2
     # Beyond the corner the mean of a parabola is above its middle: that is taken off where samples are averaged.
-    return Filter(cutoff_hz, step, length, time, of_speed, of_acceleration - np.where(time > 0, of_acceleration[-1], 0.0))
+    return Filter(
+        cutoff_hz, step, length, time, of_speed, of_acceleration - np.where(time > 0, of_acceleration[-1], 0.0)
+    )
 
 
 @kernel

@@ -29,6 +29,7 @@ from colonnade.identification.restitution.follower import (
 from colonnade.identification.restitution.noise import Filter, corners
 from colonnade.identification.restitution.peaks import angle_of_energy, half_duration, lift
 from colonnade.identification.restitution.record import AngleSamples
+from colonnade.identification.restitution.result import FittedHistory
 
 BLURRED = 0.08
 """Over p: margin about impacts while the record's low-pass is not known; 1 / (2 × default cut-off)."""
@@ -198,6 +199,12 @@ class Path:
     def counted(self) -> Mask:
         """Samples that are counted."""
         return np.isfinite(self.residual)
+
+    @property
+    def history(self) -> FittedHistory:
+        """From the first to the last sample that is counted."""
+        first, *_, last = np.flatnonzero(self.counted)
+        return FittedHistory(*(each[first : last + 1] for each in (self.samples.time, self.seen, self.residual)))
 
     @cached_property
     def power(self) -> float:

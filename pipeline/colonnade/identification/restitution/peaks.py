@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
-from colonnade.identification.restitution.arcs import Arcs
-from colonnade.identification.restitution.result import Impacts, Peaks
+from colonnade.dynamics.uncertainty import Uncertainty
+from colonnade.identification.restitution.result import Peaks
 from colonnade.identification.restitution.scatter import LinearModel, Solved
 
 FEWEST_PEAKS = 5
@@ -48,12 +48,12 @@ def energy_slope(angle: ArrayLike, critical_angle: ArrayLike) -> Array:
         return np.asarray(np.sin(critical_angle - np.abs(angle)) / lift(angle, critical_angle))
 
 
-def half_duration(peak: Array, critical: Array) -> Array:
+def half_duration(peak: ArrayLike, critical_angle: ArrayLike) -> Array:
     """Phase p t from peaks of free rocking (|θ|, rad) to the impact; α in rad (an elliptic integral)."""
+    peak, critical = np.asarray(peak, dtype=np.float64), np.asarray(critical_angle, dtype=np.float64)
     top, turning = np.sin(critical / 2) ** 2, np.sin((critical - peak) / 2) ** 2
-    # sin² of half of α less that at the peak, without the cancellation at small angles.
-    fallen = np.sin(critical - peak / 2) * np.sin(peak / 2)
-    phase = np.arctan2(np.sqrt(fallen), np.sqrt(turning * (1 - top)))
+    # sin² of half of α less that at the peak, without the cancellation at small angles: half of the lift.
+    phase = np.arctan2(np.sqrt(lift(peak, critical) / 2), np.sqrt(turning * (1 - top)))
     return np.asarray(scipy.special.ellipkinc(phase, 1 - turning))
 
 
@@ -112,7 +112,7 @@ class PeakFit:
         return float(self.solved.mean[2])
 
 
-def fit_peaks(seen: Peaks, block: Block, noise: float, known: tuple[float, float]) -> PeakFit | None:
+def fit_peaks(seen: Peaks, block: Block, noise: float, known: Uncertainty) -> PeakFit | None:
     """
     Fit a line to ln of the energies of peaks.
 
@@ -122,8 +122,8 @@ def fit_peaks(seen: Peaks, block: Block, noise: float, known: tuple[float, float
     block : Block
     noise : float
         Standard deviation of the angle at rest, rad.
-    known : (float, float)
-        Standard deviations of ln α and of ln of the angle's gain.
+    known : Uncertainty
+        Of α and of the angle's gain.
 
     Returns
     -------
@@ -144,7 +144,7 @@ def fit_peaks(seen: Peaks, block: Block, noise: float, known: tuple[float, float
     error = np.maximum(seen.standard_error[usable], LEAST_ERROR * max(noise, 1e-9))
     p = block.p_at(angle)
     walk = 2.0 * (np.arange(int(number[-1])) < number[:, None])
-    precision = np.array([0.0, 0.0, 0.0, *(max(width, EXACT) ** -2.0 for width in known)])
+    precision = np.array([0.0, 0.0, 0.0, *np.maximum((known.critical_angle, known.angle_gain), EXACT) ** -2.0])
     origin = np.zeros(precision.size)
     for _ in range(MOST_ROUNDS):
         mean, height, zero = origin[:3]
@@ -163,21 +163,6 @@ def fit_peaks(seen: Peaks, block: Block, noise: float, known: tuple[float, float
     rise = np.exp(height + 2 * mean * number) / p**2 / (1 - np.cos(alpha))
     fitted[usable] = np.sign(angle) * angle_of_energy(rise, alpha)
     return PeakFit(solved, replace(seen, angle=seen.angle - zero, fitted_angle=fitted))
-
-
-def single_impacts(arcs: Arcs, offset: float, usable: Mask, block: Block) -> Impacts:
-    """Find e of each impact between two arcs, with their peaks about a zero (rad)."""
-    times, errors = arcs.impacts
-    peak = arcs.peak_angle - offset
-    critical = block.critical_angle_at(peak)
-    sound = usable & (np.abs(peak) < critical)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        energy = np.where(sound, block.p_at(peak) ** 2 * lift(peak, critical), np.nan)
-        relative = np.where(sound, energy_slope(peak, critical) * arcs.peak_standard_error, np.nan)
-        restitution = np.sqrt(energy[1:] / energy[:-1])
-    error = 0.5 * restitution * np.hypot(relative[1:], relative[:-1])
-    used = np.isfinite(restitution) & np.isfinite(error)
-    return Impacts(times[1:-1], errors[1:-1], np.sqrt(2 * energy[:-1]), restitution, error, used)
 
 
 def confidence_band(angle: Array, standard_error: Array, used: Mask, block: Block, *, level: float = 0.95) -> Array:
@@ -201,7 +186,7 @@ def confidence_band(angle: Array, standard_error: Array, used: Mask, block: Bloc
     """
     size, nothing = np.abs(angle), np.full(angle.shape, np.nan)
     kept = used & np.isfinite(standard_error) & (size > 0) & (size < block.critical_angle_at(angle))
-    fit = fit_peaks(Peaks(nothing, angle, standard_error, nothing, kept), block, 0.0, (0.0, 0.0))
+    fit = fit_peaks(Peaks(nothing, angle, standard_error, nothing, kept), block, 0.0, Uncertainty())
     if fit is None:
         return nothing
     number = np.arange(angle.size) - np.flatnonzero(kept)[0]

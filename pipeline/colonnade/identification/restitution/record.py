@@ -12,8 +12,8 @@ from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.identification.response.base_motion import table_moves
 from colonnade.identification.restitution.arcs import Arcs, arcs_between, find_impacts, noise_level
-from colonnade.identification.restitution.peaks import half_duration
-from colonnade.identification.restitution.result import Peaks
+from colonnade.identification.restitution.peaks import energy_slope, half_duration, lift
+from colonnade.identification.restitution.result import Impacts, Peaks
 from colonnade.units.text import format_percent
 
 FEWEST_ARCS = 2
@@ -205,6 +205,18 @@ class Record:
         unfitted = np.full(arcs.peak_angle.shape, np.nan)
         return Peaks(arcs.peak_time, arcs.peak_angle, arcs.peak_standard_error, unfitted, self.usable)
 
+    def single_impacts(self, zero: float) -> Impacts:
+        """Find e of each impact between two arcs, with their peaks about a zero (rad)."""
+        peak, error = self.arcs.peak_angle - zero, self.arcs.peak_standard_error
+        critical = self.block.critical_angle_at(peak)
+        peak = np.where(self.usable & (np.abs(peak) < critical), peak, np.nan)
+        energy = self.block.p_at(peak) ** 2 * lift(peak, critical)
+        relative = energy_slope(peak, critical) * error
+        restitution = np.sqrt(energy[1:] / energy[:-1])
+        errors = 0.5 * restitution * np.hypot(relative[1:], relative[:-1])
+        used = np.isfinite(restitution) & np.isfinite(errors)
+        return Impacts(self.arcs.end[:-1], np.sqrt(2 * energy[:-1]), restitution, errors, used)
+
 
 def _averaged(angle: Array, length: int) -> Array:
     """Mean over `length` samples (made odd) about each; NaN where one is missing, and as recorded at the ends."""
@@ -215,22 +227,22 @@ def _averaged(angle: Array, length: int) -> Array:
     return np.concatenate((angle[:half], windows.mean(axis=1), angle[-half:]))
 
 
-def moving_base(record: Record, values: Array) -> Array | None:
+def moving_base(record: Record, values: Array | None) -> Array | None:
     """
     Return the acceleration, over gravity, of a table that moves; None if it is at rest.
 
     Parameters
     ----------
     record : Record
-    values : ndarray, shape (n,)
-        m/s², at all samples of the recording.
+    values : ndarray, shape (n,), or None
+        m/s², at all samples of the recording, if it was recorded.
 
     Raises
     ------
     ValueError
         If the table moves and samples are missing or not evenly spaced.
     """
-    if not table_moves(values, record.samples.step, record.block):
+    if values is None or not table_moves(values, record.samples.step, record.block):
         return None
     if missing := int((~np.isfinite(values)).sum()):
         raise ValueError(
@@ -280,11 +292,11 @@ def objection(record: Record) -> str:
             f"Times between impacts change with the {power:.2g} ± {error:.2g} power of those of a rocking block; 1 was "
             "expected. A period that does not follow the amplitude is that of an oscillator on springs, not of rocking."
         )
-    unsure = np.hypot(seen.rise_standard_error, seen.fall_standard_error) / duration
+    unsure = seen.duration_standard_error / duration
     sure = unsure < LARGEST_ERROR
     if not sure.any():
         return ""
-    within = (seen.fall - seen.rise)[sure] / duration[sure]
+    within = (seen.duration / duration)[sure]
     median, scatter = float(np.median(within)) - 1, 1.25 * float(np.median(unsure[sure])) / np.sqrt(sure.sum())
     if abs(median) > SHAPE_TOLERANCE + SURE * scatter:
         return (

@@ -56,8 +56,8 @@ class Impacts:
 
     Attributes
     ----------
-    time, time_standard_error : ndarray
-        s.
+    time : ndarray
+        s, of the zero of the averaged angle.
     velocity : ndarray
         Magnitude of the angular velocity just before, rad/s, from the energy of the arc before.
     restitution, restitution_standard_error : ndarray
@@ -67,7 +67,6 @@ class Impacts:
     """
 
     time: Array
-    time_standard_error: Array
     velocity: Array
     restitution: Array
     restitution_standard_error: Array
@@ -76,28 +75,22 @@ class Impacts:
 
 _NONE = np.empty(0)
 NO_PEAKS = Peaks(_NONE, _NONE, _NONE, _NONE, np.empty(0, dtype=bool))
-NO_IMPACTS = Impacts(_NONE, _NONE, _NONE, _NONE, _NONE, np.empty(0, dtype=bool))
+NO_IMPACTS = Impacts(_NONE, _NONE, _NONE, _NONE, np.empty(0, dtype=bool))
 
 
 @dataclass(frozen=True)
 class Constancy:
     """
-    How e of single impacts departs from one constant.
+    How e of single impacts changes with their speed.
 
     Attributes
     ----------
     slope, slope_standard_error : float
         Of e against the angular velocity before the impact, s/rad.
-    change : float
-        Of e by that slope over the velocities seen.
-    scatter : float
-        Standard deviation of e from impact to impact beyond the errors, and beyond the change if that is sure.
     """
 
     slope: float = np.nan
     slope_standard_error: float = np.nan
-    change: float = np.nan
-    scatter: float = np.nan
 
 
 @dataclass(frozen=True)
@@ -109,14 +102,11 @@ class FittedHistory:
     ----------
     time, angle, residual : ndarray, shape (n,)
         s; rad, as the record shows it; rad, measured − fitted, NaN where a sample did not count.
-    cutoff_hz : float or None
-        Low-pass that the record went through, given or found.
     """
 
     time: Array
     angle: Array
     residual: Array
-    cutoff_hz: float | None = None
 
 
 @dataclass(frozen=True)

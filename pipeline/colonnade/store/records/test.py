@@ -204,15 +204,14 @@ def _order(text: str) -> Order:
 
 def _identified(stored: Stored) -> IdentifiedSummary:
     ends = {"value": "", "low": "_low", "high": "_high"}
-    parts = {
-        name: stored.by("model", "restitution", f"restitution_history{end}")
-        for name, end in (ends | {"residual": "_residual"}).items()
-    }
+    history = {name: stored.by("estimator", "restitution", f"estimate{end}") for name, end in ends.items()}
+    residual = stored.array("restitution", "history_residual")
+    rms = float(np.sqrt(np.nanmean(residual**2))) if residual.size else nan
     return IdentifiedSummary(
         **{name: stored.value("restitution", f"restitution{end}") for name, end in ends.items()},
         reason=stored.text("restitution", "reason") or None,
         whole_history={
-            model: HistorySummary(**{name: values[model] for name, values in parts.items()}) for model in parts["value"]
+            "nonlinear": HistorySummary(**{name: each["history"] for name, each in history.items()}, residual=rms)
         },
     )
 
