@@ -111,9 +111,3 @@ def test_tests_share_alpha_and_leave_a_common_error():
     assert together.covariance[1, 1] == pytest.approx(0.005**2 / 4, rel=1e-6)
     assert together.standard_error >= 0.95 * 0.5 * 0.0025
     assert apart.tests == together.tests == 3
-
-
-def test_a_test_that_took_for_exact_what_the_others_did_not_is_named():
-    exact = Joint(np.array([np.log(0.97), 0.0, 0.0]), np.diag([1e-6, 0.0, 0.0]))
-    with pytest.raises(ValueError, match="took α or p for exact"):
-        pool([0.97, 0.98], [0.001, 0.001], joints=[exact, exact], known=(0.005, 0.005))

@@ -239,13 +239,8 @@ def find_turned(turned: Estimated | None, *others: Estimated | None) -> Iterator
 
 def found_by_impact(found: Estimated, *, driven: bool) -> Iterator[Departure]:
     """Name an e of single impacts that scatters more than impacts do, or that changes with their speed."""
-    e = found.path.restitution
-    if e.size < FEWEST_IMPACTS:
-        return
-    mean = found.restitution
-    change, error = (mean * each for each in found.trend)
-    scatter = mean * found.answer.scatter
     if scatters(found):
+        e, scatter = found.path.restitution, found.restitution * found.answer.scatter
         cause = (
             "the recorded motion of the table does not explain it. Check the gain, sign and clock of its accelerometer."
             if driven
@@ -258,7 +253,8 @@ def found_by_impact(found: Estimated, *, driven: bool) -> Iterator[Departure]:
             f"{LARGEST_SCATTER:g} was expected of impacts alone: {cause}",
             refuses=True,
         )  # fmt: skip
-    elif found.has_trend and abs(change) > LEAST_CHANGE:
+    elif found.has_trend and found.restitution * abs(found.trend[0]) > LEAST_CHANGE:
+        change, error = (found.restitution * each for each in found.trend)
         yield Departure(
             "speed-dependent restitution", change, error, "1",
             f"e is not constant: it changes by {change:+.4f} ± {error:.4f} from the slowest to the fastest impact; the "

@@ -157,10 +157,8 @@ def estimate(path: Path, lowpass: float | None, lowest: float, *, whole: bool) -
         with suppress(UnfollowedError):
             found = _estimated(released, lowpass)
             # On a table that moves, a release at rest may lead astray.
-            if found.path.power < MISFIT * path.power:
-                if not _is_odd(found.path):
-                    return found
-                path = found.path.without_first()
+            if found.path.power < MISFIT * path.power and not _is_odd(found.path):
+                return found
     return _estimated(path, lowpass)
 
 

@@ -337,12 +337,6 @@ class Path:
         values[[PEAK, TIME]] = height, self.start - fall
         return replace(self, side=side, values=values, from_release=True)
 
-    def without_first(self) -> Path:
-        """Return the path from its second arc on."""
-        values = np.delete(self.values, FIXED)
-        values[[PEAK, TIME]] = self.followed.peaks[1], self.followed.times[1]
-        return replace(self, side=1 - self.side, values=values, from_release=False)
-
 
 def prior_widths(known: Uncertainty) -> Array:
     """Standard deviation of each of the first unknowns about 0; infinite if nothing is known."""

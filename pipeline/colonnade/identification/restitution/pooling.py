@@ -21,6 +21,9 @@ LEAST_ERROR = 2 / 3
 LEAST_ALONE = 1e-6
 """Share of a test's variance that is its own at least, when α and p are known."""
 
+EXACT = 1e-9
+"""Standard deviation of ln α, and of ln p, where they are known exactly."""
+
 
 @dataclass(frozen=True)
 class Pooled:
@@ -30,12 +33,11 @@ class Pooled:
     Attributes
     ----------
     value, low, high, standard_error : float
-        e of the specimen, its interval at `level`, and its standard error.
+        e of the specimen, its interval of confidence, and its standard error.
     between : float
         Standard deviation of e between tests.
     new_test : float
         Standard deviation of a new test's e about the value, as far as the tests show it.
-    level : float
     tests : int
     mean : ndarray, shape (3,)
         Of ln e, and of ln of α and of p over those of the block.
@@ -49,7 +51,6 @@ class Pooled:
     standard_error: float
     between: float
     new_test: float
-    level: float
     tests: int
     mean: Array
     covariance: Array
@@ -101,11 +102,6 @@ def pool(
     -------
     pooled : Pooled
 
-    Raises
-    ------
-    ValueError
-        If a test took for exact what is not `known` exactly.
-
     Notes
     -----
     The tests share α and p, not the gains of their set-ups: what each says of α and p is put together, and e of each is
@@ -129,9 +125,7 @@ def pool(
         if len(joints) == 1:
             mean, covariance = joints[0].mean, joints[0].covariance
         half = z * standard_error
-        return Pooled(
-            value, value - half, value + half, standard_error, 0.0, standard_error, level, 1, mean, covariance
-        )
+        return Pooled(value, value - half, value + half, standard_error, 0.0, standard_error, 1, mean, covariance)
     mean, covariance, slopes = np.zeros(3), np.zeros((3, 3)), np.zeros((e.size, 2))
     if len(joints) == e.size:
         e, error, mean, covariance, slopes = _share(e, error, joints, np.array(known))
@@ -154,7 +148,7 @@ def pool(
     standard_error, new_test = float(np.hypot(standard_error, common)), float(np.hypot(new_test, common))
     mean[0], covariance[0, 0] = np.log(value), (standard_error / value) ** 2
     between = float(np.sqrt(between))
-    return Pooled(value, value - half, value + half, standard_error, between, new_test, level, e.size, mean, covariance)
+    return Pooled(value, value - half, value + half, standard_error, between, new_test, e.size, mean, covariance)
 
 
 def _share(e: Array, error: Array, joints: Sequence[Joint], known: Array) -> tuple[Array, Array, Array, Array, Array]:
@@ -164,25 +158,17 @@ def _share(e: Array, error: Array, joints: Sequence[Joint], known: Array) -> tup
     Returns e of each test and its error with those, mean and covariance as of `Pooled`, of which e is left out, and how
     e of each test depends on ln α and ln p, shape (k, 2).
     """
-    mean, covariance, slopes = np.zeros(3), np.zeros((3, 3)), np.zeros((e.size, 2))
-    moved = 1 + np.flatnonzero(known > 0)
-    if not all(joint.covariance[place, place] > 0 for joint in joints for place in moved):
-        raise ValueError(
-            f"known is {tuple(known.tolist())}, but a test took α or p for exact; the same for all tests was expected"
-        )
-    own = [joint.covariance[np.ix_(moved, moved)] for joint in joints]
-    inverses = [np.linalg.inv(each) for each in own]
-    found = np.linalg.inv(np.sum(inverses, axis=0) - (e.size - 1) * np.diag(known[moved - 1] ** -2.0))
-    seen = [each @ joint.mean[moved] for each, joint in zip(inverses, joints, strict=True)]
-    mean[moved], covariance[np.ix_(moved, moved)] = found @ np.sum(seen, axis=0), found
-    values, errors = e.copy(), error.copy()
-    for place, (joint, inverse) in enumerate(zip(joints, inverses, strict=True)):
-        slope = inverse @ joint.covariance[moved, 0]
-        alone = 1 - float(slope @ joint.covariance[moved, 0]) / float(joint.covariance[0, 0])
-        values[place] += e[place] * float(slope @ (mean[moved] - joint.mean[moved]))
-        errors[place] *= max(alone, LEAST_ALONE) ** 0.5
-        slopes[place, moved - 1] = e[place] * slope
-    return values, errors, mean, covariance, slopes
+    mean, covariance = np.zeros(3), np.zeros((3, 3))
+    means = np.array([joint.mean for joint in joints])
+    covariances = np.array([joint.covariance for joint in joints])
+    inverses = np.linalg.inv(covariances[:, 1:, 1:] + EXACT**2 * np.eye(2))
+    beforehand = (e.size - 1) * np.diag(1 / (known**2 + EXACT**2))
+    covariance[1:, 1:] = np.linalg.inv(inverses.sum(axis=0) - beforehand)
+    mean[1:] = covariance[1:, 1:] @ np.einsum("tij,tj->i", inverses, means[:, 1:])
+    slopes = np.einsum("tij,tj->ti", inverses, covariances[:, 1:, 0])
+    alone = 1 - (slopes * covariances[:, 1:, 0]).sum(axis=1) / covariances[:, 0, 0]
+    values = e * (1 + (slopes * (mean[1:] - means[:, 1:])).sum(axis=1))
+    return values, error * np.maximum(alone, LEAST_ALONE) ** 0.5, mean, covariance, e[:, None] * slopes
 
 
 def _between(e: Array, error: Array) -> float:
