@@ -22,10 +22,6 @@ from colonnade.identification.forecasts import (
 NAN = float("nan")
 
 
-def test_outcomes_are_ordered_from_standing_to_overturned():
-    assert OUTCOMES == ("no-rocking", "rocking", "overturned")
-
-
 @pytest.mark.parametrize(
     ("outcome", "peak_ratio", "amplitude"),
     [
@@ -75,11 +71,6 @@ def test_a_member_of_an_ensemble_has_the_same_errors_in_all_tests():
     one, other = (ensemble(block, motion, uncertainty=known, count=4) for motion in motions)
     np.testing.assert_array_equal(one.inputs, other.inputs)
     assert np.unique(one.inputs[:, 0]).size == 4
-
-
-def test_each_member_is_drawn_as_often():
-    counted = np.bincount(surrogate_members([forecast(4)], [0], resamples=4000)[:, 0])
-    assert counted.tolist() == pytest.approx([1000] * 4, abs=120)
 
 
 def test_a_test_is_forecast_by_all_others_of_its_campaign():

@@ -90,13 +90,6 @@ def test_about_another_zero_peaks_move_and_impacts_stay(samples):
     np.testing.assert_allclose(shift, 0.003, atol=1e-5)
 
 
-def test_peaks_are_given_without_a_fit(samples):
-    record = seen(samples)
-    assert np.isnan(record.peaks.fitted_angle).all()
-    assert record.peaks.used is record.usable
-    assert record.peaks.standard_error.tolist() == record.arcs.peak_standard_error.tolist()
-
-
 @pytest.mark.parametrize("angle", [np.zeros(200), np.full(200, np.nan)], ids=["at rest", "missing throughout"])
 def test_a_record_without_rocking_has_no_arcs(angle):
     record = seen(thinned(np.arange(200) * 0.01, angle, PRISM))
