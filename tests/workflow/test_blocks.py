@@ -5,7 +5,7 @@ import os
 import numpy as np
 import pytest
 
-from colonnade.workflow.executors import Where, forget, in_blocks
+from colonnade.workflow.executors import Where, in_blocks
 
 pytestmark = pytest.mark.whole
 
@@ -69,12 +69,6 @@ def test_a_damaged_block_is_done_again(tmp_path, damage):
     path.write_bytes(damage(path.read_bytes()))
     again = in_blocks(squares, BLOCKS, tmp_path, "key", Where(1))
     assert values(again) == values(first)
-
-
-def test_nothing_is_left_when_it_is_forgotten(tmp_path):
-    in_blocks(squares, BLOCKS, tmp_path / "kept", "key", Where(1))
-    forget(tmp_path / "kept")
-    assert list(tmp_path.iterdir()) == []
 
 
 KILLED = """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import platform
+import shutil
 import time
 import traceback
 from collections.abc import Iterator, Mapping, Sequence
@@ -18,7 +19,7 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin, Recipe, global_attributes
 from colonnade.store.results import RUN_STAGES, STAGES, ResultId, Subject
-from colonnade.workflow.executors import WorkersEndedError, forget, in_blocks
+from colonnade.workflow.executors import WorkersEndedError, in_blocks
 from colonnade.workflow.lock import expect_run
 from colonnade.workflow.product import Look, Product, stored_attributes
 
@@ -266,7 +267,7 @@ def _run(chain: Chain, product: Product, made: dict[Path, xr.Dataset]) -> StageR
             work = partial(work, run=run)
         dataset = work({name: made[each] for name, each in read.items()})
         made[path] = files.write(dataset, path, attributes=attributes)
-        forget(chain.layout.blocks(result))
+        shutil.rmtree(chain.layout.blocks(result), ignore_errors=True)
     except RunEndedError:
         raise
     except Exception as error:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import platform
 import re
 import time
 from collections.abc import Iterator, Sequence
@@ -49,9 +47,9 @@ def on_cluster(scheduler: str, tell: Tell) -> Iterator[Workers]:
 
 
 class _Cluster(Workers):
-    """The workers that a cluster has; `known` describes the process of each, by address."""
+    """The workers that a cluster has, `known` by their addresses."""
 
-    def __init__(self, client: Any, scheduler: str, known: dict[str, str], tell: Tell, distributed: Any) -> None:
+    def __init__(self, client: Any, scheduler: str, known: set[str], tell: Tell, distributed: Any) -> None:
         super().__init__(client.get_executor(pure=False), len(known))
         self._client, self._scheduler, self._distributed = client, scheduler, distributed
         self._known, self._tell = known, tell
@@ -74,13 +72,13 @@ class _Cluster(Workers):
             there = self._client.ncores()
         except Exception as error:  # closed, cut off or late: whatever it is, nobody answers
             raise self._gone() from error
-        for address in self._known.keys() - there.keys():
+        for address in self._known - there.keys():
             self._tell(
-                f"{address}: this worker ({self._known.pop(address)}) left the cluster before the work was done: it "
-                "was stopped, most often because memory ran out. Its work is given to another worker."
+                f"{address}: this worker left the cluster before the work was done: it was stopped, most often "
+                "because memory ran out. Its work is given to another worker."
             )
         _expect_one_thread(there)
-        self._known |= dict.fromkeys(there.keys() - self._known.keys(), "one that came later")
+        self._known = set(there)
         self.count = len(there) or self.count
         self._seen = now if there else self._seen
         if now - self._seen > _PATIENCE:
@@ -122,8 +120,8 @@ def _no_scheduler(scheduler: str, found: str) -> str:
     )
 
 
-def _expect_workers(client: Any, scheduler: str, distributed: Any) -> dict[str, str]:
-    """Describe the process of each worker; refuse those with other sources than this process: results would differ."""
+def _expect_workers(client: Any, scheduler: str, distributed: Any) -> set[str]:
+    """Give the addresses of the workers; refuse those with other sources than this process: results would differ."""
     try:
         client.wait_for_workers(1, timeout=_PATIENCE)
     except (TimeoutError, distributed.TimeoutError) as error:
@@ -132,19 +130,19 @@ def _expect_workers(client: Any, scheduler: str, distributed: Any) -> dict[str, 
         ) from error
     _expect_one_thread(client.ncores())
     try:
-        theirs = client.run(_who)
+        theirs = client.run(package_hash)
     except Exception as error:
         raise ColonnadeError(
             f"{scheduler}: its workers cannot import colonnade ({type(error).__name__}: {error}). Install this version "
             "of colonnade, with the same packages, where they run."
         ) from error
-    others = sorted(worker for worker, (code, _) in theirs.items() if code != package_hash())
+    others = sorted(worker for worker, code in theirs.items() if code != package_hash())
     if others:
         raise ColonnadeError(
             f"{scheduler}: {len(others)} of {len(theirs)} workers run another version of colonnade, the first of them "
             f"{others[0]}. Install the same one everywhere and restart the workers."
         )
-    return {worker: who for worker, (_, who) in theirs.items()}
+    return set(theirs)
 
 
 def _expect_one_thread(threads: dict[str, int]) -> None:
@@ -155,8 +153,3 @@ def _expect_one_thread(threads: dict[str, int]) -> None:
                 f"{worker}: this worker has {count} threads. Workers with one thread were expected; start it again "
                 "with `dask worker --nthreads 1`, and several of them (`--nworkers`) for several cores."
             )
-
-
-def _who() -> tuple[str, str]:
-    """Return the hash of the sources that a worker runs, and which process it is."""
-    return package_hash(), f"process {os.getpid()} on {platform.node()}"

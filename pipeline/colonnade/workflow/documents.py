@@ -142,25 +142,25 @@ def chosen(campaign: Campaign, name: str, subject: str | None) -> tuple[Entry, s
     """
     from colonnade.report.pictures import FIGURES
 
-    entries = {entry.of: entry for entry in FIGURES if entry.name == name}
-    if not entries:
+    of = {entry.of: entry for entry in FIGURES if entry.name == name}
+    if not of:
         known = dict.fromkeys(entry.name for entry in FIGURES)
         raise CampaignError(
             f'Unknown figure "{name}".{nearest(name, known)} All are listed by `colonnade figure --list`.'
         )
     ids = {"campaign": [""], "test": list(campaign.tests), "specimen": list(campaign.specimens)}
-    of_one = [of for of in entries if of != "campaign"]
-    hint = nearest(subject or "", [name for of in of_one for name in ids[of]])
+    of_one = [each for each in of if each != "campaign"]
     if subject is None:
-        for of in ids:
-            if of in entries and len(ids[of]) == 1:
-                return entries[of], ids[of][0]
-        raise CampaignError(f'"{name}" is a figure of a {" or a ".join(of_one)}. Name one.{hint}')
-    for of in of_one:
-        if subject in ids[of]:
-            return entries[of], subject
+        fitting = [(each, own[0]) for each, own in ids.items() if each in of and len(own) == 1]
+    else:
+        fitting = [(each, subject) for each in of_one if subject in ids[each]]
+    for each, found in fitting:
+        return of[each], found
     if not of_one:
         raise CampaignError(f'"{name}" is a figure of the whole campaign. Leave out "{subject}".')
+    hint = nearest(subject or "", [known for each in of_one for known in ids[each]])
+    if subject is None:
+        raise CampaignError(f'"{name}" is a figure of a {" or a ".join(of_one)}. Name one.{hint}')
     raise CampaignError(f'The campaign has no {" or ".join(of_one)} "{subject}" that "{name}" could show.{hint}')
 
 

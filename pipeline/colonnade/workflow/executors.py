@@ -130,30 +130,29 @@ def spread(
             expect_none()
             yield number, work(item)
         return
-    waiting = dict(enumerate(items))
+    waiting, alone = dict(enumerate(items)), list[int]()
     while waiting:
+        now = {number: waiting[number] for number in alone[:1] or waiting}
         try:
-            for number, result in _handed_out(_Processes(count), work, waiting):
+            for number, result in _handed_out(_Processes(count), work, now):
                 del waiting[number]
                 yield number, result
         except BrokenProcessPool as error:
-            suspects = list(waiting)[: AHEAD * count]
-            named = "" if names is None else f": {', '.join(names(waiting[number]) for number in suspects)}"
-            tell(
-                f"{stopped(error)} by the system, most often because memory ran out. What it may have worked on was "
-                f"tried again alone{named}."
-            )
-            for number in suspects:
-                item = waiting.pop(number)
-                try:
-                    yield from _handed_out(_Processes(count), work, {number: item})
-                except BrokenProcessPool as again:
-                    if lost is None:
-                        raise WorkersEndedError(
-                            f"{stopped(again)} twice, most often because memory ran out. Finished results are kept. "
-                            "Run again with fewer workers (`--workers 1` uses the least memory)."
-                        ) from again
-                    yield number, lost(item)
+            if not alone:
+                alone = list(waiting)[: AHEAD * count]
+                named = "" if names is None else f": {', '.join(names(waiting[number]) for number in alone)}"
+                tell(
+                    f"{stopped(error)} by the system, most often because memory ran out. What it may have worked on "
+                    f"was tried again alone{named}."
+                )
+                continue
+            if lost is None:
+                raise WorkersEndedError(
+                    f"{stopped(error)} twice, most often because memory ran out. Finished results are kept. "
+                    "Run again with fewer workers (`--workers 1` uses the least memory)."
+                ) from error
+            yield alone[0], lost(waiting.pop(alone[0]))
+        del alone[:1]
 
 
 def stopped(error: BaseException) -> str:
@@ -283,7 +282,7 @@ def in_blocks(
         Of a module; takes a block and returns its arrays by name. What it returns may depend on the block alone.
     blocks : sequence
     folder : Path
-        Where finished blocks are kept; for this work only. The caller removes it (`forget`) when their sum is stored.
+        Where finished blocks are kept; for this work only. The caller removes it when their sum is stored.
     key : str
         Hash of all that the result depends on; blocks under another key are removed.
     where : Where, optional
@@ -306,32 +305,24 @@ def in_blocks(
     for other in (folder / part).glob("*"):
         if other != here:
             shutil.rmtree(other, ignore_errors=True)
-    found = {number: kept for number in range(len(blocks)) if (kept := _kept(here, number)) is not None}
+    paths = [here / f"{number:06d}.npz" for number in range(len(blocks))]
+    found = {number: kept for number, path in enumerate(paths) if (kept := _kept(path)) is not None}
     missing = [number for number in range(len(blocks)) if number not in found]
     where.progress(len(found), len(blocks))
     asked = [blocks[number] for number in missing]
     for place, arrays in spread(work, asked, workers=where.workers, scheduler=where.scheduler):
         stream = io.BytesIO()
         np.savez(stream, allow_pickle=False, **arrays)
-        files.write_bytes(_path(here, missing[place]), stream.getbuffer())
+        files.write_bytes(paths[missing[place]], stream.getbuffer())
         found[missing[place]] = dict(arrays)
         where.progress(len(found), len(blocks))
     return [found[number] for number in range(len(blocks))]
 
 
-def forget(folder: Path) -> None:
-    """Remove what `in_blocks` kept."""
-    shutil.rmtree(folder, ignore_errors=True)
-
-
-def _path(folder: Path, number: int) -> Path:
-    return folder / f"{number:06d}.npz"
-
-
-def _kept(folder: Path, number: int) -> Arrays | None:
+def _kept(path: Path) -> Arrays | None:
     """Arrays of a finished block; None if it is missing or unreadable."""
     try:
-        with np.load(_path(folder, number), allow_pickle=False) as stored:
+        with np.load(path, allow_pickle=False) as stored:
             return {name: stored[name] for name in stored.files}
     except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile):
         return None

@@ -6,7 +6,7 @@ import json
 import os
 import platform
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -27,15 +27,14 @@ def is_refusal(said: str) -> bool:
     return _RUNNING in said
 
 
-@contextmanager
-def only_run(layout: Layout) -> Iterator[str]:
+def only_run(layout: Layout) -> AbstractContextManager[str]:
     """
     Hold a campaign's lock, and remove what a killed run left half-written.
 
-    Yields
-    ------
-    run_id : str
-        Name of the run, by which other processes ask whether it still goes on (`expect_run`).
+    Returns
+    -------
+    held : context manager of str
+        Gives the name of the run, by which other processes ask whether it still goes on (`expect_run`).
 
     Raises
     ------
@@ -46,12 +45,10 @@ def only_run(layout: Layout) -> Iterator[str]:
         f"{layout.folder}: {_RUNNING}, by {{holder}}. Wait for that run to end, or stop it: "
         "only one run at a time may write results."
     )
-    with _held(layout, layout.lock, layout.lock_holder, refusal, sweeps=True) as run_id:
-        yield run_id
+    return _held(layout, layout.lock, layout.lock_holder, refusal, sweeps=True)
 
 
-@contextmanager
-def only_watch(layout: Layout) -> Iterator[None]:
+def only_watch(layout: Layout) -> AbstractContextManager[str]:
     """
     Hold the lock of whoever watches a campaign; runs may go on meanwhile.
 
@@ -61,8 +58,7 @@ def only_watch(layout: Layout) -> Iterator[None]:
         If another process watches it, which is named, or the folders of results cannot be written.
     """
     refusal = f"{layout.folder}: this campaign is already being watched, by {{holder}}. One watch is enough."
-    with _held(layout, layout.watch_lock, layout.watcher, refusal):
-        yield
+    return _held(layout, layout.watch_lock, layout.watcher, refusal)
 
 
 @contextmanager
@@ -97,8 +93,7 @@ def _held(layout: Layout, path: Path, holder: Path, refusal: str, *, sweeps: boo
             "since": datetime.now().astimezone().isoformat("T", "seconds"),
         }
         write_text(holder, json.dumps(who) + "\n")
-        if sweeps:
-            _remove(left)
+        _remove(left if sweeps else ())
         yield run_id
     finally:
         try:

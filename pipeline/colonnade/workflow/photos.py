@@ -14,7 +14,7 @@ from colonnade.errors import ReadError
 from colonnade.findings import Finding, warning
 from colonnade.interruption import expect_none
 from colonnade.readers.files import sha256_of
-from colonnade.readers.photo import Pixels, read_photo
+from colonnade.readers.photo import read_photo
 from colonnade.report.asked import KIND, Photo, Photos, address_of
 from colonnade.store import files
 from colonnade.store.layout import Layout
@@ -51,19 +51,18 @@ def photos_shown(campaign: Campaign, layout: Layout, catalogue: Catalogue) -> tu
         If a photo cannot be written.
     """
     folder, code = layout.report.parent, catalogue.code(MADE_BY)
-    asked = {f"photo {address}": (test, written, address) for test, written, address in _photos(campaign)}
     products = [
-        Product(name, "", _upstream(campaign, written, catalogue), code, make, (folder / address,))
-        for name, (_, written, address) in asked.items()
-        for make in [partial(_copied, campaign.folder, written)]
+        Product(address, "", _upstream(campaign, written, catalogue), code, make, (folder / address,))
+        for test, number, written in _photos(campaign)
+        for address, make in [(address_of(test, number), partial(_copied, campaign.folder, written))]
     ]
     made = brought_up_to_date(products, catalogue)
     for stale in set(folder.glob("photos/*.jpg")) - {path for each in products for path in each.paths}:
         files.remove(stale)
     found, photos = [], dict[str, Photos]()
-    for name, (test, written, address) in asked.items():
-        before, number = photos.get(test, Photos()), address.rpartition("-")[2].removesuffix(".jpg")
-        if reason := made[name].reason:
+    for test, number, written in _photos(campaign):
+        before, address = photos.get(test, Photos()), address_of(test, number)
+        if reason := made[address].reason:
             files.remove(folder / address)
             found.append(finding_of(test, reason))
             photos[test] = replace(before, problems=(*before.problems, found[-1].text))
@@ -76,7 +75,7 @@ def photos_shown(campaign: Campaign, layout: Layout, catalogue: Catalogue) -> tu
 def unshown_photos(campaign: Campaign) -> list[Finding]:
     """Look at the photos of all tests, and give a warning of each that cannot be shown; nothing is written."""
     found = []
-    for test, written, _ in _photos(campaign):
+    for test, _, written in _photos(campaign):
         expect_none()
         try:
             read_photo(_source(campaign.folder, written), within=campaign.folder)
@@ -90,10 +89,10 @@ def finding_of(test: str, reason: str) -> Finding:
     return replace(warning(KIND, f"tests[{test}].photos: {reason}"), about=f"tests.{test}")
 
 
-def _photos(campaign: Campaign) -> Iterator[tuple[str, str, str]]:
+def _photos(campaign: Campaign) -> Iterator[tuple[str, int, str]]:
     for name, test in campaign.tests.items():
         for number, written in enumerate(test.photos, start=1):
-            yield name, written, address_of(name, number)
+            yield name, number, written
 
 
 def _source(folder: Path, written: str) -> Path:
@@ -113,13 +112,10 @@ def _upstream(campaign: Campaign, written: str, catalogue: Catalogue) -> dict[st
 
 
 def _copied(folder: Path, written: str) -> Contents:
-    return [as_jpeg(read_photo(_source(folder, written), within=folder))], ""
-
-
-def as_jpeg(pixels: Pixels) -> bytes:
-    """Write pixels as JPEG, with nothing else in it; the same pixels give the same bytes."""
+    """Read a photo, and write its pixels as JPEG with nothing else in it; the same pixels give the same bytes."""
     from PIL import Image
 
-    written = BytesIO()
-    Image.fromarray(pixels).save(written, "JPEG", quality=QUALITY, optimize=True)
-    return written.getvalue()
+    copy = BytesIO()
+    pixels = read_photo(_source(folder, written), within=folder)
+    Image.fromarray(pixels).save(copy, "JPEG", quality=QUALITY, optimize=True)
+    return [copy.getvalue()], ""

@@ -46,6 +46,17 @@ def mark_of(path: Path) -> Mark:
     return status.st_size, status.st_mtime_ns, status.st_ino
 
 
+def marks_of(paths: Iterable[Path]) -> dict[Path, Mark]:
+    """Return the present mark of each file that is there."""
+    marks = {}
+    for path in paths:
+        try:
+            marks[path] = mark_of(path)
+        except OSError:
+            continue
+    return marks
+
+
 class Catalogue:
     """
     What the files of a campaign held when they were last opened, kept from run to run.

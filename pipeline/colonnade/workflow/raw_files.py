@@ -14,7 +14,7 @@ from colonnade.findings import Finding, serious
 from colonnade.readers.files import sha256_of
 from colonnade.readers.registry import companions
 from colonnade.units import text
-from colonnade.workflow.product import Catalogue, Mark, mark_of
+from colonnade.workflow.product import Catalogue, Mark, marks_of
 
 
 @dataclass(frozen=True)
@@ -23,11 +23,6 @@ class RawFile:
 
     sha256: str | None
     mark: Mark = (0, 0, 0)
-
-    @property
-    def is_empty(self) -> bool:
-        """Whether it holds nothing, or cannot be read."""
-        return self.mark[0] == 0
 
 
 RawFiles = Mapping[str, RawFile]
@@ -42,9 +37,8 @@ def raw_files(campaign: Campaign, test: Test, catalogue: Catalogue) -> RawFiles:
     found: dict[str, RawFile] = {}
     for recorder, path in test.files.items():
         how = campaign.setups[test.setup].recorders[recorder].file
-        found[_name(campaign, path)], companion_names = _looked_at(campaign.folder, path, how, catalogue)
-        for name in companion_names:
-            other = path.with_name(Path(name).name or path.name)
+        found[_name(campaign, path)], further = _looked_at(campaign.folder, path, how, catalogue)
+        for other in (path.with_name(name or path.name) for name in further):
             found.setdefault(_name(campaign, other), _looked_at(campaign.folder, other, None, catalogue)[0])
     return found
 
@@ -58,12 +52,9 @@ def expect_unchanged(folder: Path, raw: RawFiles) -> None:
     StoreError
         If one has changed.
     """
+    there = marks_of(folder / name for name in raw)
     for name, file in raw.items():
-        try:
-            is_changed = file.sha256 is not None and mark_of(folder / name) != file.mark
-        except OSError:
-            is_changed = True
-        if is_changed:
+        if file.sha256 is not None and there.get(folder / name) != file.mark:
             raise StoreError(
                 f"{name}: this file changed while it was being read. Is the recorder still writing? Run again later."
             )
@@ -132,14 +123,15 @@ def _copies(raw: Mapping[str, RawFiles]) -> Iterator[Finding]:
     first: dict[str, tuple[str, str]] = {}
     copied: dict[str, str] = {}
     tests: dict[str, None] = {}
-    for test, files in raw.items():
-        for path, file in files.items():
-            if file.sha256 is None or file.is_empty:
-                continue
-            original, other = first.setdefault(file.sha256, (path, test))
-            if other != test and original != path and path not in copied:
-                copied[path] = f"{path} is a copy of {original} of {other}"
-                tests |= {test: None}
+    every = ((test, path, file) for test, files in raw.items() for path, file in files.items())
+    for test, path, file in every:
+        size, *_ = file.mark
+        if file.sha256 is None or not size:
+            continue
+        original, other = first.setdefault(file.sha256, (path, test))
+        if other != test and original != path and path not in copied:
+            copied[path] = f"{path} is a copy of {original} of {other}"
+            tests |= {test: None}
     if copied:
         named = "; ".join(list(copied.values())[:NAMED])
         more = f"; and {len(copied) - NAMED} more" if len(copied) > NAMED else ""

@@ -84,9 +84,9 @@ def write_summary(
         If a file cannot be written.
     """
     failures, late = failed or {}, outdated or {}
-    why = {name: (late.get(name), failures.get("test", {}).get(name)) for name in campaign.tests}
+    of_tests = failures.get("test", {})
     tests = (
-        _of_test(campaign.but(tests={name: test}), layout, catalogue, test, *why[name])
+        _of_test(campaign, layout, catalogue, test, late.get(name), of_tests.get(name))
         for name, test in campaign.tests.items()
     )
     assessed = {
@@ -133,7 +133,8 @@ def _specimen(campaign: Campaign, layout: Layout, name: str) -> Contents:
 def _of_test(
     campaign: Campaign, layout: Layout, catalogue: Catalogue, test: Test, outdated: str | None, failure: str | None
 ) -> Product:
-    """Give the record of a test; the campaign holds this test alone."""
+    """Give the record of a test, made by a campaign that holds this test alone."""
+    campaign = campaign.but(tests={test.id: test})
     entry = [campaign.told(test), repr(campaign.specimens[test.specimen]), campaign.gravity, campaign.left_out(test.id)]
     entry += [repr(campaign.concerning(test.id)), outdated, failure]
     upstream = {str(result): catalogue.content(layout.path(result)) for result in results_of(campaign, test)}
@@ -231,32 +232,23 @@ def foreseen_of(layout: Layout, forecasts: Forecasts, chosen: Chosen, left_out: 
     """
     scored, records = {}, {}
     for test, known in chosen.counts.items():
-        blind, reason = chosen.blind[known.name], NOT_BLIND
-        scores = _scores(layout, test, known) if blind and test not in left_out else None
-        if blind:
-            reason = NOT_MEASURED if scores is None else str(scores.attrs["reason"])
+        blind, scores = chosen.blind[known.name], None
+        if blind and test not in left_out:
+            scores = read_done(layout.stage(test, "forecast"))
+        if scores is not None and scores.attrs["file"] != known.name:  # those of another forecast
+            scores = None
+        reason = NOT_MEASURED if scores is None else str(scores.attrs["reason"])
         if scores is not None and "observed_amplitude" in scores:
             scored[test] = scores
-        records[test] = _record(known, blind=blind, scores=scored.get(test), reason=reason)
+        records[test] = TestForecast(
+            file=known.name,
+            made=f"{known.forecast.made:%Y-%m-%dT%H:%M:%SZ}",
+            level=known.forecast.level,
+            blind=blind,
+            reason=(reason if blind else NOT_BLIND) or None,
+            models={name: _of_model(name, model, scored.get(test)) for name, model in known.forecast.models.items()},
+        )
     return records, _together(forecasts, chosen, scored)
-
-
-def _scores(layout: Layout, test: str, known: Known) -> xr.Dataset | None:
-    """Read the scores of a forecast; None if there are none, or those of another."""
-    scores = read_done(layout.stage(test, "forecast"))
-    return None if scores is None or scores.attrs["file"] != known.name else scores
-
-
-def _record(known: Known, *, blind: bool, scores: xr.Dataset | None, reason: str) -> TestForecast:
-    forecast = known.forecast
-    return TestForecast(
-        file=known.name,
-        made=f"{forecast.made:%Y-%m-%dT%H:%M:%SZ}",
-        level=forecast.level,
-        blind=blind,
-        reason=reason or None,
-        models={name: _of_model(name, model, scores) for name, model in forecast.models.items()},
-    )
 
 
 def _together(forecasts: Forecasts, chosen: Chosen, scored: Mapping[str, xr.Dataset]) -> ForecastsSummary | None:

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from colonnade.campaign.forms import summary
 from colonnade.campaign.forms.summary import IdentifiedSummary, PredictionSummary, RestitutionSummary, Warned
 from colonnade.findings import Severity, serious
-from colonnade.workflow.watching.arrivals import Arrivals, last_change, marks_of
+from colonnade.workflow.product import marks_of
+from colonnade.workflow.watching.arrivals import Arrivals, last_change
 from colonnade.workflow.watching.measure import Line
 
 FILE = Path("raw/free-01.csv")
@@ -73,17 +74,15 @@ def test_the_last_change_is_that_of_the_newest_file(tmp_path):
 KNOWN = RestitutionSummary(value=0.976, low=0.974, high=0.978, level=0.95, source="identified", tests=("a", "b"))
 
 
-def line(*, limits=None, changed=(), **given):
+def line(*, changed=(), **given):
     rocked = {"status": "done", "kind": "sine", "specimen": "prism", "outcome": "rocking"}
-    return Line("sine-07", summary.TestSummary(**rocked | given), KNOWN, limits or {}, changed, 2.34)
+    return Line("sine-07", summary.TestSummary(**rocked | given), KNOWN, changed, 2.34)
 
 
-def test_a_sine_is_put_on_the_map():
+def test_a_sine_says_its_place_on_the_map():
     predicted = {"linear": PredictionSummary(outcome="rocking", peak_ratio=0.44), "contact": PredictionSummary()}
     sine = {"peak_ratio": 0.412, "frequency_ratio": 4.463, "amplitude_ratio": 2.1, "predicted": predicted}
     peaks = "sine-07: rocking 0.412 α; linear 0.440; Ω 4.46, A 2.1"
-    limits = {"no_rocking": 1.0, "lower": 2.61}
-    assert line(limits=limits, **sine).text() == f"{peaks} (overturns from A 2.61 by the map) (2.3 s)"
     assert line(**sine).text() == f"{peaks} (2.3 s)"
 
 
@@ -112,6 +111,6 @@ def test_what_changed_comes_before_other_findings_and_notes_are_left_out():
 
 
 def test_programs_get_the_record_and_what_is_added():
-    said = json.loads(json.dumps(line(outcome="overturned", limits={"lower": 2.6}).as_json(), allow_nan=False))
-    assert (said["test"], said["outcome"], said["map_limits"]) == ("sine-07", "overturned", {"lower": 2.6})
+    said = json.loads(json.dumps(line(outcome="overturned").as_json(), allow_nan=False))
+    assert (said["test"], said["outcome"], said["changed"]) == ("sine-07", "overturned", [])
     assert said["specimen_restitution"]["tests"] == ["a", "b"]

@@ -18,21 +18,10 @@ from pathlib import Path
 from colonnade.campaign.found import files_in
 from colonnade.readers.files import sha256_of
 from colonnade.store.files import PARTIAL
-from colonnade.workflow.product import Mark, mark_of
+from colonnade.workflow.product import Mark, marks_of
 
 POLL = 2.0
 """Seconds between two looks where no event came: a folder of another machine gives none, and one may be lost."""
-
-
-def marks_of(paths: Iterable[Path]) -> dict[Path, Mark]:
-    """Return the present mark of each file that is there."""
-    marks = {}
-    for path in paths:
-        try:
-            marks[path] = mark_of(path)
-        except OSError:
-            continue
-    return marks
 
 
 def last_change(paths: Iterable[Path]) -> int:

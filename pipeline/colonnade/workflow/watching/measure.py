@@ -14,15 +14,13 @@ import numpy as np
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.forms.summary import RestitutionSummary, TestSummary, Warned
-from colonnade.errors import CampaignError, StoreError
+from colonnade.errors import CampaignError
 from colonnade.findings import Finding, Severity, as_record
 from colonnade.identification.plausibility.transducers import ChannelState, changes
-from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records import wording
-from colonnade.store.records.stored import Failure, Stored, as_map
+from colonnade.store.records.stored import Failure, Stored
 from colonnade.store.records.test import record_of_specimen, record_of_test
-from colonnade.store.results import ResultId
 from colonnade.units.text import listed, number
 from colonnade.workflow.executors import Where
 from colonnade.workflow.graph import Graph
@@ -33,8 +31,6 @@ from colonnade.workflow.watching.arrivals import last_change
 
 if TYPE_CHECKING:
     import xarray as xr
-
-LIMITS = ("no_rocking", "lower", "upper")
 
 
 @dataclass(frozen=True)
@@ -50,8 +46,6 @@ class Line:
         As it will be in the summary, without what takes longer.
     restitution : RestitutionSummary
         The e of its specimen that is known so far.
-    limits : mapping of str to float
-        A of the limits of the specimen's map at the test's Ω: `no_rocking`, `lower`, `upper`; empty without a map.
     changed : tuple of Finding
         What is other than in the last test with the same set-up.
     seconds : float
@@ -61,7 +55,6 @@ class Line:
     test: str
     record: TestSummary
     restitution: RestitutionSummary
-    limits: Mapping[str, float]
     changed: tuple[Finding, ...]
     seconds: float
 
@@ -82,7 +75,6 @@ class Line:
             "seconds": round(self.seconds, 2),
             **self.record.model_dump(mode="json"),
             "specimen_restitution": self.restitution.model_dump(mode="json"),
-            "map_limits": dict(self.limits),
             "changed": [as_record(each) for each in self.changed],
         }
 
@@ -90,9 +82,7 @@ class Line:
         ratio = self.record.amplitude_ratio
         if ratio is None or self.record.frequency_ratio is None:
             return ""
-        place = f"Ω {number(self.record.frequency_ratio)}, A {number(ratio)}"
-        lower = self.limits.get("lower")
-        return f"{place} (overturns from A {number(lower)} by the map)" if lower is not None else place
+        return f"Ω {number(self.record.frequency_ratio)}, A {number(ratio)}"
 
     def _warnings(self) -> list[str]:
         worst: list[Finding | Warned] = [*self.changed]
@@ -133,7 +123,7 @@ def measure(campaign: Campaign, layout: Layout, name: str, finished: float) -> L
     pooled = restitution_taken(campaign, layout, test.specimen)
     known = record_of_specimen(campaign, test.specimen, pooled).restitution
     changed = () if walk.failed["test"] else tuple(_changes(campaign, layout, test))
-    return Line(name, record, known, _limits(layout, test.specimen, record), changed, time.time() - finished)
+    return Line(name, record, known, changed, time.time() - finished)
 
 
 def measured(campaign: Campaign, layout: Layout) -> set[str]:
@@ -170,24 +160,6 @@ def _states(layout: Layout, name: str) -> dict[str, ChannelState]:
         for variable, values in ({} if conditioned is None else conditioned.data_vars).items()
         if {"zero", "noise"} <= values.attrs.keys() and np.isfinite(motion := float(np.abs(values).max()))
     }
-
-
-def _limits(layout: Layout, specimen: str, record: TestSummary) -> dict[str, float]:
-    """Read the limits at a test's frequency ratio off the specimen's map, by the last of its models that has one."""
-    if record.frequency_ratio is None:
-        return {}
-    for model in reversed(list(record.predicted)):
-        try:
-            chart = as_map(files.read(layout.path(ResultId(specimen, "map", model))))
-        except (StoreError, KeyError, ValueError):
-            continue
-        found = {limit: getattr(chart, limit) for limit in LIMITS}
-        at = {
-            limit: float(np.interp(record.frequency_ratio, chart.frequency_ratio, values, left=np.nan, right=np.nan))
-            for limit, values in found.items()
-        }
-        return {limit: value for limit, value in at.items() if np.isfinite(value)}
-    return {}
 
 
 PATIENCE = 10.0

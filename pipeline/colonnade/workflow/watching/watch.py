@@ -22,7 +22,8 @@ from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.workflow.advising.next import advise_after
 from colonnade.workflow.lock import is_refusal, only_watch
-from colonnade.workflow.watching.arrivals import POLL, Arrivals, Share, last_change, listening, marks_of
+from colonnade.workflow.product import marks_of
+from colonnade.workflow.watching.arrivals import POLL, Arrivals, Share, last_change, listening
 from colonnade.workflow.watching.behind import Behind
 from colonnade.workflow.watching.measure import Line, measure, measured, notify
 
