@@ -10,14 +10,14 @@ from functools import partial
 import pytest
 import xarray as xr
 
-from colonnade.errors import RunEndedError, StageError, StoreError
+from colonnade.errors import ColonnadeError, RunEndedError, StageError, StoreError
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin
 from colonnade.store.results import ResultId
-from colonnade.workflow.chain import Chain, bring_up_to_date, worker_lost
+from colonnade.workflow.chain import Chain, bring_up_to_date, on_a_cluster, worker_lost
 from colonnade.workflow.executors import WorkersEndedError
-from colonnade.workflow.lock import only_run
+from colonnade.workflow.lock import expect_run, only_run
 from colonnade.workflow.product import Product, stored_attributes
 
 STAGES = ("ingest", "condition", "rocking")
@@ -142,12 +142,25 @@ def test_what_lost_its_worker_is_not_stored_as_failed(layout):
     assert ran(layout)[1:] == [("done", "never run")] * 2
 
 
-def test_nothing_is_written_once_the_run_has_ended(layout):
+def test_nothing_is_written_or_removed_once_the_run_has_ended(layout):
     with only_run(layout) as run_id:
-        pass
+        bring_up_to_date(chain(layout, run_id, toys(layout)[:1]))
+    before, path = there(layout), layout.stage("toy", "ingest")
     with pytest.raises(RunEndedError):
         bring_up_to_date(chain(layout, run_id, toys(layout)))
-    assert not layout.test("toy").exists()
+    with files.only_while(partial(expect_run, layout, run_id)):
+        for change in (partial(files.remove, path), partial(files.write_text, path, "late")):
+            with pytest.raises(RunEndedError):
+                change()
+    assert there(layout) == before
+    assert list(path.parent.iterdir()) == [path]
+
+
+def test_a_worker_that_does_not_see_the_campaign_is_told(layout):
+    with only_run(layout) as run_id:
+        elsewhere = chain(replace(layout, file="elsewhere.toml"), run_id, toys(layout))
+        with pytest.raises(ColonnadeError, match="does not see this file"):
+            on_a_cluster(elsewhere)
 
 
 @pytest.mark.whole

@@ -7,21 +7,14 @@ import subprocess
 import sys
 import time
 from contextlib import contextmanager
-from dataclasses import replace
 
 import pytest
 
-from colonnade.campaign import load
-from colonnade.errors import ColonnadeError, RunEndedError
+from colonnade.errors import ColonnadeError
 from colonnade.store import files
-from colonnade.workflow.chain import bring_up_to_date, on_a_cluster
 from colonnade.workflow.executors import spread
-from colonnade.workflow.graph import Graph
-from colonnade.workflow.lock import expect_run, only_run
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import make_maps
-from colonnade.workflow.product import Catalogue
-from colonnade.workflow.walk import Walk
 
 distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
 pytestmark = pytest.mark.whole
@@ -115,15 +108,17 @@ def test_a_scheduler_without_workers_is_told_with_what_to_do(scheduler, monkeypa
         list(spread(whose, [1], scheduler=scheduler))
 
 
-def test_a_scheduler_that_is_not_there_is_told(monkeypatch):
+@pytest.mark.parametrize(
+    ("address", "said"),
+    [
+        (f"tcp://127.0.0.1:{free_port()}", "no Dask scheduler answers there"),
+        ("no address", "that is not an address"),
+        ("127.0.0.1:notaport", "that is not an address"),
+    ],
+)
+def test_what_is_no_scheduler_is_told(monkeypatch, address, said):
     monkeypatch.setattr("colonnade.workflow.cluster._PATIENCE", 1)
-    with pytest.raises(ColonnadeError, match="no Dask scheduler answers there"):
-        list(spread(whose, [1], scheduler=f"tcp://127.0.0.1:{free_port()}"))
-
-
-@pytest.mark.parametrize("address", ["no address", "127.0.0.1:notaport"], ids=str)
-def test_what_is_no_address_is_told(address):
-    with pytest.raises(ColonnadeError, match="that is not an address"):
+    with pytest.raises(ColonnadeError, match=said):
         list(spread(whose, [1], scheduler=address))
 
 
@@ -155,19 +150,6 @@ def test_a_campaign_run_on_the_cluster_is_that_of_one_process(cluster, untouched
     assert not untouched.run(scheduler=cluster).failed
     assert untouched.contents() == undisturbed.contents()
     assert untouched.summary() == undisturbed.summary()
-
-
-def ingesting(small, run):
-    """Return the chain that only ingests a test."""
-    graph = Graph(load(small.folder), small.layout, Catalogue(small.layout))
-    return Walk(graph, run).chain(graph.of_test(graph.campaign.tests["pulse-01"])[:1])
-
-
-def test_workers_that_do_not_see_the_campaign_are_told(cluster, untouched):
-    here = ingesting(untouched, "this one")
-    elsewhere = replace(here, layout=replace(here.layout, file="elsewhere.toml"))
-    with pytest.raises(ColonnadeError, match="does not see this file"):
-        list(spread(on_a_cluster, [elsewhere], scheduler=cluster))
 
 
 def test_a_map_made_on_the_cluster_is_that_of_one_process_bit_for_bit(cluster, untouched):
@@ -219,18 +201,3 @@ def test_a_cluster_whose_workers_all_end_is_told_and_not_waited_for(soon, anothe
         worker.kill()
         with pytest.raises(ColonnadeError, match="all its workers ended"):
             list(results)
-
-
-def test_a_worker_that_outlives_its_run_writes_nothing(untouched, undisturbed):
-    with pytest.raises(RunEndedError):
-        bring_up_to_date(ingesting(untouched, "before this one"))
-    with only_run(untouched.layout) as run:
-        late = ingesting(untouched, run)
-        assert [stage.action for stage in bring_up_to_date(late)] == ["done"]
-    path = untouched.layout.stage("pulse-01", "ingest")
-    with files.only_while(lambda: expect_run(untouched.layout, run)):
-        for change in (lambda: files.remove(path), lambda: files.write_text(path, "late")):
-            with pytest.raises(RunEndedError):
-                change()
-    assert files.read(path).attrs["content"] == undisturbed.contents()["processed/tests/pulse-01/recorded.nc"]
-    assert list(path.parent.iterdir()) == [path]

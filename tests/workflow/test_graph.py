@@ -2,12 +2,10 @@
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from colonnade.campaign import load
 from colonnade.findings import note, serious, warning
-from colonnade.store import files
 from colonnade.store.results import results_of
 from colonnade.workflow.chain import RunResult, StageRun
 from colonnade.workflow.graph import Graph
@@ -48,38 +46,6 @@ def test_the_code_is_hashed_again_only_if_a_source_changed(graph, monkeypatch):
     monkeypatch.setattr("colonnade.workflow.product.package_hash", lambda: "other sources")
     again = Graph(graph.campaign, graph.layout, Catalogue(graph.layout))
     assert {step.code for step in again.of_test(test)} == {"parsed again"}
-
-
-def types(dataset):
-    """Types of variables; text is text, whether its length is fixed or not."""
-    return {name: "text" if each.dtype.kind in "OU" else each.dtype for name, each in dataset.variables.items()}
-
-
-def plain(attributes):
-    return {name: np.asarray(value).tolist() for name, value in attributes.items() if name != "warnings"}
-
-
-@pytest.mark.whole
-def test_what_a_step_hands_on_is_what_its_file_holds(untouched, monkeypatch):
-    handed = {}
-    write = files.write
-
-    def spy(dataset, path, *, attributes):
-        handed[path] = write(dataset, path, attributes=attributes)
-        return handed[path]
-
-    monkeypatch.setattr(files, "write", spy)
-    untouched.run()
-    assert len(handed) == len(untouched.contents())
-    for path, given in handed.items():
-        stored = files.read(path)
-        assert given.equals(stored), path.name
-        assert set(given.coords) == set(stored.coords)
-        assert types(given) == types(stored)
-        assert plain(given.attrs) == plain(stored.attrs)
-        assert given.attrs["warnings"] == stored.attrs["warnings"]
-        for name, variable in stored.variables.items():
-            assert plain(given[name].attrs) == plain(variable.attrs)
 
 
 def result(*stages, **given):

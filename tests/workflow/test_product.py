@@ -103,11 +103,6 @@ def test_a_result_that_was_replaced_is_looked_at_again(small, opened):
     assert opened == ["rocking.nc"]
 
 
-def test_verifying_opens_every_result(small, opened):
-    small.run(verify=True)
-    assert {"recorded.nc", "conditioned.nc", "rocking.nc", "compared.nc"} <= set(opened)
-
-
 NO_CATALOGUE = (
     "",
     "no JSON",
@@ -142,13 +137,6 @@ def test_a_catalogue_that_is_no_good_or_was_altered_only_costs_time(small, opene
         assert looked_at.kept("record pulse-01", key) is None, text[:80]
     assert small.redone() == {}
     assert small.summary() == summary
-
-
-def test_records_follow_their_results(small):
-    small.change_a_sample("pulse-01")
-    small.run()
-    remembered = json.loads(small.layout.catalogue.read_text(encoding="utf-8"))["kept record pulse-01"]
-    assert json.loads(remembered[1]) == small.summary()["tests"]["pulse-01"]
 
 
 @pytest.mark.whole
