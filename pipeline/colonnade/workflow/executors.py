@@ -8,6 +8,7 @@ import re
 import shutil
 import signal
 import threading
+import time
 import warnings
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -25,7 +26,6 @@ from numpy.typing import NDArray
 from colonnade.errors import ColonnadeError
 from colonnade.interruption import FROM_TERMINAL, expect_none, held_back
 from colonnade.store import files
-from colonnade.workflow.orphans import end_with
 
 # A worker that holds 300 MB more than at first, as by its libraries, ends in order and another takes its place.
 warnings.filterwarnings("ignore", category=UserWarning, message="A worker stopped while some jobs were given")
@@ -234,6 +234,21 @@ def _settle_in(parent: int) -> None:
     for signum in FROM_TERMINAL:
         signal.signal(signum, signal.SIG_IGN)
     end_with(parent, partial(os._exit, 1))
+
+
+PATROL = 0.1
+"""Seconds between two checks that the parent is alive."""
+
+
+def end_with(parent: int, end: Callable[[], object]) -> None:
+    """Call a function, in a thread, once the parent of this process is not this one any more, however it ended."""
+    threading.Thread(target=_wait_for_end, args=(parent, end), daemon=True).start()
+
+
+def _wait_for_end(parent: int, end: Callable[[], object]) -> None:
+    while os.getppid() == parent:
+        time.sleep(PATROL)
+    end()
 
 
 Arrays = dict[str, NDArray[Any]]

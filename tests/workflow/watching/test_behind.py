@@ -9,7 +9,7 @@ from contextlib import suppress
 import pytest
 
 from colonnade.workflow.lock import only_run
-from colonnade.workflow.watching.behind import Behind, Ended
+from colonnade.workflow.watching.behind import Behind
 
 
 def wait_until(condition):
@@ -39,26 +39,12 @@ def test_it_gives_way_and_then_says_what_failed_and_when_it_was_refused(small):
         assert refused.was_refused
 
 
-CRASH = "Traceback (most recent call last):\n  File x\n    line\nValueError: of a stage\nmore of it"
-
-
-@pytest.mark.parametrize(
-    ("said", "headline"),
-    [
-        (f"free-01 ingest: 1 of 4 after 12 s\n{CRASH}", "ValueError: of a stage"),
-        ("free-01 ingest: 1 of 4 after 12 s\na.nc: the disk is full.", "a.nc: the disk is full."),
-    ],
-)
-def test_the_line_that_says_what_happened_is_found(said, headline):
-    assert Ended(1, (), said).headline == headline
-
-
 def test_a_run_that_is_killed_says_so(small):
     behind = Behind(small.folder / "campaign.toml", None, 1)
     behind.start()
     behind._running[0].kill()
     found = wait_until(behind.ended)
-    assert (found.was_refused, found.headline) == (False, "It ended with exit code -9.")
+    assert (found.was_refused, found.problem) == (False, "It ended with exit code -9.")
 
 
 WATCH = """

@@ -84,7 +84,7 @@ class Crashing:
 @pytest.fixture
 def crashing(monkeypatch):
     """What stands in for the run behind every watch of a test."""
-    said = "Traceback (most recent call last):\n  x\nOSError: y"
+    said = "OSError: y\nTraceback (most recent call last):\n  x\nOSError: y"
     behind = Crashing([Ended(-11, (), said)])
     monkeypatch.setattr(module, "Behind", lambda *_: behind)
     return behind

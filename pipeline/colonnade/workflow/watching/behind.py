@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import contextlib
-import json
+import multiprocessing
 import os
-import subprocess
-import sys
-import tempfile
+import traceback
+from contextlib import suppress
 from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
 from pathlib import Path
-from typing import IO
 
-from colonnade.workflow import orphans
+from colonnade import interruption
+from colonnade.errors import CampaignError, ColonnadeError
+from colonnade.workflow.executors import end_with
 from colonnade.workflow.lock import is_refusal
 
 NICENESS = 10
@@ -20,11 +21,6 @@ NICENESS = 10
 
 PATIENCE = 3.0
 """Seconds in which it has to give way; then it is killed, which loses nothing but the steps in progress."""
-
-
-_WINDOWS_FLAGS = sum(
-    getattr(subprocess, flag, 0) for flag in ("BELOW_NORMAL_PRIORITY_CLASS", "CREATE_NEW_PROCESS_GROUP")
-)
 
 
 @dataclass(frozen=True)
@@ -39,24 +35,17 @@ class Ended:
     failures : tuple of str
         A sentence on each test or specimen that failed.
     problem : str
-        What it wrote to stderr if it gave no result: it was refused, it crashed, or the disk is full.
+        Why it gave no result, first in one line: it was refused, it crashed, or the disk is full.
     """
 
     code: int
-    failures: tuple[str, ...]
-    problem: str
+    failures: tuple[str, ...] = ()
+    problem: str = ""
 
     @property
     def was_refused(self) -> bool:
         """Whether another run held the campaign."""
         return is_refusal(self.problem)
-
-    @property
-    def headline(self) -> str:
-        """The line of the problem that says what happened: of a traceback the first below its frames, else the last."""
-        _, trace, last = self.problem.rpartition("Traceback (most recent call last):")
-        lines = [line for line in last.splitlines() if line and not line[0].isspace()]
-        return lines[0 if trace else -1]
 
 
 @dataclass
@@ -76,27 +65,17 @@ class Behind:
     campaign_file: Path
     results: Path | None
     workers: int | None
-    _running: tuple[subprocess.Popen[bytes], IO[bytes], IO[bytes]] | None = None  # with its stdout and stderr
+    _running: tuple[BaseProcess, Connection] | None = None
 
     def start(self) -> None:
         """Begin a run."""
-        output, complaints = (tempfile.TemporaryFile() for _ in range(2))  # noqa: SIM115 — `_end` closes
-        command = [sys.executable, "-m", orphans.__name__, str(os.getpid())]
-        command += ["run", str(self.campaign_file), "--await", "--json"]
-        command += [] if self.results is None else ["--results", str(self.results)]
-        command += [] if self.workers is None else ["--workers", str(self.workers)]
-        process = subprocess.Popen(
-            command,
-            stdin=subprocess.DEVNULL,
-            stdout=output,
-            stderr=complaints,
-            process_group=0 if os.name == "posix" else None,
-            creationflags=_WINDOWS_FLAGS,
-        )
-        self._running = process, output, complaints
-        if os.name == "posix":
-            with contextlib.suppress(OSError):
-                os.setpriority(os.PRIO_PGRP, process.pid, NICENESS)
+        context = multiprocessing.get_context("spawn")
+        told, tell = context.Pipe(duplex=False)
+        given = (tell, os.getpid(), self.campaign_file, self.results, self.workers)
+        process = context.Process(target=_run, args=given)
+        with interruption.held_back(), tell:  # Ctrl-C is for the watch, which ends it
+            process.start()
+        self._running = process, told
 
     @property
     def is_running(self) -> bool:
@@ -105,30 +84,44 @@ class Behind:
 
     def ended(self) -> Ended | None:
         """Return how a run has ended by itself, once; else None."""
-        return None if self._running is None or self._running[0].poll() is None else self._end(*self._running)
+        if self._running is None or not self._running[1].poll():
+            return None
+        process, told = self._running
+        self._running, ended = None, None
+        with suppress(EOFError), told:
+            ended = told.recv()
+        process.join()
+        return ended or Ended(process.exitcode or 1, problem=f"It ended with exit code {process.exitcode}.")
 
     def give_way(self) -> None:
         """Stop it: what it finished is kept, the rest is done by the next."""
         if self._running is None:
             return
-        process, *_ = self._running
+        process, told = self._running
+        self._running = None
         process.terminate()
-        try:
-            process.wait(PATIENCE)
-        except subprocess.TimeoutExpired:
-            process.kill()  # its workers end with it
-        self._end(*self._running)
+        process.join(PATIENCE)
+        process.kill()  # its workers end with it
+        process.join()
+        told.close()
 
-    def _end(self, process: subprocess.Popen[bytes], output: IO[bytes], complaints: IO[bytes]) -> Ended:
-        code, self._running = process.wait(), None
-        with output, complaints:
-            for stream in (output, complaints):
-                stream.seek(0)
-            said = complaints.read().decode(errors="replace").strip()
-            try:
-                stages = json.loads(output.read() or b"{}").get("stages")
-            except (ValueError, RecursionError):
-                stages = None
-        problem = "" if stages is not None else said or f"It ended with exit code {code}."
-        failed = [each for each in stages or () if each["action"] == "failed"]
-        return Ended(code, tuple(f"{each['subject']}: {each['reason']}" for each in failed), problem)
+
+def _run(tell: Connection, watch: int, campaign_file: Path, results: Path | None, workers: int | None) -> None:
+    """Run a campaign, and tell how it ended; stop in order, so that finished results are kept, when the watch ends."""
+    interruption.listen()
+    end_with(watch, interruption.stop)
+    if hasattr(os, "nice"):
+        os.nice(NICENESS)
+    try:
+        from colonnade.workflow.run import run
+
+        stages = run(campaign_file, results=results, workers=workers, awaiting=True).stages
+        failed = tuple(f"{stage.subject}: {stage.reason}" for stage in stages if stage.action == "failed")
+        tell.send(Ended(int(bool(failed)), failed))
+    except KeyboardInterrupt:
+        pass
+    except ColonnadeError as error:
+        tell.send(Ended(2 if isinstance(error, CampaignError) else 1, problem=str(error)))
+    except Exception as error:
+        tell.send(Ended(1, problem=f"{type(error).__name__}: {error}\n{traceback.format_exc()}"))
+    interruption.stop_listening()

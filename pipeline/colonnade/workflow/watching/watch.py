@@ -236,7 +236,7 @@ class _Watching:
             elif ended.problem and ended.code != WRONG_CAMPAIGN:
                 self.log.info(ended.problem)
                 self._say_once(
-                    f"The run behind the watch failed: {ended.headline}\n"
+                    f"The run behind the watch failed: {ended.problem.splitlines()[0]}\n"
                     f"All that it said is in {self.layout.watch_log}. It starts again after the next file."
                 )
         is_free = not (self._due or self._arrivals.is_waiting or self.behind.is_running)
