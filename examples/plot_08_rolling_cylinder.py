@@ -23,7 +23,7 @@ rocking = colonnade.rock(block, out_of_plane=0.4 * alpha, model="contact", durat
 figure, (first, second) = pyplot.subplots(1, 2, layout="constrained", figsize=(8.0, 4.0))
 kept = {}
 for history, style, name in ((rocking, "k-", "let go"), (rolling, "-", "pushed sideways")):
-    first.plot(history.angle / alpha, history.out_of_plane / alpha, style, linewidth=1.0, label=name)
+    first.plot(history.angle / alpha, history.out_of_plane_angle / alpha, style, linewidth=1.0, label=name)
     energies = history.energies
     held = energies.stored - rocking.energies.stored.min()
     kept[name] = held[-1] / held[0]

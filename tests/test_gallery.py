@@ -115,7 +115,7 @@ def test_08_rolling_cylinder__has_no_impacts_and_keeps_its_energy(example):
     assert rocking.energies.closes
     assert rolling.energies.closes
     assert np.abs(rocking.angle).max() < 1e-9
-    assert rolling.tilt.min() > 0.15 * example.names["alpha"]
+    assert rolling.lean.min() > 0.15
     assert example.names["kept"]["pushed sideways"] > 0.9 > example.names["kept"]["let go"]
 
 

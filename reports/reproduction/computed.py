@@ -171,7 +171,7 @@ def _last_stage(history: ContactHistory) -> Numbers:
     slide: Array = np.hypot(history.slide[:, 0], history.slide[:, 1])
     return {
         "slide": float(slide[standing].max()),
-        "out_of_plane": float(np.abs(history.out_of_plane[standing]).max() / alpha),
+        "out_of_plane": float(np.abs(history.out_of_plane_angle[standing]).max() / alpha),
         "yaw": float(np.abs(history.yaw[standing]).max()),
         "energy_residual": history.energies.relative_residual,
     }

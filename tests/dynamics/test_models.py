@@ -68,7 +68,7 @@ def test_it_starts_as_asked():
     history = rock(PRISM, **FREE, omega0=-0.1, out_of_plane=0.01)
     assert history.angle[0] == pytest.approx(FREE["theta0"])
     assert history.angular_velocity[0] == pytest.approx(-0.1)
-    assert history.out_of_plane[0] == pytest.approx(0.01)
+    assert history.out_of_plane_angle[0] == pytest.approx(0.01)
 
 
 def test_a_frame_is_refused_as_it_is_several_bodies():

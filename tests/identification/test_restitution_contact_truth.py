@@ -165,7 +165,7 @@ def identified(rocked):
 
 
 def test_the_recommended_e_is_the_mean_velocity_ratio(rocked, identified):
-    assert rocked.airborne == 0.0
+    assert (rocked.base_force[1:, 2] > 0.0).all()
     # Depth of the contact, 1e-6 of the height, moves the poles: more than the interval tells, but less than 2e-4.
     assert identified.value == pytest.approx(rocked.impact_restitution[:10].mean(), abs=2e-4)
 
@@ -206,7 +206,7 @@ def test_where_it_bounces_the_interval_holds_the_mean_of_what_the_angle_loses():
     results, ratios = [], []
     for released in (0.3, 0.7):
         rocked = free_rocking(rigid_body(PRISM), damping_fraction=0.28, released=released, duration=6.0)
-        assert rocked.airborne > 0.1
+        assert (rocked.base_force[1:, 2] == 0.0).any()
         result = identify(rocked)
         times = result.impacts.time[result.impacts.used]
         seen = energy_ratios(rocked, times)

@@ -156,7 +156,7 @@ def _in_space(
         "slide": moved.slide[:, 0],
         "transverse_slide": moved.slide[:, 1],
         "uplift": moved.uplift,
-        "out_of_plane_angle": moved.out_of_plane,
+        "out_of_plane_angle": moved.out_of_plane_angle,
         "yaw": moved.yaw,
     }
     described = _of_block(moved, time, beginning, specimen, inputs).assign(

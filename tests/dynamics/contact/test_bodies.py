@@ -10,9 +10,9 @@ import colonnade
 from colonnade.dynamics.assembly import Assembly, Placed
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact import simulate as simulation
-from colonnade.dynamics.contact.body import ContactLaw
+from colonnade.dynamics.contact.body import ContactLaw, rotation_matrices
 from colonnade.dynamics.contact.simulate import simulate_assembly
-from colonnade.dynamics.contact.start import Start, rotation_matrices
+from colonnade.dynamics.contact.start import Start, standing
 from colonnade.dynamics.contact.structure import Structure
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
@@ -147,7 +147,7 @@ def test_a_frame_begins_to_rock_as_a_column_does(share, level, outcome):
 def test_a_drum_thrown_off_is_the_one_that_overturned():
     """The upper one is pushed off, and what it stood on stays."""
     assembly = _stack(DRUM, 2)
-    begin = simulation.standing_assembly(assembly, Structure.of_assembly(assembly, ContactLaw()))["d1"]
+    _, begin = standing(Structure.of_assembly(assembly, ContactLaw()))
     thrown = Start(begin.position, np.array([2.0, 0.0, 0.0]))
     history = simulate_assembly(assembly, duration=0.6, starts={"d1": thrown}, step=5e-6)
     assert history.outcome == "overturned"

@@ -135,7 +135,7 @@ def test_an_elastic_cylinder_stays_in_its_plane_as_its_rim_gets_nodes(meshed):
             duration=0.8,
             step=1e-5,
         )
-        largest.append(np.abs(history.out_of_plane).max() / COLUMN.critical_angle)
+        largest.append(np.abs(history.out_of_plane_angle).max() / COLUMN.critical_angle)
     print(largest)
     assert largest[0] > 0.1
     assert largest[0] > 5.0 * largest[1]

@@ -11,10 +11,11 @@ import math
 import numpy as np
 import pytest
 
+from alone import alone
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.body import ContactLaw, rigid_body
+from colonnade.dynamics.contact.body import ContactLaw, rigid_body, rotation_matrices
 from colonnade.dynamics.contact.simulate import simulate
-from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
+from colonnade.dynamics.contact.start import Start
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.readers.motion import read_motion
@@ -115,7 +116,7 @@ def test_a_cylinder_pushed_sideways_leaves_its_plane_as_in_mujoco(push, share):
     body = rigid_body(CYLINDER, rings=1)
     law = ContactLaw.stiff(body, CYLINDER.gravity, damping_fraction=1.0, friction=2.0, penetration=1e-7)
     alpha = CYLINDER.critical_angle
-    still = standing(body, law, CYLINDER.gravity, theta0=0.5 * alpha)
+    still = alone(body, law, CYLINDER.gravity, theta0=0.5 * alpha)
     angular = np.array([push * CYLINDER.p * alpha, 0.0, 0.0])
     matrix = rotation_matrices(still.orientation[None])[0]
     foot = matrix @ np.array([body.half_width, 0.0, -body.height])

@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
+from alone import alone
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.body import ContactLaw, rigid_body
+from colonnade.dynamics.contact.body import ContactLaw, rigid_body, rotation_matrices
 from colonnade.dynamics.contact.calibration import TOLERANCE, calibrate
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.stability import highest_frequency
-from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
+from colonnade.dynamics.contact.start import Start
 from colonnade.dynamics.contact.structure import Structure
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
@@ -27,7 +28,7 @@ PUSH = 0.01
 
 def _pushed(body, push, theta0=0.6 * ALPHA):
     """Release with an angular velocity about x, over p α, about the foot at +x."""
-    still = standing(body, LAW, GRAVITY, theta0=theta0)
+    still = alone(body, LAW, GRAVITY, theta0=theta0)
     foot = rotation_matrices(still.orientation[None])[0] @ np.array([body.half_width, 0.0, -body.height])
     angular = np.array([push * CYLINDER.p * ALPHA, 0.0, 0.0])
     return Start(still.position, np.cross(angular, -foot), still.orientation, angular)
@@ -101,7 +102,7 @@ def test_nodes_come_nearer_to_the_whole_ring_with_their_number():
 def test_the_arc_bears_the_weight_of_the_closed_form(tilt):
     """The start is put as deep as the closed form of the arc says; the engine integrates the arc at points."""
     law = ContactLaw.stiff(BODY, GRAVITY, damping_fraction=0.0, friction=0.0)
-    start = standing(BODY, law, GRAVITY, theta0=tilt)
+    start = alone(BODY, law, GRAVITY, theta0=tilt)
     history = simulate(BODY, Motion(np.zeros(3), 1e-8), law=law, gravity=GRAVITY, start=start)
     assert history.base_force[1, 2] == pytest.approx(CYLINDER.mass * GRAVITY, rel=1e-3)
     depth, radius = -history.uplift[0], BODY.half_width
@@ -117,7 +118,7 @@ def test_plane_rocking_is_the_analytical_one_with_the_runs_own_restitution():
     own = history.impact_restitution
     assert own.size >= 3
     assert np.ptp(own) < 1e-3
-    assert np.abs(history.out_of_plane).max() < 1e-9
+    assert np.abs(history.out_of_plane_angle).max() < 1e-9
     plane = rock(CYLINDER, model="nonlinear", restitution=float(own.mean()), theta0=theta0, duration=1.2)
     angle = np.interp(history.time, plane.time, plane.angle)
     print(np.abs(history.angle - angle).max() / ALPHA, own)
@@ -159,7 +160,7 @@ def test_a_pushed_cylinder_leaves_its_plane_and_a_pushed_prism_does_not():
     for block in (CYLINDER, prism):
         body = rigid_body(block)
         history = _run(body, _pushed(body, PUSH, 0.6 * block.critical_angle), 1.2)
-        largest.append(np.abs(history.out_of_plane).max() / block.critical_angle)
+        largest.append(np.abs(history.out_of_plane_angle).max() / block.critical_angle)
     print(largest)
     assert largest[0] > 0.1 > 100.0 * largest[1]
 
@@ -176,7 +177,7 @@ def test_friction_on_rings_slows_a_cylinder_that_spins():
     squat = Block.cylinder(diameter=0.5, height=0.1, mass=10.0, gravity=GRAVITY)
     body = rigid_body(squat)
     law = ContactLaw.stiff(body, GRAVITY, damping_fraction=0.5, friction=0.2)
-    start = Start(standing(body, law, GRAVITY).position, angular_velocity=np.array([0.0, 0.0, 2.0]))
+    start = Start(alone(body, law, GRAVITY).position, angular_velocity=np.array([0.0, 0.0, 2.0]))
     spun = simulate(body, Motion(np.zeros(101), 0.004), law=law, gravity=GRAVITY, start=start)
     # Friction on rings turns it back with µ m g times the mean radius that bears.
     radius = float(law.node_weights(body, GRAVITY) @ body.ring_radii) / (squat.mass * GRAVITY)

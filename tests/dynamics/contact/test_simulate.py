@@ -34,7 +34,7 @@ def test_free_rocking_is_the_analytical_one_with_the_runs_own_restitution(block,
     theta0 = released * block.critical_angle
     history = simulate(body, law=law, theta0=theta0, duration=11.0 / block.p)
     own = history.impact_restitution
-    assert history.airborne < 1e-3
+    assert (history.base_force[1:, 2] > 0.0).all()
     assert own.size >= 3
     assert np.ptp(own) < 1e-3
     analytical = rock(block, model="nonlinear", restitution=float(own.mean()), theta0=theta0, duration=11.0 / block.p)
@@ -75,7 +75,7 @@ def test_shaking_across_rocks_a_square_block_as_shaking_along_does():
     along = simulate(body, Motion(base, 0.005), law=law)
     across = simulate(body, Motion(np.zeros(81), 0.005, transverse=base), law=law)
     # A right-handed turn about x takes the top to −y.
-    np.testing.assert_allclose(across.out_of_plane, -along.angle, atol=1e-9 * ALPHA)
+    np.testing.assert_allclose(across.out_of_plane_angle, -along.angle, atol=1e-9 * ALPHA)
     np.testing.assert_allclose(across.angle, 0.0, atol=1e-9 * ALPHA)
 
 
@@ -105,7 +105,7 @@ def test_a_body_starts_where_it_was_put(angles):
     law = ContactLaw.stiff(body, GRAVITY)
     history = simulate(body, REST, law=law, theta0=angles[0], out_of_plane=angles[1], step=2e-5)
     assert history.angle[0] == pytest.approx(angles[0], abs=1e-12)
-    assert history.out_of_plane[0] == pytest.approx(angles[1], abs=1e-12)
+    assert history.out_of_plane_angle[0] == pytest.approx(angles[1], abs=1e-12)
     assert history.yaw[0] == pytest.approx(0.0, abs=0.02)
     assert -1e-4 < history.uplift[0] < 0.0
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from alone import alone
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.body import STATIC_PENETRATION, ContactLaw, rigid_body
-from colonnade.dynamics.contact.start import rotation_matrices, standing
+from colonnade.dynamics.contact.body import STATIC_PENETRATION, ContactLaw, rigid_body, rotation_matrices
 
 GRAVITY = 9.81
 PRISM = rigid_body(Block.prism(width=0.2, depth=0.3, height=0.9, mass=150.0))
@@ -23,14 +23,14 @@ def heights(body, start):
 
 @pytest.mark.parametrize("tilts", [{}, {"theta0": 0.1}, {"theta0": -1e-6}, {"theta0": 0.05, "out_of_plane": -0.02}])
 def test_the_springs_bear_the_weight(tilts):
-    start, law = standing(PRISM, law_of(PRISM), GRAVITY, **tilts), law_of(PRISM)
+    start, law = alone(PRISM, law_of(PRISM), GRAVITY, **tilts), law_of(PRISM)
     depths = np.maximum(-heights(PRISM, start), 0.0)
     assert law.node_stiffness(PRISM) @ depths == pytest.approx(PRISM.mass * GRAVITY, rel=1e-9)
 
 
 @pytest.mark.parametrize("body", [PRISM, CYLINDER], ids=["nodes", "rings"])
 def test_an_upright_body_is_as_deep_as_its_law_says(body):
-    start = standing(body, law_of(body), GRAVITY)
+    start = alone(body, law_of(body), GRAVITY)
     assert start.position[2] == pytest.approx(body.height * (1 - STATIC_PENETRATION), rel=1e-12)
     np.testing.assert_allclose(start.orientation, [1.0, 0.0, 0.0, 0.0])
     assert not start.angular_velocity.any()
@@ -39,7 +39,7 @@ def test_an_upright_body_is_as_deep_as_its_law_says(body):
 @pytest.mark.parametrize("body", [PRISM, CYLINDER], ids=["nodes", "rings"])
 @pytest.mark.parametrize("theta0", [0.15, -0.1])
 def test_it_leans_about_the_pole_on_that_side(body, theta0):
-    start = standing(body, law_of(body), GRAVITY, theta0=theta0, omega0=0.3)
+    start = alone(body, law_of(body), GRAVITY, theta0=theta0, omega0=0.3)
     matrix = rotation_matrices(start.orientation[None])[0]
     assert np.arctan2(matrix[0, 2], matrix[2, 2]) == pytest.approx(theta0)
     pole = np.array([np.sign(theta0) * body.half_width, 0.0, -body.height])

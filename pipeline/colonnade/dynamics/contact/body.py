@@ -179,6 +179,17 @@ def round_nodes(radius: float, rings: int) -> tuple[Array, Array]:
     return np.column_stack((radii, np.zeros(rings))), pi * np.diff(edges**2)
 
 
+def rotation_matrices(orientation: Array) -> Array:
+    """Return the rotation matrices, shape (…, 3, 3), of unit quaternions, shape (…, 4)."""
+    w, x, y, z = np.moveaxis(orientation, -1, 0)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+
+
 def propagators(body: ContactBody, step: float) -> Array:
     """Exact free motion of each mode over a step: η → a η + b η̇, η̇ → c η + d η̇; rows a, b, c, d, shape (4, m)."""
     frequency, damping = body.frequencies, body.modal_damping

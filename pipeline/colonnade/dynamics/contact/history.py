@@ -10,8 +10,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.body import ContactBody, ContactLaw
-from colonnade.dynamics.contact.start import rotation_matrices
+from colonnade.dynamics.contact.body import ContactBody, ContactLaw, rotation_matrices
 from colonnade.dynamics.history import NO_ROCKING_RATIO, History, Outcome
 from colonnade.dynamics.models import CONTACT
 from colonnade.units.text import PERCENT, Digested, written
@@ -81,56 +80,112 @@ class EnergyBalance:
         return self.relative_residual <= LARGEST_RESIDUAL
 
 
-@dataclass(frozen=True, kw_only=True)
-class ContactHistory(History):
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Together:
     """
-    A rocking history in space; after lying down (|tilt| = π/2) its last state is held.
+    What is common to the bodies of a run.
 
     Attributes
     ----------
-    body, law : ContactBody, ContactLaw
-        What was computed.
+    law : ContactLaw
+    time : ndarray, shape (n,)
+        s.
+    energies : EnergyBalance
+        Of all bodies; it does not hold after the first of several has fallen.
+    base_force : ndarray, shape (n, 3)
+        N, of the table on all that stands on it: the mean since the sample before.
     step : float
         s.
+    """
+
+    law: ContactLaw
+    time: Array
+    energies: EnergyBalance
+    base_force: Array
+    step: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Pose:
+    """
+    How a body is placed relative to what it is seen from, at each sample.
+
+    Attributes
+    ----------
+    angle, out_of_plane_angle, yaw : ndarray, shape (n,)
+        rad: rocking angle, positive when the top moves to +x; rotation about x; rotation about the vertical.
+    slide : ndarray, shape (n, 2)
+        m: displacement along x and y of the active pole, the point of the base at y = 0 that plane rocking turns about.
+    uplift : ndarray, shape (n,)
+        m: height of the lowest point of the base above where the base stands at rest.
+    """
+
+    angle: Array
+    out_of_plane_angle: Array
+    yaw: Array
+    slide: Array
+    uplift: Array
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BodyHistory(Pose):
+    """
+    The history of one body, relative to the table; a body that has fallen stays where it fell.
+
+    Attributes
+    ----------
+    supports : mapping of str to Pose
+        Relative to each body that it stands on, by name; empty on the table.
+    lean : ndarray, shape (n,)
+        Angle with the vertical, over α, of the line from the base to the common centre of mass of the body and all that
+        stands on it alone; α is that of this part of the assembly (`Assembly.critical_angles`).
+    arm : ndarray, shape (n, 3)
+        m: that line.
     position, velocity : ndarray, shape (n, 3)
-        Of the centre of mass relative to the table, m and m/s.
+        m and m/s, of the centre of mass relative to the table.
     orientation : ndarray, shape (n, 4)
         Unit quaternion (scalar first), body to table.
     turning : ndarray, shape (n, 3)
         Angular velocity in the table's axes, rad/s.
-    out_of_plane, yaw : ndarray, shape (n,)
-        rad: rotation about x, of the body's axis; about that axis.
-    slide : ndarray, shape (n, 2)
-        m: displacement along x and y of the active pole, the point of the base at y = 0 that plane rocking turns about.
-    uplift : ndarray, shape (n,)
-        m: height of the lowest point of the base; slightly negative in contact.
-    base_force : ndarray, shape (n, 3)
-        N, of the table on the body, along x, y, z: the mean since the sample before.
-    energies : EnergyBalance
-    airborne : float
-        s, the time in which nothing touched.
+    impact_times, impact_velocities, rebound_velocities : ndarray, shape (m,)
+        s; rad/s about the pole relative to what it stands on, just before and after.
+    dissipated_contact, dissipated_friction : ndarray, shape (n,)
+        J, taken where it stands since the start.
+    overturning_time : float
+        s, when it began to fall for good; NaN if it stands.
     """
 
-    body: ContactBody
-    law: ContactLaw
-    step: float
+    supports: Mapping[str, Pose]
+    lean: Array
+    arm: Array
     position: Array
     velocity: Array
     orientation: Array
     turning: Array
-    out_of_plane: Array
-    yaw: Array
-    slide: Array
-    uplift: Array
-    base_force: Array
-    energies: EnergyBalance
-    airborne: float
-    model: str = CONTACT.name
+    impact_times: Array
+    impact_velocities: Array
+    rebound_velocities: Array
+    dissipated_contact: Array
+    dissipated_friction: Array
+    overturning_time: float
 
     @property
-    def tilt(self) -> Array:
-        """Angle of the body's axis with the vertical, rad, shape (n,)."""
-        return tilt(self.orientation)
+    def relative(self) -> Pose:
+        """Relative to what it stands on: the table, a body, or the first of several."""
+        return next(iter(self.supports.values()), self)
+
+    @property
+    def residual(self) -> tuple[float, float, float]:
+        """Displacement along x and y, m, and yaw, rad, at the end, from where it stood at rest."""
+        return float(self.slide[-1, 0]), float(self.slide[-1, 1]), float(self.yaw[-1])
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class ContactHistory(History, BodyHistory, Together):
+    """A rocking history in space of one `body`; after lying down (|tilt| = π/2) its last state is held."""
+
+    body: ContactBody
+    model: str = CONTACT.name
 
     @property
     def impact_restitution(self) -> Array:
@@ -159,17 +214,10 @@ class ContactHistory(History):
         )
 
 
-def tilt(orientation: Array) -> Array:
-    """Return the angle of the body's z axis with the vertical, rad, shape (n,), of quaternions (n, 4)."""
-    across = 2.0 * np.hypot(orientation[:, 1], orientation[:, 2]) * np.hypot(orientation[:, 0], orientation[:, 3])
-    upright = 1.0 - 2.0 * (orientation[:, 1] ** 2 + orientation[:, 2] ** 2)
-    return np.asarray(np.arctan2(across, upright))
-
-
-def impacts_of(table: Array, block: Block) -> tuple[Array, Array, Array]:
+def impacts_of(table: Array, block: Block) -> Array:
     """
-    Turn contacts on both sides (rows of the engine's table) into impacts between two arcs of a symmetric block: times
-    (s, of their begin), velocities before and rebounds after (rad/s), shape (k,) each.
+    Turn contacts on both sides (rows of the engine's table) into impacts between two arcs of a symmetric block, shape
+    (3, k): times (s, of their begin), velocities before and rebounds after (rad/s).
 
     An impact lasts. Speeds at its two ends are carried to θ = 0 by the energy of rocking about the pole at the base's
     acceleration of that instant, so that they are those of an impact without duration. Contacts that follow each other
@@ -177,123 +225,42 @@ def impacts_of(table: Array, block: Block) -> tuple[Array, Array, Array]:
     rest, is 0.
     """
     alpha = block.critical_angle
-    kept: list[Array] = []
+    kept = table[:0]
     for row in table:
-        if kept:
-            before = kept[-1]
-            speed = _at_zero(block, before[6], before[7], before[3], before[8])
-            reachable = alpha * (1.0 - np.sqrt(max(0.0, 1.0 - (speed / (block.p * alpha)) ** 2)))
-            if row[9] < max(CHATTER * reachable, SMALLEST_ARC * alpha):
-                before[5:9] = row[5:9]
+        if len(kept):
+            rebound = _at_zero(block, *kept[-1, [5, 6, 3, 7]])
+            reachable = alpha * (1.0 - np.sqrt(np.maximum(0.0, 1.0 - (rebound / (block.p * alpha)) ** 2)))
+            if row[8] < max(CHATTER * reachable, SMALLEST_ARC * alpha):
+                kept[-1, 5:8] = row[5:8]
                 continue
-        kept.append(row.copy())
-    times = np.array([row[0] for row in kept])
-    velocities = np.array([_at_zero(block, row[1], row[2], row[3], row[4]) for row in kept])
-    rebounds = np.array(
-        [_at_zero(block, row[6], row[7], row[3], row[8]) if np.isfinite(row[5]) else 0.0 for row in kept]
-    )
-    return times, velocities, rebounds
+        kept = np.vstack((kept, row))
+    before, after = (_at_zero(block, *kept[:, columns].T) for columns in ([1, 2, 3, 4], [5, 6, 3, 7]))
+    return np.stack((kept[:, 0], before, after))
 
 
-def _at_zero(block: Block, angle: float, speed: float, base: float, pole: float) -> float:
-    """Carry the speed of rocking about a pole (±1) from an angle to 0."""
+def _at_zero(block: Block, angle: Array, speed: Array, base: Array, pole: Array) -> Array:
+    """Carry speeds of rocking about poles (±1) from angles to 0."""
     alpha, lean = block.critical_angle, block.critical_angle - pole * angle
     rise = np.cos(lean) - np.cos(alpha) + pole * base / block.gravity * (np.sin(alpha) - np.sin(lean))
-    return float(np.copysign(np.sqrt(max(0.0, speed**2 + 2.0 * block.p**2 * rise)), speed))
+    return np.asarray(np.copysign(np.sqrt(np.maximum(0.0, speed**2 + 2.0 * block.p**2 * rise)), speed))
 
 
 PARTED = 0.2
 """Of α: histories that differ by more have parted."""
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Pose:
-    """
-    How a body is placed relative to what it is seen from, at each sample.
-
-    Attributes
-    ----------
-    angle, out_of_plane_angle, yaw : ndarray, shape (n,)
-        rad: rocking angle, positive when the top moves to +x; rotation about x; rotation about the vertical.
-    slide : ndarray, shape (n, 2)
-        m: displacement along x and y of the active pole, the point of the base at y = 0 that plane rocking turns about.
-    uplift : ndarray, shape (n,)
-        m: height of the lowest point of the base above where the base stands at rest.
-    """
-
-    angle: Array
-    out_of_plane_angle: Array
-    yaw: Array
-    slide: Array
-    uplift: Array
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class BodyHistory(Pose):
-    """
-    The history of one body of an assembly, relative to the table; a body that has fallen stays where it fell.
-
-    Attributes
-    ----------
-    supports : mapping of str to Pose
-        Relative to each body that it stands on, by name; empty on the table.
-    lean : ndarray, shape (n,)
-        Angle with the vertical, over α, of the line from the base to the common centre of mass of the body and all that
-        stands on it alone; α is that of this part of the assembly (`Assembly.critical_angles`).
-    position, orientation : ndarray, shape (n, 3) and (n, 4)
-        m, of the centre of mass relative to the table; unit quaternion (scalar first), body to table.
-    impact_times, impact_velocities, rebound_velocities : ndarray, shape (m,)
-        s; rad/s about the pole relative to what it stands on, just before and after.
-    dissipated_contact, dissipated_friction : ndarray, shape (n,)
-        J, taken where it stands since the start.
-    overturning_time : float
-        s, when it began to fall for good; NaN if it stands.
-    """
-
-    supports: Mapping[str, Pose]
-    lean: Array
-    position: Array
-    orientation: Array
-    impact_times: Array
-    impact_velocities: Array
-    rebound_velocities: Array
-    dissipated_contact: Array
-    dissipated_friction: Array
-    overturning_time: float
-
-    @property
-    def relative(self) -> Pose:
-        """Relative to what it stands on: the table, a body, or the first of several."""
-        return next(iter(self.supports.values()), self)
-
-    @property
-    def residual(self) -> tuple[float, float, float]:
-        """Displacement along x and y, m, and yaw, rad, at the end, from where it stood at rest."""
-        return float(self.slide[-1, 0]), float(self.slide[-1, 1]), float(self.yaw[-1])
-
-
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class AssemblyHistory(Digested):
+class AssemblyHistory(Together, Digested):
     """
     How the bodies of an assembly rocked, slid and fell.
 
     Attributes
     ----------
     assembly : Assembly
-    law : ContactLaw
-    time : ndarray, shape (n,)
-        s.
-    angle : ndarray, shape (n,)
-        rad, positive to +x: lean of the lowest body with all that stands on it alone, the angle with the vertical of
-        the line from its base to their common centre of mass.
     bodies : mapping of str to BodyHistory
         From the bottom to the top.
-    energies : EnergyBalance
-        Of all bodies; it does not hold after the first has fallen.
-    base_force : ndarray, shape (n, 3)
-        N, of the table on all that stands on it: the mean since the sample before.
-    step : float
-        s.
+    law, time, energies, base_force, step
+        As of a single body.
 
     Examples
     --------
@@ -314,13 +281,16 @@ class AssemblyHistory(Digested):
     """
 
     assembly: Assembly
-    law: ContactLaw
-    time: Array
-    angle: Array
     bodies: Mapping[str, BodyHistory]
-    energies: EnergyBalance
-    base_force: Array
-    step: float
+
+    @property
+    def angle(self) -> Array:
+        """
+        Lean of the lowest body with all that stands on it alone, rad, positive to +x, shape (n,): the angle with the
+        vertical of the line from its base to their common centre of mass.
+        """
+        name, body = next(iter(self.bodies.items()))
+        return np.copysign(body.lean * self.assembly.critical_angles[name], body.arm[:, 0])
 
     @property
     def overturned_bodies(self) -> tuple[str, ...]:

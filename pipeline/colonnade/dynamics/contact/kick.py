@@ -22,9 +22,9 @@ PASSES = 3
 @kernel_in_place
 def kick(system: System, state: State, step: float) -> None:
     """Take the contact's impulse on all bodies, and book it."""
-    rigid, matrix, change, total, force = state.rigid, state.matrix, state.change, state.total, state.force
-    mass, begins, sides, strain = system.mass, system.sides, system.carrier.size, state.strain
-    change[:, :], total[:, :], force[:, :], strain[2:, :] = 0.0, 0.0, 0.0, 0.0
+    rigid, matrix, change, total, strain = state.rigid, state.matrix, state.change, state.total, state.strain
+    mass, sides = system.mass, system.carrier.size
+    change[:, :], total[:, :], strain[2:, :] = 0.0, 0.0, 0.0
     if state.listed[sides] == 0:
         return
     for turn in range(PASSES + 1):
@@ -41,13 +41,12 @@ def kick(system: System, state: State, step: float) -> None:
             # The last turn only gives the mean velocities that the ledger needs.
             break
         # The forces at these velocities, and what their impulse changes.
-        total[:, :], force[:, :] = 0.0, 0.0
+        total[:, :] = 0.0
         for mode in range(strain.shape[1]):
             strain[2, mode] = 0.0
-        for joint in range(force.shape[0]):
-            for side in range(begins[joint], begins[joint + 1]):
-                _fill_forces(system, state, side, step)
-                _add_forces(system, state, joint, side, step)
+        for side in range(sides):
+            _fill_forces(system, state, side, step)
+            _add_forces(system, state, side, step)
         for body in range(mass.size):
             for axis in range(3):
                 change[body, axis] = step * total[body, axis] / mass[body]
@@ -90,15 +89,15 @@ def _fill_increase(system: System, state: State, side: int, step: float) -> None
     half = 0.5 * step if system.target[side] < 0 else 0.0
     for index in range(listed[side], listed[side + 1]):
         first = 0.0 if state.touched[state.slot[index]] == 0 else step
-        load[index, 12] = first * (load[index, 9] - half * pull[0])
-        load[index, 13] = first * (load[index, 10] - half * pull[1])
+        for axis in range(2):
+            load[index, 12 + axis] = first * (load[index, 9 + axis] - half * pull[axis])
 
 
 @kernel_in_place
 def _fill_forces(system: System, state: State, side: int, step: float) -> None:
     """Fill the forces of an interface's points by the law of contact, and what becomes of their slip."""
     load, depths, slip, listed = state.load, state.depth, state.slip, state.listed
-    nodes, slots, shares, friction = state.node, state.slot, state.share, system.friction[side]
+    nodes, slots, shares, friction = state.node, state.slot, state.share, system.friction
     for index in range(listed[side], listed[side + 1]):
         node, slot, share, depth = nodes[index], slots[index], shares[index], depths[index]
         # Normal: the part of the step that the point is in contact, and the mean depth times that part.
@@ -141,18 +140,11 @@ def _shorten(load: Array, row: int, column: int, stiffness: float, limit: float)
 
 
 @kernel_in_place
-def _add_forces(system: System, state: State, joint: int, side: int, step: float) -> None:
+def _add_forces(system: System, state: State, side: int, step: float) -> None:
     """Add the forces of an interface's points and their moments to its bodies, equal and opposite, and to the modes."""
-    load, lever, frame, total, listed, rigid = (
-        state.load,
-        state.lever,
-        state.frame,
-        state.total,
-        state.listed,
-        state.rigid,
-    )
-    strain, turned, modes, nodes, force = state.strain, state.turned, system.modes, state.node, state.force
-    upper, lower, flip = system.carrier[side], system.target[side], system.flip[side]
+    load, lever, frame, listed, rigid = state.load, state.lever, state.frame, state.listed, state.rigid
+    strain, turned, modes, nodes = state.strain, state.turned, system.modes, state.node
+    upper, lower = system.carrier[side], system.target[side]
     u, v, w, p, q, r = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for index in range(listed[side], listed[side + 1]):
         x, y, z = load[index, 0], load[index, 1], load[index, 2]
@@ -164,16 +156,11 @@ def _add_forces(system: System, state: State, joint: int, side: int, step: float
             impulse = step * (turned[side, 0, own] * x + turned[side, 1, own] * y + turned[side, 2, own] * z)
             for mode in range(strain.shape[1]):
                 strain[2, mode] += modes[nodes[index], own, mode] * impulse
-    if lower >= 0:
-        u, v, w = _turned(frame, side, u, v, w)
-        p, q, r = _turned(frame, side, p, q, r)
-        x, y = rigid[upper, 0] - rigid[lower, 0], rigid[upper, 1] - rigid[lower, 1]
-        z = rigid[upper, 2] - rigid[lower, 2]
-        _add(total, lower, -u, -v, -w, z * v - y * w - p, x * w - z * u - q, y * u - x * v - r)
-    _add(total, upper, u, v, w, p, q, r)
-    force[joint, 0] += flip * u
-    force[joint, 1] += flip * v
-    force[joint, 2] += flip * w
+    u, v, w = _turned(frame, side, u, v, w)
+    p, q, r = _turned(frame, side, p, q, r)
+    x, y, z = rigid[upper, 0] - rigid[lower, 0], rigid[upper, 1] - rigid[lower, 1], rigid[upper, 2] - rigid[lower, 2]
+    _add(state.total, lower, -u, -v, -w, z * v - y * w - p, x * w - z * u - q, y * u - x * v - r)
+    _add(state.total, upper, u, v, w, p, q, r)
 
 
 @kernel_in_place

@@ -14,13 +14,11 @@ paper's prism one impact later, a step of 10 µs costs 2e-5 to 1e-4 of α.
 
 from __future__ import annotations
 
-from math import atan2, cos, sin, sqrt
-
-import numpy as np
+from math import atan2, cos, sin
 
 from colonnade.arrays import Array
 from colonnade.dynamics.contact.kick import kick
-from colonnade.dynamics.contact.state import State, System
+from colonnade.dynamics.contact.state import TABLE, State, System
 from colonnade.dynamics.contact.touch import fill_poses, fill_twists, place, spring_energy
 from colonnade.dynamics.kernel import kernel_in_place
 
@@ -45,53 +43,36 @@ def march(
     Fill the samples from `begin` on along a motion (shape (n, 3)), and the impacts; return how many were reached.
 
     `parts` steps an interval. samples, shape (n, b, 13): of the bodies, as `rigid`, but with the angular velocity.
-    joints, shape (n, j, 7): energy, lost to contact and to friction, force (mean since the sample before), time without
-    contact. sums, shape (n, 4): work of the table, lost by the modes, their kinetic and strain energy. A body
-    has fallen that lies at a tilt of π/2 or is too low. The run ends where all have, and pauses where the next interval
-    might find more impacts than `found`, shape (k, IMPACT), has room for.
+    joints, shape (n, j, 3): energy, lost to contact and to friction. sums, shape (n, 7): work of the table, lost by the
+    modes, their kinetic and strain energy, force of the table (mean since the sample before). A body has fallen that
+    lies at a tilt of π/2 or is too low. The run ends where all have, and pauses where the next interval might find more
+    impacts than `found`, shape (k, IMPACT), has room for.
     """
-    step, bodies, count = interval / parts, state.rigid.shape[0], state.watch.shape[0]
-    watch, strain, force, hits = state.watch, state.strain, state.force, state.hits
-    pull, rigid, matrix, stands = state.pull, state.rigid, state.matrix, state.stands
-    if begin == 0:
-        _fill_rotations(rigid, matrix)
+    step, bodies, count = interval / parts, system.mass.size, state.watch.shape[0]
+    watch, stands, total = state.watch, state.stands, state.total
     for sample in range(begin, motion.shape[0]):
-        if hits[0] + count * parts > found.shape[0]:
+        if state.hits[0] + count * parts > found.shape[0]:
             return sample
         for part in range(parts if sample > 0 else 0):
-            # The first half of the drift, with the table's acceleration at its middle.
-            for axis in range(3):
-                pull[axis] = -_table(motion, sample, (part + 0.25) / parts, axis)
-            _drift(system, state, pull, 0.5 * step)
-            # What may touch within the step, and its impulse.
-            fill_poses(system, state)
-            fill_twists(system, state, 0.0)
-            flutter = 0.0
-            for mode in range(strain.shape[1]):
-                flutter += strain[1, mode] ** 2
-            place(system, state, sqrt(flutter), step)
+            _drift(system, state, motion, sample, (part + 0.25) / parts, 0.5 * step)
+            place(system, state, step)
             for joint in range(count):
-                watch[joint, 4], watch[joint, 5] = _about_pole(system, state, joint, watch[joint, 0])
-                watch[joint, 2] = max(watch[joint, 2], abs(watch[joint, 4]))
+                watch[joint, 3], watch[joint, 4] = _about_pole(system, state, joint, watch[joint, 0])
+                watch[joint, 2] = max(watch[joint, 2], abs(watch[joint, 3]))
             kick(system, state, step)
             time = (sample - 1) * interval + (part + 0.5) * step
             base = _table(motion, sample, (part + 0.5) / parts, 0)
             for joint in range(count):
                 _watch(system, state, joint, base, time, found)
-            # The second half of the drift.
             for axis in range(3):
-                pull[axis] = -_table(motion, sample, (part + 0.75) / parts, axis)
-                for joint in range(count):
-                    joints[sample, joint, 3 + axis] += force[joint, axis] / parts
-            _drift(system, state, pull, 0.5 * step)
+                sums[sample, 4 + axis] -= total[TABLE, axis] / parts
+            _drift(system, state, motion, sample, (part + 0.75) / parts, 0.5 * step)
         _fill_sample(system, state, samples[sample], joints[sample], sums[sample])
         left = 0
         for body in range(bodies):
-            if stands[body] == 1 and (matrix[body, 2, 2] <= 0.0 or rigid[body, 2] < system.lowest[body]):
+            if state.matrix[body, 2, 2] <= 0.0 or state.rigid[body, 2] < system.lowest[body]:
                 stands[body] = 0
             left += stands[body]
-        for joint in range(count):
-            joints[sample, joint, 6] = step * watch[joint, 3]
         if left == 0:
             return sample + 1
     return len(motion)
@@ -105,25 +86,30 @@ def _table(motion: Array, sample: int, share: float, axis: int) -> float:
 
 
 @kernel_in_place
-def _drift(system: System, state: State, pull: Array, step: float) -> None:
-    """Move without contact for `step`, half a step of the scheme; pull is minus the table's mean acceleration."""
+def _drift(system: System, state: State, motion: Array, sample: int, share: float, step: float) -> None:
+    """Move without contact for `step`, half a step of the scheme, with the table's acceleration at its middle."""
     inertia, modal, rigid, strain, work = system.inertia, system.propagators, state.rigid, state.strain, state.work
+    for axis in range(3):
+        state.pull[axis] = -_table(motion, sample, share, axis)
     for body in range(system.mass.size):
         if state.stands[body] == 1:
             # Translation at a constant acceleration; the work of the table is booked.
             for axis in range(3):
-                acceleration = pull[axis] - (system.gravity if axis == 2 else 0.0)
+                acceleration = state.pull[axis] - (system.gravity if axis == 2 else 0.0)
                 moved = step * (rigid[body, 3 + axis] + 0.5 * step * acceleration)
                 rigid[body, axis] += moved
                 rigid[body, 3 + axis] += step * acceleration
-                work[0] += system.mass[body] * pull[axis] * moved
+                work[0] += system.mass[body] * state.pull[axis] * moved
             # Rotation: half a turn about x, half about y, a whole one about z, and back.
-            _turn(rigid, body, 0, 0.5 * step * rigid[body, 10] / inertia[body, 0])
-            _turn(rigid, body, 1, 0.5 * step * rigid[body, 11] / inertia[body, 1])
-            _turn(rigid, body, 2, step * rigid[body, 12] / inertia[body, 2])
-            _turn(rigid, body, 1, 0.5 * step * rigid[body, 11] / inertia[body, 1])
-            _turn(rigid, body, 0, 0.5 * step * rigid[body, 10] / inertia[body, 0])
-    _fill_rotations(rigid, state.matrix)
+            for turn in range(5):
+                axis = 2 - abs(turn - 2)
+                _turn(
+                    rigid,
+                    body,
+                    axis,
+                    (step if turn == 2 else 0.5 * step) * rigid[body, 10 + axis] / inertia[body, axis],
+                )
+            _fill_rotation(rigid, state.matrix, body)
     # Each mode swings freely; what its damping takes is booked.
     for mode in range(strain.shape[1]):
         value, rate, square = strain[0, mode], strain[1, mode], system.frequencies[mode] ** 2
@@ -134,33 +120,32 @@ def _drift(system: System, state: State, pull: Array, step: float) -> None:
 
 
 @kernel_in_place
-def _fill_rotations(rigid: Array, matrix: Array) -> None:
-    """Fill the rotation matrices, body to table, from the quaternions."""
-    for body in range(rigid.shape[0]):
-        w, x, y, z = rigid[body, 6], rigid[body, 7], rigid[body, 8], rigid[body, 9]
-        scale = 2.0 / (w * w + x * x + y * y + z * z)
-        matrix[body, 0, 0], matrix[body, 1, 1] = 1 - scale * (y * y + z * z), 1 - scale * (x * x + z * z)
-        matrix[body, 2, 2] = 1 - scale * (x * x + y * y)
-        matrix[body, 0, 1], matrix[body, 1, 0] = scale * (x * y - w * z), scale * (x * y + w * z)
-        matrix[body, 0, 2], matrix[body, 2, 0] = scale * (x * z + w * y), scale * (x * z - w * y)
-        matrix[body, 1, 2], matrix[body, 2, 1] = scale * (y * z - w * x), scale * (y * z + w * x)
+def _fill_rotation(rigid: Array, matrix: Array, body: int) -> None:
+    """Fill a body's rotation matrix, body to table, from its quaternion."""
+    w, x, y, z = rigid[body, 6], rigid[body, 7], rigid[body, 8], rigid[body, 9]
+    scale = 2.0 / (w * w + x * x + y * y + z * z)
+    matrix[body, 0, 0], matrix[body, 1, 1] = 1 - scale * (y * y + z * z), 1 - scale * (x * x + z * z)
+    matrix[body, 2, 2] = 1 - scale * (x * x + y * y)
+    matrix[body, 0, 1], matrix[body, 1, 0] = scale * (x * y - w * z), scale * (x * y + w * z)
+    matrix[body, 0, 2], matrix[body, 2, 0] = scale * (x * z + w * y), scale * (x * z - w * y)
+    matrix[body, 1, 2], matrix[body, 2, 1] = scale * (y * z - w * x), scale * (y * z + w * x)
 
 
 @kernel_in_place
 def _turn(rigid: Array, body: int, axis: int, angle: float) -> None:
     """Turn a body by `angle` about one of its axes; the angular momentum in space stays."""
     j, k = (axis + 1) % 3, (axis + 2) % 3
-    # The angular momentum stays in space, so its components in the body turn the other way.
-    c, s = cos(angle), sin(angle)
-    spin_j, spin_k = rigid[body, 10 + j], rigid[body, 10 + k]
-    rigid[body, 10 + j], rigid[body, 10 + k] = c * spin_j + s * spin_k, c * spin_k - s * spin_j
-    # The quaternion times that of the turn.
     c, s = cos(0.5 * angle), sin(0.5 * angle)
+    # The quaternion times that of the turn.
     scalar, q_i, q_j, q_k = rigid[body, 6], rigid[body, 7 + axis], rigid[body, 7 + j], rigid[body, 7 + k]
     rigid[body, 6] = c * scalar - s * q_i
     rigid[body, 7 + axis] = c * q_i + s * scalar
     rigid[body, 7 + j] = c * q_j + s * q_k
     rigid[body, 7 + k] = c * q_k - s * q_j
+    # The angular momentum stays in space, so its components in the body turn the other way.
+    c, s = c * c - s * s, 2.0 * c * s
+    spin_j, spin_k = rigid[body, 10 + j], rigid[body, 10 + k]
+    rigid[body, 10 + j], rigid[body, 10 + k] = c * spin_j + s * spin_k, c * spin_k - s * spin_j
 
 
 @kernel_in_place
@@ -186,21 +171,20 @@ def _watch(system: System, state: State, joint: int, base: float, time: float, f
     """Note in `found` where an arc of rocking ends and the next begins."""
     watch, hits = state.watch, state.hits
     left, right, inner = _where_it_touches(system, state, joint)
-    watch[joint, 3] += 0.0 if left or right or inner else 1.0
     pole, hit = watch[joint, 0], int(watch[joint, 1])
     now = 0.0 if inner else (1.0 if right else 0.0) - (1.0 if left else 0.0)
     # The arc ends where the body touches anywhere but at its pole.
     if abs(pole) == 1.0 and (now == -pole or inner or (left and right)):
         hit = hits[0]
-        found[hit, 0], found[hit, 1], found[hit, 2], found[hit, 3] = time, watch[joint, 4], watch[joint, 5], base
-        found[hit, 4], found[hit, 5], found[hit, 9], found[hit, 10] = pole, np.nan, watch[joint, 2], joint
+        found[hit, 0], found[hit, 1], found[hit, 2], found[hit, 3] = time, watch[joint, 3], watch[joint, 4], base
+        found[hit, 4], found[hit, 8], found[hit, 9] = pole, watch[joint, 2], joint
         hits[0], pole = hit + 1, 2.0
     # The next begins where it touches at one pole only.
     if now != 0.0 and abs(pole) != 1.0:
         if pole == 2.0:
             fill_twists(system, state, 0.0)
-            found[hit, 5], found[hit, 8] = time, now
-            found[hit, 6], found[hit, 7] = _about_pole(system, state, joint, now)
+            found[hit, 5], found[hit, 6] = _about_pole(system, state, joint, now)
+            found[hit, 7] = now
         pole, watch[joint, 2] = now, 0.0
     watch[joint, 0], watch[joint, 1] = pole, hit
 
@@ -208,12 +192,12 @@ def _watch(system: System, state: State, joint: int, base: float, time: float, f
 @kernel_in_place
 def _where_it_touches(system: System, state: State, joint: int) -> tuple[bool, bool, bool]:
     """Say whether a joint touches at its left pole (beyond −`POLE`), at its right one, and between them."""
-    load, lever, listed, apart, flip = state.load, state.lever, state.listed, state.apart, system.flip
     left, right, inner, edge = False, False, False, POLE * system.poles[joint, 1]
     for side in range(system.sides[joint], system.sides[joint + 1]):
-        for index in range(listed[side], listed[side + 1]):
-            if load[index, 3] > 0.0:
-                x = lever[index, 3] if flip[side] > 0.0 else lever[index, 0] + apart[side, 0]
+        is_upper = system.carrier[side] > system.target[side]
+        for index in range(state.listed[side], state.listed[side + 1]):
+            if state.load[index, 3] > 0.0:
+                x = state.lever[index, 3] if is_upper else state.lever[index, 0] + state.apart[side, 0]
                 x -= system.poles[joint, 0]
                 left, right, inner = left or x < -edge, right or x > edge, inner or abs(x) <= edge
     return left, right, inner
@@ -221,13 +205,13 @@ def _where_it_touches(system: System, state: State, joint: int) -> tuple[bool, b
 
 @kernel_in_place
 def _fill_sample(system: System, state: State, sample: Array, joints: Array, sums: Array) -> None:
-    """Fill the rows of a sample except the forces, which are added up along the run."""
+    """Fill the rows of a sample except the table's force, which is added up along the run."""
     fill_poses(system, state)
     for body in range(sample.shape[0]):
-        for column in range(10):
+        for column in range(13):
             sample[body, column] = state.rigid[body, column]
         for axis in range(3):
-            sample[body, 10 + axis] = state.rigid[body, 10 + axis] / system.inertia[body, axis]
+            sample[body, 10 + axis] /= system.inertia[body, axis]
     for joint in range(joints.shape[0]):
         for side in range(system.sides[joint], system.sides[joint + 1]):
             joints[joint, 0] += spring_energy(system, state, side)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import ceil, hypot
 
 import numpy as np
@@ -11,18 +10,19 @@ import numpy as np
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
-from colonnade.dynamics.contact.body import DEFAULT_STEP, ContactBody, ContactLaw
+from colonnade.dynamics.contact.body import DEFAULT_STEP, ContactBody, ContactLaw, rotation_matrices
 from colonnade.dynamics.contact.history import (
     AssemblyHistory,
     BodyHistory,
     ContactHistory,
     EnergyBalance,
     Pose,
+    Together,
     impacts_of,
 )
 from colonnade.dynamics.contact.march import march
 from colonnade.dynamics.contact.stability import longest_step
-from colonnade.dynamics.contact.start import Start, rotation_matrices, standing, standing_assembly
+from colonnade.dynamics.contact.start import Start, standing
 from colonnade.dynamics.contact.state import IMPACT, TABLE, State
 from colonnade.dynamics.contact.structure import Structure
 from colonnade.dynamics.motion import Motion, at_rest
@@ -91,44 +91,16 @@ def simulate(
     >>> simulate(body, law=law, theta0=0.3 * block.critical_angle, duration=0.2).outcome
     'rocking'
     """
-    block = plane_block(body, gravity)
-    motion = at_rest(block, duration) if motion is None else motion
     structure = Structure.of_body(body, law, gravity)
-    law = structure.interfaces[0].law
-    if start is None:
-        start = standing(body, law, gravity, theta0=theta0, omega0=omega0, out_of_plane=out_of_plane)
-    run = _run(structure, [start], motion, step)
-    own, matrices = run.samples[:, 0], run.matrices[:, 0]
-    axis, turning = matrices[:, :, 2], np.einsum("nij,nj->ni", matrices, own[:, 10:13])
-    rate = np.cross(turning, axis)
+    starts = standing(structure, theta0=theta0, omega0=omega0, out_of_plane=out_of_plane) if start is None else [start]
+    together, (own,) = _run(structure, starts, motion, duration, step)
+    axis = rotation_matrices(own.orientation)[:, :, 2]
+    rate = np.cross(own.turning, axis)
     speed = (rate[:, 0] * axis[:, 2] - axis[:, 0] * rate[:, 2]) / (axis[:, 0] ** 2 + axis[:, 2] ** 2)
-    pose = _pose(body, matrices, own[:, :3] - [0.0, 0.0, body.height])
-    if run.reached < len(own):
-        # One that lies has its angle there.
-        last = run.reached - 1
-        pose["angle"][last:], speed[last:] = np.copysign(0.5 * np.pi, axis[last, 0]), 0.0
-    return ContactHistory(
-        block,
-        motion.time,
-        pose["angle"],
-        speed,
-        *impacts_of(run.impacts, block),
-        float(run.overturning_times[0]),
-        body=body,
-        law=law,
-        step=run.step,
-        position=own[:, :3],
-        velocity=own[:, 3:6],
-        orientation=own[:, 6:10],
-        turning=turning,
-        out_of_plane=pose["out_of_plane_angle"],
-        yaw=pose["yaw"],
-        slide=pose["slide"],
-        uplift=pose["uplift"],
-        base_force=run.base_force,
-        energies=run.energies,
-        airborne=float(run.joints[-1, 0, 6]),
-    )
+    # One that lies has its angle there.
+    lies = np.abs(own.angle) >= 0.5 * np.pi
+    lying = {"angle": np.clip(own.angle, -0.5 * np.pi, 0.5 * np.pi), "angular_velocity": np.where(lies, 0.0, speed)}
+    return ContactHistory(**vars(together) | vars(own) | lying, block=plane_block(body, gravity), body=body)
 
 
 def simulate_assembly(
@@ -173,46 +145,11 @@ def simulate_assembly(
     """
     law = ContactLaw() if law is None else law
     structure = Structure.of_assembly(assembly, law) if structure is None else structure
-    block = next(iter(assembly.bodies.values())).block
-    motion = at_rest(block, duration) if motion is None else motion
-    begin = standing_assembly(assembly, structure, theta0=theta0, omega0=omega0) | dict(starts or {})
-    run = _run(structure, list(begin.values()), motion, step)
-    bodies: dict[str, BodyHistory] = {}
-    for row, ((name, placed), body) in enumerate(zip(assembly.bodies.items(), structure.bodies, strict=True)):
-        place, matrices = run.samples[:, row, :3], run.matrices[:, row]
-        own = [joint for joint, each in enumerate(structure.joints) if each.sides[0].carrier == row]
-        supports = {}
-        for below, joint in zip(placed.on, own, strict=False):
-            side = structure.joints[joint].sides[0]
-            turned = np.swapaxes(run.matrices[:, side.target], 1, 2)
-            apart = np.einsum("nij,nj->ni", turned, place - run.samples[:, side.target, :3]) - side.apart
-            supports[below] = Pose(**_pose(body, turned @ matrices, apart))
-        plane = plane_block(body, assembly.gravity)
-        times, before, after = np.hstack([impacts_of(run.impacts[run.impacts[:, -1] == one], plane) for one in own])
-        order = np.argsort(times, kind="stable")
-        bodies[name] = BodyHistory(
-            **_pose(body, matrices, place - [*placed.position, assembly.levels[name] + body.height]),
-            supports=supports,
-            lean=run.leans[:, row],
-            position=place,
-            orientation=run.samples[:, row, 6:10],
-            impact_times=times[order],
-            impact_velocities=before[order],
-            rebound_velocities=after[order],
-            dissipated_contact=run.joints[:, own, 1].sum(axis=1),
-            dissipated_friction=run.joints[:, own, 2].sum(axis=1),
-            overturning_time=float(run.overturning_times[row]),
-        )
-    return AssemblyHistory(
-        assembly=assembly,
-        law=law,
-        time=motion.time,
-        angle=np.copysign(run.leans[:, 0] * structure.critical_angles[0], run.arms[:, 0, 0]),
-        bodies=bodies,
-        energies=run.energies,
-        base_force=run.base_force,
-        step=run.step,
+    begin = dict(zip(structure.names, standing(structure, theta0=theta0, omega0=omega0), strict=True)) | dict(
+        starts or {}
     )
+    together, bodies = _run(structure, list(begin.values()), motion, duration, step)
+    return AssemblyHistory(**vars(together), assembly=assembly, bodies=dict(zip(structure.names, bodies, strict=True)))
 
 
 def plane_block(body: ContactBody, gravity: float) -> Block:
@@ -227,79 +164,73 @@ def plane_block(body: ContactBody, gravity: float) -> Block:
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _Run:
-    """
-    What the engine gives at each sample; where all have fallen before the end, the last sample is held.
-
-    samples, joints, sums as of `march`; rotation matrices of the bodies; arms, from each body's base to the centre of
-    all that turns with it, and their leans over α; overturning_times (s); reached, the number of samples that were run.
-    """
-
-    structure: Structure
-    samples: Array
-    joints: Array
-    sums: Array
-    impacts: Array
-    matrices: Array
-    arms: Array
-    leans: Array
-    overturning_times: Array
-    reached: int
-    step: float
-
-    @property
-    def base_force(self) -> Array:
-        """Force of the table on all that stands on it, N, shape (n, 3)."""
-        on_table = [joint.sides[0].target == TABLE for joint in self.structure.joints]
-        return np.asarray(self.joints[:, on_table, 3:6].sum(axis=1))
-
-    @property
-    def energies(self) -> EnergyBalance:
-        """Of bodies, of their modes and of the joints between them."""
-        masses, inertias = (
-            np.array([getattr(one, name) for one in self.structure.bodies]) for name in ("mass", "inertia")
-        )
-        speeds = (self.samples[:, :, 3:6] ** 2).sum(axis=2) @ masses
-        turning = (self.samples[:, :, 10:13] ** 2 * inertias).sum(axis=2).sum(axis=1)
-        contact, lost_to_contact, lost_to_friction = self.joints[:, :, :3].sum(axis=1).T
-        return EnergyBalance(
-            kinetic=0.5 * (speeds + turning) + self.sums[:, 2],
-            potential=self.structure.gravity * self.samples[:, :, 2] @ masses,
-            strain=self.sums[:, 3],
-            contact=contact,
-            work=self.sums[:, 0],
-            dissipated_contact=lost_to_contact,
-            dissipated_friction=lost_to_friction,
-            dissipated_bulk=self.sums[:, 1],
-        )
-
-
-def _run(structure: Structure, starts: list[Start], motion: Motion, step: float | None) -> _Run:
+def _run(
+    structure: Structure, starts: list[Start], motion: Motion | None, duration: float | None, step: float | None
+) -> tuple[Together, list[BodyHistory]]:
     """Run bodies from their starts; those that are past α at the end until they fall or come back."""
+    gravity, first = structure.gravity, plane_block(structure.bodies[0], structure.gravity)
+    motion = at_rest(first, duration) if motion is None else motion
     parts, nothing = _parts(structure, motion, step), np.zeros(motion.acceleration.size)
     along = motion.acceleration, motion.transverse, motion.vertical
     table = np.column_stack([nothing if values is None else values for values in along])
     rows = np.array([start.row for start in starts])
-    samples, joints, sums, impacts, reached, stands = _march(structure, rows, table, motion.dt, parts)
-    for values in (samples, joints, sums):
-        values[reached:] = values[reached - 1]
+    samples, joints, sums, impacts, stands = _march(structure, rows, table, motion.dt, parts)
     matrices, arms = rotation_matrices(samples[:, :, 6:10]), np.zeros((*samples.shape[:2], 3))
-    for row, (body, together) in enumerate(zip(structure.bodies, structure.together, strict=True)):
-        masses = np.array([structure.bodies[other].mass for other in together])
+    masses, inertias = (np.array([getattr(body, name) for body in structure.bodies]) for name in ("mass", "inertia"))
+    for row, (body, turning) in enumerate(zip(structure.bodies, structure.together, strict=True)):
         base = samples[:, row, :3] - body.height * matrices[:, row, :, 2]
-        arms[:, row] = np.einsum("nbi,b->ni", samples[:, together, :3], masses / masses.sum()) - base
+        centre = np.einsum("nbi,b->ni", samples[:, turning, :3], masses[turning] / masses[turning].sum())
+        arms[:, row] = centre - base
     leans = np.arctan2(np.hypot(arms[:, :, 0], arms[:, :, 1]), arms[:, :, 2]) / structure.critical_angles
     if (stands & (leans[-1] > 1.0)).any():
-        p = plane_block(structure.bodies[0], structure.gravity).p
-        still = np.zeros((ceil(AFTERMATH / (p * motion.dt)) + 1, 3))
+        still = np.zeros((ceil(AFTERMATH / (first.p * motion.dt)) + 1, 3))
         *_, stands = _march(structure, samples[-1], still, motion.dt, parts)
-    times = np.full(len(stands), np.nan)
-    for fallen in np.flatnonzero(~stands):
-        upright = np.flatnonzero(leans[:, fallen] <= 1.0)
-        times[fallen] = motion.time[min(upright.max(initial=-1) + 1, len(samples) - 1)]
-    step = motion.dt / parts
-    return _Run(structure, samples, joints, sums, impacts, matrices, arms, leans, times, reached, step)
+    upright = np.where(leans <= 1.0, np.arange(len(leans))[:, None], -1).max(axis=0)
+    times = np.where(stands, np.nan, motion.time[np.minimum(upright + 1, len(leans) - 1)])
+    bodies, own = [], range(0)
+    for row, body in enumerate(structure.bodies):
+        own = range(own.stop, own.stop + len(structure.joints[row]))
+        place, supports = samples[:, row, :3], {}
+        for side in (joint.sides[0] for joint in structure.joints[row] if joint.sides[0].target != TABLE):
+            turned = np.swapaxes(matrices[:, side.target], 1, 2)
+            apart = np.einsum("nij,nj->ni", turned, place - samples[:, side.target, :3]) - side.apart
+            supports[structure.names[side.target]] = Pose(**_pose(body, turned @ matrices[:, row], apart))
+        times_, before, after = impacts_of(impacts[np.isin(impacts[:, -1], own)], plane_block(body, gravity))
+        bodies.append(
+            BodyHistory(
+                **_pose(body, matrices[:, row], place - structure.rest[row]),
+                supports=supports,
+                lean=leans[:, row],
+                arm=arms[:, row],
+                position=place,
+                velocity=samples[:, row, 3:6],
+                orientation=samples[:, row, 6:10],
+                turning=np.einsum("nij,nj->ni", matrices[:, row], samples[:, row, 10:13]),
+                impact_times=times_,
+                impact_velocities=before,
+                rebound_velocities=after,
+                dissipated_contact=joints[:, own, 1].sum(axis=1),
+                dissipated_friction=joints[:, own, 2].sum(axis=1),
+                overturning_time=float(times[row]),
+            )
+        )
+    speeds = (samples[:, :, 3:6] ** 2).sum(axis=2) @ masses
+    turning = (samples[:, :, 10:13] ** 2 * inertias).sum(axis=2).sum(axis=1)
+    contact, lost_to_contact, lost_to_friction = joints.sum(axis=1).T
+    energies = EnergyBalance(
+        kinetic=0.5 * (speeds + turning) + sums[:, 2],
+        potential=gravity * samples[:, :, 2] @ masses,
+        strain=sums[:, 3],
+        contact=contact,
+        work=sums[:, 0],
+        dissipated_contact=lost_to_contact,
+        dissipated_friction=lost_to_friction,
+        dissipated_bulk=sums[:, 1],
+    )
+    law = structure.interfaces[0].law
+    return Together(
+        law=law, time=motion.time, energies=energies, base_force=sums[:, 4:], step=motion.dt / parts
+    ), bodies
 
 
 def _parts(structure: Structure, motion: Motion, step: float | None) -> int:
@@ -325,17 +256,20 @@ def _parts(structure: Structure, motion: Motion, step: float | None) -> int:
 
 def _march(
     structure: Structure, rows: Array, table: Array, interval: float, parts: int
-) -> tuple[Array, Array, Array, Array, int, Mask]:
-    """Call the engine from the bodies' rows, as of `Start`; give samples, joints, sums, impacts, reached, stands."""
-    system, joints = structure.system(interval / parts), len(structure.joints)
-    state = State.begin(system, rows)
-    samples, sums = np.zeros((len(table), *rows.shape)), np.zeros((len(table), 4))
-    contact, found = np.zeros((len(table), joints, 7)), np.zeros((2 * joints * parts, IMPACT))
-    reached, stands = 0, state.stands > 0
+) -> tuple[Array, Array, Array, Array, Mask]:
+    """Call the engine from the bodies' rows, as of `Start`; give samples, joints, sums, impacts, stands."""
+    system = structure.system(interval / parts)
+    state, joints = State.begin(system, rows), len(system.poles)
+    samples, sums = np.zeros((len(table), *rows.shape)), np.zeros((len(table), 7))
+    contact, found = np.zeros((len(table), joints, 3)), np.zeros((2 * joints * parts, IMPACT))
+    reached, stands = 0, state.stands[:TABLE]
     while reached < len(table) and stands.any():
         reached = march(system, state, table, interval, parts, samples, contact, sums, found, reached)
-        found, stands = np.concatenate((found, np.zeros_like(found))), state.stands > 0
-    return samples, contact, sums, found[: state.hits[0]], reached, stands
+        found = np.concatenate((found, np.zeros_like(found)))
+    # Where all have fallen before the end, the last sample is held.
+    for values in (samples, contact, sums):
+        values[reached:] = values[reached - 1]
+    return samples, contact, sums, found[: state.hits[0]], stands > 0
 
 
 def _pose(body: ContactBody, matrices: Array, moved: Array) -> dict[str, Array]:

@@ -9,9 +9,9 @@ import numpy as np
 import scipy
 
 from colonnade.arrays import Array
-from colonnade.dynamics.assembly import Assembly, Placed
-from colonnade.dynamics.contact.body import ContactBody, ContactLaw
-from colonnade.dynamics.contact.structure import Structure, on_face
+from colonnade.dynamics.contact.body import ContactBody, rotation_matrices
+from colonnade.dynamics.contact.state import TABLE
+from colonnade.dynamics.contact.structure import Joint, Structure
 
 
 @dataclass(frozen=True)
@@ -43,81 +43,51 @@ class Start:
 
 
 def standing(
-    body: ContactBody,
-    law: ContactLaw,
-    gravity: float,
-    *,
-    theta0: float = 0.0,
-    omega0: float = 0.0,
-    out_of_plane: float = 0.0,
-    weight: float | None = None,
-) -> Start:
+    structure: Structure, *, theta0: float = 0.0, omega0: float = 0.0, out_of_plane: float = 0.0
+) -> list[Start]:
     """
-    Put a body on the table, so deep that its contact bears its weight (or the `weight` given, N), and give it a rocking
-    velocity.
+    Put bodies on the table and on each other, so deep that each contact bears what is above it, and let them rock.
 
-    `theta0` and `out_of_plane` in rad; `omega0`, rad/s, is about the pole at ±x on the side of θ₀ (of ω₀ where θ₀ is
-    0), which is where the upright body has it.
+    `theta0` and `out_of_plane` in rad, of bodies on the table; `omega0`, rad/s, is about the pole at ±x on the side of
+    θ₀ (of ω₀ where θ₀ is 0), which is where the upright body has it. One that stands on a single other turns with it,
+    one on several stays level and goes along with the uppermost points of their tops.
     """
+    starts: list[Start] = []
+    for body, rest, joints in zip(structure.bodies, structure.rest, structure.joints, strict=True):
+        if joints[0].sides[0].target == TABLE:
+            starts.append(_on_table(body, rest, joints[0], theta0, omega0, out_of_plane))
+        else:
+            found = [_carried(starts[joint.sides[0].target], joint, len(joints) == 1) for joint in joints]
+            position = np.mean([one.position for one in found], axis=0)
+            velocity = np.mean([one.velocity for one in found], axis=0)
+            starts.append(replace(found[0], position=position, velocity=velocity))
+    return starts
+
+
+def _on_table(body: ContactBody, rest: Array, joint: Joint, theta0: float, omega0: float, out_of_plane: float) -> Start:
     axis = np.array([tan(theta0), -tan(out_of_plane), 1.0])
     axis /= np.linalg.norm(axis)
     orientation = np.array([1.0 + axis[2], -axis[1], axis[0], 0.0]) / np.sqrt(2.0 * (1.0 + axis[2]))
     matrix = rotation_matrices(orientation)
     pole = np.array([np.sign(theta0 or omega0) * body.half_width, 0.0, -body.height])
     arm, angular = matrix @ pole, np.array([0.0, omega0, 0.0])
-    position = pole - arm
-    position[2] = _bearing_height(
-        body, matrix[2], law.node_stiffness(body), body.mass * gravity if weight is None else weight
-    )
+    position = rest - arm + pole
+    stiffness = joint.sides[0].law.node_stiffness(body)
+    position[2] = _bearing_height(body, matrix[2], stiffness, joint.load)
     return Start(position, np.cross(angular, -arm), orientation, angular)
 
 
-def standing_assembly(
-    assembly: Assembly, structure: Structure, *, theta0: float = 0.0, omega0: float = 0.0
-) -> dict[str, Start]:
-    """
-    Put the bodies of an assembly on the table and on each other, so deep that each contact bears what is above it.
-
-    Bodies on the table begin as `standing`; one that stands on a single other turns with it, one on several stays
-    level and goes along with the uppermost points of their tops.
-    """
-    starts: dict[str, Start] = {}
-    joints = iter(structure.joints)
-    for (name, placed), body in zip(assembly.bodies.items(), structure.bodies, strict=True):
-        if not placed.on:
-            joint = next(joints)
-            law, gravity = joint.sides[0].law, assembly.gravity
-            on_table = standing(body, law, gravity, theta0=theta0, omega0=omega0, weight=joint.load)
-            starts[name] = replace(on_table, position=on_table.position + np.append(placed.position, 0.0))
-            continue
-        found = []
-        for below in placed.on:
-            joint = next(joints)
-            bearing = sum(float(side.law.node_stiffness(side.at) @ on_face(side)) for side in joint.sides)
-            rest = np.array(joint.sides[0].apart) - [0.0, 0.0, joint.load / bearing]
-            found.append(_carried(starts[below], rest, assembly.bodies[below], len(placed.on) == 1))
-        starts[name] = Start(
-            np.mean([one.position for one in found], axis=0),
-            np.mean([one.velocity for one in found], axis=0),
-            found[0].orientation,
-            found[0].angular_velocity,
-        )
-    return starts
-
-
-def _carried(below: Start, rest: Array, placed: Placed, turns: bool) -> Start:
-    """Give the start of a body that at rest is `rest` from the centre of mass of the one that it stands on."""
-    matrix, solid = rotation_matrices(below.orientation), placed.block.solid
+def _carried(below: Start, joint: Joint, turns: bool) -> Start:
+    """Give the start of a body by that of one that it stands on, which it turns with or whose uppermost point bears."""
+    side, matrix = joint.sides[0], rotation_matrices(below.orientation)
+    bearing = sum(float(each.law.node_stiffness(each.at) @ each.on_face) for each in joint.sides)
+    rest = side.apart - [0.0, 0.0, joint.load / bearing]
+    held = rest if turns else np.array([-np.sign(matrix[0, 2]) * side.face[0], 0.0, side.face[4]])
+    arm = matrix @ held
+    start = Start(below.position + arm - held + rest, below.velocity + np.cross(below.angular_velocity, arm))
     if turns:
-        arm = matrix @ rest
-        velocity = below.velocity + np.cross(below.angular_velocity, arm)
-        return Start(below.position + arm, velocity, below.orientation, below.angular_velocity)
-    assert solid is not None  # the assembly has seen to it
-    tilted = -np.sign(matrix[0, 2]) if abs(matrix[0, 2]) > 0.0 else 0.0
-    corner = np.array([tilted * solid.top[0], 0.0, solid.height - placed.centre_height])
-    arm = matrix @ corner
-    velocity = below.velocity + np.cross(below.angular_velocity, arm)
-    return Start(below.position + arm - corner + rest, velocity)
+        return replace(start, orientation=below.orientation, angular_velocity=below.angular_velocity)
+    return start
 
 
 def _bearing_height(body: ContactBody, upward: Array, stiffness: Array, weight: float) -> float:
@@ -136,14 +106,3 @@ def _bearing_height(body: ContactBody, upward: Array, stiffness: Array, weight: 
     # Twice as deep as an upright body, of which the bound would else be the root itself, missed by rounding.
     deepest = 2.0 * (weight / float(stiffness.sum()) + float(rise.max())) + float(above.max())
     return float(-lowest.min() - scipy.optimize.brentq(excess, 0.0, deepest, xtol=1e-20, rtol=1e-15))
-
-
-def rotation_matrices(orientation: Array) -> Array:
-    """Return the rotation matrices, shape (…, 3, 3), of unit quaternions, shape (…, 4)."""
-    w, x, y, z = np.moveaxis(orientation, -1, 0)
-    rows = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))

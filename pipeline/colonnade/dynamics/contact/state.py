@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Annotated, Any, NamedTuple, get_args, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array
+from colonnade.dynamics.contact.body import rotation_matrices
 
 Whole = NDArray[np.int64]
 
 TABLE = -1
-"""In the place of the body below an interface."""
+"""In the place of a body: of all that is kept of bodies, the table is the last row, which stays where it is."""
 
 POINTS = 8
 """At which a ring's arc of contact is integrated (Gauss and Legendre)."""
 
-IMPACT = 11
-"""Columns of the impacts: begin, angle, speed, base acceleration, pole (±1); end (NaN where it does not), angle, speed,
-pole; largest |angle| since the impact before; joint. A speed is the angular momentum about the pole over the inertia
-about it, which the contact's own vibration does not change."""
+IMPACT = 10
+"""Columns of the impacts: begin, angle, speed, base acceleration, pole (±1); angle, speed and pole (0 where it does not
+end) at its end; largest |angle| since the impact before; joint. A speed is the angular momentum about the pole over the
+inertia about it, which the contact's own vibration does not change."""
 
 
 class System(NamedTuple):
@@ -29,10 +30,10 @@ class System(NamedTuple):
 
     Of each body: mass; inertia, shape (b, 3); lowest: height of the centre of mass below which it has fallen.
 
-    Of each interface: carrier of its nodes; target, whose face they meet; flip, −1 where that is its base; face, how
-    far it is from the target's centre of mass, out of it; outline, shape (s, 4): half lengths along x and y, or the
-    radius, width of the band within which a node at the edge fades, and 1 of a circle; friction; first, shape (s + 1,),
-    where its nodes begin; reach, of the farthest one.
+    Of each interface: carrier of its nodes; target, whose face they meet, the base of it if that is the upper body;
+    face, shape (s, 5): half lengths along x and y, or the radius, width of the band within which a node at the edge
+    fades, 1 of a circle, and how far it is from the target's centre of mass, out of it; first, shape (s + 1,), where
+    its nodes begin; reach, of the farthest one.
 
     Of each node: place in the carrier's axes; radius, 0 of a point; slots, shape (n + 1,), where its points begin, one
     of a point and as many as `arc` has of a ring; stiffness and damping, of a ring all around. arc, shape (2, k):
@@ -46,15 +47,13 @@ class System(NamedTuple):
     """
 
     gravity: float
+    friction: float
     mass: Array
     inertia: Array
     lowest: Array
     carrier: Whole
     target: Whole
-    flip: Array
     face: Array
-    outline: Array
-    friction: Array
     first: Whole
     reach: Array
     nodes: Array
@@ -73,95 +72,76 @@ class System(NamedTuple):
 
 class State(NamedTuple):
     """
-    What changes, and work space for a step.
+    What changes, and work space for a step; of b bodies and the table, s interfaces, j joints, n nodes, p points, k
+    points of a ring, m modes.
 
-    rigid, shape (b, 13): position, velocity, quaternion, angular momentum in the body's axes; matrix, shape (b, 3, 3):
-    rotation, body to table; stands, shape (b,): 0 of a body that has fallen and is left where it lies; strain, shape
-    (4, m): η, η̇, its gain in the step and its mean; slip, shape (p, 2): elastic slip of each point; touched, shape
-    (p,): 1 where the point touched in the last step; entry, shape (p,): how deep it was as it came over the outline of
-    a face from below (m), from where on it bears, and −1 less that where it is off the face; arcs, shape (n, 2):
+    rigid: position, velocity, quaternion, angular momentum in the body's axes; matrix: rotation, body to table; stands:
+    0 of a body that has fallen and is left where it lies; strain: η, η̇, its gain in the step and its mean; slip:
+    elastic slip of each point; touched: 1 where the point touched in the last step; entry: how deep it was as it came
+    over the outline of a face from below (m), from where on it bears, and −1 less that where it is off the face; arcs:
     direction of a ring's lowest point in the carrier and half the arc (rad) that its points span, 0 where it is off the
-    face; work: of the table and lost by the modes; lost, shape (s, 2): taken by contact and friction; force, shape (j,
-    3): on the upper body in this step, in the table's axes; watch, shape (j, 6): pole rocked on (±1; 0 at first, 2 in
-    an impact), its last impact, largest |angle| since then, steps without contact, angle and speed about the pole
-    before the kick; hits: number of impacts of all joints. The rest is of one step.
+    face; work: of the table and lost by the modes; lost: taken by contact and friction; watch: pole rocked on (±1; 0 at
+    first, 2 in an impact), its last impact, largest |angle| since then, angle and speed about the pole before the kick;
+    hits: number of impacts of all joints. The rest is of one step.
 
-    Of each interface: frame, shape (s, 3, 3): the target's axes to the table's; turned, shape (s, 3, 3), and apart,
-    shape (s, 3): carrier to target, from the face's middle; twist, shape (s, 6): v and ω of the carrier relative to the
-    target, in its axes; listed, shape (s + 1,): where its points begin in the list of those that may touch. Of each
-    such point: node; slot; share of its node's stiffness and damping; lever, shape (p, 6): in the target's axes, in
-    the carrier's; depth; load, shape (p, 14): force 0:3, its elastic normal part 3, slip left 4:6, whether it sticks 6,
-    slip that the normal force still holds 7:9, velocity 9:12, the slip's increase over the step 12:14. Of each body:
-    speeds, shape (b, 6): v and ω in the table's axes; change, shape (b, 6): of velocity and angular momentum; total,
-    shape (b, 6): force and moment. carried: slip of a ring's points at their new places. pull: minus the table's
-    acceleration.
+    Of each interface: frame: the target's axes to the table's; turned and apart: carrier to target, from the face's
+    middle; twist: v and ω of the carrier relative to the target, in its axes; listed: where its points begin in the
+    list of those that may touch. Of each such point: node; slot; share of its node's stiffness and damping; lever: in
+    the target's axes, in the carrier's; depth; load: force 0:3, its elastic normal part 3, slip left 4:6, whether it
+    sticks 6, slip that the normal force still holds 7:9, velocity 9:12, the slip's increase over the step 12:14. Of
+    each body: speeds: v and ω in the table's axes; change: of velocity and angular momentum; total: force and moment.
+    carried: slip of a ring's points at their new places. pull: minus the table's acceleration.
     """
 
-    rigid: Array
-    matrix: Array
-    stands: Whole
-    strain: Array
-    slip: Array
-    touched: Whole
-    entry: Array
-    arcs: Array
-    work: Array
-    lost: Array
-    force: Array
-    watch: Array
-    hits: Whole
-    frame: Array
-    turned: Array
-    apart: Array
-    twist: Array
-    listed: Whole
-    node: Whole
-    slot: Whole
-    share: Array
-    lever: Array
-    depth: Array
-    load: Array
-    speeds: Array
-    change: Array
-    total: Array
-    carried: Array
-    pull: Array
+    rigid: Annotated[Array, "b", 13]
+    matrix: Annotated[Array, "b", 3, 3]
+    stands: Annotated[Whole, "b"]
+    strain: Annotated[Array, 4, "m"]
+    slip: Annotated[Array, "p", 2]
+    touched: Annotated[Whole, "p"]
+    entry: Annotated[Array, "p"]
+    arcs: Annotated[Array, "n", 2]
+    work: Annotated[Array, 2]
+    lost: Annotated[Array, "s", 2]
+    watch: Annotated[Array, "j", 5]
+    hits: Annotated[Whole, 1]
+    frame: Annotated[Array, "s", 3, 3]
+    turned: Annotated[Array, "s", 3, 3]
+    apart: Annotated[Array, "s", 3]
+    twist: Annotated[Array, "s", 6]
+    listed: Annotated[Whole, "s + 1"]
+    node: Annotated[Whole, "p"]
+    slot: Annotated[Whole, "p"]
+    share: Annotated[Array, "p"]
+    lever: Annotated[Array, "p", 6]
+    depth: Annotated[Array, "p"]
+    load: Annotated[Array, "p", 14]
+    speeds: Annotated[Array, "b", 6]
+    change: Annotated[Array, "b", 6]
+    total: Annotated[Array, "b", 6]
+    carried: Annotated[Array, "k", 2]
+    pull: Annotated[Array, 3]
 
     @classmethod
     def begin(cls, system: System, rows: Array) -> State:
         """Give the state of bodies, by `Start.row`, that touch nothing yet and are not strained."""
-        bodies, sides, joints = len(system.mass), len(system.carrier), len(system.poles)
-        points = int(system.slots[-1])
-        rigid = rows.copy()
-        rigid[:, 10:] *= system.inertia
-        return cls(
-            rigid,
-            np.zeros((bodies, 3, 3)),
-            np.ones(bodies, np.int64),
-            np.zeros((4, system.frequencies.size)),
-            np.zeros((points, 2)),
-            np.zeros(points, np.int64),
-            np.zeros(points),
-            np.zeros((len(system.nodes), 2)),
-            np.zeros(2),
-            np.zeros((sides, 2)),
-            np.zeros((joints, 3)),
-            np.zeros((joints, 6)),
-            np.zeros(1, np.int64),
-            np.zeros((sides, 3, 3)),
-            np.zeros((sides, 3, 3)),
-            np.zeros((sides, 3)),
-            np.zeros((sides, 6)),
-            np.zeros(sides + 1, np.int64),
-            np.zeros(points, np.int64),
-            np.zeros(points, np.int64),
-            np.zeros(points),
-            np.zeros((points, 6)),
-            np.zeros(points),
-            np.zeros((points, 14)),
-            np.zeros((bodies, 6)),
-            np.zeros((bodies, 6)),
-            np.zeros((bodies, 6)),
-            np.zeros((system.arc.shape[1], 2)),
-            np.zeros(3),
-        )
+        lengths = {
+            "b": len(system.mass) + 1,
+            "s": len(system.carrier),
+            "s + 1": len(system.first),
+            "j": len(system.poles),
+            "n": len(system.nodes),
+            "p": int(system.slots[-1]),
+            "k": system.arc.shape[1],
+            "m": system.frequencies.size,
+        }
+        arrays: dict[str, Any] = {}
+        for name, hint in get_type_hints(cls, include_extras=True).items():
+            kind, *shape = get_args(hint)
+            dtype = np.int64 if kind == Whole else np.float64
+            arrays[name] = np.zeros([lengths.get(length, length) for length in shape], dtype)
+        state = cls(**arrays)
+        state.stands[:], state.rigid[TABLE, 6], state.rigid[:TABLE] = 1, 1.0, rows
+        state.rigid[:TABLE, 10:] *= system.inertia
+        state.matrix[:] = rotation_matrices(state.rigid[:, 6:10])
+        return state

@@ -45,22 +45,25 @@ class Interface:
         Of the bodies; the target may be `TABLE`.
     law : ContactLaw
         With its stiffness.
-    face : float
-        Height of the target's face over its centre of mass, out of that face, m.
-    outline : tuple of float
-        Half lengths of the face along x and y, m, the width of the band in which a node fades at its edge, and 1 if it
-        is a circle.
-    apart : tuple of float
+    face : tuple of float
+        Half lengths of the target's face along x and y, m, the width of the band in which a node fades at its edge, 1
+        if it is a circle, and its height over the target's centre of mass, out of the face, m.
+    apart : ndarray, shape (3,)
         From the target's centre of mass to the carrier's at rest, m.
     """
 
     at: Nodes
     carrier: int
-    target: int = TABLE
+    target: int
     law: ContactLaw
-    face: float = 0.0
-    outline: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
-    apart: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    face: tuple[float, float, float, float, float]
+    apart: Array
+
+    @property
+    def on_face(self) -> Array:
+        """How much of each node is on the target's face at rest, shape (n,), of a ring in the mean over its circle."""
+        circles = self.at.around(64) + self.apart
+        return np.array([np.mean([inside(*self.face[:4], x, y) for x, y, _ in circle]) for circle in circles])
 
 
 class Joint(NamedTuple):
@@ -92,81 +95,89 @@ class Structure:
     ----------
     gravity : float
         m/s².
+    names : list of str
     bodies : list of ContactBody
         Their mass and inertia, and on the table their nodes.
-    joints : list of Joint
+    rest : ndarray, shape (b, 3)
+        Where their centres of mass are at rest, m.
+    joints : list of list of Joint
+        Of each body, on what it stands.
     together : list of list of int
         The bodies that turn with each: itself and what stands on it alone.
     critical_angles : list of float
         α of each with these, rad.
-    lowest : list of float
-        Heights of the centres of mass below which bodies have fallen, m.
     """
 
     gravity: float
+    names: list[str]
     bodies: list[ContactBody]
-    joints: list[Joint]
+    rest: Array
+    joints: list[list[Joint]]
     together: list[list[int]]
     critical_angles: list[float]
-    lowest: list[float]
 
     @property
     def interfaces(self) -> list[Interface]:
         """Of all joints."""
-        return [side for joint in self.joints for side in joint.sides]
+        return [side for joints in self.joints for joint in joints for side in joint.sides]
 
     @classmethod
     def of_body(cls, body: ContactBody, law: ContactLaw, gravity: float) -> Structure:
         """Let one body stand on the table."""
-        joint = _on_table(body, 0, law.bearing(body, gravity), body.mass * gravity)
-        return cls(gravity, [body], [joint], [[0]], [atan2(body.half_width, body.height)], [-inf])
+        rest = np.array([[0.0, 0.0, body.height]])
+        joint = _on_table(body, 0, law.bearing(body, gravity), rest[0], body.mass * gravity)
+        return cls(gravity, [""], [body], rest, [[joint]], [[0]], [atan2(body.half_width, body.height)])
 
     @classmethod
     def of_assembly(cls, assembly: Assembly, law: ContactLaw, *, grid: tuple[int, int] = GRID) -> Structure:
         """Let the bodies of an assembly stand on each other, with nodes as `rigid_body` places them."""
         numbers = {name: number for number, name in enumerate(assembly.bodies)}
         bodies = [rigid_body(placed.block, grid=grid) for placed in assembly.bodies.values()]
+        places = [placed.position for placed in assembly.bodies.values()]
+        rest = np.column_stack((places, list(assembly.levels.values()) + np.array([body.height for body in bodies])))
         joints = []
-        for (name, placed), body in zip(assembly.bodies.items(), bodies, strict=True):
-            mass, height = carried(assembly, name)
-            weight = mass * assembly.gravity
+        for row, (name, placed) in enumerate(assembly.bodies.items()):
+            body, (mass, height), own = bodies[row], carried(assembly, name), []
             if not placed.on:
-                joints.append(_on_table(body, numbers[name], law.under(weight / body.node_area.sum(), height), weight))
+                weight = mass * assembly.gravity
+                stiff = law.under(weight / float(body.node_area.sum()), height)
+                own.append(_on_table(body, row, stiff, rest[row], weight))
             for below, share in supports(assembly, name).items():
                 patch, load = _Patch(placed, assembly.bodies[below], grid), mass * share * assembly.gravity
-                sides = patch.sides((numbers[name], numbers[below]), law)
-                area = sum(float(side.at.node_area @ on_face(side)) for side in sides)
+                sides = patch.sides((row, numbers[below]), law)
+                area = sum(float(side.at.node_area @ side.on_face) for side in sides)
                 for k, side in enumerate(sides):
                     at = replace(side.at, node_mass=share * body.mass * side.at.node_area / area)
                     sides[k] = replace(side, at=at, law=law.under(load / area, height))
-                joints.append(Joint(sides, (*patch.across, body.height), load))
+                own.append(Joint(sides, (*patch.across, body.height), load))
+            joints.append(own)
         return cls(
             assembly.gravity,
+            list(numbers),
             bodies,
+            rest,
             joints,
-            [[numbers[other] for other in standing_on(assembly, name)] for name in assembly.bodies],
+            [[numbers[other] for other in standing_on(assembly, name)] for name in numbers],
             list(assembly.critical_angles.values()),
-            [assembly.levels[name] if placed.on else -inf for name, placed in assembly.bodies.items()],
         )
 
     def system(self, step: float) -> System:
         """Give the engine's arrays for a step, s."""
-        sides = self.interfaces
+        sides, joints, first = self.interfaces, [joint for own in self.joints for joint in own], self.bodies[0]
         radii = np.concatenate([side.at.ring_radii for side in sides])
         nodes = np.concatenate([side.at.nodes for side in sides])
-        first = self.bodies[0]
         modes = first.modes if first.frequencies.size else np.zeros((len(nodes), 3, 0))
+        on_table = [own[0].sides[0].target == TABLE for own in self.joints]
+        bases = self.rest[:, 2] - [body.height for body in self.bodies]
         return System(
             float(self.gravity),
+            float(sides[0].law.friction),
             np.array([body.mass for body in self.bodies]),
             np.array([body.inertia for body in self.bodies]),
-            np.array(self.lowest),
+            np.where(on_table, -inf, bases),
             np.array([side.carrier for side in sides]),
             np.array([side.target for side in sides]),
-            np.array([1.0 if side.carrier > side.target else -1.0 for side in sides]),
             np.array([side.face for side in sides]),
-            np.array([side.outline for side in sides]),
-            np.array([side.law.friction for side in sides], dtype=np.float64),
             _begins([len(side.at.nodes) for side in sides]),
             np.array([np.sqrt((side.at.nodes**2).sum(axis=1)).max(initial=0.0) for side in sides]),
             np.ascontiguousarray(nodes),
@@ -175,8 +186,8 @@ class Structure:
             np.concatenate([side.law.node_stiffness(side.at) for side in sides]),
             np.concatenate([side.law.node_damping(side.at) for side in sides]),
             np.array(np.polynomial.legendre.leggauss(POINTS)),
-            _begins([len(joint.sides) for joint in self.joints]),
-            np.array([joint.pole for joint in self.joints]),
+            _begins([len(joint.sides) for joint in joints]),
+            np.array([joint.pole for joint in joints]),
             np.ascontiguousarray(modes),
             first.frequencies,
             propagators(first, 0.5 * step),
@@ -217,9 +228,8 @@ class _Patch:
                 carrier=bodies[which],
                 target=bodies[other],
                 law=law,
-                face=(self._depths[1], -self._depths[0])[which],
-                outline=(*self._sizes[other], band, float(self._round[other])),
-                apart=tuple((2.0 * which - 1.0) * apart),
+                face=(*self._sizes[other], band, float(self._round[other]), (self._depths[1], -self._depths[0])[which]),
+                apart=(2.0 * which - 1.0) * apart,
             )
             found.append(side)
         return found
@@ -259,16 +269,9 @@ class _Patch:
         return np.asarray(inside.min(axis=1) < 1e-6 * self._sizes.min())
 
 
-def on_face(side: Interface) -> Array:
-    """Give how much of each node is on the target's face at rest, shape (n,), of a ring in the mean over its circle."""
-    if side.target == TABLE:
-        return np.ones(len(side.at.nodes))
-    places = side.at.around(64) + side.apart
-    return np.array([np.mean([inside(*side.outline, x, y) for x, y, _ in circle]) for circle in places])
-
-
-def _on_table(body: ContactBody, number: int, law: ContactLaw, load: float) -> Joint:
-    return Joint([Interface(at=body, carrier=number, law=law)], (0.0, body.half_width, body.height), load)
+def _on_table(body: ContactBody, number: int, law: ContactLaw, rest: Array, load: float) -> Joint:
+    side = Interface(at=body, carrier=number, target=TABLE, law=law, face=(inf, inf, 0.0, 0.0, 0.0), apart=rest)
+    return Joint([side], (0.0, body.half_width, body.height), load)
 
 
 def _begins(counts: Sequence[int] | NDArray[np.int64]) -> NDArray[np.int64]:

@@ -26,91 +26,83 @@ DEEPEST = 1e-4
 
 @kernel_in_place
 def fill_poses(system: System, state: State) -> None:
-    """Fill where each carrier is in the axes of its target."""
-    rigid, matrix, target, carrier, flip = state.rigid, state.matrix, system.target, system.carrier, system.flip
-    frame, turned, apart, face = state.frame, state.turned, state.apart, system.face
-    for side in range(carrier.size):
-        upper, lower = carrier[side], target[side]
-        if lower < 0:
-            for row in range(3):
-                apart[side, row] = rigid[upper, row]
-                for column in range(3):
-                    turned[side, row, column] = matrix[upper, row, column]
-        else:
-            for row in range(3):
-                for column in range(3):
-                    frame[side, row, column] = matrix[lower, row, column] * (flip[side] if column > 0 else 1.0)
-            for row in range(3):
-                apart[side, row] = -face[side] if row == 2 else 0.0
+    """Fill where each carrier is in the axes of its target, which are turned over where that is the upper body."""
+    rigid, matrix, frame, turned, apart = state.rigid, state.matrix, state.frame, state.turned, state.apart
+    for side in range(system.carrier.size):
+        upper, lower = system.carrier[side], system.target[side]
+        flip = 1.0 if upper > lower else -1.0
+        for row in range(3):
+            for column in range(3):
+                frame[side, row, column] = matrix[lower, row, column] * (flip if column > 0 else 1.0)
+        for row in range(3):
+            apart[side, row] = -system.face[side, 4] if row == 2 else 0.0
+            for axis in range(3):
+                apart[side, row] += frame[side, axis, row] * (rigid[upper, axis] - rigid[lower, axis])
+            for column in range(3):
+                turned[side, row, column] = 0.0
                 for axis in range(3):
-                    apart[side, row] += frame[side, axis, row] * (rigid[upper, axis] - rigid[lower, axis])
-                for column in range(3):
-                    turned[side, row, column] = 0.0
-                    for axis in range(3):
-                        turned[side, row, column] += frame[side, axis, row] * matrix[upper, axis, column]
+                    turned[side, row, column] += frame[side, axis, row] * matrix[upper, axis, column]
 
 
 @kernel_in_place
 def fill_twists(system: System, state: State, share: float) -> None:
     """Fill the velocities of bodies, a share of the change by the kick later, and of carriers relative to targets."""
-    rigid, matrix, inertia = state.rigid, state.matrix, system.inertia
-    speeds, change, twist, frame = state.speeds, state.change, state.twist, state.frame
-    carrier, target = system.carrier, system.target
-    for body in range(rigid.shape[0]):
+    rigid, matrix, speeds, change = state.rigid, state.matrix, state.speeds, state.change
+    for body in range(system.mass.size):
         for axis in range(3):
             speeds[body, axis] = rigid[body, 3 + axis] + share * change[body, axis]
             speeds[body, 3 + axis] = 0.0
             for own in range(3):
-                turning = (rigid[body, 10 + own] + share * change[body, 3 + own]) / inertia[body, own]
+                turning = (rigid[body, 10 + own] + share * change[body, 3 + own]) / system.inertia[body, own]
                 speeds[body, 3 + axis] += matrix[body, axis, own] * turning
-    for side in range(carrier.size):
-        upper, lower = carrier[side], target[side]
-        if lower < 0:
-            for axis in range(6):
-                twist[side, axis] = speeds[upper, axis]
-        else:
-            x, y = rigid[upper, 0] - rigid[lower, 0], rigid[upper, 1] - rigid[lower, 1]
-            z = rigid[upper, 2] - rigid[lower, 2]
-            p, q, r = speeds[lower, 3], speeds[lower, 4], speeds[lower, 5]
-            u = speeds[upper, 0] - speeds[lower, 0] - (q * z - r * y)
-            v = speeds[upper, 1] - speeds[lower, 1] - (r * x - p * z)
-            w = speeds[upper, 2] - speeds[lower, 2] - (p * y - q * x)
-            p, q, r = speeds[upper, 3] - p, speeds[upper, 4] - q, speeds[upper, 5] - r
-            for axis in range(3):
-                a, b, c = frame[side, 0, axis], frame[side, 1, axis], frame[side, 2, axis]
-                twist[side, axis] = a * u + b * v + c * w
-                twist[side, 3 + axis] = a * p + b * q + c * r
+    for side in range(system.carrier.size):
+        upper, lower = system.carrier[side], system.target[side]
+        x, y, z = (
+            rigid[upper, 0] - rigid[lower, 0],
+            rigid[upper, 1] - rigid[lower, 1],
+            rigid[upper, 2] - rigid[lower, 2],
+        )
+        p, q, r = speeds[lower, 3], speeds[lower, 4], speeds[lower, 5]
+        u = speeds[upper, 0] - speeds[lower, 0] - (q * z - r * y)
+        v = speeds[upper, 1] - speeds[lower, 1] - (r * x - p * z)
+        w = speeds[upper, 2] - speeds[lower, 2] - (p * y - q * x)
+        p, q, r = speeds[upper, 3] - p, speeds[upper, 4] - q, speeds[upper, 5] - r
+        for axis in range(3):
+            a, b, c = state.frame[side, 0, axis], state.frame[side, 1, axis], state.frame[side, 2, axis]
+            state.twist[side, axis], state.twist[side, 3 + axis] = a * u + b * v + c * w, a * p + b * q + c * r
 
 
 @kernel_in_place
-def place(system: System, state: State, flutter: float, step: float) -> None:
+def place(system: System, state: State, step: float) -> None:
     """List the points that may touch within `step`, interface by interface."""
-    listed, twist, carrier, target, stands = state.listed, state.twist, system.carrier, system.target, state.stands
-    first, radii, reach = system.first, system.radii, system.reach
-    listed[0] = 0
-    for side in range(target.size):
+    fill_poses(system, state)
+    fill_twists(system, state, 0.0)
+    listed, twist, stands, flutter = state.listed, state.twist, state.stands, 0.0
+    for mode in range(state.strain.shape[1]):
+        flutter += state.strain[1, mode] ** 2
+    for side in range(system.carrier.size):
         count = listed[side]
-        if stands[carrier[side]] == 1 and (target[side] < 0 or stands[target[side]] == 1):
+        if stands[system.carrier[side]] == 1 and stands[system.target[side]] == 1:
             # A node that is higher than the fastest one moves in a step neither touched before nor does now.
-            fastest = reach[side] * (abs(twist[side, 3]) + abs(twist[side, 4]) + abs(twist[side, 5]))
-            margin = step * (abs(twist[side, 2]) + system.bend * flutter + fastest)
-            count = _place_points(system, state, side, count, margin)
-            for node in range(first[side], first[side + 1]):
-                if radii[node] > 0.0:
+            fastest = system.reach[side] * (abs(twist[side, 3]) + abs(twist[side, 4]) + abs(twist[side, 5]))
+            margin = step * (abs(twist[side, 2]) + system.bend * sqrt(flutter) + fastest)
+            for node in range(system.first[side], system.first[side + 1]):
+                if system.radii[node] > 0.0:
                     count = _place_ring(system, state, side, node, count, step)
+                else:
+                    count = _place_point(system, state, side, node, count, margin)
         listed[side + 1] = count
 
 
 @kernel_in_place
-def _place_points(system: System, state: State, side: int, count: int, margin: float) -> int:
-    """Add the point nodes of an interface that are lower than `margin` to the `count` points that are listed."""
-    turned, apart, radii, first = state.turned, state.apart, system.radii, system.first
-    for node in range(first[side], first[side + 1]):
-        x, y, z = _displaced(system, state, node)
-        above = turned[side, 2, 0] * x + turned[side, 2, 1] * y + turned[side, 2, 2] * z
-        if apart[side, 2] + above < margin and radii[node] == 0.0:
-            share = _put(system, state, side, count, x, y, z)
-            count = _list(state, count, node, system.slots[node], share, DEEPEST * system.outline[side, 0])
+def _place_point(system: System, state: State, side: int, node: int, count: int, margin: float) -> int:
+    """Add a point node of an interface, if it is lower than `margin`, to the `count` points that are listed."""
+    turned = state.turned
+    x, y, z = _displaced(system, state, node)
+    above = turned[side, 2, 0] * x + turned[side, 2, 1] * y + turned[side, 2, 2] * z
+    if state.apart[side, 2] + above < margin:
+        share = _put(system, state, side, count, x, y, z)
+        count = _list(state, count, node, system.slots[node], share, DEEPEST * system.face[side, 0])
     return count
 
 
@@ -129,14 +121,13 @@ def _displaced(system: System, state: State, node: int) -> tuple[float, float, f
 @kernel_in_place
 def _put(system: System, state: State, side: int, row: int, x: float, y: float, z: float) -> float:
     """Fill the lever and depth of a point at (x, y, z) in the carrier's axes; return how much of it is on the face."""
-    lever, turned, apart, depth, outline = state.lever, state.turned, state.apart, state.depth, system.outline
+    lever, turned, apart, depth, face = state.lever, state.turned, state.apart, state.depth, system.face
     for axis in range(3):
         lever[row, axis] = turned[side, axis, 0] * x + turned[side, axis, 1] * y + turned[side, axis, 2] * z
     lever[row, 3], lever[row, 4], lever[row, 5] = x, y, z
     depth[row] = -(apart[side, 2] + lever[row, 2])
     x, y = apart[side, 0] + lever[row, 0], apart[side, 1] + lever[row, 1]
-    half_x, half_y, band, is_round = outline[side, 0], outline[side, 1], outline[side, 2], outline[side, 3]
-    return inside(half_x, half_y, band, is_round, x, y) if system.target[side] >= 0 else 1.0
+    return inside(face[side, 0], face[side, 1], face[side, 2], face[side, 3], x, y)
 
 
 @kernel_in_place

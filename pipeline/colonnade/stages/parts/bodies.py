@@ -13,7 +13,7 @@ from colonnade.campaign import Campaign, Test
 from colonnade.campaign.assembly import Whole
 from colonnade.dynamics.assembly import Assembly, as_one, is_frame, standing_on
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.start import rotation_matrices
+from colonnade.dynamics.contact.body import rotation_matrices
 from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.kinematics import pole_displacement, pole_position, rotation_matrix
 from colonnade.errors import count
