@@ -86,15 +86,18 @@ def next_command(campaign: Path, specimen: tuple[str, ...], results: Path | None
     table must do; "enough" means that no test of this kind is needed. A Span is advised at most a fifth above the
     largest that was tested. The settings are in [next], the limits of the table in [table]. Nothing is written.
     """
-    with work_progress("Looking for the test that tells most") as progress:
-        from colonnade.workflow.advising.next import advise
+    from colonnade.workflow.advising.next import advise
+    from colonnade.workflow.product import Catalogue
 
-        found = advise(campaign, specimens=specimen, results=results, progress=progress)
+    loaded, layout = opened(campaign, results)
+    loaded = loaded.awaiting()
+    with work_progress("Looking for the test that tells most"):
+        found = advise(loaded, layout, Catalogue(layout), specimen)
     if as_json:
-        show_json({"advice": [vars(each) for each in found.advice], "awaited": found.awaited})
+        show_json({"advice": found, "awaited": loaded.awaited})
         return 0
-    _show_advice(found.advice)
-    for test, file in found.awaited.items():
+    _show_advice(found)
+    for test, file in loaded.awaited.items():
         show_paragraph(f"{test}: expected: {file}")
     return 0
 

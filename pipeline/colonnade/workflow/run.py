@@ -148,9 +148,9 @@ def _reported(walk: Walk, campaign: Campaign, outdated: Mapping[str, str], summa
     campaign = campaign.warned(unshown)
     advice: list[Advice] = []
     if campaign.awaited or campaign.next.model_fields_set or campaign.table.model_fields_set:
-        from colonnade.workflow.advising.next import advice_shown
+        from colonnade.workflow.advising.next import advise
 
-        advice = advice_shown(campaign, layout, catalogue, summary, walk.where.workers)
+        advice = advise(campaign, layout, catalogue, workers=walk.where.workers)
     made = update_report(campaign, layout, catalogue, outdated, summary.forecasts, advice, photos, walk.where.workers)
     return campaign, made
 

@@ -7,29 +7,27 @@ from colonnade.errors import CampaignError, StoreError
 from colonnade.store.records.summary import read_summary
 from colonnade.workflow.advising import next as advising
 from colonnade.workflow.advising.next import advise, advise_after
+from colonnade.workflow.product import Catalogue
+
+
+def advised(small, *specimens):
+    return advise(load(small.folder).awaiting(), small.layout, Catalogue(small.layout), specimens)
 
 
 def test_free_vibrations_are_advised_from_the_pooled_restitution(undisturbed):
-    found = advise(undisturbed.folder)
-    (free,) = found.advice
+    (free,) = advised(undisturbed)
     assert (free.specimen, free.kind) == ("prism", "free-vibration")
     assert free.values["restitution"] == pytest.approx(0.930, abs=2e-3)
     assert (free.is_enough, free.left) == (True, 0)
     assert free.reason.endswith("from 2, as narrow as wanted")
-    assert not found.awaited
-
-
-def test_a_test_without_its_raw_file_is_expected(small):
-    small.raw("pulse-02").unlink()
-    assert advise(small.folder).awaited == {"pulse-02": "raw/pulse-02.csv"}
 
 
 def test_what_cannot_be_advised_is_refused(small):
     with pytest.raises(CampaignError, match='no specimen "prsm"'):
-        advise(small.folder, specimens=["prsm"])
+        advised(small, "prsm")
     small.layout.summary_json.unlink()
     with pytest.raises(StoreError, match="Run `colonnade run` first"):
-        advise(small.folder)
+        advised(small)
 
 
 def test_after_a_test_only_its_own_kind_is_advised(undisturbed):
@@ -48,7 +46,7 @@ def test_the_report_advises_while_tests_are_planned(small, monkeypatch):
     campaign_file.write_text(campaign_file.read_text() + '\n[table]\nstroke = "75 mm"\n')
     small.complete()
     text = small.layout.report.read_text(encoding="utf-8")
-    (free,) = advising.advise(small.folder).advice
+    (free,) = advised(small)
     assert "What next" in text
     assert free.row()[-1].replace("<", "&lt;") in text
 

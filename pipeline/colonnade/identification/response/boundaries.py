@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.history import Outcome
+
+Of = TypeVar("Of")
 
 SAME_FREQUENCY = 0.02
 """Tests whose Ω differ from the group's first by less than this fraction were meant to have one frequency."""
@@ -110,13 +113,18 @@ def bracket_boundaries(points: Iterable[MapPoint]) -> list[Boundaries]:
     boundaries : list of Boundaries
         In order of Ω; tests within `SAME_FREQUENCY` of each other form a group.
     """
-    groups: list[list[MapPoint]] = []
-    for point in sorted(points, key=lambda each: each.frequency_ratio):
-        if groups and point.frequency_ratio <= groups[-1][0].frequency_ratio * (1 + SAME_FREQUENCY):
-            groups[-1].append(point)
+    return [_of_group(group) for group in at_one_frequency(points, lambda each: each.frequency_ratio)]
+
+
+def at_one_frequency(tests: Iterable[Of], frequency_ratio: Callable[[Of], float]) -> list[list[Of]]:
+    """Group what was meant to have one frequency, see `SAME_FREQUENCY`; in order of Ω."""
+    groups: list[list[Of]] = []
+    for test in sorted(tests, key=frequency_ratio):
+        if groups and frequency_ratio(test) <= frequency_ratio(groups[-1][0]) * (1 + SAME_FREQUENCY):
+            groups[-1].append(test)
         else:
-            groups.append([point])
-    return [_of_group(group) for group in groups]
+            groups.append([test])
+    return groups
 
 
 @dataclass(frozen=True)

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import product
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from pydantic import TypeAdapter
 
-from colonnade.campaign import Campaign, load
-from colonnade.campaign.forms.summary import Summary, TestSummary
+from colonnade.campaign import Campaign
+from colonnade.campaign.forms.summary import TestSummary
 from colonnade.errors import StoreError
 from colonnade.identification.advice import LAST_PEAK, advise_free_vibration
 from colonnade.identification.response.boundaries import SAME_FREQUENCY
@@ -25,7 +23,6 @@ from colonnade.store.records.advice import Advice, ranked
 from colonnade.store.records.summary import map_points, read_summary, records_of_tests
 from colonnade.units.text import format_uncertain, interval, number
 from colonnade.workflow.advising.sine import Known, advise_earthquakes, advise_sines
-from colonnade.workflow.executors import Counted
 from colonnade.workflow.pooling import expect_known, restitution_taken
 from colonnade.workflow.product import Catalogue, Contents, Product, brought_up_to_date
 
@@ -41,64 +38,40 @@ KINDS = ("free-vibration", "sine", "earthquake")
 """Kinds of test that are advised, in their order."""
 
 
-@dataclass(frozen=True)
-class Next:
-    """
-    What a campaign should do next.
-
-    Attributes
-    ----------
-    advice : tuple of Advice
-        What tells most first, see `store.records.advice.ranked`.
-    awaited : dict of str to str
-        Tests that have no raw file yet, and the file that is expected.
-    """
-
-    advice: tuple[Advice, ...]
-    awaited: dict[str, str]
-
-
 def advise(
-    campaign: Path | str,
-    *,
-    specimens: Sequence[str] = (),
-    results: Path | str | None = None,
-    progress: Counted = lambda done, total: None,
-) -> Next:
+    campaign: Campaign, layout: Layout, catalogue: Catalogue, specimens: Sequence[str] = (), workers: int | None = 1
+) -> list[Advice]:
     """
-    Advise the next tests of a campaign, by the results of its last run.
+    Advise the next tests of a campaign by the results of its last run, what tells most first.
 
     Parameters
     ----------
-    campaign : Path or str
-        A campaign.toml or its folder.
+    campaign : Campaign
+    layout : Layout
+    catalogue : Catalogue
+        Keeps advice about which nothing changed.
     specimens : sequence of str, optional
         Ids; default all.
-    results : Path or str, optional
-        As for `run`.
-    progress : callable, optional
-        Called with the number of kinds of test that were looked at, and their total.
+    workers : int or None, optional
+        Processes; None for one a core.
 
     Raises
     ------
     CampaignError
-        If the campaign file or a specimen is not usable.
+        If the campaign has no such specimen.
     StoreError
         If the campaign has never been run.
     """
-    loaded = load(Path(campaign)).awaiting()
-    expect_known(loaded, "specimen", specimens)
-    layout = Layout.of(loaded.path, results)
+    expect_known(campaign, "specimen", specimens)
     summary = read_summary(layout)
     if summary is None:
-        raise StoreError(f"{loaded.folder}: this campaign has no results yet. Run `colonnade run` first.")
-    tests = records_of_tests(loaded, summary)
-    advice: list[Advice] = []
-    asked = list(product(specimens or loaded.of_interest, KINDS))
-    for done, (name, kind) in enumerate(asked, 1):
-        advice += advise_kind(loaded, layout, name, kind, tests)
-        progress(done, len(asked))
-    return Next(tuple(ranked(advice)), loaded.awaited)
+        raise StoreError(f"{campaign.folder}: this campaign has no results yet. Run `colonnade run` first.")
+    tests, code = records_of_tests(campaign, summary), catalogue.code(MADE_BY)
+    asked = list(product(specimens or campaign.of_interest, KINDS))
+    products = (_advice(campaign, layout, catalogue, name, kind, tests, code) for name, kind in asked)
+    made = brought_up_to_date(products, catalogue, workers=workers)
+    found = (made[f"advice {name} {kind}"] for name, kind in asked)
+    return ranked(each for one in found for each in _ADVICE.validate_json(one.text))
 
 
 def advise_after(campaign: Campaign, layout: Layout, name: str, measured: Mapping[str, TestSummary]) -> list[Advice]:
@@ -133,34 +106,6 @@ def advise_kind(
         points = tuple(map_points(tests, specimen))
         return advise_sines(campaign, specimen, Known(sides(pooled), deviation, points, max(tilts, key=abs, default=0)))
     return advise_earthquakes(campaign, layout, specimen, tests) if kind == "earthquake" else []
-
-
-def advice_shown(
-    campaign: Campaign, layout: Layout, catalogue: Catalogue, summary: Summary, workers: int | None
-) -> list[Advice]:
-    """
-    Give the advice that the report of a campaign shows.
-
-    Parameters
-    ----------
-    campaign : Campaign
-    layout : Layout
-    catalogue : Catalogue
-        Keeps advice about which nothing changed.
-    summary : Summary
-        Of this run.
-    workers : int or None
-        Processes; None for one a core.
-
-    Returns
-    -------
-    advice : list of Advice
-    """
-    tests, code = records_of_tests(campaign, summary), catalogue.code(MADE_BY)
-    asked = [(name, kind) for name in campaign.of_interest for kind in KINDS]
-    products = (_advice(campaign, layout, catalogue, name, kind, tests, code) for name, kind in asked)
-    made = brought_up_to_date(products, catalogue, workers=workers)
-    return [each for name, kind in asked for each in _ADVICE.validate_json(made[f"advice {name} {kind}"].text)]
 
 
 def _advice(

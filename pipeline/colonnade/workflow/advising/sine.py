@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from math import atan, isfinite, pi, sin, tan
+from math import atan, pi, sin, tan
 
 import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
+from colonnade.campaign.forms.forecast import ForecastInputs
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.block import Block, pair
 from colonnade.dynamics.maps import stability_map
@@ -18,7 +19,7 @@ from colonnade.dynamics.models import MODELS
 from colonnade.dynamics.motion import Motion
 from colonnade.identification.advice import SpanAdvice, advise_span
 from colonnade.identification.boundary import SineAdvice, SineTests, advise_sine_tests
-from colonnade.identification.response.boundaries import SAME_FREQUENCY, MapPoint
+from colonnade.identification.response.boundaries import MapPoint, at_one_frequency
 from colonnade.stages.forecast import felt, plan_of
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice, beyond, demand_of_sine
@@ -42,7 +43,7 @@ class Known:
 
 def advise_sines(campaign: Campaign, specimen: str, known: Known) -> list[Advice]:
     """
-    Advise the next sine test of a specimen at each frequency that was tested or is planned.
+    Advise the next sine test of a specimen at each frequency that was tested or is planned, by rising frequency.
 
     Parameters
     ----------
@@ -50,52 +51,44 @@ def advise_sines(campaign: Campaign, specimen: str, known: Known) -> list[Advice
     specimen : str
         Its id.
     known : Known
-
-    Returns
-    -------
-    advice : list of Advice
-        By rising frequency; empty without any sine test.
     """
-    block = campaign.block(specimen)
-    ratios = np.array(_frequency_ratios(campaign, specimen, block, known))
-    models = [model for model in campaign.processing.predict.models if not MODELS[model].in_space]
-    if not ratios.size or not models:
+    block, settings = campaign.block(specimen), campaign.next
+    planned: list[tuple[float, MapPoint | None]] = [
+        (2 * pi * test.frequency / block.p, None)
+        for test in campaign.tests.values()
+        if test.specimen == specimen and test.kind == "sine" and test.frequency and campaign.awaited.get(test.id)
+    ]
+    tested = [(point.frequency_ratio, point) for point in known.points]
+    groups = at_one_frequency([*planned, *tested], lambda each: each[0])
+    model = _model(campaign)
+    if not groups or model is None:
         return []
-    limits = _limits(block, known, known.restitution, ratios, models[-1])
-    sensitivity = _sensitivity(block, known, ratios, models[-1])
-    found = [place for place in range(ratios.size) if isfinite(limits[place])]
-    tests = [_tests_at(ratios[place], limits[place], sensitivity[place], known) for place in found]
-    settings = campaign.next
+    ratios = np.array([np.mean([ratio for ratio, _ in group]) for group in groups])
+    limits = _limits(block, known, known.restitution, ratios, model)
+    sensitivity = _sensitivity(block, known, ratios, model)
+    found: dict[int, SineTests] = {}
+    for place in np.flatnonzero(np.isfinite(limits)).tolist():
+        points = [point for _, point in groups[place] if point is not None]
+        fell = [point.outcome == "overturned" for point in points]
+        amplitudes = [point.amplitude_ratio for point in points]
+        found[place] = SineTests(float(limits[place]), amplitudes, fell, float(sensitivity[place]))
     advised = advise_sine_tests(
-        tests,
+        list(found.values()),
         wanted_width=settings.boundary_width,
         largest_risk=settings.largest_risk,
         discrepancy=settings.discrepancy,
     )
-    with_limit = {
-        place: _advice(campaign, specimen, float(ratios[place]), block, each, models[-1])
-        for place, each in zip(found, advised, strict=True)
-    }
+    with_limit = dict(zip(found, advised, strict=True))
     return [
-        with_limit.get(place) or _without_limit(specimen, float(ratio) * block.p / (2 * pi), models[-1])
+        _advice(campaign, specimen, float(ratio), block, with_limit.get(place), model)
         for place, ratio in enumerate(ratios)
     ]
 
 
-def _frequency_ratios(campaign: Campaign, specimen: str, block: Block, known: Known) -> list[float]:
-    """Give Ω of the tests, and of planned ones; those that were meant to be the same once."""
-    planned = [
-        2 * pi * test.frequency / block.p
-        for test in campaign.tests.values()
-        if test.specimen == specimen and test.kind == "sine" and test.frequency and campaign.awaited.get(test.id)
-    ]
-    groups: list[list[float]] = []
-    for ratio in sorted([*(point.frequency_ratio for point in known.points), *planned]):
-        if groups and ratio / groups[-1][0] - 1 < SAME_FREQUENCY:
-            groups[-1].append(ratio)
-        else:
-            groups.append([ratio])
-    return [float(np.mean(group)) for group in groups]
+def _model(campaign: Campaign) -> str | None:
+    """Name the model that tests are advised by: the last one in the plane."""
+    in_plane = [model for model in campaign.processing.predict.models if not MODELS[model].in_space]
+    return in_plane[-1] if in_plane else None
 
 
 def _limits(block: Block, known: Known, restitution: tuple[float, float], ratios: Array, model: str) -> Array:
@@ -120,14 +113,21 @@ def _sensitivity(block: Block, known: Known, ratios: Array, model: str) -> Array
     return np.clip(np.nan_to_num(np.log(ends[1] / ends[0]) / 2), -1.0, 1.0)
 
 
-def _tests_at(ratio: float, limit: float, sensitivity: float, known: Known) -> SineTests:
-    at = [point for point in known.points if abs(point.frequency_ratio / ratio - 1) < SAME_FREQUENCY]
-    amplitudes = [point.amplitude_ratio for point in at]
-    return SineTests(limit, amplitudes, [point.outcome == "overturned" for point in at], float(sensitivity))
-
-
-def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advised: SineAdvice, model: str) -> Advice:
+def _advice(
+    campaign: Campaign, specimen: str, ratio: float, block: Block, advised: SineAdvice | None, model: str
+) -> Advice:
+    """Write the advice at one frequency; None where the model does not overturn."""
     frequency = ratio * block.p / (2 * pi)
+    if advised is None:
+        return Advice(
+            specimen=specimen,
+            kind="sine",
+            test=f"{number(frequency)} Hz",
+            is_enough=False,
+            reason=f"the {model} model does not overturn up to A {AMPLITUDES[-1]:g}, so there is no boundary to look "
+            "for",
+            values={"frequency": frequency},
+        )
     acceleration = advised.amplitude_ratio * block.gravity * tan(block.critical_angle)
     demand = demand_of_sine(acceleration, frequency)
     low, high = advised.boundary.interval
@@ -143,7 +143,7 @@ def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advis
         is_enough=advised.is_enough,
         reason=known + (", as narrow as wanted" if advised.is_enough else again),
         risk=advised.risk,
-        left=0 if advised.is_enough else advised.left,
+        left=advised.left,
         demand=demand,
         beyond=beyond(campaign.table, demand),
         values={
@@ -156,17 +156,6 @@ def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advis
             "predicted_boundary": advised.boundary.tests.predicted,
             "bits": advised.information,
         },
-    )
-
-
-def _without_limit(specimen: str, frequency: float, model: str) -> Advice:
-    return Advice(
-        specimen=specimen,
-        kind="sine",
-        test=f"{number(frequency)} Hz",
-        is_enough=False,
-        reason=f"the {model} model does not overturn up to A {AMPLITUDES[-1]:g}, so there is no boundary to look for",
-        values={"frequency": frequency},
     )
 
 
@@ -184,7 +173,7 @@ def advise_earthquakes(
     campaign: Campaign, layout: Layout, specimen: str, tests: Mapping[str, TestSummary]
 ) -> list[Advice]:
     """
-    Advise the next Span of each base motion that a specimen was tested with.
+    Advise the next Span of each base motion that was recorded with a specimen at some Span.
 
     Parameters
     ----------
@@ -194,46 +183,40 @@ def advise_earthquakes(
         Its id.
     tests : mapping of str to TestSummary
         Records of the campaign's tests.
-
-    Returns
-    -------
-    advice : list of Advice
-        One for each motion with a recorded table motion and a Span.
     """
-    by_motion: dict[str, list[Test]] = {}
+    by_motion: dict[str, list[tuple[Test, float]]] = {}
     for test in campaign.tests.values():
         if test.specimen == specimen and test.kind == "earthquake" and test.span is not None:
-            by_motion.setdefault(test.motion or "earthquake", []).append(test)
-    found = (_advise(campaign, layout, specimen, motion, each, tests) for motion, each in by_motion.items())
-    return [advice for advice in found if advice is not None]
+            by_motion.setdefault(test.motion or "earthquake", []).append((test, test.span))
+    found = []
+    for name, listed in by_motion.items():
+        done = {
+            span: (motion, inputs_of(campaign, layout, specimen, campaign.setups[test.setup].table_tilt or 0.0))
+            for test, span in listed
+            if tests[test.id].status == "done" and (motion := recorded(layout, test)) is not None
+        }
+        if done and (model := _model(campaign)) is not None:
+            found.append(_next_span(campaign, specimen, name, done, {span for _, span in listed}, model))
+    return found
 
 
-def _advise(
+def _next_span(
     campaign: Campaign,
-    layout: Layout,
     specimen: str,
-    motion: str,
-    listed: list[Test],
-    tests: Mapping[str, TestSummary],
-) -> Advice | None:
-    models = [model for model in campaign.processing.predict.models if not MODELS[model].in_space]
-    done = {
-        test.span: (moved, inputs_of(campaign, layout, specimen, campaign.setups[test.setup].table_tilt or 0.0))
-        for test in listed
-        if test.span is not None and tests[test.id].status == "done"
-        if (moved := recorded(layout, test)) is not None
-    }
-    if not done or not models:
-        return None
+    name: str,
+    done: Mapping[float, tuple[Motion, ForecastInputs]],
+    planned: set[float],
+    model: str,
+) -> Advice:
+    """Advise the next Span of a motion, by its recordings and what the model was given at the Spans so far."""
 
     def outcome_at(span: float) -> Outcome:
         nearest = min(done, key=lambda tested: abs(np.log(tested / span)))
         moved, inputs = done[nearest]
         scaled = Motion(moved.acceleration * (span / nearest), moved.dt)
-        peaks = plan_of(inputs, models[-1], felt(inputs, scaled)).run().peak_ratio
+        peaks = plan_of(inputs, model, felt(inputs, scaled)).run().peak_ratio
         return float((peaks > 0.0).mean()), float(np.isnan(peaks).mean()), scaled.peak
 
-    planned = {test.span for test in listed if test.span is not None}
     outcomes = _explored(outcome_at, _candidates(sorted(done), planned))
     spans = sorted(outcomes)
     rocking, overturning, peaks = (np.array(each) for each in zip(*(outcomes[span] for span in spans), strict=True))
@@ -243,9 +226,9 @@ def _advise(
     return Advice(
         specimen=specimen,
         kind="earthquake",
-        test=f"{motion}, Span {number(advised.span)}{again}",
+        test=f"{name}, Span {number(advised.span)}{again}",
         is_enough=advised.is_enough,
-        reason=_reason(advised, models[-1]),
+        reason=_reason(advised, model),
         risk=advised.probabilities[-1],
         demand=demand,
         beyond=beyond(campaign.table, demand),
