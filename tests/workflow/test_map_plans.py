@@ -1,7 +1,5 @@
 """What a map is asked to show, and the axes, base motion and rules that follow from it and from what was measured."""
 
-import json
-
 import numpy as np
 import pytest
 
@@ -11,7 +9,7 @@ from colonnade.dynamics.models import MODELS
 from colonnade.errors import CampaignError
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.workflow import map_plans as plans
-from colonnade.workflow.map_plans import Measured, Wanted, measured_points
+from colonnade.workflow.map_plans import Measured, Wanted
 from colonnade.workflow.real_column import picked
 from every import every
 
@@ -91,21 +89,13 @@ def test_given_axes_come_before_those_of_the_tests(untouched):
         ({"cycles": 2 * MOST_CYCLES}, "--cycles: "),
         ({"ramp": float("nan")}, "--ramp: "),
         ({"points": (3, 10_001)}, "--points: "),
+        ({"motion": "sine-01", "responses": True}, "Steady responses are responses to a sine."),
     ],
 )
-def test_a_map_that_would_never_end_is_refused_by_its_option(changes, said):
+def test_what_cannot_be_asked_is_refused_by_its_option(changes, said):
     with pytest.raises(CampaignError) as caught:
         picked(Wanted, changes)
     assert str(caught.value).startswith(said)
-
-
-def test_a_summary_that_was_damaged_gives_no_points(small):
-    summary = small.summary()
-    summary["tests"]["pulse-01"] |= {"frequency_ratio": 6.0, "amplitude_ratio": 4.0, "outcome": "overturned"}
-    small.layout.summary_json.write_text(json.dumps(summary), encoding="utf-8")
-    assert [point.test for point in measured_points(small.layout, "prism")] == ["pulse-01"]
-    small.layout.summary_json.write_text("{", encoding="utf-8")
-    assert measured_points(small.layout, "prism") == []
 
 
 def test_e_of_a_map_has_a_value_for_each_side_and_its_source(untouched):

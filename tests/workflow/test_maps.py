@@ -14,7 +14,6 @@ from colonnade.dynamics.maps import MapPlan, stability_map
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.steady import steady_response
 from colonnade.errors import CampaignError, StoreError
-from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId
@@ -23,7 +22,7 @@ from colonnade.workflow import run
 from colonnade.workflow.executors import Where
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
-from colonnade.workflow.map_plans import Wanted, measured_points
+from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import SETTLING, as_map, as_response, given, kept_maps, make_maps
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.walk import Walk
@@ -143,8 +142,6 @@ def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
     summary["tests"]["pulse-01"] |= {"frequency_ratio": 6.0, "amplitude_ratio": 4.0, "outcome": "overturned"}
     summary["tests"]["pulse-02"] |= {"frequency_ratio": 3.0, "amplitude_ratio": None, "outcome": "rocking"}
     small.layout.summary_json.write_text(json.dumps(summary), encoding="utf-8")
-    assert measured_points(small.layout, "prism") == [MapPoint("pulse-01", 6.0, 4.0, "overturned")]
-    assert measured_points(small.layout, "another") == []
     result = made(small, Wanted(models=("linear",), points=(3, 4), cycles=2.0))
     chart = as_map(files.read(result.path))
     assert chart.frequency_ratio[0] < 6.0 < chart.frequency_ratio[-1]
@@ -159,7 +156,6 @@ def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
         (Wanted(cycles=0.5), (), "at least one cycle"),
         (Wanted(motion="pulse-99"), (), 'no test "pulse-99"'),
         (Wanted(motion="pulse-01"), (), "pulse-01: its table motion cannot be stretched"),
-        (Wanted(motion="pulse-01", responses=True), (), "Leave out the recorded motion"),
     ],
 )
 def test_what_cannot_be_mapped_is_told(small, wanted, specimens, found):

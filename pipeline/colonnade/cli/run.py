@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import say, show_json, show_rows, show_table, step_progress
+from colonnade.cli.common.console import say, show_json, show_rows, show_table, work_progress
 from colonnade.cli.common.findings import alike, probable_cause, records_of, show_by_kind
 from colonnade.cli.common.options import CAMPAIGN, campaign_argument, work_options
 from colonnade.store.results import RUN_STAGES
@@ -126,11 +126,10 @@ def run_with_progress(campaign: Path, **choices: Any) -> RunResult:
     """Run a campaign with a bar on stderr."""
     from colonnade.workflow import run
 
-    with step_progress("Looking for what is out of date") as show:
+    def progress(stage: StageRun, done: int, total: int) -> None:
+        show(done, total, f"{stage.subject} {stage.stage}")
 
-        def progress(stage: StageRun, done: int, total: int) -> None:
-            show(f"{stage.subject} {stage.stage}", done, total)
-
+    with work_progress("Looking for what is out of date") as show:
         return run(campaign, progress=progress, **choices)
 
 

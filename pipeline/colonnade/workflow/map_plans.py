@@ -13,14 +13,13 @@ from pydantic import Field
 from colonnade.campaign import Campaign
 from colonnade.campaign.assembly import APART, Whole
 from colonnade.campaign.syntax.fields import MOST_CYCLES, Limits, MapPoints, MapRatio, Number, OneOf
-from colonnade.campaign.syntax.table import Table
+from colonnade.campaign.syntax.table import Problems, Table
 from colonnade.dynamics.block import Sided
 from colonnade.dynamics.models import MODELS, NONLINEAR
-from colonnade.errors import CampaignError, StoreError
+from colonnade.errors import CampaignError
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.store.records.summary import map_points, read_summary
 from colonnade.store.results import models_moving
 from colonnade.workflow.motions import recorded
 from colonnade.workflow.pooling import expect_known, restitution_taken
@@ -63,6 +62,11 @@ class Wanted(Table):
     responses: bool = False
     """Also compute the orders and amplitudes of the steady responses, with curves."""
 
+    def contradictions(self) -> Problems:
+        """Say that a recorded motion has no steady responses."""
+        if self.responses and self.motion is not None:
+            yield (), "Steady responses are responses to a sine. Leave out the recorded motion."
+
     def text(self) -> str:
         """Write what a map of one model is asked for with, as it is stored with the map; of others, those in space."""
         in_space = tuple(name for name in self.models if MODELS[name].in_space)
@@ -73,15 +77,6 @@ class Wanted(Table):
         """Read what a stored map of a model was asked for with; raises ValueError or TypeError if that is altered."""
         asked = json.loads(text)
         return cls(**asked | {"models": tuple(dict.fromkeys((model, *asked["models"])))})
-
-
-def measured_points(layout: Layout, specimen: str) -> list[MapPoint]:
-    """Sine tests of a specimen whose Ω, A and outcome the last run knows; none without a run."""
-    try:
-        summary = read_summary(layout)
-    except StoreError:
-        return []
-    return [] if summary is None else map_points(summary.tests, specimen)
 
 
 class Measured(NamedTuple):
@@ -110,8 +105,6 @@ def plan_of(
         raise CampaignError(
             f"{specimen}: {APART}, which the {model} model moves. Give --model contact, or another --specimen."
         )
-    if wanted.responses and wanted.motion is not None:
-        raise CampaignError("Steady responses are responses to a sine. Leave out the recorded motion.")
     motion, frequency = (None, None) if wanted.motion is None else _recorded(campaign, layout, wanted.motion)
     omegas = wanted.omega or _around([point.frequency_ratio for point in measured.points], USUAL_FREQUENCIES)
     largest = max((1.2 * point.amplitude_ratio for point in measured.points), default=0.0)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -22,11 +21,11 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
 from colonnade.store.records.stored import as_dataset, as_map
-from colonnade.store.records.summary import map_points
+from colonnade.store.records.summary import map_points, read_summary
 from colonnade.store.results import ResultId, models_moving
 from colonnade.workflow.executors import Arrays, Counted, Run, Where, blocks_of
 from colonnade.workflow.graph import Graph
-from colonnade.workflow.map_plans import Measured, Wanted, measured_points, plan_of, restitution_of
+from colonnade.workflow.map_plans import Measured, Wanted, plan_of, restitution_of
 from colonnade.workflow.pooling import expect_known
 from colonnade.workflow.product import Product, stored_attributes
 from colonnade.workflow.walk import Walk, walking
@@ -74,7 +73,6 @@ class MapMade:
         done, or up-to-date if nothing was recomputed.
     because : str
         Why they were made, see `StageRun`; empty if they were not.
-    seconds : float
     """
 
     specimen: str
@@ -90,7 +88,6 @@ class MapMade:
     upper: Misfit | None
     action: str
     because: str
-    seconds: float
 
 
 def make_maps(
@@ -180,19 +177,20 @@ def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Itera
 def _of_specimen(walk: Walk, specimen: str, wanted: Wanted) -> list[MapMade]:
     """Make the maps of one specimen, one for each model, and a common picture of several models."""
     layout, models = walk.graph.layout, list(dict.fromkeys(wanted.models))
-    measured = Measured(measured_points(layout, specimen), *restitution_of(walk.graph.campaign, layout, specimen))
-    made = [_made(walk, specimen, wanted, model, measured) for model in models]
-    if len(models) > 1:
-        together = layout.together(specimen, models)
-        _draw([files.read(each.path) for each in made], measured.points, together, specimen)
-        made = [replace(each, together=together) for each in made]
+    summary = read_summary(layout)
+    points = [] if summary is None else map_points(summary.tests, specimen)
+    measured = Measured(points, *restitution_of(walk.graph.campaign, layout, specimen))
+    together = layout.together(specimen, models) if len(models) > 1 else None
+    made = [_made(walk, specimen, wanted, model, measured, together) for model in models]
+    if together is not None:
+        _draw([files.read(each.path) for each in made], points, together, specimen)
     return made
 
 
-def _made(walk: Walk, specimen: str, wanted: Wanted, model: str, measured: Measured) -> MapMade:
+def _made(walk: Walk, specimen: str, wanted: Wanted, model: str, measured: Measured, together: Path | None) -> MapMade:
     from colonnade.figures.maps import response_orders
 
-    started, layout = time.perf_counter(), walk.graph.layout
+    layout = walk.graph.layout
     plan, product = _map(walk.graph, specimen, wanted, model, measured, walk.where)
     stored, because = _brought(walk, product)
     figure = layout.figure(product.result)
@@ -213,7 +211,7 @@ def _made(walk: Walk, specimen: str, wanted: Wanted, model: str, measured: Measu
         restitution_source=measured.source,
         path=product.paths[0],
         figure=figure,
-        together=None,
+        together=together,
         responses=responses,
         responses_figure=responses_figure,
         measured=len(measured.points),
@@ -221,7 +219,6 @@ def _made(walk: Walk, specimen: str, wanted: Wanted, model: str, measured: Measu
         upper=upper,
         action="done" if because else "up-to-date",
         because=because,
-        seconds=time.perf_counter() - started,
     )
 
 

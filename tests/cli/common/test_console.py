@@ -66,8 +66,8 @@ def test_a_line_comes_every_few_seconds_also_while_nothing_ends(lines):
 
 
 def test_progress_names_what_is_done(lines):
-    with console.step_progress("Looking") as show:
-        show("free-01 rocking", 4, 20)
+    with console.work_progress("Looking") as show:
+        show(4, 20, "free-01 rocking")
         assert any(line.startswith("free-01 rocking: 4 of 20, after ") for line in lines(3))
 
 

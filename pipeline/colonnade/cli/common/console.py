@@ -145,16 +145,13 @@ FIRST, EVERY = 3.0, 10.0
 """Seconds to the first line of progress if the output is not a terminal, and between two."""
 
 
-@contextmanager
-def work_progress(what: str) -> Iterator[Callable[[int, int], None]]:
-    """Show the progress of some work; the callable takes how much is done, and the total."""
-    with step_progress(what) as show:
-        yield lambda done, total: show(what, done, total)
+Show = Callable[..., None]
+"""Takes how much is done, the total and, if something else than the work is named, the present item."""
 
 
 @contextmanager
-def step_progress(what: str) -> Iterator[Callable[[str, int, int], None]]:
-    """Show a bar or lines; the callable takes the present item, how much is done, and the total."""
+def work_progress(what: str) -> Iterator[Show]:
+    """Show the progress of some work: a bar or, if the output is not a terminal, lines."""
     console = messages()
     if not console.is_terminal:
         with _lines(what) as show:
@@ -163,11 +160,11 @@ def step_progress(what: str) -> Iterator[Callable[[str, int, int], None]]:
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task(what, total=None)
-        yield lambda now, done, total: bar.update(task, description=now, completed=done, total=total)
+        yield lambda done, total, now=what: bar.update(task, description=now, completed=done, total=total)
 
 
 @contextmanager
-def _lines(what: str) -> Iterator[Callable[[str, int, int], None]]:
+def _lines(what: str) -> Iterator[Show]:
     """Write a line after `FIRST` seconds and then every `EVERY`, also while nothing ends."""
     began, over, last = time.monotonic(), threading.Event(), [what]
 
@@ -177,7 +174,7 @@ def _lines(what: str) -> Iterator[Callable[[str, int, int], None]]:
             complain(f"{last[0]}, after {time.monotonic() - began:.0f} s")
             pause = EVERY
 
-    def show(now: str, done: int, total: int) -> None:
+    def show(done: int, total: int, now: str = what) -> None:
         last[0] = f"{now}: {done} of {total}" if done < total else f"{done} of {total} done, finishing"
 
     writer = threading.Thread(target=write, daemon=True)
