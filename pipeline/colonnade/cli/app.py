@@ -8,11 +8,9 @@ import colonnade
 from colonnade.cli.check import check
 from colonnade.cli.demo import demo, init
 from colonnade.cli.figure import figure
-from colonnade.cli.foresee import foresee, next_command
-from colonnade.cli.map import calibrate, map_command
+from colonnade.cli.questions import calibrate, foresee, fragility, map_command, next_command, spectrum
 from colonnade.cli.run import identify, ingest, predict, report, run
 from colonnade.cli.show import schema, show
-from colonnade.cli.spectrum import fragility, spectrum
 from colonnade.cli.watch import watch
 
 COMMANDS = (

@@ -64,10 +64,11 @@ class Table(_Described):
     @cache
     def kinds(cls) -> dict[str, set[str]]:
         """Keys as in the file, with what each may be: "number", a dimension, "interval" or another "list"."""
-        return {key: {kind for each in either if (kind := _kind(each))} for key, either in cls.alternatives().items()}
+        return {key: {kind for each in either if (kind := kind_of(each))} for key, either in cls.alternatives().items()}
 
 
-def _kind(schema: dict[str, Any]) -> str:
+def kind_of(schema: dict[str, Any]) -> str:
+    """Name what a value may be by its JSON Schema, as of `Table.kinds`; empty for text and words."""
     if schema.get("type") == "array":
         return "interval" if "unit" in schema.get("prefixItems", [{}])[0] else "list"
     is_number = schema.get("type") in ("number", "integer")

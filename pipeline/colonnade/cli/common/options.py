@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args, get_origin
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import rich_click as click
 
 if TYPE_CHECKING:
-    from pydantic.fields import FieldInfo
-
     from colonnade.campaign import Campaign
+    from colonnade.campaign.syntax.table import Table
     from colonnade.store.layout import Layout
 
 
@@ -41,42 +40,45 @@ class Asking(click.RichCommand):
         return super().invoke(ctx)
 
 
-def options_of(keys: Mapping[str, FieldInfo], *, alone: bool = False) -> list[click.Option]:
+TYPES = {"string": str, "number": float, "integer": int, "boolean": bool}
+"""Of options, by the types of JSON Schema."""
+
+
+def options_of(table: type[Table], keys: Iterable[str] = (), *, alone: bool = False) -> list[click.Option]:
     """
-    Make an option of each key.
+    Make an option of each key of a table.
 
     Parameters
     ----------
-    keys : mapping
-        Fields of a table. A list of texts is an option that may be repeated, without the "s" of its key.
+    table : type
+    keys : iterable of str, optional
+        Default all. A list is an option that may be repeated, of texts without the "s" of its key.
     alone : bool, optional
         Whether nothing but the options says the values: the help says the defaults, and what is needed.
     """
-    from colonnade.campaign.syntax.fields import OneOf, Quantity
+    from colonnade.campaign.syntax.table import kind_of
 
     made = []
-    for key, field in keys.items():
-        found = [*_parts(field.annotation), *field.metadata]
-        tuples = [get_args(each) for each in found if get_origin(each) is tuple]
-        is_many, is_pair = any(... in each for each in tuples), any(... not in each for each in tuples)
-        words = [click.Choice(each.words) for each in found if isinstance(each, OneOf)]
-        dimension = [each.dimension for each in found if isinstance(each, Quantity)]
-        plain = str if dimension else next(each for each in (str, Path, float, bool, int) if each in found)
-        kind = FILE if plain is Path else number_or_word if plain is str and not dimension and float in found else plain
+    for key in keys or table.model_fields:
+        field, either = table.model_fields[key], table.alternatives()[key]
+        is_pair, is_many = "prefixItems" in either[0], "items" in either[0]
+        value = either[0]["prefixItems"][0] if is_pair else either[0].get("items", either[0])
+        kind = TYPES[value["type"]]
+        dimension = kind_of(value) if kind is str else ""
         said = str(field.description) + " Repeat it for several." * is_many
         if alone and not field.is_required() and field.default not in (None, (), False):
             default = field.default if isinstance(field.default, tuple) else (field.default,)
             said += f" Default: {' '.join(map(str, default))}."
-        flag = key.removesuffix("s") if is_many and not dimension else key
+        words = None if len(either) > 1 and either[1]["type"] == "number" else value.get("enum")
         made.append(
             click.Option(
-                ["--" + flag.replace("_", "-"), key],
-                type=words[0] if words else kind,
-                is_flag=plain is bool or None,
+                [f"--{(key if dimension else key.removesuffix('s' * is_many)).replace('_', '-')}", key],
+                type=click.Choice(words) if words else number_or_word if "enum" in value else kind,
+                is_flag=kind is bool or None,
                 nargs=2 if is_pair else 1,
                 multiple=is_many,
                 required=alone and field.is_required(),
-                metavar="LOW HIGH" if is_pair and plain is float else dimension[0].upper() if dimension else None,
+                metavar="LOW HIGH" if is_pair and kind is float else dimension.upper() or None,
                 help=said,
             )
         )
@@ -89,14 +91,6 @@ def number_or_word(text: str) -> float | str:
         return float(text)
     except ValueError:
         return text
-
-
-def _parts(annotation: Any) -> Iterator[Any]:
-    """Give a type, the types within it, and the annotations of both, such as a quantity."""
-    yield annotation
-    is_words = get_origin(annotation) is Literal
-    for each in (*get_args(annotation), *getattr(annotation, "__metadata__", ())):
-        yield from [type(each)] if is_words else _parts(each)
 
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -148,10 +142,13 @@ def column_keys(*more: str) -> list[click.Option]:
     from colonnade.campaign.specimen import SIZED
     from colonnade.workflow.real_column import Which
 
-    known = {key: field for model in SIZED.values() for key, field in model.model_fields.items()}
-    sizes = {key: known[key] for key in ("width", "diameter", "base_diameter", "top_diameter", "height")}
-    prototype = {key: Prototype.model_fields[key] for key in ("critical_angle", "p", "restitution", *more)}
-    return options_of(Which.model_fields | sizes | prototype)
+    return [
+        *options_of(Which),
+        *options_of(SIZED["prism"], ("width",)),
+        *options_of(SIZED["cylinder"], ("diameter",)),
+        *options_of(SIZED["cone"], ("base_diameter", "top_diameter", "height")),
+        *options_of(Prototype, ("critical_angle", "p", "restitution", *more)),
+    ]
 
 
 def file_option(flag: str, help: str) -> Callable[[Command], Command]:

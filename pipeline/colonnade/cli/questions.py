@@ -1,0 +1,430 @@
+"""The questions that a campaign or a column is asked: what comes next, what a model foresees, what overturns it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import rich_click as click
+
+from colonnade.cli.common.console import (
+    complain,
+    expect_places,
+    saved,
+    say,
+    say_drawn,
+    show_json,
+    show_paragraph,
+    show_rows,
+    show_table,
+    work_progress,
+)
+from colonnade.cli.common.options import (
+    Asking,
+    campaign_argument,
+    column_keys,
+    drawing_options,
+    opened,
+    options_of,
+    result_options,
+    scheduler_option,
+    specimen_option,
+    workers_option,
+)
+from colonnade.errors import count
+from colonnade.units.text import NOTHING, number, quantity, written
+
+if TYPE_CHECKING:
+    from colonnade.identification.response.boundaries import Misfit
+    from colonnade.store.records.advice import Advice
+    from colonnade.workflow.assessing import Assessed
+    from colonnade.workflow.executors import Where
+    from colonnade.workflow.foresee import Forecast
+    from colonnade.workflow.maps import MapMade
+
+
+def _foresee_keys() -> list[click.Option]:
+    from colonnade.workflow.foresee import AskedForecast
+
+    return options_of(AskedForecast, alone=True)
+
+
+@click.command(
+    cls=Asking,
+    keys=_foresee_keys,
+    epilog='Example: colonnade foresee demo --specimen prism --motion "El Centro 1940 NS" --level "0.3 g" --level 1.5x',
+)
+@campaign_argument
+@result_options
+def foresee(campaign: Path, given: dict[str, Any], results: Path | None, as_json: bool) -> int:
+    """
+    Forecast what a specimen does on a base motion.
+
+    {CAMPAIGN} Run it first: a forecast takes the e that is identified so far.
+
+    Writes a file for each level into forecasts/, which is never changed. After the test `run` scores the last one with
+    --test that was made before the raw file of that test was there.
+    """
+    from colonnade.workflow.foresee import AskedForecast
+    from colonnade.workflow.foresee import foresee as make
+    from colonnade.workflow.real_column import picked
+
+    with work_progress("Foreseeing") as progress:
+        made = make(*opened(campaign, results), picked(AskedForecast, given), progress)
+    if as_json:
+        show_json([{"file": each.path, **each.forecast.model_dump(by_alias=True)} for each in made])
+        return 0
+    for each in made:
+        _show(each)
+        say(f"forecast: {each.path}")
+    return 0
+
+
+def _show(made: Forecast) -> None:
+    """Write what the table must do, and under it what each model foresees, side by side."""
+    from colonnade.store.records.forecast import FORESEEN, shown_model, shown_table
+
+    forecast = made.forecast
+    acceleration, velocity, displacement = shown_table(forecast.table)
+    show_paragraph(f"{forecast.level}: the table reaches {acceleration}; velocity {velocity}; stroke {displacement}")
+    columns = [shown_model(model) for model in forecast.models.values()]
+    show_table(("", *forecast.models), list(zip(FORESEEN, *columns, strict=True)))
+
+
+@click.command(
+    "next",
+    epilog="Example: colonnade next demo --specimen prism",
+)
+@campaign_argument
+@specimen_option
+@result_options
+def next_command(campaign: Path, specimen: tuple[str, ...], results: Path | None, as_json: bool) -> int:
+    """
+    Say which test tells most: the next one, and the others of all specimens by what they tell.
+
+    {CAMPAIGN} It uses the results of the last run. Each advice has its reason, its risk of overturning and what the
+    table must do; "enough" means that no test of this kind is needed. A Span is advised at most a fifth above the
+    largest that was tested. The settings are in [next], the limits of the table in [table]. Nothing is written.
+    """
+    from colonnade.workflow.advising.next import advise
+    from colonnade.workflow.product import Catalogue
+
+    loaded, layout = opened(campaign, results)
+    loaded = loaded.awaiting()
+    with work_progress("Looking for the test that tells most"):
+        found = advise(loaded, layout, Catalogue(layout), specimen)
+    if as_json:
+        show_json({"advice": found, "awaited": loaded.awaited})
+        return 0
+    _show_advice(found)
+    for test, file in loaded.awaited.items():
+        show_paragraph(f"{test}: expected: {file}")
+    return 0
+
+
+def _show_advice(advice: Sequence[Advice]) -> None:
+    """Write the test to do next with its reason, then the others."""
+    if not advice:
+        say("Nothing to advise: no free vibration, sine test or earthquake has been run.")
+        return
+    needed = [each for each in advice if not each.is_enough and not each.beyond]
+    others = [each for each in advice if each not in needed[:1]]
+    if needed:
+        show_paragraph(f"Do this next: {needed[0].what()}")
+        show_paragraph(f"Because {needed[0].reason}.")
+    else:
+        say("No test that the table can do is needed.")
+    if others:
+        say("\nThen, by what they tell:" if needed else "")
+    for each in others:
+        reasons = [each.reason] if each.is_enough else each.beyond
+        show_paragraph("; ".join((each.what(), *reasons)), bullet="- ")
+
+
+def _spectrum_keys() -> list[click.Option]:
+    from colonnade.workflow.spectrum import AskedSpectrum
+
+    return [*options_of(AskedSpectrum, alone=True), *column_keys()]
+
+
+@click.command(
+    cls=Asking,
+    keys=_spectrum_keys,
+    epilog='Example: colonnade spectrum --motion record.AT2 --shape prism --width "1 m" --height "5 m"',
+)
+@campaign_argument
+@drawing_options("Draw it: .svg, .pdf or .png.")
+@result_options
+def spectrum(
+    campaign: Path, given: dict[str, Any], results: Path | None, out: Path | None, data: Path | None, as_json: bool
+) -> int:
+    """
+    Show what a base motion or a pulse does to a column.
+
+    --motion gives the rocking spectrum of a motion: the largest angle over the size of blocks as slender as the column,
+    with the intensity measures of the motion. --pulse gives the overturning spectrum of a pulse: the amplitudes from
+    which it overturns the column, and up to which it may not, over frequency.
+
+    The column is a specimen of CAMPAIGN, or is given by --shape and its sizes, or by --critical-angle and --p; then no
+    campaign is needed. A specimen has the e that its predictions use. Of the real column, or with another α or p, say
+    it: by --restitution or [prototype.ID].
+    {CAMPAIGN}
+    """
+    from colonnade.workflow.real_column import picked
+    from colonnade.workflow.spectrum import AskedSpectrum, spectrum_of
+
+    asked = picked(AskedSpectrum, given)
+    expect_places(out, data)
+    is_here = campaign != Path() or Path("campaign.toml").is_file()
+    found = spectrum_of(asked, given, *(opened(campaign, results) if is_here else (None, None)))
+    drawn = saved(found.draw, out, data)
+    if as_json:
+        show_json(found.record | {"figure": out, "data": data})
+        return 0
+    say(found.verdict)
+    show_rows(found.fields)
+    for heads, rows in found.tables:
+        say()
+        show_table(heads, rows)
+    say_drawn(drawn)
+    return 0
+
+
+def _fragility_keys() -> list[click.Option]:
+    from colonnade.campaign.assessment import Assessment
+
+    others = ("specimen", "scale", "measures", "displaced")
+    own = [key for key in Assessment.model_fields if key not in others]
+    return [*column_keys("restitution_range", "friction"), *options_of(Assessment, own)]
+
+
+@click.command(
+    cls=Asking,
+    keys=_fragility_keys,
+    epilog="Example: colonnade fragility demo --name prism",
+)
+@campaign_argument
+@click.option("--name", multiple=True, metavar="NAME", help="Only this assessment of the campaign; may be repeated.")
+@drawing_options("Draw the curve: .svg, .pdf or .png.")
+@workers_option
+@scheduler_option
+@result_options
+def fragility(
+    campaign: Path,
+    name: tuple[str, ...],
+    given: dict[str, Any],
+    out: Path | None,
+    data: Path | None,
+    workers: int | None,
+    scheduler: str | None,
+    results: Path | None,
+    as_json: bool,
+) -> int:
+    """
+    Say how probably a real column overturns on a set of ground motions.
+
+    {CAMPAIGN} Without options it brings the campaign's [assessments] up to date, as `run` does. With --specimen and
+    --records, or options that replace keys of an assessment, it answers a question of your own and stores nothing; the
+    files may be anywhere. A column that is not a specimen is given by --shape and its sizes, or by --critical-angle
+    and --p, with --restitution; then no campaign is needed.
+
+    An interrupted assessment of the campaign is continued.
+    """
+    from colonnade.report.assessments_page import curves
+    from colonnade.workflow.executors import Where
+
+    expect_places(out, data)
+    with work_progress("Assessing") as progress:
+        found = _assessed(campaign, name, given, results, Where(workers, scheduler, progress))
+    if (out or data) and len(found) > 1:
+        raise click.UsageError(f"{len(found)} assessments were found. Name one with --name to draw it.")
+    first, result = found[0], found[0].result
+    drawn = [] if result is None else saved(lambda: curves(first.name, first.record, result), out, data)
+    if as_json:
+        show_json([{"name": each.name, "file": each.path, **dict(each.record)} for each in found])
+    else:
+        for each in found:
+            _show_assessed(each)
+        say_drawn(drawn)
+    return int(any(each.record.status == "failed" for each in found))
+
+
+def _assessed(
+    path: Path, names: tuple[str, ...], given: dict[str, Any], results: Path | None, where: Where
+) -> list[Assessed]:
+    from colonnade.workflow.assessing import assess_campaign, assess_own
+    from colonnade.workflow.real_column import needs_specimen
+
+    if not names and not needs_specimen(given):
+        return [assess_own(None, None, None, given, where)]
+    loaded, layout = opened(path, results)
+    if not given:
+        return assess_campaign(loaded, layout, names, where)
+    if len(names) > 1:
+        raise click.UsageError("Options are for one assessment. Name one.")
+    base = names[0] if names else next(iter(loaded.assessments)) if len(loaded.assessments) == 1 else None
+    return [assess_own(loaded, layout, base, given, where)]
+
+
+def _show_assessed(assessed: Assessed) -> None:
+    from colonnade.report.assessments_page import symbol
+    from colonnade.store.records.assessment import level, sentences
+    from colonnade.units.text import format_percent
+
+    record = assessed.record
+    verdict, *others = sentences(record)
+    of = "" if record.specimen == assessed.name else f" ({record.specimen})"
+    say(f"{assessed.name}{of}: {verdict}")
+    for sentence in others:
+        say(f"  {sentence}")
+    for said in record.warnings:
+        complain(f"warning: {said}")
+    for said in record.notes:
+        complain(f"note: {said}")
+    if record.status == "failed":
+        return
+    say()
+    rows = [
+        (
+            *(symbol(each.measure), number(each.deviance), number(each.auc, 2), number(each.scatter, 2)),
+            "–" if each.best is None else format_percent(each.best),
+        )
+        for each in record.measures
+    ]
+    show_table(("measure", "deviance", "AUC", "scatter of ln peak", "best in"), rows)
+    if record.deciding:
+        without = (
+            f"{each.record} (median without it {level(record.measure, each.median)})" for each in record.deciding
+        )
+        say(f"The records that change the answer most: {', '.join(without)}.")
+    if assessed.path is not None:
+        say(f"result: {assessed.path}")
+
+
+def _map_keys() -> list[click.Option]:
+    from colonnade.workflow.map_plans import Wanted
+
+    return options_of(Wanted, alone=True)
+
+
+@click.command(
+    "map",
+    cls=Asking,
+    keys=_map_keys,
+    epilog="Example: colonnade map demo --specimen prism --omega 1.1 7.8 --ramp 3",
+)
+@campaign_argument
+@specimen_option
+@workers_option
+@scheduler_option
+@result_options
+def map_command(
+    campaign: Path, specimen: tuple[str, ...], given: dict[str, Any], results: Path | None, as_json: bool, **where: Any
+) -> int:
+    """
+    Compute stability maps over frequency and amplitude, with the measured points on them.
+
+    {CAMPAIGN} Run it first: the map uses the identified restitution, and shows the sine tests by their measured
+    outcome.
+
+    An interrupted map is continued. An existing map is only redrawn.
+
+    Writes processed/maps/<SPECIMEN>-<MODEL>.nc and a picture of it; with --responses also
+    <SPECIMEN>-<MODEL>-response.nc and its picture.
+    """
+    from colonnade.workflow.map_plans import Wanted
+    from colonnade.workflow.maps import make_maps
+    from colonnade.workflow.real_column import picked
+
+    asked = picked(Wanted, given)
+    with work_progress(f"Mapping by the {' and the '.join(asked.models)} model") as progress:
+        made = make_maps(campaign, asked, specimens=specimen, results=results, progress=progress, **where)
+    if as_json:
+        show_json(made)
+        return 0
+    for each in made:
+        _show_limits(each)
+        say(f"map: {each.path}")
+        say(f"figure: {each.figure}")
+        if each.responses is not None:
+            say(f"responses: {each.responses}")
+            say(f"figure: {each.responses_figure}")
+    for together in dict.fromkeys(each.together for each in made if each.together is not None):
+        say(f"together: {together}")
+    return 0
+
+
+def _show_limits(made: MapMade) -> None:
+    from colonnade.store.provenance import NEVER_RUN
+
+    measured = count(made.measured, "measured point")
+    why = f"computed again, {made.because}" if made.because else "up to date"
+    why = "computed" if made.because == NEVER_RUN else why
+    say(f"{made.specimen}, {made.model} model: {measured}, e {made.restitution_source}; {why}")
+    limits = (("lower", made.lower), ("upper", made.upper))
+    show_rows([(f"{name} limit − measured", _misfit(misfit)) for name, misfit in limits if misfit is not None])
+
+
+def _misfit(misfit: Misfit) -> str:
+    return f"{misfit.mean:+.3f} in A (RMS {misfit.rms:.3f}, {misfit.frequencies} Ω)"
+
+
+HEADS = (
+    *("specimen", "mesh", "step", "CDF ξ", "ξ_eff", "stiffness"),
+    *("e", "source", "e wanted", "velocity ratio"),
+)
+
+
+@click.command(epilog="Example: colonnade calibrate demo --specimen prism")
+@campaign_argument
+@specimen_option
+@workers_option
+@result_options
+def calibrate(
+    campaign: Path, specimen: tuple[str, ...], workers: int | None, results: Path | None, as_json: bool
+) -> int:
+    """
+    Find the contact damping with which the contact model gives each specimen's restitution.
+
+    {CAMPAIGN} Identify its free vibrations first.
+
+    e is identified from the rocking angle of a free vibration of the model, as from a record. The mean velocity ratio
+    of its impacts is shown with it: a contact that bounces also loses energy between impacts, so the two differ. If e
+    cannot be identified, as after too few impacts, the mean velocity ratio is used: "source" shows which of the two.
+
+    Mesh and step are those of the settings (processing.predict.contact). Writes processed/contact/<SPECIMEN>.nc, as a
+    run does.
+    """
+    from colonnade.workflow.calibration import calibrate as calibrated
+
+    made = calibrated(campaign, specimens=specimen, workers=workers, results=results)
+    if as_json:
+        show_json(made)
+        return int(any(each["restitution"] is None for each in made))
+    rows = [
+        (
+            each["specimen"],
+            str(each["mesh"]),
+            quantity(each["step"], "µs"),
+            number(each["damping_fraction"]),
+            number(each["effective_damping"]),
+            written(each["stiffness"] and 1e-9 * each["stiffness"], "N/mm³", 3),
+            _e(each["restitution"]),
+            each["source"] or NOTHING,
+            _e(each["target"]),
+            _e(each["velocity_ratio"]),
+        )
+        for each in made
+    ]
+    show_table(HEADS, rows)
+    for each in made:
+        if each["reason"]:
+            say("{specimen}: {reason}".format_map(each))
+        if each["path"] is not None:
+            say("law: {path}".format_map(each))
+    return int(any(each["restitution"] is None for each in made))
+
+
+def _e(value: float | None) -> str:
+    return NOTHING if value is None else f"{value:.4f}"
