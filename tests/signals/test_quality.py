@@ -14,6 +14,7 @@ from colonnade.signals.quality import (
     check_missing,
     check_rails,
     check_spikes,
+    check_torn,
     combine,
 )
 from every import every
@@ -122,7 +123,7 @@ def test_missing_values_and_times_are_counted():
 def test_a_channel_beside_a_moving_table_that_hardly_moves_is_dead():
     table = np.sin(TIME)
     assert "practically dead" in check_dead(0.01 * table, table, share=0.08).reason
-    assert check_dead(0.1 * table, table, share=0.08).flag == Flag.GOOD
+    assert check_dead(0.1 * table, table, share=0.08).reason == ""
 
 
 def test_the_worst_flag_of_a_sample_stands():
@@ -217,3 +218,50 @@ UNSATURATED = {
 @every("what", UNSATURATED)
 def test_peaks_and_rest_are_no_saturation(what):
     assert check_rails(TIME_RAILS, UNSATURATED[what]).reason == ""
+
+
+RELEASED = np.interp(
+    TIME - 1.5, *(lambda h: (h.time, h.angle))(rock(PRISM, restitution=0.95, theta0=0.1, duration=8.0))
+)
+"""Held tilted for a second and a half, then let go, rad."""
+
+FALL = np.where(TIME > 4.0, 1e-3 * np.expm1(PRISM.p * np.clip(TIME - 4.0, 0, None)), 0.02 * np.sin(9 * TIME))
+LIFTED = 0.1 * np.clip((TIME - 1.0) / 0.3, 0, 1) ** 2
+
+
+@pytest.mark.parametrize("share", [0.97, 0.9, 0.8, 0.6])
+def test_a_transducer_that_saturates_at_the_peaks_of_a_rocking_block_is_told(share):
+    limit = share * np.abs(RELEASED[1000:]).max()
+    verdict = check_rails(TIME, _noisy(np.clip(RELEASED, -limit, limit), 1e-4), longest=0.5)
+    assert "Its peaks are lower bounds" in verdict.reason
+    assert np.abs(RELEASED[verdict.where]).min() > 0.98 * limit
+
+
+@pytest.mark.parametrize("share", [0.3, 0.6, 0.9])
+def test_a_cable_that_tears_is_told_with_its_jump(share):
+    torn = np.where(np.arange(TIME.size) > np.argmax(-share * np.abs(RELEASED[1000:]).max() > RELEASED), 0.0, RELEASED)
+    verdict = check_torn(TIME, _noisy(torn, 1e-4))
+    jump = share * np.abs(RELEASED[1000:]).max()
+    assert float(verdict.reason.split()[3]) == pytest.approx(jump, rel=0.05)
+    assert verdict.finding.severity == "serious"
+
+
+ROCKED = {
+    "is held and rocks": RELEASED,
+    "falls onto its frame": np.minimum(FALL, 0.28),
+    "falls onto the floor": np.minimum(FALL, 1.4),
+    "leans to the end": np.minimum(FALL, 0.15)[:2700],
+    "is lifted and let go": np.concatenate((LIFTED[:900], RELEASED[500:])),
+    "is held and let go again": np.concatenate((RELEASED[750:3500], LIFTED[500:900], RELEASED)),
+    "stands": np.zeros(TIME.size),
+    "was pushed": np.where(TIME > 4.0, 0.01, 0.0),
+    "was not seen": np.full(TIME.size, np.nan),
+}
+
+
+@every("what", ROCKED)
+def test_a_block_is_neither_stuck_nor_torn_off_that(what):
+    values = _noisy(ROCKED[what], 1e-4)
+    time = 0.002 * np.arange(values.size)
+    assert check_rails(time, values, longest=0.5).reason == ""
+    assert check_torn(time, values).reason == ""

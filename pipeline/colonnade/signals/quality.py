@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from enum import IntEnum
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,11 +42,18 @@ BAND = 8.0
 STEEP = 6.0
 """Bands by which a flank of half as many samples has to leave it: a parabola leaves it by three."""
 
+LEVEL = 1.5
+"""Standard deviations of the noise, that samples at it deviate by at most."""
+
 FEWEST_AT_RAIL = 6
 """Samples at one value."""
 
 AWAY = 0.3
 """Of all that the channel moves: an extreme value nearer to one at which it begins or ends is where it rests."""
+
+
+FAST, AT_REST, MOVED = 5.0, 0.05, 0.5
+"""Times all other steps, that a jump is; of the jump, by which the channel moves at most then, and did before."""
 
 
 class Flag(IntEnum):
@@ -59,8 +66,7 @@ class Flag(IntEnum):
     MISSING = 9
 
 
-@dataclass(frozen=True)
-class Verdict:
+class Verdict(NamedTuple):
     """
     The result of a check of a record.
 
@@ -68,19 +74,21 @@ class Verdict:
     ----------
     flag : Flag
     where : ndarray of bool, shape (n,)
-        The samples it applies to.
-    reason : str
-        Empty if all is good.
-    kind : str
-    severity : Severity
+        The samples it applies to; none if all is good.
+    text, kind, severity : str, str, Severity
         Of the finding that it makes.
     """
 
     flag: Flag
     where: Mask
-    reason: str
+    text: str = ""
     kind: str = "samples"
     severity: Severity = Severity.WARNING
+
+    @property
+    def reason(self) -> str:
+        """Its text; empty if all is good."""
+        return self.text if self.where.any() else ""
 
     @property
     def finding(self) -> Finding:
@@ -90,12 +98,7 @@ class Verdict:
     @classmethod
     def good(cls, size: int) -> Verdict:
         """Verdict that flags nothing."""
-        return cls(Flag.GOOD, np.zeros(size, dtype=bool), "")
-
-    @classmethod
-    def of(cls, flag: Flag, where: Mask, reason: str, kind: str, severity: Severity = Severity.WARNING) -> Verdict:
-        """Verdict that flags samples; that all is good if there are none."""
-        return cls(flag, where, reason, kind, severity) if where.any() else cls.good(where.size)
+        return cls(Flag.GOOD, np.zeros(size, dtype=bool))
 
 
 def combine(verdicts: Iterable[Verdict], size: int) -> tuple[Codes, list[Finding]]:
@@ -120,7 +123,7 @@ def check_missing(time: Array, values: Array) -> Verdict:
     """Flag samples without a value or a time."""
     where = ~(np.isfinite(values) & np.isfinite(time))
     reason = f"{counted(where)} without a value{first_at(time, where)}"
-    return Verdict.of(Flag.MISSING, where, reason, "missing samples")
+    return Verdict(Flag.MISSING, where, reason, "missing samples")
 
 
 def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
@@ -165,7 +168,7 @@ def check_flat(time: Array, values: Array, *, duration: float) -> Verdict:
         reason = f"the channel is dead: every sample is {values[0]:g}"
         return Verdict(Flag.SUSPECT, where, reason, "dead channel", Severity.SERIOUS)
     reason = f"{counted(where)} flat for more than {duration:g} s{first_at(time, where)}"
-    return Verdict.of(Flag.SUSPECT, where, reason, "flat stretch")
+    return Verdict(Flag.SUSPECT, where, reason, "flat stretch")
 
 
 def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
@@ -206,7 +209,7 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
     where &= known
     # They are bridged: a few do not touch the result.
     severity = Severity.NOTE if where.mean() <= FEW_SPIKES else Severity.WARNING
-    return Verdict.of(Flag.FAIL, where, f"spikes on {counted(where)}{first_at(time, where)}", "spikes", severity)
+    return Verdict(Flag.FAIL, where, f"spikes on {counted(where)}{first_at(time, where)}", "spikes", severity)
 
 
 def _bend(before: Array, sample: Array, behind: Array) -> Array:
@@ -276,22 +279,15 @@ def check_dead(values: Array, reference: Array, *, share: float) -> Verdict:
         f"the channel is practically dead: its standard deviation is {deviation:.3g}, that of the table's "
         f"{expected:.3g} in the same unit; check its cable, sensor and range"
     )
-    return Verdict.of(Flag.SUSPECT, where, reason, "dead channel", Severity.SERIOUS)
+    return Verdict(Flag.SUSPECT, where, reason, "dead channel", Severity.SERIOUS)
 
 
-def check_rails(time: Array, values: Array) -> Verdict:
+def check_rails(time: Array, values: Array, *, longest: float = np.inf) -> Verdict:
     """
     Flag samples at a value that the channel does not exceed although it moves fast before and after.
 
-    Parameters
-    ----------
-    time, values : ndarray, shape (n,)
-        s; any unit.
-
-    Notes
-    -----
     The top of a parabola fills the band of 8 σ and leaves it slowly. Saturation is flat but for the noise σ, and its
-    flanks are steep.
+    flanks are steep. What stays for longer than `longest` (s) is held there.
     """
     where = np.zeros(values.size, dtype=bool)
     if np.isfinite(values).sum() < 4 * FIRST:
@@ -308,6 +304,8 @@ def check_rails(time: Array, values: Array) -> Verdict:
             half = (stop - start) // 2
             if stop - start < FEWEST_AT_RAIL or start < half or stop + half > signed.size:
                 continue
+            if time[stop - 1] - time[start] > longest or signed[start + 1 : stop - 1].std() > LEVEL * noise:
+                continue
             if top - max(signed[start - half], signed[stop + half - 1]) > STEEP * BAND * noise:
                 where[start:stop] = True
     level = float(np.abs(values[where]).max(initial=0.0))
@@ -315,7 +313,27 @@ def check_rails(time: Array, values: Array) -> Verdict:
         f"{counted(where)} stay at {level:.4g} (as recorded){first_at(time, where)}, between steep flanks: the channel "
         "saturates, and the value was larger. Its peaks are lower bounds. Choose a larger range"
     )
-    return Verdict.of(Flag.SUSPECT, where, reason, "end of the range")
+    return Verdict(Flag.SUSPECT, where, reason, "end of the range")
+
+
+def check_torn(time: Array, values: Array) -> Verdict:
+    """Flag what follows a jump, far faster than all other motion, after which a channel that moved stands still."""
+    where = np.zeros(values.size, dtype=bool)
+    if np.isfinite(values).sum() < 4 * FIRST:
+        return Verdict.good(values.size)
+    filled = filled_in(values)
+    steps = np.abs(np.diff(filled))
+    jump = int(np.argmax(steps))
+    size, before, after = float(steps[jump]), filled[: jump + 1], filled[jump + 3 :]
+    steps[max(jump - 2, 0) : jump + 3] = 0.0
+    stands = after.size > 4 * FIRST and np.ptp(after) < AT_REST * size and np.ptp(before) > MOVED * size
+    is_gap = time[jump + 1] - time[jump] > FAST * (time[-1] - time[0]) / time.size
+    where[jump + 1 :] = stands and size > FAST * steps.max() and not is_gap
+    reason = (
+        f"it jumps by {size:.4g} (as recorded) at {time[jump + 1]:.4g} s, and stands still from then on: its cable "
+        "tore, or its core came off. The peak is a lower bound, and the specimen may have overturned"
+    )
+    return Verdict(Flag.SUSPECT, where, reason, "dead channel", Severity.SERIOUS)
 
 
 def counted(where: Mask) -> str:

@@ -136,8 +136,8 @@ def check_steps(clock: Clock, *, share: float, factor: float) -> list[Verdict]:
     largest = 1e3 * clock.interval * float(off[uneven].max(initial=0.0))
     jitter = f"{counted(odd)} up to {largest:.3g} ms off an even clock of {1e3 * clock.interval:.6g} ms"
     return [
-        Verdict.of(Flag.SUSPECT, beside, gaps, "lost samples"),
-        Verdict.of(Flag.SUSPECT, odd, jitter, "time column"),
+        Verdict(Flag.SUSPECT, beside, gaps, "lost samples"),
+        Verdict(Flag.SUSPECT, odd, jitter, "time column"),
     ]
 
 

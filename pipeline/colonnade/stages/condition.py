@@ -179,7 +179,7 @@ def _rest_window(
     if not window.quiet:
         effects = zero_effects(inputs.plausibility)
         known = {name: effects[variable_name(name)] for name in values if variable_name(name) in effects}
-        warnings += find_zero_error(clock, values, known, window, free_vibration=is_free)
+        warnings += find_zero_error(clock, values, known, window)
     return window
 
 

@@ -20,7 +20,6 @@ from colonnade.readers.clock import moment_after
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.heading import LETTERED
 from colonnade.signals import quality, timing
-from colonnade.signals.quality import check_rails
 from colonnade.signals.samples import side_by_side
 from colonnade.store.description import variable_name
 from colonnade.store.provenance import Inputs
@@ -275,10 +274,14 @@ def channel_verdicts(
         found.append(quality.check_clipping(stamps, values, full_scale=channel.range_recorded))
     elif channel.full_scale is not None:
         found.append(quality.check_clipping(stamps, physical, full_scale=channel.full_scale))
-    # A table and a specimen hold a place, and nothing but a saturated channel an acceleration.
+    sees_rotation = channel.on == "specimen" and channel.quantity in ("displacement", "angle")
+    if sees_rotation:
+        found.append(quality.check_torn(stamps, values))
+    # Nothing but a saturated channel holds an acceleration; a specimen holds a place only for long.
     is_acceleration = channel.on == "table" and channel.quantity == "acceleration"
-    if is_acceleration and not any(verdict.kind == "end of the range" for verdict in found):
-        found.append(check_rails(stamps, values))
+    if (sees_rotation or is_acceleration) and not any(verdict.kind == "end of the range" for verdict in found):
+        longest = settings.flat_duration if sees_rotation else np.inf
+        found.append(quality.check_rails(stamps, values, longest=longest))
     return found
 
 

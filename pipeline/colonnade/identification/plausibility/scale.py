@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from math import isfinite, log
 
 import numpy as np
@@ -50,7 +50,7 @@ WINDOW = 0.4
 BLURRED = 0.1
 """Over p: what a low-pass rounds on either side of an impact."""
 
-FEWEST_SECONDS = 2.0
+FEWEST_SECONDS, FEWEST_SAMPLES = 2.0, 10
 """Of rocking between impacts, over p; a shorter record gives no scale."""
 
 CALIBRATED = 0.025
@@ -133,11 +133,6 @@ class Scale:
     rate_error: float = np.nan
     without_rate: float = np.nan
 
-    def times(self, factor: float) -> Scale:
-        """The same of an angle that is so many times as large."""
-        scaled = ("value", "error", "base", "base_error", "without_rate")
-        return replace(self, **{name: factor * getattr(self, name) for name in scaled})
-
     @property
     def is_known(self) -> bool:
         """Whether the record gives the scale."""
@@ -163,72 +158,60 @@ UNKNOWN_SCALE = Scale(np.nan, np.nan)
 
 
 def scale_of(
-    interval: float, angle: Array, noise: float, acceleration: Array | None, block: Block, *, blur: float = 0.0
+    interval: float,
+    angle_at: Callable[[float], Array],
+    noise: float,
+    acceleration: Array | None,
+    block: Block,
+    *,
+    blur: float = 0.0,
 ) -> Scale:
     """
-    Find how many times too large an angle is, by the equation of motion.
+    Find how many times too large an angle is, by the equation of motion; NaN where the specimen hardly rocks.
 
-    Parameters
-    ----------
-    interval : float
-        s.
-    angle : ndarray, shape (n,)
-        θ as one transducer gives it, rad; NaN where missing.
-    noise : float
-        Its standard deviation, rad.
-    acceleration : ndarray, shape (n,), or None
-        Of the table along x, m/s².
-    block : Block
-    blur : float, optional
-        What a low-pass rounds on either side of an impact, s; at least `BLURRED` is left out.
+    `angle_at` gives θ (n,), rad, NaN where missing, if its readings are so many times too large; `noise` is its
+    standard deviation, rad, and `acceleration` (n,) that of the table along x, m/s²; `blur` is what a low-pass rounds
+    on either side of an impact, s (at least `BLURRED` is left out).
 
-    Returns
-    -------
-    scale : Scale
-        With NaN where the specimen hardly rocks.
-
-    Notes
-    -----
     Between impacts θ̈ = −p² [sin(α sgn θ − θ) + (a/g) cos(α sgn θ − θ)]. Both sides are averaged with the same smooth
     weight over windows that hold no impact, so that noise is not differentiated, and α (a times larger angle looks like
     a times larger α), the share of a, and then p are found by least squares. The errors are those of the residuals.
     """
-    weight = _weight(interval, block.p)
-    filled = filled_in(angle)
-    gaps = scipy.ndimage.maximum_filter1d(~np.isfinite(angle), weight.size)
+    weight, recorded = _weight(interval, block.p), angle_at(1.0)
+    gaps = scipy.ndimage.maximum_filter1d(~np.isfinite(recorded), weight.size)
     around = weight.size + 2 * int(max(BLURRED / block.p, blur) / interval)
-    free = _between_impacts(interval, filled, noise, block.p, around) & ~gaps
-    bend = _averaged(np.gradient(np.gradient(filled, interval), interval), weight)
-    value = max(float(np.abs(filled).max()) / (BEYOND * block.critical_angle), 1.0)
+    free = _between_impacts(interval, filled_in(recorded), noise, block.p, around) & ~gaps
+    value = max(float(np.nanmax(np.abs(recorded))) / (BEYOND * block.critical_angle), 1.0)
     for _ in range(STEPS):
-        within = free & (np.abs(filled) < BEYOND * value * block.critical_angle)
-        if within.sum() * interval < FEWEST_SECONDS / block.p:
+        angle = filled_in(angle_at(value))
+        within = free & (np.abs(angle) < BEYOND * block.critical_angle)
+        if within.sum() < max(FEWEST_SECONDS / block.p / interval, FEWEST_SAMPLES):
             return UNKNOWN_SCALE
-        turning, *columns = (_averaged(each, weight) for each in bending(filled / value, acceleration, block))
+        bend = _averaged(np.gradient(np.gradient(angle, interval), interval), weight)
+        turning, *columns = (_averaged(each, weight) for each in _bending(angle, acceleration, block))
         independent = 3 * within.sum() * interval * block.p / WINDOW  # three in a window
-        found, errors, _ = least_squares(bend / value - turning, columns, within, independent)
+        found, errors, _ = least_squares(bend - turning, columns, within, independent)
         step = float(np.clip(1 + found[0], 1 / LARGEST_STEP, LARGEST_STEP))
         value *= step
         if abs(step - 1) < 0.1 * errors[0]:
             break
-    freed, freed_errors, left = least_squares(bend / value, [turning, *columns], within, independent)
-    if left > UNEXPLAINED * float(np.std(bend[within])) / value:
+    freed, freed_errors, left = least_squares(bend, [turning, *columns], within, independent)
+    if left > UNEXPLAINED * float(np.std(bend[within])):
         return UNKNOWN_SCALE
     squared = max(float(freed[0]), 1e-9)
-    shaken = (found, errors) if acceleration is not None else np.full((2, 2), np.nan)
-    base, base_error = (float(value * each[1]) for each in shaken)
+    base, base_error = (np.nan, np.nan) if acceleration is None else (value * found[1], value * errors[1])
     return Scale(
         value,
         float(value * errors[0]),
-        base,
-        base_error,
+        float(base),
+        float(base_error),
         rate=squared**0.5,
         rate_error=float(freed_errors[0]) / 2,
         without_rate=value * (1 + float(freed[1]) / squared),
     )
 
 
-def bending(angle: Array, acceleration: Array | None, block: Block) -> list[Array]:
+def _bending(angle: Array, acceleration: Array | None, block: Block) -> list[Array]:
     """What bends an angle, rad/s²: at a table at rest, per relative change of α, and by the table if that is known."""
     critical, squared = np.copysign(block.critical_angle_at(angle), angle), block.p_at(angle) ** 2
     pull = -squared * np.cos(critical - angle)
@@ -259,12 +242,6 @@ def _averaged(values: Array, weight: Array) -> Array:
     return np.asarray(scipy.signal.oaconvolve(values, weight, mode="same"))
 
 
-def deviation(values: Array, window: int) -> Array:
-    """Standard deviation in the window about each sample."""
-    mean = scipy.ndimage.uniform_filter1d(values, window)
-    return np.asarray(np.sqrt(np.maximum(scipy.ndimage.uniform_filter1d(values**2, window) - mean**2, 0.0)))
-
-
 def _between_impacts(interval: float, angle: Array, noise: float, p: float, around: int) -> Mask:
     """Samples about which so many have no impact, of a movement that is neither noise nor held far from rest."""
     magnitude = np.abs(angle)
@@ -272,7 +249,9 @@ def _between_impacts(interval: float, angle: Array, noise: float, p: float, arou
     window = max(int(1.6 / p / interval), 3)
     moves = scipy.ndimage.maximum_filter1d(magnitude, window) > max(STANDING * noise, MOVES * largest)
     lowest, highest = (each(angle, around) for each in (scipy.ndimage.minimum_filter1d, scipy.ndimage.maximum_filter1d))
-    held = (deviation(angle, window) < HELD * largest) & (magnitude > max(STANDING * noise, 0.3 * MOVES * largest))
+    mean, squared = (scipy.ndimage.uniform_filter1d(each, window) for each in (angle, angle**2))
+    still = squared - mean**2 < (HELD * largest) ** 2
+    held = still & (magnitude > max(STANDING * noise, 0.3 * MOVES * largest))
     inside = np.zeros(angle.size, dtype=bool)
     inside[around:-around] = True
     return np.asarray(

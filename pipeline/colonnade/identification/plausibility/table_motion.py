@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from itertools import product
 from math import log
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 import scipy
 
 from colonnade.arrays import Array, Mask
-from colonnade.dynamics.block import Block
 from colonnade.findings import Finding, serious, warning
 from colonnade.identification.plausibility.scale import (
     DEAD,
@@ -23,9 +23,11 @@ from colonnade.identification.plausibility.scale import (
     dead,
     least_squares,
 )
+from colonnade.identification.plausibility.transducers import Rotation
 from colonnade.signals.alignment import RIVAL_EVIDENCE, find_offset
 from colonnade.signals.filters import lowpass, second_derivative
 from colonnade.signals.metrics import find_hum
+from colonnade.signals.samples import filled_in
 from colonnade.units.text import format_percent, format_uncertain
 
 BANDWIDTH = 10.0
@@ -52,14 +54,14 @@ SEEN = 0.2
 LEAST_ROCKING = 0.03
 """Of the critical angle, above which the specimen is taken to rock."""
 
-MISPLACED = ("late recorder", "AC coupling", "table motion")
-"""Kinds of findings of an acceleration that does not shake the specimen: no transducer is judged by it."""
-
 FEWEST_SECONDS = 5.0
 """Of rocking, over p."""
 
 EXPLAINED = 0.85
 """Correlation with what the specimen's rocking requires, from which on it shows a delay or a high-pass."""
+
+MISPLACED = ("late recorder", "AC coupling", "table motion")
+"""Kinds of findings of an acceleration that does not shake the specimen: no transducer is judged by it."""
 
 SLOWEST = 0.5
 """Hz, above which an acceleration is integrated."""
@@ -67,7 +69,7 @@ SLOWEST = 0.5
 CALIBRATED = 0.05
 """Relative departure of their ratio from one that calibrations leave."""
 
-BETTER = 2.0
+MUCH_BETTER = 2.0
 """Times less that has to be left unexplained with a delay, or with what a high-pass took off."""
 
 LONGEST_DELAY, LEAST_DELAY = 1.0, 0.01
@@ -77,22 +79,8 @@ LEAST_LOST = 0.1
 """Share of the motion that a high-pass has to take off."""
 
 
-@dataclass(frozen=True)
-class TableChannel:
-    """
-    A channel of the table along x.
-
-    Attributes
-    ----------
-    name : str
-    values : ndarray, shape (n,)
-        m/s² or m.
-    noise : float
-        Its standard deviation.
-    recorder : str
-    is_good : bool
-        Whether its peaks are beyond doubt.
-    """
+class TableChannel(NamedTuple):
+    """A channel of the table along x, m/s² or m, its noise, and whether its peaks are beyond doubt."""
 
     name: str
     values: Array
@@ -101,8 +89,7 @@ class TableChannel:
     is_good: bool = True
 
 
-@dataclass(frozen=True)
-class Comparison:
+class Comparison(NamedTuple):
     """
     How an acceleration follows a reference that is one, too.
 
@@ -110,89 +97,68 @@ class Comparison:
     ----------
     factor, factor_error : float
         Acceleration over reference, with its sign; standard error.
-    delay, delay_error : float
-        How late it is, s; 0 unless a delay explains far more.
-    corner, corner_error : float
-        Hz, below which a high-pass took its motion off; 0 unless that explains far more.
     correlation : float
-        With these.
+        With what follows.
+    misplaced : str
+        "late recorder" or "AC coupling" where a delay, or a high-pass, explains far more; else empty.
+    size, size_error : float
+        How late it is, s, or the corner of the high-pass, Hz.
     """
 
     factor: float
     factor_error: float
     correlation: float
-    delay: float = 0.0
-    delay_error: float = 0.0
-    corner: float = 0.0
-    corner_error: float = 0.0
+    misplaced: str = ""
+    size: float = 0.0
+    size_error: float = 0.0
 
     @property
     def differs(self) -> bool:
-        """Whether it has another scale, sign, clock or high-pass than declared."""
-        return self.is_misplaced or abs(self.factor - 1) > max(CALIBRATED, SURE * self.factor_error)
-
-    @property
-    def is_misplaced(self) -> bool:
-        """Whether it is late, or lacks what is slow."""
-        return bool(self.delay or self.corner)
+        """Whether it has another scale or sign than declared."""
+        return abs(self.factor - 1) > max(CALIBRATED, SURE * self.factor_error)
 
 
 def compare(interval: float, acceleration: Array, reference: Array, where: Mask) -> Comparison:
     """
-    Regress a reference on an acceleration as it is, on a shifted one, and on one with its integral.
+    Regress a reference (m/s², finite) where it counts on an acceleration as it is, shifted, and with its integral.
 
-    Parameters
-    ----------
-    interval : float
-        s.
-    acceleration, reference : ndarray, shape (n,)
-        m/s²; finite.
-    where : ndarray of bool, shape (n,)
-        Samples of the reference that count.
-
-    Notes
-    -----
     What a high-pass took off an acceleration a is ω∫a dt if it is of the first order, and √2 ω∫a dt + ω²∬a dt dt of the
     second: the coefficient of the integral is about its corner. Of two explanations the one that leaves less is taken.
     Errors are from what is left, in as many independent samples as the bandwidth allows.
     """
     bandwidth = bandwidth_of(interval)
     recorded = lowpass(acceleration, interval, bandwidth)
-    once = integrated(recorded, interval)
-    offset = find_offset(
-        np.where(where, reference, 0.0), recorded, interval, longest=LONGEST_DELAY, bandwidth_hz=bandwidth
-    )
+    if not (recorded.any() and reference.any()):
+        return Comparison(np.nan, np.nan, 0.0)
+    shown = np.where(where, reference, 0.0)
+    offset = find_offset(shown, recorded, interval, longest=LONGEST_DELAY, bandwidth_hz=bandwidth)
     time = interval * np.arange(recorded.size)
     shifted = np.interp(time + offset.seconds, time, recorded)
+    once = _integrated(recorded, interval)
     independent = 2 * bandwidth * interval * float(where.sum())
-    whole = max(float(np.mean(reference[where] ** 2)), 1e-300)
-
-    def fit(*columns: Array) -> tuple[Array, Array, float]:
-        found, errors, left = least_squares(reference, columns, where, independent)
-        return found, errors, left**2 / whole
-
-    def better(left: float) -> bool:
-        ratio = max(plain, 1e-12) / max(left, 1e-12)
-        return ratio > BETTER and 0.5 * independent * log(ratio) > RIVAL_EVIDENCE
-
-    def result(share: float, error: float, left: float, *how: float) -> Comparison:
-        return Comparison(1 / share, error / share**2, float(np.sqrt(max(1 - left, 0.0))), *how)
-
-    (share,), (error,), plain = fit(recorded)
-    (late,), (late_error,), by_delay = fit(shifted)
-    (kept, lost, _), (kept_error, lost_error, _), by_corner = fit(recorded, once, integrated(once, interval))
-    is_late = late > 0 and better(by_delay) and abs(offset.seconds) > max(LEAST_DELAY, SURE * offset.standard_error)
-    is_cut = kept > 0 and lost > SURE * lost_error and better(by_corner)
-    is_cut = is_cut and lost * once[where].std() > LEAST_LOST * reference[where].std()
-    if is_cut and not (is_late and by_delay < by_corner):
-        hertz = 2 * np.pi * kept
-        return result(kept, kept_error, by_corner, 0.0, 0.0, lost / hertz, lost_error / hertz)
-    if is_late:
-        return result(late, late_error, by_delay, offset.seconds, offset.standard_error)
-    return result(share or 1e-300, error, plain)
+    plain, late, cut = (
+        least_squares(reference, columns, where, independent)
+        for columns in ([recorded], [shifted], [recorded, once, _integrated(once, interval)])
+    )
+    corner, corner_error = (each[1] / (2 * np.pi * cut[0][0]) for each in cut[:2])
+    taken = cut[0][1] * once[where].std() > LEAST_LOST * reference[where].std()
+    candidates = [
+        (late, "late recorder", offset.seconds, offset.standard_error, abs(offset.seconds) > LEAST_DELAY),
+        (cut, "AC coupling", corner, corner_error, taken),
+    ]
+    best, how = plain, ("", 0.0, 0.0)
+    for fit, kind, size, error, is_seen in candidates:
+        better = 2 * log(max(plain[2], 1e-300) / max(fit[2], 1e-6 * plain[2], 1e-300))
+        is_sure = better > log(MUCH_BETTER) and 0.5 * independent * better > RIVAL_EVIDENCE
+        if is_seen and is_sure and fit[0][0] > 0 and abs(size) > SURE * abs(error) and fit[2] < best[2]:
+            best, how = fit, (kind, float(size), float(error))
+    (share, *_), (error, *_), left = best
+    unexplained = left**2 / max(float(np.mean(reference[where] ** 2)), 1e-300)
+    share = share or 1e-300
+    return Comparison(1 / share, error / share**2, float(np.sqrt(max(1 - unexplained, 0.0))), *how)
 
 
-def integrated(values: Array, interval: float) -> Array:
+def _integrated(values: Array, interval: float) -> Array:
     """Integral above `SLOWEST`."""
     summed = np.cumsum(values - values.mean()) * interval
     return summed - lowpass(summed, interval, SLOWEST)
@@ -203,55 +169,73 @@ def bandwidth_of(interval: float) -> float:
     return min(BANDWIDTH, 0.2 / interval)
 
 
-def derived(interval: float, displacement: TableChannel) -> Array:
+def derived(interval: float, displacement: Array) -> Array:
     """Acceleration of a displacement, below `BANDWIDTH`."""
-    return second_derivative(displacement.values, interval, bandwidth_of(interval))
+    return second_derivative(displacement, interval, bandwidth_of(interval))
 
 
-def with_displacement(interval: float, acceleration: TableChannel, displacement: TableChannel) -> Comparison | None:
-    """Compare with the second derivative of a displacement; None if they do not agree in any way."""
-    due = derived(interval, displacement)
-    if not (due.any() and acceleration.values.any()):
-        return None
-    found = compare(interval, acceleration.values, due, np.ones(due.size, dtype=bool))
-    return found if found.correlation >= SAME_MOTION else None
-
-
-def by_rocking(
-    interval: float, name: str, acceleration: Array, angle: Array, noise: float, block: Block
-) -> Finding | None:
+def table_doubts(
+    accelerations: Sequence[TableChannel],
+    displacements: Sequence[TableChannel],
+    rotation: Rotation | None,
+    interval: float,
+) -> tuple[list[Finding], float]:
     """
-    Say of an acceleration that it is late or lacks its slow part, by what the specimen's rocking requires.
+    Say which of the table's channels cannot be right, and how many times too large the acceleration surely is.
 
-    Notes
-    -----
-    While it rocks, a/g = θ − α sgn θ − θ̈/p².
+    They are held against each other, and against what rocks the specimen.
     """
-    bandwidth = bandwidth_of(interval)
-    critical = block.critical_angle_at(angle)
-    near = max(int(1.6 / block.p / interval), 3)
-    largest = scipy.ndimage.maximum_filter1d(np.abs(angle), near)
+    rocking = Comparison(np.nan, np.nan, 0.0)
+    if rotation is not None and not rotation.mistake:
+        rocking = compare(interval, accelerations[0].values, *_required(rotation))
+    is_known = rocking.correlation > EXPLAINED
+    by_specimen = rocking.factor if is_known and not rocking.misplaced else None
+    found: list[Finding] = []
+    agree = False
+    for one, other in product(accelerations, displacements):
+        reference = derived(interval, other.values)
+        compared = compare(interval, one.values, reference, np.ones(reference.size, dtype=bool))
+        if not compared.correlation >= SAME_MOTION:
+            found += _unlike(interval, one, other)
+        elif compared.misplaced:
+            found.append(_misplaced(one.name, compared, f"{other.name} shows"))
+        elif compared.differs and one.is_good and other.is_good:
+            wrong = guilty(compared.factor, by_specimen)
+            found.append(_disagreement(one, other, compared, wrong))
+            if wrong == "acceleration":
+                return found, compared.factor
+        else:
+            agree = True
+    name = " and ".join(each.name for each in accelerations)
+    if not found and is_known and rocking.misplaced:
+        return [_misplaced(name, rocking, "the specimen's rocking requires")], 1.0
+    if found or agree or by_specimen is None or as_expected(by_specimen) or not accelerations[0].is_good:
+        return found, 1.0
+    size = abs(by_specimen)
+    text = f"channel {name} is {size:.3g} times what the specimen's rocking requires: {cause(size, 'acceleration')}"
+    return [serious("gain", text)], size
+
+
+def _required(rotation: Rotation) -> tuple[Array, Mask]:
+    """Acceleration that a rocking requires, a/g = θ − α sgn θ − θ̈/p², m/s², and where the specimen rocks."""
+    gauge = max(rotation.gauges, key=lambda each: abs(each.lever))
+    angle, noise = filled_in(gauge.reading) / gauge.lever, gauge.noise / abs(gauge.lever)
+    block, interval = rotation.block, rotation.interval
+    critical, bandwidth = block.critical_angle_at(angle), bandwidth_of(interval)
+    largest = scipy.ndimage.maximum_filter1d(np.abs(angle), max(int(1.6 / block.p / interval), 3))
     rocks = (largest > max(STANDING * noise, LEAST_ROCKING * block.critical_angle)) & (np.abs(angle) < critical)
-    if rocks.sum() * interval < FEWEST_SECONDS / block.p or not acceleration.any():
-        return None
+    if rocks.sum() * interval < FEWEST_SECONDS / block.p:
+        return np.zeros(angle.size), rocks
     required = lowpass(angle - critical * np.sign(angle), interval, bandwidth)
-    required -= second_derivative(angle, interval, bandwidth) / block.p**2
-    found = compare(interval, acceleration, block.gravity * required, rocks)
-    if found.correlation < EXPLAINED or not found.is_misplaced:
-        return None
-    return misplaced(name, found, "the specimen's rocking requires")
+    return block.gravity * (required - second_derivative(angle, interval, bandwidth) / block.p**2), rocks
 
 
 def guilty(found: float, by_specimen: float | None) -> Literal["acceleration", "displacement", "either"]:
     """
     Say which of two that differ is wrong.
 
-    Parameters
-    ----------
-    found : float
-        Acceleration over the second derivative of the displacement.
-    by_specimen : float or None
-        How many times too large the acceleration is by what it does to the specimen.
+    `found` is the acceleration over the second derivative of the displacement, `by_specimen` how many times too large
+    the acceleration is by what it does to the specimen.
     """
     if by_specimen is None or (found > 0 and abs(log(found)) < SEEN):
         return "either"
@@ -264,28 +248,36 @@ def guilty(found: float, by_specimen: float | None) -> Literal["acceleration", "
     return "acceleration" if is_right(by_specimen / found) else "either"
 
 
-def disagreement(acceleration: TableChannel, displacement: TableChannel, found: Comparison, wrong: str) -> Finding:
-    """
-    Say what a comparison that differs means.
+def _misplaced(name: str, found: Comparison, shows: str) -> Finding:
+    """Say of an acceleration that it is late, or that a high-pass took its slow part off; `shows` names what does."""
+    agree = f"{shows}; with that they agree (correlation {found.correlation:.2f})"
+    if found.misplaced == "AC coupling":
+        return serious(
+            found.misplaced,
+            f"channel {name} lacks what is slower than about {_written(found.size, found.size_error)} Hz of what "
+            f"{agree}: its amplifier blocks slow changes (AC coupling), or a high-pass was applied to it. Predictions "
+            "lack that motion: record it with DC coupling and without a high-pass",
+        )
+    delay, how = _written(1e3 * abs(found.size), 1e3 * found.size_error), "late" if found.size > 0 else "early"
+    return (serious if abs(found.size) > WRONG_DELAY else warning)(
+        found.misplaced,
+        f"channel {name} is {delay} ms {how} against what {agree}: its recorder started at another time (align it by "
+        "its `clock`), or its amplifier or a filter delays it (`delay` of the channel)",
+        follows=("clock",),
+    )
 
-    Parameters
-    ----------
-    acceleration, displacement : TableChannel
-    found : Comparison
-    wrong : str
-        See `guilty`.
-    """
-    if found.is_misplaced:
-        return misplaced(acceleration.name, found, f"{displacement.name} shows")
-    which = f"one of the two is wrong, {acceleration.name} or {displacement.name}"
+
+def _disagreement(acceleration: TableChannel, displacement: TableChannel, found: Comparison, wrong: str) -> Finding:
+    """Say what a ratio that differs means; `wrong` is of `guilty`."""
+    name, other = acceleration.name, displacement.name
+    which = f"one of the two is wrong, {name} or {other}"
     if wrong != "either":
-        guilty_one = displacement.name if wrong == "displacement" else acceleration.name
-        which = f"the specimen's rocking shows that {guilty_one} is wrong"
+        which = f"the specimen's rocking shows that {other if wrong == 'displacement' else name} is wrong"
     if found.factor < 0:
         return serious(
             "sign",
-            f"channel {acceleration.name} and the second derivative of {displacement.name} have opposite signs: "
-            f"{which} (`direction`, or the sign of the gain)",
+            f"channel {name} and the second derivative of {other} have opposite signs: {which} (`direction`, or the "
+            "sign of the gain)",
         )
     why, ratio = cause(found.factor, "acceleration"), 1 / found.factor
     if why == UNKNOWN:
@@ -295,32 +287,12 @@ def disagreement(acceleration: TableChannel, displacement: TableChannel, found: 
     if wrong == "acceleration":
         why += f". The peak acceleration is then {ratio:.3g} times what is given"
     elif wrong == "either":
-        why += f". If it is {acceleration.name}, the peak acceleration is {ratio:.3g} times what is given"
+        why += f". If it is {name}, the peak acceleration is {ratio:.3g} times what is given"
         why += f"; if it is the sampling rate of both, that is {ratio**-0.5:.3g} times what is given"
     return (serious if abs(found.factor - 1) > MISLEADING else warning)(
         "gain",
-        f"channel {acceleration.name} is {_written(found.factor, found.factor_error)} times the second derivative "
-        f"of {displacement.name}: {which}; {why}",
-    )
-
-
-def misplaced(name: str, found: Comparison, shows: str) -> Finding:
-    """Say of an acceleration that it is late, or that a high-pass took its slow part off; `shows` names what does."""
-    agree = f"with that they agree (correlation {found.correlation:.2f})"
-    if found.corner:
-        return serious(
-            "AC coupling",
-            f"channel {name} lacks what is slower than about {_written(found.corner, found.corner_error)} Hz of "
-            f"what {shows}; {agree}: its amplifier blocks slow changes (AC coupling), or a high-pass was applied to "
-            "it. Predictions lack that motion: record it with DC coupling and without a high-pass",
-        )
-    how = "late" if found.delay > 0 else "early"
-    return (serious if abs(found.delay) > WRONG_DELAY else warning)(
-        "late recorder",
-        f"channel {name} is {_written(1e3 * abs(found.delay), 1e3 * found.delay_error)} ms {how} against what {shows}; "
-        f"{agree}: its recorder started at another time (align it by its `clock`), or its amplifier or a filter delays "
-        "it (`delay` of the channel)",
-        follows=("clock",),
+        f"channel {name} is {_written(found.factor, found.factor_error)} times the second derivative of {other}: "
+        f"{which}; {why}",
     )
 
 
@@ -329,42 +301,39 @@ def _written(value: float, error: float) -> str:
     return format_uncertain(value, max(2 * error, 1e-3 * abs(value)))
 
 
-def humming(interval: float, channel: TableChannel) -> Finding | None:
+def _unlike(interval: float, acceleration: TableChannel, displacement: TableChannel) -> list[Finding]:
+    """Say which of the two stands still, or that they are not of one motion."""
+    recorded = lowpass(acceleration.values, interval, bandwidth_of(interval))
+    due = derived(interval, displacement.values)
+    alike = float(np.corrcoef(recorded, due)[0, 1]) if recorded.std() > 0 and due.std() > 0 else 0.0
+    if abs(alike) > OTHER_MOTION:
+        return []
+    expected, shown = (_integrated(_integrated(each, interval), interval).std() for each in (recorded, due))
+    # Noise in a second derivative is separated from motion where the displacement itself is.
+    moves = shown > STANDING * displacement.noise
+    shakes = recorded.std() > STANDING * acceleration.noise
+    if shakes and expected > STANDING * displacement.noise and shown < DEAD * expected:
+        return [dead(displacement.name, 1e3 * shown, 1e3 * expected, "mm", acceleration.name)]
+    if moves and due.std() > STANDING * acceleration.noise and recorded.std() < DEAD * due.std():
+        return [dead(acceleration.name, recorded.std(), due.std(), "m/s²", displacement.name)]
+    text = (
+        f"channels {acceleration.name} and {displacement.name} both move, but not like one table (correlation "
+        f"{alike:.2f}): one of them was read from another column or another test's file, "
+        "measures another component of the motion, or is on a recorder that did not start with the other (`clock`)"
+    )
+    return [serious("table motion", text, follows=("late recorder",))] if moves and shakes else []
+
+
+def humming(interval: float, channel: TableChannel) -> list[Finding]:
     """Say of an accelerometer that it hums, if its peak is larger for it."""
     hum, peak = find_hum(channel.values, interval), float(np.abs(channel.values).max())
     if hum is None or hum[1] < LEAST_HUM * peak:
-        return None
+        return []
     frequency, amplitude = hum
-    return (serious if amplitude > MISLEADING * peak else warning)(
-        "hum",
+    text = (
         f"channel {channel.name} hums at {frequency:g} Hz with ±{amplitude:.2g} m/s², at rest too: that is "
         f"{format_percent(amplitude / peak)} of its peak of {peak:.3g} m/s², which is larger for it. Mains get into "
         "its cable or amplifier (ground and shield them), or a pump shakes the table. "
-        f'`base_lowpass` = "{HUMLESS * frequency:g} Hz" under [processing] takes it off, and all faster motion',
+        f'`base_lowpass` = "{HUMLESS * frequency:g} Hz" under [processing] takes it off, and all faster motion'
     )
-
-
-def unlike(interval: float, acceleration: TableChannel, displacement: TableChannel) -> Finding | None:
-    """Say which of the two stands still, or that they are not of one motion; None if there is no problem."""
-    recorded = lowpass(acceleration.values, interval, bandwidth_of(interval))
-    due = derived(interval, displacement)
-    alike = float(np.corrcoef(recorded, due)[0, 1]) if recorded.std() > 0 and due.std() > 0 else 0.0
-    if abs(alike) > OTHER_MOTION:
-        return None
-    expected, shown = (integrated(integrated(each, interval), interval) for each in (recorded, due))
-    # Noise in a second derivative is separated from motion where the displacement itself is.
-    moves = shown.std() > STANDING * displacement.noise
-    shakes = recorded.std() > STANDING * acceleration.noise
-    if shakes and expected.std() > STANDING * displacement.noise and shown.std() < DEAD * expected.std():
-        return dead(displacement.name, 1e3 * shown.std(), 1e3 * expected.std(), "mm", acceleration.name)
-    if moves and due.std() > STANDING * acceleration.noise and recorded.std() < DEAD * due.std():
-        return dead(acceleration.name, recorded.std(), due.std(), "m/s²", displacement.name)
-    if moves and shakes:
-        return serious(
-            "table motion",
-            f"channels {acceleration.name} and {displacement.name} both move, but not like one table (correlation "
-            f"{alike:.2f}): one of them was read from another column or another test's file, "
-            "measures another component of the motion, or is on a recorder that did not start with the other (`clock`)",
-            follows=("late recorder",),
-        )
-    return None
+    return [(serious if amplitude > MISLEADING * peak else warning)("hum", text)]

@@ -3,18 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import combinations
 from math import cos, log, tan
 from typing import NamedTuple
 
 import numpy as np
 
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.findings import Finding, serious, warning
-from colonnade.identification.plausibility.mistakes import stuck, undone
-from colonnade.identification.plausibility.rotation import Gauge, Rotation
-from colonnade.identification.plausibility.scale import DEAD, STANDING, SURE, UNKNOWN, Scale, as_expected, cause, dead
+from colonnade.identification.plausibility.scale import (
+    DEAD,
+    STANDING,
+    SURE,
+    UNKNOWN,
+    UNKNOWN_SCALE,
+    Scale,
+    as_expected,
+    cause,
+    dead,
+    scale_of,
+)
 from colonnade.signals.samples import filled_in
+
+ANGLES = np.linspace(-0.4, 0.4, 161)
+"""rad, at which what transducers have to read is computed."""
+
+SMALL = 0.05
+"""rad; slope of a transducer's reading over the angle is taken between ± this."""
+
+ITERATIONS = 5
+"""Towards the rotation that transducers share."""
+
+AT_REST = 3.0
+"""Over p: length of the end of a record on which a transducer shows whether it rests where it began, ..."""
+
+ELSEWHERE = 0.1
+"""... which is less than this share of its largest angle away."""
+
+BETTER = 4.0
+"""Times less that has to be left unexplained without a mistake."""
+
+LEAST = 0.01
+"""Of what the least of them moves, that is left unexplained with it."""
 
 ALIKE = 0.05
 """Relative difference up to which scales are one."""
@@ -34,69 +67,201 @@ FOLLOWS = 0.9
 NOISE_FACTOR = 4.0
 """Noise that differs by more than this between two tests comes from another gain, cable or filter."""
 
-STILL = 3.0
-"""A channel that moves by less than this many times its noise does not move."""
-
-ALIVE = 20.0
-"""A channel that moves by more than this many times its noise moves."""
+STILL, ALIVE = 3.0, 20.0
+"""Times its noise: a channel that moves by less does not move; one that moves by more does."""
 
 WANDERED = 0.25
 """Of the largest motion of both tests: a zero that shifts by more wandered."""
+
+
+def lever(response: Array) -> float:
+    """Give the slope about rest of what a transducer reads at `ANGLES` (m or rad) over the angle."""
+    low, high = np.interp((-SMALL, SMALL), ANGLES, response)
+    return float(high - low) / (2 * SMALL)
+
+
+@dataclass(frozen=True, eq=False)
+class Gauge:
+    """
+    A transducer that sees the rotation.
+
+    Attributes
+    ----------
+    name : str
+        Of its channel.
+    reading : ndarray, shape (n,)
+        Relative to the table, m or rad; NaN where missing.
+    response : ndarray, shape (k,)
+        Its reading as it has to be at `ANGLES`.
+    noise, gain : float
+        Standard deviation; physical over recorded value.
+    quantity : str
+        "displacement" or "angle".
+    refixed : ndarray, shape (n,), or None
+        What it reads more if it is fixed to the ground and said to be on the table, or the reverse; None if unknown.
+    """
+
+    name: str
+    reading: Array
+    response: Array
+    noise: float
+    gain: float = 1.0
+    quantity: str = "displacement"
+    refixed: Array | None = None
+
+    @cached_property
+    def lever(self) -> float:
+        """Reading over angle about rest."""
+        return lever(self.response)
+
+    def angle(self, scale: float = 1.0) -> Array:
+        """θ (n,) if its readings are `scale` times too large; beyond `ANGLES` by its lever."""
+        reading, order = self.reading / scale, np.argsort(self.response)
+        inside = (reading >= self.response.min()) & (reading <= self.response.max())
+        return np.where(inside, np.interp(reading, self.response[order], ANGLES[order]), reading / self.lever)
+
+
+@dataclass(frozen=True, eq=False)
+class Rotation:
+    """
+    A test's rotation as all transducers see it.
+
+    Attributes
+    ----------
+    gauges : tuple of Gauge
+    block : Block
+    interval : float
+        s.
+    acceleration : ndarray, shape (n,), or None
+        Of the table along x, m/s².
+    blur : float
+        What a low-pass rounds on either side of an impact, s.
+    """
+
+    gauges: tuple[Gauge, ...]
+    block: Block
+    interval: float
+    acceleration: Array | None = None
+    blur: float = 0.0
+
+    @cached_property
+    def scales(self) -> list[Scale]:
+        """Scale of each by the equation of motion; unknown of one that ends at rest far from its zero."""
+        return [self._scale(each) for each in self.gauges]
+
+    def _scale(self, gauge: Gauge) -> Scale:
+        straight = gauge.reading / gauge.lever
+        end = filled_in(straight)[-max(round(AT_REST / self.block.p / self.interval), 2) :]
+        largest, middle = float(np.nanmax(np.abs(straight))), abs(float(end.max() + end.min())) / 2
+        if ELSEWHERE * largest < middle < self.block.critical_angle and float(np.ptp(end)) < largest / 2:
+            return UNKNOWN_SCALE
+        noise = gauge.noise / abs(gauge.lever)
+        return scale_of(self.interval, gauge.angle, noise, self.acceleration, self.block, blur=self.blur)
+
+    @cached_property
+    def mistake(self) -> Finding | None:
+        """The one mistake without which transducers agree on one rotation, far better: no scale means anything then."""
+        if len(self.gauges) == 1:
+            return None
+        before, moved = self.residual, min(float(np.nanstd(each.reading)) for each in self.gauges)
+        best: tuple[float, Finding | None] = (np.inf, None)
+        for kind, text, changed in (*_exchanged(self), *_refixed(self), *_coupled(self)):
+            after = changed.residual
+            if before < LEAST * moved or before <= BETTER * after or after >= best[0]:
+                continue
+            # What agrees by chance, or with a block that walks, does not obey the equation of motion as well.
+            proved = kind == "geometry" or all(each.is_known for each in changed.scales)
+            if proved and all(as_expected(each.value) for each in changed.scales if each.is_known):
+                fall = f"their residual about one rotation falls from {1e3 * before:.2g} to {1e3 * after:.2g} mm"
+                best = after, serious(kind, f"{text}, {fall}")
+        return best[1]
+
+    @cached_property
+    def misfit(self) -> Array:
+        """Readings less those of one common rotation, shape (m, n)."""
+        levers, readings = (np.array([getattr(each, name) for each in self.gauges]) for name in ("lever", "reading"))
+        angle = np.zeros(readings.shape[1])
+        # The responses are nearly straight, so that steps along their levers settle at once.
+        for _ in range(ITERATIONS):
+            misfit = readings - np.array([np.interp(angle, ANGLES, each.response) for each in self.gauges])
+            angle = angle + levers @ misfit / float(levers @ levers)
+        return np.asarray(misfit)
+
+    @property
+    def residual(self) -> float:
+        """RMS of the misfit."""
+        return float(np.sqrt(np.nanmean(self.misfit**2)))
+
+    def with_gauges(self, *changed: Gauge) -> Rotation:
+        """The same with gauges in place of those of the same names."""
+        named = {each.name: each for each in changed}
+        return replace(self, gauges=tuple(named.get(each.name, each) for each in self.gauges))
+
+    def added(self, gauge: Gauge, more: Array) -> Rotation:
+        """The same with something added to the readings of one."""
+        return self.with_gauges(replace(gauge, reading=gauge.reading + more))
+
+    def exchanged(self, one: Gauge, other: Gauge) -> Rotation:
+        """The same with the columns of two exchanged, under their own gains."""
+        factor = one.gain / other.gain
+        return self.with_gauges(
+            replace(one, reading=factor * other.reading, noise=abs(factor) * other.noise),
+            replace(other, reading=one.reading / factor, noise=one.noise / abs(factor)),
+        )
+
+
+Candidate = tuple[str, str, Rotation]
+"""Kind of a mistake, its words, and the rotation without it."""
+
+
+def _exchanged(rotation: Rotation) -> Iterator[Candidate]:
+    for first, second in combinations(rotation.gauges, 2):
+        text = f"channels {first.name} and {second.name} look swapped: with their columns exchanged"
+        yield "swapped channels", text, rotation.exchanged(first, second)
+
+
+def _refixed(rotation: Rotation) -> Iterator[Candidate]:
+    """One of the transducers, or all, on the ground and not on the table, or the reverse."""
+    moved = [replace(each, reading=each.reading - each.refixed) for each in rotation.gauges if each.refixed is not None]
+    for chosen in (*([each] for each in moved), moved) if moved else ():
+        text = (
+            f"channel{'s' if len(chosen) > 1 else ''} {_names(chosen, ' and ')}: `relative_to` is wrong, the table for "
+            "the ground or the reverse: with the table's displacement taken off or added"
+        )
+        yield "geometry", text, rotation.with_gauges(*chosen)
+
+
+def _coupled(rotation: Rotation) -> Iterator[Candidate]:
+    """Each behind a high-pass of the first order, r' = r + ω∫r dt from either end, with the ω that leaves least."""
+    for gauge in rotation.gauges:
+        integral = np.cumsum(filled_in(gauge.reading)) * rotation.interval
+        for lost in (integral - integral[0], integral - integral[-1]):
+            effect = rotation.added(gauge, lost).misfit - rotation.misfit
+            corner = -float(np.nansum(effect * rotation.misfit) / max(float(np.nansum(effect**2)), 1e-300))
+            if corner > 0:
+                text = (
+                    f"channel {gauge.name} does not hold a constant value (AC-coupled, or a high-pass of "
+                    f"{corner / (2 * np.pi):.2g} Hz), which shows as a slide: with that undone"
+                )
+                yield "AC coupling", text, rotation.added(gauge, corner * lost)
 
 
 Seen = list[tuple[Gauge, Scale]]
 """Transducers with their scales."""
 
 
-class Judged(NamedTuple):
-    """Transducers held against the equation of motion, and what has to be mended before a scale means anything."""
-
-    rotation: Rotation
-    mistakes: list[Finding]
-
-    @property
-    def seen(self) -> Seen:
-        """All transducers with their scales."""
-        return list(zip(self.rotation.gauges, self.rotation.scales, strict=True))
-
-
-def judge(rotation: Rotation) -> Judged:
-    """Hold each transducer against the equation of motion."""
-    mistake = undone(rotation)
-    return Judged(rotation, [mistake] if mistake else list(stuck(rotation)))
-
-
-def suspicions(judged: Judged) -> list[Finding]:
+def suspicions(rotation: Rotation) -> list[Finding]:
     """
     Say which transducers cannot be right, with the probable cause.
 
-    Returns
-    -------
-    suspicions : list of Finding
-        Empty if all agree, or if the specimen does not rock enough to show it.
-
-    Notes
-    -----
-    Each transducer's scale is found separately, see `scale_of`, so that a wrong one can be named.
+    Empty if all agree, or if the specimen does not rock enough to show it. Each transducer's scale is found separately,
+    see `scale_of`, so that a wrong one can be named.
     """
-    known = [(each, scale) for each, scale in judged.seen if scale.is_known]
-    if judged.mistakes or not known:
-        return judged.mistakes
-    return [*_gains(known, judged.rotation.block), *_dead(judged.seen), *_signs(known)]
-
-
-def base_scale(judged: Judged) -> float | None:
-    """
-    How many times too large the table's acceleration is, by what it does to the specimen; None if unknown.
-
-    Negative where its sign, or that of all transducers, is wrong.
-    """
-    known = [each for each in judged.rotation.scales if each.is_known and each.base_is_known]
-    found = [each.value / each.base for each in known if as_expected(each.value)]
-    if not found or judged.mistakes:
-        return None
-    # Transducers that turn against each other do not show the sign; see `suspicions`.
-    return float(np.median(np.abs(found))) * (-1.0 if max(found) < 0 else 1.0)
+    seen = list(zip(rotation.gauges, rotation.scales, strict=True))
+    known = [(each, scale) for each, scale in seen if scale.is_known]
+    if rotation.mistake:
+        return [rotation.mistake]
+    return [*_gains(known, rotation.block), *_dead(seen), *_signs(known)] if known else []
 
 
 def _names(gauges: Iterable[Gauge], between: str = ", ") -> str:
@@ -132,37 +297,35 @@ def _of_all(wrong: list[Gauge], scale: Scale, block: Block) -> Finding:
 
     A wrong critical angle leaves alone what the table does to the specimen, a gain does not; a clock changes p, too.
     """
-    value, several = scale.value, len(wrong) > 1
+    value, side = scale.value, block.governing
     names = _names(wrong, " and ")
-    text = (
-        f"{f'channels {names} all show' if several else f'channel {names} shows'} {value:.3g} times the rotation that "
-        "the equation of motion gives for this specimen: "
-    )
-    gains = f"{'all gains' if several else 'its gain'} × {1 / value:.3g} (all angles change alike)"
-    half, height = (side := block.governing).half_width, side.pole_distance * cos(side.critical_angle)
+    names = f"channels {names} all show" if len(wrong) > 1 else f"channel {names} shows"
+    text = f"{names} {value:.3g} times the rotation that the equation of motion gives for this specimen: "
+    build = serious if scale.misleads else warning
+    is_clock = abs(log(max(scale.without_rate, 1e-9))) < abs(log(value)) / 2
+    is_clock = is_clock and abs(scale.rate - 1) > max(SURE * scale.rate_error, LEAST_RATE)
+    if not is_clock and (not 1 / FAR < value < FAR or cause(value, wrong[0].quantity) != UNKNOWN):
+        text += (
+            f"{_why(wrong[0], value)}{', in all of them' if len(wrong) > 1 else ''}; or the specimen's dimensions, or "
+        )
+        return build("gain", f"{text}the sampling rate", follows=("unit", "specimen"))
+    half, height = side.half_width, side.pole_distance * cos(side.critical_angle)
     critical = min(value * side.critical_angle, 1.5)
     wide, high = height * tan(critical), half / tan(critical) / height
-    sizes = (
-        f"sizes that make α {critical:.3g} rad and not {side.critical_angle:.3g} rad, as a base of {2e3 * wide:.3g} mm "
-        f"for {2e3 * half:.3g} mm or a height × {high:.3g}"
-    )
-    kind, causes = "gain", (gains, sizes, "another sampling rate")
-    follows: tuple[str, ...] = ("unit",)
-    is_clock = abs(log(max(scale.without_rate, 1e-9))) < abs(log(value)) / 2
-    likeliest = ""
-    if is_clock and abs(scale.rate - 1) > max(SURE * scale.rate_error, LEAST_RATE):
-        clock = f"a sampling rate × {1 / scale.rate:.3g} (all times change alike), or all sizes × {scale.rate**-2:.3g}"
-        kind, causes = "clock", (clock, gains, sizes)
-    elif not 1 / FAR < value < FAR or cause(value, wrong[0].quantity) != UNKNOWN:
-        end = f"{', in all of them' if several else ''}; or the specimen's dimensions, or the sampling rate"
-        likeliest, follows = _why(wrong[0], value) + end, ("unit", "specimen")
-    elif scale.base_is_known and scale.base > 0:
-        if abs(log(scale.base)) < abs(log(scale.base / value)):
-            kind, causes = "specimen", (sizes, f"{gains}, and that of the table's acceleration", causes[2])
-        else:
-            causes = (gains, f"a sampling rate × {scale.base**-0.5:.3g}", f"{sizes}, and another table's acceleration")
-    likeliest = likeliest or f"{'; or '.join(causes)}, would make them agree"
-    return (serious if scale.misleads else warning)(kind, text + likeliest, follows=follows)
+    causes = {
+        "clock": "another sampling rate",
+        "gain": f"{'all gains' if len(wrong) > 1 else 'its gain'} × {1 / value:.3g} (all angles change alike)",
+        "specimen": f"sizes that make α {critical:.3g} rad and not {side.critical_angle:.3g} rad, as a base of "
+        f"{2e3 * wide:.3g} mm for {2e3 * half:.3g} mm or a height × {high:.3g}",
+    }
+    kind = "gain"
+    if is_clock:
+        kind, rate = "clock", scale.rate
+        causes[kind] = f"a sampling rate × {1 / rate:.3g} (all times change alike), or all sizes × {rate**-2:.3g}"
+    elif scale.base_is_known and scale.base > 0 and abs(log(scale.base)) < abs(log(scale.base / value)):
+        kind = "specimen"
+    others = "; or ".join(causes[each] for each in ("gain", "specimen", "clock") if each != kind)
+    return build(kind, f"{text}{causes[kind]}; or {others}, would make them agree", follows=("unit",))
 
 
 def _why(gauge: Gauge, scale: float) -> str:
@@ -172,8 +335,8 @@ def _why(gauge: Gauge, scale: float) -> str:
     if known != UNKNOWN or not 1 / FAR < scale < FAR:
         is_plain = known == UNKNOWN and unit and not is_angle
         return f"its values are probably not {unit} but volts, and its `gain` is missing" if is_plain else known
-    lever = 1e3 * gauge.lever
-    place = f", or a place (`at`) whose lever is {scale * lever:.3g} mm and not {lever:.3g} mm,"
+    length = 1e3 * gauge.lever
+    place = f", or a place (`at`) whose lever is {scale * length:.3g} mm and not {length:.3g} mm,"
     return f"its gain × {1 / scale:.3g}{'' if is_angle else place} would make them agree"
 
 
@@ -191,24 +354,25 @@ def _dead(seen: Seen) -> Iterator[Finding]:
 
 def _signs(known: Seen) -> Iterator[Finding]:
     """Name transducers that turn against the others, or all of them if they turn against the table."""
-    groups = _sides(known)
-    turning = groups[0] + groups[1]
-    shown = [(each, scale.base) for each, scale in turning if scale.base_is_known]
-    against = [each for each, base in shown if base < 0]
+    angles = np.array([each.reading / each.lever for each, _ in known])
+    angles = angles[:, np.isfinite(angles).all(axis=0)]
+    alike = np.atleast_2d(np.corrcoef(angles))[0]
+    turning = [(each, scale, side) for (each, scale), side in zip(known, alike, strict=True) if abs(side) > FOLLOWS]
+    shown = [each for each, scale, _ in turning if scale.base_is_known]
+    against = [each for each, scale, _ in turning if scale.base_is_known and scale.base < 0]
+    groups = [each for each, _, side in turning if side > 0], [each for each, _, side in turning if side < 0]
     wrong = "(`direction`, or the sign of the gain)"
     if all(groups):
         # Wrong are those that turn against the table if that is known, else the fewer.
-        fewer, more = ([each for each, _ in group] for group in sorted(groups, key=len))
+        fewer, more = sorted(groups, key=len)
         sure = bool(shown) or len(fewer) < len(more)
-        if shown:
-            fewer = against or fewer
-            more = [each for each, _ in turning if each not in fewer]
+        if against:
+            fewer, more = against, [each for each, _, _ in turning if each not in against]
         names, others = _names(fewer), _names(more)
         which = f"the sign of {names} is wrong" if sure else f"the sign of one of the two is wrong, {names} or {others}"
         yield serious("sign", f"channel {names} turns opposite to {others}: {which} {wrong}")
-    elif against and len(against) == len(shown):
-        several = len(turning) > 1
-        names = _names((each for each, _ in turning), " and ")
+    elif against and against == shown:
+        several, names = len(turning) > 1, _names(groups[0], " and ")
         yield serious(
             "sign",
             f"{f'channels {names} turn' if several else f'channel {names} turns'} opposite to the table's "
@@ -217,68 +381,21 @@ def _signs(known: Seen) -> Iterator[Finding]:
         )
 
 
-def _sides(known: Seen) -> tuple[Seen, Seen]:
-    """Transducers that turn with the first one, and against it; those that do neither are left out."""
-    leader = known[0][0].reading / known[0][0].lever
-    sides: tuple[Seen, Seen] = [known[0]], []
-    for each, scale in known[1:]:
-        angle = each.reading / each.lever
-        both = np.isfinite(leader) & np.isfinite(angle)
-        agreement = float(np.corrcoef(leader[both], angle[both])[0, 1])
-        if abs(agreement) > FOLLOWS:
-            sides[int(agreement < 0)].append((each, scale))
-    return sides
-
-
-@dataclass(frozen=True)
-class ChannelState:
-    """
-    A channel in one test, in its own SI unit.
-
-    Attributes
-    ----------
-    zero : float
-        Reading at rest.
-    noise : float
-        Standard deviation at rest.
-    motion : float
-        Largest magnitude about the zero.
-    """
+class ChannelState(NamedTuple):
+    """A channel in one test, SI: its reading at rest, standard deviation there, largest magnitude about the zero."""
 
     zero: float
     noise: float
     motion: float
 
-    @property
-    def is_still(self) -> bool:
-        """Whether it does not move."""
-        return self.motion <= STILL * self.noise
-
-    @property
-    def is_alive(self) -> bool:
-        """Whether it moves beyond doubt."""
-        return self.motion > ALIVE * self.noise
-
 
 def changes(now: Mapping[str, ChannelState], before: Mapping[str, ChannelState], last: str) -> Iterator[Finding]:
-    """
-    Compare the channels of a test with those of the last test of the same set-up.
-
-    Parameters
-    ----------
-    now, before : mapping of str to ChannelState
-        By channel.
-    last : str
-        Id of the last test.
-
-    Yields
-    ------
-    finding : Finding
-    """
-    something_moves = any(state.is_alive for state in now.values())
+    """Compare the channels of a test, by name, with those of the `last` test of the same set-up."""
+    something_moves = any(state.motion > ALIVE * state.noise for state in now.values())
     for name in now.keys() & before.keys():
         here, there = now[name], before[name]
-        if something_moves and here.is_still and there.is_alive:
+        largest = max(here.motion, there.motion)
+        if something_moves and here.motion <= STILL * here.noise and there.motion > ALIVE * there.noise:
             yield serious(
                 "dead channel",
                 f"Channel {name} does not move, as it did in {last}, while others do. Check its cable and its core.",
@@ -289,8 +406,8 @@ def changes(now: Mapping[str, ChannelState], before: Mapping[str, ChannelState],
                 f"The noise of channel {name} is {here.noise / there.noise:.2g} times that in {last}. "
                 "Was its gain, range or filter changed?",
             )
-        elif abs(here.zero - there.zero) > WANDERED * max(here.motion, there.motion):
-            share = abs(here.zero - there.zero) / max(here.motion, there.motion)
+        elif abs(here.zero - there.zero) > WANDERED * largest:
+            share = abs(here.zero - there.zero) / largest
             yield warning(
                 "zero",
                 f"The zero of channel {name} moved since {last} by {share:.2g} times its largest motion. Was it moved?",

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
+import scipy
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
@@ -13,7 +14,6 @@ from colonnade.findings import Finding, serious, warning
 from colonnade.identification.restitution.arcs import find_impacts
 from colonnade.signals.filters import lowpass
 from colonnade.signals.rest import drift, find_rest
-from colonnade.signals.samples import stretches
 
 HELD = 0.5
 """Shortest time, s, for which a specimen caught by its frame rests in it."""
@@ -58,8 +58,7 @@ LOST = ("end of the range", "dead channel")
 """Kinds of findings of a transducer that lost the specimen."""
 
 
-@dataclass(frozen=True)
-class Verdict:
+class Verdict(NamedTuple):
     """Outcome, and the time (s) at which the specimen passed its critical angle for good; NaN where it stands."""
 
     outcome: Outcome
@@ -89,10 +88,9 @@ def judge(time: Array, angle: Array, block: Block, *, threshold: float, catch: f
     """
     finite = np.isfinite(angle)
     time, angle = time[finite], angle[finite]
-    ratio = amplitude(angle, block)
     if not angle.size or np.abs(angle).max() <= threshold:
         return Verdict("no-rocking", np.nan)
-    fell = _held(time, angle, block, catch)
+    fell = _held(time, np.abs(angle), block.critical_angle if catch is None else (1 - PLATEAU) * catch)
     if fell is None:
         tail = time >= time[-1] - 0.02
         slope = np.polyfit(time[tail], np.abs(angle[tail]), 1)[0] if tail.sum() > 1 else 0.0
@@ -101,38 +99,28 @@ def judge(time: Array, angle: Array, block: Block, *, threshold: float, catch: f
         if not beyond + slope / block.p > 0:
             return Verdict("rocking", np.nan)
         fell = time.size - 1
-    return Verdict("overturned", _passing(time, ratio, fell))
+    # It passed α for good after the last sample below it.
+    ratio = amplitude(angle[: fell + 1], block)
+    last = int(np.flatnonzero(ratio <= 1).max(initial=-1))
+    if not 0 <= last < fell:
+        return Verdict("overturned", float(time[max(last, 0)]))
+    return Verdict("overturned", float(np.interp(1.0, ratio[last : last + 2], time[last : last + 2])))
 
 
-def _held(time: Array, angle: Array, block: Block, catch: float | None) -> int | None:
+def _held(time: Array, magnitude: Array, least: float) -> int | None:
     """First index from which a specimen on its frame stays within a plateau's width for `HELD`; None without one."""
-    magnitude = np.abs(angle)
-    on_frame = magnitude >= ((1 - PLATEAU) * catch if catch is not None else block.critical_angle)
-    for start, stop in zip(*(each.tolist() for each in stretches(on_frame)), strict=True):
-        for index in range(start, stop, max((stop - start) // 400, 1)):
-            last = int(np.searchsorted(time, time[index] + HELD))
-            if last >= stop:
-                break
-            window = magnitude[index : last + 1]
-            if np.ptp(window) <= 2 * PLATEAU * window.mean():
-                return int(index)
-    return None
+    half = round(HELD * (time.size - 1) / max(2 * float(time[-1] - time[0]), 1e-12))
+    if 2 * half >= time.size:
+        return None
+    low, high = (
+        each(magnitude, 2 * half + 1)[half : time.size - half]
+        for each in (scipy.ndimage.minimum_filter1d, scipy.ndimage.maximum_filter1d)
+    )
+    held = np.flatnonzero((low >= least) & (high - low <= PLATEAU * (high + low)))
+    return int(held[0]) if held.size else None
 
 
-def _passing(time: Array, ratio: Array, index: int) -> float:
-    """Time of the last outward pass of α before a sample; that sample's own where α was never passed before it."""
-    below = np.flatnonzero(ratio[: index + 1] <= 1)
-    if below.size == 0:
-        return float(time[0])
-    last = int(below[-1])
-    if last >= index:
-        return float(time[index])
-    share = (1 - ratio[last]) / (ratio[last + 1] - ratio[last])
-    return float(time[last] + share * (time[last + 1] - time[last]))
-
-
-@dataclass(frozen=True)
-class AngleFeatures:
+class AngleFeatures(NamedTuple):
     """
     A rocking angle in a few numbers.
 
@@ -165,23 +153,9 @@ def angle_features(
     time: Array, angle: Array, error: float, block: Block, *, rest_duration: float, catch: float | None
 ) -> AngleFeatures:
     """
-    Sum up a measured angle.
+    Sum up a measured angle (n,), rad, with its standard error.
 
-    Parameters
-    ----------
-    time, angle : ndarray, shape (n,)
-        s, rad; NaN where missing.
-    error : float
-        Standard error of the angle, rad.
-    block : Block
-    rest_duration : float
-        Of the rests before and after, s.
-    catch : float or None
-        Angle of the safety frame, rad.
-
-    Returns
-    -------
-    features : AngleFeatures
+    `rest_duration` is that of the rests before and after, s; `catch` the angle of the safety frame, rad.
     """
     drifted = drift(time, angle, duration=rest_duration, noise=error)
     if drifted > LARGEST_DRIFT * block.critical_angle:
@@ -210,20 +184,9 @@ def ending(
     """
     Say what the end of a record means, if the specimen does not stand where it began.
 
-    Parameters
-    ----------
-    time, angle : ndarray, shape (n,)
-        s; rad; NaN where missing.
-    base : ndarray, shape (n,), or None
-        Acceleration of the table, m/s²; None if it stands still.
-    verdict : Verdict
-    block : Block
-    error : float
-        Standard error of the angle, rad.
-    duration : float
-        Of a rest, s.
-    lever : float or None
-        Height of the transducer that alone gives the angle, m; None if several separate it from a slide.
+    `angle` (n,), rad, has the standard `error`; `base` is the acceleration of the table, m/s², None if it stands still;
+    `duration` is that of a rest, s; `lever` is the height of the transducer that alone gives the angle, m, None if
+    several separate it from a slide.
     """
     highest = float(amplitude(angle[np.isfinite(angle)], block).max(initial=0.0))
     if highest * block.critical_angle > FURTHEST or (highest > RETURNING and verdict.outcome == "rocking"):
@@ -239,12 +202,10 @@ def ending(
     tail = angle[(time >= rest.start) & np.isfinite(angle)]
     if not tail.size:
         return None
-    shaken = base is not None and _share_at_end(time, base, block, rest.start) > SHAKEN
     lasting = float(amplitude(tail, block).max())
-    if not rest.quiet and (shaken or lasting > SMALL):
-        # On a table at rest the motion only dies.
-        if not (shaken and lasting > LASTING):
-            return None
+    shaken = base is not None and not rest.quiet and _is_shaken(time, base, block, rest.start)
+    # On a table at rest the motion only dies.
+    if shaken and lasting > LASTING:
         return warning(
             "record ends in motion",
             f"The record ends at {time[-1]:.4g} s while the table shakes and the specimen moves by {lasting:.2g} α. "
@@ -253,7 +214,8 @@ def ending(
         )
     level = float(tail.max() + tail.min()) / 2
     share = float(amplitude(np.array([level]), block)[0])
-    if share < UPRIGHT or (not rest.quiet and tail.min() < 0.0 < tail.max()):
+    moves_on = not rest.quiet and (shaken or lasting > SMALL or tail.min() < 0.0 < tail.max())
+    if share < UPRIGHT or moves_on:
         return None
     before = time < rest.start
     passes = find_impacts(time[before], angle[before] - level, lowest=max(10 * error, 0.1 * abs(level))).size
@@ -278,9 +240,9 @@ def ending(
     )
 
 
-def _share_at_end(time: Array, base: Array, block: Block, start: float) -> float:
-    """Largest acceleration that can rock the block from `start` on, over the largest of the record."""
+def _is_shaken(time: Array, base: Array, block: Block, start: float) -> bool:
+    """Whether what can rock the block is not small from `start` on, over all of the record."""
     interval = float(np.median(np.diff(time)))
     cutoff = min(ROCKS_AT_MOST * block.p / (2 * np.pi), 0.4 / interval)
     felt = np.abs(lowpass(np.nan_to_num(base), interval, cutoff))
-    return float(felt[time >= start].max() / felt.max(initial=np.finfo(float).tiny))
+    return bool(felt[time >= start].max() > SHAKEN * felt.max())

@@ -77,40 +77,37 @@ def vertical_acceleration(rocking: xr.Dataset, *, gravity: float, expected: bool
     It is None if it is not known throughout, or lets go of the specimen; without a channel there is nothing to say
     unless the set-up has one, so that it was `expected`.
     """
+    weight = warning
     if "vertical_base_acceleration" not in rocking:
-        reason = "No channel of the table's vertical acceleration is usable: predicted without it."
-        return None, [warning(VERTICAL, reason, follows=MEASUREMENT)] if expected else []
-    vertical = rocking["vertical_base_acceleration"].to_numpy()
-    if missing := _missing(vertical, rocking):
-        reason = f"The vertical acceleration of the base is missing {missing}: predicted without it."
-        return None, [warning(VERTICAL, reason, follows=("lost samples", "missing samples"))]
-    if np.ptp(vertical) < LEAST_VERTICAL:
-        reason = "The table's vertical accelerometer is dead (no noise at all): predicted without it."
-        return None, [warning(VERTICAL, reason, follows=("dead channel",))]
-    if vertical.min() <= -gravity:
-        where = float(rocking["elapsed"][int(vertical.argmin())])
-        reason = (
-            f"The vertical acceleration of the base reaches {vertical.min():.4g} m/s² at {where:.3f} s, so the "
-            "specimen would leave the table: predicted without it. Check its gain, direction and zero."
-        )
-        return None, [serious(VERTICAL, reason, follows=MEASUREMENT)]
-    return vertical, []
+        reason = "No channel of the table's vertical acceleration is usable" if expected else ""
+    else:
+        vertical = rocking["vertical_base_acceleration"].to_numpy()
+        if missing := _missing(vertical, rocking):
+            reason = f"The vertical acceleration of the base is missing {missing}"
+        elif np.ptp(vertical) < LEAST_VERTICAL:
+            reason = "The table's vertical accelerometer is dead (no noise at all)"
+        elif vertical.min() <= -gravity:
+            weight, where = serious, float(rocking["elapsed"][int(vertical.argmin())])
+            reason = (
+                f"The vertical acceleration of the base reaches {vertical.min():.4g} m/s² at {where:.3f} s, so the "
+                "specimen would leave the table (check its gain, direction and zero)"
+            )
+        else:
+            return vertical, []
+    follows = (*MEASUREMENT, "lost samples", "missing samples")
+    return None, [weight(VERTICAL, f"{reason}: predicted without it.", follows=follows)] if reason else []
 
 
 def transverse_acceleration(rocking: xr.Dataset) -> Array | None:
     """Return the acceleration of the base along y, m/s², for a model in space; None if samples miss."""
-    if "transverse_base_acceleration" not in rocking:
-        return None
-    transverse = rocking["transverse_base_acceleration"].to_numpy()
-    return transverse if np.isfinite(transverse).all() else None
+    across = rocking.get("transverse_base_acceleration")
+    return None if across is None or not np.isfinite(across).all() else across.to_numpy()
 
 
 def left_out(rocking: xr.Dataset, base: Array) -> list[Finding]:
     """Say that the motion along y is left out of the plane models, if it is not small compared with that along x."""
-    if "transverse_base_acceleration" not in rocking:
-        return []
-    peak = float(np.nanmax(np.abs(rocking["transverse_base_acceleration"].to_numpy()), initial=0.0))
-    along = float(np.abs(base).max(initial=0.0))
+    across = rocking.get("transverse_base_acceleration", np.zeros(1))
+    peak, along = float(np.nanmax(np.abs(across), initial=0.0)), float(np.abs(base).max(initial=0.0))
     if peak <= LARGEST_TRANSVERSE * along:
         return []
     share = f"{format_percent(peak / along)} of that along x" if along > 0.0 else "and none along x"
@@ -121,12 +118,10 @@ def left_out(rocking: xr.Dataset, base: Array) -> list[Finding]:
 def weakened(base: Array) -> list[Finding]:
     """Say by how much straight lines between the samples weaken the motion along x: sinc² of frequency over rate."""
     energy = np.abs(np.fft.rfft(base - base.mean())) ** 2
-    if not energy.any():
-        return []
     # Noise is spread over all frequencies, a little in each.
     energy[energy < LEAST_CONTENT * energy.max()] = 0.0
-    kept = float(energy @ np.sinc(np.fft.rfftfreq(base.size)) ** 4 / energy.sum())
-    loss = 1.0 - sqrt(kept)
+    kept = float(energy @ np.sinc(np.fft.rfftfreq(base.size)) ** 4)
+    loss = 1.0 - sqrt(kept / float(energy.sum())) if kept else 0.0
     if loss <= LARGEST_WEAKENING:
         return []
     text = (

@@ -202,33 +202,23 @@ def cut_short(
     found = []
     for edge, place, sign, words in ((clock[0], 0, -1.0, "begins only at"), (clock[-1], -1, 1.0, "ends already at")):
         reach = {name: sign * (_on_main(record.time[place], offsets[name]) - edge) for name, record in records.items()}
-        beyond = {name: length for name, length in reach.items() if length > LEAST_CUT}
-        shown = {
-            name: offsets[name].at(np.asarray(edge)) + edge + sign * np.array([-LEAST_CUT, max(reach[name], 0.0)])
-            for name in records
-        }
-        moving = [name for name, record in records.items() if _moves(record.time, *smooth[name], *sorted(shown[name]))]
-        if not beyond or not moving:
-            continue
-        shortest = channels[min(reach, key=lambda name: reach[name])].recorder
-        longest = max(beyond, key=lambda name: beyond[name])
-        text = (
-            f"Recorder {shortest} {words} {edge:.4g} s, in the motion of {', '.join(moving)}; recorder "
-            f"{channels[longest].recorder} has {beyond[longest]:.3g} s more, which are not used. The peak and the end "
-            f"may be missing: {shortest}'s file was cut, or it was stopped too early. Find the whole file, or repeat "
-            "the test."
-        )
-        found.append(serious("cut record", text, follows=("table motion",)))
+        shortest, longest = min(reach, key=lambda name: reach[name]), max(reach, key=lambda name: reach[name])
+        moving = []
+        for name, record in records.items():
+            beyond = sign * (record.time - edge - float(offsets[name].at(np.asarray(edge))))
+            values, noise = smooth[name]
+            shown = values[(beyond >= -LEAST_CUT) & (beyond <= max(reach[name], 0.0))]
+            if shown.size >= FEWEST_SAMPLES and shown.std() > max(MOVES * noise, LEAST_MOTION * np.ptp(values)):
+                moving.append(name)
+        if reach[longest] > LEAST_CUT and moving:
+            text = (
+                f"Recorder {channels[shortest].recorder} {words} {edge:.4g} s, in the motion of {', '.join(moving)}; "
+                f"recorder {channels[longest].recorder} has {reach[longest]:.3g} s more, which are not used. The peak "
+                f"and the end may be missing: {channels[shortest].recorder}'s file was cut, or it was stopped too "
+                "early. Find the whole file, or repeat the test."
+            )
+            found.append(serious("cut record", text, follows=("table motion",)))
     return found
-
-
-def _moves(time: Array, values: Array, noise: float, start: float, stop: float) -> bool:
-    """Whether a record is not at rest on a stretch, beyond its noise and beyond a drift."""
-    inside = values[(time >= start) & (time <= stop)]
-    if inside.size < FEWEST_SAMPLES:
-        return False
-    spread = float(inside.std())
-    return spread > MOVES * noise and spread > LEAST_MOTION * float(np.ptp(values))
 
 
 def _on_main(time: float, offset: Offset) -> float:

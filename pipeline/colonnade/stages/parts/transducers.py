@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -22,7 +22,7 @@ from colonnade.identification.fusion.sensors import Accelerometer, Gyroscope, Re
 from colonnade.signals.filters import second_derivative
 from colonnade.store.description import variable_name
 from colonnade.store.provenance import Inputs
-from colonnade.units.text import format_percent, listed, with_minus
+from colonnade.units.text import format_percent, with_minus
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,6 +32,10 @@ FEWEST = 4
 
 MISPLACED = 0.01
 """m, by which a marker may be off its place at rest, relative to the others."""
+
+
+MOST_SAID = 6
+"""Places that one finding gives."""
 
 
 class MarkerInputs(Inputs):
@@ -81,69 +85,26 @@ def misplaced(conditioned: xr.Dataset, markers: Mapping[str, MarkerInputs], asse
     }
     if len(used) < FEWEST:
         return []
-    bodies = [each.body for each in used.values()]
-    feet = np.array([np.append(assembly.bodies[body].position, assembly.levels[body]) for body in bodies])
+    names, bodies = np.array(list(used)), np.array([each.body for each in used.values()])
+    feet = np.array([np.append(assembly.bodies[body].position, assembly.levels[body]) for body in bodies.tolist()])
     declared = feet + np.array([each.at for each in used.values()])
     # What was taken off each channel at rest, along the axes of the table.
     zeros = [[float(conditioned[name].attrs["zero"]) for name in each.channels] for each in used.values()]
     seen = np.einsum("mc,mci->mi", zeros, [list(each.channels.values()) for each in used.values()])
-    seen = seen - np.median(seen - declared, axis=0)
-    off, names = seen - declared, list(used)
-    wrong = np.flatnonzero(np.linalg.norm(off, axis=1) > MISPLACED).tolist()
-    if 2 * len(wrong) > len(used):
-        if steps := _steps(off, bodies, assembly):
-            said = listed([f"{body} above {lower} {_along(step)}" for (body, lower), step in steps.items()])
-            text = f"At rest bodies are off their places: {said}. Check the heights of the bodies."
-            return [serious("geometry", text)]
-        text = (
-            f"At rest {len(wrong)} of {len(used)} markers are more than {1e3 * MISPLACED:g} mm from where `on` and "
-            "`at` put them relative to each other. Check the axes of the tracking, and the unit."
-        )
-        return [serious("geometry", text)]
-    found = []
-    for body in dict.fromkeys(bodies[each] for each in wrong):
-        own = [each for each, other in enumerate(bodies) if other == body]
-        mine = [each for each in own if each in wrong]
+    off = seen - declared - np.median(seen - declared, axis=0)
+    wrong, said = np.linalg.norm(off, axis=1) > MISPLACED, []
+    for body in dict.fromkeys(bodies[wrong].tolist()):
+        mine = np.flatnonzero(wrong & (bodies == body))
         together = np.ptp(off[mine], axis=0).max() < MISPLACED
-        where = _along(off[mine].mean(axis=0))
-        if mine == own and len(own) > 1 and together:
-            text = f"At rest all markers of body {body} are off their places {where}: check the dimensions of the "
-            text += "bodies below it, its position, and whether its markers are on it."
-        else:
-            text = f"At rest {listed([names[each] for each in mine])} on body {body} "
-            text += f"{'is' if len(mine) == 1 else 'are'} off the place that `on` and `at` give, "
-            text += f"{where if together else '; '.join(f'{names[each]} {_along(off[each])}' for each in mine)}."
-        found.append(serious("geometry", " ".join((text, *_exchanged(mine, names, declared, seen)))))
-    return found
-
-
-def _steps(off: Array, bodies: Sequence[str], assembly: Assembly) -> dict[tuple[str, str], Array]:
-    """How far off each body is above the one that it stands on, m; nothing if the markers of a body disagree."""
-    whole = {body: off[[each == body for each in bodies]] for body in dict.fromkeys(bodies)}
-    if max(np.ptp(own, axis=0).max() for own in whole.values()) > MISPLACED:
-        return {}
-    means = {body: own.mean(axis=0) for body, own in whole.items()}
-    pairs = [(body, lower) for body in means for lower in assembly.bodies[body].on[:1] if lower in means]
-    steps = {(body, lower): means[body] - means[lower] for body, lower in pairs}
-    return {each: step for each, step in steps.items() if np.linalg.norm(step) > MISPLACED}
-
-
-def _along(off: Array) -> str:
-    x, y, z = (with_minus(str(round(each))) for each in (1e3 * off).tolist())
-    return f"by {x}, {y} and {z} mm along x, y and z"
-
-
-def _exchanged(wrong: list[int], names: list[str], declared: Array, seen: Array) -> list[str]:
-    """Say of markers that are where another one should be."""
-    said = []
-    for each in wrong:
-        apart = np.linalg.norm(declared - seen[each], axis=1)
-        nearest = int(np.argmin(apart))
-        if apart[nearest] < MISPLACED and nearest != each:
-            said.append(
-                f"{names[each]} is where {names[nearest]} should be: are their columns, or their bodies, exchanged?"
-            )
-    return said
+        for group in [mine] if together else np.split(mine, mine.size):
+            x, y, z = (with_minus(str(round(each))) for each in (1e3 * off[group].mean(axis=0)).tolist())
+            said.append(f"{', '.join(names[group])} on body {body} by {x}, {y} and {z} mm along x, y and z")
+    text = (
+        f"At rest {len(names[wrong])} of {len(names)} markers are off the places that `on` and `at` give: "
+        f"{'; '.join(said[:MOST_SAID])}{' …' if len(said) > MOST_SAID else ''}. Check their columns, `on` and `at`, "
+        "the heights of the bodies, and the axes and the unit of the tracking."
+    )
+    return [serious("geometry", text)] if said else []
 
 
 class Transducers(BaseModel):

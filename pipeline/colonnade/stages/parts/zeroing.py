@@ -8,13 +8,17 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.dynamics.block import Block
 from colonnade.errors import StageError
 from colonnade.findings import MEASUREMENT, Finding, serious, warning
+from colonnade.identification.plausibility.scale import as_expected, cause
 from colonnade.signals.rest import RestWindow
 
 COUPLED = 0.08
 """Of gravity; an accelerometer that shows less than this of its part at rest does not sense what does not change."""
+
+
+SENSES_GRAVITY = 7.0
+"""m/s², that gravity's part along an accelerometer has to have before its value at rest is judged."""
 
 
 def zeroed(
@@ -50,106 +54,70 @@ def zeroed(
     attributes["zero_window"] = f"{window.start:.6g} s to {window.stop:.6g} s"
     if resting:
         attributes["rest_value"] = resting
-    if abs(shown) < COUPLED * abs(resting):
-        text = (
-            f"channel {name}: at rest it shows {shown:.3g} m/s², but gravity's part along it is {resting:.3g} m/s². "
-            "The sensor or amplifier blocks constant values (AC), or was zeroed in the recorder. Gravity was added to "
-            "it."
-        )
-        warnings.append(warning("gravity", text))
+        warnings += _of_gravity(name, shown, resting)
     if window.quiet:
         attributes["noise"] = max(float(still.std()), float(attributes["noise"]))
     return values - float(attributes["zero"])
 
 
+def _of_gravity(name: str, shown: float, resting: float) -> list[Finding]:
+    """Doubts about an accelerometer on the specimen, by what it shows of gravity at rest, m/s²."""
+    text = f"Channel {name} shows {shown:.3g} m/s² at rest, but gravity's part along it is {resting:.3g} m/s²"
+    if abs(shown) < COUPLED * abs(resting):
+        text += (
+            ": the sensor or amplifier blocks constant values (AC), or was zeroed in the recorder. Gravity was added."
+        )
+        return [warning("gravity", text)]
+    ratio = shown / resting
+    if abs(resting) < SENSES_GRAVITY or (ratio > 0 and as_expected(ratio)):
+        return []
+    if as_expected(ratio):
+        return [serious("sign", f"{text}: its sign is wrong.")]
+    return [serious("gain", f"{text}: {cause(ratio, 'acceleration')}.")]
+
+
 PARTS = 4
 """Of a window; how far their means are from that of the window is the error of the zero."""
 
-LARGEST_ANGLE = 0.01
-"""Of the critical angle; a zero less certain than this is reported."""
-
-LARGEST_ACCELERATION = 0.03
-"""Of the acceleration that uplifts the specimen; a zero of the table less certain than this is reported."""
-
 SERIOUS = 10.0
-"""Times these, from which on results are wrong."""
-
-MOST_WINDOWS = 10_000
-"""Stretches of a record that are looked at for a better one."""
+"""Times the largest error that is not reported, from which on results are wrong."""
 
 
 class Effect(NamedTuple):
-    """What an error of a channel's zero does to a result, of which an error up to `largest` is not reported."""
+    """What an error of a channel's zero does to a result, whose error up to a share of a scale is not reported."""
 
     result: str
     factor: float
     unit: str
     scale: float
     of_scale: str
-    largest: float
-
-
-def on_angle(lever: float, block: Block) -> Effect:
-    """Effect of a transducer on the specimen with this lever (m; 1 of an inclinometer) on the rocking angle."""
-    scale = block.critical_angle
-    return Effect("rocking angle", 1 / abs(lever), "rad", scale, "the critical angle", LARGEST_ANGLE * scale)
-
-
-def on_base(along: float, block: Block) -> Effect:
-    """Effect of a table accelerometer with this part of its direction along x on the base acceleration."""
-    scale, of_scale = block.uplift_acceleration, "the acceleration that uplifts the specimen"
-    return Effect("base acceleration", 1 / abs(along), "m/s²", scale, of_scale, LARGEST_ACCELERATION * scale)
+    share: float
 
 
 def find_zero_error(
-    clock: Array,
-    values: Mapping[str, Array],
-    effects: Mapping[str, Effect],
-    window: RestWindow,
-    *,
-    free_vibration: bool,
+    clock: Array, values: Mapping[str, Array], effects: Mapping[str, Effect], window: RestWindow
 ) -> list[Finding]:
-    """
-    Report the largest error of the zero of a window that is not quiet, if it matters, and a stretch without it.
-
-    Of a free vibration a stretch before the release is not rest, however still it is: the specimen is held tilted.
-    """
-    size = max(int(np.count_nonzero((clock >= window.start) & (clock <= window.stop))), PARTS)
+    """Report the largest error of the zero of a window that is not quiet, if it matters."""
     first = int(np.searchsorted(clock, window.start))
-    errors = {name: _error(values[name][first : first + size]) * effect.factor for name, effect in effects.items()}
-    shares = {name: errors[name] / effects[name].largest for name in errors}
-    worst = max(shares, key=lambda name: shares[name], default=None)
-    if worst is None or not shares[worst] > 1:
+    inside = slice(first, first + max(int(((clock >= window.start) & (clock <= window.stop)).sum()), PARTS))
+    errors = {name: _error(values[name][inside]) * effect.factor / effect.scale for name, effect in effects.items()}
+    worst = max(errors, key=lambda name: errors[name] / effects[name].share, default=None)
+    if worst is None or not errors[worst] > effects[worst].share:
         return []
-    effect = effects[worst]
-    weight = serious if shares[worst] > SERIOUS else warning
+    effect, error = effects[worst], errors[worst]
+    rest = "Record until the specimen is still" if window.start > clock[0] else "Start recording before the motion"
     text = (
-        f"The zero of the {effect.result} is uncertain by {errors[worst]:.2g} {effect.unit}, "
-        f"{errors[worst] / effect.scale:.2g} of {effect.of_scale}: {worst} moves from {window.start:.3g} to "
-        f"{window.stop:.3g} s, where zero is taken. {_advice(clock, values, effects, size, free_vibration)}"
+        f"The zero of the {effect.result} is uncertain by {error * effect.scale:.2g} {effect.unit}, {error:.2g} of "
+        f"{effect.of_scale}: {worst} moves from {window.start:.3g} to {window.stop:.3g} s, where zero is taken. "
+        f"{rest}, or give the test a `zero` where it is upright."
     )
+    weight = serious if error > SERIOUS * effect.share else warning
     return [weight("zero", text, follows=(*MEASUREMENT, "hum"))]
 
 
 def _error(stretch: Array) -> float:
     """How far the means of a stretch's parts are from its own; infinite if one has no value."""
-    if not np.isfinite(stretch).any():
+    parts = np.array_split(stretch, PARTS)
+    if not all(np.isfinite(part).any() for part in parts):
         return float("inf")
-    means = np.array(
-        [np.nanmean(part) if np.isfinite(part).any() else np.inf for part in np.array_split(stretch, PARTS)]
-    )
-    return float(np.abs(means - np.nanmean(stretch)).max())
-
-
-def _advice(
-    clock: Array, values: Mapping[str, Array], effects: Mapping[str, Effect], size: int, free_vibration: bool
-) -> str:
-    if free_vibration:
-        return "Record until the specimen is still, or give the test a `zero` where it is upright."
-    step = max(size // 2, (clock.size - size) // MOST_WINDOWS, 1)
-    for first in range(0, clock.size - size, step):
-        inside = slice(first, first + size)
-        if all(_error(values[name][inside]) * effect.factor <= effect.largest / 2 for name, effect in effects.items()):
-            start, stop = clock[first], clock[first + size - 1]
-            return f'They are still from {start:.4g} s: zero = ["{start:.4g} s", "{stop:.4g} s"] avoids it.'
-    return "No part of the record is quieter: start recording some time before the motion."
+    return float(np.abs(np.array([np.nanmean(part) for part in parts]) - np.nanmean(stretch)).max())
