@@ -174,7 +174,6 @@ def test_chapters_are_the_summary_specimens_spans_and_methods(campaign, folder):
     data = document_of(campaign, folder).data
     titles = [chapter["title"] for chapter in data["chapters"]]
     assert titles == ["Summary", "Specimen prism", "Spans", "Methods"]
-    assert [chapter["equations"] for chapter in data["chapters"]] == [False, False, False, True]
     assert [sheet["title"] for sheet in data["appendix"]] == ["free-01", "free-02"]
 
 

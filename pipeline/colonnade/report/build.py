@@ -41,7 +41,6 @@ from colonnade.report.methods import Used
 from colonnade.report.overview import SpanTest, TestRow
 from colonnade.report.pictures import FreeVibration, picture, span_of
 from colonnade.report.test_page import channels, facts, page
-from colonnade.report.test_page.channels import ChannelRow
 from colonnade.store.layout import Layout
 from colonnade.store.records import advice as advising
 from colonnade.store.records import wording
@@ -154,10 +153,9 @@ class Kept(NamedTuple):
     """What of a test is kept, besides what the campaign and its record give."""
 
     failures: tuple[Failure, ...]
-    channels: tuple[ChannelRow, ...]
+    channels: tuple[channels.Row, ...]
     thumbnail: str
-    panel: SpanPanel | None
-    described: str
+    span: tuple[SpanPanel, str] | None
     free_vibration: FreeVibration | None
     used: Used
 
@@ -187,8 +185,8 @@ class Part(NamedTuple):
     def of(cls, asked: Asked, text: str) -> Part:
         """Read a part from the text that `drawn` gave."""
         kept = _KEPT.validate_python(json.loads(text, object_hook=_with_array))
-        row = TestRow.known(asked.campaign, asked.campaign.tests[asked.test], asked.record, kept.failures)
-        return cls(row, kept, None if kept.panel is None else SpanTest(row, kept.panel, kept.described))
+        row = TestRow.of(asked.campaign, asked.campaign.tests[asked.test], asked.record, kept.failures)
+        return cls(row, kept, None if kept.span is None else SpanTest(row, *kept.span))
 
 
 @contextmanager
@@ -223,8 +221,7 @@ def drawn(layout: Layout, asked: Asked) -> tuple[list[str], str]:
         tuple(one.failures),
         channels.of_test(stored),
         overview.polyline(one.measured_ratio()),
-        None if span is None else span.panel.thinned(),
-        "" if span is None else span.description,
+        None if span is None else (span.panel.thinned(), span.description),
         FreeVibration.of(one) if stored.has("restitution") else None,
         used,
     )
@@ -290,7 +287,7 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
         "agreement": agreement({row.id: row.record.model_dump() for row in rows}),
         "channels": {part.row.id: part.kept.channels for part in parts},
         "doubtful": [
-            (part.row.id, bad) for part in parts if (bad := [one for one in part.kept.channels if not one.is_good])
+            (part.row.id, bad) for part in parts if (bad := [one for one in part.kept.channels if not one["is_good"]])
         ],
         "used": used,
         "settings": settings(campaign.processing, "processing") | settings(campaign.next, "next"),

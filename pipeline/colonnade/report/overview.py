@@ -24,7 +24,6 @@ from colonnade.figures.files.output import Picture
 from colonnade.figures.panels.curve import Curve, envelope
 from colonnade.figures.stored import record
 from colonnade.figures.stored.record import SpanPanel
-from colonnade.figures.stored.subject import OfTest
 from colonnade.findings import Severity
 from colonnade.identification.response.boundaries import Bracket, MapPoint, bracket_boundaries
 from colonnade.identification.response.rank import WITHIN, is_within
@@ -65,16 +64,10 @@ class TestRow:
     excluded: str
 
     @classmethod
-    def of(cls, one: OfTest) -> TestRow:
-        """Make the row of a test of which all is read."""
-        return cls.known(one.campaign, one.test, one.record, tuple(one.failures))
-
-    @classmethod
-    def known(cls, campaign: Campaign, test: Test, record: TestSummary, failures: tuple[Failure, ...]) -> TestRow:
-        """Make the row of a test whose failures are known."""
+    def of(cls, campaign: Campaign, test: Test, record: TestSummary, failures: Iterable[Failure] = ()) -> TestRow:
+        """Make the row of a test."""
         review = campaign.review(test.id)
-        models = models_shown(campaign)
-        return cls(test, record, models, failures, bool(review.sentences), review.excluded)
+        return cls(test, record, models_shown(campaign), tuple(failures), bool(review.sentences), review.excluded)
 
     @property
     def id(self) -> str:
@@ -250,12 +243,8 @@ def worst(tests: Sequence[TestRow], models: Sequence[str]) -> list[Worst]:
             predicted = row.predicted(model).peak_ratio
             if predicted is not None and measured:
                 found.append(Worst(row, model, predicted / measured))
-    found.sort(key=lambda each: (-_distance(each.factor), each.row.id))
+    found.sort(key=lambda each: (-abs(log(each.factor)) if each.factor > 0 else -inf, each.row.id))
     return found[:NAMED]
-
-
-def _distance(factor: float) -> float:
-    return abs(log(factor)) if factor > 0 else inf
 
 
 def peak_points(tests: Sequence[TestRow], models: Sequence[str], named: Sequence[Worst]) -> dict[str, list[PeakPoint]]:

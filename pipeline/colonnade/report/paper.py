@@ -150,16 +150,15 @@ def document_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> D
     chapters += [_chapter(title, page, document.page(page)[1]) for page, title in specimens.items()]
     chapters += [_chapter(node.findtext("h2", ""), "", [node]) for node in spans]
     chapters += [_chapter(title, page, document.page(page)[1]) for page, title in optional.items()]
-    chapters.append(_chapter("Methods", methods, document.page(methods)[1]) | {"equations": True})
+    chapters.append(_chapter("Methods", methods, document.page(methods)[1]))
     of_tests = [
         _chapter(name, page, (part for parts in document.page(page) for part in parts)) for page, name in tests.items()
     ]
-    shown = [image for part in (*chapters, *of_tests) for image in part.pop("images") if image["src"] in document.files]
     document.data = {
         "title": campaign.title,
         "campaign": campaign.campaign,
         "facts": facts.on_cover(campaign),
-        "cover": next((each for each in shown if each["src"].endswith(PHOTO)), next(iter(shown), None)),
+        "cover": next((name for name in document.files if name.endswith(PHOTO)), next(iter(document.files), None)),
         "chapters": chapters,
         "appendix": of_tests,
         "version": __version__,
@@ -171,8 +170,7 @@ def _chapter(title: str, address: str, inside: Iterable[HtmlElement]) -> dict[st
     nodes = list(inside)
     for heading in (heading for node in nodes for heading in node.findall("h2") if heading.text_content() == title):
         heading.drop_tree()
-    images = [as_data(image) for node in nodes for image in node.iter("img")]
-    return {"title": title, "label": address, "in": list(map(as_data, nodes)), "equations": False, "images": images}
+    return {"title": title, "label": address, "in": list(map(as_data, nodes))}
 
 
 TEMPLATE = "report.typ"

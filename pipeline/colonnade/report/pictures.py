@@ -156,7 +156,7 @@ def read_of_campaign(campaign: Campaign, layout: Layout) -> OfCampaign:
     """Read the records of all tests, as of the last run."""
     summary = read_summary(layout)
     records = records_of_tests(campaign, summary)
-    rows = [TestRow.of(OfTest(campaign, test, records[name], Stored())) for name, test in campaign.tests.items()]
+    rows = [TestRow.of(campaign, test, records[name]) for name, test in campaign.tests.items()]
     return OfCampaign(campaign, rows, calibrations_of(layout, summary))
 
 
@@ -164,7 +164,9 @@ def span_of(one: OfTest) -> SpanTest | None:
     """Gather what the figure of all Spans shows of a test; None without a Span, or an angle measured or predicted."""
     if one.test.span is None or not any("rocking_angle" in dataset for dataset in one.stored.datasets.values()):
         return None
-    return SpanTest(TestRow.of(one), record.span_panel(one), record.seen(one))
+    return SpanTest(
+        TestRow.of(one.campaign, one.test, one.record, one.failures), record.span_panel(one), record.seen(one)
+    )
 
 
 class Entry(NamedTuple):
@@ -199,15 +201,23 @@ def _estimators_of_test(one: OfTest) -> Picture | None:
     return estimators.estimators(f"estimators-{one.test.id}", {"": rows}, one.block.restitution)
 
 
-def _peaks_of_test(one: OfTest) -> Picture | None:
-    series = decay.peak_series(one)
-    return decay.peaks(f"peaks-{one.test.id}", [series] if series else [], one.block)
+def _decays(one: OfTest | OfSpecimen) -> tuple[str, Sequence[FreeVibration], EstimateRow]:
+    """Give the name of a test or specimen, its free vibrations, and e of all together."""
+    if isinstance(one, OfTest):
+        return one.test.id, [FreeVibration.of(one)], decay.level_of(one.stored, STAGE, "e identified")
+    return one.name, one.decays, decay.level_of(one.pooled, "specimen", "e pooled")
 
 
-def _impacts_of_test(one: OfTest) -> Picture | None:
-    series = decay.impact_series(one)
-    level = decay.level_of(one.stored, decay.STAGE, "e identified")
-    return decay.impacts(f"impacts-{one.test.id}", [series] if series else [], level, one.block.restitution)
+def _peaks(one: OfTest | OfSpecimen) -> Picture | None:
+    name, decays, _ = _decays(one)
+    series, note = some_of([each.peaks for each in decays if each.peaks is not None], "free vibrations")
+    return decay.peaks(f"peaks-{name}", series, one.block, note)
+
+
+def _impacts(one: OfTest | OfSpecimen) -> Picture | None:
+    name, decays, level = _decays(one)
+    series, note = some_of([each.impacts for each in decays if each.impacts is not None], "free vibrations")
+    return decay.impacts(f"impacts-{name}", series, level, one.block.restitution, note)
 
 
 def _base(one: OfTest) -> Picture | None:
@@ -221,21 +231,10 @@ def _setup(one: OfTest) -> Picture:
 def _estimators(one: OfSpecimen) -> Picture | None:
     shown, note = some_of(one.decays, "free vibrations")
     groups = {each.test: each.estimates for each in shown}
-    level = decay.level_of(one.pooled, "specimen", "e pooled")
+    _, _, level = _decays(one)
     if isfinite(level.low):
         groups["all together"] = [level._replace(name="pooled", recommended=True)]
     return estimators.estimators(f"estimators-{one.name}", groups, one.block.restitution, note)
-
-
-def _peaks(one: OfSpecimen) -> Picture | None:
-    series, note = some_of([each.peaks for each in one.decays if each.peaks is not None], "free vibrations")
-    return decay.peaks(f"peaks-{one.name}", series, one.block, note)
-
-
-def _impacts(one: OfSpecimen) -> Picture | None:
-    series, note = some_of([each.impacts for each in one.decays if each.impacts is not None], "free vibrations")
-    level = decay.level_of(one.pooled, "specimen", "e pooled")
-    return decay.impacts(f"impacts-{one.name}", series, level, one.block.restitution, note)
 
 
 def _measured_map(one: OfSpecimen) -> Picture | None:
@@ -284,8 +283,8 @@ FIGURES: tuple[Entry, ...] = (
     Entry("bands", "test", "measured angle over each model's bands", "It needs an ensemble.", record.bands),
     Entry("fitted", "test", "free vibration, fitted history and residual", _FREE, estimators.fitted),
     Entry("estimators", "test", "e from every estimator", _FREE, _estimators_of_test, is_narrow=False),
-    Entry("peaks", "test", "energy of successive peaks and its line", _FREE, _peaks_of_test),
-    Entry("impacts", "test", "e of each impact over its velocity", _FREE, _impacts_of_test),
+    Entry("peaks", "test", "energy of successive peaks and its line", _FREE, _peaks),
+    Entry("impacts", "test", "e of each impact over its velocity", _FREE, _impacts),
     Entry("region", "test", "joint region of e and the critical angle", _FREED, estimators.region, is_narrow=False),
     Entry("joints", "test", "angle in the joint below each body over time", _BODIES, bodies.joints),
     Entry("plan", "test", "where each body stands at the end, from above", _BODIES, bodies.plan, is_narrow=False),

@@ -51,6 +51,10 @@ _DERIVED: tuple[tuple[str, str, str, Callable[[Block], float]], ...] = (
 )
 
 
+Given = float | tuple[float, float] | None
+"""A property as the campaign file gives it, for both sides or for each."""
+
+
 def of_specimen(subject: OfSpecimen, tests: Sequence[TestRow]) -> dict[str, Any]:
     """Put a specimen into words, by the names that templates use; its pictures are of `subject`."""
     campaign, name, pooled = subject.campaign, subject.name, subject.pooled
@@ -155,10 +159,7 @@ def _contact(pooled: Stored) -> list[tuple[str, str]]:
         ),
         ("mean velocity ratio of the same impacts", number(value("contact_velocity_ratio"), 4)),
         ("step", quantity(value("contact_step"), "µs")),
-        (
-            "largest gap in the energy balance",
-            f"{percent(value('energy_residual'))} of the largest energy",
-        ),
+        ("largest gap in the energy balance", f"{percent(value('energy_residual'))} of the largest energy"),
     ]
 
 
@@ -171,29 +172,22 @@ def _properties(specimen: Specimen, block: Block, gravity: float) -> list[tuple[
     """Give each property: as given, as it follows from the dimensions, as used, and at prototype scale."""
     derived, side, rows = specimen.dimensions(gravity), block.governing, list[tuple[str, ...]]()
 
-    def add(
-        name: str,
-        unit: str,
-        dimension: str,
-        used: float,
-        given: float | tuple[float, float] | None,
-        other: float | None,
-    ) -> None:
+    def add(name: str, unit: str, dimension: str, used: float, given: Given = None, other: float | None = None) -> None:
         sides = [] if given is None else dict.fromkeys(pair(given))
         at_scale = at_prototype(dimension, used, specimen.scale) if specimen.scale else None
         said = " and ".join(_written(each, unit) for each in sides)
         rows.append((name, said, *(_written(value, unit) for value in (other, used, at_scale))))
 
-    add("mass m", "kg", "mass", specimen.mass, specimen.mass, None)
+    add("mass m", "kg", "mass", specimen.mass, specimen.mass)
     for name in _DIMENSIONS:
         length = getattr(specimen, name, None)
         if length is not None:
-            add(name.replace("_", " "), "mm", "length", length, length, None)
+            add(name.replace("_", " "), "mm", "length", length, length)
     for label, unit, dimension, name in _OF_A_SIDE:
         other = None if derived is None else float(getattr(derived, name))
         add(label, unit, dimension, float(getattr(side, name)), getattr(specimen, name), other)
     for label, unit, dimension, value in _DERIVED:
-        add(label, unit, dimension, value(block), None, None if derived is None else value(derived))
+        add(label, unit, dimension, value(block), other=None if derived is None else value(derived))
     return rows
 
 

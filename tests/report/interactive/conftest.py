@@ -15,10 +15,10 @@ def unpacked():
     return _unpacked
 
 
-def _unpacked(found):
-    data = np.frombuffer(zlib.decompress(b64decode(found.text)), np.uint8).astype(np.int64)
+def _unpacked(described, text):
+    data = np.frombuffer(zlib.decompress(b64decode(text)), np.uint8).astype(np.int64)
     series, start = [], 0
-    for one in found.series:
+    for one in described:
         planes = data[start : start + PLANES * one["count"]].reshape(PLANES, one["count"])
         start += planes.size
         folded = sum(plane << (8 * place) for place, plane in enumerate(planes))

@@ -8,7 +8,8 @@ import xarray as xr
 
 from colonnade.figures.stored.subject import OfTest
 from colonnade.report.interactive import panels, test_data
-from colonnade.report.interactive.panels import Packed, Samples
+from colonnade.report.interactive.panels import Samples
+from colonnade.report.test_page.channels import FLAGS
 from colonnade.store.records.stored import Stored
 
 
@@ -21,7 +22,7 @@ def data_of(one):
 def shaken(reported, unpacked):
     one = reported["span-2.0"]
     given, channels = data_of(one), (one.stored.datasets[stage, None] for stage in ("ingest", "condition"))
-    return given, unpacked(Packed(given["series"], given["samples"])), *channels
+    return given, unpacked(given["series"], given["samples"]), *channels
 
 
 def panels_of(given, group):
@@ -62,7 +63,7 @@ def test_flagged_samples_are_those_that_are_not_good(shaken):
     for channel in ("top", "bottom", "table_acceleration"):
         flags = np.ones(recorded[f"{channel}_quality"].size, dtype=int)
         for first, last, flag in panels_of(given, "Channels, as recorded")[f"{channel}, as recorded"]["flags"]:
-            flags[first:last] = flag
+            flags[first:last] = next(number for number, said in FLAGS.items() if said == flag)
         assert np.array_equal(flags, recorded[f"{channel}_quality"])
         assert (flags > 1).any()
 

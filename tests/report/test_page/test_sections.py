@@ -32,7 +32,7 @@ def test_a_free_vibration_has_its_release_and_what_predictions_use(reported):
 
 def test_a_few_flagged_samples_are_told_from_many(reported):
     (few, *_), (many, *_) = (channels.of_test(reported[name].stored) for name in ("span-2.0", "span-2.5"))
-    assert (few.name, few.few_flagged, many.few_flagged) == ("top", True, False)  # 1 of 1625 in the first
+    assert (few["name"], few["few_flagged"], many["few_flagged"]) == ("top", True, False)  # 1 of 1625 in the first
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from base64 import b64encode
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -47,13 +47,11 @@ class Samples:
 
     def with_more(self, add: Callable[[Samples], Found]) -> Found | None:
         """Return what `add` returns that adds to these; None, with nothing added, if they would be too many."""
-        series, clocks = len(self.series), len(self.clocks)
+        before = [*self.series], [*self.clocks], {**self._known}, {**self._known_clocks}
         found = add(self)
         if sum(values.size for values in self.series) <= MOST:
             return found
-        del self.series[series:], self.clocks[clocks:]
-        self._known = {name: number for name, number in self._known.items() if number < series}
-        self._known_clocks = {name: number for name, number in self._known_clocks.items() if number < clocks}
+        self.series, self.clocks, self._known, self._known_clocks = before
         return None
 
     def add(self, values: Array) -> int:
@@ -112,24 +110,7 @@ PLANES = 3
 """Bytes of a difference: twice the second difference of two numbers of `BITS` digits fits, with its sign."""
 
 
-class Packed(NamedTuple):
-    """
-    Series of samples, packed.
-
-    Attributes
-    ----------
-    series : list of dict
-        Of each series: `count`, `step` (the value of one), `order` (how often differences were taken), and `gaps`
-        (first sample and the one after the last of each stretch without value).
-    text : str
-        The bytes of all, compressed by zlib, in base64.
-    """
-
-    series: list[dict[str, Any]]
-    text: str
-
-
-def packed(series: Sequence[Array]) -> Packed:
+def packed(series: Sequence[Array]) -> tuple[list[dict[str, Any]], str]:
     """
     Pack series of samples into text, in milliseconds for a hundred thousand of them.
 
@@ -140,8 +121,12 @@ def packed(series: Sequence[Array]) -> Packed:
 
     Returns
     -------
-    packed : Packed
-        Unpacked as float32 each value is within half a step of what it was.
+    described : list of dict
+        Of each series: `count`, `step` (the value of one), `order` (how often differences were taken), and `gaps`
+        (first sample and the one after the last of each stretch without value).
+    text : str
+        The bytes of all, compressed by zlib, in base64. Unpacked as float32 each value is within half a step of what
+        it was.
 
     Notes
     -----
@@ -160,7 +145,7 @@ def packed(series: Sequence[Array]) -> Packed:
         described.append({"count": int(whole.size), "step": step, "order": order, "gaps": gaps})
     compressor = zlib.compressobj(level=1, strategy=zlib.Z_RLE)
     data = compressor.compress(b"".join(planes)) + compressor.flush()
-    return Packed(described, b64encode(data).decode())
+    return described, b64encode(data).decode()
 
 
 def _rounded(values: Array) -> tuple[np.ndarray[Any, np.dtype[np.int64]], float, list[list[int]]]:

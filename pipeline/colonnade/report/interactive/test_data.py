@@ -19,6 +19,7 @@ from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import model_style, name_of
 from colonnade.report.interactive import panels
 from colonnade.report.interactive.panels import Samples, look_of, script, tables_of
+from colonnade.report.test_page.channels import FLAGS
 from colonnade.store.records.stored import GOOD
 from colonnade.units import from_si
 from colonnade.units.text import CHANNEL_UNITS, format_percent
@@ -147,14 +148,14 @@ def _on_common_clock(time: Array, given: dict[str, Any]) -> Array:
     return np.asarray(time - float(given.get("clock_offset", 0.0)) - drift)
 
 
-def _flags(quality: xr.DataArray | None) -> list[list[int]]:
+def _flags(quality: xr.DataArray | None) -> list[tuple[int, int, str]]:
     """First sample, the one after the last, and the flag of each stretch that is not good."""
     if quality is None or not quality.size:
         return []
     flags = quality.to_numpy()
     starts = np.concatenate(([0], np.flatnonzero(np.diff(flags)) + 1, [flags.size]))
     stretches: Sequence[tuple[int, int]] = list(zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True))
-    return [[first, last, int(flags[first])] for first, last in stretches if flags[first] != GOOD]
+    return [(first, last, FLAGS[flags[first]]) for first, last in stretches if flags[first] != GOOD]
 
 
 COLOURS = ("ink", "#c8660d", "#2a7fb8", "#b0428c", "#3a8f5c", "#8a6d1c")

@@ -5,7 +5,6 @@ const LEFT = 64; // px left of the frame of each panel, so that all frames are a
 const RIGHT = 60; // px right of the frames of a group in which a panel has an axis there
 const LARGEST_RATIO = 1.35; // of θ/α: an overturning leaves the axis
 const FEW = 0.001; // share of flagged samples that is only noted
-const FLAGS = { 2: "not evaluated", 3: "suspect", 4: "failed", 9: "missing" };
 
 // An element with attributes and children; texts are texts, never markup.
 colonnade.element = function (tag, attributes = {}, ...children) {
@@ -84,7 +83,7 @@ colonnade.Panel = class {
   flagKey(flags, samples) {
     const counts = new Map();
     for (const [first, last, flag] of flags) counts.set(flag, (counts.get(flag) || 0) + last - first);
-    const said = [...counts].map(([flag, count]) => `${count} ${FLAGS[flag] || flag}`).join(", ");
+    const said = [...counts].map(([flag, count]) => `${count} ${flag}`).join(", ");
     const isFew = [...counts.values()].reduce((sum, count) => sum + count) <= FEW * samples;
     return colonnade.element("span", { class: isFew ? "mark soft" : "mark differs" }, `× flagged samples: ${said}`);
   }

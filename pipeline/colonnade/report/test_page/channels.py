@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
@@ -14,52 +13,24 @@ from colonnade.units.text import CHANNEL_UNITS, NOTHING, number, percent, quanti
 _NOTHING_LEFT = 1e-6
 """Residuals smaller than this, over the noise, mean that there are no more transducers than motions."""
 
-_GOOD = "good"
-
 FLAGS = {2: "not evaluated", 3: "suspect", 4: "failed", 9: "missing"}
 """Meanings of the quality flags but "good"."""
 
 
-@dataclass(frozen=True)
-class ChannelRow:
-    """One channel of one test; text for the page."""
-
-    name: str
-    column: str
-    quantity: str
-    recorded: str
-    flagged: str
-    few_flagged: bool
-    quality: str
-    zero: str
-    zero_window: str
-    noise: str
-    cutoff: str
-    clock: str
-    residual: str
-
-    @property
-    def is_good(self) -> bool:
-        """Whether no sample is flagged and its quality has no remark."""
-        return self.flagged == NOTHING and self.quality == _GOOD
+Row = dict[str, str | bool]
+"""A channel in words, by the names that the templates use; whether few samples are flagged, and whether it is good."""
 
 
-def of_test(stored: Stored) -> tuple[ChannelRow, ...]:
+def of_test(stored: Stored) -> tuple[Row, ...]:
     """Put every channel of a test into words."""
     to_noise, to_reading = (stored.by("transducer", "rocking", f"residual_to_{what}") for what in ("noise", "reading"))
     return tuple(
-        _channel(name, given, stored.samples.get(name), to_noise.get(name), to_reading.get(name))
+        _row(name, given, stored.samples.get(name)) | {"residual": _residual(to_noise.get(name), to_reading.get(name))}
         for name, given in stored.channels.items()
     )
 
 
-def _channel(
-    name: str,
-    given: Mapping[str, Any],
-    samples: Samples | None,
-    residual_to_noise: float | None,
-    residual_to_reading: float | None,
-) -> ChannelRow:
+def _row(name: str, given: Mapping[str, Any], samples: Samples | None) -> Row:
     kind = str(given.get("quantity", ""))
     unit = CHANNEL_UNITS.get(kind)
 
@@ -68,21 +39,22 @@ def _channel(
         return quantity(amount, unit, digits) if unit else number(amount, digits)
 
     column, recorded_unit = str(given.get("column", "")), str(given.get("recorded_unit", ""))
-    return ChannelRow(
-        name=name,
-        column=f"{column} ({recorded_unit})" if recorded_unit and recorded_unit not in column else column,
-        quantity=kind.replace("_", " "),
-        recorded="" if samples is None else f"{samples.count} at {quantity(samples.rate, 'Hz', 4)}",
-        flagged=NOTHING if samples is None else _flagged(samples),
-        few_flagged=samples is None or sum(samples.flagged.values()) <= FEW_SPIKES * samples.count,
-        quality=str(given.get("quality_report", "")) or _GOOD,
-        zero=value("zero", 4),
-        zero_window=str(given.get("zero_window", "")) or NOTHING,
-        noise=value("noise", 2),
-        cutoff=quantity(_number(given, "cutoff_hz"), "Hz"),
-        clock=_clock(given),
-        residual=_residual(residual_to_noise, residual_to_reading),
-    )
+    flagged, quality = NOTHING if samples is None else _flagged(samples), str(given.get("quality_report", ""))
+    return {
+        "name": name,
+        "column": f"{column} ({recorded_unit})" if recorded_unit and recorded_unit not in column else column,
+        "quantity": kind.replace("_", " "),
+        "recorded": "" if samples is None else f"{samples.count} at {quantity(samples.rate, 'Hz', 4)}",
+        "flagged": flagged,
+        "few_flagged": samples is None or sum(samples.flagged.values()) <= FEW_SPIKES * samples.count,
+        "quality": quality or "good",
+        "is_good": flagged == NOTHING and not quality,
+        "zero": value("zero", 4),
+        "zero_window": str(given.get("zero_window", "")) or NOTHING,
+        "noise": value("noise", 2),
+        "cutoff": quantity(_number(given, "cutoff_hz"), "Hz"),
+        "clock": _clock(given),
+    }
 
 
 def _flagged(samples: Samples) -> str:

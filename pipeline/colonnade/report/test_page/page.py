@@ -40,7 +40,7 @@ def of_test(one: OfTest, photos: Photos) -> dict[str, Any]:
     campaign, test, stored = one.campaign, one.test, one.stored
     return {
         "subject": one,
-        "row": TestRow.of(one),
+        "row": TestRow.of(campaign, test, one.record, one.failures),
         "stored": stored,
         "review": stored.texts("ingest", "review") or list(campaign.review(test.id).sentences),
         "photos": photos,
@@ -207,10 +207,7 @@ def facts_of(one: OfTest) -> list[Fact]:
         ("from", chosen.name if chosen else ""),
         ("assumptions", chosen.assumptions if chosen else ""),
         ("method", stored.text(STAGE, "method")),
-        (
-            "change of e with the speed of impact",
-            f"{format_uncertain(slope, error)} per rad/s" if error > 0 else "",
-        ),
+        ("change of e with the speed of impact", f"{format_uncertain(slope, error)} per rad/s" if error > 0 else ""),
         ("rest angle subtracted", quantity(stored.value(STAGE, "zero_offset"), "mrad", 2)),
     ]
     return known(facts)
