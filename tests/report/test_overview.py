@@ -23,13 +23,14 @@ from colonnade.store.records.stored import as_dataset
 
 @pytest.fixture
 def rows(reported):
-    return [TestRow.of(one) for one in reported.values()]
+    return [TestRow.of(one.campaign, one.test, one.record, one.failures) for one in reported.values()]
 
 
 @pytest.fixture
 def row_of(reported):
     """Make a row: `row_of("a", "rocking", 0.4, linear=("rocking", 0.5))`; other keywords go into its record."""
-    given = TestRow.of(reported["span-2.0"])
+    one = reported["span-2.0"]
+    given = TestRow.of(one.campaign, one.test, one.record)
 
     def make(name, outcome, peak=None, **more):
         predicted = {

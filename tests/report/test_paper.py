@@ -194,7 +194,7 @@ def test_the_cover_says_who_where_when_and_by_which_campaign_file(campaign, fold
         ("tested", "2013-04-26 to 2013-04-29"),
         ("operators", "M. Rossi, K. #Papas"),
     ]
-    assert data["cover"] == {"tag": "img", "src": "photos-free-02-1.jpg", "alt": "it lies", "in": []}
+    assert data["cover"] == "photos-free-02-1.jpg"
 
 
 def test_no_picture_is_taken_from_outside_the_report(campaign, folder, tmp_path):
@@ -222,7 +222,7 @@ def test_without_a_photo_the_cover_has_the_first_drawing_of_a_setup(campaign, fo
     drawn = '<section id="setups"><figure><img src="../setups/prism+frame.svg" alt="drawn"></figure></section>'
     (folder / "specimens" / "prism.html").write_text(f"<main>{drawn}</main>", encoding="utf-8")
     cover = document_of(campaign, folder).data["cover"]
-    assert cover == {"tag": "img", "src": "setups-prism+frame.svg", "alt": "drawn", "in": []}
+    assert cover == "setups-prism+frame.svg"
 
 
 TYPESET = """

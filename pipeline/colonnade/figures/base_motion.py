@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -61,7 +61,7 @@ def base_motion(achieved: Curve, target: Curve | None, spectra: BaseSpectra, *, 
     if target is not None:
         draw_curve(history, target, label="target", **TARGET)
     draw_curve(history, achieved, label="achieved", color=MEASURED["color"], linewidth=0.8)
-    largest = largest_of([curve for curve in (achieved, target) if curve is not None]) or 1.0
+    largest = largest_of(curve.values for curve in (achieved, target) if curve is not None) or 1.0
     scale_symmetric(history, largest)
     if uplift < 1.12 * largest:
         draw_limit(history, uplift, "g tan α")
@@ -133,9 +133,8 @@ def base_of(one: OfTest) -> BaseMotion | None:
     reference = _reference(one.campaign, test.motion)
     if reference is None or not acceleration.any():
         return base
-    return BaseMotion(
-        time, acceleration, laid_on(Series(acceleration, base.interval), reference, time_scale=test.time_scale)
-    )
+    laid = laid_on(Series(acceleration, base.interval), reference, time_scale=test.time_scale)
+    return replace(base, target=laid)
 
 
 def base_picture(one: OfTest, base: BaseMotion | None) -> Picture | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +14,7 @@ from colonnade.arrays import Array
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.figures.files.output import Picture
-from colonnade.figures.histories import ANGLE_LABEL, LARGEST_RATIO, scale_symmetric
+from colonnade.figures.histories import ANGLE_LABEL, LARGEST_RATIO, largest_of, scale_symmetric
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.panels.layout import BOTTOM, TOP, add_row, legend_above, note
 from colonnade.figures.stored.subject import OfTest
@@ -70,8 +70,7 @@ def closer_look(phases: Mapping[str, Phase], separatrix: Phase, enlarged: Enlarg
 
 
 def _draw_portrait(axes: Axes, phases: Mapping[str, Phase], separatrix: Phase) -> None:
-    largest = _largest([phase.ratio for phase in phases.values()], LARGEST_RATIO)
-    fastest = _largest([phase.velocity for phase in phases.values()], np.inf)
+    largest = min(largest_of(phase.ratio for phase in phases.values()) or 1.0, LARGEST_RATIO)
     for who, phase in phases.items():
         shown = np.clip(phase.ratio, -2 * largest, 2 * largest)
         axes.plot(shown, phase.velocity, label=name_of(who), **style_of(who, THINNESS))
@@ -80,21 +79,16 @@ def _draw_portrait(axes: Axes, phases: Mapping[str, Phase], separatrix: Phase) -
         axes.plot(separatrix.ratio, sign * separatrix.velocity, label=name, **SEPARATRIX)
     axes.set_xlim(-1.12 * largest, 1.12 * largest)
     axes.xaxis.set_major_locator(MaxNLocator(5))  # the panel is narrow, and its numbers may be long
-    scale_symmetric(axes, fastest)
+    scale_symmetric(axes, largest_of(phase.velocity for phase in phases.values()) or 1.0)
     axes.set(xlabel=ANGLE_LABEL, ylabel="θ′ / (p α)")
 
 
 def _draw_enlarged(axes: Axes, enlarged: Enlarged) -> None:
     for who, curve in enlarged.curves.items():
         axes.plot(*curve, **style_of(who, THINNESS))
-    scale_symmetric(axes, _largest([curve.values for curve in enlarged.curves.values()], LARGEST_RATIO))
+    scale_symmetric(axes, min(largest_of(each.values for each in enlarged.curves.values()) or 1.0, LARGEST_RATIO))
     axes.set(xlabel=enlarged.label, ylabel=ANGLE_LABEL)
     note(axes, enlarged.remark, (0.995, 1.01), xycoords="axes fraction", ha="right", va="bottom", color=SOFT)
-
-
-def _largest(parts: Iterable[Array], most: float) -> float:
-    finite = [np.abs(values[np.isfinite(values)]).max(initial=0.0) for values in parts]
-    return min(float(max(finite, default=0.0)) or 1.0, most)
 
 
 POINTS = 900

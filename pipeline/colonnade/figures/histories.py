@@ -78,7 +78,7 @@ class Panel(NamedTuple):
 def draw_panel(axes: Axes, panel: Panel) -> None:
     """Draw a panel, scaled to its curves."""
     draw_curves(axes, panel.curves)
-    largest = max(largest_of(panel.curves.values()), SMALLEST)
+    largest = max(largest_of(curve.values for curve in panel.curves.values()), SMALLEST)
     scale_symmetric(axes, largest)
     if panel.level is not None and panel.level < 1.12 * largest:
         draw_limit(axes, panel.level, panel.level_name)
@@ -155,7 +155,7 @@ def shade(axes: Axes, spread: Spread, count: int, colour: str, prefix: str = "")
 
 def limit_of(curves: Iterable[Curve]) -> float:
     """Return the half range of a θ/α axis that shows these curves up to, and a little beyond, overturning."""
-    largest = largest_of(curves)
+    largest = largest_of(curve.values for curve in curves)
     return LARGEST_RATIO if largest > 1.0 else min(max(1.12 * largest, SMALLEST_RATIO), LARGEST_RATIO)
 
 
@@ -180,11 +180,9 @@ def draw_limit(axes: Axes, level: float, name: str) -> None:
     note(axes, name, (1.0, level), (3, 0), xycoords=axes.get_yaxis_transform(), va="center", annotation_clip=False)
 
 
-def largest_of(curves: Iterable[Curve]) -> float:
-    """Return the largest finite magnitude, 0 if it has none."""
-    return max(
-        (float(np.abs(curve.values[np.isfinite(curve.values)]).max(initial=0.0)) for curve in curves), default=0.0
-    )
+def largest_of(parts: Iterable[Array]) -> float:
+    """Return the largest finite magnitude, 0 if there is none."""
+    return max((float(np.abs(values[np.isfinite(values)]).max(initial=0.0)) for values in parts), default=0.0)
 
 
 HEIGHT = 1.9

@@ -41,6 +41,7 @@ from colonnade.report.methods import Used
 from colonnade.report.overview import SpanTest, TestRow
 from colonnade.report.pictures import FreeVibration, picture, span_of
 from colonnade.report.test_page import channels, facts, page
+from colonnade.report.test_page.channels import ChannelRow
 from colonnade.store.layout import Layout
 from colonnade.store.records import advice as advising
 from colonnade.store.records import wording
@@ -153,7 +154,7 @@ class Kept(NamedTuple):
     """What of a test is kept, besides what the campaign and its record give."""
 
     failures: tuple[Failure, ...]
-    channels: tuple[channels.Row, ...]
+    channels: tuple[ChannelRow, ...]
     thumbnail: str
     span: tuple[SpanPanel, str] | None
     free_vibration: FreeVibration | None

@@ -38,7 +38,7 @@ def test_estimates_stand_side_by_side_with_their_intervals():
     assert " rigid body 0.9496 " in told
 
 
-@pytest.mark.parametrize(("rigid", "told"), [(0.5, "← rigid body 0.5000"), (0.9999, "rigid body 0.9999 →")])
+@pytest.mark.parametrize(("rigid", "told"), [(0.5, "← rigid body 0.5000 "), (0.9999, " rigid body 0.9999 →")])
 def test_a_rigid_body_value_far_away_does_not_squeeze_the_estimates(rigid, told):
     axes = estimators_side_by_side({"": [EstimateRow("peaks", 0.95, 0.949, 0.951)]}, rigid=rigid).axes[0]
     assert np.ptp(axes.get_xlim()) < 0.01
@@ -85,7 +85,8 @@ def test_the_axis_of_e_shows_the_bars_of_the_surest_impacts_and_not_what_scatter
 
 def test_impacts_without_a_value_are_said():
     series = impacts()._replace(restitution=np.full(20, np.nan))
-    assert impact_restitution([series], level=UNKNOWN, rigid=0.8).axes[0].texts[-1].get_text() == "no impacts"
+    texts = impact_restitution([series], level=UNKNOWN, rigid=0.8).axes[0].texts
+    assert "no impacts" in [text.get_text() for text in texts]
 
 
 def decay(title="free-01", *, count=20, restitution=0.95, used=None):
@@ -172,7 +173,7 @@ PART = slice(100, 500)
 def test_a_fitted_history_shows_measured_fit_and_what_is_left_over():
     fitted = Curve(TIME[PART], MEASURED_ANGLE.values[PART] + 1e-3)
     residual = Curve(TIME[PART], np.full(400, -1e-3))
-    figure = fitted_history(MEASURED_ANGLE, fitted, residual)
+    figure = fitted_history(MEASURED_ANGLE, fitted, residual, 1e-3)
     above, below = figure.axes
     assert named(above) == ["measured", "fitted, nonlinear model"]
     assert above.lines[0].get_color() == MEASURED["color"]

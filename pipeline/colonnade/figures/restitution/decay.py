@@ -27,7 +27,7 @@ from colonnade.figures.panels.layout import (
     plain_decades,
 )
 from colonnade.figures.stored.subject import OfTest
-from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, blank_figure, is_narrow, shortened, styled, width
+from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, SOFT, blank_figure, is_narrow, shortened, styled, width
 from colonnade.identification.restitution.peaks import confidence_band, released_energy
 from colonnade.store.records.stored import Stored
 from colonnade.units.text import PERCENT, interval, number
@@ -321,15 +321,20 @@ def draw_level(axes: Axes, level: EstimateRow) -> None:
     axes.axhline(level.value, label=level.name, **FIT)
 
 
-def draw_rigid(axes: Axes, rigid: float) -> None:
-    """Draw the rigid-body value if the axis reaches it, else write it at the edge."""
-    low, high = axes.get_ylim()
-    if low < rigid < high:
-        axes.axhline(rigid, label="rigid body", **LIMIT)
-        return
-    above = rigid >= high
-    at, side, arrow = ((0.995, 0.97), "top", "↑") if above else ((0.995, 0.03), "bottom", "↓")
-    note(axes, f"rigid body {rigid:.4f} {arrow}", at, xycoords="axes fraction", ha="right", va=side)
+def draw_rigid(axes: Axes, rigid: float, *, is_across: bool = False) -> None:
+    """Draw the rigid-body value if the axis of e reaches it, else write it at the edge that is nearer."""
+    low, high = axes.get_xlim() if is_across else axes.get_ylim()
+    share, told = float(np.clip((rigid - low) / (high - low), 0.0, 1.0)), f" rigid body {rigid:.4f} "
+    if 0 < share < 1:
+        (axes.axvline if is_across else axes.axhline)(rigid, label="rigid body", **LIMIT)
+        if not is_across:  # its name is in the legend: beside the line are points
+            return
+    else:
+        told = f"{'←' if is_across else '↓'}{told}" if share == 0 else f"{told}{'→' if is_across else '↑'}"
+    place = (share, 0.0) if is_across else (0.995, share)
+    side = "left" if is_across and share < 0.5 else "right"
+    height, shift = ("bottom", 3) if is_across or share < 0.5 else ("top", -3)
+    note(axes, told, place, (0, shift), xycoords="axes fraction", ha=side, va=height, color=SOFT)
 
 
 def _limits(series: Sequence[ImpactSeries], level: EstimateRow) -> tuple[float, float]:

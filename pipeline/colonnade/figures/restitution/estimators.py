@@ -14,7 +14,7 @@ from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import draw_angle, largest_of, limit_of, scale_symmetric, time_limits
 from colonnade.figures.panels.curve import Curve, draw_curve
 from colonnade.figures.panels.layout import add_panel, legend_above, legend_outside, note, stacked_panels
-from colonnade.figures.restitution.decay import SMALLEST_RANGE, STAGE, EstimateRow, level_of
+from colonnade.figures.restitution.decay import SMALLEST_RANGE, STAGE, EstimateRow, draw_rigid, level_of
 from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import FAINT, FIT, INK, LIMIT, MEASURED, SOFT, model_style, one_panel, styled, width
 from colonnade.store.records.stored import Stored
@@ -80,7 +80,7 @@ def estimators_side_by_side(groups: Groups, *, rigid: float) -> Figure:
             place += ROW
     if any(np.isfinite(row.value) for row in rows):
         axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
-        _draw_rigid(axes, rigid)
+        draw_rigid(axes, rigid, is_across=True)
     else:
         axes.set_xticks([])
     axes.set_xlabel("coefficient of restitution e")
@@ -129,21 +129,6 @@ def _write(axes: Axes, place: float, text: str, left: float, *, weight: str = "n
     note(axes, text, at, xycoords=axes.get_yaxis_transform(), va="center", fontweight=weight, color=colour)
 
 
-def _draw_rigid(axes: Axes, rigid: float) -> None:
-    """Draw the rigid-body value if the axis reaches it, else write it at its edge."""
-    low, high = axes.get_xlim()
-    told = f"rigid body {rigid:.4f}"
-    if rigid <= low:
-        where, told = 0.0, f"← {told}"
-    elif rigid >= high:
-        where, told = 1.0, f"{told} →"
-    else:
-        where, told = (rigid - low) / (high - low), f" {told} "
-        axes.axvline(rigid, label="rigid body", **LIMIT)
-    side = "left" if where < 0.5 else "right"
-    note(axes, told, (where, 0.0), (0, 3), xycoords="axes fraction", ha=side, va="bottom", color=SOFT)
-
-
 def _limits(rows: Sequence[EstimateRow]) -> tuple[float, float]:
     values = np.array([row.value for row in rows if np.isfinite(row.value)])
     if not values.size:
@@ -176,7 +161,7 @@ def fitted(one: OfTest) -> Picture | None:
     measured = one.measured_ratio(as_recorded=True)
     rms = float(np.sqrt(np.nanmean(residual.values**2))) if np.isfinite(residual.values).any() else np.nan
     return Picture(
-        fitted_history(measured, Curve(time, angle / critical), residual),
+        fitted_history(measured, Curve(time, angle / critical), residual, rms),
         f"fitted-{one.test.id}",
         f"{one.test.id}: measured free vibration and the nonlinear model fitted to it",
         f"From {time[0]:.2f} s to {time[-1]:.2f} s the two differ by {number(rms)} α RMS.",
@@ -184,7 +169,7 @@ def fitted(one: OfTest) -> Picture | None:
 
 
 @styled()
-def fitted_history(measured: Curve | None, fitted: Curve, residual: Curve) -> Figure:
+def fitted_history(measured: Curve | None, fitted: Curve, residual: Curve, rms: float) -> Figure:
     """Draw θ/α measured and fitted by the nonlinear model, and measured minus fitted below, where it was fitted."""
     figure, (above, below) = stacked_panels([ANGLE_HEIGHT, RESIDUAL_HEIGHT])
     shown = [curve for curve in (measured, fitted) if curve is not None]
@@ -193,11 +178,9 @@ def fitted_history(measured: Curve | None, fitted: Curve, residual: Curve) -> Fi
     residual = Curve(residual.time, 1e3 * residual.values)
     draw_curve(below, residual, label="measured − fitted", color=MEASURED["color"], linewidth=0.7)
     below.axhline(0.0, color=FAINT, linewidth=0.7)
-    scale_symmetric(below, max(largest_of([residual]), SMALLEST_RESIDUAL))
+    scale_symmetric(below, max(largest_of([residual.values]), SMALLEST_RESIDUAL))
     below.set_ylabel("measured −\nfitted (10⁻³ α)")
-    if np.isfinite(residual.values).any():
-        root = float(np.sqrt(np.nanmean(residual.values**2)))
-        note(below, f"RMS {root:.2g}·10⁻³ α", (0.995, 0.06), xycoords="axes fraction", ha="right")
+    note(below, f"RMS {1e3 * rms:.2g}·10⁻³ α", (0.995, 0.06), xycoords="axes fraction", ha="right")
     above.set_xlim(*time_limits(shown))
     below.set_xlabel("time (s)")
     legend_above(figure, [above])

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.markers import TICKUP
 
 from colonnade.arrays import Array
 from colonnade.campaign import Test
@@ -120,10 +120,11 @@ def whole_record(
     limit = limit_of(curves.values())
     draw_angle(axes[0], curves, limit, spreads=spreads)
     if impacts is not None and impacts.size:
-        _mark_impacts(axes[0], impacts)
+        foot, at = np.zeros_like(impacts), axes[0].get_xaxis_transform()
+        (ticks,) = axes[0].plot(impacts, foot, color=MEASURED["color"], linestyle="none", marker=TICKUP, transform=at)
+        ticks.set(markersize=5, markeredgewidth=0.6, gid="measured impact")
     if peak is not None and np.isfinite(peak).all() and abs(peak[1]) < limit:
-        colour, name = MEASURED["color"], "largest measured"
-        axes[0].plot(*peak, "o", color=colour, markersize=5, markerfacecolor="none", gid=name)
+        axes[0].plot(*peak, "o", color=MEASURED["color"], markersize=5, markerfacecolor="none", gid="largest measured")
     for one, panel in zip(axes[1:], others, strict=True):
         draw_panel(one, panel)
     first, last = time_limits([*curves.values(), *(curve for panel in others for curve in panel.curves.values())])
@@ -131,18 +132,6 @@ def whole_record(
     axes[-1].set_xlabel("time (s)")
     legend_above(figure, axes[:1])
     return figure
-
-
-def _mark_impacts(axes: Axes, impacts: Array) -> None:
-    gaps = np.full(impacts.size, np.nan)
-    axes.plot(
-        np.column_stack((impacts, impacts, gaps)).ravel(),
-        np.column_stack((np.zeros_like(impacts), np.full_like(impacts, 0.035), gaps)).ravel(),
-        transform=axes.get_xaxis_transform(),
-        color=MEASURED["color"],
-        linewidth=0.6,
-        gid="measured impact",
-    )
 
 
 def bands(one: OfTest) -> Picture | None:
@@ -196,7 +185,7 @@ def spans_side_by_side(panels: Sequence[SpanPanel]) -> Figure:
     models = list(dict.fromkeys(name for panel in panels for name in panel.curves if name != "measured")) or [""]
     curves = [curve for panel in panels for curve in panel.curves.values()]
     bases = [panel.base for panel in panels if panel.base is not None]
-    limit, largest, rows = limit_of(curves), largest_of(bases) or 1.0, len(models)
+    limit, largest, rows = limit_of(curves), largest_of(base.values for base in bases) or 1.0, len(models)
     figure, grid = side_by_side(len(panels), [MODEL_HEIGHT] * rows + [BASE_HEIGHT] * bool(bases))
     for index, (column, panel) in enumerate(zip(grid, panels, strict=True)):
         is_first = is_narrow() or index % COLUMNS == 0

@@ -17,11 +17,11 @@ FLAGS = {2: "not evaluated", 3: "suspect", 4: "failed", 9: "missing"}
 """Meanings of the quality flags but "good"."""
 
 
-Row = dict[str, str | bool]
+ChannelRow = dict[str, str | bool]
 """A channel in words, by the names that the templates use; whether few samples are flagged, and whether it is good."""
 
 
-def of_test(stored: Stored) -> tuple[Row, ...]:
+def of_test(stored: Stored) -> tuple[ChannelRow, ...]:
     """Put every channel of a test into words."""
     to_noise, to_reading = (stored.by("transducer", "rocking", f"residual_to_{what}") for what in ("noise", "reading"))
     return tuple(
@@ -30,7 +30,7 @@ def of_test(stored: Stored) -> tuple[Row, ...]:
     )
 
 
-def _row(name: str, given: Mapping[str, Any], samples: Samples | None) -> Row:
+def _row(name: str, given: Mapping[str, Any], samples: Samples | None) -> ChannelRow:
     kind = str(given.get("quantity", ""))
     unit = CHANNEL_UNITS.get(kind)
 
