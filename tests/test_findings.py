@@ -2,8 +2,6 @@
 
 import itertools
 
-import pytest
-
 from colonnade.findings import (
     MEASUREMENT,
     Finding,
@@ -40,11 +38,6 @@ def test_without_its_cause_a_symptom_stands_by_itself():
     assert in_order([SPIKES, NO_ARC]) == [(NO_ARC, False), (SPIKES, False)]
 
 
-def test_two_findings_that_explain_each_other_are_both_told():
-    first, second = warning("a", "A.", follows=("b",)), warning("b", "B.", follows=("a",))
-    assert [explained for _, explained in in_order([first, second])] == [False, False]
-
-
 def test_a_sentence_that_two_stages_found_is_told_once():
     told = [*at_stage([LOST], "ingest"), *at_stage([LOST], "condition")]
     assert [(each.text, each.stage) for each, _ in in_order(told)] == [("1 gap in time.", "ingest")]
@@ -53,8 +46,3 @@ def test_a_sentence_that_two_stages_found_is_told_once():
 def test_findings_come_back_as_they_were_stored():
     found = at_stage([GAIN, NO_ARC, SPIKES], "condition")
     assert from_text(to_text(found)) == found
-
-
-@pytest.mark.parametrize("text", ["", "[]"])
-def test_no_findings_are_none(text):
-    assert from_text(text) == []

@@ -13,7 +13,6 @@ import pytest
 from matplotlib import pyplot
 
 import colonnade
-from every import every
 
 pytestmark = pytest.mark.whole
 
@@ -216,15 +215,3 @@ def test_every_example_is_tested_and_short():
     assert len(EXAMPLES) == 20
     for path in EXAMPLES.values():
         assert 15 <= len(path.read_text(encoding="utf-8").splitlines()) <= 100
-
-
-@every("name", sorted(set(colonnade.__all__) - {"__version__"}))
-def test_every_public_name_is_in_an_example(name):
-    results = {
-        "AssemblyHistory": "rock", "Ensemble": "ensemble", "Fragility": "fragility", "History": "rock",
-        "IntensityMeasures": "intensity_measures",
-        "OverturningSpectrum": "overturning_spectrum", "Reactions": "reactions", "Restitution": "identify_restitution",
-        "RockingSpectrum": "rocking_spectrum", "StabilityMap": "stability_map",
-    }  # fmt: skip
-    used = f"colonnade.{results.get(name, name)}"
-    assert any(used in path.read_text(encoding="utf-8") for path in EXAMPLES.values())

@@ -5,7 +5,6 @@ import subprocess
 import sys
 import threading
 import time
-from types import SimpleNamespace
 
 import pytest
 
@@ -70,36 +69,6 @@ os.killpg(0, signal.SIGHUP)
 time.sleep(0.2)
 resource_tracker.ensure_running()  # starts a dead one again, with a warning
 """
-
-
-def dropped(kind):
-    """As Python reports an exception that it cannot raise."""
-    return SimpleNamespace(exc_type=kind, exc_value=None, exc_traceback=None, err_msg=None, object=None)
-
-
-def test_an_interrupt_that_python_dropped_is_sent_again(monkeypatch):
-    sent, due = [], []
-    monkeypatch.setattr(interruption, "_send", sent.append)
-    monkeypatch.setattr(
-        interruption.threading, "Timer", lambda _, call: SimpleNamespace(start=lambda: due.append(call))
-    )
-    interruption._noted.append(signal.SIGINT)
-    interruption._dropped(dropped(KeyboardInterrupt))
-    due[0]()
-    assert sent == [signal.SIGINT]
-    interruption.answered()
-    due[0]()
-    assert sent == [signal.SIGINT]
-
-
-@pytest.mark.parametrize("kind", [ValueError, KeyboardInterrupt])
-def test_other_dropped_exceptions_are_shown_as_usual(monkeypatch, kind):
-    shown = []
-    monkeypatch.setattr(sys, "__unraisablehook__", shown.append)
-    if kind is ValueError:
-        interruption._noted.append(signal.SIGINT)
-    interruption._dropped(dropped(kind))
-    assert [each.exc_type for each in shown] == [kind]
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="signals of this kind are POSIX's")

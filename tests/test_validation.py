@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.validation import described, instance, number, samples, sided, text, whole
+from colonnade.validation import described, number, samples
 
 
 @given(st.floats(allow_nan=False), st.floats(allow_nan=False), st.floats(allow_nan=False))
@@ -28,24 +28,6 @@ def test_a_number_is_taken_in_its_closed_or_open_range(value, one, other):
 def test_every_kind_of_number_is_one(value):
     found = number("x", value, "a number")
     assert (found, type(found)) == (2.0, float)
-
-
-def test_the_message_says_what_was_found_with_its_unit_and_what_was_expected():
-    with pytest.raises(ValueError, match=r"^mass is -3\.0 kg; a positive number was expected$"):
-        number("mass", -3.0, "a positive number", above=0.0, unit="kg")
-
-
-def test_one_value_stands_for_both_sides():
-    assert sided("e", 0.9, "e") == (0.9, 0.9)
-    assert sided("e", (0.9, 0.8), "e") == sided("e", np.array([0.9, 0.8]), "e") == (0.9, 0.8)
-    with pytest.raises(ValueError, match=r"shape \(3,\); e, or a pair of them, was expected"):
-        sided("e", [0.9, 0.8, 0.7], "e")
-
-
-def test_a_whole_number_is_not_rounded():
-    assert whole("seed", 3.0, 0, 9) == 3
-    with pytest.raises(ValueError, match=r"seed is 3\.5; a whole number from 0 to 9 was expected"):
-        whole("seed", 3.5, 0, 9)
 
 
 def test_an_array_comes_back_contiguous_and_in_double_precision():
@@ -71,15 +53,6 @@ def test_an_array_comes_back_contiguous_and_in_double_precision():
 def test_what_is_no_such_array_is_told(values, options, message):
     with pytest.raises(ValueError, match=message):
         samples("x", values, **options)
-
-
-def test_an_object_and_a_text_are_of_their_kind():
-    assert instance("x", 3, int) == 3
-    assert text("x", "a", "a name") == "a"
-    with pytest.raises(ValueError, match="x is the text '3'; a int was expected"):
-        instance("x", "3", int)
-    with pytest.raises(ValueError, match="x is 3; a name was expected"):
-        text("x", 3, "a name")
 
 
 @pytest.mark.parametrize(

@@ -82,14 +82,6 @@ def test_the_command_runs(commands, tmp_path):
     assert told.stdout.startswith("colonnade, version ")
 
 
-@pytest.mark.parametrize("data", ["py.typed", "figures/colonnade.mplstyle", "report/templates/overview.html.jinja"])
-def test_package_data_is_there(commands, tmp_path, data):
-    where = run(commands / "python", "-c", "import colonnade; print(colonnade.__file__)", folder=tmp_path)
-    package = Path(where.stdout.strip()).parent
-    assert package.parent.name == "site-packages"
-    assert (package / data).is_file()
-
-
 def test_a_raw_file_becomes_a_page(commands, tmp_path):
     shutil.copytree(EXAMPLE, tmp_path / "example", ignore=shutil.ignore_patterns("processed", "report"))
     done = run(commands / "colonnade", "run", "example", folder=tmp_path)

@@ -46,13 +46,6 @@ def test_without_a_curve_the_isotonic_one_and_the_reason_remain():
     assert found.reaches(0.5) == found.isotonic.reaches(0.5)
 
 
-def test_answers_are_read_from_the_lognormal_curve_if_it_fits():
-    found = Fragility(lognormal(1), Resampling(100), measure="pgv")
-    assert found.taken == "lognormal"
-    assert found.reaches(0.5) == pytest.approx(found.lognormal.median, rel=1e-6)
-    assert found.digest()["median"].endswith("m/s")
-
-
 def split(outcomes):
     return split_beta(outcomes, fit_lognormal(outcomes, Resampling(2)))
 

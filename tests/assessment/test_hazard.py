@@ -46,12 +46,6 @@ def test_a_curve_of_points_near_a_lognormal_one_gives_its_rate():
     assert points == pytest.approx(lognormal_rate(hazard, 0.7, 0.5)[0], rel=1e-3)
 
 
-def test_a_step_takes_the_rate_where_it_is():
-    hazard = hazard_curve([0.1, 1.0], [1e-1, 1e-3])
-    assert isotonic_rate(hazard, np.array([0.5, 2.0]), np.array([1.0, 1.0])) == pytest.approx(1e-1 * 5.0**-2)
-    assert lognormal_rate(hazard, 0.5, 1e-4)[0] == pytest.approx(1e-1 * 5.0**-2, rel=1e-6)
-
-
 @pytest.mark.parametrize(
     ("intensity", "rate", "said"),
     [

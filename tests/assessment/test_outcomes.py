@@ -9,12 +9,6 @@ PEAK = np.array([[0.0, 0.4, 2.0], [0.2, np.nan, 0.9]])
 LEVELS = np.array([1.0, 2.0, 3.0])
 
 
-def test_two_axes_are_records_and_levels_with_one_draw_and_one_direction():
-    found = gather(["a", "b"], LEVELS, PEAK)
-    assert found.peak.shape == (2, 3, 1, 1)
-    assert found.overturned[:, :, 0, 0].tolist() == [[False, False, True], [False, False, False]]
-
-
 def test_histories_of_one_level_are_counted_together_and_missing_ones_are_not():
     cells = gather(["a", "b"], LEVELS, PEAK).cells()
     assert cells.histories.tolist() == [[1, 1, 1], [1, 0, 1]]

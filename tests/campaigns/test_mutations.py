@@ -2,8 +2,8 @@
 
 import random
 from collections import Counter
+from pathlib import Path
 
-import numpy as np
 import pytest
 
 from colonnade import campaign as campaigns
@@ -11,39 +11,10 @@ from colonnade.errors import CampaignError, ColonnadeError
 from colonnade.readers.registry import read
 from colonnade.stages.ingest import IngestInputs, ingest
 from damage import KINDS, damaged
-from prism import SPECIMEN, entry
 
 pytestmark = pytest.mark.whole
 
-CAMPAIGN = f"""schema = 1
-campaign = "damaged"
-title = "Damaged"
-
-[specimens]
-{SPECIMEN}
-
-[setups.frame]
-catch = "0.3 rad"
-
-[setups.frame.channels.top]
-column = "LVDT 1"
-quantity = "displacement"
-unit = "V"
-gain = "10.02 mm/V"
-offset = "-0.13 mm"
-range = "10 V"
-on = "specimen"
-at = ["43 mm", "0 mm", "440 mm"]
-direction = [1, 0, 0]
-relative_to = "table"
-
-{entry("free-01", "free-vibration")}"""
-
-
-def _raw_text():
-    time = np.arange(0, 2, 0.01)
-    rows = "".join(f"{t:.2f};{5 * np.exp(-t) * np.sin(9 * t):.4f};{np.cos(t):.4f}\n".replace(".", ",") for t in time)
-    return "Messung 12, Prüfstand\nZeit;LVDT 1;ACC\ns;V;g\n" + rows
+EXAMPLE = Path(__file__).resolve().parents[2] / "raw_schema" / "examples" / "delimited"
 
 
 def _raw_file_outcome(path, campaign):
@@ -67,18 +38,16 @@ def _campaign_file_outcome(path):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_damaged_files_are_read_warned_of_or_refused(kind, tmp_path, capsys):
-    chance = random.Random(kind)
-    sound = tmp_path / "campaign.toml"
-    sound.write_text(CAMPAIGN, encoding="utf-8")
-    campaign = campaigns.load(sound)
+    chance, campaign = random.Random(kind), campaigns.load(EXAMPLE)
+    sound, sound_raw = campaign.path.read_bytes(), campaign.tests["free-01"].files["main"].read_bytes()
     counts = {"raw": Counter(), "campaign": Counter()}
     for number in range(21):
         raw = tmp_path / f"raw-{number}.csv"
-        raw.write_bytes(damaged(_raw_text().encode("latin-1"), kind, chance))
+        raw.write_bytes(damaged(sound_raw, kind, chance))
         counts["raw"][_raw_file_outcome(raw, campaign)] += 1
         (tmp_path / str(number)).mkdir()
         of_it = tmp_path / str(number) / "campaign.toml"
-        of_it.write_bytes(damaged(CAMPAIGN.encode(), kind, chance))
+        of_it.write_bytes(damaged(sound, kind, chance))
         counts["campaign"][_campaign_file_outcome(of_it)] += 1
     with capsys.disabled():
         print(f"\n{kind}: " + "; ".join(f"{what} {dict(sorted(each.items()))}" for what, each in counts.items()))

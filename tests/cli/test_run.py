@@ -6,10 +6,6 @@ import zipfile
 
 import pytest
 
-from colonnade.campaign.forms.summary import Summary
-from colonnade.cli.common.console import show_rows
-from colonnade.cli.run import rows_of_tests
-
 
 def times(folder):
     return {path: path.stat().st_mtime_ns for path in folder.rglob("*") if path.is_file()}
@@ -41,33 +37,6 @@ def test_run_gives_a_line_a_redone_test_then_agreement_and_says_where_the_report
     redone = [stage for stage in third["stages"] if stage["action"] == "done"]
     assert {stage["subject"] for stage in redone} == {"free-02", "prism", "free-01"}
     assert {stage["stage"] for stage in redone if stage["subject"] == "free-01"} <= {"predict", "ensemble", "compare"}
-
-
-def test_a_line_has_what_was_measured_and_each_prediction_with_its_verdict(capsys):
-    models = {
-        "linear": {"outcome": "rocking", "peak_ratio": 0.298, "within_spread": 0.97},
-        "nonlinear": {"outcome": "rocking", "peak_ratio": 0.275, "within_spread": 0.4},
-    }
-    shaken = {"status": "done", "kind": "earthquake", "specimen": "prism", "outcome": "rocking"}
-    free = shaken | {"kind": "free-vibration", "restitution": {"value": 0.976, "low": 0.9756, "high": 0.9764}}
-    tests = {
-        "free-01": free | {"predicted": models},
-        "span-2.5": shaken | {"peak_ratio": 0.281, "predicted": models},
-        "span-3.0": shaken | {"outcome": "overturned", "predicted": models},
-        "later": shaken | {"status": "pending", "outcome": None},
-        "not redone": shaken,
-    }
-    e = {"value": 0.976, "low": 0.9756, "high": 0.9764, "level": 0.95, "source": "identified"}
-    prism = {"critical_angle": 0.1864, "p": 5.631, "pole_distance": 0.232, "inertia": 1.9, "restitution": e}
-    known = {"schema": 1, "campaign": "a", "colonnade": "1", "specimens": {"prism": prism}, "tests": tests}
-    last = {"later": "ingest"} | dict.fromkeys(("span-2.5", "free-01", "span-3.0"), "compare")
-    show_rows(rows_of_tests(Summary.model_validate(known), last))
-    assert capsys.readouterr().out.splitlines() == [
-        "free-01   e 0.9760 ± 0.0004",
-        "span-2.5  rocking 0.281 α     nonlinear 0.275 ✓           linear 0.298 ≠",
-        "span-3.0  overturned          nonlinear rocking 0.275 ≠   linear rocking 0.298 ≠",
-        "later     done up to ingest",
-    ]
 
 
 def test_ingest_stops_after_the_first_stage_and_verbose_lists_stages_and_why(colonnade, campaign):

@@ -86,11 +86,6 @@ def test_every_link_leads_to_a_file_and_a_place_in_it(pages):
     assert dead == []
 
 
-def test_no_page_loads_anything_from_elsewhere(pages):
-    for page in pages:
-        assert 'src="http' not in page.read_text(encoding="utf-8"), page
-
-
 def test_no_page_complains_or_is_wider_than_a_telephone(pages, visit):
     page = visit("docs/index.html", screen=TELEPHONE)
     wider = {}

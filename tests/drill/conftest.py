@@ -13,7 +13,6 @@ from short_campaign import Small, write_campaign
 collect_ignore = [
     "damage.py",
     "deliveries.py",
-    "victim.py",
     "watcher.py",
     "whole_files.py",
 ]

@@ -10,86 +10,56 @@ import subprocess
 import sys
 import time
 from collections import Counter
-from pathlib import Path
 
+import psutil
 import pytest
 
 pytestmark = [
     pytest.mark.drill,
-    pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="processes are looked at in Linux's /proc"),
+    pytest.mark.skipif(os.name == "nt", reason="sessions of processes are POSIX's"),
 ]
 
 KILLS = int(os.environ.get("DRILL_KILLS", "500"))
 SEED = 5
 PATIENCE = 60.0
 """Seconds within which a run that lost a worker has to end."""
-
 ROUND = 50
 """Kills after which the duration of a run is measured anew: this machine may have other work meanwhile."""
-
 KILLED = ("run and workers", "one worker", "run alone")
 SHARES = (3, 1, 1)
+ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
 
 
-class Victims:
-    """Runs in processes of their own, prepared one after the other; see victim.py."""
-
-    def __init__(self, warming, complaints):
-        self.complaints, self.reason = complaints, ""
-        with complaints.open("w", encoding="utf-8") as stderr:
-            self.server = subprocess.Popen(
-                [sys.executable, str(Path(__file__).with_name("victim.py")), str(warming)],
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=stderr,
-                text=True,
-                env={**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1"},
-            )
-
-    def prepare(self, folder, workers=2):
-        """Have a run get ready, while other things are done."""
-        self.say(f"{folder}\t{workers}\n")
-
-    def begin(self):
-        """Start it when it is ready; its process, then those of its workers."""
-        processes = [int(number) for number in self.hear("ready").split()]
-        self.reason = ""
-        self.say("\n")
-        return processes
-
-    def say(self, line):
-        self.server.stdin.write(line)
-        self.server.stdin.flush()
-
-    def hear(self, word):
-        """Wait for a line that starts so; return the rest of it."""
-        for line in self.server.stdout:
-            first, _, rest = line.strip().partition(" ")
-            if first == word:
-                return rest
-            assert (word, first) == ("gone", "ended"), line
-            self.reason = rest
-        raise AssertionError(self.complaints.read_text(encoding="utf-8"))
-
-    def close(self):
-        self.server.stdin.close()
-        self.server.wait(PATIENCE)
-        self.server.stdout.close()
+def started(small, complaints):
+    """Start a run from nothing; it and its two workers, as soon as they are there."""
+    for folder in (small.layout.processed, small.folder / "report"):
+        shutil.rmtree(folder, ignore_errors=True)
+    with complaints.open("w", encoding="utf-8") as stderr:
+        command = [sys.executable, "-m", "colonnade", "run", str(small.folder), "--workers", "2"]
+        run = psutil.Popen(
+            command,
+            stdout=subprocess.DEVNULL,
+            stderr=stderr,
+            env=os.environ | ONE_THREAD,
+            start_new_session=True,
+        )
+    while len(workers := [each for each in run.children() if is_worker(each)]) < 2:
+        assert run.poll() is None, complaints.read_text(encoding="utf-8")
+        time.sleep(0.01)
+    return run, workers
 
 
-@pytest.fixture
-def victims(copied, tmp_path):
-    served = Victims(copied(tmp_path / "warming").folder, tmp_path / "complaints.txt")
-    yield served
-    served.close()
+def is_worker(process):
+    with contextlib.suppress(psutil.Error):
+        return any("popen_loky" in word for word in process.cmdline())
+    return False
 
 
 def is_there(process):
     """Whether a process still runs; one that only waits to be buried does not."""
-    try:
-        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except OSError:
-        return False
+    with contextlib.suppress(psutil.NoSuchProcess):
+        return process.status() != psutil.STATUS_ZOMBIE
+    return False
 
 
 def wait_for_the_end_of(processes):
@@ -117,50 +87,38 @@ def expect_whole(small, expected, expected_pages):
         assert not text.exists() or text.read_text(encoding="utf-8").endswith("}\n")
 
 
-def clear(small):
-    for folder in (small.layout.processed, small.folder / "report"):
-        shutil.rmtree(folder, ignore_errors=True)
-
-
-def undisturbed_duration(small, victims):
-    """Seconds that a run takes that is let alone."""
-    clear(small)
-    victims.prepare(small.folder)
-    victims.begin()
+def undisturbed_duration(small, complaints):
+    """Seconds that a run takes that is let alone, once its workers are there."""
+    run, _ = started(small, complaints)
     began = time.perf_counter()
-    assert victims.hear("gone") == "0"
-    assert victims.reason == ""
+    assert run.wait() == 0
     return time.perf_counter() - began
 
 
-def test_after_each_kill_every_file_is_whole_and_the_next_run_ends_it(undisturbed, copied, victims, tmp_path, capsys):
+def test_after_each_kill_every_file_is_whole_and_the_next_run_ends_it(undisturbed, copied, tmp_path, capsys):
     expected, expected_pages, summary = undisturbed.contents(), pages(undisturbed), undisturbed.summary()
-    chance = random.Random(SEED)
-    small = copied(tmp_path / "small")
+    chance, small, complaints = random.Random(SEED), copied(tmp_path / "small"), tmp_path / "complaints.txt"
     durations = []
     fell = {name: Counter() for name in KILLED}
     for number in range(KILLS):
         if number % ROUND == 0:
-            durations.append(min(undisturbed_duration(small, victims) for _ in range(3)))
-            victims.prepare(small.folder)
+            durations.append(min(undisturbed_duration(small, complaints) for _ in range(3)))
         (tmp_path / "reached").write_text(f"{number} of {KILLS}\n")
-        clear(small)
         killed = chance.choices(KILLED, SHARES)[0]
-        run, *workers = victims.begin()
-        assert len(workers) == 2
+        run, workers = started(small, complaints)
         time.sleep(chance.uniform(0.0, durations[-1]))
         where = (
             "after" if small.layout.report.exists() else "inside" if any(small.layout.tests.glob("*/*")) else "before"
         )
         fell[killed][where] += 1
-        with contextlib.suppress(ProcessLookupError):  # it may have ended by now
+        with contextlib.suppress(ProcessLookupError, psutil.NoSuchProcess):  # it may have ended by now
             if killed == "run and workers":
-                os.killpg(run, signal.SIGKILL)
+                os.killpg(run.pid, signal.SIGKILL)
             else:
-                os.kill(run if killed == "run alone" else chance.choice(workers), signal.SIGKILL)
-        status = int(victims.hear("gone"))
+                (run if killed == "run alone" else chance.choice(workers)).kill()
+        status = run.wait(PATIENCE)
         if killed == "one worker":  # its test is done again, in this run
-            assert (status, victims.reason) == (0, ""), victims.complaints.read_text(encoding="utf-8")
+            assert status == 0, complaints.read_text(encoding="utf-8")
             assert small.contents() == expected, number
         if killed != "run alone":  # there the next run starts while orphans may be about to end
             wait_for_the_end_of(workers)
@@ -171,8 +129,6 @@ def test_after_each_kill_every_file_is_whole_and_the_next_run_ends_it(undisturbe
         assert small.summary() == summary, number
         assert pages(small) == expected_pages, number
         assert not list(small.folder.rglob("*.partial")), number
-        if number + 1 < KILLS and (number + 1) % ROUND:
-            victims.prepare(small.folder)
     with capsys.disabled():
         print(f"\n{KILLS} kills over {min(durations):.2f} to {max(durations):.2f} s of a run on two workers")
         for name, counts in fell.items():

@@ -31,14 +31,6 @@ def channel(**changed):
     return Channel(**given | changed)
 
 
-def test_a_channel_has_its_physical_scale_and_that_of_its_recorder():
-    history = channels_as_recorded([channel()]).axes[0]
-    assert history.get_ylabel() == "mm"
-    right = {text.get_text(): text.xy[1] for text in history.texts}
-    assert "V" in right
-    assert right["−1"] == pytest.approx(6.0)  # 10 mm/V turned: −1 V is −5 × −1 + 1 mm
-
-
 def test_flagged_samples_are_marked_where_they_are_and_missing_ones_at_the_foot():
     values, flags = 10 * np.sin(TIME), np.full(TIME.size, Flag.GOOD)
     values[50:61:10], flags[50], flags[60] = [90.0, np.nan], Flag.FAIL, Flag.MISSING
@@ -46,11 +38,6 @@ def test_flagged_samples_are_marked_where_they_are_and_missing_ones_at_the_foot(
     marked = next(line for line in history.lines if line.get_label() == "failed or missing")
     assert marked.get_xdata().tolist() == [0.5, 0.6]
     assert marked.get_ydata().tolist() == [90.0, pytest.approx(0.0)]
-
-
-def test_a_channel_without_samples_enough_has_no_spectrum():
-    figure = channels_as_recorded([channel(before=None, after=None)])
-    assert [text.get_text() for text in figure.axes[1].texts] == ["no spectrum"]
 
 
 SAMPLED = np.arange(0, 4, 0.005)

@@ -11,7 +11,6 @@ from colonnade.figures.histories import (
     bands_over_time,
     draw_angle,
     limit_of,
-    time_limits,
 )
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.style import MEASURED, model_style
@@ -52,12 +51,6 @@ def test_the_critical_angle_is_marked_where_the_axis_reaches_it():
 )
 def test_the_angle_axis_shows_rocking_and_not_noise_or_the_fall(amplitude, limit):
     assert limit_of([swing(amplitude)]) == pytest.approx(limit, rel=1e-3)
-
-
-def test_curves_without_values_have_limits_too():
-    assert limit_of([]) == SMALLEST_RATIO
-    assert limit_of([Curve(TIME, np.full(TIME.size, np.nan))]) == SMALLEST_RATIO
-    assert time_limits([]) == (0.0, 1.0)
 
 
 LEVELS = np.array([0.05, 0.25, 0.5, 0.75, 0.95])

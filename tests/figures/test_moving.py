@@ -1,6 +1,6 @@
 """The moving block turns about the pole that it rocks about, rides on its base, and ends in bounded time."""
 
-from math import atan2, hypot
+from math import hypot
 
 import numpy as np
 import pytest
@@ -23,14 +23,6 @@ def test_the_pole_stays_and_all_lengths_stay(angle):
     for one in range(4):
         assert hypot(*(turned[one] - turned[fixed])) == pytest.approx(hypot(*(CORNERS[one] - CORNERS[fixed])))
     assert turned[:, 1].min() >= -1e-9 or abs(angle) > 1.4
-
-
-def test_a_positive_angle_moves_the_top_to_plus_x():
-    (turned,) = turn(CORNERS, np.array([0.1]), POLES)
-    assert (turned[2:, 0] > CORNERS[2:, 0]).all()
-    side = turned[2] - turned[1]
-    assert atan2(side[0], side[1]) == pytest.approx(0.1)
-    assert turned[0, 1] > 0  # the other end of the base lifts
 
 
 def movie(duration, base=None):

@@ -1,12 +1,11 @@
 import numpy as np
 import pytest
-from matplotlib.colors import to_hex
 
 from colonnade.figures.histories import Panel
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.panels.layout import PAGE
 from colonnade.figures.stored.record import SpanPanel, spans_side_by_side, whole_record
-from colonnade.figures.style import journal, model_style, styled
+from colonnade.figures.style import journal, styled
 
 TIME = np.linspace(0.0, 10.0, 2001)
 
@@ -98,16 +97,6 @@ def test_all_spans_have_the_same_scales():
     assert angles == [pytest.approx((-0.4032, 0.4032), rel=1e-3)] * 6
     assert bases == [pytest.approx((-3.36, 3.36), rel=1e-3)] * 3
     assert {axes.get_xlim() for axes in figure.axes} == {(0.0, 10.0)}
-
-
-def test_each_model_has_a_row_on_the_measured():
-    figure = spans_side_by_side(panels(1))
-    linear, nonlinear, base = figure.axes
-    assert [to_hex(axes.lines[1].get_color()) for axes in (linear, nonlinear)] == [
-        model_style("linear")["color"],
-        model_style("nonlinear")["color"],
-    ]
-    assert len(base.lines) == 1
 
 
 def test_three_spans_fit_a_column_of_a_page_each_with_its_labels():

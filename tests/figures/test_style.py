@@ -4,7 +4,7 @@ from pathlib import Path
 import matplotlib
 import pytest
 
-from colonnade.figures.style import journal, styled
+from colonnade.figures.style import styled
 
 PROJECT = Path(__file__).resolve().parents[2]
 OUTPUT = {"savefig": "figures/files/output.py", "rcParams": "figures/style.py", "rc_context": "figures/style.py"}
@@ -30,17 +30,3 @@ def test_the_style_holds_while_drawing_and_not_after():
             assert matplotlib.rcParams["font.size"] == 9
         assert matplotlib.rcParams["font.size"] == 20
     assert matplotlib.rcParams["font.size"] == before
-
-
-def test_a_narrow_figure_has_its_smaller_text_within_the_style_of_a_wide_one():
-    with styled(), journal("single"):
-        with styled():
-            assert matplotlib.rcParams["font.size"] == 7.5
-        assert matplotlib.rcParams["font.size"] == 9
-
-
-def test_the_style_is_applied_again_after_an_error():
-    with pytest.raises(ZeroDivisionError), styled():
-        raise ZeroDivisionError
-    with matplotlib.rc_context({"font.size": 20}), styled():
-        assert matplotlib.rcParams["font.size"] == 9

@@ -114,19 +114,8 @@ def test_each_test_is_counted_once_by_measured_and_predicted_outcome(row_of):
         ("rocking", "overturned"): ("b",),
         ("overturned", "rocking"): ("c", "d"),
     }
-
-
-def test_the_wrong_cells_are_those_with_tests_off_the_diagonal_the_fullest_first(row_of):
-    rows = [row_of(name, "overturned", linear=("rocking", 0.8)) for name in "ab"]
-    rows += [
-        row_of("c", "rocking", 0.2, linear=("overturned", None)),
-        row_of("d", "rocking", 0.2, linear=("rocking", 0.2)),
-    ]
-    (found,) = confusions(rows, BOTH)
-    assert [(cell.measured, cell.predicted, cell.tests) for cell in found.wrong] == [
-        ("overturned", "rocking", ("a", "b")),
-        ("rocking", "overturned", ("c",)),
-    ]
+    wrong = [(cell.measured, cell.predicted, cell.tests) for cell in found.wrong]
+    assert wrong == [("overturned", "rocking", ("c", "d")), ("rocking", "overturned", ("b",))], "the fullest first"
 
 
 def test_what_was_only_seen_to_stand_agrees_with_every_outcome_but_overturning(row_of):
@@ -214,12 +203,6 @@ def test_the_peaks_that_agree_least_come_first_too_large_or_too_small(row_of):
         ("right", "linear"),
     ]
     assert found[0].factor == pytest.approx(0.25)
-
-
-def test_no_more_than_ten_are_named(row_of):
-    rows = [row_of(f"test-{n}", "rocking", 0.1, linear=("rocking", 0.1 + 0.01 * n)) for n in range(20)]
-    found = overview.worst(rows, MODELS)
-    assert [each.row.id for each in found] == [f"test-{n}" for n in range(19, 9, -1)]
 
 
 def test_every_prediction_of_a_test_that_rocked_is_a_point_with_its_band(row_of):

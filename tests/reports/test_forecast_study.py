@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 import forecast_study
-from colonnade.dynamics.block import Block
 from colonnade.identification.calibration import randomised_pit
 from forecast_study import FEWEST_CAMPAIGNS, MAIN, page, score_difference
-from forecast_trial import WRONG, draw_motion, draw_specimen, run_campaign
+from forecast_trial import WRONG, run_campaign
 from study import HERE
 
 
@@ -50,20 +49,6 @@ def test_a_small_study_finds_skill_over_the_base_rate_and_writes_its_page(tmp_pa
     forecast_study.STUDY.write(found, tmp_path)
     assert "12 tests:" in (tmp_path / "forecast-study.md").read_text(encoding="utf-8")
     assert "6 virtual campaigns with 2 tests each" in (tmp_path / "forecast-study.md").read_text(encoding="utf-8")
-
-
-def test_e_is_identified_to_its_own_interval_of_the_truth():
-    specimen = draw_specimen(np.random.default_rng(3))
-    half = (specimen.identified.high - specimen.identified.low) / 2
-    assert abs(specimen.identified.value - specimen.true_restitution) < 2 * half < 0.05
-
-
-@pytest.mark.parametrize("kind", ["sine", "earthquake", "El Centro"])
-def test_motions_have_a_largest_acceleration_of_one_and_begin_at_rest(kind):
-    block = Block.prism(width=0.1, depth=0.1, height=0.6, mass=100.0)
-    motion = draw_motion(kind, block, np.random.default_rng(1))
-    assert motion.peak == pytest.approx(1.0)
-    assert np.abs(motion.acceleration[:90]).max() < 0.01
 
 
 @pytest.mark.slow

@@ -2,7 +2,6 @@
 
 import copy
 import json
-from dataclasses import replace
 from math import pi
 from pathlib import Path
 
@@ -102,28 +101,6 @@ def test_the_campaign_is_the_demo_and_the_levels_that_the_paper_shows():
     plan = campaign.programme(name, record)
     assert [trial.name for trial in plan.trials[: len(demo.trials)]] == [trial.name for trial in demo.trials]
     assert [trial.name for trial in plan.trials[len(demo.trials) :]] == ["sine-3Hz-1.05", "sine-3Hz-1.10"]
-
-
-@pytest.mark.slow
-def test_a_few_tests_are_shaken_run_and_mapped(tmp_path, monkeypatch):
-    """The way of the whole reproduction, with three tests and a map of six points."""
-    whole = campaign.programme
-
-    def few(name, record, *, seed=0):
-        plan = whole(name, record, seed=seed)
-        chosen = ("free-01", "sine-5Hz-1.30", "sine-7Hz-1.40")
-        return replace(plan, trials=tuple(trial for trial in plan.trials if trial.name in chosen))
-
-    monkeypatch.setattr(campaign, "programme", few)
-    for name, value in {"FREQUENCIES": (5.0, 7.0), "MAP_POINTS": 3, "CYCLES": 2}.items():
-        monkeypatch.setattr(campaign, name, value)
-    found = reproduce.read(campaign.perform(tmp_path / "campaign"))
-    assert set(found.charts) == {campaign.ANALYTICAL, campaign.PLANE, campaign.NUMERICAL}
-    assert found.charts[campaign.NUMERICAL].outcome.shape == (2, 3)
-    assert set(found.stored) == {"free-01", "sine-5Hz-1.30", "sine-7Hz-1.40"}
-    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "campaign" / "processed").rglob("*.nc")}
-    campaign.perform(tmp_path / "campaign")
-    assert {path: path.stat().st_mtime_ns for path in before} == before
 
 
 def test_a_slip_is_where_the_paper_differs(kept):

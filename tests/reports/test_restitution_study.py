@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import restitution_study
-from monte_carlo.bound import cramer_rao_error
 from monte_carlo.design import Kind, draw, kinds
 from monte_carlo.new_test import SCATTER, NewTest, drawn
 
@@ -40,22 +39,6 @@ def test_the_truth_obeys_the_equation_of_motion():
     second = (rocking.angle(time + step) - 2 * angle + rocking.angle(time - step)) / step**2
     alpha, p = rocking.critical_angle[0], rocking.p[0]
     np.testing.assert_allclose(second, -(p**2) * np.sin(alpha * np.sign(angle) - angle), rtol=1e-4)
-
-
-def test_a_draw_is_the_same_however_often_it_is_drawn_and_its_errors_have_their_width():
-    kind = Kind("unsure", 0.01, 0.002)
-    (time, angle), (again, same) = draw(kind, 3, 5).record(), draw(kind, 3, 5).record()
-    assert time.tolist() == again.tolist()
-    assert angle.tolist() == same.tolist()
-    errors = np.array([draw(kind, 3, number).errors for number in range(150)])
-    assert errors.std() == pytest.approx(0.01, rel=0.1)
-
-
-def test_the_bound_grows_with_what_is_not_known():
-    known, unsure, scattered = (
-        cramer_rao_error(draw(kind, 2, 4)) for kind in (PLAIN, Kind("", 0.005, 0.0), Kind("", 0.005, 0.005))
-    )
-    assert known < unsure < scattered
 
 
 def test_a_kind_that_holds_e_too_seldom_is_complained_of():

@@ -15,11 +15,6 @@ def test_the_filter_passes_what_is_low_without_delay_and_stops_what_is_high():
     np.testing.assert_allclose(smooth[middle], slow[middle], atol=1e-4)
 
 
-def test_half_of_the_amplitude_is_left_at_the_cut_off():
-    smooth = lowpass(np.sin(2 * np.pi * 30 * TIME), 0.002, 30.0)
-    assert np.abs(smooth[500:-500]).max() == pytest.approx(0.5, abs=0.01)
-
-
 @given(scale=st.floats(-5, 5), seed=st.integers(0, 99))
 def test_the_filter_is_linear_and_keeps_reversal(scale, seed):
     first, second = np.random.default_rng(seed).normal(size=(2, 400))
@@ -35,10 +30,6 @@ def test_the_filter_is_linear_and_keeps_reversal(scale, seed):
 def test_a_cut_off_beyond_half_the_sampling_rate_is_refused(cutoff):
     with pytest.raises(ValueError, match="half the sampling rate"):
         lowpass(TIME, 0.002, cutoff)
-
-
-def test_a_short_record_is_filtered_all_the_same():
-    assert np.isfinite(lowpass(np.arange(5.0), 0.002, 30.0)).all()
 
 
 def test_the_second_derivative_of_a_displacement_is_its_acceleration():

@@ -39,10 +39,6 @@ def test_bad_samples_are_bridged():
     assert np.median(density(spoilt, 1 / RATE, good).amplitude) == pytest.approx(0.3 / np.sqrt(RATE / 2), rel=0.05)
 
 
-def test_a_few_samples_have_no_spectrum():
-    assert density(NOISE[:50], 1 / RATE, ALL[:50]) is None
-
-
 INTERVAL = 1 / 400
 TIME = np.arange(0, 8, INTERVAL)
 HISS = np.random.default_rng(0).normal(0, 0.02, TIME.size)

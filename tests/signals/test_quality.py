@@ -145,21 +145,6 @@ def test_a_spike_in_a_long_record_is_found_wherever_blocks_meet(place):
     assert np.flatnonzero(check_spikes(time, values, threshold=8.0).where).tolist() == [place]
 
 
-def test_the_step_of_a_coarse_converter_is_found_in_a_late_block():
-    """Half of its steps are zero, so that the median says nothing; a change by one step is no spike."""
-    time = np.arange(3 * BLOCK) * 0.001
-    values = np.zeros(time.size)
-    values[2 * BLOCK + 7] = 1.0
-    assert not check_spikes(time, values, threshold=8.0).reason
-    values[BLOCK + 100 : BLOCK + 110] = 0.01
-    assert np.flatnonzero(check_spikes(time, values, threshold=8.0).where).tolist() == [2 * BLOCK + 7]
-
-
-def test_numbers_too_large_to_add_up_are_numbers_nevertheless():
-    values = np.full(TIME.size, 1e308)
-    assert not check_missing(TIME, values).reason
-
-
 TIME_RAILS = np.arange(0, 10, 1 / 400)
 NOISE = 0.01
 GENERATOR_SEED = 2

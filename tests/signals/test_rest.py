@@ -22,10 +22,6 @@ def test_a_moving_start_is_not_rest():
     assert window.start == TIME[0]
 
 
-def test_a_channel_without_values_is_not_at_rest():
-    assert not find_rest(TIME, {"top": (np.full(TIME.size, np.nan), 1.0)}, end=True, duration=0.5).quiet
-
-
 def test_what_a_transducer_drifts_between_two_rests_is_told():
     values = NOISE + 2e-4 * TIME / TIME[-1] + np.where((TIME > 2) & (TIME < 3), 0.01, 0.0)
     assert abs(drift(TIME, values, duration=0.5, noise=1e-5) - 1.8e-4) < 5e-6

@@ -8,8 +8,6 @@ from colonnade.signals.timing import (
     check_steps,
     read_clock,
     resample,
-    sampling_interval,
-    uniform_clock,
 )
 from every import every
 
@@ -108,17 +106,6 @@ def test_a_missing_time_is_no_gap():
     assert _reasons(stamps) == ["", "", ""]
     assert np.isnan(read_clock(np.array([1.0, np.nan, 1.0])).interval)
     assert _reasons(np.empty(0)) == ["", "", ""]
-
-
-def test_the_interval_is_that_of_the_even_steps():
-    time = np.delete(np.round(np.arange(0, 2, 1 / 300), 4), slice(50, 80))
-    assert sampling_interval(time) == pytest.approx(1 / 300, rel=1e-4)
-    assert np.isnan(sampling_interval(np.array([1.0, 1.0])))
-
-
-def test_a_uniform_clock_reaches_its_end_despite_rounding():
-    assert uniform_clock(0.0, 0.3, 0.1).tolist() == pytest.approx([0.0, 0.1, 0.2, 0.3])
-    assert uniform_clock(0.0, -1.0, 0.1).size == 0
 
 
 def test_a_sine_at_400_hz_is_brought_to_500_hz_within_the_stated_error():

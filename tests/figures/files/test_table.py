@@ -14,7 +14,6 @@ from colonnade.figures.files.output import to_csv
 from colonnade.figures.files.table import columns_of
 from colonnade.figures.histories import Panel, Spread
 from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
-from colonnade.figures.restitution.decay import EstimateRow, ImpactSeries, impact_restitution
 from colonnade.figures.stored.record import whole_record
 
 TIME = np.linspace(0.0, 20.0, 20_001)
@@ -143,12 +142,3 @@ def test_a_field_gives_each_cell():
     table = table_of(axes.figure)
     assert list(table) == ["time (s)", "slide (mm)", "share"]
     assert list(zip(*table.values(), strict=True))[4] == (2.0, 20.0, 4.0)
-
-
-def test_single_values_are_rows_with_their_names():
-    level = EstimateRow("e identified", 0.97, 0.96, 0.98)
-    impacts = ImpactSeries("free-01", np.array([1.0, 2.0]), np.array([0.9, 0.95]), np.full(2, 0.01), np.ones(2, bool))
-    table = table_of(impact_restitution([impacts], level=level, rigid=0.955))
-    assert list(table["series"]) == ["e identified", "rigid body", "e identified, interval"]
-    assert table["e of each impact"][:2] == [0.97, 0.955]
-    assert table["e of each impact, high"][2] == pytest.approx(0.98)

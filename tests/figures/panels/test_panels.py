@@ -5,7 +5,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from colonnade.figures.files.output import to_png, to_svg
-from colonnade.figures.panels.curve import Curve, between, draw_band, draw_curve, envelope
+from colonnade.figures.panels.curve import Curve, draw_band, draw_curve, envelope
 from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side, stacked_panels
 from colonnade.figures.style import styled, width
 
@@ -51,22 +51,6 @@ def test_a_gap_stays_a_gap():
     assert np.isfinite(thinned.values[~inside]).sum() > 800
 
 
-def a_band(samples=5001):
-    time = np.linspace(0.0, 10.0, samples)
-    centre = 0.4 * np.sin(4 * time)
-    return time, centre - 0.01 * time, centre + 0.01 * time
-
-
-def test_thinning_keeps_the_extremes_of_a_band():
-    given, lowest, highest = a_band()
-    time, below, above = between(given, lowest, highest, intervals=50)
-    assert time.size <= 51
-    assert (below.min(), above.max()) == (lowest.min(), highest.max())
-    inside = np.arange(given.size) // -(-given.size // 50)
-    assert (below[inside] <= lowest).all()
-    assert (above[inside] >= highest).all()
-
-
 TIME = np.arange(50_000) / 1000
 NOISE = np.random.default_rng(1).normal(size=TIME.size)
 
@@ -102,16 +86,6 @@ def test_a_part_of_a_long_curve_is_drawn_with_its_own_samples():
     axes.plot(TIME[19_980:20_021], values[19_980:20_021])
     axes.set(xlim=(19.99, 20.01), ylim=(-0.05, 1.05))
     assert zoomed == to_png(figure)
-
-
-def test_a_fall_far_beyond_the_axis_lengthens_no_file():
-    sizes = []
-    for height in (1.0, 1e9):
-        figure, axes = panel()
-        draw_curve(axes, Curve(TIME, height * NOISE))
-        axes.set_ylim(-1.0, 1.0)
-        sizes.append(svg_size(figure))
-    assert sizes[1] < 1.5 * sizes[0]
 
 
 def test_a_band_keeps_every_sample_and_breaks_where_nothing_is_known():

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from matplotlib.container import ErrorbarContainer
-from matplotlib.figure import Figure
 from scipy import stats
 
 from colonnade.dynamics.block import Block
@@ -13,7 +12,6 @@ from colonnade.figures.restitution.decay import (
     EstimateRow,
     ImpactSeries,
     PeakSeries,
-    draw_marks,
     impact_restitution,
     peak_decay,
 )
@@ -120,14 +118,6 @@ def test_a_constant_restitution_is_a_straight_line_of_slope_two_ln_e():
     assert axes.get_yscale() == "log"
 
 
-def test_peaks_left_out_are_told_from_peaks_used():
-    axes = peak_decay([decay(used=15)], PRISM).axes[0]
-    drawn = {box.get_label(): box.lines[0] for box in axes.containers}
-    assert drawn["peak used"].get_xdata().size == 15
-    assert drawn["peak left out"].get_xdata().tolist() == [16, 17, 18, 19, 20]
-    assert drawn["peak used"].get_markerfacecolor() != drawn["peak left out"].get_markerfacecolor()
-
-
 def test_tests_side_by_side_have_the_same_scales():
     figure = peak_decay([decay(f"free-{k}", count=10 + 10 * k) for k in range(4)], PRISM)
     assert len({(axes.get_xlim(), axes.get_ylim()) for axes in figure.axes}) == 1
@@ -147,22 +137,6 @@ def test_no_peak_at_all_is_said():
     empty = np.empty(0)
     figure = peak_decay([PeakSeries("free-01", empty, empty, empty, empty.astype(bool))], PRISM)
     assert figure.axes[0].texts[0].get_text() == "no peaks"
-
-
-def test_housners_line_has_its_band_and_peaks_at_the_noise_do_not_stretch_the_scale():
-    block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-    number = np.arange(30)
-    angle = np.asarray(angle_of_energy(0.8 * 0.9 ** (2 * number), block.critical_angle)) * (-1.0) ** number
-    angle[-3:] = [1e-9, -1e-9, 1e-9]
-    used = number < 20
-    band = np.full(30, 0.1)
-    peaks = PeakSeries("free-01", angle, np.full(30, 1e-4), np.where(used, angle, np.nan), used, band)
-    axes = peak_decay([peaks], block).axes[0]
-    line = next(line for line in axes.lines if line.get_label() == "fit").get_ydata()
-    outline = axes.collections[-1].get_paths()[0].vertices[:, 1]
-    assert outline.min() == pytest.approx(line.min() * np.exp(-0.1))
-    assert outline.max() == pytest.approx(line.max() * np.exp(0.1))
-    assert axes.get_ylim()[0] > 1e-4
 
 
 TIME = np.linspace(0, 6, 601)
@@ -195,14 +169,6 @@ def test_the_joint_region_holds_its_share_of_a_normal_distribution():
 
 
 X, Y = np.arange(4.0), np.arange(4.0) + 10.0
-ALL = np.ones(4, dtype=bool)
-LABELS = ("used", "left out")
-
-
-def drawn(bars, shown=ALL, used=ALL):
-    axes = Figure().subplots()
-    draw_marks(axes, X, Y, bars, shown, used, LABELS, mark="s")
-    return [each for each in axes.containers if isinstance(each, ErrorbarContainer)]
 
 
 def ends(container):

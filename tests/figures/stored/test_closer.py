@@ -103,12 +103,6 @@ def test_measured_and_each_model_move(moving):
     assert movie.description == "measured and predicted; base: recorded acceleration integrated twice."
 
 
-def test_what_was_measured_alone_is_said_to_be(moving):
-    movie = moving("span-2.0", without=("predict",))
-    assert named(movie) == ["measured"]
-    assert movie.description.startswith("measured; base: ")
-
-
 def test_without_an_angle_nothing_moves(moving):
     assert moving("later") is None
     assert moving("span-2.0", without=("predict", "rocking")) is None

@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 
 from colonnade.figures.files.table import columns_of
-from colonnade.figures.maps import response_orders
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.restitution import decay, estimators
 from colonnade.figures.stored import record
 from colonnade.figures.stored.subject import MOST
-from colonnade.identification.response.boundaries import MapPoint
 from colonnade.stages.parts.beginning import AT_REST, RECORDED
 from colonnade.store.records.test import driven_by
 
@@ -105,11 +103,6 @@ def test_a_free_vibration_has_every_picture(known):
     assert estimators.region(one).description.startswith("Together: e = 0.93")
 
 
-def test_the_recommended_estimator_is_marked(known):
-    rows = estimators.estimate_rows(known("free-01").stored)
-    assert [row.name for row in rows if row.recommended] == ["whole history"]
-
-
 def test_another_kind_of_test_has_none(known):
     one = known("span-2.0")
     for made in (decay.peak_series, decay.impact_series, estimators.fitted, estimators.region):
@@ -117,28 +110,10 @@ def test_another_kind_of_test_has_none(known):
     assert estimators.estimators("estimators", {}, 0.95) is None
 
 
-def test_sine_tests_are_counted_by_outcome():
-    points = [
-        MapPoint("a", 3.0, 1.2, "rocking"),
-        MapPoint("b", 3.0, 2.0, "overturned"),
-        MapPoint("c", 4.0, 1.4, "rocking"),
-    ]
-    picture = response_orders.tested("map-prism", points)
-    assert picture.identity == "map-prism"
-    assert picture.description == "3 tests: 2 rocking, 1 overturned."
-
-
 def test_misfits_end_where_the_comparison_ends(known):
     one = known("span-3.0")
     for model, misfit in one.misfits().items():
         assert misfit.time[-1] <= one.stored.compared("compared_until", model) < one.measured_ratio().time[-1]
-
-
-def test_what_was_not_measured_is_none(known):
-    one = known("watched")
-    assert one.measured_ratio() is None
-    assert one.motion("slide", "mm") is None
-    assert one.motion("base_acceleration", "m/s²") is not None
 
 
 def test_a_curve_ends_where_it_overturns(known):
