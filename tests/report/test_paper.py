@@ -51,12 +51,6 @@ def test_what_people_wrote_stays_text(taken, written):
     assert "".join(found["in"]).split() == f"begin {written} end".split()
 
 
-def test_elements_keep_their_attributes_and_what_is_in_them(taken):
-    (_, (found,)), _ = taken('<p class="soft">a\n <b>b</b> c<br>d</p>')
-    bold, line = {"tag": "b", "in": ["b"]}, {"tag": "br", "in": []}
-    assert found == {"tag": "p", "class": "soft", "in": ["a ", bold, " c", line, "d"]}
-
-
 def test_the_head_gives_its_lines_but_not_the_way_to_other_pages(taken):
     head = "<nav>x</nav><p class='soft above'>title</p><h1>a</h1><p>Sine test</p><p class='steps'>next</p>"
     (found, _), _ = taken("", head)
@@ -101,7 +95,7 @@ def test_nothing_is_lost_of_a_page_with_a_very_long_text(taken):
     assert after["in"] == ["after"]
 
 
-HOSTILE = '#read("/etc/passwd") $x^2$ @all *bold* <label> \\ _emph_ `raw` // no comment'
+HOSTILE = '#read("/etc/passwd") $x^2$ @all *bold* <label> \\ _emph_ `raw` ] " /* // no comment'
 """A title that Typst would act on if it were markup."""
 
 CAMPAIGN = f"""
@@ -262,17 +256,6 @@ def test_what_people_wrote_is_shown_as_text(campaign, folder):
         paragraphs = [texts_in(each["body"]) for each in json.loads(compiler.query("par"))]
     assert headings[1:5] == ["Summary", "Specimen prism", "Spans", "El Centro"]
     assert paragraphs.count(HOSTILE) == 3, "on the cover and in both tests"
-
-
-@pytest.mark.parametrize(
-    "name", ["]", "#", '"', "\\", "$", "<a>", "@a", "*", "// x", "/* x", '#include "x"', "https://a.b"]
-)
-def test_no_title_breaks_the_document(campaign, folder, name):
-    text = campaign.path.read_text(encoding="utf-8").replace(f"'{HOSTILE}'", json.dumps(name))
-    campaign.path.write_text(text, encoding="utf-8")
-    named = load(campaign.folder)
-    assert document_of(named, folder).data["title"] == name
-    assert pdf_of(named, folder).startswith(b"%PDF-")
 
 
 def test_the_compiler_sees_only_the_files_of_the_document(campaign, folder):

@@ -163,6 +163,8 @@ UNIT_PIECES = st.lists(
 
 
 @given(st.one_of(st.text(max_size=30), UNIT_PIECES.map(lambda pieces: "12" + "".join(pieces))))
+@example("1 9**9**9**9")
+@example("1 " + "m" * 5000)
 def test_any_text_is_a_length_or_a_unit_error(text):
     with contextlib.suppress(UnitError):
         assert isinstance(units.to_si(text, "length"), float)
@@ -232,16 +234,6 @@ def test_powers_are_bounded():
     assert resolve("*".join(["m"] * LARGEST_POWER)).dimension == {"m": LARGEST_POWER}
     with pytest.raises(UnitError):
         resolve("*".join(["m"] * (LARGEST_POWER + 1)))
-
-
-@given(st.one_of(st.text(max_size=30), UNIT_PIECES.map("".join)))
-@example("9**9**9**9")
-@example("m" * 5000)
-def test_any_text_is_a_unit_or_refused(text):
-    try:
-        assert resolve(text).factor > 0
-    except UnitError as error:
-        assert "Unknown unit" in str(error)  # noqa: PT017 - either outcome is right
 
 
 @every("dimension", DIMENSIONS)

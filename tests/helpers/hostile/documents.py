@@ -3,7 +3,7 @@
 import pickle
 
 from hostile.place import TIME, Hostile, Place, Program
-from workbooks import ods, sheet_xml, xlsx
+from workbooks import ods, sheet_xml, xls, xlsx
 
 
 def pickle_as_text(place):
@@ -33,16 +33,7 @@ def _secret(place: Place) -> str:
 
 def workbook_of_97(place):
     """calamine, Excel 97: sound, to be damaged."""
-    import xlwt
-
-    path = place.folder / "r.xls"
-    book = xlwt.Workbook()
-    sheet = book.add_sheet("a")
-    for row, value in enumerate(TIME):
-        sheet.write(row, 0, float(value))
-        sheet.write(row, 1, xlwt.Formula(f"A{row + 1}*2"))
-    book.save(str(path))
-    return Hostile(path)
+    return Hostile(xls(place.folder / "r.xls", [[float(value), float(value) * 2] for value in TIME]))
 
 
 def text_formulas(place):

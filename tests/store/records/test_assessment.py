@@ -73,14 +73,3 @@ def test_a_correction_is_said_with_the_answer_without_it():
 def test_a_failure_gives_its_reason_alone():
     failed = AssessmentSummary(status="failed", reason="no record", specimen="prism", measure="pgv")
     assert sentences(failed) == ["There is no answer: no record"]
-
-
-def test_a_probability_without_an_interval_is_said_alone():
-    rare = {"annual_rate": Estimate(value=5.2e-5), "curve": "lognormal"}
-    for interval, shown in (
-        (Estimate(value=0.0026), "0.26 %."),
-        (Estimate(value=0.0026, low=0.001, high=0.004), "0.26 % (0.1 % to 0.4 %)."),
-    ):
-        assert f"years with a probability of {shown}" in said(
-            AssessmentSummary(**KNOWN, **rare, probability_50_years=interval)
-        )
