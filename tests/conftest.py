@@ -194,6 +194,14 @@ def filled_campaign(made_once):
 
 
 @pytest.fixture(scope="session")
+def reported(filled_campaign):
+    """Each of its tests as its page and its figures see it."""
+    from colonnade.report.pictures import read_of_test
+
+    return {name: read_of_test(*filled_campaign, name) for name in filled_campaign[0].tests}
+
+
+@pytest.fixture(scope="session")
 def empty_campaign(made_once, tmp_path_factory):
     """The same campaign before anything was run."""
     from colonnade.campaign import load

@@ -1,19 +1,11 @@
-"""The small campaign as the report reads it, row by row, and its report."""
+"""The report of the small campaign."""
 
 import shutil
 
 import pytest
 
-from colonnade.report.pictures import read_of_test
 from colonnade.store.layout import Layout
 from read_pages import built
-
-
-@pytest.fixture(scope="session")
-def reported(filled_campaign):
-    """Each test as its page sees it."""
-    campaign, layout = filled_campaign
-    return {name: read_of_test(campaign, layout, name) for name in campaign.tests}
 
 
 @pytest.fixture(scope="session")

@@ -86,7 +86,9 @@ def test_a_page_is_known_by_all_of_the_campaign_that_it_shows(started, tmp_path)
 def test_curves_and_peaks_come_back_to_the_last_bit(filled_campaign):
     shaken, free = (part_of(*filled_campaign, test)[1] for test in (SHAKEN, "free-01"))
     for name, curve in span_of(read_of_test(*filled_campaign, SHAKEN)).panel.curves.items():
-        np.testing.assert_array_equal(shaken.span.panel.curves[name].values, curve.values)
+        kept = shaken.span.panel.curves[name]  # thinned to what a picture shows
+        assert np.isin(kept.time, curve.time).all()
+        np.testing.assert_array_equal(kept.values, curve.values[np.searchsorted(curve.time, kept.time)])
     [decay, _] = read_of_specimen(*filled_campaign, "prism").decays
     np.testing.assert_array_equal(free.kept.free_vibration.peaks.angle, decay.peaks.angle)
     assert free.kept.free_vibration.peaks.used.dtype == np.bool_

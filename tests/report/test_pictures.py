@@ -42,13 +42,8 @@ NARROW = [entry for entry in FIGURES if entry.is_narrow and entry.name != "anima
 
 
 @pytest.fixture(scope="module")
-def read(filled_campaign):
-    campaign, layout = filled_campaign
-    return {
-        **{name: pictures.read_of_test(campaign, layout, name) for name in SUBJECTS["test"]},
-        "prism": pictures.read_of_specimen(campaign, layout, "prism"),
-        "": pictures.read_of_campaign(campaign, layout),
-    }
+def read(filled_campaign, reported, prism):
+    return reported | {"prism": prism, "": pictures.read_of_campaign(*filled_campaign)}
 
 
 def test_no_two_figures_of_a_subject_have_one_name():

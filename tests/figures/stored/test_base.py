@@ -22,11 +22,11 @@ def replaced(one, **changes):
 
 
 @pytest.fixture
-def based(known):
+def based(reported):
     """Base motion of a test whose stored samples may be replaced."""
 
     def of(name, acceleration=None, **changes):
-        one = replaced(known(name), **changes)
+        one = replaced(reported[name], **changes)
         if acceleration is not None:
             rocking = one.stored.datasets["rocking", None].copy()
             rocking["base_acceleration"] = ("elapsed", acceleration(rocking["base_acceleration"].to_numpy().copy()))
@@ -37,9 +37,9 @@ def based(known):
     return of
 
 
-def test_what_was_recorded_is_given_with_its_interval(based, known):
+def test_what_was_recorded_is_given_with_its_interval(based, reported):
     found = based("span-2.0")
-    np.testing.assert_array_equal(found.acceleration, known("span-2.0").stored.array("rocking", "base_acceleration"))
+    np.testing.assert_array_equal(found.acceleration, reported["span-2.0"].stored.array("rocking", "base_acceleration"))
     assert found.interval == pytest.approx(found.time[1] - found.time[0], rel=1e-9)
     assert found.target is None
 
@@ -55,12 +55,12 @@ def test_a_hole_in_it_a_standing_table_and_a_test_that_was_not_run_have_none(bas
     assert based("later") is None
 
 
-def test_a_target_half_as_strong_has_half_the_spectrum(known):
+def test_a_target_half_as_strong_has_half_the_spectrum(reported):
     half = Laid(SHAKING / 2, 1.0, 1.0, 1.0)
-    drawn = base_picture(known("span-2.0"), BaseMotion(TIME, SHAKING, half))
+    drawn = base_picture(reported["span-2.0"], BaseMotion(TIME, SHAKING, half))
     assert "Achieved over target 2 to 2." in drawn.description
     assert len(drawn.figure.axes) == 3
-    alone = base_picture(known("span-2.0"), ALONE)
+    alone = base_picture(reported["span-2.0"], ALONE)
     assert "target" not in alone.description
     assert alone.description.startswith("Largest achieved response")
     assert columns_of(alone.figure)
@@ -74,13 +74,13 @@ def test_no_period_is_shorter_than_eight_samples_or_longer_than_a_quarter_of_the
 
 
 @pytest.mark.parametrize("kind", base_motion.WITHOUT_SPECTRUM)
-def test_kinds_whose_spectrum_is_nothing_or_one_line_have_no_picture(known, kind):
-    assert base_picture(replaced(known("span-2.0"), kind=kind), ALONE) is None
+def test_kinds_whose_spectrum_is_nothing_or_one_line_have_no_picture(reported, kind):
+    assert base_picture(replaced(reported["span-2.0"], kind=kind), ALONE) is None
 
 
-def test_a_table_that_stood_has_no_picture(known):
-    assert base_picture(known("span-2.0"), None) is None
-    assert base_picture(known("span-2.0"), BaseMotion(TIME, np.zeros_like(TIME), None)) is None
+def test_a_table_that_stood_has_no_picture(reported):
+    assert base_picture(reported["span-2.0"], None) is None
+    assert base_picture(reported["span-2.0"], BaseMotion(TIME, np.zeros_like(TIME), None)) is None
 
 
 ACHIEVED, PERIOD = Curve(TIME, SHAKING), np.geomspace(0.02, 2, 30)

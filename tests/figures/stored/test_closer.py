@@ -60,11 +60,11 @@ def test_a_steady_sine_is_drawn_over_the_phase_of_the_base():
     assert velocity == pytest.approx(0.05 * np.pi * 2.0 / (PRISM.p * PRISM.critical_angle), rel=1e-2)
 
 
-def test_an_earthquake_is_enlarged_about_its_largest_angle(known):
-    picture = closer.picture(known("span-2.0"))
+def test_an_earthquake_is_enlarged_about_its_largest_angle(reported):
+    picture = closer.picture(reported["span-2.0"])
     axes = picture.figure.axes[1]
     low, high = np.nanmin(axes.lines[0].get_xdata()), np.nanmax(axes.lines[0].get_xdata())
-    assert low < known("span-2.0").record.peak_time < high
+    assert low < reported["span-2.0"].record.peak_time < high
     assert axes.texts[0].get_text() == "about the largest angle"
     assert picture.note == "Right: the rocking angle, about the largest angle."
 
@@ -82,9 +82,9 @@ def test_a_sine_without_a_steady_part_is_not_said_to_have_one():
 
 
 @pytest.fixture
-def moving(known):
+def moving(reported):
     def of(name, *, without=()):
-        one = known(name)
+        one = reported[name]
         kept = {key: data for key, data in one.stored.datasets.items() if key[0] not in without}
         return animation(replace(one, stored=replace(one.stored, datasets=kept)))
 
@@ -108,8 +108,8 @@ def test_without_an_angle_nothing_moves(moving):
     assert moving("span-2.0", without=("predict", "rocking")) is None
 
 
-def test_it_shows_what_the_page_shows_the_zero_taken_off_on_a_base_that_moves(known):
-    one = known("span-2.0")
+def test_it_shows_what_the_page_shows_the_zero_taken_off_on_a_base_that_moves(reported):
+    one = reported["span-2.0"]
     compared = one.stored.datasets["compare", None].assign(zero_offset=0.02)
     one = replace(one, stored=replace(one.stored, datasets=one.stored.datasets | {("compare", None): compared}))
     movie = animation(one)

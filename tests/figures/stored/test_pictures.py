@@ -14,17 +14,17 @@ from colonnade.stages.parts.beginning import AT_REST, RECORDED
 from colonnade.store.records.test import driven_by
 
 
-def test_a_test_is_drawn_and_described(known):
-    picture = record.record(known("span-2.0"))
+def test_a_test_is_drawn_and_described(reported):
+    picture = record.record(reported["span-2.0"])
     assert picture.identity == "record-span-2.0"
     assert picture.description.startswith("Measured: rocking, largest |θ|/α 0.19 at 2.536 s. Linear model: rocking")
     assert len(picture.figure.axes) == 4  # angle, misfit, slide, base
 
 
-def test_the_base_of_a_free_vibration_is_drawn_only_if_it_drives(known):
+def test_the_base_of_a_free_vibration_is_drawn_only_if_it_drives(reported):
     # The table of `free-refused` moves; its accelerometer is the wrong way round.
     for name, driving in (("free-01", AT_REST), ("free-refused", RECORDED)):
-        one = known(name)
+        one = reported[name]
         assert one.stored.array("rocking", "base_acceleration").any()
         assert driven_by(one.stored) == driving
         assert not _draws_base(record.record(_driven_by(one, AT_REST)))
@@ -43,8 +43,8 @@ def _driven_by(one, motion):
     return replace(one, stored=replace(one.stored, datasets=datasets))
 
 
-def test_each_model_has_a_panel_of_its_spread(known):
-    picture = record.bands(known("span-3.0"))
+def test_each_model_has_a_panel_of_its_spread(reported):
+    picture = record.bands(reported["span-3.0"])
     assert len(picture.figure.axes) == 2
     assert "of its runs overturn." in picture.description
 
@@ -63,13 +63,13 @@ def test_of_many_spans_some_are_drawn_and_the_caption_says_so():
 STRONG = "sine-3hz-too-strong-for-the-block-1"
 
 
-def test_measured_and_predicted_are_drawn_and_said(known):
-    picture = record.angle(known("span-2.0"))
+def test_measured_and_predicted_are_drawn_and_said(reported):
+    picture = record.angle(reported["span-2.0"])
     assert (picture.identity, picture.title) == ("angle-span-2.0", "span-2.0: rocking angle over time")
     assert picture.description.startswith("Measured: rocking, largest |θ|/α 0.19")
     columns = columns_of(picture.figure)
     assert {"θ / α, measured", "θ / α, linear model", "θ / α, nonlinear model"} <= columns.keys()
-    peak = known("span-2.0").record.peak_ratio
+    peak = reported["span-2.0"].record.peak_ratio
     assert np.nanmax(np.abs(columns["θ / α, measured"])) == pytest.approx(peak, rel=1e-3)
 
 
@@ -78,8 +78,8 @@ def title(picture):
     return axes.get_title(loc="left")
 
 
-def test_an_earthquake_is_named_by_its_motion_and_span_and_a_sine_by_its_ratios(known):
-    one = known("span-2.0")
+def test_an_earthquake_is_named_by_its_motion_and_span_and_a_sine_by_its_ratios(reported):
+    one = reported["span-2.0"]
     assert title(record.angle(one)) == f"prism, {one.test.motion}, Span 2.0"
     nameless = replace(one, test=one.test.model_copy(update={"motion": None}))
     assert title(record.angle(nameless)) == "prism, earthquake, Span 2.0"
@@ -87,12 +87,12 @@ def test_an_earthquake_is_named_by_its_motion_and_span_and_a_sine_by_its_ratios(
     assert title(record.angle(sine)) == "prism, Ω = 3.46, A = 2.00"
 
 
-def test_without_an_angle_there_is_nothing_to_draw(known):
-    assert record.angle(known("later")) is None
+def test_without_an_angle_there_is_nothing_to_draw(reported):
+    assert record.angle(reported["later"]) is None
 
 
-def test_a_free_vibration_has_every_picture(known):
-    one = known("free-01")
+def test_a_free_vibration_has_every_picture(reported):
+    one = reported["free-01"]
     level = decay.level_of(one.stored, "restitution", "e identified")
     assert level.low < level.value < level.high
     series = decay.peak_series(one)
@@ -103,21 +103,21 @@ def test_a_free_vibration_has_every_picture(known):
     assert estimators.region(one).description.startswith("Together: e = 0.93")
 
 
-def test_another_kind_of_test_has_none(known):
-    one = known("span-2.0")
+def test_another_kind_of_test_has_none(reported):
+    one = reported["span-2.0"]
     for made in (decay.peak_series, decay.impact_series, estimators.fitted, estimators.region):
         assert made(one) is None
     assert estimators.estimators("estimators", {}, 0.95) is None
 
 
-def test_misfits_end_where_the_comparison_ends(known):
-    one = known("span-3.0")
+def test_misfits_end_where_the_comparison_ends(reported):
+    one = reported["span-3.0"]
     for model, misfit in one.misfits().items():
         assert misfit.time[-1] <= one.stored.compared("compared_until", model) < one.measured_ratio().time[-1]
 
 
-def test_a_curve_ends_where_it_overturns(known):
-    one = known(STRONG)
+def test_a_curve_ends_where_it_overturns(reported):
+    one = reported[STRONG]
     curve, fall = one.measured_ratio(), one.stored.value("rocking", "overturning_time")
     last = int(np.flatnonzero(np.isfinite(curve.values))[-1])
     assert (one.record.outcome, one.record.peak_time) == ("overturned", fall)
