@@ -10,37 +10,15 @@ import pytest
 import xarray as xr
 
 from colonnade.errors import StoreError
-from colonnade.findings import note, serious
 from colonnade.store import files
 from colonnade.store.files import own_files
 
 
 def record(values=(0.0, 1.0, np.nan)):
     return xr.Dataset(
-        {
-            "top": ("elapsed", np.array(values), {"channel": "top", "quantity": "displacement", "bridged": True}),
-            "top_quality": ("elapsed", np.array([1, 1, 9])),
-        },
+        {"top": ("elapsed", np.array(values), {"channel": "top", "quantity": "displacement"})},
         coords={"elapsed": np.arange(3) * 0.005},
-        attrs={
-            "warnings": [serious("gain", "top: ten times off", follows=("unit",)), note("spikes", "top: 1 spike")],
-            "outcome": "",
-            "nothing": None,
-        },
     )
-
-
-def test_a_result_comes_back_as_it_went(tmp_path):
-    path = tmp_path / "tests" / "a" / "recorded.nc"
-    content = files.write(record(), path, attributes={"stage": "ingest", "key": "k"}).attrs["content"]
-    stored = files.read(path)
-    np.testing.assert_array_equal(stored["top"], record()["top"])
-    np.testing.assert_array_equal(stored["elapsed"], record()["elapsed"])
-    assert stored.attrs["warnings"] == record().attrs["warnings"]
-    assert (stored.attrs["status"], stored.attrs["outcome"], stored.attrs["key"]) == ("done", "", "k")
-    assert "nothing" not in stored.attrs
-    assert stored["top"].attrs["bridged"] == 1
-    assert files.read_attributes(path)["content"] == content
 
 
 def test_no_number_gets_a_fill_value_whatever_text_is_stored_before_it(tmp_path):

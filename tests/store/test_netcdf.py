@@ -24,21 +24,13 @@ FINDINGS = [
 ]
 
 
-@pytest.mark.parametrize("value", [True, False, np.True_, np.False_])
-def test_a_truth_value_becomes_a_byte_of_the_same_truth(value):
-    stored = storable({"seen": value})["seen"]
-    assert isinstance(stored, np.int8)
-    assert bool(stored) is bool(value)
-
-
-def test_what_is_not_known_is_left_out_and_nothing_else():
-    assert storable({"a": None, "b": 0, "c": "", "d": []}).keys() == {"b", "c", "d"}
-
-
-def test_a_mapping_is_the_same_text_whatever_its_order():
-    one, other = storable({"settings": {"b": 1, "a": {"x": None}}}), storable({"settings": {"a": {"x": None}, "b": 1}})
-    assert one == other
-    assert json.loads(one["settings"]) == {"a": {"x": None}, "b": 1}
+def test_attributes_come_back_but_for_what_is_not_known():
+    held = {"settings": {"b": 1, "a": {"x": None}}, "zero": 0, "empty": "", "none": [], "warnings": FINDINGS}
+    stored = storable(held | {"nothing": None, "yes": True, "no": np.False_})
+    assert "nothing" not in stored
+    assert [stored.pop(name).tolist() for name in ("yes", "no")] == [1, 0]
+    assert stored["settings"] == storable({"settings": {"a": {"x": None}, "b": 1}})["settings"]
+    assert restored(stored) == held | {"settings": json.dumps(held["settings"], sort_keys=True)}
 
 
 @given(st.lists(st.text()))
@@ -46,11 +38,6 @@ def test_a_list_of_text_comes_back(lines):
     stored = storable({"notes": lines, "refused": tuple(lines)})
     assert all(isinstance(value, str) for value in stored.values())
     assert restored(stored) == {"notes": lines, "refused": lines}
-
-
-@pytest.mark.parametrize("findings", [FINDINGS, []], ids=["some", "none"])
-def test_findings_come_back_whole(findings):
-    assert restored(storable({"warnings": findings})) == {"warnings": findings}
 
 
 def test_plain_text_among_findings_becomes_a_warning():
@@ -120,17 +107,22 @@ def record(first=0.0):
             "near": ("elapsed_near", np.arange(10.0), {"channel": "near", "quantity": "displacement"}),
         },
         coords={"elapsed": np.arange(SIZE) * 0.005, "elapsed_near": np.arange(10) * 0.5},
-        attrs={"warnings": [note("missing samples", "top: 1 sample is missing")]},
+        attrs={"warnings": FINDINGS, "outcome": "", "nothing": None},
     )
 
 
-@pytest.mark.usefixtures("long_from_a_thousand_on")
-def test_a_long_result_comes_back_as_it_went(tmp_path):
+@pytest.mark.parametrize("long", [1000, 10_000], ids=["long", "short"])
+def test_a_result_comes_back_as_it_went(tmp_path, monkeypatch, long):
+    monkeypatch.setattr("colonnade.store.provenance.LONG", long)
     path = tmp_path / "tests" / "a" / "recorded.nc"
     content = files.write(record(), path, attributes={"stage": "ingest", "key": "k"}).attrs["content"]
     stored = files.read(path)
     assert stored.attrs["content"] == content
+    assert files.read_attributes(path)["content"] == content
     assert stored.attrs["warnings"] == record().attrs["warnings"]
+    assert (stored.attrs["status"], stored.attrs["outcome"], stored.attrs["key"]) == ("done", "", "k")
+    assert "nothing" not in stored.attrs
+    assert stored["top"].attrs["bridged"] == 1
     for name, variable in record().variables.items():
         np.testing.assert_array_equal(stored[name], variable)
         assert stored[name].dims == variable.dims
