@@ -5,12 +5,14 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.integrate import DOP853, solve_ivp
+from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 
+LIES = 1.5
+"""rad: beyond it a block has overturned."""
 REST_ANGLE = 1e-6
 """Of α: after an impact whose next arc would stay below it, the block rests; part of the model, so the same here."""
 
@@ -37,39 +39,40 @@ def overturns(pull, begin, end, *, critical, restitution, nonlinear):
         else:
             side = math.copysign(1.0, theta if theta else rate)
 
-        def slope(x, state, side=side):
+        def rates(x, state, side=side):
             lean = side * critical - state[0]
             if nonlinear:
-                return [state[1], -math.sin(lean) - pull(x) * math.cos(lean)]
-            return [state[1], -lean - pull(x)]
+                return np.array([state[1], -math.sin(lean) - pull(x) * math.cos(lean)])
+            return np.array([state[1], -lean - pull(x)])
 
-        def lands(x, state, side=side):
-            return side * state[0]
-
-        def lies(x, state, side=side):
-            return side * state[0] - 1.5
-
-        lands.terminal, lands.direction, lies.terminal = True, -1, True
-        # The first step leaves θ = 0, where the event would be seen at once.
-        first = min(1e-3, 0.5 * (end - now))
-        run = solve_ivp(slope, (now, now + first), [theta, rate], method="DOP853", rtol=1e-12, atol=1e-16)
-        if side * run.y[0, -1] <= 0.0:
-            # An arc that is over within the first step: it is put to rest.
-            now, theta, rate = now + first, 0.0, 0.0
-            continue
-        run = solve_ivp(
-            slope, (now + first, end), run.y[:, -1], method="DOP853", rtol=1e-12, atol=1e-16, events=(lands, lies)
-        )
-        if run.t_events[1].size:
+        now, theta, rate, landed = arc(rates, now, end, (theta, rate), side)
+        if side * theta > LIES:
             return True
-        now, theta, rate = run.t[-1], *run.y[:, -1]
-        if run.t_events[0].size:
+        if landed:
             theta, rate = 0.0, restitution * rate
             sine, cosine = (math.sin(critical), math.cos(critical)) if nonlinear else (critical, 1.0)
             holding = sine + math.copysign(1.0, rate) * pull(now) * cosine
             if holding >= 0.0 and 0.5 * rate**2 <= REST_ANGLE * critical * holding:
                 rate = 0.0
     return not _stands(theta, rate, critical, restitution, nonlinear)
+
+
+def arc(rates, t, end, state, side):
+    """From t to its landing, to lying or to the end: the time, angle and velocity there, and whether it landed."""
+    solver = DOP853(rates, t, np.array(state), end, rtol=2.3e-14, atol=1e-17)
+    while solver.status == "running" and side * solver.y[0] <= LIES:
+        solver.step()
+        dense = solver.dense_output()
+        looks = np.linspace(solver.t_old, solver.t, 10)
+        below = side * dense(looks)[0] < 0.0
+        below[0] = False
+        if below.any():
+            last = int(np.argmax(below))
+            landing = solver.t_old
+            if side * dense(looks[last - 1])[0] > 0.0:
+                landing = brentq(lambda x, dense=dense: dense(x)[0], looks[last - 1], looks[last], xtol=1e-17)
+            return landing, 0.0, dense(landing)[1], True
+    return solver.t, *solver.y, False
 
 
 def _uplift(pull, now, end, threshold):
@@ -171,17 +174,4 @@ class Reference:
                 return np.array([y[1], -(p**2) * (lift(x) * lean + pull(x))])
             return np.array([y[1], -(p**2) * (lift(x) * math.sin(lean) + pull(x) * math.cos(lean))])
 
-        solver = DOP853(rates, t, np.array([angle, velocity]), dt, rtol=2.3e-14, atol=1e-17)
-        while solver.status == "running":
-            solver.step()
-            dense = solver.dense_output()
-            looks = np.linspace(solver.t_old, solver.t, 10)
-            below = sign * dense(looks)[0] < 0.0
-            below[0] = False
-            if below.any():
-                last = int(np.argmax(below))
-                landing = solver.t_old
-                if sign * dense(looks[last - 1])[0] > 0.0:
-                    landing = brentq(lambda x, dense=dense: dense(x)[0], looks[last - 1], looks[last], xtol=1e-17)
-                return landing, 0.0, dense(landing)[1], True
-        return solver.t, *solver.y, False
+        return arc(rates, t, dt, (angle, velocity), sign)
