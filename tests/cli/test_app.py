@@ -1,7 +1,5 @@
 """The group of all commands, and those that answer in few lines."""
 
-import pytest
-
 from colonnade.cli.app import COMMANDS, app
 
 
