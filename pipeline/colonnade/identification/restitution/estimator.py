@@ -94,21 +94,16 @@ class Estimated:
         return float(self.path.values[ZERO])
 
     @property
-    def landing(self) -> Array:
-        """Angular velocity before each impact between two arcs, rad/s."""
-        return self.path.followed.speeds[:-1]
-
-    @property
     def speeds(self) -> Array:
-        """Speed of each impact from their mean, over their range."""
-        speed = self.landing
+        """Speed of each impact between two arcs from their mean, over their range."""
+        speed = self.path.followed.speeds[:-1]
         return np.asarray((speed - speed.mean()) / max(float(np.ptp(speed)), 1e-300))
 
     @property
     def slope(self) -> tuple[float, float]:
         """Change of e with the speed of impact, s/rad, and its error; NaN where it is not seen."""
-        extent = float(np.ptp(self.landing))
-        if self.landing.size < 3 or not extent > 0:
+        extent = float(np.ptp(self.path.followed.speeds[:-1]))
+        if self.path.count < 4 or not extent > 0:
             return np.nan, np.nan
         change, error = self.trend
         return self.restitution * change / extent, self.restitution * error / extent

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from math import exp, hypot, log
@@ -190,7 +191,8 @@ def _result(
     """Give the value of the history, or if none follows the record that of the peaks."""
     fit, reason = None, "The table moves: it is taken to be at rest."
     if not driven:
-        fit = peaks.fit_peaks(record.peaks, record.block, record.noise, uncertainty)
+        with suppress(np.linalg.LinAlgError):
+            fit = peaks.fit_peaks(record.peaks, record.block, record.noise, uncertainty)
         reason = f"At least {peaks.FEWEST_PEAKS} peaks between two impacts, above the noise, are needed."
     of_history = _estimate("history", ASSUMPTIONS, level, why if found is None else found.answer)
     of_peaks = _estimate("peaks", peaks.ASSUMPTIONS, level, reason if fit is None else fit.solved)
@@ -234,7 +236,7 @@ def _estimate(name: str, assumptions: str, level: float, solved: Solved | str) -
     low, high = (exp(min(solved.quantile(0.5 + sign * level / 2), WIDEST)) for sign in (-1, 1))
     # Of the normal distribution whose interval is as wide.
     error = (high - low) / 2 / float(scipy.special.ndtri((1 + level) / 2))
-    return Estimate(name, level, assumptions, "", exp(float(solved.mean[0])), low, high, error)
+    return Estimate(name, level, assumptions, "", exp(min(float(solved.mean[0]), WIDEST)), low, high, error)
 
 
 def _objection(chosen: Estimate, why: str) -> str:

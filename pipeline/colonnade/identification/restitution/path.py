@@ -168,20 +168,18 @@ class Path:
     @cached_property
     def seen(self) -> Array:
         """Angle as the record shows it, rad; NaN where it is not followed."""
-        angle = self.followed.angle
+        followed, values, angle = self.followed, self.values, self.followed.angle
         if self.passed is not None:
-            angle = angle + self._rounding(self.passed)
-        return np.asarray(exp(self.values[GAIN]) * angle + self.values[ZERO] + self.values[DRIFT] * self.samples.along)
-
-    def _rounding(self, passed: Filter) -> Array:
-        """What the low-pass changes at corners, rad; the last impact has the e of the one before."""
-        followed, e, (critical, p), signs = self.followed, self.restitution, self.sides, self.signs
-        e = np.append(e, e[-1:] if e.size else 1.0)
-        jumps = signs * followed.speeds * (1 - e)
-        # Where the first arc was seen from its start on, it began with an impact too.
-        jumps, ends = np.append(-jumps[0] / e[0], jumps), np.append(self.start, followed.ends)
-        bends = np.append(-signs[0], signs) * float((p**2 * np.sin(critical)).sum())
-        return corners(self.samples.time, ends, jumps, bends, passed.time, passed.of_speed, passed.of_acceleration)
+            (critical, p), signs, passed = self.sides, self.signs, self.passed
+            # The last impact has the e of the one before.
+            e = np.append(self.restitution, self.restitution[-1:] if self.count > 1 else 1.0)
+            jumps = signs * followed.speeds * (1 - e)
+            # Where the first arc was seen from its start on, it began with an impact too.
+            jumps, ends = np.append(-jumps[0] / e[0], jumps), np.append(self.start, followed.ends)
+            bends = np.append(-signs[0], signs) * float((p**2 * np.sin(critical)).sum())
+            rounding = passed.time, passed.of_speed, passed.of_acceleration
+            angle = angle + corners(self.samples.time, ends, jumps, bends, *rounding)
+        return np.asarray(exp(values[GAIN]) * angle + values[ZERO] + values[DRIFT] * self.samples.along)
 
     @cached_property
     def residual(self) -> Array:

@@ -189,7 +189,7 @@ def confidence_band(angle: Array, standard_error: Array, used: Mask, block: Bloc
     fit = fit_peaks(Peaks(nothing, angle, standard_error, nothing, kept), block, 0.0, Uncertainty())
     if fit is None:
         return nothing
-    number = np.arange(angle.size) - np.flatnonzero(kept)[0]
-    at = np.column_stack((2.0 * number, np.ones(angle.size)))
-    variance = ((at @ fit.solved.covariance[:2, :2]) * at).sum(axis=1)
-    return np.asarray(fit.solved.reach(level) * np.sqrt(variance))
+    at = np.column_stack((2.0 * (np.arange(angle.size) - np.flatnonzero(kept)[0]), np.ones(angle.size)))
+    covariance = fit.solved.covariance[:2, :2]
+    half = (fit.solved.quantile(0.5 + level / 2) - fit.solved.quantile(0.5 - level / 2)) / 2
+    return np.asarray(half * np.sqrt(((at @ covariance) * at).sum(axis=1) / covariance[0, 0]))

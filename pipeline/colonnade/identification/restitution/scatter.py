@@ -135,11 +135,6 @@ class Solved:
             + np.einsum("t,ti,tj->ij", self.weights, apart, apart)
         )
 
-    def reach(self, level: float) -> float:
-        """Half-width of the interval of the first of b, over its standard deviation."""
-        half = (self.quantile(0.5 + level / 2) - self.quantile(0.5 - level / 2)) / 2
-        return half / float(np.sqrt(self.covariance[0, 0]))
-
     def quantile(self, share: float) -> float:
         """Value of the first of b below which there is a share of its distribution."""
         kept = self.weights > NEGLIGIBLE
