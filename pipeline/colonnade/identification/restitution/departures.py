@@ -73,13 +73,6 @@ def find_beside(
         yield from find_bouncing(time, measured["uplift"], record)
 
 
-def find_within(found: Estimated, *, driven: bool) -> Iterator[Departure]:
-    """Look for departures in what a history says, of the sides only on a table at rest."""
-    if not driven:
-        yield from unequal_sides(found)
-    yield from found_by_impact(found, driven=driven)
-
-
 def find_rotation(time: Array, out_of_plane: Array, record: Record) -> Iterator[Departure]:
     """Hold a measured rotation out of the plane (rad) against the rocking angle; first arcs with much are left out."""
     finite = np.isfinite(out_of_plane)
@@ -197,21 +190,6 @@ def find_bouncing(time: Array, uplift: Array, record: Record) -> Iterator[Depart
         )  # fmt: skip
 
 
-def unequal_sides(found: Estimated) -> Iterator[Departure]:
-    """Name critical angles of the two sides that differ."""
-    tilt, error = found.tilt
-    critical = float(np.prod([side.critical_angle for side in found.path.block.sides]) ** 0.5)
-    if abs(tilt) < max(SURE * error, LEAST_TILT):
-        return
-    yield Departure(
-        UNEQUAL_SIDES, tilt * critical, error * critical, "rad",
-        f"The critical angles of the two sides differ by 2 × ({1e3 * tilt * critical:+.2f} ± "
-        f"{1e3 * error * critical:.2f}) mrad from those of the block: arcs on one side last longer than on the other "
-        "at the same peak. The table is tilted by as much, or the block is not as symmetric as given (table_tilt, "
-        "critical_angle). e allows for it.",
-    )  # fmt: skip
-
-
 def scatters(found: Estimated) -> bool:
     """Whether e of single impacts scatters more than impacts alone explain, beyond any change with their speed."""
     if found.path.count <= FEWEST_IMPACTS:
@@ -237,8 +215,23 @@ def find_turned(turned: Estimated | None, *others: Estimated | None) -> Iterator
     )  # fmt: skip
 
 
-def found_by_impact(found: Estimated, *, driven: bool) -> Iterator[Departure]:
-    """Name an e of single impacts that scatters more than impacts do, or that changes with their speed."""
+def find_within(found: Estimated, *, driven: bool) -> Iterator[Departure]:
+    """
+    Look for departures in what a history says.
+
+    Named are critical angles of the sides that differ, on a table at rest; an e of single impacts that scatters more
+    than impacts do, or that changes with their speed.
+    """
+    tilt, error = found.tilt
+    if not driven and abs(tilt) >= max(SURE * error, LEAST_TILT):
+        critical = float(np.prod([side.critical_angle for side in found.path.block.sides]) ** 0.5)
+        yield Departure(
+            UNEQUAL_SIDES, tilt * critical, error * critical, "rad",
+            f"The critical angles of the two sides differ by 2 × ({1e3 * tilt * critical:+.2f} ± "
+            f"{1e3 * error * critical:.2f}) mrad from those of the block: arcs on one side last longer than on the "
+            "other at the same peak. The table is tilted by as much, or the block is not as symmetric as given "
+            "(table_tilt, critical_angle). e allows for it.",
+        )  # fmt: skip
     if scatters(found):
         e, scatter = found.path.restitution, found.restitution * found.answer.scatter
         cause = (

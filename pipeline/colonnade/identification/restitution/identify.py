@@ -16,10 +16,11 @@ from numpy.typing import ArrayLike
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.uncertainty import Uncertainty
+from colonnade.identification.response.base_motion import table_moves
 from colonnade.identification.restitution import departures, peaks
 from colonnade.identification.restitution.estimator import ASSUMPTIONS, METHOD, Estimated, estimate
 from colonnade.identification.restitution.path import Path, UnfollowedError, prior_widths
-from colonnade.identification.restitution.record import Record, moving_base, objection, thinned
+from colonnade.identification.restitution.record import Record, objection, thinned
 from colonnade.identification.restitution.result import (
     NO_IMPACTS,
     NO_PEAKS,
@@ -131,14 +132,14 @@ def identify_restitution(
     if np.isfinite(angles).sum() < FEWEST_SAMPLES:
         return _refused(f"The record holds fewer than {FEWEST_SAMPLES} values.", level, NO_PEAKS)
     record = Record.seen(thinned(times, angles, block), block, lowest_amplitude, noise)
-    if reason := objection(record):
+    moves = None
+    if base_acceleration is not None:
+        moves = table_moves(measured["base_acceleration"], record.samples.step, block)
+    base = measured["base_acceleration"] / block.gravity if moves else None
+    if reason := objection(record, base):
         return _refused(reason + _in_other_units(times, angles, block), level, record.peaks)
     follow = partial(_followed, widths=prior_widths(uncertainty), lowpass=lowpass)
     found, why = follow(record)
-    try:
-        base = moving_base(record, measured.get("base_acceleration"))
-    except ValueError as error:
-        return _refused(str(error), level, record.peaks)
     driven, departing = False, list[Departure]()
     if base is not None:
         (recorded, why_not), (turned, _) = (
@@ -157,7 +158,7 @@ def identify_restitution(
             found, why = follow(record)
     if found is not None and not (driven and departing):
         departing += departures.find_within(found, driven=driven)
-    moves = driven if "base_acceleration" in measured else None
+    moves = None if moves is None else driven
     return replace(_result(record, found, why, uncertainty, level, departing, driven=driven), table_moves=moves)
 
 

@@ -10,7 +10,6 @@ import scipy
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
-from colonnade.identification.response.base_motion import table_moves
 from colonnade.identification.restitution.arcs import Arcs, arcs_between, find_impacts, noise_level
 from colonnade.identification.restitution.peaks import energy_slope, half_duration, lift
 from colonnade.identification.restitution.result import Impacts, Peaks
@@ -227,36 +226,15 @@ def _averaged(angle: Array, length: int) -> Array:
     return np.concatenate((angle[:half], windows.mean(axis=1), angle[-half:]))
 
 
-def moving_base(record: Record, values: Array | None) -> Array | None:
+def objection(record: Record, base: Array | None) -> str:
     """
-    Return the acceleration, over gravity, of a table that moves; None if it is at rest.
+    Say why the record is no free rocking of this block from which e could be found; empty if it is.
 
     Parameters
     ----------
     record : Record
-    values : ndarray, shape (n,), or None
-        m/s², at all samples of the recording, if it was recorded.
-
-    Raises
-    ------
-    ValueError
-        If the table moves and samples are missing or not evenly spaced.
-    """
-    if values is None or not table_moves(values, record.samples.step, record.block):
-        return None
-    if missing := int((~np.isfinite(values)).sum()):
-        raise ValueError(
-            f"The table moves, and its acceleration is missing {missing} of {values.size} samples: e cannot be "
-            "identified. Give the test a `window` without them."
-        )
-    if not record.samples.is_even:
-        raise ValueError("The table moves, and the record's steps are uneven; a uniform clock was expected.")
-    return np.asarray(values / record.block.gravity)
-
-
-def objection(record: Record) -> str:
-    """
-    Say why the record is no free rocking of this block from which e could be found; empty if it is.
+    base : ndarray, shape (n,), or None
+        Acceleration of a table that moves, at all samples of the recording.
 
     Notes
     -----
@@ -270,6 +248,13 @@ def objection(record: Record) -> str:
             f"{record.lowest / record.block.critical_angle:.2g} of the critical angle, are needed; the record has "
             f"{seen.start.size}."
         )
+    if base is not None and (missing := int((~np.isfinite(base)).sum())):
+        return (
+            f"The table moves, and its acceleration is missing {missing} of {base.size} samples: e cannot be "
+            "identified. Give the test a `window` without them."
+        )
+    if base is not None and not record.samples.is_even:
+        return "The table moves, and the record's steps are uneven; a uniform clock was expected."
     peak, critical = seen.height, record.block.critical_angle_at(seen.peak_angle)
     p = record.block.p_at(np.sign(seen.peak_angle))
     expected, duration = 2 * half_duration(peak, critical) / p, seen.end - seen.start
