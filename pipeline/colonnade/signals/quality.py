@@ -196,7 +196,7 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
     every = max(1, (values.size - 2) // ENOUGH)
     usual = 1.4826 * float(np.median(_bend(filled[:-2:every], filled[1:-1:every], filled[2::every])))
     # A coarse converter gives mostly zeros: its step is then the least that can be told.
-    typical = max(usual, _smallest_step(filled, usual))
+    typical = max(usual, _smallest_step(filled))
     # A spike bends the line through the two samples before it by more than this; few others do.
     doubtful = _bent(filled, threshold * typical) + 2
     doubtful = doubtful[(doubtful >= 3) & (doubtful < values.size - 4)]
@@ -217,14 +217,10 @@ def _bend(before: Array, sample: Array, behind: Array) -> Array:
     return np.asarray(np.abs((behind - sample) - (sample - before)))
 
 
-def _smallest_step(values: Array, enough: float) -> float:
-    """Smallest change between neighbours, or any that is not larger than `enough`; 0 if it has none."""
-    smallest = np.inf
-    for part in blocks(values.size - 1):
-        steps = np.abs(np.diff(values[part.start : part.stop + 1]))
-        smallest = min(smallest, float(steps[steps > 0].min(initial=np.inf)))
-        if smallest <= enough:
-            break
+def _smallest_step(values: Array) -> float:
+    """Smallest change between neighbours; 0 if it has none."""
+    parts = (np.abs(np.diff(values[part.start : part.stop + 1])) for part in blocks(values.size - 1))
+    smallest = min(float(steps[steps > 0].min(initial=np.inf)) for steps in parts)
     return smallest if np.isfinite(smallest) else 0.0
 
 
@@ -294,7 +290,7 @@ def check_rails(time: Array, values: Array, *, longest: float = np.inf) -> Verdi
         return Verdict.good(values.size)
     filled = filled_in(values)
     noise = 1.4826 * float(np.median(np.abs(np.diff(filled, 2)))) / np.sqrt(6.0)
-    noise = max(noise, 0.3 * _smallest_step(filled, 0.0))
+    noise = max(noise, 0.3 * _smallest_step(filled))
     resting = np.array([filled[:FIRST].mean(), filled[-FIRST:].mean()])
     for signed, rest in ((filled, resting.max()), (-filled, -resting.min())):
         top = float(signed.max())
