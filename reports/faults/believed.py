@@ -74,7 +74,7 @@ SCALES = Group(
             test="sine",
             happens="A transducer was mounted from the other side, so that its rod goes in when the top moves to +x.",
             plant=in_file("sine.csv", times(BOTTOM, -1.0)),
-            message="channel bottom turns opposite to top: the sign of bottom is wrong",
+            message="channel bottom turns opposite to top: with its sign reversed",
             picture=pair(SINE, "With the fault, top and bottom turn against each other."),
             mend="Turn `direction` of the channel in campaign.toml, or correct the tests that have it.",
             mending=channel_line("rig", "bottom", r"direction = \[1, 0, 0\]", "direction = [-1, 0, 0]"),

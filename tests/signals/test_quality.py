@@ -239,6 +239,7 @@ ROCKED = {
     "is lifted and let go": np.concatenate((LIFTED[:900], RELEASED[500:])),
     "is held and let go again": np.concatenate((RELEASED[750:3500], LIFTED[500:900], RELEASED)),
     "stands": np.zeros(TIME.size),
+    "comes to rest before a spike": 0.1 * np.exp(-2 * TIME) * np.cos(9 * TIME) + 0.2 * (np.abs(TIME - 6.0) < 5e-4),
     "was pushed": np.where(TIME > 4.0, 0.01, 0.0),
     "was not seen": np.full(TIME.size, np.nan),
 }

@@ -320,9 +320,11 @@ def check_torn(time: Array, values: Array) -> Verdict:
     filled = filled_in(values)
     steps = np.abs(np.diff(filled))
     jump = int(np.argmax(steps))
-    size, before, after = float(steps[jump]), filled[: jump + 1], filled[jump + 3 :]
+    # Two samples on either side belong to it, as a spike comes back.
+    size, before, after = float(steps[jump]), filled[: max(jump - 1, 1)], filled[jump + 3 :]
     steps[max(jump - 2, 0) : jump + 3] = 0.0
     stands = after.size > 4 * FIRST and np.ptp(after) < AT_REST * size and np.ptp(before) > MOVED * size
+    stands = stands and abs(after[0] - before[-1]) > MOVED * size
     is_gap = time[jump + 1] - time[jump] > FAST * (time[-1] - time[0]) / time.size
     where[jump + 1 :] = stands and size > FAST * steps.max() and not is_gap
     reason = (

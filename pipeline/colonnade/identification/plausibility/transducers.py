@@ -61,9 +61,6 @@ LEAST_RATE = 0.01
 PLAIN_UNITS = {1.0: "m", 1e-2: "cm", 1e-3: "mm", 1e-6: "µm", 0.0254: "inches"}
 """Units by the gain that a channel has which is given none."""
 
-FOLLOWS = 0.9
-"""Correlation with which one transducer turns with another."""
-
 NOISE_FACTOR = 4.0
 """Noise that differs by more than this between two tests comes from another gain, cable or filter."""
 
@@ -165,12 +162,13 @@ class Rotation:
             return None
         before, moved = self.residual, min(float(np.nanstd(each.reading)) for each in self.gauges)
         best: tuple[float, Finding | None] = (np.inf, None)
-        for kind, text, changed in (*_exchanged(self), *_refixed(self), *_coupled(self)):
+        for kind, text, changed in (*_turned(self), *_exchanged(self), *_refixed(self), *_coupled(self)):
             after = changed.residual
             if before < LEAST * moved or before <= BETTER * after or after >= best[0]:
                 continue
             # What agrees by chance, or with a block that walks, does not obey the equation of motion as well.
             proved = kind == "geometry" or all(each.is_known for each in changed.scales)
+            proved &= kind != "sign" or not any(each.base_is_known and each.base < 0 for each in changed.scales)
             if proved and all(as_expected(each.value) for each in changed.scales if each.is_known):
                 fall = f"their residual about one rotation falls from {1e3 * before:.2g} to {1e3 * after:.2g} mm"
                 best = after, serious(kind, f"{text}, {fall}")
@@ -212,6 +210,13 @@ class Rotation:
 
 Candidate = tuple[str, str, Rotation]
 """Kind of a mistake, its words, and the rotation without it."""
+
+
+def _turned(rotation: Rotation) -> Iterator[Candidate]:
+    for gauge in rotation.gauges:
+        others = _names(each for each in rotation.gauges if each is not gauge)
+        text = f"channel {gauge.name} turns opposite to {others}: with its sign reversed (`direction` or gain)"
+        yield "sign", text, rotation.with_gauges(replace(gauge, reading=-gauge.reading))
 
 
 def _exchanged(rotation: Rotation) -> Iterator[Candidate]:
@@ -353,31 +358,15 @@ def _dead(seen: Seen) -> Iterator[Finding]:
 
 
 def _signs(known: Seen) -> Iterator[Finding]:
-    """Name transducers that turn against the others, or all of them if they turn against the table."""
-    angles = np.array([each.reading / each.lever for each, _ in known])
-    angles = angles[:, np.isfinite(angles).all(axis=0)]
-    alike = np.atleast_2d(np.corrcoef(angles))[0]
-    turning = [(each, scale, side) for (each, scale), side in zip(known, alike, strict=True) if abs(side) > FOLLOWS]
-    shown = [each for each, scale, _ in turning if scale.base_is_known]
-    against = [each for each, scale, _ in turning if scale.base_is_known and scale.base < 0]
-    groups = [each for each, _, side in turning if side > 0], [each for each, _, side in turning if side < 0]
-    wrong = "(`direction`, or the sign of the gain)"
-    if all(groups):
-        # Wrong are those that turn against the table if that is known, else the fewer.
-        fewer, more = sorted(groups, key=len)
-        sure = bool(shown) or len(fewer) < len(more)
-        if against:
-            fewer, more = against, [each for each, _, _ in turning if each not in against]
-        names, others = _names(fewer), _names(more)
-        which = f"the sign of {names} is wrong" if sure else f"the sign of one of the two is wrong, {names} or {others}"
-        yield serious("sign", f"channel {names} turns opposite to {others}: {which} {wrong}")
-    elif against and against == shown:
-        several, names = len(turning) > 1, _names(groups[0], " and ")
+    """Say that all transducers turn against the table."""
+    shown = [scale.base < 0 for _, scale in known if scale.base_is_known]
+    if shown and all(shown):
+        several, names = len(known) > 1, _names((each for each, _ in known), " and ")
         yield serious(
             "sign",
             f"{f'channels {names} turn' if several else f'channel {names} turns'} opposite to the table's "
             "acceleration: the sign of the table's acceleration is wrong, or that of "
-            f"{'all of them' if several else 'this channel'} {wrong}",
+            f"{'all of them' if several else 'this channel'} (`direction`, or the sign of the gain)",
         )
 
 
