@@ -6,7 +6,7 @@ from html.parser import HTMLParser
 from posixpath import dirname, join, normpath
 
 from colonnade.store.layout import Layout
-from colonnade.workflow.pages import update_report
+from colonnade.workflow.pages import Report
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.summary import write_summary
 
@@ -61,7 +61,8 @@ def built(campaign, layout, outdated=frozenset(), **options):
     """Write the summary and the report, as a run does."""
     catalogue = Catalogue(layout)
     summary = write_summary(campaign, layout, catalogue, outdated=dict.fromkeys(outdated, ""))
-    return update_report(campaign, layout, catalogue, outdated, **{"forecasts": summary.forecasts} | options)
+    options = {"forecasts": summary.forecasts} | options
+    return Report(campaign, layout, catalogue, outdated, **options).bring_up_to_date()
 
 
 def written(layout):

@@ -57,29 +57,22 @@ def test_half_a_file_that_a_killed_runs_worker_left_after_the_next_run_began_is_
     assert not half.exists()
 
 
-def test_two_campaigns_do_not_share_one_folder_of_results(small, tmp_path):
+def run_once(campaign_file, results=None):
+    with only_run(Layout.of(campaign_file, results)):
+        pass
+
+
+def test_two_campaigns_do_not_share_one_folder_of_results_and_a_copy_is_a_campaign_of_its_own(small, tmp_path):
     results, other = tmp_path / "results", shutil.copytree(small.folder, tmp_path / "other")
     of_small, of_other = small.folder / "campaign.toml", other / "campaign.toml"
     for _ in range(2):
         run_once(of_small, results)
+    run_once(of_other)
     with pytest.raises(StoreError, match=r"results of another campaign, .*small.campaign\.toml, are in this folder"):
         run_once(of_other, results)
     with pytest.raises(StoreError, match="results of another campaign"):
         run_once(of_other, small.folder)
     run_once(small.folder.rename(tmp_path / "moved") / "campaign.toml", results)
-
-
-def test_a_copy_of_a_folder_is_a_campaign_of_its_own(small, tmp_path):
-    run_once(small.folder / "campaign.toml")
-    copy = shutil.copytree(small.folder, tmp_path / "copy")
-    run_once(copy / "campaign.toml")
-    with pytest.raises(StoreError, match="results of another campaign"):
-        run_once(copy / "campaign.toml", small.folder)
-
-
-def run_once(campaign_file, results=None):
-    with only_run(Layout.of(campaign_file, results)):
-        pass
 
 
 def test_two_campaign_files_of_one_folder_do_not_share_its_results(small):

@@ -104,13 +104,10 @@ def test_windows_keep_two_tests_of_one_file_apart(first, second, is_told, shared
     assert bool(shared(first, second)) == is_told
 
 
-def test_a_copy_names_both_files_and_the_test_to_look_at(told):
+def test_a_copy_names_both_files_and_the_test_to_look_at_and_of_many_three_are_named(told):
     (text,) = told({"raw/a.csv": "1"}, {"raw/b.csv": "1"})
     assert text.startswith("A raw file holds the same bytes as that of another test: raw/b.csv is a copy of raw/a.csv")
     assert text.endswith("or delete the entries of free-02.")
-
-
-def test_of_many_copies_three_are_named(told):
     (text,) = told({"raw/0.csv": "1"}, {f"raw/{number}.csv": "1" for number in range(1, 6)})
     assert text.startswith("5 raw files hold")
     assert text.count("is a copy of") == 3
@@ -137,13 +134,10 @@ def alter(path):
     path.write_bytes(content)
 
 
-def test_both_parts_are_in_the_provenance(in_two_parts):
+def test_both_parts_are_in_the_provenance_and_altered_values_are_ingested_again(in_two_parts):
     attributes = files.read_attributes(in_two_parts.layout.stage("pulse-01", "ingest"))
     assert list(attributes["raw_files"]) == ["raw/pulse-01.csv", "raw/pulse-01.tdx"]
     assert all(len(digest) == 64 for digest in attributes["raw_sha256"])
-
-
-def test_altered_values_are_ingested_again(in_two_parts):
     redone = partial(in_two_parts.redone, only="pulse-01", until="ingest")
     assert redone() == {}
     alter(values_of(in_two_parts))

@@ -6,7 +6,7 @@ import platform
 import shutil
 import time
 import traceback
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -17,7 +17,7 @@ from colonnade.findings import Finding, Severity, at_stage, in_order
 from colonnade.interruption import expect_none
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.store.provenance import Origin, Recipe, global_attributes
+from colonnade.store.provenance import Origin, global_attributes
 from colonnade.store.results import RUN_STAGES, STAGES, ResultId, Subject
 from colonnade.workflow.executors import WorkersEndedError, in_blocks
 from colonnade.workflow.lock import expect_run
@@ -165,11 +165,11 @@ class Chain:
         """Id of the test or specimen."""
         return self.products[0].result.subject
 
-    def why(self, product: Product, look: Look, recipe: Recipe | None = None) -> str:
+    def why(self, product: Product, look: Look) -> str:
         """Say why a result has to be made; empty if it does not."""
         if self.start_from is not None and product.result.order >= RUN_STAGES.index(self.start_from):
             return "asked for"
-        return (recipe or product.recipe(look)).why(look(product.paths[0]))
+        return product.recipe(look).why(look(product.paths[0]))
 
     def standing(self, look: Look) -> tuple[list[StageRun], Product | None, str]:
         """Give what became of its results so far; and the first that has to be made, if any has to, and why."""
@@ -192,10 +192,19 @@ def bring_up_to_date(chain: Chain) -> list[StageRun]:
     RunEndedError
         If the run that it belongs to has ended.
     """
-    with files.only_while(partial(expect_run, chain.layout, chain.run_id)):
-        runs = list(_runs(chain))
-        if runs[-1].action != "failed":
-            files.remove(chain.layout.error_log(chain.products[0].result))
+    made: dict[Path, xr.Dataset] = {}
+    runs, expect = list[StageRun](), partial(expect_run, chain.layout, chain.run_id)
+    with files.only_while(expect):
+        for number, product in enumerate(chain.products):
+            expect()
+            runs.append(_run(chain, product, made))
+            if runs[-1].action == "failed":
+                remove_later(chain.layout, product.result)
+                return runs
+            wanted = {path for later in chain.products[number + 1 :] for path in later.upstream.values()}
+            for path in made.keys() - wanted:
+                del made[path]
+        files.remove(chain.layout.error_log(chain.products[0].result))
     return runs
 
 
@@ -229,29 +238,18 @@ def remove_later(layout: Layout, result: ResultId, *, itself: bool = False) -> N
                 files.remove(path)
 
 
-def _runs(chain: Chain) -> Iterator[StageRun]:
-    made: dict[Path, xr.Dataset] = {}
-    for number, product in enumerate(chain.products):
-        expect_run(chain.layout, chain.run_id)
-        run = _run(chain, product, made)
-        yield run
-        if run.action == "failed":
-            remove_later(chain.layout, product.result)
-            return
-        wanted = {path for later in chain.products[number + 1 :] for path in later.upstream.values()}
-        for path in made.keys() - wanted:
-            del made[path]
-
-
 def _run(chain: Chain, product: Product, made: dict[Path, xr.Dataset]) -> StageRun:
     """Bring one result up to date; `made` holds the results of this chain, which are not read again."""
     expect_none()
     result, path = product.result, product.paths[0]
-    stored = stored_attributes(path)
-    recipe = product.recipe(lambda path: made[path].attrs if path in made else stored_attributes(path))
-    because = chain.why(product, lambda path: stored, recipe)
+
+    def look(path: Path) -> Mapping[str, Any]:
+        return made[path].attrs if path in made else stored_attributes(path)
+
+    because = chain.why(product, look)
     if not because:
-        return _unchanged(product, stored)
+        return _unchanged(product, look(path))
+    recipe = product.recipe(look)
     started = time.perf_counter()
     attributes: dict[str, Any] = {**global_attributes(chain.origin, result), **recipe.attributes}
     if result.stage == "ingest":

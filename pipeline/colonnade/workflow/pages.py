@@ -27,75 +27,68 @@ OWN = ("tests/*.html", "specimens/*.html", "data/**/*.js", "scripts/*.js", "setu
 """Files of the report's folders; one that nothing of the campaign leads to any more is removed."""
 
 
-def update_report(
-    campaign: Campaign,
-    layout: Layout,
-    catalogue: Catalogue,
-    outdated: Collection[str] = (),
-    forecasts: ForecastsSummary | None = None,
-    advice: Sequence[Advice] = (),
-    photos: Mapping[str, Photos] | None = None,
-    workers: int | None = 1,
-) -> Path:
-    """
-    Make what of the report is out of date.
-
-    Parameters
-    ----------
-    campaign : Campaign
-    layout : Layout
-    catalogue : Catalogue
-    outdated : collection of str, optional
-        Tests whose stored results are out of date: they are pending, and not shown.
-    forecasts : ForecastsSummary or None, optional
-        As in the summary: the hash of each forecast is in it.
-    advice : sequence of Advice, optional
-        On the next tests.
-    photos : mapping of str to Photos, optional
-        Of each test, as they are in the report.
-    workers : int or None, optional
-        Processes in which pages are drawn; None for one a core.
-
-    Returns
-    -------
-    overview : Path
-        The same results give the same bytes, and an unchanged page is not written again. Pages of what has left the
-        campaign are removed. The state script is written only if it is missing: it may be that of a watch in progress.
-
-    Raises
-    ------
-    StoreError
-        If a page cannot be written.
-    """
-    report = _Report(campaign, layout, catalogue, outdated, advice, photos or {})
-    if not layout.state.is_file():
-        files.write_text(layout.state, UNWATCHED)
-    there: set[Path] = set()
-    # The overview is written last: its change tells open pages that all are there.
-    for asked in (chain(report.drawings(), report.tests()), report.specimens(), report.whole(forecasts)):
-        products = list(asked)
-        report.made |= brought_up_to_date(products, catalogue, workers=workers)
-        there |= {path for product in products for path in product.paths}
-    for stale in {path for pattern in OWN for path in layout.report.parent.glob(pattern)} - there:
-        files.remove(stale)
-    return layout.report
-
-
 Drawn = tuple[Asked, str]
 """A test whose page was asked for, and what was kept of it: its part of other pages is read from that."""
 
 
 @dataclass
-class _Report:
-    """The products of a report; those that are up to date are in `made`, by their ids."""
+class Report:
+    """
+    The report of a campaign, as products.
+
+    Attributes
+    ----------
+    campaign : Campaign
+    layout : Layout
+    catalogue : Catalogue
+    outdated : collection of str
+        Tests whose stored results are out of date: they are pending, and not shown.
+    forecasts : ForecastsSummary or None
+        As in the summary: the hash of each forecast is in it.
+    advice : sequence of Advice
+        On the next tests.
+    photos : mapping of str to Photos
+        Of each test, as they are in the report.
+    workers : int or None
+        Processes in which pages are drawn; None for one a core.
+    """
 
     campaign: Campaign
     layout: Layout
     catalogue: Catalogue
-    outdated: Collection[str]
-    advice: Sequence[Advice]
-    photos: Mapping[str, Photos]
-    made: dict[str, Made] = field(default_factory=dict)
+    outdated: Collection[str] = ()
+    forecasts: ForecastsSummary | None = None
+    advice: Sequence[Advice] = ()
+    photos: Mapping[str, Photos] = field(default_factory=dict)
+    workers: int | None = 1
+    _made: dict[str, Made] = field(default_factory=dict)
+
+    def bring_up_to_date(self) -> Path:
+        """
+        Make what is out of date.
+
+        Returns
+        -------
+        overview : Path
+            The same results give the same bytes, and an unchanged page is not written again. Pages of what has left the
+            campaign are removed. The state script is written only if it is missing: it may be that of a watch.
+
+        Raises
+        ------
+        StoreError
+            If a page cannot be written.
+        """
+        layout, there = self.layout, set[Path]()
+        if not layout.state.is_file():
+            files.write_text(layout.state, UNWATCHED)
+        # The overview is written last: its change tells open pages that all are there.
+        for asked in (chain(self.drawings(), self.tests()), self.specimens(), self.whole()):
+            products = list(asked)
+            self._made |= brought_up_to_date(products, self.catalogue, workers=self.workers)
+            there |= {path for product in products for path in product.paths}
+        for stale in {path for pattern in OWN for path in layout.report.parent.glob(pattern)} - there:
+            files.remove(stale)
+        return layout.report
 
     def drawings(self) -> Iterator[Product]:
         """Each specimen in each of its set-ups."""
@@ -127,8 +120,9 @@ class _Report:
             places, make = [addresses.of_data(page), page], partial(_specimen, campaign, self.layout, name, own)
             yield self._product(f"specimen-page {name}", shows, self._contents(results) | tests, make, places)
 
-    def whole(self, forecasts: ForecastsSummary | None) -> Iterator[Product]:
+    def whole(self) -> Iterator[Product]:
         """The pages of the whole campaign, the overview last of them."""
+        forecasts = self.forecasts
         optional = {addresses.ASSESSMENTS: bool(self.campaign.assessments), addresses.FORECASTS: forecasts is not None}
         places = addresses.of_campaign([page for page, is_there in optional.items() if is_there])
         foreseen = [] if forecasts is None else [forecasts.model_dump_json()]
@@ -158,10 +152,10 @@ class _Report:
 
     @property
     def _keys(self) -> dict[str, str]:
-        return {name: self.made[f"page {name}"].key for name in self.campaign.tests}
+        return {name: self._made[f"page {name}"].key for name in self.campaign.tests}
 
     def _parts(self, tests: Iterable[str]) -> list[Drawn]:
-        return [(self._asked[name], self.made[f"page {name}"].text) for name in tests]
+        return [(self._asked[name], self._made[f"page {name}"].text) for name in tests]
 
 
 def _drawing(campaign: Campaign, specimen: str, setup: str) -> Contents:

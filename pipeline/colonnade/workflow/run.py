@@ -17,7 +17,7 @@ from colonnade.store.results import RUN_STAGES, ResultId
 from colonnade.validation import described, whole
 from colonnade.workflow.chain import RunResult, remove_later
 from colonnade.workflow.executors import Where
-from colonnade.workflow.pages import update_report
+from colonnade.workflow.pages import Report
 from colonnade.workflow.photos import photos_shown
 from colonnade.workflow.pooling import contradictions, expect_known
 from colonnade.workflow.raw_files import RawFiles, copies
@@ -151,8 +151,8 @@ def _reported(walk: Walk, campaign: Campaign, outdated: Mapping[str, str], summa
         from colonnade.workflow.advising.next import advise
 
         advice = advise(campaign, layout, catalogue, workers=walk.where.workers)
-    made = update_report(campaign, layout, catalogue, outdated, summary.forecasts, advice, photos, walk.where.workers)
-    return campaign, made
+    report = Report(campaign, layout, catalogue, outdated, summary.forecasts, advice, photos, walk.where.workers)
+    return campaign, report.bring_up_to_date()
 
 
 def _last_stage(start_from: str | None, until: str | None) -> str:

@@ -75,15 +75,15 @@ class Walk:
 
     def through(self, tests: Sequence[str]) -> None:
         """Bring tests up to date, and the specimens that they need."""
-        self.follow(self._products(name, until="restitution") for name in tests)
-        if self._asks_for("predict"):
-            needed = {self._test(name).specimen for name in tests}
-            free = (name for name in self._free_vibrations(needed) if name not in tests)
-            self.follow(self._products(name, until="restitution") for name in free)
+        needed = {self._test(name).specimen for name in tests} if self._asks_for("predict") else ()
+        measured = dict.fromkeys([*tests, *self._free_vibrations(needed)])
+        self.follow(self._products(name, until="restitution") for name in measured)
         if self._asks_for("restitution"):
             self.pool()
         if self._asks_for("predict"):
-            self.calibrate({self._test(name).specimen for name in tests if self._is_in_space(self._test(name))})
+            models = {name: models_of(self._campaign, self._test(name)) for name in tests}
+            in_space = [name for name in tests if any(MODELS[model].in_space for model in models[name])]
+            self.calibrate({self._test(name).specimen for name in in_space})
             for name in tests:
                 if self._is_blocked("test", name, self._test(name).specimen):
                     remove_later(self.graph.layout, ResultId(name, "restitution"))
@@ -234,10 +234,6 @@ class Walk:
     def _free_vibrations(self, specimens: Collection[str]) -> list[str]:
         tests = {name: self._test(name) for name in self.included}
         return [name for name, test in tests.items() if test.kind == "free-vibration" and test.specimen in specimens]
-
-    def _is_in_space(self, test: Test) -> bool:
-        """Whether a test is predicted by a model that needs a law of contact."""
-        return any(MODELS[model].in_space for model in models_of(self._campaign, test))
 
     def _is_blocked(self, of: Subject, name: str, specimen: str) -> bool:
         """Whether a specimen failed, and a test or an assessment with it: nothing may follow from it."""

@@ -21,31 +21,20 @@ def mark(size):
     return size, size, 1
 
 
-@pytest.fixture
-def knowing():
-    """Arrivals that know one file."""
+@pytest.mark.parametrize(
+    ("looks", "finished"),
+    [
+        ([1, 2, 2], [False, False, True]),
+        ([None, None, 1, 1], [False, True, False, True]),
+        ([None, 1, 1], [False, False, False]),
+    ],
+    ids=["written again", "away and back", "away for a moment"],
+)
+def test_a_file_that_is_known_is_given_again_when_it_has_changed(looks, finished):
     arrivals = Arrivals(settle=1.0)
     arrivals.know({FILE: mark(1)})
-    return arrivals
-
-
-def test_a_file_written_again_is_finished_again(knowing):
-    assert not knowing.look({FILE: mark(1)}, now=5.0)
-    assert not knowing.look({FILE: mark(2)}, now=6.0)
-    assert knowing.look({FILE: mark(2)}, now=7.0) == {FILE}
-
-
-def test_a_file_that_went_away_is_new_when_it_comes_back(knowing):
-    assert knowing.look({}, now=0.0) == set()
-    assert knowing.is_waiting
-    assert knowing.look({}, now=1.0) == {FILE}
-    assert knowing.look({FILE: mark(1)}, now=2.0) == set()
-    assert knowing.look({FILE: mark(1)}, now=3.0) == {FILE}
-
-
-def test_a_file_that_is_away_for_a_moment_is_as_it_was(knowing):
-    looks = [knowing.look(marks, second) for second, marks in enumerate([{}, {FILE: mark(1)}, {FILE: mark(1)}])]
-    assert looks == [set()] * 3
+    given_out = [arrivals.look({FILE: mark(size)} if size else {}, now) for now, size in enumerate(looks)]
+    assert given_out == [{FILE} if is_given else set() for is_given in finished]
 
 
 @given(st.lists(st.tuples(st.floats(0.01, 3.0), st.integers(0, 3)), max_size=40))
@@ -86,15 +75,12 @@ def test_a_sine_says_its_place_on_the_map():
     assert line(**sine).text() == f"{peaks} (2.3 s)"
 
 
-def test_a_free_vibration_says_its_e_and_that_of_all():
+def test_a_free_vibration_says_its_e_and_that_of_all_or_why_there_is_none():
     own = IdentifiedSummary(value=0.9755, low=0.9735, high=0.9775)
     said = line(kind="free-vibration", restitution=own).text()
     assert said.startswith("sine-07: e 0.976 ± 0.002; prism e 0.976 ± 0.002, identified from 2 free vibrations")
     refused = IdentifiedSummary(reason="too few peaks")
     assert "rocking, no e: too few peaks; prism e" in line(kind="free-vibration", restitution=refused).text()
-
-
-def test_a_failure_gives_its_reason():
     failed = line(status="failed", reason="ingest: cut off", outcome=None)
     assert failed.text() == "sine-07: failed: ingest: cut off (2.3 s)"
 
