@@ -1,14 +1,47 @@
 """Products that are no results, on toys: pages with a stamp and kept text are made once, and come back if they go."""
 
 import json
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from colonnade.errors import ReadError
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.store.results import ResultId
 from colonnade.workflow import product as module
 from colonnade.workflow.product import Catalogue, Product, brought_up_to_date, known
+
+ROCKING = Product(ResultId("a", "rocking"), '{"peak": 1}', {"up": "aa", "gone": None}, "c0de", None, (Path("a.nc"),))
+OTHERS = {
+    "code changed": [replace(ROCKING, code="c1de")],
+    "settings changed": [replace(ROCKING, inputs="{}"), replace(ROCKING, inputs="{}", code="c1de")],
+    "upstream changed": [
+        replace(ROCKING, inputs=inputs, upstream=upstream)
+        for inputs in (ROCKING.inputs, "{}")
+        for upstream in ({"up": "bb", "gone": None}, {"up": "aa", "gone": "bb"}, {"other": "aa", "gone": None}, {})
+    ],
+}
+
+
+def why(product, stored):
+    return product.why(lambda path: stored)
+
+
+@pytest.mark.parametrize("because", OTHERS)
+def test_the_first_part_that_changed_of_what_it_reads_its_settings_and_its_code_is_named(because):
+    told = ROCKING.attributes(lambda path: {})
+    assert why(replace(ROCKING, upstream=dict(reversed(ROCKING.upstream.items()))), told) == ""
+    for other in OTHERS[because]:
+        assert why(other, told) == because
+        assert why(replace(other, id=ResultId("a", "ingest")), told) == because.replace("upstream", "raw file")
+    assert len({ROCKING.key, *(other.key for other in OTHERS[because])}) == len(OTHERS[because]) + 1
+
+
+@pytest.mark.parametrize("stored", [{}, {"key": "aa"}, {"key": "aa", "ingredients": "{"}])
+def test_what_says_nothing_of_its_parts_was_never_run(stored):
+    assert why(ROCKING, stored) == "never run"
 
 
 @pytest.fixture

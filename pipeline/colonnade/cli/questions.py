@@ -356,7 +356,7 @@ def map_command(
 
 
 def _show_limits(made: MapMade) -> None:
-    from colonnade.store.provenance import NEVER_RUN
+    from colonnade.workflow.product import NEVER_RUN
 
     measured = count(made.measured, "measured point")
     why = f"computed again, {made.because}" if made.because else "up to date"

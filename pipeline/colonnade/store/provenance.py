@@ -1,5 +1,5 @@
 """
-Where a result comes from, whether its values changed, and whether it is up to date, by what it is made from.
+Where a result comes from, and whether its values changed.
 
 A result keeps that as CF and ACDD attributes and the hash of its values. A page, script, picture or PDF has a stamp: a
 comment behind its end with the key of what it was made from, and a hash of the rest.
@@ -11,7 +11,6 @@ import hashlib
 import json
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -28,75 +27,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from colonnade.campaign import Campaign
-
-NEVER_RUN = "never run"
-
-_CONTENT = 2
-"""Counts up when `content_hash` takes in something else: all results are then recomputed."""
-
-
-@dataclass(frozen=True)
-class Recipe:
-    """
-    All that something is made from: a result, a record of the summary, or a page of the report.
-
-    Attributes
-    ----------
-    stage : str
-        Name of the stage that makes it.
-    code : str
-        Hash of the code of that stage, see `sources.code_hash`.
-    settings : str
-        What it reads of the campaign, as text; of a result as JSON.
-    upstream : mapping of str to str
-        Hash of each result or raw file that it reads; None for a missing one.
-    """
-
-    stage: str
-    code: str
-    settings: str
-    upstream: Mapping[str, str | None]
-
-    @property
-    def key(self) -> str:
-        """Hash that is stored with the result; if it differs, the result is out of date."""
-        return hash_of({"stage": self.stage, "content": _CONTENT, **self._ingredients})
-
-    @property
-    def _ingredients(self) -> dict[str, Any]:
-        return {"code": self.code, "settings": hash_of(self.settings), "upstream": dict(self.upstream)}
-
-    @property
-    def attributes(self) -> dict[str, str]:
-        """What is stored with the result, so that `why` can say what changed since."""
-        ingredients = json.dumps(self._ingredients, sort_keys=True)
-        return {"key": self.key, "ingredients": ingredients, "settings": self.settings}
-
-    def why(self, stored: Mapping[str, Any]) -> str:
-        """
-        Say why a result has to be recomputed.
-
-        Parameters
-        ----------
-        stored : mapping
-            The attributes that are stored with it; empty if it is missing or damaged.
-
-        Returns
-        -------
-        because : str
-            "never run", "raw file changed", "upstream changed", "settings changed" or "code changed"; empty if it is
-            up to date.
-        """
-        if stored.get("key") == self.key:
-            return ""
-        try:
-            before = json.loads(stored.get("ingredients", ""))
-        except ValueError:
-            return NEVER_RUN
-        if before.get("upstream") != self.upstream:
-            return "raw file changed" if self.stage == "ingest" else "upstream changed"
-        return "settings changed" if before.get("settings") != hash_of(self.settings) else "code changed"
-
 
 _STAMP = re.compile(rb"(?:<!--|//|%) made from ([0-9a-f]+), content ([0-9a-f]+)(?: -->)?\n\Z")
 

@@ -169,7 +169,7 @@ class Chain:
         """Say why a result has to be made; empty if it does not."""
         if self.start_from is not None and product.result.order >= RUN_STAGES.index(self.start_from):
             return "asked for"
-        return product.recipe(look).why(look(product.paths[0]))
+        return product.why(look)
 
     def standing(self, look: Look) -> tuple[list[StageRun], Product | None, str]:
         """Give what became of its results so far; and the first that has to be made, if any has to, and why."""
@@ -249,19 +249,18 @@ def _run(chain: Chain, product: Product, made: dict[Path, xr.Dataset]) -> StageR
     because = chain.why(product, look)
     if not because:
         return _unchanged(product, look(path))
-    recipe = product.recipe(look)
     started = time.perf_counter()
-    attributes: dict[str, Any] = {**global_attributes(chain.origin, result), **recipe.attributes}
+    attributes: dict[str, Any] = {**global_attributes(chain.origin, result), **product.attributes(look)}
     if result.stage == "ingest":
-        hashes = [digest or "" for digest in recipe.upstream.values()]
-        attributes |= {"raw_files": list(recipe.upstream), "raw_sha256": hashes}
+        hashes = [digest or "" for digest in product.upstream.values()]
+        attributes |= {"raw_files": list(product.upstream), "raw_sha256": hashes}
     try:
         read = {name: each for name, each in product.upstream.items() if isinstance(each, Path)}
         for each in read.values():
             made[each] = made[each] if each in made else files.read(each)
         work = product.make
         if product.where is not None:
-            run = partial(in_blocks, folder=chain.layout.blocks(result), key=recipe.key, where=product.where)
+            run = partial(in_blocks, folder=chain.layout.blocks(result), key=attributes["key"], where=product.where)
             work = partial(work, run=run)
         dataset = work({name: made[each] for name, each in read.items()})
         made[path] = files.write(dataset, path, attributes=attributes)

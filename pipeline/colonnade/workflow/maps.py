@@ -171,7 +171,7 @@ def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Itera
             except (KeyError, ValueError, TypeError, CampaignError):
                 yield usual
             else:
-                yield usual if asked.recipe().why(stored) else asked
+                yield usual if asked.why(stored_attributes) else asked
 
 
 def _of_specimen(walk: Walk, specimen: str, wanted: Wanted) -> list[MapMade]:

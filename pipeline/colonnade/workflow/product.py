@@ -23,7 +23,7 @@ from colonnade.interruption import expect_none
 from colonnade.sources import code_hash, package_hash
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.store.provenance import Recipe, hash_of, key_of, stamped
+from colonnade.store.provenance import hash_of, key_of, stamped
 from colonnade.store.results import ResultId
 from colonnade.workflow.executors import Where, spread
 
@@ -217,6 +217,11 @@ def _kept(path: Path, attributes: Mapping[str, Any] | None = None) -> dict[str, 
     return kept | {"hash": hash_of(kept)}
 
 
+NEVER_RUN = "never run"
+
+_CONTENT = 2
+"""Counts up when `content_hash` takes in something else: all results are then recomputed."""
+
 Look = Callable[[Path], Mapping[str, Any]]
 """Returns the stored attributes of a result, given its path."""
 
@@ -267,13 +272,53 @@ class Product:
         assert isinstance(self.id, ResultId)
         return self.id
 
-    def recipe(self, look: Look = lambda path: {}) -> Recipe:
+    def _ingredients(self, look: Look) -> dict[str, Any]:
         """Give all that it is made from, results by the content in their attributes."""
-        kind = self.id.stage if isinstance(self.id, ResultId) else self.id.partition(" ")[0]
         upstream = {
             name: look(each).get("content") if isinstance(each, Path) else each for name, each in self.upstream.items()
         }
-        return Recipe(kind, self.code, self.inputs, upstream)
+        return {"code": self.code, "settings": hash_of(self.inputs), "upstream": upstream}
+
+    def _key(self, ingredients: Mapping[str, Any]) -> str:
+        kind = self.id.stage if isinstance(self.id, ResultId) else self.id.partition(" ")[0]
+        return hash_of({"stage": kind, "content": _CONTENT, **ingredients})
+
+    @property
+    def key(self) -> str:
+        """Hash that is kept with what is no result; if it differs, that is out of date."""
+        return self._key(self._ingredients(lambda path: {}))
+
+    def attributes(self, look: Look) -> dict[str, str]:
+        """What is stored with a result: its key, and its ingredients, so that `why` can say what changed since."""
+        ingredients = self._ingredients(look)
+        told = json.dumps(ingredients, sort_keys=True)
+        return {"key": self._key(ingredients), "ingredients": told, "settings": self.inputs}
+
+    def why(self, look: Look) -> str:
+        """
+        Say why a result has to be made.
+
+        Parameters
+        ----------
+        look : Look
+            Gives its stored attributes, and those of results that it reads; empty ones if they are missing or damaged.
+
+        Returns
+        -------
+        because : str
+            "never run", "raw file changed", "upstream changed", "settings changed" or "code changed"; empty if it is
+            up to date.
+        """
+        stored, now = look(self.paths[0]), self._ingredients(look)
+        if stored.get("key") == self._key(now):
+            return ""
+        try:
+            before = json.loads(stored.get("ingredients", ""))
+        except ValueError:
+            return NEVER_RUN
+        if before.get("upstream") != now["upstream"]:
+            return "raw file changed" if self.result.stage == "ingest" else "upstream changed"
+        return "settings changed" if before.get("settings") != now["settings"] else "code changed"
 
 
 class Made(NamedTuple):
@@ -286,7 +331,7 @@ class Made(NamedTuple):
 
 def known(product: Product, catalogue: Catalogue) -> Made | None:
     """Return a product if it is up to date."""
-    key = product.recipe().key
+    key = product.key
     entry = catalogue.kept(str(product.id), key)
     text, reason = entry or ("", "")
     is_there = (entry is not None or not product.keeps) and all(catalogue.stamp(path) == key for path in product.paths)
@@ -326,7 +371,7 @@ def brought_up_to_date(
             waiting.append(product)
     processes = workers if len(waiting) >= WORTH_A_PROCESS else 1
     for number, ((contents, text), reason, is_lasting) in spread(_make, waiting, workers=processes):
-        product, key = waiting[number], waiting[number].recipe().key
+        product, key = waiting[number], waiting[number].key
         for path, data in zip(product.paths, contents, strict=False):
             files.write_changed(path, stamped(data.encode() if isinstance(data, str) else data, key, path.suffix))
             catalogue.stamp(path)

@@ -18,13 +18,13 @@ from colonnade.interruption import expect_none
 from colonnade.store import files
 from colonnade.store.forecasts import Known
 from colonnade.store.layout import Layout
-from colonnade.store.provenance import NEVER_RUN, Origin
+from colonnade.store.provenance import Origin
 from colonnade.store.results import RUN_STAGES, ResultId, Subject, models_of
 from colonnade.workflow.chain import Chain, StageRun, bring_up_to_date, on_a_cluster, remove_later, worker_lost
 from colonnade.workflow.executors import HERE, Tell, Where, spread
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
-from colonnade.workflow.product import Catalogue, Product
+from colonnade.workflow.product import NEVER_RUN, Catalogue, Product
 
 Progress = Callable[[StageRun, int, int], None]
 
