@@ -80,7 +80,7 @@ def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | st
     layout = Layout.of(loaded.path, results)
     with only_run(layout):
         folder, catalogue = _there(layout), Catalogue(layout)
-        own = [*_pages(loaded, folder), *_shown(folder)]
+        own = _shown(loaded, folder)
         if any(known(_pdf(loaded, layout, folder, catalogue, appendix), catalogue) for appendix in (True, False)):
             own.append(layout.pdf.name)
         bundle.write_bundle(folder, Path(target), own=own, instead={STATE: UNWATCHED})
@@ -89,7 +89,7 @@ def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | st
 
 def _pdf(campaign: Campaign, layout: Layout, folder: Path, catalogue: Catalogue, appendix: bool) -> Product:
     """Give the PDF, made from the pages and their pictures as they are."""
-    upstream = {name: key_of(folder / name) for name in [*_pages(campaign, folder), *_shown(folder)]}
+    upstream = {name: key_of(folder / name) for name in _shown(campaign, folder)}
     shown = json.dumps([campaign.title, campaign.campaign, facts.on_cover(campaign), appendix])
     make = partial(_typeset, campaign, folder, appendix)
     return Product("pdf", shown, upstream, catalogue.code(MADE_BY), make, (layout.pdf,))
@@ -101,14 +101,11 @@ def _typeset(campaign: Campaign, folder: Path, appendix: bool) -> Contents:
     return [pdf_of(campaign, folder, appendix=appendix)], ""
 
 
-def _pages(campaign: Campaign, folder: Path) -> list[str]:
-    """Addresses of all pages, with their scripts and drawings."""
+def _shown(campaign: Campaign, folder: Path) -> list[str]:
+    """Addresses of all pages, with their scripts, drawings and photos."""
     optional = [page for page in addresses.OPTIONAL if (folder / page).is_file()]
-    return addresses.addresses(campaign, optional)
-
-
-def _shown(folder: Path) -> list[str]:
-    return [path.relative_to(folder).as_posix() for pattern in SHOWN for path in sorted(folder.glob(pattern))]
+    pictures = [path.relative_to(folder).as_posix() for each in SHOWN for path in sorted(folder.glob(each))]
+    return [*addresses.addresses(campaign, optional), *pictures]
 
 
 def _there(layout: Layout) -> Path:
