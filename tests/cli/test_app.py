@@ -1,15 +1,5 @@
 """The group of all commands, and those that answer in few lines."""
 
-from colonnade.cli.app import COMMANDS, app
-
-
-def test_commands_are_listed_in_the_order_in_which_they_are_met(colonnade):
-    told = colonnade("--help").stdout
-    places = [told.index(f"│ {command.name} ") for command in COMMANDS]
-    assert places == sorted(places)
-    assert list(app.commands) == [command.name for command in COMMANDS]
-    assert all(command.get_short_help_str(200).rstrip(".") for command in COMMANDS)
-
 
 def test_a_folder_with_other_files_is_left_alone(colonnade, campaign):
     (campaign / "campaign.toml").unlink()
