@@ -5,7 +5,6 @@ Marked slow; `python -m pytest -m slow tests/benchmarks/test_engine_speed.py -s`
 """
 
 import itertools
-import math
 from functools import partial
 
 import numpy as np
@@ -15,7 +14,7 @@ from scipy.integrate import solve_ivp
 import paper_schemes as schemes
 from colonnade.dynamics.plane.march import NONE, Forcing, propagate
 from colonnade.dynamics.plane.sides import sides_of
-from peers import integrator, least_seconds
+from peers import least_seconds
 from prism import PRISM
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
@@ -124,47 +123,3 @@ def test_the_exact_engine_beside_solve_ivp_and_the_papers_runge_kutta(capsys):
         print(", ".join(f"{own:.0f} of {most:.0f}" for own, most in zip(cost, allowed, strict=True)), "steps allowed")
     assert min(ratios[0]) >= 15_000
     assert all(own <= most for own, most in zip(cost, allowed, strict=True))
-
-
-def _heyoka(tolerance):
-    """Make heyoka's integrator of a/g linear in x from a sample on."""
-    return integrator(
-        lambda heyoka: heyoka.par[1] + heyoka.par[2] * heyoka.time,
-        is_linearised=False,
-        restitution=RESTITUTION,
-        tolerance=tolerance,
-    )
-
-
-def _angles(peer, base, first, state):
-    """Angles over α at the samples after the `first`, at which the block has this state, by heyoka."""
-    width, angles = P * INTERVAL, []
-    peer.state[:], peer.pars[0] = state, math.copysign(1.0, state[0])
-    peer.reset_cooldowns()
-    for start, end in itertools.pairwise(base[first:]):
-        peer.pars[1:] = start, (end - start) / width
-        peer.time = 0.0
-        peer.propagate_until(width)
-        angles.append(peer.state[0])
-    return np.array(angles)
-
-
-def test_the_full_equation_on_a_record_beside_heyoka(capsys):
-    peer, finest = _heyoka(1e-10), _heyoka(1e-17)
-    for base in _records():
-        own = partial(propagate, Forcing(0.0, np.pi / 2, INTERVAL, NONE, base, NONE), SIDES, is_linearised=False)
-        angles, velocities, impacts, _, end = own()
-        assert np.isnan(end.time)
-        first = int(np.flatnonzero(np.abs(angles) > 0.05 * ALPHA)[0])
-        start = angles[first] / ALPHA, velocities[first] / (ALPHA * P)
-        reference, theirs = (_angles(each, base, first, start) for each in (finest, peer))
-        errors = [np.abs(each - reference).max() for each in (angles[first + 1 :] / ALPHA, theirs)]
-        seconds = least_seconds(own, partial(_angles, peer, base, first, start), rounds=10)
-        with capsys.disabled():
-            print(
-                f"\n{impacts.size} impacts, nonlinear: {1e3 * seconds[0]:.2f} ms (error {errors[0]:.0e} α), heyoka "
-                f"{1e3 * seconds[1]:.1f} ms ({errors[1]:.0e} α): {seconds[1] / seconds[0]:.1f} times",
-                end="",
-            )
-        assert errors[0] < 1e-9
-        assert seconds[1] / seconds[0] >= 2.2

@@ -51,16 +51,3 @@ def test_a_block_past_return_lies_and_one_below_the_threshold_stays(scheme):
     assert fallen.angle[-1] == pytest.approx(np.pi / 2)
     below = Motion(np.full(50, PRISM.gravity * ALPHA), 0.01)
     assert np.abs(rock_by_steps(PRISM, below, scheme=scheme, steps_per_sample=10).angle).max() == 0.0
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        ({"scheme": "euler", "steps_per_sample": 1}, 'no scheme "euler"'),
-        ({"scheme": "hamming", "steps_per_sample": 0}, "steps_per_sample is 0"),
-        ({"scheme": "hamming", "steps_per_sample": 1, "refinement": 0}, "refinement 0"),
-    ],
-)
-def test_what_is_no_scheme_is_refused(options, words):
-    with pytest.raises(ValueError, match=words):
-        rock_by_steps(PRISM, STILL, **options)

@@ -8,7 +8,7 @@ import pytest
 
 import restitution_study
 from monte_carlo.design import Kind, draw, kinds
-from monte_carlo.new_test import SCATTER, NewTest, drawn
+from monte_carlo.new_test import NewTest
 
 HERE = Path(restitution_study.__file__).parent
 PLAIN = Kind("plain", 0.0, 0.0)
@@ -46,15 +46,6 @@ def test_a_kind_that_holds_e_too_seldom_is_complained_of():
     off = [restitution_study.Trial(0.95, 0.949, 0.951, 0.96, 5e-4, 9, "")] * 30
     assert restitution_study.judge("sound", trials + off[:5]).complaint == ""
     assert restitution_study.judge("wrong", trials + off).complaint == "holds e too seldom"
-
-
-def test_tests_of_a_campaign_scatter_about_one_mean_independently():
-    """A part that they shared would be an error of the mean that no number of tests shows."""
-    products = []
-    for number in range(40):
-        first, second = (one.rocking.restitution - one.truth for one in drawn(2, 0.0, 7, number))
-        products.extend(first * second / SCATTER**2)
-    assert abs(np.mean(products)) < 4 / np.sqrt(len(products))
 
 
 def test_the_page_is_that_of_the_numbers(stored):

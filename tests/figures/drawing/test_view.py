@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 
 from colonnade.dynamics.block import Block
-from colonnade.figures.drawing.setup import ELEVATION, PLAN
+from colonnade.figures.drawing.setup import ELEVATION
 from colonnade.figures.drawing.view import Label, Rocking, View, _spaced
 
 
@@ -23,14 +23,6 @@ def test_labels_stay_apart_and_within_the_view(wanted):
     assert len(placed) == len(wanted)
     assert all(after - before >= 1.0 - 1e-9 for before, after in pairwise(placed))
     assert all(-1e-9 <= each <= 10.0 + 1e-9 for each in placed)
-
-
-def test_labels_at_one_spot_without_details_are_written_as_one():
-    one = view(PLAN)
-    for name in ("1", "2"):
-        one.labels.append(Label((0.05, 0.0), name, "", "black"))
-    one.write_labels(0.2)
-    assert [text.get_text() for text in one.axes.texts] == ["1, 2"]
 
 
 def test_a_long_name_is_cut_to_its_margin():

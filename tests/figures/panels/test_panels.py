@@ -6,16 +6,8 @@ from matplotlib.figure import Figure
 
 from colonnade.figures.files.output import to_png, to_svg
 from colonnade.figures.panels.curve import Curve, draw_band, draw_curve, envelope
-from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side, stacked_panels
+from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side
 from colonnade.figures.style import styled, width
-
-
-def test_stacked_panels_share_their_time_and_only_the_lowest_has_its_numbers():
-    figure, axes = stacked_panels([2.0, 0.8, 0.8])
-    axes[0].set_xlim(0, 7)
-    assert [one.get_xlim() for one in axes] == [(0, 7)] * 3
-    heights = [one.get_position().height * figure.get_size_inches()[1] for one in axes]
-    assert heights == pytest.approx([2.0, 0.8, 0.8])
 
 
 def test_more_columns_than_fit_are_continued_below():

@@ -169,8 +169,3 @@ def test_the_joint_region_holds_its_share_of_a_normal_distribution():
 
 
 X, Y = np.arange(4.0), np.arange(4.0) + 10.0
-
-
-def ends(container):
-    (bars,) = container.lines[2]
-    return [tuple(segment[:, 1]) for segment in bars.get_segments()]
