@@ -70,3 +70,7 @@ def test_what_pauses_or_has_another_frequency_is_none(values):
 def test_a_slow_or_short_record_shows_none():
     assert find_hum(np.sin(2 * np.pi * 50.0 * TIME)[:100], INTERVAL) is None
     assert find_hum(np.ones(400), 0.01) is None
+
+
+def test_a_few_samples_have_no_spectrum():
+    assert density(NOISE[:50], 1 / RATE, ALL[:50]) is None

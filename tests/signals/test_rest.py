@@ -73,3 +73,7 @@ def test_a_shock_at_either_end_and_missing_samples_are_no_trouble():
     values = shaking()
     values[:40] = np.nan
     assert single_shock(values + pulse(CLOCK[-4], 8 * G, 0.010), 1 / RATE) is not None
+
+
+def test_a_channel_without_values_is_not_at_rest():
+    assert not find_rest(TIME, {"top": (np.full(TIME.size, np.nan), 1.0)}, end=True, duration=0.5).quiet
