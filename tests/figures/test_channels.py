@@ -40,6 +40,11 @@ def test_flagged_samples_are_marked_where_they_are_and_missing_ones_at_the_foot(
     assert marked.get_ydata().tolist() == [90.0, pytest.approx(0.0)]
 
 
+def test_a_channel_without_samples_enough_has_no_spectrum():
+    figure = channels_as_recorded([channel(before=None, after=None)])
+    assert [text.get_text() for text in figure.axes[1].texts] == ["no spectrum"]
+
+
 SAMPLED = np.arange(0, 4, 0.005)
 
 
