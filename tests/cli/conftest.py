@@ -23,15 +23,6 @@ top = {column = "top", quantity = "displacement", unit = "mm", on = "specimen", 
 direction = [1, 0, 0], relative_to = "table"}
 
 """
-TEST = """\
-[[tests]]
-id = "{0}"
-kind = "free-vibration"
-specimen = "prism"
-setup = "frame"
-file = "raw/{0}.csv"
-
-"""
 
 
 class Told(NamedTuple):
@@ -82,7 +73,7 @@ def campaign(tmp_path):
 
     from colonnade import rock
     from colonnade.dynamics.kinematics import point_displacement
-    from prism import PRISM
+    from prism import PRISM, entry
     from short_campaign import write_columns
 
     history = rock(PRISM, theta0=0.4 * PRISM.critical_angle, restitution=0.95, model="nonlinear", duration=12.0)
@@ -94,7 +85,9 @@ def campaign(tmp_path):
     for name, delimiter in (("free-01", ","), ("free-02", ";")):
         columns = {"Time [s]": time, "top [mm]": top + random.normal(0.0, 0.01, time.size)}
         write_columns(tmp_path / "raw" / f"{name}.csv", columns, delimiter)
-    (tmp_path / "campaign.toml").write_text(CAMPAIGN + TEST.format("free-01") + TEST.format("free-02"))
+    (tmp_path / "campaign.toml").write_text(
+        CAMPAIGN + entry("free-01", "free-vibration") + entry("free-02", "free-vibration")
+    )
     return tmp_path
 
 

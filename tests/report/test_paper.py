@@ -20,6 +20,7 @@ from colonnade.figures.files.output import to_svg
 from colonnade.report import paper
 from colonnade.report.paper import Document, as_data, document_of, pdf_of, prepared
 from every import every
+from prism import SPECIMEN, entry
 
 
 @pytest.fixture(scope="module")
@@ -105,20 +106,10 @@ title = '{HOSTILE}'
 facility = "Ευστάθεια & Söhne"
 
 [specimens]
-prism = {{shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}}
+{SPECIMEN}
 
 [setups.frame.channels]
 top = {{column = 1, quantity = "other"}}
-"""
-TEST = """
-[[tests]]
-id = "{name}"
-kind = "other"
-specimen = "prism"
-setup = "frame"
-file = "{name}.csv"
-date = {day}
-operator = "{operator}"
 """
 TESTS = {"free-01": ("2013-04-26", "M. Rossi"), "free-02": ("2013-04-29", "K. #Papas")}
 
@@ -129,7 +120,7 @@ def page(title, inside):
 
 @pytest.fixture
 def campaign(tmp_path):
-    tests = (TEST.format(name=name, day=day, operator=who) for name, (day, who) in TESTS.items())
+    tests = (entry(name, "other", f"date = {day}", f'operator = "{who}"') for name, (day, who) in TESTS.items())
     (tmp_path / "campaign.toml").write_text(CAMPAIGN + "".join(tests), encoding="utf-8")
     return load(tmp_path)
 

@@ -3,28 +3,23 @@
 import pytest
 
 from colonnade.campaign import load
+from prism import SPECIMEN, entry
 
-CAMPAIGN = """
+CAMPAIGN = f"""
 schema = 1
 campaign = "two"
 title = "Two specimens"
 
 [specimens]
-prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg", scale = 20}
-statue = {shape = "measured", mass = "80 kg", pole_distance = "610 mm", critical_angle = "0.21 rad", \
-inertia = "41.2 kg m^2", restitution = [0.9, 0.8]}
+{SPECIMEN.replace("}", ", scale = 20}")}
+statue = {{shape = "measured", mass = "80 kg", pole_distance = "610 mm", critical_angle = "0.21 rad", \
+inertia = "41.2 kg m^2", restitution = [0.9, 0.8]}}
 
 [setups.frame.channels]
-top = {column = "top", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
-direction = [1, 0, 0], relative_to = "table"}
+top = {{column = "top", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
+direction = [1, 0, 0], relative_to = "table"}}
 
-[[tests]]
-id = "pulse-01"
-kind = "pulse"
-file = "raw/pulse-01.csv"
-specimen = "prism"
-setup = "frame"
-"""
+{entry("pulse-01", "pulse")}"""
 
 
 @pytest.fixture

@@ -3,15 +3,15 @@
 import pytest
 
 from colonnade.store.results import RUN_STAGES, ResultId, results_of
+from prism import entry
 
-TEST = '[[tests]]\nid = "{kind}"\nkind = "{kind}"\nspecimen = "prism"\nsetup = "frame"\nfile = "raw.csv"\n'
 PREDICTED = "predict-linear predict-contact ensemble-linear compare"
 TABLE = 'table = {column = "t", quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]}\n'
 
 
 @pytest.fixture
 def campaign(written):
-    tests = "".join(TEST.format(kind=kind) for kind in ("free-vibration", "pulse", "tilt"))
+    tests = "".join(entry(kind, kind) for kind in ("free-vibration", "pulse", "tilt"))
     models = '[processing.predict]\nmodels = ["linear", "contact"]\n'
     return written("\n[[tests]]\n", f"{TABLE}\n[[tests]]\n", more=tests + models)
 
