@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 
 import fragility_study
-from fragility_study import page
 from fragility_trial import MEDIAN, PROBABILITIES, Population, run
-from study import HERE
 
 LEAST, MOST = 0.92, 0.98
 """Of a coverage of 95 %, within two standard errors of 200 repetitions."""
@@ -42,10 +40,6 @@ def check_promises(designs):
 def test_the_stored_study_keeps_its_promises(found):
     assert found["repetitions"] >= 200
     assert check_promises(found["designs"]) == MISSED
-
-
-def test_its_page_is_made_from_its_numbers(found):
-    assert (HERE / "fragility-study.md").read_text(encoding="utf-8") == page(found)
 
 
 def test_a_small_study_writes_its_page(tmp_path, monkeypatch):

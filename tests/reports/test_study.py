@@ -1,5 +1,6 @@
 """What the programs of reports share: numbers as they were, a record a line; pages that stay small."""
 
+import importlib
 import json
 from pathlib import Path
 
@@ -18,6 +19,15 @@ PLAIN = st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) |
 def test_the_numbers_of_a_study_are_kept_a_record_a_line(path, tmp_path):
     study.write_numbers(tmp_path / path.name, json.loads(path.read_text(encoding="utf-8")))
     assert (tmp_path / path.name).read_text(encoding="utf-8") == path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", ["forecast", "fragility", "restitution", "verdict"])
+def test_the_page_of_a_study_is_made_from_its_numbers(name):
+    made_by = importlib.import_module(f"{name}_study").STUDY
+    numbers, page, figure = (study.HERE / f"{made_by.name}.{kind}" for kind in ("json", "md", "svg"))
+    found = json.loads(numbers.read_text(encoding="utf-8"))
+    assert page.read_text(encoding="utf-8") == made_by.page(found, figure.name)
+    assert made_by.draw is None or figure.read_text(encoding="utf-8").startswith("<svg")
 
 
 @pytest.mark.whole
