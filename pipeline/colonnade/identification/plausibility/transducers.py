@@ -158,13 +158,13 @@ class Rotation:
     @cached_property
     def mistake(self) -> Finding | None:
         """The one mistake without which transducers agree on one rotation, far better: no scale means anything then."""
-        if len(self.gauges) == 1:
-            return None
         before, moved = self.residual, min(float(np.nanstd(each.reading)) for each in self.gauges)
         best: tuple[float, Finding | None] = (np.inf, None)
+        if len(self.gauges) == 1 or before < LEAST * moved:
+            return None
         for kind, text, changed in (*_turned(self), *_exchanged(self), *_refixed(self), *_coupled(self)):
             after = changed.residual
-            if before < LEAST * moved or before <= BETTER * after or after >= best[0]:
+            if before <= BETTER * after or after >= best[0]:
                 continue
             # What agrees by chance, or with a block that walks, does not obey the equation of motion as well.
             proved = kind == "geometry" or all(each.is_known for each in changed.scales)
