@@ -59,6 +59,9 @@ CALIBRATED = 0.025
 SURE = 4.0
 """... and the standard errors that it also has to exceed."""
 
+LEAST_RATE = 0.01
+"""Relative departure of p that a clock is suspected of."""
+
 CERTAIN = 0.15
 """Largest standard error of a scale, relative to it, with which it is used."""
 
@@ -117,21 +120,16 @@ class Scale:
     ----------
     value, error : float
         1 where it is right; standard error.
-    base, base_error : float
+    base : float
         The same from what the table's acceleration does to it, with its sign; NaN where that is not known.
-    rate, rate_error : float
-        How many times p of the block is that of the record, which a wrong clock changes, ...
-    without_rate : float
-        ... and the value that is left then.
+    rate : float
+        How many times p of the block is that of the record, as of a wrong clock, if that explains the scale; else NaN.
     """
 
     value: float
     error: float
     base: float = np.nan
-    base_error: float = np.nan
     rate: float = np.nan
-    rate_error: float = np.nan
-    without_rate: float = np.nan
 
     @property
     def is_known(self) -> bool:
@@ -147,11 +145,6 @@ class Scale:
     def misleads(self) -> bool:
         """Whether it makes results wrong."""
         return abs(log(abs(self.value))) > log(1 + MISLEADING)
-
-    @property
-    def base_is_known(self) -> bool:
-        """Whether the record shows what the table does to the specimen."""
-        return bool(abs(self.base) > 0 and self.base_error < CERTAIN * abs(self.base))
 
 
 UNKNOWN_SCALE = Scale(np.nan, np.nan)
@@ -198,17 +191,12 @@ def scale_of(
     freed, freed_errors, left = least_squares(bend, [turning, *columns], within, independent)
     if left > UNEXPLAINED * float(np.std(bend[within])):
         return UNKNOWN_SCALE
-    squared = max(float(freed[0]), 1e-9)
-    base, base_error = (np.nan, np.nan) if acceleration is None else (value * found[1], value * errors[1])
-    return Scale(
-        value,
-        float(value * errors[0]),
-        float(base),
-        float(base_error),
-        rate=squared**0.5,
-        rate_error=float(freed_errors[0]) / 2,
-        without_rate=value * (1 + float(freed[1]) / squared),
-    )
+    rate, rate_error = max(float(freed[0]), 1e-9) ** 0.5, float(freed_errors[0]) / 2
+    without_rate = max(value * (1 + float(freed[1]) / rate**2), 1e-9)
+    explains = abs(log(without_rate)) < abs(log(value)) / 2 and abs(rate - 1) > max(SURE * rate_error, LEAST_RATE)
+    shows_base = acceleration is not None and errors[1] < CERTAIN * abs(found[1])
+    base = value * float(found[1]) if shows_base else np.nan
+    return Scale(value, value * float(errors[0]), base, rate if explains else np.nan)
 
 
 def _bending(angle: Array, acceleration: Array | None, block: Block) -> list[Array]:

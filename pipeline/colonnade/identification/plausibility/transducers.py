@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
-from math import cos, log, tan
+from math import cos, isfinite, log, tan
 from typing import NamedTuple
 
 import numpy as np
@@ -54,9 +54,6 @@ ALIKE = 0.05
 
 FAR = 2.3
 """Factor from which on a scale is not that of a size or a calibration."""
-
-LEAST_RATE = 0.01
-"""Relative departure of p that a clock is suspected of."""
 
 PLAIN_UNITS = {1.0: "m", 1e-2: "cm", 1e-3: "mm", 1e-6: "µm", 0.0254: "inches"}
 """Units by the gain that a channel has which is given none."""
@@ -168,7 +165,7 @@ class Rotation:
                 continue
             # What agrees by chance, or with a block that walks, does not obey the equation of motion as well.
             proved = kind == "geometry" or all(each.is_known for each in changed.scales)
-            proved &= kind != "sign" or not any(each.base_is_known and each.base < 0 for each in changed.scales)
+            proved &= kind != "sign" or not any(each.base < 0 for each in changed.scales)
             if proved and all(as_expected(each.value) for each in changed.scales if each.is_known):
                 fall = f"their residual about one rotation falls from {1e3 * before:.2g} to {1e3 * after:.2g} mm"
                 best = after, serious(kind, f"{text}, {fall}")
@@ -307,8 +304,7 @@ def _of_all(wrong: list[Gauge], scale: Scale, block: Block) -> Finding:
     names = f"channels {names} all show" if len(wrong) > 1 else f"channel {names} shows"
     text = f"{names} {value:.3g} times the rotation that the equation of motion gives for this specimen: "
     build = serious if scale.misleads else warning
-    is_clock = abs(log(max(scale.without_rate, 1e-9))) < abs(log(value)) / 2
-    is_clock = is_clock and abs(scale.rate - 1) > max(SURE * scale.rate_error, LEAST_RATE)
+    is_clock = isfinite(scale.rate)
     if not is_clock and (not 1 / FAR < value < FAR or cause(value, wrong[0].quantity) != UNKNOWN):
         text += (
             f"{_why(wrong[0], value)}{', in all of them' if len(wrong) > 1 else ''}; or the specimen's dimensions, or "
@@ -327,7 +323,7 @@ def _of_all(wrong: list[Gauge], scale: Scale, block: Block) -> Finding:
     if is_clock:
         kind, rate = "clock", scale.rate
         causes[kind] = f"a sampling rate × {1 / rate:.3g} (all times change alike), or all sizes × {rate**-2:.3g}"
-    elif scale.base_is_known and scale.base > 0 and abs(log(scale.base)) < abs(log(scale.base / value)):
+    elif scale.base > 0 and abs(log(scale.base)) < abs(log(scale.base / value)):
         kind = "specimen"
     others = "; or ".join(causes[each] for each in ("gain", "specimen", "clock") if each != kind)
     return build(kind, f"{text}{causes[kind]}; or {others}, would make them agree", follows=("unit",))
@@ -359,7 +355,7 @@ def _dead(seen: Seen) -> Iterator[Finding]:
 
 def _signs(known: Seen) -> Iterator[Finding]:
     """Say that all transducers turn against the table."""
-    shown = [scale.base < 0 for _, scale in known if scale.base_is_known]
+    shown = [scale.base < 0 for _, scale in known if isfinite(scale.base)]
     if shown and all(shown):
         several, names = len(known) > 1, _names((each for each, _ in known), " and ")
         yield serious(
