@@ -77,28 +77,24 @@ def load(known: Mapping[str, ReferenceMotionFile], warnings: list[Finding]) -> d
 
 
 def _digest(path: Path) -> str:
-    """SHA-256 of a file, or of all its companion files together."""
-    digests = [_digest_now(each) for each in (path, *_companions(path, _digest_now(path)))]
-    return digests[0] if len(digests) == 1 else hashlib.sha256(" ".join(digests).encode()).hexdigest()
+    """SHA-256 of a file, or of all its companion files together; empty if it cannot be read."""
+    own, others = _now(path)
+    digests = [own, *(_now(each)[0] for each in others)]
+    return own if len(digests) == 1 else hashlib.sha256(" ".join(digests).encode()).hexdigest()
 
 
-def _digest_now(path: Path) -> str:
+def _now(path: Path) -> tuple[str, tuple[Path, ...]]:
     try:
         status = path.stat()
     except OSError:
-        return ""
-    return _digest_of(path, status.st_size, status.st_mtime_ns)
+        return "", ()
+    return _known(path, status.st_size, status.st_mtime_ns)
 
 
 @functools.lru_cache(maxsize=64)
-def _companions(path: Path, digest: str) -> tuple[Path, ...]:
-    """Other files that a file of this digest is in; none if they cannot be found, as reading it then says."""
+def _known(path: Path, size: int, changed: int) -> tuple[str, tuple[Path, ...]]:
+    """SHA-256 of a file, and the other files that it is in; none if they cannot be found, as reading it then says."""
     try:
-        return companions(path) if digest else ()
+        return sha256_of(path) or "", companions(path)
     except ReadError:
-        return ()
-
-
-@functools.lru_cache(maxsize=64)
-def _digest_of(path: Path, size: int, changed: int) -> str:
-    return sha256_of(path) or ""
+        return sha256_of(path) or "", ()
