@@ -17,11 +17,9 @@ from colonnade.stages.parts.beginning import (
     NOT_RECORDED,
     RECORDED,
     base_acceleration,
-    weakened,
 )
 from colonnade.stages.parts.reference_motions import load, reference_files
 from colonnade.stages.parts.transducers import Transducers, axes, base_motion, readings
-from colonnade.units.text import format_percent
 from every import every
 from prism import PRISM
 
@@ -200,19 +198,6 @@ def test_a_model_in_space_takes_the_motion_across_if_it_is_whole():
     across, holed = (_rocking(transverse_base_acceleration=values) for values in (WAVE, _gap(WAVE)))
     assert driving.transverse_acceleration(holed) is None
     np.testing.assert_array_equal(driving.transverse_acceleration(across), WAVE)
-
-
-def test_the_loss_is_that_of_a_sine_drawn_with_straight_lines():
-    fine = np.arange(0.0, 2.0, 0.0005)
-    drawn = np.interp(fine, np.append(TIME, 2.0), np.sin(2 * np.pi * 10.0 * np.append(TIME, 2.0)))
-    kept = 2.0 * np.mean(drawn * np.sin(2 * np.pi * 10.0 * fine))
-    (finding,) = weakened(np.sin(2 * np.pi * 10.0 * TIME))
-    assert f"by {format_percent(1 - kept)} " in finding.text
-
-
-@pytest.mark.parametrize("base", [np.zeros(100), np.sin(2 * np.pi * 3.0 * TIME)], ids=["at rest", "slow"])
-def test_what_loses_little_is_not_told(base):
-    assert weakened(base) == []
 
 
 LONGER = np.arange(0.0, 4.0, 0.005)

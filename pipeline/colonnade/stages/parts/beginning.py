@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +14,6 @@ from colonnade.errors import StageError
 from colonnade.findings import MEASUREMENT, Finding, serious, warning
 from colonnade.identification.response.base_motion import LEAST_MOTION, table_moves
 from colonnade.identification.restitution.arcs import arcs_between, find_impacts
-from colonnade.stages.parts.transducers import DERIVED
 from colonnade.store.provenance import Inputs
 from colonnade.units.text import format_percent
 
@@ -27,12 +25,6 @@ LARGEST_TRANSVERSE = 0.1
 
 VERTICAL = "vertical motion"
 """Kind of the findings about the motion along z."""
-
-LARGEST_WEAKENING = 0.01
-"""Of the base motion's root mean square: what straight lines between its samples may take without a word."""
-
-LEAST_CONTENT = 0.01
-"""Of the largest energy at a frequency of the base motion: below it lies noise."""
 
 LEAST_VERTICAL = 1e-6
 """m/s², from lowest to highest: an accelerometer that reads less is dead."""
@@ -113,23 +105,6 @@ def left_out(rocking: xr.Dataset, base: Array) -> list[Finding]:
     share = f"{format_percent(peak / along)} of that along x" if along > 0.0 else "and none along x"
     text = f"The base also moved along y, by up to {peak:.3g} m/s², {share}: the plane models ignore it."
     return [warning("motion across", text, follows=MEASUREMENT)]
-
-
-def weakened(base: Array) -> list[Finding]:
-    """Say by how much straight lines between the samples weaken the motion along x: sinc² of frequency over rate."""
-    energy = np.abs(np.fft.rfft(base - base.mean())) ** 2
-    # Noise is spread over all frequencies, a little in each.
-    energy[energy < LEAST_CONTENT * energy.max()] = 0.0
-    kept = float(energy @ np.sinc(np.fft.rfftfreq(base.size)) ** 4)
-    loss = 1.0 - sqrt(kept / float(energy.sum())) if kept else 0.0
-    if loss <= LARGEST_WEAKENING:
-        return []
-    text = (
-        f"Models take the base acceleration as straight lines between its samples, which weakens it by "
-        f"{format_percent(loss)} (root mean square): much of it is faster than 1/25 of the sampling rate. Predictions "
-        "are too small by about as much; a higher sampling rate avoids it."
-    )
-    return [warning("sampling rate", text, follows=MEASUREMENT)]
 
 
 RECORDED = "the recorded motion of the base"
@@ -242,9 +217,6 @@ def begin(
         transverse = transverse_acceleration(rocking) if inputs.is_in_space else None
         if transverse is None:
             warnings += left_out(rocking, base)
-        # The fastest part of a second derivative is noise.
-        if not any(each.kind == DERIVED for each in rocking.attrs.get("warnings", ())):
-            warnings += weakened(base)
     else:
         base, vertical, transverse, warnings = np.zeros_like(time), None, None, []
     # On a tilted table a part of gravity acts along x, as a base acceleration the other way would.

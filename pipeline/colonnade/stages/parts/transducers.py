@@ -220,9 +220,6 @@ AXES = {"": 0, "transverse_": 1, "vertical_": 2}
 LARGEST_DIFFERENCE = 0.1
 """Of the base motion (RMS), by which several table channels may differ from their mean without a warning."""
 
-DERIVED = "derived base motion"
-"""Kind of the finding that the base acceleration is the second derivative of a displacement."""
-
 LEAST_NOISE = 1e-9
 """m, rad, …: smallest noise assumed for a reading, so that it has a finite weight."""
 
@@ -259,7 +256,7 @@ def _derived(conditioned: xr.Dataset, channels: Transducers, displacement: Array
         "The base acceleration is the second derivative of the table's displacement, because no table accelerometer is "
         f"usable. It contains nothing above {cutoff:.3g} Hz."
     )
-    return second_derivative(displacement, interval, cutoff), weight(DERIVED, text)
+    return second_derivative(displacement, interval, cutoff), weight("derived base motion", text)
 
 
 def _several(what: str, names: list[str], values: Array, mean: Array) -> Finding:
