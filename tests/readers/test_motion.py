@@ -37,15 +37,6 @@ def test_unit_and_clock_come_from_the_heading(tmp_path):
     np.testing.assert_allclose(motion.acceleration, [1.0, -2.0, 3.0])
 
 
-def test_fields_of_fixed_width_may_touch(tmp_path):
-    path = written(
-        tmp_path, "units are (g), 4F8.4, spacing of 0.01 sec\n  0.1000 -0.2000-10.0000-11.5000\n  0.3000  0.4000\n"
-    )
-    np.testing.assert_allclose(
-        read_motion(path).acceleration, np.array([0.1, -0.2, -10, -11.5, 0.3, 0.4]) * STANDARD_GRAVITY
-    )
-
-
 def test_one_column_needs_its_step(tmp_path):
     path = written(tmp_path, "0.1\n0.2\n-0.3\n0.1\n")
     assert read_motion(path, unit="m/s^2", dt=0.02).duration == pytest.approx(0.06)
@@ -88,7 +79,7 @@ def test_the_components_of_a_file_come_by_their_heads(tmp_path):
         pytest.param("t,a\n0,1\n1,\n2,1\n3,0\n", "accelerations are missing", id="a missing value"),
         pytest.param("t [s],a [mm]\n0,1\n1,3\n2,1\n3,0\n", "mm", id="a displacement"),
         pytest.param(
-            "4F6.2, 4 values per line\n"
+            "4 values per line\n"
             + "  1.00  2.00  3.00  1.00\n" * 4
             + "end\n"
             + "  1.00  2.00  3.00  1.00\n" * 2,

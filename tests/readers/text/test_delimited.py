@@ -73,16 +73,6 @@ def test_a_number_that_stands_for_missing_can_be_told(tmp_path):
     assert values(recorded(tmp_path, text), "a")[1] == -999.0
 
 
-def test_a_last_number_with_lost_decimals_is_missing(tmp_path):
-    rows = "".join(f"{row};{row / 1000:.4f}\n" for row in range(300))
-    recording = recorded(tmp_path, "t;a\n" + rows + "300;0.1")
-    assert np.isnan(values(recording, "a")[-1])
-    assert "ends within a number" in recording.warnings[0]
-    whole = recorded(tmp_path, "t;a\n" + rows + "300;0.1234")
-    assert values(whole, "a")[-1] == 0.1234
-    assert whole.warnings == ()
-
-
 def test_a_sample_behind_a_comment_sign_is_missing_and_keeps_its_place(tmp_path):
     recording = recorded(tmp_path, "t;a\n0;1\n1;2\n#2;3\n3;4\n4;5\n")
     assert np.isnan(values(recording, "a")).tolist() == [False, False, True, False, False]
@@ -174,26 +164,6 @@ def noisy_decay(peak):
     return np.rint(motion + np.random.default_rng(3).normal(0, 3, time.size)).astype(int).tolist()
 
 
-MARKS = [".", ",", "'", "\N{RIGHT SINGLE QUOTATION MARK}", " ", "\N{NO-BREAK SPACE}", "\N{NARROW NO-BREAK SPACE}"]
-
-
-@every("peak", [1100, 2200, 250_000, 3_000_000])
-@every("decimal", [".", ","])
-@every("mark", MARKS)
-def test_whole_numbers_keep_their_size_with_a_mark_between_thousands(tmp_path, mark, decimal, peak):
-    whole = noisy_decay(peak)
-    rows = (
-        f"{row / 500:.3f}".replace(".", decimal) + f";{value:,};{value}".replace(",", mark)
-        for row, value in enumerate(whole)
-    )
-    recording = recorded(tmp_path, "time [s];marked [um];plain [um]\n" + "\n".join(rows) + "\n")
-    assert values(recording, "marked") == whole
-    assert values(recording, "plain") == whole
-    assert recording.channels[1].time[-1] == pytest.approx(3999 / 500)
-    assert not recording.warnings
-    assert any("thousands" in note for note in recording.notes) is (mark in ".,")
-
-
 @every("removed", ["0,5000", ";", ";0,5000", "0,5000;"])
 def test_a_lost_cell_or_delimiter_never_moves_values_to_another_column(tmp_path, removed):
     rows = [f"{row};0,5000;{row + 100}" for row in range(50)]
@@ -212,15 +182,6 @@ def test_decimals_are_not_taken_for_thousands(tmp_path, written):
     numbers = [float(written.format(550 + number / 3000)) for number in noisy_decay(1_000_000)]
     text = "".join(f"{row / 500};{written.format(number)}\n" for row, number in enumerate(numbers))
     assert values(recorded(tmp_path, "time;pressure\n" + text), "pressure") == numbers
-    whole = [float(number) for number in noisy_decay(400)]
-    text = "".join(f"{row / 500};{number:g}\n" for row, number in enumerate([*whole, 998.5, 1.012]))
-    assert values(recorded(tmp_path, "time;counts\n" + text), "counts")[-2:] == [998.5, 1.012]
-
-
-def test_a_decimal_sign_that_is_given_is_no_mark_between_thousands(tmp_path):
-    text = "time;top\n" + "".join(f"{row / 500};{number}\n" for row, number in enumerate([997, 998, 999, "1.012"] * 9))
-    assert max(values(recorded(tmp_path, text), "top")) == 1012
-    assert max(values(recorded(tmp_path, text, decimal="."), "top")) == 999
 
 
 @every(

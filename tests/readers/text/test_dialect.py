@@ -84,12 +84,6 @@ def test_what_is_given_is_not_sniffed():
     assert (found.columns, found.notes, found.warnings) == (1, (), ())
 
 
-def test_signs_between_thousands_are_found():
-    found = sniffed("1;1.234,5", "2;2.345,5")
-    assert found.dialect.thousands == "."
-    assert 'between thousands (as in "1.234,5")' in found.notes[-1]
-
-
 def test_text_has_no_columns_of_numbers():
     assert sniffed("one", "two").columns == 0
 

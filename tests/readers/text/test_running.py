@@ -80,14 +80,6 @@ def test_three_components_after_the_time_are_not_interleaved(tmp_path):
     assert (motion.acceleration.size, motion.dt) == (400, pytest.approx(0.01))
 
 
-def test_pairs_of_time_and_value_run_on(tmp_path):
-    series = shaking(400)
-    pairs = np.column_stack([0.02 * np.arange(400), series]).reshape(-1, 8)
-    motion = read_motion(written(tmp_path, pairs, head="4(F8.2,F10.5), units are g\n"))
-    np.testing.assert_allclose(motion.acceleration, series * STANDARD_GRAVITY)
-    assert motion.dt == pytest.approx(0.02)
-
-
 @every("head", ["", "El Centro 1940 NS component acceleration in g\n", "in the format of 8F10.5\n", "NPTS = 1500\n"])
 def test_what_the_file_does_not_declare_has_to_be_said(tmp_path, head):
     table = shaking(1600).reshape(-1, 8)
@@ -143,7 +135,6 @@ def test_what_is_no_number_within_a_series_is_refused(tmp_path, text):
         ("4096 points, dt = 0.01 s", "step", 0.01),
         ("NPTS=2999", "counts", (2999,)),
         ("5 points per line", "per_row", 5),
-        ("(8F10.5)", "fields", 8),
         ("Units: cm/s/s", "unit", "cm/s/s"),
         ("dt = 0 s", "step", None),
         ("time step 0.02", "step", 0.02),

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
-from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.clock import with_clocks
 from colonnade.readers.format import Format, Options, Recognition
@@ -21,22 +18,8 @@ from colonnade.readers.text.damage import mend
 from colonnade.readers.text.dialect import COMMENT_SIGNS, WHITESPACE, Dialect, column_kinds, find_first_sample, sniff
 from colonnade.readers.text.encoding import Text, TextOptions, looks_binary
 from colonnade.readers.text.heading import Heading, Lines, find_heading, read_heading, unread_numbers
-from colonnade.readers.text.rows import (
-    RowForm,
-    Rows,
-    are_marked,
-    marks_suspected,
-    past_midnight,
-    read_rows,
-)
-from colonnade.readers.text.running import (
-    HeaderClaims,
-    header_claims,
-    read_series,
-    rows_that_touch,
-    series_of,
-    why_running,
-)
+from colonnade.readers.text.rows import RowForm, Rows, past_midnight, read_rows
+from colonnade.readers.text.running import HeaderClaims, header_claims, read_series, series_of, why_running
 
 DELIMITER_WORDS = {"comma": ",", "semicolon": ";", "tab": "\t", "\\t": "\t", "pipe": "|", "space": " ", "spaces": " "}
 
@@ -115,8 +98,6 @@ class Header:
     first : int
         Index of the line of the first sample, from 0.
     heading : Heading
-    touching : list of int
-        Indices of lines near the first in which fields touch, so that blanks do not separate them.
     claims : HeaderClaims
         What the lines above the first sample say of the numbers.
     notes, warnings : tuple of str
@@ -126,7 +107,6 @@ class Header:
     form: RowForm
     first: int
     heading: Heading
-    touching: list[int]
     claims: HeaderClaims
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
@@ -158,14 +138,12 @@ def read_header(text: Text, options: DelimitedOptions) -> Header:
     heading = read_heading(lines, where, dialect, kinds, is_given=options.names_row is not None)
     texts = ", ".join(f'"{head}"' for head, kind in zip(heading.headings, kinds, strict=False) if kind == "text")
     encoding = text.encoding
-    claims = header_claims("\n".join(lines[:first]))
     return Header(
         text,
         RowForm(dialect, kinds[: len(heading.names)], len(kinds) - len(heading.names), exact=text.made is not None),
         first,
         heading,
-        rows_that_touch(lines, start, first, claims),
-        claims,
+        header_claims("\n".join(lines[:first])),
         (
             *((f"encoding {encoding.name} ({encoding.evidence})",) if encoding.evidence else ()),
             *((f"text, not numbers, in {texts}",) if texts else ()),
@@ -217,47 +195,18 @@ def read(path: Path, options: DelimitedOptions) -> Recording:
 
 def read_text(text: Text, options: DelimitedOptions) -> Recording:
     """Read delimited text, whatever it was made of; see `read`."""
-    header, rows = _rows(read_header(text, options), options)
-    first = min([header.first, *header.touching])
-    series = partial(read_series, text, header.form.dialect, first)
-    reason = _why_running(header, rows, series, options)
+    header = read_header(text, options)
+    rows = read_rows(text.pieces(header.first), header.form)
+    is_open = options.layout is None and options.time is None and not header.heading.is_named
+    reason = "as given" if options.layout == "running" else ""
+    if is_open and set(header.form.kinds) == {"number"}:
+        is_free = header.form.dialect.delimiter == WHITESPACE
+        reason = why_running(text.path, rows.columns, header.claims, is_free=is_free)
     if not reason:
         return _recording(header, rows, options)
+    series = read_series(text, header.form.dialect, header.first)
     recording = Recording(text.path, "delimited", (), notes=header.notes)
-    return series_of(recording, series(), len(header.heading.names), header.claims, reason)
-
-
-def _why_running(header: Header, rows: Rows, series: Callable[[], Array], options: DelimitedOptions) -> str:
-    """Say why the numbers run on from row to row; empty if each column is a channel."""
-    if options.layout is not None:
-        return "as given" if options.layout == "running" else ""
-    if options.time is not None or set(header.form.kinds) != {"number"}:
-        return ""
-    if header.touching:
-        return f"the header declares rows of {header.claims.fields} fields, and these touch"
-    is_free = header.form.dialect.delimiter == WHITESPACE
-    is_named = header.heading.is_named
-    return "" if is_named else why_running(header.text.path, rows.columns, header.claims, series, is_free=is_free)
-
-
-def _rows(header: Header, options: DelimitedOptions) -> tuple[Header, Rows]:
-    """Read the rows, and again with marks between thousands in the columns that seem to have them, until all do."""
-    text, first = header.text, header.first
-    rows = read_rows(text.pieces(first), header.form)
-    suspected = marks_suspected(rows) if options.thousands is None else {}
-    signs = {column: sign for column, sign in suspected.items() if sign != options.decimal}
-    while signs:
-        form = replace(header.form, grouped=signs)
-        again = read_rows(text.pieces(first), form)
-        kept = {
-            column: sign for column, sign in signs.items() if are_marked(rows.columns[column], again.columns[column])
-        }
-        if kept == signs:
-            named = ", ".join(f'"{header.heading.headings[column]}"' for column in signs)
-            note = f"{named}: whole numbers with a sign between thousands ({' '.join(sorted({*signs.values()}))})"
-            return replace(header, form=form, notes=(*header.notes, note)), again
-        signs = kept
-    return header, rows
+    return series_of(recording, series, len(header.heading.names), header.claims, reason)
 
 
 def _recording(header: Header, rows: Rows, options: DelimitedOptions) -> Recording:

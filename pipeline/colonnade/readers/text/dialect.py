@@ -35,9 +35,6 @@ MISSING = frozenset(
 )
 """What recorders write in place of a number."""
 
-MARKED = re.compile(r"[+\-\N{MINUS SIGN}]?[1-9]\d{0,2}([.,])\d{3}(?:\1\d{3})*", re.ASCII)
-"""A decimal number, or a whole one with a point or a comma between its thousands."""
-
 BLANKS = " '\N{RIGHT SINGLE QUOTATION MARK}\N{NO-BREAK SPACE}\N{NARROW NO-BREAK SPACE}"
 """Between thousands; none of them can be a decimal sign."""
 _WITHOUT_BLANKS = str.maketrans("dD\N{MINUS SIGN}", "ee-", BLANKS)
@@ -153,7 +150,7 @@ def kind_of(cell: str, dialect: Dialect) -> str:
     """Name what a cell holds: `missing`, `number`, `time` or `text`."""
     if dialect.is_missing(cell):
         return "missing"
-    if dialect.is_number(cell) or MARKED.fullmatch(cell):
+    if dialect.is_number(cell):
         return "number"
     return "time" if is_timestamp(cell) else "text"
 
@@ -223,10 +220,6 @@ def sniff(lines: list[str], given: Dialect, *, delimiter: str | None, decimal: s
             f'rows such as "{sample[-1].strip()}" are read as two columns of whole numbers; they could also be '
             'one column with decimal commas: then set decimal = ","'
         )
-    grouped = next((number for number in numbers if dialect.other_sign in number), None)
-    if dialect.thousands is None and grouped is not None:
-        dialect = replace(dialect, thousands=dialect.other_sign)
-        notes.append(f'"{dialect.thousands}" between thousands (as in "{grouped}")')
     return Sniffed(dialect, best.columns, tuple(notes), tuple(warnings))
 
 
@@ -265,8 +258,7 @@ def _weight(cell: str, dialect: Dialect) -> float | None:
     # "05" is hardly a whole number; rather the decimals of "1,05" cut at the comma.
     digits = cell.lstrip("+-")
     is_half = len(digits) > 1 and digits[0] == "0" and digits.isdigit()
-    # Nor is "1.012" surely a number where commas are the decimal signs.
-    return 0.5 if is_half or (kind == "number" and not dialect.is_number(cell)) else 1.0
+    return 0.5 if is_half else 1.0
 
 
 def column_kinds(lines: list[str], dialect: Dialect, columns: int) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from math import isfinite
 from pathlib import Path
@@ -13,11 +13,10 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.clock import RISING_SHARE, equal_step, even_times, rising_share
+from colonnade.readers.clock import RISING_SHARE, even_times, rising_share
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.dialect import Dialect, looks_like_numbers
 from colonnade.readers.text.encoding import Text
-from colonnade.readers.text.rows import filled_length
 
 _NUMBER = r"(\d*\.\d+|\d+\.?)"
 _STEPS = r"(?:spacing|interval|steps?|increments?)"
@@ -32,7 +31,6 @@ UNIT = re.compile(
     r"|m/s(?:ec)?/s(?:ec)?|m/s(?:ec)?(?:\^|\*\*)?2|gals?|g's|g)(?![\w/])",
     re.IGNORECASE,
 )
-FIELDS = re.compile(r"\b(?:\d+P,?)?(\d{1,3})[FEG]\d{1,3}\.\d+\b", re.IGNORECASE)
 _COUNTED = r"(?:points?|samples?|pts\.?|values|ordinates|readings)"
 COUNTS = re.compile(
     rf"\b(\d{{2,9}})\s+(?:\w+\s+)?{_COUNTED}\b"
@@ -45,7 +43,8 @@ PER_ROW = re.compile(
 )
 FEWEST_TIMES = 5
 """Rows from which on a first column that rises is one of times."""
-FREE = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?")
+TOUCHING = re.compile(r"(?<=[\d.])(?=[-+])")
+"""Without a blank between, a new number starts with its sign."""
 SHOWN = 50
 
 
@@ -55,9 +54,7 @@ class HeaderClaims(NamedTuple):
     counts: tuple[int, ...] = ()
     """How many points there are; several where several are given."""
     per_row: int | None = None
-    """How many are in a row, if it says so in words."""
-    fields: int | None = None
-    """Fields of a row, as in `8F10.5`."""
+    """How many are in a row."""
     step: float | None = None
     """s."""
     unit: str | None = None
@@ -79,50 +76,33 @@ def header_claims(text: str) -> HeaderClaims:
 
     Examples
     --------
-    >>> header_claims("1559 points at equal spacing of 0.02 sec, in the format of 8F10.5. The units are (g)")
-    HeaderClaims(counts=(1559,), per_row=None, fields=8, step=0.02, unit='g')
+    >>> header_claims("1559 points at equal spacing of 0.02 sec, 8 points across in a row. The units are (g)")
+    HeaderClaims(counts=(1559,), per_row=8, step=0.02, unit='g')
     """
-    first = [next(filter(None, match.groups()), None) if (match := each.search(text)) else None for each in CLAIMS]
-    per_row, fields, step, unit = first
-    return HeaderClaims(
-        tuple(int(match[1] or match[2]) for match in COUNTS.finditer(text)),
-        int(per_row) if per_row else None,
-        int(fields) if fields else None,
-        float(step or 0) or None,
-        unit,
+    per_row, step, unit = (
+        next(filter(None, match.groups()), None) if (match := each.search(text)) else None
+        for each in (PER_ROW, STEP, UNIT)
     )
+    counts = tuple(int(match[1] or match[2]) for match in COUNTS.finditer(text))
+    return HeaderClaims(counts, int(per_row) if per_row else None, float(step or 0) or None, unit)
 
 
-CLAIMS = (PER_ROW, FIELDS, STEP, UNIT)
-
-
-PAIRS = "every second number is a time, in equal steps from row to row"
-"""Why numbers run on that are times and values in turn."""
-
-
-def why_running(
-    path: Path, columns: Sequence[Array], claims: HeaderClaims, series: Callable[[], Array], *, is_free: bool
-) -> str:
+def why_running(path: Path, columns: Sequence[Array], claims: HeaderClaims, *, is_free: bool) -> str:
     """
     Decide by what a file says of its nameless rows of numbers whether they run on, and why; empty if they do not.
 
-    `columns` are as of a table; `series` gives the numbers as one. ReadError if only blanks are between numbers, and
-    the file declares neither names, nor times, nor a count of points.
+    ReadError if only blanks are between numbers, and the file declares neither names, nor times, nor a count of points.
     """
-    width, rows = len(columns), max(filled_length(column) for column in columns)
-    if width < 2 or rows < 2:
+    filled = [int(np.isfinite(column).sum()) for column in columns]
+    width, rows, found = len(filled), max(filled), sum(filled)
+    if width < 2 or rows < 2 or (rows >= FEWEST_TIMES and rising_share(columns[0]) >= RISING_SHARE):
         return ""
-    if rows >= FEWEST_TIMES and rising_share(columns[0]) >= RISING_SHARE:
-        times = np.column_stack(columns[::2]).ravel()
-        return PAIRS if width >= 4 and width % 2 == 0 and equal_step(times, 0.1) is not None else ""
     if claims.per_row == width:
         return f"the header says that {width} points are in a row"
     if any(abs(count - rows) <= 1 for count in claims.counts):
         return ""
-    if claims.counts:
-        found = series().size
-        if count := next((count for count in claims.counts if abs(count - found) < width), 0):
-            return f"the header gives {count} points, and there are {found} numbers"
+    if count := next((count for count in claims.counts if abs(count - found) < width), 0):
+        return f"the header gives {count} points, and there are {found} numbers"
     if not is_free:
         return ""
     raise ReadError(
@@ -133,27 +113,13 @@ def why_running(
 
 
 def series_of(recording: Recording, values: Array, width: int, claims: HeaderClaims, reason: str) -> Recording:
-    """Give numbers, `width` in a row, as one series that runs on, or as times and values in turn, for a reason."""
+    """Give numbers, `width` in a row, as one series that runs on, for a reason."""
     hint = (
         f"Its numbers, {width} in a row, run on from row to row and are read as one series of {values.size} "
         f'({reason}). If each column is a channel, say so: layout = "columns" in `file`.'
     )
-    channels, note = [claims.channel(values)], claims.clock_note
-    if reason == PAIRS:
-        times = values[::2].copy()
-        channels = [RecordedChannel("column 1", "s", times, times, is_clock=True)]
-        channels.append(RecordedChannel("column 2", claims.unit, values[1::2], times))
-        note = "clock: every second number, taken as seconds"
-    notes = (*recording.notes, f"numbers run on from row to row: {reason}", note)
-    return replace(recording, channels=tuple(channels), notes=notes, hint=hint)
-
-
-def rows_that_touch(lines: Sequence[str], start: int, first: int, claims: HeaderClaims) -> list[int]:
-    """Find rows near the first, from `start` on, in which as many fields as are declared touch."""
-    near = range(max(first - 2, start), min(first + 3, len(lines)))
-    found = {index: numbers_in(lines[index]) for index in near}
-    touching = (index for index, row in found.items() if len(lines[index].split()) < len(row) == claims.fields)
-    return [index for index in touching if np.isfinite(found[index]).all()]
+    notes = (*recording.notes, f"numbers run on from row to row: {reason}", claims.clock_note)
+    return replace(recording, channels=(claims.channel(values),), notes=notes, hint=hint)
 
 
 def read_series(text: Text, dialect: Dialect, first: int) -> Array:
@@ -170,25 +136,6 @@ def read_series(text: Text, dialect: Dialect, first: int) -> Array:
     return values
 
 
-def numbers_in(line: str, width: int | None = None) -> list[float]:
-    """Numbers of a line: fields of a width, or between blanks or before signs; NaN for what is not a number."""
-    fields = line.split() if width is None else [line[at : at + width].strip() for at in range(0, len(line), width)]
-    try:
-        return list(map(float, fields))
-    except ValueError:
-        pass
-    values: list[float] = []
-    for field in fields:
-        parts = FREE.findall(field)
-        # Without a blank between, a new number starts with its sign.
-        is_whole = parts and "".join(parts) == field and all(part[0] in "+-" for part in parts[1:])
-        if is_whole and (width is None or len(parts) == 1):
-            values += [float(part.upper().replace("D", "E")) for part in parts]
-        else:
-            values.append(float("nan"))
-    return values
-
-
 def read_running(lines: Iterable[tuple[int, str]], *, width: int | None = None) -> tuple[Array, list[str]]:
     """
     Read numbers row by row; what is none is NaN, and warned of with its line.
@@ -198,7 +145,11 @@ def read_running(lines: Iterable[tuple[int, str]], *, width: int | None = None) 
     numbers: list[float] = []
     faults: list[str] = []
     for number, line in lines:
-        found = numbers_in(line.rstrip(), width)
+        if width is None:
+            fields = TOUCHING.sub(" ", line).split()
+        else:
+            fields = [line[at : at + width].strip() for at in range(0, len(line.rstrip()), width)]
+        found = [_number(field) for field in fields]
         numbers += found
         if not all(map(isfinite, found)):
             faults.append(f'{number}: "{line.strip()[:SHOWN]}"')
@@ -209,6 +160,14 @@ def read_running(lines: Iterable[tuple[int, str]], *, width: int | None = None) 
         warnings.append(f"{what} something that is not a number ({first}on line {faults[0]}); missing")
     values = np.array(numbers, dtype=np.float64)
     return np.where(np.isinf(values), np.nan, values), warnings
+
+
+def _number(field: str) -> float:
+    """Read a number, perhaps with an exponent as Fortran writes it; NaN if it is none."""
+    try:
+        return float(field.upper().replace("D", "E"))
+    except ValueError:
+        return float("nan")
 
 
 def shortage(source: str, announced: int, found: int) -> list[str]:
