@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import re
-import struct
 import warnings
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
-from io import BytesIO
+from functools import partial
 from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -31,10 +30,6 @@ if TYPE_CHECKING:
 MARK = b"MATLAB "
 USER_BLOCK = 512
 """Bytes before HDF5's own start in a file of version 7.3."""
-HEADER = 128
-"""Bytes of the header of the versions before."""
-VARIABLES = (14, 15)
-"""Elements of these that hold a variable: plain, compressed."""
 NUMERIC = frozenset(
     ("double", "single", "logical", *(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)))
 )
@@ -77,7 +72,7 @@ def recognise(head: Head) -> Recognition:
     first = head.content
     if first[USER_BLOCK:].startswith(HDF5) and first.startswith(MARK):
         return Recognition(True, "starts as a MATLAB file of version 7.3")
-    if first.startswith(MARK) and first[126:HEADER] in (b"IM", b"MI"):
+    if first.startswith(MARK) and first[126:128] in (b"IM", b"MI"):
         return Recognition(True, "starts as a MATLAB file of version 5 to 7")
     if first.startswith(MARK):
         return Recognition(
@@ -105,37 +100,18 @@ def read(path: Path, options: MatlabOptions) -> Recording:
 def read_v5(path: Path, told: Told) -> dict[str, Node]:
     """Read all variables of a MATLAB file of version 5 to 7, one by one, so that a damaged one does no harm."""
     from scipy.io import loadmat
-    from scipy.io.matlab import MatlabOpaque
+    from scipy.io.matlab import MatlabOpaque, varmats_from_mat
 
     variables: dict[str, Node] = {}
-    content = path.read_bytes()
-    for number, element in enumerate(_elements(content, told), 1):
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                loaded = loadmat(BytesIO(content[:HEADER] + element), simplify_cells=True)
-        except Exception as error:
-            told.warnings.append(f"variable {number} is damaged and not read: {error}")
-            continue
-        for name, value in loaded.items():
-            own = value["s0"].item().decode("latin-1") if isinstance(value, MatlabOpaque) else name
-            if not own.startswith("__"):  # MATLAB's own data about its objects
-                variables[own] = value
+    with path.open("rb") as stream, warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for name, alone in varmats_from_mat(stream):
+            loaded = told.guarded(name, partial(loadmat, simplify_cells=True), alone) or {}
+            for given, value in loaded.items():
+                own = value["s0"].item().decode("latin-1") if isinstance(value, MatlabOpaque) else given
+                if not own.startswith("__"):  # MATLAB's own data about its objects
+                    variables[own] = value
     return variables
-
-
-def _elements(content: bytes, told: Told) -> Iterator[bytes]:
-    """The bytes of each variable; that the file ends too early, or what follows is damaged, is warned of."""
-    order, place = "<" if content[126:HEADER] == b"IM" else ">", HEADER
-    while place < len(content):
-        kind, size = struct.unpack(order + "II", content[place : place + 8].ljust(8, b"\0"))
-        end = place + 8 + size
-        if kind not in VARIABLES or end > len(content):
-            cut = f"it ends after {len(content)} of {end} bytes, within its last variable" if end > len(content) else ""
-            told.warnings.append(f"{cut or 'it is damaged'}: what is at byte {place} and behind it is not read")
-            return
-        yield content[place:end]
-        place = end
 
 
 def _numbers(value: Any) -> Numbers | None:
@@ -189,8 +165,7 @@ def _node_73(item: h5py.Group | h5py.Dataset, path: str, told: Told) -> Node:
         fields = _members(item, path, told)
         # Of an array of structs each field is a list of references, one an element.
         lists = {name: value for name, value in fields.items() if isinstance(value, list) and not _class(item[name])}
-        count = max(map(len, lists.values()), default=0)
-        return [{name: value[k] for name, value in lists.items() if k < len(value)} for k in range(count)] or fields
+        return [dict(zip(lists, each, strict=True)) for each in zip(*lists.values(), strict=False)] or fields
     if item.attrs.get("MATLAB_empty", 0):
         return "" if matlab_class == "char" else np.empty((0, 0))
     if h5py.check_ref_dtype(item.dtype) is h5py.Reference:
@@ -243,16 +218,19 @@ def find_columns(variables: dict[str, Node], told: Told) -> tuple[list[RecordedC
         elif numbers.size:
             fields = {name.casefold(): each for name, each in beside.items()}
             columns += told.guarded(path, _columns, path, scope, fields, numbers.squeeze(), lengths) or ()
-    first = next((number for number, column in enumerate(columns) if column.heading == "Channel_1_Data"), None)
-    if first is not None:
+    if "Channel_1_Data" in variables:
         told.notes.append("layout of Bristol: Channel_i_Data, with names and units in Channel_i_Header")
         with suppress(ValueError, TypeError, KeyError, IndexError):  # a number, or text that is one
             rate = np.asarray(variables["File_Header"]["SampleFrequency"]).ravel()[0]
             scalars["File_Header.SampleFrequency"] = float(rate)
-        if rising_share(columns[first].values.astype(np.float64)) >= RISING_SHARE:
-            columns[first] = replace(columns[first], name="time")
-            told.notes.append("Channel_1_Data rises: it is the clock")
+        columns = [_named_time(column) for column in columns]
     return columns, scalars
+
+
+def _named_time(column: RecordedChannel) -> RecordedChannel:
+    """Call the first channel of the layout of Bristol what it is if it rises: the clock."""
+    is_clock = column.heading == "Channel_1_Data" and rising_share(column.values.astype(np.float64)) >= RISING_SHARE
+    return replace(column, name="time") if is_clock else column
 
 
 def _leaves(node: Node, path: str, scope: tuple[str, ...], beside: dict[str, Node], told: Told) -> Iterator[Leaf]:

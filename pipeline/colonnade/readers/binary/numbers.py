@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -31,8 +32,8 @@ class UnreadableError(Exception):
     """A part of a file that is whole, but not read; its text is the reason."""
 
 
-DAMAGE = (OSError, KeyError, ValueError, TypeError, RuntimeError, UnicodeError, MemoryError)
-"""What h5py raises for a part of a file that is damaged or too large."""
+DAMAGE = (OSError, KeyError, ValueError, TypeError, RuntimeError, MemoryError, zlib.error)
+"""What h5py and scipy raise for a part of a file that is damaged or too large."""
 
 
 @dataclass
