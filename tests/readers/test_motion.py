@@ -79,10 +79,7 @@ def test_the_components_of_a_file_come_by_their_heads(tmp_path):
         pytest.param("t,a\n0,1\n1,\n2,1\n3,0\n", "accelerations are missing", id="a missing value"),
         pytest.param("t [s],a [mm]\n0,1\n1,3\n2,1\n3,0\n", "mm", id="a displacement"),
         pytest.param(
-            "4 values per line\n"
-            + "  1.00  2.00  3.00  1.00\n" * 4
-            + "end\n"
-            + "  1.00  2.00  3.00  1.00\n" * 2,
+            "4 values per line\n" + "  1.00  2.00  3.00  1.00\n" * 4 + "end\n" + "  1.00  2.00  3.00  1.00\n" * 2,
             "line 6",
             id="two blocks",
         ),

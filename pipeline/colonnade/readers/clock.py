@@ -79,8 +79,6 @@ def with_clocks(
         start = start or moment
         what = f'"{channels[number].heading}" ({how}; rising)' if named else NAMELESS
         notes.append(f"clock: column {number + 1}, {what}")
-    if len(clocks) > 1 and any(channel.time is None for channel in channels):
-        notes.append("several clocks: each column uses the nearest one on its left, in its own group or around it")
     times = [clocks.get(number, _nearest(number, channels, clocks)) for number in range(len(channels))]
     times = [timed[number].time if each is None else each for number, each in enumerate(times)]
     if time is not None:
@@ -91,10 +89,7 @@ def with_clocks(
             if channel.values.size == seconds.size and (number == given or number not in clocks):
                 times[number] = seconds
     without = [number for number, each in enumerate(times) if each is None]
-    if without and time is not None:
-        what = "1 channel is" if len(without) == 1 else f"{len(without)} channels are"
-        warnings.append(f'{what} not as long as "{channels[given].heading}": no clock')
-    elif without:
+    if without:
         step, note = _constant_step(scalars or {})
         hints = (may_be_clock(channels[number].heading, channels[number].values) for number in without)
         others = f" and {len(without) - 1} more" if len(without) > 1 else ""

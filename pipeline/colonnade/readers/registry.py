@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
-from colonnade.errors import ReadError, nearest, quoted
+from colonnade.errors import ReadError, nearest
 from colonnade.readers.bounded.messages import Arrays, recording_of, told
 from colonnade.readers.bounded.process import run_bounded
 from colonnade.readers.files import in_one_line, irregular, refusing
@@ -80,7 +80,11 @@ def read(
     if kind := irregular(path):
         raise ReadError(f"{path.name}: this is {kind}; a raw file was expected.")
     chosen, evidence = (_named(format), ()) if format is not None else _recognised(path)
-    checked = check_options(chosen, options or {}, where=path.name)
+    try:
+        checked = chosen.options.model_validate(dict(options or {}))
+    except ValidationError as error:  # campaign.toml was refused for it before, with its line
+        told = "; ".join(f"{'.'.join(map(str, each['loc']))}: {each['msg']}" for each in error.errors())
+        raise ReadError(f'{path.name}: format "{chosen.name}" cannot be read with these options: {told}.') from error
     recording = (_read if chosen.in_process else _read_bounded)(chosen, path, checked, window, within)
     return replace(recording, notes=(*evidence, *recording.notes))
 
@@ -117,29 +121,6 @@ def read_here(
     """Read a raw file in this process for another one, whatever its format; see `read`."""
     chosen = _named(format)
     return told(_read(chosen, path, chosen.options(**options), window))
-
-
-def check_options(format: Format, options: Mapping[str, Any], where: str) -> BaseModel:
-    """
-    Parse a format's options.
-
-    Raises
-    ------
-    ReadError
-        If one does not exist or has the wrong form; every one is reported, starting with `where`.
-    """
-    try:
-        return format.options.model_validate(dict(options))
-    except ValidationError as error:
-        problems = []
-        for problem in error.errors():
-            key = ".".join(str(part) for part in problem["loc"])
-            what = f'has no option "{key}".{nearest(key, format.options.model_fields)}'
-            if problem["type"] != "extra_forbidden":
-                said = problem["msg"].removeprefix("Value error, ")
-                what = f'cannot use {quoted(str(problem["input"]))} as its option "{key}": {said}.'
-            problems.append(f'{where}: format "{format.name}" {what}')
-        raise ReadError("\n".join(problems)) from error
 
 
 def _read_bounded(

@@ -81,7 +81,7 @@ def test_a_pickle_is_never_opened(path):
 @every("kind", ["CSS", "NNSA_KB_CORE", "Q", "SEGY", "MSED"])
 def test_a_kind_that_is_not_read_is_refused_with_the_export_to_make(tmp_path, kind):
     path = stored(tmp_path, "MSEED", ONES)
-    with pytest.raises(ReadError, match=rf"r.mseed: ObsPy's format {kind} is not read here.* Convert the"):
+    with pytest.raises(ReadError, match=rf"r.mseed: .*ObsPy's format {kind} is not read here.* Convert the"):
         read(path, "waveform", {"kind": kind})
 
 

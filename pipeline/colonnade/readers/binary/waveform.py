@@ -8,12 +8,12 @@ import warnings
 from datetime import UTC
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
-from colonnade.errors import ReadError, nearest
+from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times
 from colonnade.readers.files import refusing
 from colonnade.readers.format import Format, Options, Recognition
@@ -56,10 +56,20 @@ ROUNDED = 1e-6
 """Relative difference to a rate of three decimals, in Hz, within which a step in single precision is meant to be it."""
 
 
+def _read_kind(text: str) -> str:
+    kind = text.upper()
+    if kind not in READERS:
+        raise ValueError(
+            f"ObsPy's format {kind} is not read here; {', '.join(READERS)} are. Convert the file to miniSEED, for "
+            "example with ObsPy"
+        )
+    return kind
+
+
 class WaveformOptions(Options):
     """What can be said about a seismic file."""
 
-    kind: str | None = Field(
+    kind: Annotated[str, AfterValidator(_read_kind)] | None = Field(
         default=None, description='Its name in ObsPy, such as "SAC", if the first bytes do not show it.'
     )
 
@@ -84,7 +94,12 @@ def read(path: Path, options: WaveformOptions) -> Recording:
     ReadError
         If the kind is not known, ObsPy cannot read it, or it holds no samples.
     """
-    kind = _kind(path, options)
+    kind = options.kind or kind_of_waveform(head_of(path))  # ObsPy has no message of its own for a missing file
+    if kind is None:
+        raise ReadError(
+            f'{path.name}: its first bytes do not show its format. Give it, for example kind = "SAC"; '
+            f"{', '.join(READERS)} are read."
+        )
     stream, told = _stream(path, kind)
     grouped: dict[str, list[Any]] = {}
     for trace in stream:
@@ -138,20 +153,6 @@ def _is_sac(head: bytes) -> bool:
         if version in (6, 7) and 0 < step < LONGEST_STEP and points > 0:
             return True
     return False
-
-
-def _kind(path: Path, options: WaveformOptions) -> str:
-    found = kind_of_waveform(head_of(path))  # ObsPy has no message of its own for a file that is not there
-    kind = (options.kind or found or "").upper()
-    if not kind:
-        raise ReadError(
-            f'{path.name}: its first bytes do not show its format. Give it, for example kind = "SAC"; '
-            f"{', '.join(READERS)} are read."
-        )
-    if kind not in READERS:
-        advice = "" if kind == "PICKLE" else " Convert the file to miniSEED, for example with ObsPy."
-        raise ReadError(f"{path.name}: ObsPy's format {kind} is not read here.{nearest(kind, READERS)}{advice}")
-    return kind
 
 
 def _stream(path: Path, kind: str) -> tuple[Any, list[str]]:

@@ -62,8 +62,7 @@ class Entry:
     distance: float | None = None
 
 
-@dataclass(frozen=True)
-class LeftOut:
+class LeftOut(NamedTuple):
     """What of a set is not used, and why."""
 
     name: str
@@ -208,8 +207,7 @@ LARGEST_ACCELERATION = 1000.0
 """m/s²; no ground moves so, a wrong unit does."""
 
 
-@dataclass(frozen=True)
-class Component:
+class Component(NamedTuple):
     """A component as it was read: the entry with its direction and record filled in, and what its file hashes to."""
 
     entry: Entry

@@ -114,7 +114,11 @@ class Header:
 
 def read_header(text: Text, options: DelimitedOptions) -> Header:
     """Find out from a text's head how it is written and what its columns are; ReadError without rows of numbers."""
-    lines = _head(text, options)
+    lines = text.head()
+    if not any(line.strip() for line in lines):
+        raise ReadError(f"{text.path.name}: the file is empty; rows of numbers were expected.")
+    if reason := looks_binary(lines):
+        raise ReadError(f"{text.path.name}: {reason}; text with rows of numbers was expected.")
     start = max(options.skip_rows, options.lines_to_pass)
     given = Dialect(
         options.delimiter or ",",
@@ -151,17 +155,6 @@ def read_header(text: Text, options: DelimitedOptions) -> Header:
         ),
         (*warnings, *unread_numbers(lines, where, start, first, dialect)),
     )
-
-
-def _head(text: Text, options: DelimitedOptions) -> list[str]:
-    """Read the first lines of a text."""
-    name = text.path.name
-    lines = text.head(max(options.skip_rows, options.lines_to_pass) + 200)
-    if not any(line.strip() for line in lines):
-        raise ReadError(f"{name}: the file is empty; rows of numbers were expected.")
-    if reason := looks_binary(lines):
-        raise ReadError(f"{name}: {reason}; text with rows of numbers was expected.")
-    return lines
 
 
 @from_head

@@ -60,8 +60,6 @@ class Dialect:
         The sign between groups of three digits, if there is one.
     quoted : bool
         Whether cells are in quotation marks, which then hide delimiters.
-    padded : bool
-        Whether spaces follow delimiters.
     comments : tuple of str
         What starts a line that is not a sample.
     missing : frozenset of str
@@ -72,7 +70,6 @@ class Dialect:
     decimal: str
     thousands: str | None = None
     quoted: bool = False
-    padded: bool = False
     comments: tuple[str, ...] = COMMENT_SIGNS
     missing: frozenset[str] = frozenset()
 
@@ -176,12 +173,12 @@ class Sniffed(NamedTuple):
 
 
 class _Fit(NamedTuple):
-    """How well a dialect explains the sample: the share of lines that are rows of numbers, of numbers in these."""
+    """How well a dialect explains the sample: the rows of numbers, their cells, the share of sure numbers."""
 
     dialect: Dialect
-    columns: int
-    rows: int
-    score: float
+    columns: int = 0
+    rows: int = 0
+    score: float = 0.0
 
 
 def sniff(lines: list[str], given: Dialect, *, delimiter: str | None, decimal: str | None) -> Sniffed:
@@ -192,17 +189,13 @@ def sniff(lines: list[str], given: Dialect, *, delimiter: str | None, decimal: s
     the sign between thousands are `given`; so may be the delimiter and the decimal sign.
     """
     filled = [line for line in lines if line.strip() and not given.is_comment(line)]
-    first, sample = filled[:SAMPLE_LINES], filled[-SAMPLE_LINES:]
+    sample = filled[-SAMPLE_LINES:]
     fits = [_fit(sample, dialect) for dialect in _candidates(sample, given, delimiter, decimal)]
-    top = max((fit.score, fit.columns > 1) for fit in fits)
-    # At rest, before numbers reach a thousand, their decimal sign is plainer.
-    best = max(
-        (fit for fit in fits if (fit.score, fit.columns > 1) == top), key=lambda fit: _fit(first, fit.dialect).score
-    )
+    best = max(fits, key=lambda fit: (fit.score, fit.columns > 1))
     dialect = best.dialect
     if best.rows == 0:
         return Sniffed(dialect, 0)
-    numbers = [*filter(dialect.is_number, chain.from_iterable(map(dialect.split, sample)))]
+    numbers = filter(dialect.is_number, chain.from_iterable(map(dialect.split, sample)))
     signed = next((number for number in numbers if dialect.decimal in number), None)
     notes = []
     if delimiter is None and best.columns == 1:
@@ -229,10 +222,9 @@ def _candidates(sample: list[str], given: Dialect, delimiter: str | None, decima
     for candidate in DELIMITERS if delimiter is None else (delimiter,):
         if quoted and candidate == WHITESPACE and delimiter is None:
             continue
-        padded = any(candidate + " " in line for line in sample)
         for sign in (".", ",") if decimal is None else (decimal,):
             if sign != candidate or quoted:
-                yield replace(given, delimiter=candidate, decimal=sign, quoted=quoted, padded=padded)
+                yield replace(given, delimiter=candidate, decimal=sign, quoted=quoted)
 
 
 def _fit(sample: list[str], dialect: Dialect) -> _Fit:
@@ -240,25 +232,23 @@ def _fit(sample: list[str], dialect: Dialect) -> _Fit:
     numbers: defaultdict[int, float] = defaultdict(float)
     for line in sample:
         cells = dialect.split(line)
-        weights = [weight for cell in cells if (weight := _weight(cell, dialect)) is not None]
+        weights = [_weight(cell, dialect) for cell in cells if not dialect.is_missing(cell)]
         if sum(weights) > 0 and sum(weights) >= len(weights) / 2:
             counts[len(cells)] += 1
             numbers[len(cells)] += sum(weights) / len(weights)
     if not counts:
-        return _Fit(dialect, 0, 0, 0.0)
+        return _Fit(dialect)
     columns, rows = max(counts.items(), key=lambda item: (item[1], item[0]))
-    return _Fit(dialect, columns, rows, round(rows / len(sample) * numbers[columns] / rows, 3))
+    return _Fit(dialect, columns, rows, round(numbers[columns] / len(sample), 3))
 
 
-def _weight(cell: str, dialect: Dialect) -> float | None:
-    """How surely a cell is a number or a time, 0 to 1; None if it says that there is no value."""
-    kind = kind_of(cell, dialect)
-    if kind in ("missing", "text"):
-        return None if kind == "missing" else 0.0
+def _weight(cell: str, dialect: Dialect) -> float:
+    """How surely a cell is a number or a time, 0 to 1."""
+    if kind_of(cell, dialect) == "text":
+        return 0.0
     # "05" is hardly a whole number; rather the decimals of "1,05" cut at the comma.
     digits = cell.lstrip("+-")
-    is_half = len(digits) > 1 and digits[0] == "0" and digits.isdigit()
-    return 0.5 if is_half else 1.0
+    return 0.5 if len(digits) > 1 and digits[0] == "0" and digits.isdigit() else 1.0
 
 
 def column_kinds(lines: list[str], dialect: Dialect, columns: int) -> tuple[str, ...]:
@@ -287,13 +277,7 @@ def find_first_sample(lines: list[str], start: int, dialect: Dialect, kinds: tup
         if is_sample(lines[index], dialect, kinds):
             following = [lines[other] for other in filled[place : place + LOOK_AHEAD + 1]]
             following = [line for line in following if not dialect.is_comment(line)]
-            if sum(_resembles_sample(line, dialect, kinds) for line in following) >= ALIKE * len(following):
+            alike = sum(is_sample(line, dialect, kinds) or looks_like_numbers(line) for line in following)
+            if alike >= ALIKE * len(following):
                 return index
     return None
-
-
-def _resembles_sample(line: str, dialect: Dialect, kinds: tuple[str, ...]) -> bool:
-    """Whether a line could be a sample that is not quite as it should be."""
-    found = [kind_of(cell, dialect) for cell in dialect.split(line)]
-    is_alike = len(found) == len(kinds) and 2 * found.count("text") <= len(found) - found.count("missing")
-    return is_alike or looks_like_numbers(line)

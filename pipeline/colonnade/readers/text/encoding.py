@@ -16,8 +16,6 @@ from colonnade.readers.format import Options
 
 HEAD_BYTES = 1 << 18
 """As much of a file as is looked at to find out how it is written."""
-LONGEST_HEAD = 1 << 24
-"""Characters within which the lines are that options name."""
 LONGEST_LINE = 1 << 20
 """Characters of a line; no recorder writes longer ones."""
 PIECE = 1 << 21
@@ -127,13 +125,10 @@ class Text:
         name = "utf-8-sig" if self.encoding.name == "utf-8" else self.encoding.name
         return self.path.open(encoding=name, errors="replace")
 
-    def head(self, wanted: int = 0) -> list[str]:
-        """Give the first lines, with so many among them; one that is cut by the limit is left out."""
+    def head(self) -> list[str]:
+        """Give the first lines; one that is cut by the limit is left out."""
         with self.open() as stream:
-            head = block = stream.read(HEAD_BYTES)
-            while block and len(head) < LONGEST_HEAD and head.count("\n") < wanted:
-                block = stream.read(HEAD_BYTES)
-                head += block
+            head = stream.read(HEAD_BYTES)
             is_whole = not stream.read(1)
         lines = head.removeprefix("\ufeff").split("\n")
         return lines[:-1] if lines[-1] == "" or (not is_whole and len(lines) > 1) else lines

@@ -66,38 +66,36 @@ def read(path: Path, options: TextOptions) -> Recording:
     dialect, dates = _declared(path, lines[0])
     alike: dict[object, list[Block]] = {}
     for block in _blocks(lines, dialect, dates, warnings):
-        if block.columns[0].size:
-            alike.setdefault((block.names, block.units), []).append(block)
+        alike.setdefault((block.names, block.units), []).append(block)
     if not alike:
         raise ReadError(
             f"{path.name}: no block of numbers was found: a line of names, one of units, then rows of numbers were "
             "expected. The file was cut off, or holds the operator's notes only."
         )
-    series = list(alike.values())
-    lengths = [sum(block.columns[0].size for block in same) for same in series]
-    longest = lengths.index(max(lengths))
-    channels: list[RecordedChannel] = []
     notes = [f"encoding {text.encoding.name}"]
-    for number, (same, size) in enumerate(zip(series, lengths, strict=True)):
-        called = f"block {number + 1}"
-        prefix = "" if number == longest else f"{called}: "
-        columns = map(np.concatenate, zip(*(block.columns for block in same), strict=True))
-        own = [
-            RecordedChannel(prefix + name, unit or None, values, scope=(called,))
-            for name, unit, values in zip(same[0].names, same[0].units, columns, strict=True)
-        ]
-        channels = channels + own if prefix else own + channels
-        pieces = f", in {len(same)} pieces of the same columns" if len(same) > 1 else ""
-        notes.append(f"{called}: {size} rows below line {same[0].line + 1}{pieces}")
-    if len(series) > 1:
+    groups: list[list[RecordedChannel]] = []
+    for number, same in enumerate(alike.values(), 1):
+        columns = [np.concatenate(pieces) for pieces in zip(*(block.columns for block in same), strict=True)]
+        parts = zip(same[0].names, same[0].units, columns, strict=True)
+        groups.append(
+            [RecordedChannel(name, unit or None, each, scope=(f"block {number}",)) for name, unit, each in parts]
+        )
+        notes.append(f"block {number}: {columns[0].size} rows below line {same[0].line + 1}")
+    sizes = [group[0].values.size for group in groups]
+    longest = sizes.index(max(sizes))
+    channels = groups[longest]
+    for group in groups[:longest] + groups[longest + 1 :]:
+        names = [f"{channel.scope[0]}: {channel.name}" for channel in group]
+        channels += [replace(channel, name=name, heading=name) for channel, name in zip(group, names, strict=True)]
+    if len(groups) > 1:
         warnings.append(
-            f"{len(series)} blocks with different columns: block {longest + 1}, the longest with "
-            f'{max(lengths)} rows, is used; columns of the others are called "block '
+            f"{len(groups)} blocks with different columns: block {longest + 1}, the longest with "
+            f'{max(sizes)} rows, is used; columns of the others are called "block '
             f'{2 if longest == 0 else 1}: …"'
         )
     found = with_clocks(Recording(path, "mts", tuple(channels), notes=tuple(notes), warnings=tuple(warnings)))
-    clock = found.channels[0].time
-    return found if clock is None else replace(found, start=moment_after(series[longest][0].origin, float(clock[0])))
+    clock, origin = found.channels[0].time, [*alike.values()][longest][0].origin
+    return found if clock is None else replace(found, start=moment_after(origin, float(clock[0])))
 
 
 def _declared(path: Path, line: str) -> tuple[Dialect, tuple[str, ...]]:
