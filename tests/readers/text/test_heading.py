@@ -1,7 +1,6 @@
 """Names and units are taken apart as people write them."""
 
-from colonnade.readers.text.dialect import Dialect
-from colonnade.readers.text.heading import looks_like_unit, read_heading, take_apart
+from colonnade.readers.text.heading import looks_like_unit, take_apart
 from every import every
 
 
@@ -43,20 +42,3 @@ def test_units_are_known_by_their_spelling(text):
 @every("text", ["", "top", "LVDT 1", "ACC", "Kraft", "12", "Table", "mmm/"])
 def test_names_are_no_units(text):
     assert not looks_like_unit(text)
-
-
-@every(
-    ("heads", "units"),
-    [
-        (("Acc (V)", "Acc (H)"), (None, None)),
-        (("LVDT (A)", "LVDT (B)"), (None, None)),
-        (("LVDT 1 (V)", "LVDT 2 (V)"), ("V", "V")),
-        (("Acc (V)", "Weg (mm)"), ("V", "mm")),
-        (("Acc [V]", "Acc [g]"), ("V", "g")),
-    ],
-)
-def test_letters_that_tell_columns_of_one_name_apart_are_no_units(heads, units):
-    dialect = Dialect(delimiter=";", decimal=".")
-    heading = read_heading([";".join(heads), "1;2"], (0, None), dialect, ("number", "number"))
-    assert heading.units == units
-    assert all((name == head) is (unit is None) for name, head, unit in zip(heading.names, heads, units, strict=True))

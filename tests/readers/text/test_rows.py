@@ -7,7 +7,7 @@ import pytest
 
 from colonnade.readers.text.dialect import Dialect
 from colonnade.readers.text.encoding import Piece
-from colonnade.readers.text.rows import RowForm, past_midnight, read_rows
+from colonnade.readers.text.rows import RowForm, read_rows
 from every import every
 
 FORM = RowForm(Dialect(";", "."), ("number", "number"))
@@ -42,10 +42,6 @@ def test_timestamps_are_seconds_from_the_first_in_later_pieces_too():
 
 def test_what_is_not_a_timestamp_is_missing():
     np.testing.assert_array_equal(times("10:15:00", "broken", "10:15:02")[0], [0, np.nan, 2])
-
-
-def test_times_of_day_go_on_after_midnight():
-    np.testing.assert_array_equal(past_midnight(np.array([86399.0, np.nan, 1.0])), [86399, np.nan, 86401])
 
 
 @every(("zone", "hours"), [("Z", 0), ("+02:00", 2), ("-0330", -3.5), (" +05:45", 5.75), ("+00:00", 0)])

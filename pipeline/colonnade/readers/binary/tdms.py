@@ -117,8 +117,9 @@ def _clock(properties: Mapping[str, Any]) -> _Clock | None:
     if not (np.isfinite(step) and step > 0 and np.isfinite(offset)):
         return None
     start = properties.get("wf_start_time")
-    is_known = isinstance(start, np.datetime64) and start >= EARLIEST_START
-    return _Clock(offset, step, _moment(start) if is_known else None)
+    if not isinstance(start, np.datetime64) or not start >= EARLIEST_START:
+        return _Clock(offset, step, None)
+    return _Clock(offset, step, _moment(start))
 
 
 def _recording(

@@ -11,7 +11,7 @@ from colonnade import units
 from colonnade.assessment.hazard import Hazard, hazard_curve
 from colonnade.assessment.measures import measure_of
 from colonnade.errors import ReadError, UnitError, quoted
-from colonnade.readers.small_table import Head, SmallTable, read_table
+from colonnade.readers.small_table import SmallTable, read_table
 
 RATES = ("rate", "annual rate", "annual rate of exceedance")
 PER_YEAR = ("1/year", "1/yr", "1/a", "per year", "/year")
@@ -36,7 +36,24 @@ def read_hazard(path: Path, measure: str) -> Hazard:
     """
     table = read_table(path, "a hazard curve")
     known = measure_of(measure)
-    factor = _factor(table, known.id, known.unit or "1")
+    heads = ", ".join(head.name if head.unit is None else f"{head.name} [{head.unit}]" for head in table.heads)
+    wrong = f"{table.name}: its heads are {quoted(heads)}; "
+    wrong += f'"{known.id} [{known.unit or "1"}], rate [1/year]" was expected.'
+    if len(table.heads) != 2:
+        raise ReadError(wrong)
+    intensity, rate = table.heads
+    if _same(intensity.name) != _same(known.id):
+        raise ReadError(
+            f"{table.name}: the hazard is given for {quoted(intensity.name)} and the fragility for "
+            f"{quoted(known.id)}. A hazard curve of the same measure was expected."
+        )
+    try:
+        found = units.resolve(intensity.unit or "1")
+    except UnitError as error:
+        raise ReadError(f"{table.name}: {error}") from None
+    is_rate = rate.name.casefold() in RATES and (rate.unit is None or rate.unit.casefold() in PER_YEAR)
+    if not is_rate or found.si_unit != units.resolve(known.unit or "1").si_unit:
+        raise ReadError(wrong)
     if table.faults:
         line, fault = table.faults[0]
         raise ReadError(f"{table.name}, line {line}: {fault}")
@@ -44,40 +61,18 @@ def read_hazard(path: Path, measure: str) -> Hazard:
     if len(values) < 2:
         raise ReadError(f"{table.name}: {len(values)} rows of numbers; at least two were expected.")
     lines = [line for line, _ in table.rows]
-    for column, wrong, expected in (
+    for column, breaks, expected in (
         (0, np.diff(values[:, 0]) <= 0.0, "rising intensities were expected"),
         (1, np.diff(values[:, 1]) > 0.0, "a rate that falls as the intensity rises was expected"),
     ):
-        if wrong.any():
-            first = int(np.argmax(wrong))
+        if breaks.any():
+            first = int(np.argmax(breaks))
             before, after = values[first, column], values[first + 1, column]
             raise ReadError(f"{table.name}, line {lines[first + 1]}: {after:g} follows {before:g}; {expected}.")
     try:
-        return hazard_curve(values[:, 0] * factor, values[:, 1])
+        return hazard_curve(values[:, 0] * found.factor, values[:, 1])
     except ValueError as error:
         raise ReadError(f"{table.name}: {error}") from None
-
-
-def _factor(table: SmallTable, measure: str, unit: str) -> float:
-    """Check the heads; return the SI units in one of the measure's."""
-    heads = ", ".join(map(_written, table.heads))
-    wrong = f'{table.name}: its heads are {quoted(heads)}; "{measure} [{unit}], rate [1/year]" was expected.'
-    if len(table.heads) != 2:
-        raise ReadError(wrong)
-    intensity, rate = table.heads
-    if _same(intensity.name) != _same(measure):
-        raise ReadError(
-            f"{table.name}: the hazard is given for {quoted(intensity.name)} and the fragility for {quoted(measure)}. "
-            "A hazard curve of the same measure was expected."
-        )
-    try:
-        found = units.resolve(intensity.unit or "1")
-    except UnitError as error:
-        raise ReadError(f"{table.name}: {error}") from None
-    is_rate = rate.name.casefold() in RATES and (rate.unit is None or rate.unit.casefold() in PER_YEAR)
-    if not is_rate or found.si_unit != units.resolve(unit).si_unit:
-        raise ReadError(wrong)
-    return found.factor
 
 
 def _number(table: SmallTable, line: int, cell: str) -> float:
@@ -92,7 +87,3 @@ def _number(table: SmallTable, line: int, cell: str) -> float:
 
 def _same(text: str) -> str:
     return "".join(text.casefold().split())
-
-
-def _written(head: Head) -> str:
-    return head.name if head.unit is None else f"{head.name} [{head.unit}]"

@@ -23,7 +23,6 @@ LEFT_OUT: dict[Fault, str] = {
     "cut": "left out: the file ends here, before all {} cells",
 }
 BLANKED: dict[Fault, str] = {
-    "struck out": "counted as missing: a comment sign in front",
     "long": "counted as missing: more than {} cells",
     "short": "counted as missing: fewer than {} cells",
 }

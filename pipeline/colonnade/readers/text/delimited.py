@@ -18,7 +18,7 @@ from colonnade.readers.text.damage import mend
 from colonnade.readers.text.dialect import COMMENT_SIGNS, WHITESPACE, Dialect, column_kinds, find_first_sample, sniff
 from colonnade.readers.text.encoding import Text, TextOptions, looks_binary
 from colonnade.readers.text.heading import Heading, Lines, find_heading, read_heading, unread_numbers
-from colonnade.readers.text.rows import RowForm, Rows, past_midnight, read_rows
+from colonnade.readers.text.rows import RowForm, Rows, read_rows
 from colonnade.readers.text.running import HeaderClaims, header_claims, read_series, series_of, why_running
 
 DELIMITER_WORDS = {"comma": ",", "semicolon": ";", "tab": "\t", "\\t": "\t", "pipe": "|", "space": " ", "spaces": " "}
@@ -208,7 +208,6 @@ def _recording(header: Header, rows: Rows, options: DelimitedOptions) -> Recordi
     mended = mend(rows, heading.headings)
     channels = []
     for head, name, unit, kind, values in zip(*heading[:3], kinds, mended.columns, strict=True):
-        values = past_midnight(values) if kind == "time" else values
         is_clock = kind == "time"
         channels.append(RecordedChannel(name, unit, values, values if is_clock else None, head, is_clock))
     recording = Recording(path, "delimited", tuple(channels), rows.start)

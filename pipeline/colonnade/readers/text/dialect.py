@@ -163,15 +163,6 @@ def is_sample(line: str, dialect: Dialect, kinds: tuple[str, ...]) -> bool:
     )
 
 
-class Sniffed(NamedTuple):
-    """A dialect with its evidence, and the cells on most rows of numbers; 0 without a row of numbers."""
-
-    dialect: Dialect
-    columns: int
-    notes: tuple[str, ...] = ()
-    warnings: tuple[str, ...] = ()
-
-
 class _Fit(NamedTuple):
     """How well a dialect explains the sample: the rows of numbers, their cells, the share of sure numbers."""
 
@@ -181,9 +172,13 @@ class _Fit(NamedTuple):
     score: float = 0.0
 
 
-def sniff(lines: list[str], given: Dialect, *, delimiter: str | None, decimal: str | None) -> Sniffed:
+def sniff(
+    lines: list[str], given: Dialect, *, delimiter: str | None, decimal: str | None
+) -> tuple[Dialect, int, list[str], list[str]]:
     """
     Find the dialect that makes most cells numbers and gives most lines the same number of cells.
+
+    With it come the cells on most rows of numbers (0 without such a row), notes and warnings.
 
     The later lines of a head are looked at, as there the samples are surest. Comment signs, missing values and perhaps
     the sign between thousands are `given`; so may be the delimiter and the decimal sign.
@@ -194,10 +189,10 @@ def sniff(lines: list[str], given: Dialect, *, delimiter: str | None, decimal: s
     best = max(fits, key=lambda fit: (fit.score, fit.columns > 1))
     dialect = best.dialect
     if best.rows == 0:
-        return Sniffed(dialect, 0)
+        return dialect, 0, [], []
     numbers = filter(dialect.is_number, chain.from_iterable(map(dialect.split, sample)))
     signed = next((number for number in numbers if dialect.decimal in number), None)
-    notes = []
+    notes, warnings = [], []
     if delimiter is None and best.columns == 1:
         notes.append("one column: no delimiter gives more numbers in the lines examined")
     elif delimiter is None:
@@ -206,14 +201,13 @@ def sniff(lines: list[str], given: Dialect, *, delimiter: str | None, decimal: s
     if decimal is None:
         why = " assumed: the numbers examined have none" if signed is None else f' (as in "{signed}")'
         notes.append(f'decimal sign "{dialect.decimal}"{why}')
-    warnings = []
     is_open = not delimiter and not decimal and signed is None and (dialect.delimiter, best.columns) == (",", 2)
     if is_open and any(fit.columns == 1 and fit.score == best.score for fit in fits):
         warnings.append(
             f'rows such as "{sample[-1].strip()}" are read as two columns of whole numbers; they could also be '
             'one column with decimal commas: then set decimal = ","'
         )
-    return Sniffed(dialect, best.columns, tuple(notes), tuple(warnings))
+    return dialect, best.columns, notes, warnings
 
 
 def _candidates(sample: list[str], given: Dialect, delimiter: str | None, decimal: str | None) -> Iterator[Dialect]:
@@ -277,7 +271,14 @@ def find_first_sample(lines: list[str], start: int, dialect: Dialect, kinds: tup
         if is_sample(lines[index], dialect, kinds):
             following = [lines[other] for other in filled[place : place + LOOK_AHEAD + 1]]
             following = [line for line in following if not dialect.is_comment(line)]
-            alike = sum(is_sample(line, dialect, kinds) or looks_like_numbers(line) for line in following)
+            alike = sum(_resembles_sample(line, dialect, kinds) for line in following)
             if alike >= ALIKE * len(following):
                 return index
     return None
+
+
+def _resembles_sample(line: str, dialect: Dialect, kinds: tuple[str, ...]) -> bool:
+    """Whether a line could be a sample that is not quite as it should be."""
+    found = [kind_of(cell, dialect) for cell in dialect.split(line)]
+    is_alike = len(found) == len(kinds) and 2 * found.count("text") <= len(found) - found.count("missing")
+    return is_alike or looks_like_numbers(line)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections import defaultdict
 from collections.abc import Iterator
 from itertools import islice
 from typing import NamedTuple
@@ -18,9 +17,8 @@ _BASE = (
 UNIT = re.compile(
     rf"(?:{_BASE})(?:(?:\^|\*\*)?-?[0-9²³])?(?:\s?[/·*. ]\s?(?:{_BASE})(?:(?:\^|\*\*)?-?[0-9²³])?)*\.?", re.IGNORECASE
 )
-BRACKETED = re.compile(r"(?P<name>.*?)(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))\s*")
-BEFORE_PLOT = re.compile(r"(?P<name>.*?\w)\s*[\[(](?P<unit>[^\[\]()]*)[\])]\s*(?P<plot>-\s.*)")
-"""`Time [s] - Plot 0`, as LabVIEW exports its graphs."""
+BRACKETED = re.compile(r"(?P<name>.*?)(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))\s*(?P<plot>-\s.*)?")
+"""`LVDT 1 [mm]`, `Accel (g)`, and `Time [s] - Plot 0`, as LabVIEW exports its graphs."""
 SOLIDUS = re.compile(r"(?P<name>.*\w{2}.*?)(?:\s*/\s*|\s+in\s+)(?P<unit>\S+)")
 LETTERED = re.compile(r"(.+?)\s*\([A-Z]\)\s*")
 """`LVDT (A)`, `Acc (V)`: the letter is a unit or a label."""
@@ -55,8 +53,7 @@ def read_heading(
     while width > 1 and kinds[width - 1] == "empty" and not names_row[width - 1]:
         width -= 1
     names_row, units_row = names_row[:width], units_row[:width]
-    labels = _labels(names_row)
-    parts = [(cell, None) if cell in labels else take_apart(cell) for cell in names_row]
+    parts = [take_apart(cell) for cell in names_row]
     bare = [re.sub(r"^[\[(](.*)[\])]$", r"\1", cell).strip() for cell in units_row]
     units = tuple(own or unit for own, (_, unit) in zip(bare, parts, strict=True))
     headings = tuple(cell or f"column {number}" for number, cell in enumerate(names_row, 1))
@@ -129,14 +126,10 @@ def take_apart(heading: str) -> tuple[str, str | None]:
     """
     match = BRACKETED.fullmatch(heading)
     if match and (name := match["name"].rstrip()):
-        square, round_ = match["square"], match["round"]
-        if square is not None and not square.strip().isdigit():
-            return name, square.strip() or None
-        if round_ is not None and looks_like_unit(round_):
-            return name, round_.strip()
-    match = BEFORE_PLOT.fullmatch(heading)
-    if match and looks_like_unit(match["unit"]):
-        return f"{match['name']} {match['plot']}", match["unit"].strip()
+        square, plot = match["square"], match["plot"]
+        unit = (match["round"] if square is None else square).strip()
+        if looks_like_unit(unit) or (square is not None and plot is None and not unit.isdigit()):
+            return f"{name} {plot}" if plot else name, unit or None
     match = SOLIDUS.fullmatch(heading)
     if match and looks_like_unit(match["unit"]):
         return match["name"], match["unit"]
@@ -180,15 +173,6 @@ def _ways_to_cut(line: str, dialect: Dialect) -> Iterator[list[str]]:
     if dialect.delimiter.isspace() or dialect.delimiter not in line:
         yield from (quoted_cells(line, delimiter) for delimiter in DELIMITERS if delimiter != WHITESPACE)
     # Else it uses the samples' delimiter, only not as often: a line of the preamble, or a damaged one.
-
-
-def _labels(cells: list[str]) -> set[str]:
-    """Find heads that tell columns of one name apart by a letter: in `Acc (V)` next to `Acc (H)` it is not a unit."""
-    alike: defaultdict[str, set[str]] = defaultdict(set)
-    for cell in cells:
-        if match := LETTERED.fullmatch(cell):
-            alike[match[1]].add(cell)
-    return {cell for heads in alike.values() if len(heads) > 1 for cell in heads}
 
 
 def unread_numbers(lines: list[str], where: Lines, start: int, first: int, dialect: Dialect) -> list[str]:

@@ -15,15 +15,14 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from colonnade.arrays import Array, Mask
-from colonnade.readers.recording import DAY
-from colonnade.readers.text.dialect import WHITESPACE, Dialect, is_sample, kind_of, looks_like_numbers
+from colonnade.readers.text.dialect import WHITESPACE, Dialect, kind_of, looks_like_numbers
 from colonnade.readers.text.encoding import UNREADABLE, Piece
 from colonnade.signals.samples import side_by_side, threads
 
 if TYPE_CHECKING:
     import pandas as pd
 
-Fault = Literal["comment", "text", "cut", "struck out", "long", "short"]
+Fault = Literal["comment", "text", "cut", "long", "short"]
 
 
 class Row(NamedTuple):
@@ -75,8 +74,7 @@ class RowForm:
             is_short = len(cells) < width and not self.ragged
             return "long" if any(cells[self.most_cells :]) else "short" if is_short else None
         if dialect.is_comment(row.text):
-            bare = row.text.lstrip().lstrip("".join(dialect.comments))
-            return "struck out" if is_sample(bare, dialect, (*self.kinds, *["empty"] * self.trailing)) else "comment"
+            return "comment"
         if not has_number and not looks_like_numbers(row.text):
             # Cells that are empty or say "missing", without any other text, are a sample nevertheless.
             return "text" if any(kind_of(cell, dialect) == "text" for cell in cells) else None
@@ -116,58 +114,42 @@ class Rows(NamedTuple):
     is_cut: bool
 
 
-class _Part(NamedTuple):
-    """What a piece holds."""
-
-    columns: list[Array]
-    blank: Mask
-    odd: list[Row]
-    start: datetime | None
-
-
 def read_rows(pieces: Iterable[Piece], form: RowForm) -> Rows:
     """Read rows of numbers."""
     from pandas.errors import ParserWarning
 
-    columns: list[list[Array]] = [[] for _ in form.kinds]
-    blank: list[Mask] = []
-    odd: list[Row] = []
-    start, first, last = None, 1, ""
     with warnings.catch_warnings():
         warnings.simplefilter("error", ParserWarning)  # pandas only warns when it drops cells
-        for piece, part in _parts(pieces, form):
-            if not blank:
-                start, first = part.start, piece.line
-            for whole, values in zip(columns, part.columns, strict=True):
-                whole.append(values)
-            blank.append(part.blank)
-            odd += part.odd
-            last = piece.text
+        parts = [*_parts(pieces, form)]
+    columns = [[part.columns[number] for part in parts] for number in range(len(form.kinds))]
+    for part in parts:
+        part.columns.clear()
     # A column's pieces are joined one column at a time, so that little is held twice.
     joined = side_by_side(_joined, columns)
     for column in [column for column, kind in enumerate(form.kinds) if kind == "time"]:
         known = joined[column][~np.isnan(joined[column])]
         joined[column] = (joined[column] - known[:1].sum()) / 1e6
-    ending = last.rstrip(UNREADABLE + "\x1a")
-    is_cut = ending != "" and not ending.endswith("\n")
-    return Rows(form, first, joined, np.concatenate(blank or [np.empty(0, dtype=bool)]), odd, start, is_cut)
+    if not parts:
+        return Rows(form, 1, joined, np.empty(0, dtype=bool), [], None, is_cut=False)
+    blank = np.concatenate([part.blank for part in parts])
+    odd = [row for part in parts for row in part.odd]
+    return Rows(form, parts[0].line, joined, blank, odd, parts[0].start, parts[-1].is_cut)
 
 
-def _parts(pieces: Iterable[Piece], form: RowForm) -> Iterator[tuple[Piece, _Part]]:
+def _parts(pieces: Iterable[Piece], form: RowForm) -> Iterator[Rows]:
     """Read pieces, several at the same time; they come in their order."""
-    waiting: deque[tuple[Piece, Future[_Part]]] = deque()
+    waiting: deque[Future[Rows]] = deque()
     with ThreadPoolExecutor(threads()) as pool:
         for piece in pieces:
-            waiting.append((piece, pool.submit(_part, piece, form)))
+            waiting.append(pool.submit(_part, piece, form))
             if len(waiting) > threads():
-                done, part = waiting.popleft()
-                yield done, part.result()
-        for done, part in waiting:
-            yield done, part.result()
+                yield waiting.popleft().result()
+        for part in waiting:
+            yield part.result()
 
 
-def _part(piece: Piece, form: RowForm) -> _Part:
-    """Read a piece: one row a line, the blank ones too."""
+def _part(piece: Piece, form: RowForm) -> Rows:
+    """Read a piece: one row a line, the blank ones too; microseconds of timestamps."""
     frame = _frame(piece.text, form)
     columns = [_values(frame[column], kind, form.dialect) for column, kind in enumerate(form.kinds)]
     absent = [np.isnan(values) for values in columns]
@@ -189,7 +171,9 @@ def _part(piece: Piece, form: RowForm) -> _Part:
     firsts = {int(np.argmax(gaps)) for missing in absent if (gaps := missing & sound).any()}
     odd += [Row(piece.line + number, texts[number], form.dialect.split(texts[number])) for number in firsts]
     start = next((_first_date(frame[column]) for column, kind in enumerate(form.kinds) if kind == "time"), None)
-    return _Part(columns, blank, odd, start)
+    ending = piece.text.rstrip(UNREADABLE + "\x1a")
+    is_cut = ending != "" and not ending.endswith("\n")
+    return Rows(form, piece.line, columns, blank, odd, start, is_cut)
 
 
 def _frame(text: str, form: RowForm) -> pd.DataFrame:
@@ -304,12 +288,3 @@ def _first_date(cells: pd.Series) -> datetime | None:
     stamps = _stamps(cells)
     dated = stamps[stamps.str.match(DATED) & ~np.isnan(_ticks(stamps))]
     return pd.Timestamp(dated.iloc[0]).to_pydatetime(warn=False) if len(dated) else None
-
-
-def past_midnight(seconds: Array) -> Array:
-    """Let times of day go on when the clock was set back by most of a day, as at midnight."""
-    known = np.isfinite(seconds)
-    steps = np.diff(seconds[known], prepend=seconds[known][:1])
-    turned = seconds.copy()
-    turned[known] += DAY * np.cumsum(steps < -DAY / 2)
-    return turned
