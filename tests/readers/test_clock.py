@@ -146,13 +146,6 @@ def test_a_clock_that_goes_back_is_not_used_and_that_is_said():
     assert [channel.time for channel in recording.channels] == [None, None]
 
 
-def test_days_of_matlabs_calendar_are_a_date():
-    noon = 735_350.5  # 2013-04-26 12:00
-    recording = clocked(vectors(t=noon + RISING / 86400, top=SIGNAL))
-    assert recording.start == datetime(2013, 4, 26, 12)
-    np.testing.assert_allclose(recording.channels[1].time, RISING, atol=1e-4)
-
-
 @every("scalars", [{"dt": 0.1}, {"run.Fs": 10.0}, {"sample_rate": 10.0}, {"dt": 0.1, "fs": 10.0}])
 def test_without_a_vector_a_constant_step_is_taken_by_its_name(scalars):
     (top,) = clocked(vectors(top=SIGNAL), scalars=scalars).channels

@@ -9,9 +9,11 @@ from dataclasses import replace
 from datetime import datetime, timedelta
 
 import numpy as np
+from pydantic import Field
 
 from colonnade.arrays import Array
-from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
+from colonnade.readers.format import Options
+from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording, TimeUnit
 from colonnade.units.text import format_percent
 
 TIME_NAME = re.compile(
@@ -32,6 +34,16 @@ FEWEST_STEPS = 4
 LONGEST_STEP = 0.5
 """Longest step, s, of a column without a name that counts as times in seconds."""
 NAMELESS = "which has no name and rises in equal steps, taken as seconds"
+
+
+class ClockOptions(Options):
+    """What can be said about the clock of a file of columns or vectors; it is found if it is not given."""
+
+    time: str | int | None = Field(
+        default=None, description="Name or number, from 1, of the column that is the clock of all that are as long."
+    )
+    time_unit: TimeUnit | None = Field(default=None, description="Unit of that column.")
+
 
 RISING_SHARE = 0.9
 """Share of steps that are positive in what is still a clock; the rest is for quality control to flag."""
@@ -75,8 +87,7 @@ def with_clocks(
     clocks: dict[int, Array] = {}
     named = _by_name(channels, warnings)
     for number in named or _by_steps(channels):
-        clocks[number], how, moment = channels[number].in_seconds(unit if time is None else None)
-        start = start or moment
+        clocks[number], how = channels[number].in_seconds(unit if time is None else None)
         what = f'"{channels[number].heading}" ({how}; rising)' if named else NAMELESS
         notes.append(f"clock: column {number + 1}, {what}")
     times = [clocks.get(number, _nearest(number, channels, clocks)) for number in range(len(channels))]

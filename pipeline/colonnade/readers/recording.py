@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from datetime import datetime, timedelta
+from datetime import datetime
 from pathlib import Path
 from typing import Annotated
 
@@ -24,7 +24,6 @@ TIME_UNITS = {
 """Spellings of units of time, casefolded, in s."""
 DATENUM = (693_962.0, 767_011.0)
 """Days of MATLAB's calendar from 1900 to 2100."""
-DAY = 86400.0
 
 
 def _time_unit(unit: str) -> str:
@@ -80,7 +79,7 @@ class RecordedChannel:
                 "one time for each value was expected"
             )
 
-    def in_seconds(self, unit: str | None = None) -> tuple[Array, str, datetime | None]:
+    def in_seconds(self, unit: str | None = None) -> tuple[Array, str]:
         """
         Give its values as times.
 
@@ -93,21 +92,18 @@ class RecordedChannel:
             s.
         how : str
             How its values are understood.
-        start : datetime or None
-            When the times are zero, if the values are dates.
         """
         if self.is_clock and self.time is not None:
-            return self.time, "timestamps", None
+            return self.time, "timestamps"
         known = self.values[np.isfinite(self.values)]
         unit = unit or self.unit
         if unit is None and known.size and DATENUM[0] < known[0] <= known[-1] < min(DATENUM[1], known[0] + 30):
-            start = datetime(1, 1, 1) + timedelta(days=float(known[0]) - 367)
-            return (self.values - known[0]) * DAY, "days of MATLAB's calendar, from the first", start
+            return (self.values - known[0]) * 86400.0, "days of MATLAB's calendar, from the first"
         _, line, ending = self.heading.rpartition("_")
         unit = ending if unit is None and line and ending.casefold() in TIME_UNITS else unit
         factor = TIME_UNITS.get((unit or "s").casefold(), 1.0)
         how = f"in {unit}" if unit else "without a unit, taken as seconds"
-        return (self.values if factor == 1.0 else self.values * factor), how, None
+        return (self.values if factor == 1.0 else self.values * factor), how
 
 
 @dataclass(frozen=True)
@@ -208,7 +204,7 @@ class Recording:
             If it is missing or holds no number.
         """
         clock = self.channel(column)
-        times, how, _ = clock.in_seconds(unit)
+        times, how = clock.in_seconds(unit)
         if not np.isfinite(times).any():
             raise ReadError(
                 f'{self.path.name}: column "{clock.heading}" holds no number, so it cannot be the clock. '

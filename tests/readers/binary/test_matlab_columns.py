@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as some
 
-from colonnade.readers.binary.matlab import find_columns, object_reason
+from colonnade.readers.binary.matlab import find_columns
 from colonnade.readers.binary.numbers import MOST_COLUMNS, Told
 from every import every
 
@@ -64,23 +64,3 @@ def test_any_nest_of_variables_gives_columns_of_several_numbers(variables):
     found = columns(variables)
     assert all(column.values.ndim == 1 and column.values.size > 0 for column in found)
     assert len({column.heading for column in found}) == len(found)
-
-
-@every(
-    ("rate", "known"), [("200", [200.0]), (np.array([[200.0]]), [200.0]), *((each, []) for each in ("", "fast", {}))]
-)
-def test_a_rate_of_the_layout_of_bristol_is_taken_if_it_is_a_number(rate, known):
-    sine = np.sin(np.arange(20.0)).reshape(-1, 1)
-    header = {"SignalName": " LVDT 1 ", "Unit": "mm"}
-    found, scalars = find_columns(
-        {"File_Header": {"SampleFrequency": rate}, "Channel_1_Header": header, "Channel_1_Data": sine}, Told()
-    )
-    assert [(column.name, column.unit) for column in found] == [("LVDT 1", "mm")]
-    assert list(scalars.values()) == known
-
-
-@every(("name", "told"), [("timetable", "timetable2table(x)"), ("odd", "as plain arrays")])
-def test_an_object_is_refused_with_what_to_do(name, told):
-    reason = object_reason(name)
-    assert f"MATLAB's class {name}, which only MATLAB can open" in reason
-    assert told in reason

@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as some
 from hypothesis.extra.numpy import arrays
 
-from colonnade.readers.binary.numbers import ClockOptions, Told, numbers_at, recorded
+from colonnade.readers.binary.numbers import Told, numbers_at, recorded
+from colonnade.readers.clock import ClockOptions
 from colonnade.readers.recording import RecordedChannel
 from every import every
 

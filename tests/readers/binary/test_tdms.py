@@ -5,13 +5,10 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as some
 from nptdms import ChannelObject, GroupObject, RootObject, TdmsWriter
 
 from colonnade.errors import ReadError
 from colonnade.readers.binary import tdms
-from colonnade.readers.binary.tdms import cut_off
 from colonnade.readers.registry import read
 from every import every
 
@@ -34,16 +31,6 @@ def written(path, *segments):
 
 def two_columns(path):
     return written(path, *([sampled("a", np.arange(10.0) + number), sampled("b", [1.0] * 10)] for number in range(3)))
-
-
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60, deadline=None)
-@given(share=some.floats(0, 1, exclude_max=True))
-def test_a_file_that_was_cut_off_says_so_unless_it_ends_between_two_segments(path, share):
-    content = two_columns(path).read_bytes()
-    assert cut_off(path, []) == []
-    borders = [place for place in range(len(content)) if content[place : place + 4] == b"TDSm"]
-    path.write_bytes(content[: int(share * len(content))])
-    assert bool(cut_off(path, [])) == (path.stat().st_size not in borders)
 
 
 def test_values_unit_and_clock_come_from_the_channels_own_properties(path):

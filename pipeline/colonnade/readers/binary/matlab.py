@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from colonnade.errors import ReadError, nearest
-from colonnade.readers.binary.numbers import ClockOptions, Told, UnreadableError, columns_of, member, recorded
-from colonnade.readers.clock import RISING_SHARE, rising_share
+from colonnade.readers.binary.numbers import Told, UnreadableError, columns_of, member, recorded
+from colonnade.readers.clock import RISING_SHARE, ClockOptions, rising_share
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import HDF5, Head, from_head
 from colonnade.readers.recording import RecordedChannel, Recording

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from colonnade.arrays import Array
-from colonnade.readers.binary.numbers import DAMAGE, ClockOptions, Told, UnreadableError, columns_of, member, recorded
+from colonnade.readers.binary.numbers import DAMAGE, Told, UnreadableError, columns_of, member, recorded
+from colonnade.readers.clock import ClockOptions
 from colonnade.readers.format import Format
 from colonnade.readers.head import HDF5, NETCDF, by_mark
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording

@@ -11,13 +11,11 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.clock import with_clocks
-from colonnade.readers.format import Options
-from colonnade.readers.recording import RecordedChannel, Recording, TimeUnit
+from colonnade.readers.clock import ClockOptions, with_clocks
+from colonnade.readers.recording import RecordedChannel, Recording
 
 if TYPE_CHECKING:
     import h5py
@@ -82,15 +80,6 @@ def member(group: h5py.Group, name: str) -> h5py.Group | h5py.Dataset:
     if not isinstance(item, h5py.Group) and getattr(item, "shape", None) is None:
         raise UnreadableError("it holds nothing")
     return item
-
-
-class ClockOptions(Options):
-    """What can be said about a file of vectors."""
-
-    time: str | int | None = Field(
-        default=None, description="Channel, by name or number from 1, that is the clock of all that are as long as it."
-    )
-    time_unit: TimeUnit | None = Field(default=None, description="Unit of the times.")
 
 
 def numbers_at(

@@ -16,7 +16,8 @@ from pydantic import Field
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError, count, nearest
-from colonnade.readers.binary.numbers import ClockOptions, Told, recorded
+from colonnade.readers.binary.numbers import Told, recorded
+from colonnade.readers.clock import ClockOptions
 from colonnade.readers.format import Format
 from colonnade.readers.head import by_mark
 from colonnade.readers.recording import RecordedChannel, Recording

@@ -9,10 +9,10 @@ from typing import Annotated, Literal, Self
 from pydantic import AfterValidator, Field, model_validator
 
 from colonnade.errors import ReadError
-from colonnade.readers.clock import with_clocks
-from colonnade.readers.format import Format, Options, Recognition
+from colonnade.readers.clock import ClockOptions, with_clocks
+from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import Head, from_head, head_of
-from colonnade.readers.recording import RecordedChannel, Recording, TimeUnit
+from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.refused import foreign_format
 from colonnade.readers.text.damage import mend
 from colonnade.readers.text.dialect import COMMENT_SIGNS, WHITESPACE, Dialect, column_kinds, find_first_sample, sniff
@@ -31,7 +31,7 @@ def _delimiter(text: str) -> str:
     return character
 
 
-class TableOptions(Options):
+class TableOptions(ClockOptions):
     """What can be said about a table; all of it is found if it is not given."""
 
     names_row: int | None = Field(
@@ -40,8 +40,6 @@ class TableOptions(Options):
     units_row: int | None = Field(
         default=None, ge=0, description="Row or line with the columns' units, from 1; 0 if there are none."
     )
-    time: str | int | None = Field(default=None, description="Name or number, from 1, of the column that is the clock.")
-    time_unit: TimeUnit | None = Field(default=None, description="Unit of that column.")
     layout: Literal["columns", "running"] | None = Field(
         default=None,
         description='"columns" if each column is a channel, "running" if numbers run on from row to row.',
