@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 from datetime import datetime
+from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
@@ -66,15 +67,19 @@ def read(path: Path, options: TextOptions) -> Recording:
     lines = text.lines()
     preamble = read_preamble(path, lines)
     segments, warnings = read_segments(path, lines, preamble)
-    pieces = [piece for segment in segments for piece in _columns(segment, preamble)]
-    timed, start = on_one_zero(_going_on(pieces) if preamble.clocks != "no" else pieces)
-    joined: dict[str, list[RecordedChannel]] = {}
-    for piece in timed:
-        joined.setdefault(piece.heading, []).append(piece)
+    pieces: dict[tuple[int, str], list[RecordedChannel]] = {}
+    for segment in segments:
+        for column, piece in _columns(segment, preamble):
+            same = pieces.setdefault((column, piece.heading), [])
+            # x-values that go on where the segment before ended count from its beginning, not from their own.
+            goes_on = preamble.clocks != "no" and bool(same) and _begins_behind(same[-1], piece)
+            same.append(replace(piece, start=same[-1].start) if goes_on else piece)
+    timed, start = on_one_zero([piece for same in pieces.values() for piece in same])
+    in_turn = iter(timed)
+    channels = tuple(_joined([*islice(in_turn, len(same))]) for same in pieces.values())
     notes = [f"encoding {text.encoding.name}", f"clock: X_Columns is {preamble.clocks}"]
     if len(segments) > 1:
         notes.append(f"{len(segments)} segments, joined by their dates and times")
-    channels = tuple(_joined(same) for same in joined.values())
     return Recording(path, "lvm", channels, start, tuple(notes), tuple(dict.fromkeys(warnings)))
 
 
@@ -140,8 +145,8 @@ def read_segments(path: Path, lines: list[str], preamble: Preamble) -> tuple[lis
     return segments, warnings
 
 
-def _columns(segment: Segment, preamble: Preamble) -> Iterator[RecordedChannel]:
-    """Take a segment's columns apart; their times, if x is a time, count from their start."""
+def _columns(segment: Segment, preamble: Preamble) -> Iterator[tuple[int, RecordedChannel]]:
+    """Take a segment's columns apart, each with its number; their times, if x is a time, count from their start."""
     clock = 0
     for column, (name, whole) in enumerate(zip(segment.names, segment.columns, strict=True)):
         is_clock = column == 0 or (preamble.clocks == "multi" and column % 2 == 0)
@@ -165,30 +170,20 @@ def _columns(segment: Segment, preamble: Preamble) -> Iterator[RecordedChannel]:
         began = began or _moment(preamble.entries.get("Date", ""), preamble.entries.get("Time", ""))
         bare, in_name = take_apart(name)
         unit = "s" if is_clock else segment.entry("Y_Unit_Label", column) or in_name
-        # Columns of one name, as X_Value, are told apart by their place.
-        yield RecordedChannel(bare, unit, values, times, f"{column} {name}", is_clock, start=began)
+        yield column, RecordedChannel(bare, unit, values, times, name, is_clock, start=began)
 
 
-def _going_on(pieces: list[RecordedChannel]) -> list[RecordedChannel]:
-    """Let x-values that go on where the segment before ended count from its beginning, not from their own."""
-    before: dict[str, RecordedChannel] = {}
-    found = []
-    for piece in pieces:
-        last = before.get(piece.heading)
-        if last is not None and last.time is not None and piece.time is not None:
-            piece = replace(piece, start=last.start) if (piece.time[:1] > last.time[-1:]).any() else piece
-        before[piece.heading] = piece
-        found.append(piece)
-    return found
+def _begins_behind(before: RecordedChannel, piece: RecordedChannel) -> bool:
+    """Whether a piece begins later than the one before it ends."""
+    return before.time is not None and piece.time is not None and bool((piece.time[:1] > before.time[-1:]).any())
 
 
 def _joined(pieces: list[RecordedChannel]) -> RecordedChannel:
     """Join a channel's pieces."""
     values = np.concatenate([piece.values for piece in pieces])
     times = [piece.time for piece in pieces if piece.time is not None]
-    heading = pieces[0].heading.partition(" ")[2]
     whole = np.concatenate(times) if len(times) == len(pieces) else None
-    return replace(pieces[0], values=values, time=whole, heading=heading, start=None)
+    return replace(pieces[0], values=values, time=whole, start=None)
 
 
 def _moment(date: str, time: str) -> datetime | None:
