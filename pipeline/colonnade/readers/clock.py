@@ -130,27 +130,24 @@ def _by_name(channels: Sequence[RecordedChannel], warnings: list[str]) -> list[i
         bundles.setdefault((channel.scope, channel.values.size), []).append(number)
     found: list[int] = []
     for (scope, _), members in bundles.items():
-        plain = [number for number in members if _is_named(channels[number], is_first=number == firsts[scope])]
-        rising = [number for number in plain if _rises(channels[number], warnings)]
-        alike = (number for number in members if not rising and _is_like_time(channels[number]))
-        found += rising or [number for number in alike if _rises(channels[number])][:1]
+        likeness = {number: _likeness(channels[number], is_first=number == firsts[scope]) for number in members}
+        plain = [number for number in members if likeness[number] == PLAIN and _rises(channels[number], warnings)]
+        alike = [number for number in members if likeness[number] == ALIKE and _rises(channels[number])]
+        found += plain or alike[:1]
     return sorted(found)
 
 
-def _names(channel: RecordedChannel) -> set[str]:
-    """What a channel is called: by its reader, and in its own struct or group."""
-    return {channel.name, re.split(r"[./]", channel.heading)[-1]} if channel.scope else {channel.name}
+PLAIN, ALIKE = 2, 1
 
 
-def _is_named(channel: RecordedChannel, *, is_first: bool) -> bool:
-    """Whether a channel's name or unit is that of times; a unit alone says it of the first in a table or group."""
+def _likeness(channel: RecordedChannel, *, is_first: bool) -> int:
+    """How much a channel's name and unit are those of times; a unit alone says it of the first in a table or group."""
+    names = {channel.name, re.split(r"[./]", channel.heading)[-1]} if channel.scope else {channel.name}
     by_unit = channel.unit is not None and channel.unit.casefold() in TIME_UNITS
-    by_name = any(TIME_NAME.fullmatch(name.casefold()) for name in _names(channel))
-    return channel.is_clock or (by_name and channel.unit is None) or (by_unit and (by_name or is_first))
-
-
-def _is_like_time(channel: RecordedChannel) -> bool:
-    return channel.unit is None and any(map(LIKE_TIME.fullmatch, _names(channel)))
+    by_name = any(TIME_NAME.fullmatch(name.casefold()) for name in names)
+    if channel.is_clock or (by_name and channel.unit is None) or (by_unit and (by_name or is_first)):
+        return PLAIN
+    return ALIKE if channel.unit is None and any(map(LIKE_TIME.fullmatch, names)) else 0
 
 
 def _rises(channel: RecordedChannel, warnings: list[str] | None = None) -> bool:
