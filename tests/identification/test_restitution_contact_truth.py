@@ -148,7 +148,7 @@ def identify(rocked):
 @pytest.fixture(scope="module")
 def rocked():
     """On four corners, damped so that nothing bounces."""
-    return free_rocking(rigid_body(PRISM, grid=(2, 2)), damping_fraction=2.0, released=0.5, duration=4.0)
+    return free_rocking(rigid_body(PRISM, grid=2), damping_fraction=2.0, released=0.5, duration=4.0)
 
 
 @pytest.fixture(scope="module")

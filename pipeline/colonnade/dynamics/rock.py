@@ -127,10 +127,8 @@ def rock(
     """
     asked, several = model_of(model), isinstance(block, Assembly)
     blocks = [body.block for body in block.bodies.values()] if isinstance(block, Assembly) else [block]
-    if motion is not None:
-        instance("motion", motion, Motion)
-        if duration is not None:
-            raise ValueError(f"duration is {described(duration)}, and a motion is given; one of the two was expected")
+    if motion is not None and duration is not None:
+        raise ValueError(f"duration is {described(duration)}, and a motion is given; one of the two was expected")
     between = "an angle between −π/2 and π/2"
     theta0 = number("theta0", theta0, between, above=-HALF, below=HALF, unit="rad")
     fastest = LARGEST_VELOCITY * max(max(instance("block", one, Block).p_at([-1.0, 1.0])) for one in blocks)
@@ -143,6 +141,7 @@ def rock(
             f'model is "{model}", restitution {described(restitution)}, out_of_plane {out_of_plane:g} rad; of '
             'bodies on each other only model="contact" was expected, which finds what an impact takes by itself'
         )
+    motion = at_rest(blocks[0], duration) if motion is None else instance("motion", motion, Motion)
     if asked.in_space:
         if restitution is not None:
             raise ValueError(
@@ -154,13 +153,11 @@ def rock(
                 "its columns and its beam are bodies: build an `Assembly.frame`"
             )
         law = ContactLaw() if contact is None else instance("contact", contact, ContactLaw)
-        start = {"theta0": theta0, "omega0": omega0, "out_of_plane": out_of_plane}
         space = InSpace(block if isinstance(block, Assembly) else rigid_body(block), law)
-        return space.run(motion, blocks[0].gravity, duration=duration, **start)
+        return space.run(motion, blocks[0].gravity, theta0=theta0, omega0=omega0, out_of_plane=out_of_plane)
     if contact is not None or out_of_plane:
         raise ValueError(f'contact and out_of_plane are for models in space; the model is "{model}"')
     # The kernels are decorated on import.
     from colonnade.dynamics.plane.run import run
 
-    motion = at_rest(blocks[0], duration) if motion is None else motion
     return run(asked, blocks[0], motion, restitution, theta0=theta0, omega0=omega0, rest_angle=rest_angle)

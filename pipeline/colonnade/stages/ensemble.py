@@ -13,7 +13,7 @@ from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.settings import ContactEnsembleSettings, MeasurementSettings, PlaneEnsembleSettings
 from colonnade.dynamics.assembly import Assembly
-from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.body import ContactBody, InSpace
 from colonnade.dynamics.contact.ensemble import ContactPlan, Range
 from colonnade.dynamics.contact.simulate import plane_block
 from colonnade.dynamics.ensemble import Plan, PlanePlan
@@ -142,7 +142,7 @@ def ensemble(
     else:
         plan, about = _contact_plan(contact, beginning, inputs), {}
         # Relative to the law's; of a tilt as it is.
-        middles = {name: getattr(plan.law, name, 1.0) or 1.0 for name in plan.ranges}
+        middles = {name: getattr(plan.space.law, name, 1.0) or 1.0 for name in plan.ranges}
         deviations = {name: np.ptp(both) / np.sqrt(12.0) / middles[name] for name, both in plan.ranges.items()}
     with refusals():
         central = plan.central_angle()
@@ -151,8 +151,8 @@ def ensemble(
     starts = found.inputs[:, found.names.index("theta0")] if "theta0" in found.names else np.zeros(plan.count)
     width = inputs.measured.horizon * prediction.block.critical_angle
     bands = describe_bands(rocking, beginning, found, deviations, starts, errors, prediction.block, width)
-    if isinstance(plan, ContactPlan) and isinstance(plan.body, Assembly):
-        bands = bands.assign(_ends(list(plan.body.bodies), parts, found.levels))
+    if isinstance(plan, ContactPlan) and isinstance(plan.space.body, Assembly):
+        bands = bands.assign(_ends(list(plan.space.body.bodies), parts, found.levels))
     return bands.assign_attrs(model=prediction.model, members=plan.count, **about, warnings=[])
 
 
@@ -244,11 +244,9 @@ def _contact_plan(contact: xr.Dataset | None, beginning: Beginning, inputs: Ense
         theta0=beginning.theta0,
         omega0=beginning.omega0,
         count=int(ranges.members),
-        body=body,
-        law=law,
+        space=InSpace(body, law, space.settings.step),
         ranges=varied,
         misplacement=abs(ranges.misplacement),
-        step=space.settings.step,
     )
 
 

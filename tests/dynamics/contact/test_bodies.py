@@ -205,7 +205,7 @@ def test_a_stack_of_two_opens_the_joints_that_mujoco_opens_with_its_impacts():
     assembly = _stack(block, 2)
     alpha = assembly.critical_angles["d0"]
     law = ContactLaw(damping_fraction=2.0, friction=5.0)
-    structure = Structure.of_assembly(assembly, law, grid=(2, 2))
+    structure = Structure.of_assembly(assembly, law, grid=2)
     history = simulate_assembly(assembly, law=law, structure=structure, theta0=0.3 * alpha, duration=1.2)
     step = 5e-5
     model = mujoco.MjModel.from_xml_string(MODEL.format(step=step, stiff=2 * step))

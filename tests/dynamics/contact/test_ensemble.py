@@ -6,24 +6,22 @@ import numpy as np
 import pytest
 from scipy.stats import spearmanr
 
-from colonnade.dynamics.contact.body import ContactLaw, rigid_body
+from colonnade.dynamics.contact.body import ContactLaw, InSpace, rigid_body
 from colonnade.dynamics.contact.calibration import free_restitution
 from colonnade.dynamics.contact.ensemble import ContactPlan
 from colonnade.dynamics.contact.simulate import plane_block, simulate
 from colonnade.dynamics.motion import at_rest
 from prism import PRISM
 
-BODY = rigid_body(PRISM, grid=(3, 3))
+BODY = rigid_body(PRISM, grid=3)
 LAW = ContactLaw.stiff(BODY, PRISM.gravity, penetration=1e-5)
 BLOCK = plane_block(BODY, PRISM.gravity)
 PLAN = ContactPlan(
     block=BLOCK,
     motion=at_rest(BLOCK, 0.5),
-    body=BODY,
-    law=LAW,
+    space=InSpace(BODY, LAW, 5e-5),
     ranges={"friction": (0.3, 0.9), "damping_fraction": (0.1, 1.0), "out_of_plane": (0.0, 0.01 * PRISM.critical_angle)},
     theta0=0.4 * PRISM.critical_angle,
-    step=5e-5,
     count=12,
     seed=5,
 )

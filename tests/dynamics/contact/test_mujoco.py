@@ -62,7 +62,7 @@ def _angle_in_mujoco(motion, theta0=0.0):
 
 
 def _angle_in_contact(motion, theta0=0.0):
-    body = rigid_body(PRISM, grid=(2, 2))
+    body = rigid_body(PRISM, grid=2)
     law = ContactLaw.stiff(body, PRISM.gravity, damping_fraction=2.0, friction=2.0, penetration=1e-7)
     return simulate(body, motion, law=law, theta0=theta0).angle
 

@@ -29,7 +29,7 @@ def _peaks(history):
 @pytest.mark.parametrize("block", [SLENDER, PRISM], ids=["slenderness 10", "prism of the paper"])
 def test_free_rocking_is_the_analytical_one_with_the_runs_own_restitution(block, released):
     """Two edges of nodes and strong damping: the block does not bounce."""
-    body = rigid_body(block, grid=(2, 2))
+    body = rigid_body(block, grid=2)
     law = ContactLaw.stiff(body, GRAVITY, damping_fraction=2.0, friction=2.0, penetration=1e-6)
     theta0 = released * block.critical_angle
     history = simulate(body, law=law, theta0=theta0, duration=11.0 / block.p)
@@ -46,7 +46,7 @@ def test_free_rocking_is_the_analytical_one_with_the_runs_own_restitution(block,
 
 
 def test_forced_rocking_is_the_analytical_one_with_the_runs_own_restitution():
-    body = rigid_body(PRISM, grid=(2, 2))
+    body = rigid_body(PRISM, grid=2)
     law = ContactLaw.stiff(body, GRAVITY, damping_fraction=2.0, friction=2.0, penetration=3e-7)
     time = np.arange(301) * 0.005
     base = np.where(time < 1.0, 1.6 * PRISM.uplift_acceleration * np.sin(2 * np.pi * 3.0 * time), 0.0)
@@ -112,7 +112,7 @@ def test_a_body_starts_where_it_was_put(angles):
 
 def test_a_mode_rings_at_its_frequency_and_fades_as_damped():
     """A body in free flight whose only mode was struck by the landing before it: exact propagation."""
-    body = rigid_body(PRISM, grid=(2, 2))
+    body = rigid_body(PRISM, grid=2)
     modes = np.zeros((4, 3, 1))
     modes[:, 2, 0] = 0.1
     soft = ContactBody(**{**vars(body), "modes": modes, "frequencies": np.array([2000.0]),

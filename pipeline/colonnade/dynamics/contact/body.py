@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field, replace
 from math import cos, pi, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 
 import numpy as np
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from colonnade.dynamics.contact.history import AssemblyHistory, ContactHistory
     from colonnade.dynamics.motion import Motion
 
-GRID = (5, 5)
-"""Nodes of a rectangular base along x and y."""
+GRID = 5
+"""Nodes along a side of a rectangular base."""
 
 RINGS = 4
 """Whole circles of a round base."""
@@ -96,7 +96,7 @@ class ContactBody(Nodes):
         return float(np.abs(self.nodes[:, 0]).max())
 
 
-def rigid_body(block: Block, *, grid: tuple[int, int] = GRID, rings: int = RINGS) -> ContactBody:
+def rigid_body(block: Block, *, grid: int = GRID, rings: int = RINGS) -> ContactBody:
     """
     Place nodes on the base of a rigid block.
 
@@ -106,9 +106,9 @@ def rigid_body(block: Block, *, grid: tuple[int, int] = GRID, rings: int = RINGS
         Half width, height of the centre of mass and inertia about y follow from its α, R and I₀ (of both sides, in the
         mean); depth and the other inertias from its `solid`. A block without one is assumed to be as deep as wide, its
         inertia about x as that about y, and about z as of a prism of that base.
-    grid : tuple of int, optional
-        Nodes of a rectangular base along x and y, at least 2 along x. Equal spacing with nodes on the edges; corners
-        stand for a quarter of the area of an inner node.
+    grid : int, optional
+        Nodes along each side of a rectangular base, at least 2. Equal spacing with nodes on the edges; corners stand
+        for a quarter of the area of an inner node.
     rings : int, optional
         Whole circles of a round base, equally spaced, the outermost on the rim.
 
@@ -120,7 +120,7 @@ def rigid_body(block: Block, *, grid: tuple[int, int] = GRID, rings: int = RINGS
     Raises
     ------
     ValueError
-        If there are too few nodes.
+        If the inertia about the pole is less than that of the mass at the pole distance.
     """
     solid, widths = block.solid, [side.half_width for side in block.sides]
     half_width = 0.5 * sum(widths)
@@ -138,7 +138,7 @@ def rigid_body(block: Block, *, grid: tuple[int, int] = GRID, rings: int = RINGS
         about_x, (nodes, area) = about_y, round_nodes(half_width, rings)
         radii, told = nodes[:, 0], f"round base, {rings} whole {'ring' if rings == 1 else 'rings'}"
     else:
-        nodes, area = grid_nodes(-widths[0], widths[1], half_depth, *grid)
+        nodes, area = grid_nodes(-widths[0], widths[1], half_depth, grid)
         taken = " taken to be as deep as wide" if solid is None else ""
         radii, told = np.zeros(len(nodes)), f"rectangular base{taken}, {len(nodes)} nodes"
     return ContactBody(
@@ -152,27 +152,17 @@ def rigid_body(block: Block, *, grid: tuple[int, int] = GRID, rings: int = RINGS
     )
 
 
-def grid_nodes(left: float, right: float, half_depth: float, along: int, across: int) -> tuple[Array, Array]:
-    """Give the equally spaced nodes of a rectangle along x and y, shape (n, 2), and the area of each."""
-    if along < 2 or across < 1:
-        raise ValueError(f"grid is ({along}, {across}); at least 2 nodes along x and 1 across were expected")
-    y = np.linspace(-half_depth, half_depth, across) if across > 1 else np.zeros(1)
-    nodes = np.stack(np.meshgrid(np.linspace(left, right, along), y, indexing="ij"), axis=-1).reshape(-1, 2)
-    return nodes, np.outer(_shares(along), _shares(across)).ravel() * (right - left) * 2.0 * half_depth
-
-
-def _shares(count: int) -> Array:
-    """Shares of equally spaced points, the ends with half of an inner one's."""
+def grid_nodes(left: float, right: float, half_depth: float, count: int) -> tuple[Array, Array]:
+    """Give equally spaced nodes of a rectangle, `count` along x and along y, shape (n, 2), and the area of each."""
+    x, y = np.meshgrid(np.linspace(left, right, count), np.linspace(-half_depth, half_depth, count), indexing="ij")
     shares = np.ones(count)
-    if count > 1:
-        shares[[0, -1]] = 0.5
-    return np.asarray(shares / shares.sum())
+    shares[[0, -1]] = 0.5
+    shares /= shares.sum()
+    return np.column_stack((x.ravel(), y.ravel())), np.outer(shares, shares).ravel() * (right - left) * 2.0 * half_depth
 
 
 def round_nodes(radius: float, rings: int) -> tuple[Array, Array]:
     """Give the points at +x of a disc's equally spaced rings, the outermost on its rim, and the area of each."""
-    if rings < 1:
-        raise ValueError(f"rings is {rings}; at least 1 was expected")
     radii = radius * np.arange(1, rings + 1) / rings
     # A ring takes the area up to midway to its neighbours, the innermost all within, the outermost up to the rim.
     edges = np.concatenate(([0.0], 0.5 * (radii[:-1] + radii[1:]), [radius]))
@@ -288,6 +278,14 @@ class ContactLaw:
         return float(self.node_damping(body).sum()) / (2.0 * sqrt(body.mass * stiffness))
 
 
+class Tilts(TypedDict, total=False):
+    """How bodies on the table start, each 0 by default: angle and rate (rad/s) about y, rotation about x, rad."""
+
+    theta0: float
+    omega0: float
+    out_of_plane: float
+
+
 @dataclass(frozen=True)
 class InSpace:
     """
@@ -320,30 +318,11 @@ class InSpace:
             "contact_step": self.step,
         }
 
-    def run(
-        self,
-        motion: Motion | None,
-        gravity: float,
-        *,
-        duration: float | None = None,
-        theta0: float = 0.0,
-        omega0: float = 0.0,
-        out_of_plane: float = 0.0,
-    ) -> ContactHistory | AssemblyHistory:
+    def run(self, motion: Motion, gravity: float, **tilts: Unpack[Tilts]) -> ContactHistory | AssemblyHistory:
         """Run a base motion, as `simulate` or `simulate_assembly`; gravity (m/s²) is that of a single body."""
         # The engine is compiled on import.
         from colonnade.dynamics.contact.simulate import simulate, simulate_assembly
 
         if isinstance(self.body, Assembly):
-            return simulate_assembly(self.body, motion, law=self.law, duration=duration, theta0=theta0, omega0=omega0)
-        return simulate(
-            self.body,
-            motion,
-            law=self.law,
-            gravity=gravity,
-            duration=duration,
-            step=self.step,
-            theta0=theta0,
-            omega0=omega0,
-            out_of_plane=out_of_plane,
-        )
+            return simulate_assembly(self.body, motion, law=self.law, **tilts)
+        return simulate(self.body, motion, law=self.law, gravity=gravity, step=self.step, **tilts)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import pairwise
 from math import acosh, ceil, exp, isnan, log, nan
 
@@ -16,7 +15,7 @@ from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.dynamics.contact.body import ContactBody, ContactLaw
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.simulate import plane_block, simulate
-from colonnade.dynamics.contact.stability import keep_modes_for_step, longest_with
+from colonnade.dynamics.contact.stability import keep_modes_for_step
 
 Identify = Callable[[ContactHistory], tuple[float, str]]
 
@@ -162,29 +161,48 @@ def calibrate(
     identify = identify or (lambda history: (free_restitution(history, impacts=impacts), VELOCITY_RATIO))
     found: dict[tuple[float, float], tuple[float, str, ContactHistory]] = {}
 
+    refused: list[ValueError] = []
+
     def run(stiffness: float, fraction: float) -> float:
         """Give e at a multiple of the stiffness and a damping fraction, each pair computed once; NaN if unstable."""
         if (stiffness, fraction) not in found:
             own = replace(law, stiffness=stiffness * (law.stiffness or nan), damping_fraction=fraction)
+            kept = keep_modes_for_step(body, own, step)
             try:
-                kept = keep_modes_for_step(body, own, step)
-            except ValueError:
+                history = simulate(kept, law=own, gravity=gravity, theta0=theta0, duration=duration, step=step)
+            except ValueError as error:
+                refused.append(error)
                 return nan
-            history = simulate(kept, law=own, gravity=gravity, theta0=theta0, duration=duration, step=step)
             found[stiffness, fraction] = *identify(history), history
         return found[stiffness, fraction][0]
 
-    if not _reach(partial(run, 1.0), restitution, fractions) and len(fractions) > 1:
+    def misfit(fraction: float, stiffness: float) -> float:
+        """Give how far e is from the target; 0, a root, within the tolerance."""
+        missing = run(stiffness, fraction) - restitution
+        return 0.0 if abs(missing) <= TOLERANCE else missing
+
+    def reach(stiffness: float) -> bool:
+        """Close in on e between the first two neighbours between which it falls through the target, if there are."""
+        for low, high in pairwise(fractions):
+            if run(stiffness, low) >= restitution >= run(stiffness, high):
+                scipy.optimize.brentq(misfit, low, high, (stiffness,), xtol=1e-9, maxiter=MOST_RUNS, disp=False)
+                return True
+        return False
+
+    def may_reach(stiffness: float) -> bool:
+        """Say by three runs whether a stiffness can give e, which is least at one of the last two fractions."""
+        ends = [run(stiffness, fraction) for fraction in (*fractions[:1], *fractions[-2:])]
+        known = [value for value in ends if not isnan(value)]
+        return min(known, default=nan) <= restitution <= max(known, default=nan)
+
+    if len(fractions) == 1:
+        run(1.0, fractions[0])
+    elif not reach(1.0):
         lowest = min((value for value, _, _ in found.values() if not isnan(value)), default=nan)
-        order = HARDER_FIRST if lowest > restitution else SOFTER_FIRST
-        others = [partial(run, stiffness) for stiffness in order]
-        any(_may_reach(each, restitution, fractions) and _reach(each, restitution, fractions) for each in others)
+        any(may_reach(each) and reach(each) for each in (HARDER_FIRST if lowest > restitution else SOFTER_FIRST))
+    if not found:
+        raise refused[0]
     values = np.array([value for value, _, _ in found.values()])
-    if values.size == 0:
-        raise ValueError(
-            f"step is {step:.4g} s; at most {longest_with(body, law, 0.0):.4g} s was expected: beyond it the contact "
-            f"of this body ({body.description}) is unstable. Use a shorter step or a softer contact."
-        )
     if not np.isfinite(values).any():
         raise ValueError(
             f"No free vibration of this body ({body.description}) gave a restitution; a block that rocks was expected"
@@ -192,33 +210,6 @@ def calibrate(
     value, source, history = list(found.values())[int(np.nanargmin(np.abs(values - restitution)))]
     stiffnesses, tried = np.array(list(found)).T
     return Calibration(history, value, source, restitution, tried, stiffnesses, values)
-
-
-def _may_reach(run: Callable[[float], float], target: float, fractions: Sequence[float]) -> bool:
-    """Say by three runs whether a stiffness can give a restitution: e is least at one of the last two fractions."""
-    ends = [value for value in map(run, (*fractions[:1], *fractions[-2:])) if not isnan(value)]
-    return min(ends, default=nan) <= target <= max(ends, default=nan)
-
-
-def _reach(run: Callable[[float], float], target: float, fractions: Sequence[float]) -> bool:
-    """Close in on a restitution between the first two neighbours between which e falls through it, if there are any."""
-    for low, high in pairwise(fractions):
-        if run(low) >= target >= run(high):
-            near = min((low, high), key=lambda fraction: abs(run(fraction) - target))
-            if abs(run(near) - target) > TOLERANCE:
-                # Within the tolerance it is a root: the search ends there.
-                scipy.optimize.brentq(
-                    partial(_misfit, run, target), low, high, xtol=1e-9, maxiter=MOST_RUNS, disp=False
-                )
-            return True
-    # A single fraction is only computed.
-    return bool(len(fractions) == 1 and abs(run(fractions[0]) - target) <= TOLERANCE)
-
-
-def _misfit(run: Callable[[float], float], target: float, fraction: float) -> float:
-    """Give how far e is from the target; 0 within the tolerance."""
-    missing = run(fraction) - target
-    return 0.0 if abs(missing) <= TOLERANCE else missing
 
 
 def _duration(restitution: float, impacts: int) -> float:

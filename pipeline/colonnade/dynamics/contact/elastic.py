@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -173,17 +173,6 @@ def reduce_body(body: ElasticBody, *, vibration_modes: int = VIBRATION_MODES) ->
     space = np.linalg.qr(np.hstack([each / np.linalg.norm(each, axis=0) for each in shapes]))[0][:, rigid.shape[1] :]
     squares, mixture = np.linalg.eigh(space.T @ (scaled @ space))
     modes, frequencies = space @ mixture / roots[:, None], np.sqrt(squares)
-    return replace(
-        rigid_on_nodes(body),
-        modes=modes.reshape(-1, 3, frequencies.size)[body.base],
-        frequencies=frequencies,
-        modal_damping=modal_damping(body, modes, frequencies),
-        description=f"{body.description}; {vibration_modes} vibration modes with attachment modes",
-    )
-
-
-def rigid_on_nodes(body: ElasticBody) -> ContactBody:
-    """Give the rigid block that stands on the same nodes, with the same weights."""
     return ContactBody(
         mass=float(body.node_mass.sum()),
         inertia=body.inertia,
@@ -191,7 +180,10 @@ def rigid_on_nodes(body: ElasticBody) -> ContactBody:
         node_mass=body.node_mass[body.base],
         node_area=body.base_area,
         ring_radii=np.zeros(len(body.base)),
-        description=f"{body.description}, rigid",
+        modes=modes.reshape(-1, 3, frequencies.size)[body.base],
+        frequencies=frequencies,
+        modal_damping=modal_damping(body, modes, frequencies),
+        description=f"{body.description}; {vibration_modes} vibration modes with attachment modes",
     )
 
 

@@ -24,7 +24,7 @@ def kick(system: System, state: State, step: float) -> None:
     """Take the contact's impulse on all bodies, and book it."""
     rigid, matrix, change, total, strain = state.rigid, state.matrix, state.change, state.total, state.strain
     mass, sides = system.mass, system.carrier.size
-    change[:, :], total[:, :], strain[2:, :] = 0.0, 0.0, 0.0
+    change[:, :], total[:, :], strain[2:, :], state.held[:] = 0.0, 0.0, 0.0, 0.0
     if state.listed[sides] == 0:
         return
     for turn in range(PASSES + 1):
@@ -34,9 +34,7 @@ def kick(system: System, state: State, step: float) -> None:
         for mode in range(strain.shape[1]):
             strain[3, mode] = strain[1, mode] + 0.5 * strain[2, mode]
         for side in range(sides):
-            _fill_velocities(system, state, side)
-            if turn == 0:
-                _fill_increase(system, state, side, step)
+            _fill_velocities(system, state, side, step if turn == 0 else 0.0)
         if turn == PASSES:
             # The last turn only gives the mean velocities that the ledger needs.
             break
@@ -64,8 +62,11 @@ def kick(system: System, state: State, step: float) -> None:
 
 
 @kernel_in_place
-def _fill_velocities(system: System, state: State, side: int) -> None:
-    """Fill the velocities of an interface's points relative to the target, v + ω × r + R Φ η̇."""
+def _fill_velocities(system: System, state: State, side: int, step: float) -> None:
+    """
+    Fill the velocities of an interface's points relative to the target, v + ω × r + R Φ η̇, and where a step is given
+    the slip's increase since the last kick; a point that just arrives has none.
+    """
     strain, modes, turned, nodes = state.strain, system.modes, state.turned, state.node
     lever, load, twist, listed = state.lever, state.load, state.twist, state.listed
     u, v, w, p, q, r = twist[side, 0], twist[side, 1], twist[side, 2], twist[side, 3], twist[side, 4], twist[side, 5]
@@ -79,18 +80,11 @@ def _fill_velocities(system: System, state: State, side: int) -> None:
                 speed += modes[nodes[index], own, mode] * strain[3, mode]
             for axis in range(3):
                 load[index, 9 + axis] += turned[side, axis, own] * speed
-
-
-@kernel_in_place
-def _fill_increase(system: System, state: State, side: int, step: float) -> None:
-    """Fill the slip's increase since the last kick of an interface's points; one that just arrives has none."""
-    load, pull, listed = state.load, state.pull, state.listed
-    # Free of contact, the mean velocity was less than now by what the table's acceleration gives in half a step.
-    half = 0.5 * step if system.target[side] < 0 else 0.0
-    for index in range(listed[side], listed[side + 1]):
-        first = 0.0 if state.touched[state.slot[index]] == 0 else step
-        for axis in range(2):
-            load[index, 12 + axis] = first * (load[index, 9 + axis] - half * pull[axis])
+        for axis in range(2 if step > 0.0 else 0):
+            # Free of contact, the mean velocity was less by what the table's acceleration gives in half a step.
+            half = 0.5 * step if system.target[side] < 0 else 0.0
+            mean = load[index, 9 + axis] - half * state.pull[axis]
+            load[index, 12 + axis] = state.touched[state.slot[index]] * step * mean
 
 
 @kernel_in_place
@@ -208,3 +202,4 @@ def _settle(system: System, state: State, side: int, step: float) -> None:
             lost[side, 1] += held - half * (load[index, 4] ** 2 + load[index, 5] ** 2)
         slip[slot, 0], slip[slot, 1] = load[index, 4], load[index, 5]
         touched[slot] = 1 if load[index, 3] > 0.0 else 0
+        state.held[side] += touched[slot] * half * (slip[slot, 0] ** 2 + slip[slot, 1] ** 2)

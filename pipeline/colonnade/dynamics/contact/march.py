@@ -19,7 +19,7 @@ from math import atan2, cos, sin
 from colonnade.arrays import Array
 from colonnade.dynamics.contact.kick import kick
 from colonnade.dynamics.contact.state import TABLE, State, System
-from colonnade.dynamics.contact.touch import fill_poses, fill_twists, place, spring_energy
+from colonnade.dynamics.contact.touch import fill_twists, place
 from colonnade.dynamics.kernel import kernel_in_place
 
 POLE = 0.75
@@ -206,7 +206,7 @@ def _where_it_touches(system: System, state: State, joint: int) -> tuple[bool, b
 @kernel_in_place
 def _fill_sample(system: System, state: State, sample: Array, joints: Array, sums: Array) -> None:
     """Fill the rows of a sample except the table's force, which is added up along the run."""
-    fill_poses(system, state)
+    place(system, state, 0.0)
     for body in range(sample.shape[0]):
         for column in range(13):
             sample[body, column] = state.rigid[body, column]
@@ -214,7 +214,10 @@ def _fill_sample(system: System, state: State, sample: Array, joints: Array, sum
             sample[body, 10 + axis] /= system.inertia[body, axis]
     for joint in range(joints.shape[0]):
         for side in range(system.sides[joint], system.sides[joint + 1]):
-            joints[joint, 0] += spring_energy(system, state, side)
+            joints[joint, 0] += state.held[side]
+            for index in range(state.listed[side], state.listed[side + 1]):
+                stiffness = state.share[index] * system.stiffness[state.node[index]]
+                joints[joint, 0] += 0.5 * stiffness * max(state.depth[index], 0.0) ** 2
             joints[joint, 1] += state.lost[side, 0]
             joints[joint, 2] += state.lost[side, 1]
     sums[0], sums[1] = state.work[0], state.work[1]

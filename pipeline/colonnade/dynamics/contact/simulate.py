@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import ceil, hypot
+from typing import Unpack
 
 import numpy as np
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
-from colonnade.dynamics.contact.body import DEFAULT_STEP, ContactBody, ContactLaw, rotation_matrices
+from colonnade.dynamics.contact.body import DEFAULT_STEP, ContactBody, ContactLaw, Tilts, rotation_matrices
 from colonnade.dynamics.contact.history import (
     AssemblyHistory,
     BodyHistory,
@@ -46,10 +47,8 @@ def simulate(
     gravity: float = STANDARD_GRAVITY,
     duration: float | None = None,
     step: float | None = None,
-    theta0: float = 0.0,
-    omega0: float = 0.0,
-    out_of_plane: float = 0.0,
     start: Start | None = None,
+    **tilts: Unpack[Tilts],
 ) -> ContactHistory:
     """
     Compute how a body moves on a table that it touches at its base nodes.
@@ -67,10 +66,10 @@ def simulate(
     step : float, optional
         Largest step, s; each interval of the motion is divided into equal ones. Default: 5 µs, or a fifth of the
         longest stable step where that is shorter.
-    theta0, omega0, out_of_plane : float, optional
-        The body at the start, on the table: angle (rad) and angular velocity (rad/s) about y, rotation about x.
     start : Start, optional
-        Instead of these, any other state.
+        Any state at the start.
+    **tilts : float, optional
+        Instead of that the body on the table, as of `standing`: `theta0`, `omega0`, `out_of_plane`.
 
     Returns
     -------
@@ -92,7 +91,7 @@ def simulate(
     'rocking'
     """
     structure = Structure.of_body(body, law, gravity)
-    starts = standing(structure, theta0=theta0, omega0=omega0, out_of_plane=out_of_plane) if start is None else [start]
+    starts = standing(structure, **tilts) if start is None else [start]
     together, (own,) = _run(structure, starts, motion, duration, step)
     axis = rotation_matrices(own.orientation)[:, :, 2]
     rate = np.cross(own.turning, axis)
@@ -110,10 +109,9 @@ def simulate_assembly(
     law: ContactLaw | None = None,
     duration: float | None = None,
     step: float | None = None,
-    theta0: float = 0.0,
-    omega0: float = 0.0,
     starts: Mapping[str, Start] | None = None,
     structure: Structure | None = None,
+    **tilts: Unpack[Tilts],
 ) -> AssemblyHistory:
     """
     Compute how the bodies of an assembly move on a table and on each other.
@@ -125,13 +123,12 @@ def simulate_assembly(
         As of `simulate`.
     law : ContactLaw, optional
         Of all interfaces. Without a stiffness, each has its own by the weight above it.
-    theta0, omega0 : float, optional
-        rad and rad/s, of the bodies on the table; what stands on one of them alone turns with it, what stands on
-        several stays level.
     starts : mapping of str to Start, optional
-        Of single bodies by name, instead.
+        Of single bodies by name, instead of `tilts`.
     structure : Structure, optional
         With other nodes than the default; its law counts.
+    **tilts : float, optional
+        As of `simulate`, of all bodies on the table.
 
     Returns
     -------
@@ -145,9 +142,7 @@ def simulate_assembly(
     """
     law = ContactLaw() if law is None else law
     structure = Structure.of_assembly(assembly, law) if structure is None else structure
-    begin = dict(zip(structure.names, standing(structure, theta0=theta0, omega0=omega0), strict=True)) | dict(
-        starts or {}
-    )
+    begin = dict(zip(structure.names, standing(structure, **tilts), strict=True)) | dict(starts or {})
     together, bodies = _run(structure, list(begin.values()), motion, duration, step)
     return AssemblyHistory(**vars(together), assembly=assembly, bodies=dict(zip(structure.names, bodies, strict=True)))
 
@@ -248,7 +243,7 @@ def _parts(structure: Structure, motion: Motion, step: float | None) -> int:
     parts = max(1, ceil(motion.dt / step * (1.0 - 1e-12)))
     if motion.dt / parts > longest:
         raise ValueError(
-            f"step is {motion.dt / parts:.4g} s; at most {longest:.4g} s was expected: beyond it the contact of this "
+            f"step is {step:.4g} s; at most {longest:.4g} s was expected: beyond it the contact of this "
             "body and law is unstable. Use a shorter step or a smaller stiffness."
         )
     return parts

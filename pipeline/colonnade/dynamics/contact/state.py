@@ -80,9 +80,9 @@ class State(NamedTuple):
     elastic slip of each point; touched: 1 where the point touched in the last step; entry: how deep it was as it came
     over the outline of a face from below (m), from where on it bears, and −1 less that where it is off the face; arcs:
     direction of a ring's lowest point in the carrier and half the arc (rad) that its points span, 0 where it is off the
-    face; work: of the table and lost by the modes; lost: taken by contact and friction; watch: pole rocked on (±1; 0 at
-    first, 2 in an impact), its last impact, largest |angle| since then, angle and speed about the pole before the kick;
-    hits: number of impacts of all joints. The rest is of one step.
+    face; work: of the table and lost by the modes; lost: taken by contact and friction; held: energy of the slip;
+    watch: pole rocked on (±1; 0 at first, 2 in an impact), its last impact, largest |angle| since then, angle and speed
+    about the pole before the kick; hits: number of impacts of all joints. The rest is of one step.
 
     Of each interface: frame: the target's axes to the table's; turned and apart: carrier to target, from the face's
     middle; twist: v and ω of the carrier relative to the target, in its axes; listed: where its points begin in the
@@ -103,6 +103,7 @@ class State(NamedTuple):
     arcs: Annotated[Array, "n", 2]
     work: Annotated[Array, 2]
     lost: Annotated[Array, "s", 2]
+    held: Annotated[Array, "s"]
     watch: Annotated[Array, "j", 5]
     hits: Annotated[Whole, 1]
     frame: Annotated[Array, "s", 3, 3]

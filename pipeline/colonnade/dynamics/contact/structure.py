@@ -129,7 +129,7 @@ class Structure:
         return cls(gravity, [""], [body], rest, [[joint]], [[0]], [atan2(body.half_width, body.height)])
 
     @classmethod
-    def of_assembly(cls, assembly: Assembly, law: ContactLaw, *, grid: tuple[int, int] = GRID) -> Structure:
+    def of_assembly(cls, assembly: Assembly, law: ContactLaw, *, grid: int = GRID) -> Structure:
         """Let the bodies of an assembly stand on each other, with nodes as `rigid_body` places them."""
         numbers = {name: number for number, name in enumerate(assembly.bodies)}
         bodies = [rigid_body(placed.block, grid=grid) for placed in assembly.bodies.values()]
@@ -198,7 +198,7 @@ class Structure:
 class _Patch:
     """Where a block stands on another: nodes of each on the face of the other, in the upper one's axes."""
 
-    def __init__(self, upper: Placed, lower: Placed, grid: tuple[int, int]) -> None:
+    def __init__(self, upper: Placed, lower: Placed, grid: int) -> None:
         above, below = upper.block.solid, lower.block.solid
         assert above is not None  # the assembly has seen to it
         assert below is not None
@@ -243,10 +243,10 @@ class _Patch:
             # Only the rim of one that is not the smaller face.
             return (nodes, areas) if fits[which] and not (which == 1 and fits[0]) else (nodes[-1:], areas[-1:])
         if which == 1 and self._round[0] and fits[0]:
-            nodes, areas = grid_nodes(-size[0], size[0], size[1], *self._grid)
+            nodes, areas = grid_nodes(-size[0], size[0], size[1], self._grid)
             edge = self._at_edge(nodes + origin, 1)
             return nodes[edge], areas[edge]
-        places, areas = grid_nodes(-0.5 * reach[0], 0.5 * reach[0], 0.5 * reach[1], *self._grid)
+        places, areas = grid_nodes(-0.5 * reach[0], 0.5 * reach[0], 0.5 * reach[1], self._grid)
         places = places + 0.5 * (self._low + self._high)
         # A node within the patch is the one's whose face is the patch; one at an edge is whose edge it is, or of both.
         on_upper, on_lower = self._at_edge(places, 0), self._at_edge(places, 1)
@@ -254,7 +254,7 @@ class _Patch:
         nodes, areas = places[own], areas[own]
         if not any(self._round):
             # And those of its edges that bear only once it has slid onto the other.
-            off, off_areas = grid_nodes(-size[0], size[0], size[1], *self._grid)
+            off, off_areas = grid_nodes(-size[0], size[0], size[1], self._grid)
             off = off + origin
             beyond = (np.abs(off - (1 - which) * self._offset) / self._sizes[1 - which]).max(axis=1)
             kept = self._at_edge(off, which) & (beyond > 1.0 + 1e-6) & (beyond < SLIDES)

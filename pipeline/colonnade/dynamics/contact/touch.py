@@ -74,7 +74,7 @@ def fill_twists(system: System, state: State, share: float) -> None:
 
 @kernel_in_place
 def place(system: System, state: State, step: float) -> None:
-    """List the points that may touch within `step`, interface by interface."""
+    """List the points that may touch within `step`, interface by interface; with 0 those that do, and no arc moves."""
     fill_poses(system, state)
     fill_twists(system, state, 0.0)
     listed, twist, stands, flutter = state.listed, state.twist, state.stands, 0.0
@@ -176,7 +176,7 @@ def _place_ring(system: System, state: State, side: int, node: int, count: int, 
     # The arc about the lowest point that touches at the end of half a step of it.
     half = half_arc(depth + 0.5 * step * sinking, rise)
     angle = atan2(-turned[side, 2, 1], -turned[side, 2, 0]) if rise > 0.0 else arcs[node, 0]
-    if angle != arcs[node, 0] or half != arcs[node, 1]:
+    if step > 0.0 and (angle != arcs[node, 0] or half != arcs[node, 1]):
         _move_arc(system, state, side, node, angle, half)
     for point in range(arc.shape[1] if half > 0.0 else 0):
         about = angle + half * arc[0, point]
@@ -241,25 +241,3 @@ def _read_slip(slip: Array, first: int, places: Array, sought: float, around: bo
         before = slip[first + (right - 1) % points, axis] if right > 0 or around else 0.0
         after = slip[first + right % points, axis] if right < points or around else 0.0
         carried[point, axis] = before + share * (after - before)
-
-
-@kernel_in_place
-def spring_energy(system: System, state: State, side: int) -> float:
-    """Give the energy in the springs of an interface at this instant."""
-    slip, touched, weights, energy = state.slip, state.touched, system.arc[1], 0.0
-    for node in range(system.first[side], system.first[side + 1]):
-        (x, y, z), radius, angle, half, points = _displaced(system, state, node), system.radii[node], 0.0, pi, 1
-        if radius > 0.0:
-            depth, rise = _lowest(system, state, side, node)
-            angle = atan2(-state.turned[side, 2, 1], -state.turned[side, 2, 0]) if rise > 0.0 else 0.0
-            half, points = half_arc(depth, rise), weights.size
-        for point in range(points):
-            now, before = 1.0, 1.0
-            if radius > 0.0:
-                about, share = angle + half * system.arc[0, point], weights[point] / (2.0 * pi)
-                x, y, now, before = radius * cos(about), radius * sin(about), half * share, state.arcs[node, 1] * share
-            on_face, slot = _put(system, state, side, 0, x, y, z), system.slots[node] + point
-            deep = max(state.depth[0] - max(state.entry[slot], 0.0), 0.0)
-            slipped = slip[slot, 0] ** 2 + slip[slot, 1] ** 2 if touched[slot] == 1 else 0.0
-            energy += 0.5 * on_face * system.stiffness[node] * (now * deep**2 + before * slipped)
-    return energy
