@@ -9,7 +9,7 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactLaw, rigid_body
-from colonnade.dynamics.models import LINEAR, MODELS, NONLINEAR, model_of, plane_model_of
+from colonnade.dynamics.models import MODELS, model_of, plane_model_of
 from colonnade.dynamics.rock import rock
 from prism import PRISM
 
@@ -40,17 +40,6 @@ def test_a_model_in_space_is_not_a_plane_one():
 def test_the_registry_loads_no_library_of_numbers():
     code = "import sys, colonnade.dynamics.models; print({'numba', 'scipy', 'matplotlib'} & sys.modules.keys())"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "set()\n"
-
-
-STOCKY = Block.prism(width=0.2, depth=0.2, height=0.5, mass=50.0)
-ALPHA, P = STOCKY.critical_angle, STOCKY.p
-STEP = 1e-3
-TIME = np.arange(0.0, 0.3, STEP)
-PULL = 0.1 * np.sin(9.0 * TIME)
-EQUATIONS = {
-    LINEAR: lambda angle: P**2 * (angle - ALPHA - PULL),
-    NONLINEAR: lambda angle: -(P**2) * (np.sin(ALPHA - angle) + PULL * np.cos(ALPHA - angle)),
-}
 
 
 FREE = {"model": "contact", "theta0": 0.5 * PRISM.critical_angle, "duration": 0.02}

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from alone import alone
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactLaw, rigid_body, rotation_matrices
 from colonnade.dynamics.contact.calibration import TOLERANCE, calibrate
@@ -13,6 +12,7 @@ from colonnade.dynamics.contact.start import Start
 from colonnade.dynamics.contact.structure import Structure
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
+from on_contact import alone
 from polygon import polygon
 
 GRAVITY = 9.81

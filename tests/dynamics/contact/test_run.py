@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from alone import alone
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactLaw, rigid_body, rotation_matrices
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.start import Start
 from colonnade.dynamics.motion import Motion
+from on_contact import alone
 from prism import PRISM
 
 GRAVITY = 9.81

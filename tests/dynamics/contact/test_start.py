@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from alone import alone
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import STATIC_PENETRATION, ContactLaw, rigid_body, rotation_matrices
+from on_contact import alone
 
 GRAVITY = 9.81
 PRISM = rigid_body(Block.prism(width=0.2, depth=0.3, height=0.9, mass=150.0))

@@ -34,7 +34,6 @@ def march(
     interval: float,
     parts: int,
     samples: Array,
-    joints: Array,
     sums: Array,
     found: Array,
     begin: int,
@@ -42,11 +41,11 @@ def march(
     """
     Fill the samples from `begin` on along a motion (shape (n, 3)), and the impacts; return how many were reached.
 
-    `parts` steps an interval. samples, shape (n, b, 13): of the bodies, as `rigid`, but with the angular velocity.
-    joints, shape (n, j, 3): energy, lost to contact and to friction. sums, shape (n, 7): work of the table, lost by the
-    modes, their kinetic and strain energy, force of the table (mean since the sample before). A body has fallen that
-    lies at a tilt of π/2 or is too low. The run ends where all have, and pauses where the next interval might find more
-    impacts than `found`, shape (k, IMPACT), has room for.
+    `parts` steps an interval. samples, shape (n, b, 15): of the bodies, as `rigid`, but with the angular velocity, and
+    what contact and friction took where each stands. sums, shape (n, 11): of all, as of `EnergyBalance`, then the force
+    of the table (mean since the sample before). A body has fallen that lies at a tilt of π/2 or is too low. The run
+    ends where all have, and pauses where the next interval might find more impacts than `found`, shape (k, IMPACT), has
+    room for.
     """
     step, bodies, count = interval / parts, system.mass.size, state.watch.shape[0]
     watch, stands, total = state.watch, state.stands, state.total
@@ -65,9 +64,9 @@ def march(
             for joint in range(count):
                 _watch(system, state, joint, base, time, found)
             for axis in range(3):
-                sums[sample, 4 + axis] -= total[TABLE, axis] / parts
+                sums[sample, 8 + axis] -= total[TABLE, axis] / parts
             _drift(system, state, motion, sample, (part + 0.75) / parts, 0.5 * step)
-        _fill_sample(system, state, samples[sample], joints[sample], sums[sample])
+        _fill_sample(system, state, samples[sample], sums[sample])
         left = 0
         for body in range(bodies):
             if state.matrix[body, 2, 2] <= 0.0 or state.rigid[body, 2] < system.lowest[body]:
@@ -177,7 +176,7 @@ def _watch(system: System, state: State, joint: int, base: float, time: float, f
     if abs(pole) == 1.0 and (now == -pole or inner or (left and right)):
         hit = hits[0]
         found[hit, 0], found[hit, 1], found[hit, 2], found[hit, 3] = time, watch[joint, 3], watch[joint, 4], base
-        found[hit, 4], found[hit, 8], found[hit, 9] = pole, watch[joint, 2], joint
+        found[hit, 4], found[hit, 8], found[hit, 9] = pole, watch[joint, 2], system.carrier[system.sides[joint]]
         hits[0], pole = hit + 1, 2.0
     # The next begins where it touches at one pole only.
     if now != 0.0 and abs(pole) != 1.0:
@@ -204,23 +203,29 @@ def _where_it_touches(system: System, state: State, joint: int) -> tuple[bool, b
 
 
 @kernel_in_place
-def _fill_sample(system: System, state: State, sample: Array, joints: Array, sums: Array) -> None:
+def _fill_sample(system: System, state: State, sample: Array, sums: Array) -> None:
     """Fill the rows of a sample except the table's force, which is added up along the run."""
     place(system, state, 0.0)
+    rigid, inertia, strain = state.rigid, system.inertia, state.strain
+    sums[4], sums[7] = state.work[0], state.work[1]
     for body in range(sample.shape[0]):
-        for column in range(13):
-            sample[body, column] = state.rigid[body, column]
+        for column in range(10):
+            sample[body, column] = rigid[body, column]
+        sums[1] += system.gravity * system.mass[body] * rigid[body, 2]
         for axis in range(3):
-            sample[body, 10 + axis] /= system.inertia[body, axis]
-    for joint in range(joints.shape[0]):
-        for side in range(system.sides[joint], system.sides[joint + 1]):
-            joints[joint, 0] += state.held[side]
-            for index in range(state.listed[side], state.listed[side + 1]):
-                stiffness = state.share[index] * system.stiffness[state.node[index]]
-                joints[joint, 0] += 0.5 * stiffness * max(state.depth[index], 0.0) ** 2
-            joints[joint, 1] += state.lost[side, 0]
-            joints[joint, 2] += state.lost[side, 1]
-    sums[0], sums[1] = state.work[0], state.work[1]
-    for mode in range(state.strain.shape[1]):
-        sums[2] += 0.5 * state.strain[1, mode] ** 2
-        sums[3] += 0.5 * (system.frequencies[mode] * state.strain[0, mode]) ** 2
+            sample[body, 10 + axis] = rigid[body, 10 + axis] / inertia[body, axis]
+            sums[0] += 0.5 * (
+                system.mass[body] * rigid[body, 3 + axis] ** 2 + rigid[body, 10 + axis] ** 2 / inertia[body, axis]
+            )
+    for mode in range(strain.shape[1]):
+        sums[0] += 0.5 * strain[1, mode] ** 2
+        sums[2] += 0.5 * (system.frequencies[mode] * strain[0, mode]) ** 2
+    for side in range(system.carrier.size):
+        sums[3] += state.held[side]
+        for index in range(state.listed[side], state.listed[side + 1]):
+            stiffness = state.share[index] * system.stiffness[state.node[index]]
+            sums[3] += 0.5 * stiffness * max(state.depth[index], 0.0) ** 2
+        upper = max(system.carrier[side], system.target[side])
+        for way in range(2):
+            sample[upper, 13 + way] += state.lost[side, way]
+            sums[5 + way] += state.lost[side, way]

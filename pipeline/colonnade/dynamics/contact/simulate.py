@@ -163,69 +163,50 @@ def _run(
     structure: Structure, starts: list[Start], motion: Motion | None, duration: float | None, step: float | None
 ) -> tuple[Together, list[BodyHistory]]:
     """Run bodies from their starts; those that are past α at the end until they fall or come back."""
-    gravity, first = structure.gravity, plane_block(structure.bodies[0], structure.gravity)
+    first = plane_block(structure.bodies[0], structure.gravity)
     motion = at_rest(first, duration) if motion is None else motion
     parts, nothing = _parts(structure, motion, step), np.zeros(motion.acceleration.size)
     along = motion.acceleration, motion.transverse, motion.vertical
     table = np.column_stack([nothing if values is None else values for values in along])
     rows = np.array([start.row for start in starts])
-    samples, joints, sums, impacts, stands = _march(structure, rows, table, motion.dt, parts)
+    samples, sums, impacts, stands = _march(structure, rows, table, motion.dt, parts)
     matrices, arms = rotation_matrices(samples[:, :, 6:10]), np.zeros((*samples.shape[:2], 3))
-    masses, inertias = (np.array([getattr(body, name) for body in structure.bodies]) for name in ("mass", "inertia"))
-    for row, (body, turning) in enumerate(zip(structure.bodies, structure.together, strict=True)):
+    for row, (body, names) in enumerate(zip(structure.bodies, structure.together, strict=True)):
+        masses = np.array([structure.bodies[other].mass for other in names])
         base = samples[:, row, :3] - body.height * matrices[:, row, :, 2]
-        centre = np.einsum("nbi,b->ni", samples[:, turning, :3], masses[turning] / masses[turning].sum())
-        arms[:, row] = centre - base
+        arms[:, row] = np.einsum("nbi,b->ni", samples[:, names, :3], masses / masses.sum()) - base
     leans = np.arctan2(np.hypot(arms[:, :, 0], arms[:, :, 1]), arms[:, :, 2]) / structure.critical_angles
     if (stands & (leans[-1] > 1.0)).any():
         still = np.zeros((ceil(AFTERMATH / (first.p * motion.dt)) + 1, 3))
-        *_, stands = _march(structure, samples[-1], still, motion.dt, parts)
+        *_, stands = _march(structure, samples[-1, :, :13], still, motion.dt, parts)
     upright = np.where(leans <= 1.0, np.arange(len(leans))[:, None], -1).max(axis=0)
     times = np.where(stands, np.nan, motion.time[np.minimum(upright + 1, len(leans) - 1)])
-    bodies, own = [], range(0)
+    bodies = []
     for row, body in enumerate(structure.bodies):
-        own = range(own.stop, own.stop + len(structure.joints[row]))
         place, supports = samples[:, row, :3], {}
         for side in (joint.sides[0] for joint in structure.joints[row] if joint.sides[0].target != TABLE):
             turned = np.swapaxes(matrices[:, side.target], 1, 2)
             apart = np.einsum("nij,nj->ni", turned, place - samples[:, side.target, :3]) - side.apart
             supports[structure.names[side.target]] = Pose(**_pose(body, turned @ matrices[:, row], apart))
-        times_, before, after = impacts_of(impacts[np.isin(impacts[:, -1], own)], plane_block(body, gravity))
-        bodies.append(
-            BodyHistory(
-                **_pose(body, matrices[:, row], place - structure.rest[row]),
-                supports=supports,
-                lean=leans[:, row],
-                arm=arms[:, row],
-                position=place,
-                velocity=samples[:, row, 3:6],
-                orientation=samples[:, row, 6:10],
-                turning=np.einsum("nij,nj->ni", matrices[:, row], samples[:, row, 10:13]),
-                impact_times=times_,
-                impact_velocities=before,
-                rebound_velocities=after,
-                dissipated_contact=joints[:, own, 1].sum(axis=1),
-                dissipated_friction=joints[:, own, 2].sum(axis=1),
-                overturning_time=float(times[row]),
-            )
+        found = impacts_of(impacts[impacts[:, -1] == row], plane_block(body, structure.gravity))
+        own = BodyHistory(
+            **_pose(body, matrices[:, row], place - structure.rest[row]),
+            **dict(zip(("impact_times", "impact_velocities", "rebound_velocities"), found, strict=True)),
+            supports=supports,
+            lean=leans[:, row],
+            arm=arms[:, row],
+            position=place,
+            velocity=samples[:, row, 3:6],
+            orientation=samples[:, row, 6:10],
+            turning=np.einsum("nij,nj->ni", matrices[:, row], samples[:, row, 10:13]),
+            dissipated_contact=samples[:, row, 13],
+            dissipated_friction=samples[:, row, 14],
+            overturning_time=float(times[row]),
         )
-    speeds = (samples[:, :, 3:6] ** 2).sum(axis=2) @ masses
-    turning = (samples[:, :, 10:13] ** 2 * inertias).sum(axis=2).sum(axis=1)
-    contact, lost_to_contact, lost_to_friction = joints.sum(axis=1).T
-    energies = EnergyBalance(
-        kinetic=0.5 * (speeds + turning) + sums[:, 2],
-        potential=gravity * samples[:, :, 2] @ masses,
-        strain=sums[:, 3],
-        contact=contact,
-        work=sums[:, 0],
-        dissipated_contact=lost_to_contact,
-        dissipated_friction=lost_to_friction,
-        dissipated_bulk=sums[:, 1],
-    )
-    law = structure.interfaces[0].law
-    return Together(
-        law=law, time=motion.time, energies=energies, base_force=sums[:, 4:], step=motion.dt / parts
-    ), bodies
+        bodies.append(own)
+    law, energies = structure.interfaces[0].law, EnergyBalance(*sums[:, :8].T)
+    common = Together(law=law, time=motion.time, energies=energies, base_force=sums[:, 8:], step=motion.dt / parts)
+    return common, bodies
 
 
 def _parts(structure: Structure, motion: Motion, step: float | None) -> int:
@@ -251,20 +232,19 @@ def _parts(structure: Structure, motion: Motion, step: float | None) -> int:
 
 def _march(
     structure: Structure, rows: Array, table: Array, interval: float, parts: int
-) -> tuple[Array, Array, Array, Array, Mask]:
-    """Call the engine from the bodies' rows, as of `Start`; give samples, joints, sums, impacts, stands."""
+) -> tuple[Array, Array, Array, Mask]:
+    """Call the engine from the bodies' rows, as of `Start`; give samples, sums, impacts, stands."""
     system = structure.system(interval / parts)
-    state, joints = State.begin(system, rows), len(system.poles)
-    samples, sums = np.zeros((len(table), *rows.shape)), np.zeros((len(table), 7))
-    contact, found = np.zeros((len(table), joints, 3)), np.zeros((2 * joints * parts, IMPACT))
+    state, size = State.begin(system, rows), 2 * len(system.poles) * parts
+    samples, sums, found = np.zeros((len(table), len(rows), 15)), np.zeros((len(table), 11)), np.zeros((size, IMPACT))
     reached, stands = 0, state.stands[:TABLE]
     while reached < len(table) and stands.any():
-        reached = march(system, state, table, interval, parts, samples, contact, sums, found, reached)
+        reached = march(system, state, table, interval, parts, samples, sums, found, reached)
         found = np.concatenate((found, np.zeros_like(found)))
     # Where all have fallen before the end, the last sample is held.
-    for values in (samples, contact, sums):
+    for values in (samples, sums):
         values[reached:] = values[reached - 1]
-    return samples, contact, sums, found[: state.hits[0]], stands > 0
+    return samples, sums, found[: state.hits[0]], stands > 0
 
 
 def _pose(body: ContactBody, matrices: Array, moved: Array) -> dict[str, Array]:

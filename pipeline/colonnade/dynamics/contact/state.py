@@ -20,7 +20,7 @@ POINTS = 8
 
 IMPACT = 10
 """Columns of the impacts: begin, angle, speed, base acceleration, pole (±1); angle, speed and pole (0 where it does not
-end) at its end; largest |angle| since the impact before; joint. A speed is the angular momentum about the pole over the
+end) at its end; largest |angle| since the impact before; body. A speed is the angular momentum about the pole over the
 inertia about it, which the contact's own vibration does not change."""
 
 
