@@ -149,5 +149,5 @@ def test_inputs_have_the_deviations_of_their_ranges(shaken_in_space):
 def test_damping_that_the_step_does_not_follow_is_told(shaken_in_space):
     conditioned, rocking, law, read = shaken_in_space
     stiff = law.assign(contact_stiffness=1e6 * law["contact_stiffness"])
-    with pytest.raises(StageError, match=r"contact\.step: The step is"):
+    with pytest.raises(StageError, match=r"processing\.predict\.contact: step is .*; at most"):
         running.ensemble(conditioned, rocking, read, contact=stiff)

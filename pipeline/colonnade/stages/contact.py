@@ -171,17 +171,17 @@ def body_of(inputs: ContactInputs, law: ContactLaw) -> ContactBody:
     StageError
         If a body without dimensions is to be meshed, or the step is too long for the law.
     """
-    with refusals("processing.predict.contact.step"):
+    with refusals():
         return keep_modes_for_step(_whole_body(inputs), law, inputs.settings.step)
 
 
 @contextmanager
-def refusals(key: str = "processing.predict.contact") -> Iterator[None]:
-    """Tell what the contact model refuses as an error about a key of the campaign file."""
+def refusals() -> Iterator[None]:
+    """Tell what the contact model refuses as an error about its settings in the campaign file."""
     try:
         yield
     except ValueError as error:
-        raise StageError(f"{key}: {error}") from error
+        raise StageError(f"processing.predict.contact: {error}") from error
 
 
 @lru_cache(maxsize=4)

@@ -225,7 +225,7 @@ def _parts(structure: Structure, motion: Motion, step: float | None) -> int:
     if motion.dt / parts > longest:
         raise ValueError(
             f"step is {step:.4g} s; at most {longest:.4g} s was expected: beyond it the contact of this "
-            "body and law is unstable. Use a shorter step or a smaller stiffness."
+            "body and law is unstable. Use a shorter step or a softer contact."
         )
     return parts
 
