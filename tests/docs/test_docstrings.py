@@ -3,7 +3,6 @@
 import dataclasses
 import inspect
 import re
-from functools import cached_property
 
 import pytest
 
@@ -53,11 +52,13 @@ def members_of(name):
     return {member: inspect.getattr_static(found, member) for member in sorted(listed)}
 
 
-def method_of(member):
-    """The function behind a method; None of a property."""
-    if isinstance(member, (property, cached_property)):
-        return None
-    return member.__func__ if isinstance(member, (classmethod, staticmethod)) else member
+def expect_described(call):
+    """What a function or method takes and gives is all described; give its sections."""
+    described = FunctionDoc(call)
+    assert set(inspect.signature(call).parameters) - {"self", "cls"} == names_of(described["Parameters"])
+    assert described["Returns"]
+    assert without_unit(described["Parameters"]) == []
+    return described
 
 
 @every("name", PUBLIC)
@@ -69,11 +70,7 @@ def test_it_has_a_summary_and_an_example(name):
 
 @every("name", FUNCTIONS)
 def test_a_function_says_what_it_takes_gives_and_refuses(name):
-    found = sections(name)
-    assert set(inspect.signature(getattr(colonnade, name)).parameters) == names_of(found["Parameters"])
-    assert found["Returns"]
-    assert found["Raises"]
-    assert without_unit(found["Parameters"]) == []
+    assert expect_described(getattr(colonnade, name))["Raises"]
 
 
 @every("name", CLASSES)
@@ -90,13 +87,10 @@ def test_a_class_says_what_it_holds(name):
 def test_every_method_and_property_is_described_and_shown(name):
     shown = inspect.getdoc(getattr(colonnade, name))
     for member, found in members_of(name).items():
-        method = method_of(found)
-        text = inspect.getdoc(getattr(found, "fget", None) or getattr(found, "func", None) or method)
+        behind = getattr(found, "fget", None) or getattr(found, "func", None)  # of a property
+        method = getattr(found, "__func__", found)
+        text = inspect.getdoc(behind or method)
         assert text, member
         assert f".{member}" in shown or ">>>" in text, f"{name}.{member} has no example"
-        if method is not None:
-            described = FunctionDoc(method)
-            taken = set(inspect.signature(method).parameters) - {"self", "cls"}
-            assert taken == names_of(described["Parameters"]), member
-            assert described["Returns"], member
-            assert without_unit(described["Parameters"]) == [], member
+        if behind is None:
+            expect_described(method)
