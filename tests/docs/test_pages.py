@@ -1,6 +1,7 @@
 """Pages of the documentation: what they tell readers to type runs as printed; files and figures they name are so."""
 
 import re
+from xml.etree import ElementTree
 
 import pytest
 
@@ -103,3 +104,18 @@ def test_a_motion_that_is_stronger_by_a_thousandth_does_not_overturn_the_block(c
     motion = earthquake(1)
     shaken = colonnade.Motion(STRENGTH * (1 + change) * motion.acceleration, 0.25 * motion.dt)
     assert colonnade.rock(PRISM, shaken, restitution=0.976).outcome == outcome
+
+
+@pytest.mark.whole
+def test_no_command_of_latex_is_left_in_the_equations_of_the_site():
+    pytest.importorskip("latex2mathml", reason="the extra `docs` is not installed")
+    from docutils import nodes
+
+    from pages import markup
+
+    for page in (PROJECT / "docs").rglob("*.md"):
+        text = re.sub(r"```.*?```|`[^`\n]*`", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+        for block, inline in re.findall(r"\$\$(.+?)\$\$|\$([^$\n]+?)\$", text, flags=re.DOTALL):
+            equation = block or inline
+            texts = ElementTree.fromstring(markup(nodes.math(equation, equation), "inline")).itertext()
+            assert not [each for each in texts if "\\" in each], (page.name, equation)
