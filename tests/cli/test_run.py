@@ -65,6 +65,9 @@ def test_run_prints_the_cause_before_what_follows_from_it(colonnade, with_gain):
     assert cause < told.index("follows from the above: no restitution: free-01, free-02")
     assert "2 serious findings" in told
     assert told.index("2 serious findings") < told.index("problems.html") < told.index("report: ")
+    again = json.loads(colonnade("run", "--workers", "1", "--json").stdout)["warnings"]
+    gains = [(each["subject"], each["severity"]) for each in again if each["kind"] == "gain"]
+    assert gains == [("free-01", "serious"), ("free-02", "serious")]
 
 
 @pytest.mark.parametrize("command", ["ingest", "identify"])
