@@ -149,13 +149,12 @@ def test_bristols_numbered_channels_without_a_clock_go_by_the_rate_of_the_header
     [
         (b"<!DOCTYPE html>\n<html><body>Sign in", "a web page, not a recording"),
         (b"", "the file is empty"),
-        (b"MATLAB 5.0 MAT-file", "header is damaged or cut off"),
+        (b"MATLAB 5.0 MAT-file", "the whole header of a MATLAB file of version 5 to 7.3"),
         (b"\x93NUMPY\x01\x00v\x00{'descr': '|O'", "may contain a program"),
-        (bytes([0, 0, 0, 0, 1, 0, 0, 0, 60, 0, 0, 0]), "if it is one of version 4, open it in MATLAB"),
     ],
 )
 def test_a_file_that_is_none_is_refused_with_what_it_is(tmp_path, content, reason):
-    path = tmp_path / "a.mat"  # of version 4, only the name says so
+    path = tmp_path / "a.mat"
     path.write_bytes(content)
     # Of an empty file no format is asked.
     with pytest.raises(ReadError, match=reason):

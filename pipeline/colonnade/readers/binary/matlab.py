@@ -74,13 +74,7 @@ def recognise(head: Head) -> Recognition:
         return Recognition(True, "starts as a MATLAB file of version 7.3")
     if first.startswith(MARK) and first[126:128] in (b"IM", b"MI"):
         return Recognition(True, "starts as a MATLAB file of version 5 to 7")
-    if first.startswith(MARK):
-        return Recognition(
-            False, f"it starts like a MATLAB file, but its header is damaged or cut off ({len(first)} bytes)"
-        )
-    is_old = head.path.suffix.casefold() == ".mat" and not head.look()
-    what = "; if it is one of version 4, open it in MATLAB and save it again" if is_old else ""
-    return Recognition(False, f'it does not start with "MATLAB 5.0" or "MATLAB 7.3"{what}')
+    return Recognition(False, "it does not start with the whole header of a MATLAB file of version 5 to 7.3")
 
 
 def read(path: Path, options: MatlabOptions) -> Recording:
