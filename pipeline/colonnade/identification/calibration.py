@@ -12,7 +12,7 @@ from colonnade.arrays import Array
 from colonnade.identification.forecasts import OVERTURNED, Forecast, Response
 
 FEW, FEW_BINS, BINS = 100, 3, 5
-"""Bins of fewer tests than the first number, and of more."""
+"""Bins, of equal width from 0 to 1, of fewer tests than the first number, and of more."""
 
 RESAMPLES = 1000
 
@@ -138,14 +138,7 @@ class Reliability:
     high: Array
 
 
-def reliability(
-    forecasts: Sequence[Forecast],
-    observed: Sequence[Response],
-    campaigns: ArrayLike,
-    *,
-    bins: int | None = None,
-    resamples: int = RESAMPLES,
-) -> Reliability:
+def reliability(forecasts: Sequence[Forecast], observed: Sequence[Response], campaigns: ArrayLike) -> Reliability:
     """
     Compare forecast probabilities of overturning with what happened.
 
@@ -153,10 +146,8 @@ def reliability(
     ----------
     forecasts : sequence of Forecast, length n
     observed : sequence of Response, length n
-    campaigns, resamples
+    campaigns
         As of `surrogate_members`.
-    bins : int, optional
-        Of equal width from 0 to 1. Default: `FEW_BINS` for fewer than `FEW` tests, else `BINS`.
 
     Returns
     -------
@@ -168,8 +159,8 @@ def reliability(
     made, and surrogate observations of one campaign share what is wrong about it (`surrogates`). A member is held
     against the m − 1 others, as an observation is against m members.
     """
-    count = bins or (FEW_BINS if len(forecasts) < FEW else BINS)
-    members = surrogate_members(forecasts, campaigns, resamples=resamples)
+    count = FEW_BINS if len(forecasts) < FEW else BINS
+    members = surrogate_members(forecasts, campaigns)
     probability = np.array([each.overturning_probability for each in forecasts])
     happened = np.array([each.outcome == OVERTURNED for each in observed], dtype=np.float64)
     place = np.minimum((probability * count).astype(np.intp), count - 1)
@@ -188,9 +179,7 @@ def reliability(
     return Reliability(mean, np.bincount(place, weights=happened) / tests, tests, low, high)
 
 
-def surrogate_members(
-    forecasts: Sequence[Forecast], campaigns: ArrayLike, *, resamples: int = RESAMPLES
-) -> NDArray[np.intp]:
+def surrogate_members(forecasts: Sequence[Forecast], campaigns: ArrayLike) -> NDArray[np.intp]:
     """
     Draw a member of each forecast that is taken as if it had been observed.
 
@@ -199,15 +188,13 @@ def surrogate_members(
     forecasts : sequence of Forecast, length n
     campaigns : array_like, shape (n,)
         Number of the campaign of each test.
-    resamples : int, optional
 
     Returns
     -------
-    members : ndarray of int, shape (resamples, n)
+    members : ndarray of int, shape (RESAMPLES, n)
         The same member in all tests of a campaign; if members of two tests share nothing, that is as good as any two.
-
     """
     sizes = np.array([each.outcomes.size for each in forecasts])
     names, place = np.unique(np.asarray(campaigns), return_inverse=True)
-    drawn = np.random.default_rng(0).random((resamples, names.size))
+    drawn = np.random.default_rng(0).random((RESAMPLES, names.size))
     return np.asarray(drawn[:, place] * sizes, dtype=np.intp)

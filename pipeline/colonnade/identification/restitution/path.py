@@ -29,7 +29,7 @@ from colonnade.identification.restitution.follower import (
 from colonnade.identification.restitution.noise import Filter, corners
 from colonnade.identification.restitution.peaks import angle_of_energy, half_duration, lift
 from colonnade.identification.restitution.record import AngleSamples
-from colonnade.identification.restitution.result import FittedHistory
+from colonnade.identification.restitution.result import EXACT, FittedHistory
 
 BLURRED = 0.08
 """Over p: margin about impacts while the record's low-pass is not known; 1 / (2 × default cut-off)."""
@@ -57,11 +57,8 @@ MOST_STEPS, MOST_HALVINGS = 20, 8
 CONVERGED = 1e-3
 """Least lessening of the penalised sum of squares for which another step is made."""
 
-EXACT = 1e-9
-"""Standard deviation, beforehand, of the logarithm of what is known exactly, ..."""
-
 LARGEST_TILT = 0.05
-"""... and of half the difference of ln α of the two sides beyond that of the block."""
+"""Standard deviation, beforehand, of half the difference of ln α of the two sides beyond that of the block."""
 
 
 class UnfollowedError(Exception):

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.uncertainty import Uncertainty
-from colonnade.identification.restitution.result import Peaks
+from colonnade.identification.restitution.result import EXACT, Peaks
 from colonnade.identification.restitution.scatter import LinearModel, Solved
 
 FEWEST_PEAKS = 5
@@ -20,9 +20,6 @@ LEAST_ERROR = 1e-3
 """Of the noise of the angle, below which the error of a peak is not believed."""
 
 MOST_ROUNDS = 6
-
-EXACT = 1e-9
-"""Standard deviation of ln α, and of ln of the gain, where they are known exactly."""
 
 ASSUMPTIONS = (
     "plane rocking without slide or bounce; e of each impact about one mean; both sides about one zero; "

@@ -10,7 +10,7 @@ import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
-from colonnade.identification.restitution.result import Joint
+from colonnade.identification.restitution.result import EXACT, Joint
 
 PRIOR_FREEDOM = 20
 """How slowly the tests' own errors are told apart from the scatter between them: chosen by coverage of new tests."""
@@ -20,9 +20,6 @@ LEAST_ERROR = 2 / 3
 
 LEAST_ALONE = 1e-6
 """Share of a test's variance that is its own at least, when α and p are known."""
-
-EXACT = 1e-9
-"""Standard deviation of ln α, and of ln p, where they are known exactly."""
 
 
 @dataclass(frozen=True)

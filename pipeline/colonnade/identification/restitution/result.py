@@ -9,6 +9,9 @@ import numpy as np
 from colonnade.arrays import Array, Mask
 from colonnade.units.text import Digested, format_percent, interval
 
+EXACT = 1e-9
+"""Standard deviation of the logarithm of what is known exactly: of α, p or the angle's gain."""
+
 
 @dataclass(frozen=True)
 class Estimate:
