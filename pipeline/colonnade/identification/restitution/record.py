@@ -267,16 +267,15 @@ def objection(record: Record, base: Array | None) -> str:
     higher = np.minimum(1.001 * peak, 0.5 * (peak + critical))
     slope = np.log(2 * half_duration(higher, critical) / p / expected) / (higher - peak)
     blur = float(np.mean((slope * seen.peak_standard_error) ** 2))
-    power, error = 1.0, np.inf
     # What is not seen beyond all error shows nothing.
     if expected.size > 2 and np.var(np.log(expected)) >= max(BEYOND_ERRORS * blur, LEAST_CHANGE / expected.size):
         line = scipy.stats.linregress(np.log(expected), np.log(duration))
-        power, error = float(line.slope), float(line.stderr)
-    if power + SURE * error < LEAST_FOLLOWING:
-        return (
-            f"Times between impacts change with the {power:.2g} ± {error:.2g} power of those of a rocking block; 1 was "
-            "expected. A period that does not follow the amplitude is that of an oscillator on springs, not of rocking."
-        )
+        if line.slope + SURE * line.stderr < LEAST_FOLLOWING:
+            return (
+                f"Times between impacts change with the {line.slope:.2g} ± {line.stderr:.2g} power of those of a "
+                "rocking block; 1 was expected. A period that does not follow the amplitude is that of an oscillator "
+                "on springs, not of rocking."
+            )
     unsure = seen.duration_standard_error / duration
     sure = unsure < LARGEST_ERROR
     if not sure.any():
