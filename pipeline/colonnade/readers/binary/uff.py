@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from itertools import pairwise, takewhile
+from itertools import takewhile
 from pathlib import Path
 from typing import BinaryIO
 
@@ -31,7 +31,7 @@ REAL_KINDS = {2: "f4", 4: "f8"}
 """Kinds of ordinates that are real, in single and double precision."""
 IEEE = "2"
 BYTE_ORDERS = {"1": "<", "2": ">"}
-OPENING = re.compile(rb" {4}-1 *\r?\n *\d{2,4} *\r?\n")
+OPENING = re.compile(rb" {4}-1 *\r?\n *(?:\d{2,4}|58b .*) *\r?\n")
 """As Fortran writes the mark and the number of a data set; numbers of a table look otherwise."""
 DIRECTIONS = {
     **{1: "+X", -1: "-X", 2: "+Y", -2: "-Y", 3: "+Z", -3: "-Z"},
@@ -41,13 +41,9 @@ DIRECTIONS = {
 
 @from_head
 def recognise(head: Head) -> Recognition:
-    """Say whether the first lines open a data set: one of any number, if they are written as universal files are."""
-    lines = [line.strip() for line in head.content.split(b"\n")]
-    opened = lines[0] == MARK and len(lines) > 1
-    if opened and any(one == MARK and two.split(b" ")[0] in (b"58", b"58b") for one, two in pairwise(lines)):
-        return Recognition(True, "it opens with -1 and holds a data set 58")
-    if opened and OPENING.match(head.content):
-        return Recognition(True, f"it opens with -1 and a data set {int(lines[1])}")
+    """Say whether the first lines open a data set."""
+    if OPENING.match(head.content):
+        return Recognition(True, "it opens with -1 and the number of a data set")
     return Recognition(False, "it does not open with -1 and the number of a data set")
 
 
