@@ -11,19 +11,18 @@ from html import unescape
 from importlib.resources import files as resources
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import matplotlib
+import typst
 from lxml.html import HtmlElement, HTMLParser, document_fromstring
+from lxml.html.builder import CAPTION
 
 from colonnade import __version__
 from colonnade.campaign import Campaign
 from colonnade.errors import StoreError
 from colonnade.report import addresses
 from colonnade.report.test_page import facts
-
-if TYPE_CHECKING:
-    import typst
-
 
 Element = dict[str, Any]
 """An element as data."""
@@ -89,6 +88,8 @@ class Document:
                 node.drop_tree()
         for node in root.xpath(".//figure[not(.//img)]"):
             node.drop_tree()
+        for table in root.xpath(".//*[@aria-label]/table[not(caption)]"):
+            table.insert(0, CAPTION(table.getparent().get("aria-label")))
         return root.xpath("body/header/p"), root.xpath(".//main/*")
 
     def _settle(self, image: HtmlElement, address: str) -> bool:
@@ -187,8 +188,6 @@ def pdf_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> bytes:
     StoreError
         If Typst refuses it, or there is no room for its files.
     """
-    import typst
-
     try:
         with prepared(document_of(campaign, folder, appendix=appendix)) as compiler:
             made = compiler.compile(format="pdf", timestamp=0)
@@ -208,9 +207,6 @@ def pdf_of(campaign: Campaign, folder: Path, *, appendix: bool = True) -> bytes:
 @contextmanager
 def prepared(document: Document) -> Iterator[typst.Compiler]:
     """Put a document's files, and nothing else, into a folder of their own; the compiler sees no other."""
-    import matplotlib
-    import typst
-
     fonts = typst.Fonts(
         include_system_fonts=False, font_paths=[str(Path(matplotlib.get_data_path()) / "fonts" / "ttf")]
     )
