@@ -26,6 +26,7 @@ from colonnade.cli.common.options import (
     column_keys,
     drawing_options,
     opened,
+    opened_if_there,
     options_of,
     result_options,
     scheduler_option,
@@ -176,8 +177,7 @@ def spectrum(
 
     asked = picked(AskedSpectrum, given)
     expect_places(out, data)
-    is_here = campaign != Path() or Path("campaign.toml").is_file()
-    found = spectrum_of(asked, given, *(opened(campaign, results) if is_here else (None, None)))
+    found = spectrum_of(asked, given, *opened_if_there(campaign, results))
     drawn = saved(found.draw, out, data)
     if as_json:
         show_json(found.record | {"figure": out, "data": data})

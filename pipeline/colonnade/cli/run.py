@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import say, show_json, show_rows, show_table, work_progress
+from colonnade.cli.common.console import say, show_json, show_table, work_progress
 from colonnade.cli.common.findings import alike, probable_cause, records_of, show_by_kind
 from colonnade.cli.common.options import CAMPAIGN, campaign_argument, work_options
+from colonnade.cli.show import show_tests
 from colonnade.store.results import RUN_STAGES
 
 if TYPE_CHECKING:
-    from colonnade.campaign.forms.summary import Summary
     from colonnade.workflow import RunResult, StageRun
 
 
@@ -136,16 +136,14 @@ def run_with_progress(campaign: Path, **choices: Any) -> RunResult:
 def show_result(result: RunResult, *, verbose: bool = False) -> None:
     """Show each redone test, agreement, findings, failures, and the paths of the results."""
     from colonnade.campaign.forms.summary import Summary
-    from colonnade.store.records.wording import LEGEND, agreement, pooled, predicted
+    from colonnade.store.records.wording import agreement, pooled
 
     redone = [stage for stage in result.stages if stage.action == "done"]
     if verbose:
         show_table(("redone", "stages", "why", "seconds"), list(_grouped(redone)))
     known = Summary.model_validate_json(result.summary.read_bytes())
-    tests = {stage.subject: stage.stage for stage in redone if stage.of == "test"}
-    show_rows(rows_of_tests(known, tests))
-    if any(predicted(known.tests[name]) for name in tests):
-        say(LEGEND)
+    last = {stage.subject: stage.stage for stage in redone if stage.of == "test"}
+    show_tests({name: test for name, test in known.tests.items() if name in last}, known.specimens, last)
     # Bodies of an assembly, and what they are made as, have no e of their own that a model takes.
     alone = {test.specimen for test in known.tests.values() if not test.bodies}
     for name in dict.fromkeys(stage.subject for stage in redone if stage.of == "specimen"):
@@ -170,22 +168,6 @@ def show_result(result: RunResult, *, verbose: bool = False) -> None:
         if findings:
             say(f"all findings: {result.report.parent / 'problems.html'}")
         say(f"report: {result.report}")
-
-
-def rows_of_tests(summary: Summary, last: Mapping[str, str]) -> list[list[str]]:
-    """Write what each redone test gave; of a test that is not complete, the last stage that ran."""
-    from colonnade.store.records.wording import measured, predicted
-
-    rows = []
-    for name, test in summary.tests.items():
-        if name not in last:
-            continue
-        found = measured(test, summary.specimens[test.specimen].restitution.level)
-        if found == test.status == "pending":
-            found = f"done up to {last[name]}"
-        models = {} if test.restitution else predicted(test)
-        rows.append([name, found, *(f" {model} {said}" for model, said in models.items())])
-    return rows
 
 
 def _grouped(stages: Iterable[StageRun]) -> Iterator[tuple[str, str, str, str]]:

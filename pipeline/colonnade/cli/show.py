@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,11 +13,12 @@ import rich_click as click
 from colonnade.cli.common.console import say, show_json, show_rows, show_table, shown
 from colonnade.cli.common.findings import counted, line_of
 from colonnade.cli.common.options import (
-    FILE,
     campaign_and_id,
     campaign_and_id_argument,
+    campaign_argument,
     json_option,
     opened,
+    opened_if_there,
     result_options,
 )
 from colonnade.findings import Severity
@@ -25,7 +26,7 @@ from colonnade.units.text import interval
 
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign
-    from colonnade.campaign.forms.summary import Summary
+    from colonnade.campaign.forms.summary import SpecimenSummary, Summary, TestSummary
 
 Record = dict[str, Any]
 
@@ -47,26 +48,39 @@ def tests(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> in
     A single argument is taken as CAMPAIGN if such a file or folder exists, else as ID.
     """
     from colonnade.store.records.summary import records_of_tests
-    from colonnade.store.records.wording import LEGEND, measured, predicted
 
     campaign, identifier = campaign_and_id(arguments)
     known, summary = _known(campaign, results)
     records = records_of_tests(known, summary)
-    levels = {} if summary is None else {name: each.restitution.level for name, each in summary.specimens.items()}
-    models = list(dict.fromkeys(model for record in records.values() for model in predicted(record)))
+    if identifier is None and not as_json:
+        show_tests(records, {} if summary is None else summary.specimens)
+        return 0
+    return _show_records("test", {name: each.model_dump() for name, each in records.items()}, identifier, as_json)
 
+
+def show_tests(
+    tests: Mapping[str, TestSummary], specimens: Mapping[str, SpecimenSummary], last: Mapping[str, str] | None = None
+) -> None:
+    """
+    Write what tests gave, what each model predicts of them with its verdict, and how many findings they have.
+
+    Of a test that is not complete, the `last` stage that ran.
+    """
+    from colonnade.store.records.wording import LEGEND, measured, predicted
+
+    models = list(dict.fromkeys(model for test in tests.values() for model in predicted(test)))
     rows = []
-    for name, record in records.items():
-        said = predicted(record)
-        found = Counter[Severity](each.severity for each in record.warnings if each.severity is not Severity.NOTE)
-        told = measured(record, levels.get(record.specimen))
+    for name, test in tests.items():
+        level = specimens[test.specimen].restitution.level if test.specimen in specimens else None
+        told = measured(test, level)
+        if last and told == test.status == "pending":
+            told = f"done up to {last[name]}"
+        said, found = predicted(test), Counter(each.severity for each in test.warnings)
+        del found[Severity.NOTE]
         rows.append((name, told, *(said.get(model, "") for model in models), counted(found)))
-    heads = ("test", "measured", *models, "findings")
-    dumped = {name: each.model_dump(mode="json") for name, each in records.items()}
-    _show_records("test", dumped, identifier, heads, rows, as_json=as_json)
-    if models and identifier is None and not as_json:
+    show_table(("test", "measured", *models, "findings"), rows)
+    if models:
         say(LEGEND)
-    return 0
 
 
 @show.command(epilog="Example: colonnade show specimens demo")
@@ -82,23 +96,23 @@ def specimens(arguments: tuple[str, ...], results: Path | None, as_json: bool) -
 
     campaign, identifier = campaign_and_id(arguments)
     records = records_of_specimens(*_known(campaign, results))
-    rows = [(name, *_specimen_cells(record)) for name, record in records.items()]
-    heads = ("specimen", "shape", "α rad", "R m", "I₀ kg m²", "p rad/s", "rigid-body e", "e", "source")
-    return _show_records("specimen", records, identifier, heads, rows, as_json=as_json)
+    if identifier is None and not as_json:
+        heads = ("specimen", "shape", "α rad", "R m", "I₀ kg m²", "p rad/s", "rigid-body e", "e", "source")
+        show_table(heads, [(name, *_specimen_cells(record)) for name, record in records.items()])
+        return 0
+    return _show_records("specimen", records, identifier, as_json)
 
 
 @show.command(epilog="Example: colonnade show settings demo")
-@click.argument("campaign", required=False, type=FILE, metavar="[CAMPAIGN]")
+@campaign_argument
 @json_option
-def settings(campaign: Path | None, as_json: bool) -> int:
+def settings(campaign: Path, as_json: bool) -> int:
     """Show every setting: its value in the campaign, its default, and what it does."""
-    from colonnade.campaign import FILE_NAME, Processing, load
+    from colonnade.campaign import Processing
     from colonnade.campaign.settings import NextSettings
     from colonnade.campaign.settings import settings as all_settings
 
-    if campaign is None and Path(FILE_NAME).is_file():
-        campaign = Path()
-    known = None if campaign is None else load(campaign)
+    known, _ = opened_if_there(campaign, None)
     processing, advice = (known.processing, known.next) if known else (Processing(), NextSettings())
     rows = all_settings(processing, "processing") | all_settings(advice, "next")
     if as_json:
@@ -150,24 +164,14 @@ def _known(path: Path, results: Path | None) -> tuple[Campaign, Summary | None]:
     return campaign, read_summary(layout)
 
 
-def _show_records(
-    what: str,
-    records: Mapping[str, Record],
-    identifier: str | None,
-    heads: Sequence[str],
-    rows: Sequence[tuple[str, ...]],
-    *,
-    as_json: bool,
-) -> int:
+def _show_records(what: str, records: Mapping[str, Record], identifier: str | None, as_json: bool) -> int:
     from colonnade.errors import nearest
 
     if identifier is not None and identifier not in records:
         raise click.UsageError(f'The campaign has no {what} "{identifier}".{nearest(identifier, records)}')
     if as_json:
         show_json(records if identifier is None else records[identifier])
-    elif identifier is None:
-        show_table(heads, rows)
-    else:
+    elif identifier is not None:
         show_rows([(what, identifier), *_flat(records[identifier])])
     return 0
 

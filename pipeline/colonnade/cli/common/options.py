@@ -131,6 +131,11 @@ def opened(path: Path, results: Path | None) -> tuple[Campaign, Layout]:
     return campaign, Layout.of(campaign.path, results)
 
 
+def opened_if_there(path: Path, results: Path | None) -> tuple[Campaign, Layout] | tuple[None, None]:
+    """As `opened`; nothing if no campaign is named and none is in the current folder."""
+    return opened(path, results) if path != Path() or Path("campaign.toml").is_file() else (None, None)
+
+
 specimen_option = click.option(
     "--specimen", multiple=True, metavar="ID", help="Only this specimen. Repeat the option for several."
 )
