@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import rich_click as click
 
 from colonnade.cli.common.console import saved, say_marked, show_json, work_progress
-from colonnade.cli.common.findings import STYLES, alike, probable_cause, records_of, show_by_kind
+from colonnade.cli.common.findings import STYLES, failures, records_of, show_by_kind
 from colonnade.cli.common.options import campaign_argument, file_option, json_option, strict_option
 from colonnade.errors import count
 from colonnade.findings import Severity
@@ -67,19 +67,10 @@ def _record(campaign: Campaign, checked: RunResult) -> dict[str, Any]:
 
 
 def _show(checked: RunResult, drawing: Path | None) -> None:
-    findings = checked.findings
     say_marked(*_verdict(checked), f" Nothing was written{'.' if drawing is None else f' but {drawing}.'}")
-    problems = [
-        (
-            stage.heading,
-            probable_cause(findings.get(stage.heading, ()), where="below") + stage.reason.replace("\n", "\n  "),
-        )
-        for stage in checked.stages
-        if stage.action == "failed"
-    ]
-    for name, said in alike(problems):
-        say_marked("would fail", STYLES[Severity.SERIOUS], f": {name}: {said}")
-    show_by_kind(findings)
+    for name, _, reason in failures(checked, where="below"):
+        say_marked("would fail", STYLES[Severity.SERIOUS], f": {name}: {reason}".replace("\n", "\n  "))
+    show_by_kind(checked.findings)
 
 
 def _verdict(checked: RunResult) -> tuple[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from itertools import groupby
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import rich_click as click
 
 from colonnade.cli.common.console import say, show_json, show_table, work_progress
-from colonnade.cli.common.findings import alike, probable_cause, records_of, show_by_kind
+from colonnade.cli.common.findings import failures, records_of, show_by_kind
 from colonnade.cli.common.options import CAMPAIGN, campaign_argument, work_options
 from colonnade.cli.show import show_tests
 from colonnade.store.results import RUN_STAGES
@@ -153,16 +154,11 @@ def show_result(result: RunResult, *, verbose: bool = False) -> None:
         say(sentence)
     findings = result.findings
     show_by_kind(findings)
-    failed = [
-        (stage.subject, stage.stage, probable_cause(findings.get(stage.heading, []), where="above") + stage.reason)
-        for stage in result.stages
-        if stage.action == "failed"
-    ]
-    show_table(("failed", "stage", "reason"), alike(failed))
+    show_table(("failed", "stage", "reason"), failures(result, where="above"))
     for notice in result.notices:
         say(notice)
-    kept = sum(stage.action == "up-to-date" for stage in result.stages)
-    say(f"{len(redone)} redone, {kept} up to date, {len(failed)} failed")
+    actions = Counter(stage.action for stage in result.stages)
+    say(f"{actions['done']} redone, {actions['up-to-date']} up to date, {actions['failed']} failed")
     say(f"summary: {result.summary}")
     if result.report is not None:
         if findings:

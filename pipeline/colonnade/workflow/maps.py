@@ -292,13 +292,16 @@ def _draw(stored: Sequence[xr.Dataset], points: Sequence[MapPoint], path: Path, 
     files.write_text(path, response_orders.computed(specimen, [as_map(each) for each in stored], points).svg)
 
 
+STEADY = {"order": "steady_order", "period": "steady_period", "amplitude": "steady_peak_ratio"}
+"""What steady responses are, and the variable of each in their result."""
+
+
 def as_response(stored: xr.Dataset) -> SteadyResponse:
     """Return stored responses as the library gives them."""
     from colonnade.dynamics.steady import SteadyResponse
 
-    names = ("frequency_ratio", "amplitude_ratio", "steady_order", "steady_period", "steady_peak_ratio")
-    omega, amplitude, order, period, peak = (stored[name].to_numpy() for name in names)
-    return SteadyResponse(omega, amplitude, order.astype(np.int8), period, peak)
+    axes = (stored[name].to_numpy() for name in ("frequency_ratio", "amplitude_ratio"))
+    return SteadyResponse(*axes, **{own: stored[name].to_numpy() for own, name in STEADY.items()})
 
 
 def _settings(plan: MapPlan) -> dict[str, Any]:
@@ -322,11 +325,7 @@ def _steady_columns(plan: MapPlan, indices: range) -> Arrays:
         amplitude_ratio=plan.amplitude_ratio,
         restitution=plan.restitution,
     )
-    return {
-        "steady_order": response.order.astype(np.int32),
-        "steady_period": response.period,
-        "steady_peak_ratio": response.amplitude,
-    }
+    return {name: getattr(response, own) for own, name in STEADY.items()}
 
 
 def _steady(plan: MapPlan, joined: Arrays) -> xr.Dataset:

@@ -14,6 +14,7 @@ from colonnade.units.text import listed
 
 if TYPE_CHECKING:
     from colonnade.campaign.forms.summary import Warned
+    from colonnade.workflow import RunResult
 
 IN_FULL = 3
 """Findings of one kind that are written in full; of the others only their subjects."""
@@ -42,6 +43,16 @@ def line_of(record: Mapping[str, Any]) -> str:
     """Write a finding of the summary as a line, marked if it follows from another."""
     follows = " (follows from the above)" if record.get("explained") else ""
     return f"{record['severity']}{follows}: {record['text']}"
+
+
+def failures(result: RunResult, *, where: str) -> list[tuple[str, ...]]:
+    """Give subject, stage and reason of what failed, with the serious findings that are probably its cause."""
+    findings, rows = result.findings, []
+    for stage in result.stages:
+        if stage.action == "failed":
+            cause = probable_cause(findings.get(stage.heading, ()), where=where)
+            rows.append((stage.heading, stage.stage, cause + stage.reason))
+    return alike(rows)
 
 
 def probable_cause(findings: Sequence[tuple[Finding, bool]], *, where: str) -> str:
