@@ -178,8 +178,8 @@ def until_dropped(*_, **__):
     Handle()
     interruption.expect_none()
 
-complain, watching.watch = watch.complain, until_dropped
-watch.complain = lambda sentence: (time.sleep(0.5), complain(sentence))
+complain, watching.watch = run.complain, until_dropped
+run.complain = lambda sentence: (time.sleep(0.5), complain(sentence))
 """
 
 
@@ -188,7 +188,7 @@ watch.complain = lambda sentence: (time.sleep(0.5), complain(sentence))
     "watched", [DROPPED_WITHIN_THE_WATCH, f"{COMPILED}\nwatching.watch = compiled"], ids=["dropped", "import"]
 )
 def test_a_signal_ends_a_watch_once_wherever_it_falls(tmp_path, watched):
-    imports = "from colonnade.cli import watch\nfrom colonnade.workflow.watching import watch as watching"
+    imports = "from colonnade.cli import run\nfrom colonnade.workflow.watching import watch as watching"
     told = ended(tmp_path, imports, watched, 'cli.main(["watch"])')
     assert (told.returncode, told.stderr) == (0, "The watch has ended. All results are kept.\n")
 

@@ -5,13 +5,11 @@ from __future__ import annotations
 import rich_click as click
 
 import colonnade
-from colonnade.cli.check import check
 from colonnade.cli.demo import demo, init
 from colonnade.cli.figure import figure
 from colonnade.cli.questions import calibrate, foresee, fragility, map_command, next_command, spectrum
-from colonnade.cli.run import identify, ingest, predict, report, run
+from colonnade.cli.run import check, identify, ingest, predict, report, run, watch
 from colonnade.cli.show import schema, show
-from colonnade.cli.watch import watch
 
 COMMANDS = (
     *(demo, init, check, run, ingest, identify, predict, report, watch, next_command),

@@ -1,7 +1,8 @@
-"""`colonnade run` and the commands that run a part of it: run the workflow, report what it did and why."""
+"""`colonnade run` and its kind: the commands that run a part of it, `check`, which writes nothing, and `watch`."""
 
 from __future__ import annotations
 
+import json
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
@@ -11,14 +12,29 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import say, show_json, show_table, work_progress
-from colonnade.cli.common.findings import failures, records_of, show_by_kind
-from colonnade.cli.common.options import CAMPAIGN, campaign_argument, work_options
+from colonnade.cli.common.console import complain, saved, say, say_marked, show_json, show_table, work_progress
+from colonnade.cli.common.findings import STYLES, failures, records_of, show_by_kind
+from colonnade.cli.common.options import (
+    CAMPAIGN,
+    campaign_argument,
+    file_option,
+    json_option,
+    result_options,
+    strict_option,
+    work_options,
+    workers_option,
+)
 from colonnade.cli.show import show_tests
+from colonnade.errors import count
+from colonnade.findings import Severity
+from colonnade.interruption import answered, noted
 from colonnade.store.results import RUN_STAGES
 
 if TYPE_CHECKING:
+    from colonnade.campaign import Campaign
+    from colonnade.store.records.advice import Advice
     from colonnade.workflow import RunResult, StageRun
+    from colonnade.workflow.watching.measure import Line
 
 
 @click.command(epilog="Example: colonnade run demo --from predict --only span-2.0")
@@ -190,3 +206,126 @@ def _record(result: RunResult) -> dict[str, Any]:
             {name: value for name, value in vars(stage).items() if name != "findings"} for stage in result.stages
         ],
     }
+
+
+WRONG = "would give wrong results"
+
+
+@click.command(epilog="Example: colonnade check demo")
+@campaign_argument
+@file_option("--drawing", "Draw specimens and transducers to this file: .svg, .pdf or .png.")
+@strict_option
+@json_option
+def check(campaign: Path, drawing: Path | None, strict: bool, as_json: bool) -> int:
+    """
+    Check a campaign and its raw files; write nothing.
+
+    {CAMPAIGN} Every raw file is read as `run` would read it, and each test is taken to the point where its prediction
+    would begin. The ground motions and the hazard of assessments are read, too. Missing files and columns, units,
+    gains, signs, swapped columns, clocks and dead channels are reported for all tests at once. The exit code is 1 if a
+    test or an assessment would fail.
+
+    With --drawing, specimens and transducers are drawn to scale as the campaign file places them: that is the one file
+    that is written.
+    """
+    from colonnade.campaign import load
+    from colonnade.workflow.check import check as check_campaign
+
+    loaded = load(campaign)
+    if drawing is not None:
+        from colonnade.figures.drawing.described import of_campaign
+
+        saved(lambda: of_campaign(loaded), drawing)
+    with work_progress("Reading raw files") as progress:
+        checked = check_campaign(loaded, progress)
+    if as_json:
+        show_json(_checked_record(loaded, checked) | ({} if drawing is None else {"drawing": drawing}))
+    else:
+        _show_checked(checked, drawing)
+    return int(checked.failed or (strict and checked.has_warnings))
+
+
+def _checked_record(campaign: Campaign, checked: RunResult) -> dict[str, Any]:
+    findings = checked.findings
+    found: dict[str, Any] = {"campaign": campaign.path, "warnings": records_of(findings.get("campaign file", ()))}
+    found |= {"tests": {}, "assessments": {}}
+    for stage in checked.stages:
+        nothing = {"problems": [], "warnings": records_of(findings.get(stage.heading, ()))}
+        own = found[f"{stage.of}s"].setdefault(stage.subject, nothing)
+        own["problems"] += [stage.reason] if stage.action == "failed" else []
+    return found
+
+
+def _show_checked(checked: RunResult, drawing: Path | None) -> None:
+    say_marked(*_verdict(checked), f" Nothing was written{'.' if drawing is None else f' but {drawing}.'}")
+    for name, _, reason in failures(checked, where="below"):
+        say_marked("would fail", STYLES[Severity.SERIOUS], f": {name}: {reason}".replace("\n", "\n  "))
+    show_by_kind(checked.findings)
+
+
+def _verdict(checked: RunResult) -> tuple[str, str]:
+    """Say in a line how many tests are good, and give its colour."""
+    failing = dict.fromkeys((stage.of, stage.subject) for stage in checked.stages if stage.action == "failed")
+    whole = [stage for stage in checked.stages if stage.action == "done" and stage.of == "test"]
+    statuses = Counter("would fail" if (each.of, each.subject) in failing else _good(checked, each) for each in whole)
+    tests = count(len(whole), "test")
+    parts = [f"{statuses[each]} {each}" for each in ("would fail", WRONG, "good") if statuses[each]]
+    if unanswered := sum(of == "assessment" for of, _ in failing):
+        parts.append(f"{count(unanswered, 'assessment')} would fail")
+    if failing or statuses[WRONG]:
+        return f"{tests}: {', '.join(parts)}.", STYLES[Severity.SERIOUS]
+    if checked.has_warnings:
+        return f"No test would fail, but see the findings: {', '.join(parts)}.", STYLES[Severity.WARNING]
+    return f"All good: {tests}.", "bold green"
+
+
+def _good(checked: RunResult, stage: StageRun) -> str:
+    """Say whether the results of a test would be wrong, by what was found of it and of its specimen and set-up."""
+    found = (*stage.findings, *checked.concerning[stage.subject])
+    return WRONG if any(each.severity is Severity.SERIOUS for each in found) else "good"
+
+
+@click.command(epilog='Example: colonnade watch --from /media/recorder --notify "notify-send colonnade"')
+@campaign_argument
+@click.option(
+    "--from",
+    "share",
+    type=click.Path(exists=True, file_okay=False, path_type=Path),
+    metavar="DIR",
+    help="Copy finished files from this folder, such as a recorder's share. No file is ever overwritten.",
+)
+@click.option(
+    "--notify",
+    metavar="COMMAND",
+    help="After each test run this command, without a shell, with the line as JSON on its stdin.",
+)
+@click.option("--once", is_flag=True, help="Handle what is there, then end with the exit code of `run`.")
+@workers_option
+@result_options
+def watch(campaign: Path, notify: str | None, once: bool, as_json: bool, **options: Any) -> int:
+    """
+    Watch the raw folder: a line on each test as soon as its file is finished.
+
+    {CAMPAIGN} The line says what happened, what the models predict, and what is wrong. Ensembles, the contact
+    model, earlier tests and the report follow at lower priority. An open page of the report keeps itself up to date.
+
+    Tests come from [[tests]], the test log, or the `pattern` in [watch]. Ctrl-C ends the watch with
+    exit code 0; nothing is lost.
+    """
+    from colonnade.workflow.watching.measure import command_of
+    from colonnade.workflow.watching.watch import watch as watch_campaign
+
+    try:
+        command = command_of(notify) if notify is not None else ()
+        show = partial(_show_line, as_json=as_json)
+        return watch_campaign(campaign, command=command, once=once, show=show, say=complain, **options)
+    except (KeyboardInterrupt, Exception) as error:  # the import of a compiled module makes an ImportError of it
+        if once or not (noted() or isinstance(error, KeyboardInterrupt)):
+            raise
+        answered()
+    complain("The watch has ended. All results are kept.")
+    return 0
+
+
+def _show_line(line: Line | Advice, *, as_json: bool) -> None:
+    say(json.dumps(line.as_json(), ensure_ascii=False, allow_nan=False) if as_json else line.text())

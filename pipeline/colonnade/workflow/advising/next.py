@@ -67,11 +67,25 @@ def advise(
     if summary is None:
         raise StoreError(f"{campaign.folder}: this campaign has no results yet. Run `colonnade run` first.")
     tests, code = records_of_tests(campaign, summary), catalogue.code(MADE_BY)
-    asked = list(product(specimens or campaign.of_interest, KINDS))
-    products = (_advice(campaign, layout, catalogue, name, kind, tests, code) for name, kind in asked)
+    products = []
+    for specimen, kind in product(specimens or campaign.of_interest, KINDS):
+        own = {
+            name: [
+                campaign.told(test),
+                tests[name].model_dump_json(),
+                campaign.setups[test.setup].table_tilt,
+                catalogue.content(layout.stage(name, "rocking")),
+            ]
+            for name, test in campaign.tests.items()
+            if (test.specimen, test.kind) == (specimen, kind)
+        }
+        read = [campaign.specimens[specimen], campaign.gravity, campaign.processing, campaign.next, campaign.table]
+        upstream = {"specimen": catalogue.content(layout.stage(specimen, "specimen"))}
+        make = partial(_advised, campaign, layout, specimen, kind, tests)
+        entry = json.dumps([*map(repr, read), own])
+        products.append(Product(f"advice {specimen} {kind}", entry, upstream, code, make, keeps=True))
     made = brought_up_to_date(products, catalogue, workers=workers)
-    found = (made[f"advice {name} {kind}"] for name, kind in asked)
-    return ranked(each for one in found for each in _ADVICE.validate_json(one.text))
+    return ranked(each for one in products for each in _ADVICE.validate_json(made[str(one.id)].text))
 
 
 def advise_after(campaign: Campaign, layout: Layout, name: str, measured: Mapping[str, TestSummary]) -> list[Advice]:
@@ -106,29 +120,6 @@ def advise_kind(
         points = tuple(map_points(tests, specimen))
         return advise_sines(campaign, specimen, Known(sides(pooled), deviation, points, max(tilts, key=abs, default=0)))
     return advise_earthquakes(campaign, layout, specimen, tests) if kind == "earthquake" else []
-
-
-def _advice(
-    campaign: Campaign,
-    layout: Layout,
-    catalogue: Catalogue,
-    specimen: str,
-    kind: str,
-    tests: dict[str, TestSummary],
-    code: str,
-) -> Product:
-    """Give the advice on one kind of test of a specimen."""
-    own = {}
-    for name, test in campaign.tests.items():
-        if (test.specimen, test.kind) == (specimen, kind):
-            record = tests[name].model_dump_json() if name in tests else None
-            tilt = campaign.setups[test.setup].table_tilt
-            own[name] = [campaign.told(test), record, tilt, catalogue.content(layout.stage(name, "rocking"))]
-    read = [campaign.specimens[specimen], campaign.gravity, campaign.processing, campaign.next, campaign.table]
-    upstream = {"specimen": catalogue.content(layout.stage(specimen, "specimen"))}
-    make = partial(_advised, campaign, layout, specimen, kind, tests)
-    entry = json.dumps([*map(repr, read), own])
-    return Product(f"advice {specimen} {kind}", entry, upstream, code, make, keeps=True)
 
 
 def _advised(campaign: Campaign, layout: Layout, specimen: str, kind: str, tests: dict[str, TestSummary]) -> Contents:
