@@ -15,7 +15,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.workflow.assessing import _given, assess_campaign, assess_own, outcomes_of
+from colonnade.workflow.assessing import _given, assess, assess_campaign, outcomes_of
 from colonnade.workflow.executors import Where, in_blocks
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.run import run
@@ -28,11 +28,14 @@ HERE = Where(workers=1)
 
 
 def own(folder, base="site", **options):
-    return assess_own(load(folder), Layout(folder), base, options, HERE)
+    campaign = load(folder) if base else load(folder).but(assessments={})
+    [found] = assess(campaign, Layout(folder), (base,) if base else (), options, HERE)
+    return found
 
 
 def without_campaign(**options):
-    return assess_own(None, None, None, options, HERE)
+    [found] = assess(None, None, (), options, HERE)
+    return found
 
 
 def test_options_replace_keys_and_store_nothing(assessed):
@@ -72,7 +75,7 @@ def test_another_measure_leaves_the_hazard_of_the_old_one(assessed):
 @every(
     ("options", "words"),
     [
-        ({"base": "sight"}, 'no assessment "sight"'),
+        ({"base": "sight", "draws": 1}, 'no assessment "sight"'),
         ({"specimen": "prsm"}, 'no specimen "prsm"'),
         ({"base": None, "restitution": 0.9}, "--records"),
         ({"base": None, "specimen": "prism", "restitution": 0.9}, "--records"),
@@ -101,7 +104,7 @@ def test_limits_of_another_value_do_not_hold_for_the_one_that_is_asked(assessed)
     written = Prototype.model_validate({"restitution": 0.9, **ranges})
     campaign = load(assessed).but(prototype={"prism": written})
     given = {"critical_angle": "0.25 rad", "levels": ["1 m/s", "2 m/s"], "draws": 2}
-    found = assess_own(campaign, Layout(assessed), "site", given, HERE)
+    [found] = assess(campaign, Layout(assessed), (), given, HERE)
     assert set(found.result["drawn_critical_angle"].to_numpy().ravel()) == {0.25}
     assert found.record.friction_range == (0.5, 0.7)
 

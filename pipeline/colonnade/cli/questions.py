@@ -40,7 +40,6 @@ if TYPE_CHECKING:
     from colonnade.identification.response.boundaries import Misfit
     from colonnade.store.records.advice import Advice
     from colonnade.workflow.assessing import Assessed
-    from colonnade.workflow.executors import Where
     from colonnade.workflow.foresee import Forecast
     from colonnade.workflow.maps import MapMade
 
@@ -232,11 +231,14 @@ def fragility(
     An interrupted assessment of the campaign is continued.
     """
     from colonnade.report.assessments_page import curves
+    from colonnade.workflow.assessing import assess
     from colonnade.workflow.executors import Where
+    from colonnade.workflow.real_column import needs_specimen
 
     expect_places(out, data)
+    loaded, layout = opened(campaign, results) if name or needs_specimen(given) else (None, None)
     with work_progress("Assessing") as progress:
-        found = _assessed(campaign, name, given, results, Where(workers, scheduler, progress))
+        found = assess(loaded, layout, name, given, Where(workers, scheduler, progress))
     if (out or data) and len(found) > 1:
         raise click.UsageError(f"{len(found)} assessments were found. Name one with --name to draw it.")
     first, result = found[0], found[0].result
@@ -248,23 +250,6 @@ def fragility(
             _show_assessed(each)
         say_drawn(drawn)
     return int(any(each.record.status == "failed" for each in found))
-
-
-def _assessed(
-    path: Path, names: tuple[str, ...], given: dict[str, Any], results: Path | None, where: Where
-) -> list[Assessed]:
-    from colonnade.workflow.assessing import assess_campaign, assess_own
-    from colonnade.workflow.real_column import needs_specimen
-
-    if not names and not needs_specimen(given):
-        return [assess_own(None, None, None, given, where)]
-    loaded, layout = opened(path, results)
-    if not given:
-        return assess_campaign(loaded, layout, names, where)
-    if len(names) > 1:
-        raise click.UsageError("Options are for one assessment. Name one.")
-    base = names[0] if names else next(iter(loaded.assessments)) if len(loaded.assessments) == 1 else None
-    return [assess_own(loaded, layout, base, given, where)]
 
 
 def _show_assessed(assessed: Assessed) -> None:

@@ -88,37 +88,49 @@ def assess_campaign(campaign: Campaign, layout: Layout, names: Sequence[str], wh
     return found
 
 
-def assess_own(
-    campaign: Campaign | None,
-    layout: Layout | None,
-    base: str | None,
-    given: Given,
-    where: Where,
-) -> Assessed:
+def assess(
+    campaign: Campaign | None, layout: Layout | None, names: Sequence[str], given: Given, where: Where
+) -> list[Assessed]:
     """
-    Answer a question of one's own about a real column; nothing is stored.
+    Answer what is asked: assessments of a campaign, or with options a question of one's own, which is stored nowhere.
 
     Parameters
     ----------
     campaign, layout : optional
         None without a campaign.
-    base : str or None
-        Name of the assessment of the campaign whose keys count if nothing replaces them.
+    names : sequence of str
+        Of assessments of the campaign; with options of the one, by default the only one, whose keys count if nothing
+        replaces them.
     given : Given
-        What says which column, by default that of `base`, and keys of [assessments.<name>]; paths may be anywhere.
+        What says which column, by default that of the assessment, and keys of [assessments.<name>]; paths may be
+        anywhere.
     where : Where
 
     Raises
     ------
     CampaignError
         If an option or a name is not usable, or something is missing.
+    StoreError
+        As `assess_campaign`.
     """
+    if campaign is not None and layout is not None and not given:
+        return assess_campaign(campaign, layout, names, where)
+    if len(names) > 1:
+        raise CampaignError("Options are for one assessment. Name one.")
+    written: dict[str, Any] = {}
+    if campaign is not None:
+        expect_known(campaign, "assessment", names)
+        known = {name: campaign.assessments[name] for name in names or campaign.assessments}
+        written = next(iter(known.values())).model_dump(exclude_none=True) if len(known) == 1 else {}
+    return [_assess_own(campaign, layout, written, given, where)]
+
+
+def _assess_own(
+    campaign: Campaign | None, layout: Layout | None, written: dict[str, Any], given: Given, where: Where
+) -> Assessed:
+    """Answer a question with options over the keys of an assessment."""
     from colonnade.stages.assessment_plan import AssessmentInputs
 
-    written: dict[str, Any] = {}
-    if campaign is not None and base is not None:
-        expect_known(campaign, "assessment", [base])
-        written = campaign.assessments[base].model_dump(exclude_none=True)
     meant = {key: written[key] for key in ("specimen", "scale") if key in written} | dict(given)
     found = find_column(meant, campaign, layout, is_real=True)
     name = found.specimen or OWN
