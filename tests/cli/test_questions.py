@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from colonnade.cli import invoke
 from every import every
 from foreseeing import TEST
 
@@ -32,19 +31,27 @@ def record(tmp_path):
 
 
 @pytest.fixture
-def told(capsys):
+def told(colonnade):
     """Run a command that ends well; return what it says."""
 
     def run(*arguments):
-        assert invoke(arguments) == 0
-        return capsys.readouterr().out
+        found = colonnade(*arguments)
+        assert found.returncode == 0
+        return found.stdout
 
     return run
 
 
-@pytest.fixture(autouse=True)
-def _elsewhere(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+@pytest.fixture
+def refused(colonnade):
+    """Run a command that is refused; return its exit code and why, in one line."""
+
+    def run(*arguments):
+        found = colonnade(*arguments)
+        assert "Traceback" not in found.stderr
+        return found.returncode, " ".join(found.stderr.replace("│", " ").split())
+
+    return run
 
 
 def test_the_overturning_spectrum_of_a_pulse_needs_no_campaign(tmp_path, told):
@@ -79,12 +86,11 @@ def test_the_rocking_spectrum_of_a_file_comes_with_its_measures(record, told):
     assert found["column"]["restitution"] == [0.95, 0.95]
 
 
-def test_a_specimen_of_a_campaign_is_taken_at_its_scale(campaign, record, capsys, told):
+def test_a_specimen_of_a_campaign_is_taken_at_its_scale(campaign, record, refused, told):
     with (campaign / "campaign.toml").open("a", encoding="utf-8") as stream:
         stream.write('\n[motions]\nswinging = "record.csv"\n')
     asked = ["spectrum", str(campaign), "--motion", "swinging", "--points", "2", "--json"]
-    assert invoke(asked) == 2
-    assert '--peak "0.3 g"' in capsys.readouterr().err
+    assert '--peak "0.3 g"' in refused(*asked)[1]
     real = ["--scale", "4", "--restitution", "identified", "--baseline", "linear"]
     model, real = (json.loads(told(*asked, "--peak", "0.1 g", *options)) for options in ([], real))
     assert model["column"]["restitution_source"] == "rigid-body"
@@ -103,7 +109,6 @@ def test_a_specimen_of_a_campaign_is_taken_at_its_scale(campaign, record, capsys
         ([*PULSE, "--cycles", "3"], "--cycles is only for --pulse mavroeidis-papageorgiou"),
         (["--pulse", "sine"], "The column is not known"),
         ([*PULSE, "--restitution", "2"], "--restitution: 2.0 was found. A number above 0"),
-        ([*PULSE, "--omega", "3", "1"], "--omega: 3 and 1 (SI) were found. The second has to be the larger one."),
         ([*PULSE, "--points", "1"], "--points: 1 was found."),
         ([*SHAKEN, "--least-width", "1"], "--least-width is only for --pulse"),
         ([*PULSE, "--largest", "-1"], "largest is -1.0"),
@@ -115,15 +120,14 @@ def test_a_specimen_of_a_campaign_is_taken_at_its_scale(campaign, record, capsys
         ([*SHAKEN, "--unit", "g", "--slenderness", "1 m"], "--slenderness: "),
     ],
 )
-def test_a_wrong_use_says_what_was_expected(record, arguments, message, capsys):
-    assert invoke(["spectrum", *arguments]) == 2
-    said = " ".join(capsys.readouterr().err.replace("│", " ").split())
-    assert message in said
+def test_a_wrong_use_says_what_was_expected(record, arguments, message, refused):
+    code, said = refused("spectrum", *arguments)
+    assert (code, message in said) == (2, True), said
 
 
-def test_a_file_without_a_unit_is_named(record, capsys):
-    assert invoke(["spectrum", "--motion", str(record), *COLUMN]) == 1
-    assert "does not give the unit" in capsys.readouterr().err
+def test_a_file_without_a_unit_is_named(record, refused):
+    code, said = refused("spectrum", "--motion", str(record), *COLUMN)
+    assert (code, "does not give the unit" in said) == (1, True)
 
 
 def test_the_verdict_is_the_first_line(record, told):
@@ -136,7 +140,7 @@ def test_the_verdict_is_the_first_line(record, told):
     assert said.startswith("No half-sine pulse up to A = 1.01 overturns the column (linear model).")
 
 
-def test_what_a_campaign_recorded_is_in_the_time_of_the_column(foreseen_copy, capsys, told):
+def test_what_a_campaign_recorded_is_in_the_time_of_the_column(foreseen_copy, refused, told):
     """Similitude: a column 20 times larger does in √20 times the time what its model does on the table."""
     asked = ["spectrum", str(foreseen_copy), "--motion", TEST, "--points", "2", "--json"]
     own = [*asked, "--specimen", "prism", "--restitution", "0.95"]
@@ -152,8 +156,7 @@ def test_what_a_campaign_recorded_is_in_the_time_of_the_column(foreseen_copy, ca
     assert found["peak_ratio"] == pytest.approx(model["peak_ratio"], rel=1e-4)
     file = foreseen_copy / "campaign.toml"
     file.write_text(re.sub(r"(, )?\bscale = 20(\.0)?\n?", "", file.read_text()))
-    assert invoke([*asked, *given]) == 2
-    assert "how many times larger the column is, is not known" in capsys.readouterr().err
+    assert "how many times larger the column is, is not known" in refused(*asked, *given)[1]
 
 
 def test_what_was_run_gives_advice(colonnade, campaign):
@@ -167,56 +170,49 @@ def test_what_was_run_gives_advice(colonnade, campaign):
     assert f"Because {advice['reason']}." in told.stdout
 
 
-def test_a_forecast_is_shown_and_kept(foreseen_copy, capsys):
+def test_a_forecast_is_shown_and_kept(foreseen_copy, told):
     asked = ["foresee", str(foreseen_copy), "--motion", TEST, "--specimen", "prism"]
-    assert invoke([*asked, "--level", "0.01 g"]) == 0
-    said = capsys.readouterr().out.replace("\xa0", " ")
+    said = told(*asked, "--level", "0.01 g").replace("\xa0", " ")
     assert "100 %" in said
     assert max(map(len, said.partition("forecast: ")[0].splitlines())) <= 80
     assert "forecast: " in said
-    assert invoke([*asked, "--level", "1x", "--json"]) == 0
-    (made,) = json.loads(capsys.readouterr().out)
+    (made,) = json.loads(told(*asked, "--level", "1x", "--json"))
     assert made["level"] == "1x"
     assert made["models"]["linear"]["bands"][2]["probability"] == 0.95
 
 
-def test_a_wrong_level_is_a_wrong_use(foreseen_copy, capsys):
-    assert invoke(["foresee", str(foreseen_copy), "--motion", TEST, "--level", "strong", "--specimen", "prism"]) == 2
-    assert "--level strong" in capsys.readouterr().err
+def test_a_wrong_level_is_a_wrong_use(foreseen_copy, refused):
+    code, said = refused("foresee", str(foreseen_copy), "--motion", TEST, "--level", "strong", "--specimen", "prism")
+    assert (code, "--level strong" in said) == (2, True)
 
 
 @pytest.mark.whole
-def test_the_campaigns_assessments_are_shown(assessed_copy, capsys):
-    assert invoke(["fragility", str(assessed_copy)]) == 0
-    told = capsys.readouterr()
-    assert "It starts to rock at 0.189 g" in told.out
-    assert "result: " in told.out
-    assert "warning: Left out: broken.csv" in told.err
+def test_the_campaigns_assessments_are_shown(assessed_copy, colonnade):
+    told = colonnade("fragility", str(assessed_copy))
+    assert "It starts to rock at 0.189 g" in told.stdout
+    assert "result: " in told.stdout
+    assert "warning: Left out: broken.csv" in told.stderr
 
 
 @pytest.mark.whole
-def test_a_column_without_a_campaign_is_answered_and_drawn(assessed, tmp_path, capsys):
+def test_a_column_without_a_campaign_is_answered_and_drawn(assessed, tmp_path, told):
     column = ["--critical-angle", "0.18 rad", "--p", "1.26 rad/s", "--restitution", "0.95"]
     levels = ["--level", "1 m/s", "--level", "2 m/s", "--level", "4 m/s", "--draws", "1", "--resamples", "100"]
     out = tmp_path / "curve.svg"
-    asked = ["fragility", *column, *levels, "--records", str(assessed / "records"), "--out", str(out), "--json"]
-    assert invoke(asked) == 0
-    [found] = json.loads(capsys.readouterr().out)
+    asked = ["fragility", *levels, "--records", str(assessed / "records")]
+    [found] = json.loads(told(*asked, *column, "--out", str(out), "--json"))
     assert (found["specimen"], found["status"], found["critical_angle"]) == ("column", "done", 0.18)
     assert out.read_text(encoding="utf-8").startswith("<?xml")
-    sized = ["--shape", "prism", "--width", "1 m", "--height", "5 m", "--restitution", "0.95"]
-    assert invoke(["fragility", *sized, *levels, "--records", str(assessed / "records")]) == 0
-    said = capsys.readouterr().out
+    said = told(*asked, *PRISM, "--restitution", "0.95")
     assert said.startswith("column: It overturns with a probability of")
     assert "Assumed: α 0.197 rad, p 1.7 rad/s" in said
 
 
-def test_what_cannot_be_answered_says_why(assessed, tmp_path, capsys):
-    missing = tmp_path / "nowhere"
-    assert invoke(["fragility", str(assessed), "--records", str(missing)]) == 1
-    assert "nowhere" in capsys.readouterr().out
-    assert invoke(["fragility", str(assessed), "--measure", "pvg"]) == 2
-    assert 'Did you mean "pgv"?' in capsys.readouterr().err
+def test_what_cannot_be_answered_says_why(assessed, colonnade, refused):
+    told = colonnade("fragility", str(assessed), "--records", "nowhere")
+    assert (told.returncode, "nowhere" in told.stdout) == (1, True)
+    code, said = refused("fragility", str(assessed), "--measure", "pvg")
+    assert (code, 'Did you mean "pgv"?' in said) == (2, True)
 
 
 SMALL = ("--omega", "2", "4", "--amplitude", "0.8", "2", "--points", "3", "5", "--cycles", "3", "--workers", "1")
