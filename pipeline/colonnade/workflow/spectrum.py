@@ -91,8 +91,9 @@ class AskedSpectrum(Table):
             return
         of = ("--motion",) if self.pulse is None else ("--pulse", f"--pulse {self.pulse}")
         for other, keys in ONLY_FOR.items():
-            for key in self.model_fields_set.intersection(keys) if other not in of else ():
-                yield (), f"--{key.replace('_', '-')} is only for {other}."
+            for key in keys:
+                if other not in of and key in self.model_fields_set:
+                    yield (), f"--{key.replace('_', '-')} is only for {other}."
 
 
 Row = tuple[str, ...]
