@@ -55,7 +55,9 @@ def tests(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> in
     if identifier is None and not as_json:
         show_tests(records, {} if summary is None else summary.specimens)
         return 0
-    return _show_records("test", {name: each.model_dump() for name, each in records.items()}, identifier, as_json)
+    return _show_records(
+        "test", {name: each.model_dump(mode="json") for name, each in records.items()}, identifier, as_json
+    )
 
 
 def show_tests(
