@@ -1,4 +1,4 @@
-"""`colonnade run` and the commands on its way: what they do, what they say, what they leave alone."""
+"""`colonnade run`, the commands on its way, and `check`: what they do, what they say, what they leave alone."""
 
 import json
 import re
@@ -102,3 +102,114 @@ def test_the_report_is_typeset_and_bundled_if_asked(colonnade, campaign, tmp_pat
     said = json.loads(colonnade(*asked, "--json").stdout)
     assert (said["pdf"], said["bundle"]) == (str(campaign / "report" / "report.pdf"), "all.zip")
     assert {path for path, time in times(campaign).items() if time != before[path]} <= {campaign / "all.zip"}
+
+
+def snapshot(folder):
+    return {path: path.stat().st_mtime_ns for path in folder.rglob("*")}
+
+
+def test_a_good_campaign_passes_and_nothing_is_written(colonnade, campaign):
+    before = snapshot(campaign)
+    told = colonnade("check")
+    assert (told.returncode, told.stderr) == (0, "")
+    assert told.stdout == "All good: 2 tests. Nothing was written.\n"
+    assert snapshot(campaign) == before
+
+
+def test_check_finds_what_run_finds_in_the_channels(colonnade, with_gain):
+    with_gain("10 mm/mm")
+    told = colonnade("check")
+    assert told.returncode == 0
+    assert told.stdout.startswith("2 tests: 2 would give wrong results. Nothing was written.\n")
+    assert re.search(r"serious \(gain\): free-01: Channel top shows (9\.\d|10)\S* times the rotation", told.stdout)
+    assert colonnade("check", "--strict").returncode == 1
+    found = json.loads(colonnade("check", "--json").stdout)["tests"]["free-02"]["warnings"]
+    assert [each["kind"] for each in found if each["severity"] == "serious"] == ["gain", "impossible angle"]
+
+
+def test_every_missing_file_and_column_is_told_with_the_nearest_name(colonnade, campaign, changed):
+    (campaign / "raw" / "free-01.csv").rename(campaign / "raw" / "free_01.csv")
+    changed("raw/free-02.csv", "top [mm]", "tops [mm]")
+    told = colonnade("check")
+    assert told.returncode == 1
+    assert "free-01.csv: there is no such file" in told.stdout
+    assert 'Did you mean "free_01.csv"?' in told.stdout
+    assert 'channel top: free-02.csv: no column is called "top"' in told.stdout
+    assert 'Did you mean "tops"?' in told.stdout
+    assert told.stdout.startswith("2 tests: 2 would fail. Nothing")
+
+
+def test_what_ingest_would_refuse_is_told_too(colonnade, campaign):
+    file = campaign / "raw" / "free-02.csv"
+    rows = [line.split(";")[1] for line in file.read_text(encoding="utf-8").splitlines()]
+    file.write_text("\n".join(rows), encoding="utf-8")
+    told = colonnade("check")
+    assert told.returncode == 1
+    assert told.stdout.startswith("2 tests: 1 would fail, 1 good.")
+    assert "sampling_rate" in told.stdout
+
+
+def test_a_campaign_file_that_cannot_be_used_is_exit_code_2(colonnade, changed):
+    changed("campaign.toml", '"86 mm", depth', '"86 mn", depth')
+    told = colonnade("check")
+    assert told.returncode == 2
+    assert "specimens.prism.width" in told.stderr
+    assert "Traceback" not in told.stderr
+
+
+def test_numbers_that_run_on_are_told_as_the_cause_of_a_missing_column(colonnade, campaign, changed):
+    changed("campaign.toml", 'column = "top"', "column = 8")
+    changed("campaign.toml", "\n[setups.frame.ch", '\n[setups.frame]\nsampling_rate = "200 Hz"\n\n[setups.frame.ch')
+    for name in ("free-01", "free-02"):
+        raw = campaign / "raw" / f"{name}.csv"
+        values = [line.replace(";", ",").split(",")[1] for line in raw.read_text().splitlines()[1:]]
+        raw.write_text("\n".join(" ".join(values[row : row + 8]) for row in range(0, len(values), 8)) + "\n")
+    told = colonnade("check")
+    assert told.returncode == 1
+    assert "would fail: free-01: " in told.stdout
+    said = " ".join(told.stdout.split())
+    assert 'Say which in `file`: layout = "columns" or layout = "running".' in said
+    changed("campaign.toml", '"200 Hz"', '"200 Hz"\nfile = {layout = "running"}')
+    said = " ".join(colonnade("check").stdout.split())
+    assert "column 8 is missing; it has 1 column." in said
+    assert "Its numbers, 8 in a row, run on from row to row and are read as one series of 2400" in said
+    changed("campaign.toml", "column = 8", "column = 1")
+    assert colonnade("check").returncode == 0
+
+
+def test_a_problem_names_the_serious_finding_that_it_follows_from(colonnade, with_gain):
+    with_gain("0.001 mm/mm")
+    lines = colonnade("check").stdout.splitlines()
+    (problem, *_) = (line for line in lines if line.startswith("would fail: free-01"))
+    said = r"would fail: free-01: probably because of the serious findings below \(([^)]+)\): This free vibration"
+    kind = re.match(said, problem)
+    assert kind, lines
+    assert any(line.startswith(f"serious ({kind[1]}): ") for line in lines[lines.index(problem) :])
+
+
+@pytest.mark.parametrize("ending", [".svg", ".pdf", ".png"])
+def test_the_drawing_is_the_one_file_that_is_written(colonnade, campaign, ending):
+    before = snapshot(campaign)
+    told = colonnade("check", "--drawing", f"plan{ending}")
+    assert (told.returncode, told.stderr) == (0, "")
+    assert told.stdout == f"All good: 2 tests. Nothing was written but plan{ending}.\n"
+    assert set(snapshot(campaign)) - set(before) == {campaign / f"plan{ending}"}
+
+
+@pytest.mark.parametrize("name", ["campaign.toml", "raw", "own.svg"])
+def test_a_drawing_replaces_nothing_of_yours(colonnade, campaign, name):
+    (campaign / "own.svg").write_text("<svg/>", encoding="utf-8")
+    before = snapshot(campaign)
+    told = colonnade("check", "--drawing", name)
+    assert told.returncode == 2
+    assert name in told.stderr
+    assert snapshot(campaign) == before
+
+
+def test_serious_findings_are_in_colour_on_a_terminal(colonnade, with_gain, monkeypatch):
+    with_gain("10 mm/mm")
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("TERM", "xterm-256color")
+    assert "\x1b[1;31mserious (gain)\x1b[0m: free-01: " in colonnade("check").stdout
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert "\x1b[1;31m" not in colonnade("check").stdout
