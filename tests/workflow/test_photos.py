@@ -5,8 +5,8 @@ from PIL import Image
 
 from colonnade.campaign import load
 from colonnade.store.layout import Layout
-from colonnade.workflow import photos
-from colonnade.workflow.photos import photos_shown, unshown_photos
+from colonnade.workflow import pages
+from colonnade.workflow.pages import photos_shown, unshown_photos
 from colonnade.workflow.product import Catalogue
 
 PLACE = b"48.8584 N 2.2945 E"
@@ -51,13 +51,13 @@ def test_copies_are_numbered_as_written_and_hold_nothing_but_pixels(folder):
 
 def test_a_copy_is_made_again_only_if_the_photo_changed_or_it_was_lost(folder, monkeypatch):
     copy = brought(folder, "photos/a.jpg")[0]["free-01-1.jpg"]
-    before, read, decoded = copy.read_bytes(), photos.read_photo, []
+    before, read, decoded = copy.read_bytes(), pages.read_photo, []
 
     def spy(path, within):
         decoded.append(path.name)
         return read(path, within=within)
 
-    monkeypatch.setattr(photos, "read_photo", spy)
+    monkeypatch.setattr(pages, "read_photo", spy)
     brought(folder, "photos/a.jpg")
     assert decoded == []
     copy.write_bytes(before[:-10])

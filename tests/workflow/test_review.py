@@ -76,14 +76,17 @@ def test_a_decision_does_what_it_says_redoes_its_test_alone_and_is_kept_with_the
     assert ("rocking_angle" in rocking) == (kind != "exclude")
 
 
-def test_a_review_that_stays_redoes_nothing_and_one_that_goes_redoes_its_test(small):
+def test_a_review_that_stays_redoes_nothing_other_words_the_ingest_and_one_that_goes_its_test(small):
+    before, path = small.contents(), small.folder / "review.toml"
     review(small, ("correct", 'test = "pulse-01"\nchannel = "table"\nfactor = -1'))
-    before = small.contents()
+    written = path.read_bytes()
     small.run()
-    written = (small.folder / "review.toml").read_bytes()
     assert small.redone() == {}
-    assert (small.folder / "review.toml").read_bytes() == written
-    (small.folder / "review.toml").unlink()
+    assert path.read_bytes() == written
+    path.write_bytes(written.replace(b"video", b"photograph"))
+    assert set(small.redone()) == {("pulse-01", "ingest")}
+    assert "photograph" in recorded(small, "pulse-01").attrs["review"][0]
+    path.unlink()
     assert touched(small.redone()) == {"pulse-01"}
     assert small.contents() == before
 
@@ -105,12 +108,3 @@ def test_an_excluded_test_that_is_asked_for_is_refused_with_the_reason(small):
     review(small, ("exclude", 'test = ["free-01", "pulse-02"]'))
     with pytest.raises(CampaignError, match=r"pulse-02 is excluded by V\. D\. .*review\.toml"):
         small.run(only="pulse-02")
-
-
-def test_other_words_for_a_decision_redo_the_ingest_alone(small):
-    review(small, ("correct", 'test = "pulse-01"\nchannel = "table"\nfactor = -1'))
-    small.run()
-    path = small.folder / "review.toml"
-    path.write_text(path.read_text(encoding="utf-8").replace("video", "photograph"), encoding="utf-8")
-    assert set(small.redone()) == {("pulse-01", "ingest")}
-    assert "photograph" in recorded(small, "pulse-01").attrs["review"][0]

@@ -18,7 +18,7 @@ from colonnade.store.results import models_of
 from colonnade.workflow.chain import WORKER_LOST, RunResult, StageRun
 from colonnade.workflow.executors import Counted, spread
 from colonnade.workflow.graph import Graph
-from colonnade.workflow.photos import unshown_photos
+from colonnade.workflow.pages import unshown_photos
 from colonnade.workflow.pooling import contradictions
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.raw_files import copies

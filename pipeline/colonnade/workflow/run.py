@@ -17,8 +17,7 @@ from colonnade.store.results import RUN_STAGES, ResultId
 from colonnade.validation import described, whole
 from colonnade.workflow.chain import RunResult, remove_later
 from colonnade.workflow.executors import Where
-from colonnade.workflow.pages import Report
-from colonnade.workflow.photos import photos_shown
+from colonnade.workflow.pages import Report, photos_shown
 from colonnade.workflow.pooling import contradictions, expect_known
 from colonnade.workflow.raw_files import RawFiles, copies
 from colonnade.workflow.summary import choose, finding_of, foreseen_of, write_summary
