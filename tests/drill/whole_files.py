@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 from collections.abc import Callable
 from functools import partial
@@ -10,15 +11,14 @@ from pathlib import Path
 import h5py
 import numpy as np
 import scipy.io
-from nptdms import ChannelObject, TdmsWriter
 
 sys.path.append(str(Path(__file__).parents[1] / "helpers"))  # where this is run by a script
 from raw_files import COLUMNS, WRITERS, as_matlab_73, tdm
 from workbooks import ROWS, SAMPLES, ods, xls, xlsx
 
+EXAMPLES = Path(__file__).parents[2] / "raw_schema" / "examples"
 TIME = np.arange(60) * 0.01
 TABLE = np.random.default_rng(5).random((60, 3))
-START = np.datetime64("2020-01-01T00:00:00")
 
 
 def c3d(path: Path) -> None:
@@ -32,16 +32,6 @@ def c3d(path: Path) -> None:
             file["parameters"][group][key]["value"] = [value]
     file["data"]["points"], file["data"]["analogs"] = points, np.repeat(TABLE[:, 1], 2)[None, None]
     file.write(str(path))
-
-
-def tdms(path: Path) -> None:
-    properties = {"wf_increment": 0.01, "wf_start_offset": 0.0, "wf_start_time": START, "unit_string": "mm"}
-    stamps = START + np.arange(60) * np.timedelta64(1000, "us")
-    columns = {"b": np.arange(60, dtype=np.int16), "t": stamps, "s": ["a"] * 60}
-    channels = [ChannelObject("g", name, values) for name, values in columns.items()]
-    with TdmsWriter(path) as writer:
-        for _ in range(3):
-            writer.write_segment([ChannelObject("g", "a", TIME, properties), *channels])
 
 
 def matlab(path: Path, *, compressed: bool) -> None:
@@ -62,16 +52,6 @@ def matlab_hdf5(path: Path) -> None:
     as_matlab_73(path)
 
 
-def netcdf4(path: Path) -> None:
-    with h5py.File(path, "w") as file:
-        time = file.create_dataset("time", data=TIME)
-        time.attrs["units"] = "s"
-        time.make_scale("time")
-        top = file.create_dataset("run/top", data=TABLE, compression="gzip")
-        top.dims[0].attach_scale(time)
-        top.attrs["units"] = "mm"
-
-
 def netcdf3(path: Path) -> None:
     with scipy.io.netcdf_file(path, "w") as file:
         file.createDimension("time", 60)
@@ -80,13 +60,13 @@ def netcdf3(path: Path) -> None:
         file.variables["time"].units = b"s"
 
 
+def example(path: Path, *, format: str) -> None:
+    shutil.copyfile(next((EXAMPLES / format / "raw").iterdir()), path)
+
+
 def delimited(path: Path, *, separator: str, decimal: str, encoding: str) -> None:
-    rows = np.arange(200)
-    columns = {"Time [s]": rows * 0.005, "LVDT 1 [mm]": 10 * np.sin(rows / 9), "ACC [g]": np.cos(rows / 5)}
-    lines = [separator.join(columns)]
-    for row in zip(*columns.values(), strict=True):
-        lines.append(separator.join(f"{number:.5f}".replace(".", decimal) for number in row))
-    path.write_bytes(("\r\n".join(lines) + "\r\n").encode(encoding))
+    text = (EXAMPLES / "delimited" / "raw" / "free-01.csv").read_text(encoding="latin-1")
+    path.write_bytes(text.replace(",", decimal).replace(";", separator).encode(encoding))
 
 
 WHOLE: dict[str, tuple[str, Callable[[Path], object]]] = {
@@ -100,12 +80,12 @@ WHOLE: dict[str, tuple[str, Callable[[Path], object]]] = {
     "excel xlsx": (".xlsx", lambda path: xlsx(path, Blatt=[*ROWS, *SAMPLES])),
     "excel ods": (".ods", lambda path: ods(path, SAMPLES)),
     "excel xls": (".xls", lambda path: xls(path, [*ROWS, *SAMPLES])),
-    "tdms": (".tdms", tdms),
+    "tdms": (".tdms", partial(example, format="tdms")),
     "c3d": (".c3d", c3d),
     "matlab 5 plain": (".mat", partial(matlab, compressed=False)),
     "matlab 5 compressed": (".mat", partial(matlab, compressed=True)),
     "matlab 7.3": (".mat", matlab_hdf5),
-    "netcdf 4": (".nc", netcdf4),
+    "netcdf 4": (".nc", partial(example, format="netcdf")),
     "netcdf 3": (".nc", netcdf3),
     "diadem tdm": (".TDM", tdm),
 }
