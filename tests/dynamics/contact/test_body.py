@@ -16,7 +16,7 @@ from colonnade.dynamics.contact.stability import (
     highest_frequency,
     keep_modes,
     keep_modes_for_step,
-    longest_with,
+    longest_step,
 )
 from colonnade.dynamics.contact.start import Start
 from colonnade.dynamics.contact.structure import Structure
@@ -77,8 +77,8 @@ def test_a_law_that_cannot_be_is_refused(wrong, message):
 BODY = rigid_body(PRISM)
 
 
-def _highest(law):
-    return highest_frequency(Structure.of_body(BODY, law, 9.81))
+def _on(law, body=BODY):
+    return Structure.of_body(body, law, 9.81)
 
 
 def test_the_highest_frequency_is_that_of_swaying_and_rocking_on_springs():
@@ -88,18 +88,18 @@ def test_the_highest_frequency_is_that_of_swaying_and_rocking_on_springs():
     sway, coupled = stiffness.sum() / mass, height * stiffness.sum() / math.sqrt(mass * inertia)
     turn = stiffness @ (height**2 + BODY.nodes[:, 0] ** 2) / inertia
     fastest = 0.5 * (sway + turn) + math.hypot(0.5 * (sway - turn), coupled)
-    assert _highest(law) == pytest.approx(math.sqrt(fastest), rel=1e-6)
+    assert highest_frequency(_on(law)) == pytest.approx(math.sqrt(fastest), rel=1e-6)
 
 
 def test_without_damping_the_longest_step_is_two_over_the_frequency():
     law = ContactLaw(1e10, damping_fraction=0.0)
-    assert longest_with(BODY, law, math.inf) == pytest.approx(2.0 / _highest(law), rel=1e-4)
+    assert longest_step(_on(law)) == pytest.approx(2.0 / highest_frequency(_on(law)), rel=1e-4)
 
 
 @pytest.mark.parametrize("fraction", [0.0, 0.4, 2.0])
 def test_a_loaded_block_is_quiet_below_the_longest_step_and_not_above(fraction, monkeypatch):
     law = ContactLaw(1e10, damping_fraction=fraction, friction=math.inf)
-    limit = longest_with(BODY, law, math.inf)
+    limit = longest_step(_on(law))
 
     def ringing(step):
         # Under a gravity that keeps all nodes on the table.
@@ -134,8 +134,8 @@ def test_a_step_of_ten_microseconds_keeps_modes_that_the_engine_advances_with_cl
     kept = keep_modes_for_step(reduced, law, 1e-5)
     count = kept.frequencies.size
     assert count >= 4
-    assert longest_with(kept, law, math.inf) >= 1e-5 / FOLLOWED
-    assert longest_with(reduced, law, reduced.frequencies[count + 1]) < 1e-5 / FOLLOWED
+    assert longest_step(_on(law, kept)) >= 1e-5 / FOLLOWED
+    assert longest_step(_on(law, keep_modes(reduced, reduced.frequencies[count + 1]))) < 1e-5 / FOLLOWED
     history = simulate(kept, law=law, theta0=0.05, duration=0.3, step=1e-5)
     assert history.impact_times.size == 1
     assert history.energies.closes

@@ -104,12 +104,10 @@ def keep_modes_for_step(body: ContactBody, law: ContactLaw, step: float) -> Cont
     body : ContactBody
         With the modes that the step follows (`FOLLOWED`); the rigid body where it follows none.
     """
-    count = bisect_left(
-        body.frequencies, True, key=lambda highest: longest_with(body, law, float(highest)) < step / FOLLOWED
-    )
+
+    def outruns(highest: float) -> bool:
+        """Whether the step is too long for the modes up to a frequency."""
+        return longest_step(Structure.of_body(keep_modes(body, highest), law, STANDARD_GRAVITY)) < step / FOLLOWED
+
+    count = bisect_left(body.frequencies, True, key=outruns)
     return keep_modes(body, float(body.frequencies[count - 1]) if count else 0.0)
-
-
-def longest_with(body: ContactBody, law: ContactLaw, highest_frequency: float) -> float:
-    """Give the longest stable step of a body on a law, s, with its modes up to a frequency, rad/s."""
-    return longest_step(Structure.of_body(keep_modes(body, highest_frequency), law, STANDARD_GRAVITY))
