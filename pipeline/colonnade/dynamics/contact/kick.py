@@ -58,7 +58,7 @@ def kick(system: System, state: State, step: float) -> None:
     for mode in range(strain.shape[1]):
         strain[1, mode] += strain[2, mode]
     for side in range(sides):
-        _settle(system, state, side, step)
+        _settle(state, side, step)
 
 
 @kernel_in_place
@@ -91,9 +91,8 @@ def _fill_velocities(system: System, state: State, side: int, step: float) -> No
 def _fill_forces(system: System, state: State, side: int, step: float) -> None:
     """Fill the forces of an interface's points by the law of contact, and what becomes of their slip."""
     load, depths, slip, listed = state.load, state.depth, state.slip, state.listed
-    nodes, slots, shares, friction = state.node, state.slot, state.share, system.friction
     for index in range(listed[side], listed[side + 1]):
-        node, slot, share, depth = nodes[index], slots[index], shares[index], depths[index]
+        slot, depth, stiffness, damping = state.slot[index], depths[index], state.stiffness[index], state.damping[index]
         # Normal: the part of the step that the point is in contact, and the mean depth times that part.
         sinking = -load[index, 11] * step
         high, part, mean = depth + 0.5 * abs(sinking), 1.0, depth
@@ -102,10 +101,9 @@ def _fill_forces(system: System, state: State, side: int, step: float) -> None:
         elif high < abs(sinking):
             part = high / abs(sinking)
             mean = 0.5 * part * high
-        stiffness, damping = share * system.stiffness[node], share * system.damping[node]
         elastic = stiffness * mean
         normal = max(0.0, elastic - part * damping * load[index, 11])
-        limit = friction * normal if normal > 0.0 else 0.0
+        limit = system.friction * normal if normal > 0.0 else 0.0
         # The slip of before, as far as this normal force still holds it.
         load[index, 7], load[index, 8] = slip[slot, 0], slip[slot, 1]
         _shorten(load, index, 7, stiffness, limit)
@@ -179,13 +177,11 @@ def _add(total: Array, body: int, u: float, v: float, w: float, p: float, q: flo
 
 
 @kernel_in_place
-def _settle(system: System, state: State, side: int, step: float) -> None:
+def _settle(state: State, side: int, step: float) -> None:
     """Book what the contact of an interface took, and keep the slip."""
-    slip, lost, load, slots, nodes = state.slip, state.lost, state.load, state.slot, state.node
-    share, listed, touched = state.share, state.listed, state.touched
+    slip, lost, load, listed, touched = state.slip, state.lost, state.load, state.listed, state.touched
     for index in range(listed[side], listed[side + 1]):
-        slot = slots[index]
-        stiffness = share[index] * system.stiffness[nodes[index]]
+        slot, stiffness = state.slot[index], state.stiffness[index]
         half = 0.5 * stiffness
         # Normal damping; and the energy of the slip that the normal force held no longer, which friction took.
         lost[side, 0] += step * (load[index, 3] - load[index, 2]) * load[index, 11]

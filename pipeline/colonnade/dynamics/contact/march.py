@@ -223,8 +223,7 @@ def _fill_sample(system: System, state: State, sample: Array, sums: Array) -> No
     for side in range(system.carrier.size):
         sums[3] += state.held[side]
         for index in range(state.listed[side], state.listed[side + 1]):
-            stiffness = state.share[index] * system.stiffness[state.node[index]]
-            sums[3] += 0.5 * stiffness * max(state.depth[index], 0.0) ** 2
+            sums[3] += 0.5 * state.stiffness[index] * max(state.depth[index], 0.0) ** 2
         upper = max(system.carrier[side], system.target[side])
         for way in range(2):
             sample[upper, 13 + way] += state.lost[side, way]

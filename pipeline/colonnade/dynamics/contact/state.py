@@ -86,8 +86,8 @@ class State(NamedTuple):
 
     Of each interface: frame: the target's axes to the table's; turned and apart: carrier to target, from the face's
     middle; twist: v and ω of the carrier relative to the target, in its axes; listed: where its points begin in the
-    list of those that may touch. Of each such point: node; slot; share of its node's stiffness and damping; lever: in
-    the target's axes, in the carrier's; depth; load: force 0:3, its elastic normal part 3, slip left 4:6, whether it
+    list of those that may touch. Of each such point: node; slot; its share of the node's stiffness and damping; lever:
+    in the target's axes, in the carrier's; depth; load: force 0:3, its elastic normal part 3, slip left 4:6, whether it
     sticks 6, slip that the normal force still holds 7:9, velocity 9:12, the slip's increase over the step 12:14. Of
     each body: speeds: v and ω in the table's axes; change: of velocity and angular momentum; total: force and moment.
     carried: slip of a ring's points at their new places. pull: minus the table's acceleration.
@@ -113,7 +113,8 @@ class State(NamedTuple):
     listed: Annotated[Whole, "s + 1"]
     node: Annotated[Whole, "p"]
     slot: Annotated[Whole, "p"]
-    share: Annotated[Array, "p"]
+    stiffness: Annotated[Array, "p"]
+    damping: Annotated[Array, "p"]
     lever: Annotated[Array, "p", 6]
     depth: Annotated[Array, "p"]
     load: Annotated[Array, "p", 14]

@@ -81,74 +81,61 @@ def place(system: System, state: State, step: float) -> None:
     for mode in range(state.strain.shape[1]):
         flutter += state.strain[1, mode] ** 2
     for side in range(system.carrier.size):
-        count = listed[side]
+        listed[side + 1] = listed[side]
         if stands[system.carrier[side]] == 1 and stands[system.target[side]] == 1:
             # A node that is higher than the fastest one moves in a step neither touched before nor does now.
             fastest = system.reach[side] * (abs(twist[side, 3]) + abs(twist[side, 4]) + abs(twist[side, 5]))
             margin = step * (abs(twist[side, 2]) + system.bend * sqrt(flutter) + fastest)
             for node in range(system.first[side], system.first[side + 1]):
                 if system.radii[node] > 0.0:
-                    count = _place_ring(system, state, side, node, count, step)
+                    _place_ring(system, state, side, node, step)
                 else:
-                    count = _place_point(system, state, side, node, count, margin)
-        listed[side + 1] = count
+                    _place_point(system, state, side, node, margin)
 
 
 @kernel_in_place
-def _place_point(system: System, state: State, side: int, node: int, count: int, margin: float) -> int:
-    """Add a point node of an interface, if it is lower than `margin`, to the `count` points that are listed."""
-    turned = state.turned
-    x, y, z = _displaced(system, state, node)
-    above = turned[side, 2, 0] * x + turned[side, 2, 1] * y + turned[side, 2, 2] * z
-    if state.apart[side, 2] + above < margin:
-        share = _put(system, state, side, count, x, y, z)
-        count = _list(state, count, node, system.slots[node], share, DEEPEST * system.face[side, 0])
-    return count
-
-
-@kernel_in_place
-def _displaced(system: System, state: State, node: int) -> tuple[float, float, float]:
-    """Give where a node is in its body's axes, as the modes displace it."""
-    modes, strain = system.modes, state.strain
+def _place_point(system: System, state: State, side: int, node: int, margin: float) -> None:
+    """List a point node of an interface, which the modes displace, if it is lower than `margin`."""
+    turned, modes, strain = state.turned, system.modes, state.strain
     x, y, z = system.nodes[node, 0], system.nodes[node, 1], system.nodes[node, 2]
     for mode in range(strain.shape[1]):
         x += modes[node, 0, mode] * strain[0, mode]
         y += modes[node, 1, mode] * strain[0, mode]
         z += modes[node, 2, mode] * strain[0, mode]
-    return x, y, z
+    above = turned[side, 2, 0] * x + turned[side, 2, 1] * y + turned[side, 2, 2] * z
+    if state.apart[side, 2] + above < margin:
+        _list(system, state, side, node, 0, 1.0, x, y, z)
 
 
 @kernel_in_place
-def _put(system: System, state: State, side: int, row: int, x: float, y: float, z: float) -> float:
-    """Fill the lever and depth of a point at (x, y, z) in the carrier's axes; return how much of it is on the face."""
-    lever, turned, apart, depth, face = state.lever, state.turned, state.apart, state.depth, system.face
+def _list(
+    system: System, state: State, side: int, node: int, point: int, weight: float, x: float, y: float, z: float
+) -> None:
+    """
+    List a point of a node with its weight, at (x, y, z) of the carrier, if it is on the face; else forget what it held.
+    """
+    lever, turned, apart, face, entry = state.lever, state.turned, state.apart, system.face, state.entry
+    row, slot = state.listed[side + 1], system.slots[node] + point
     for axis in range(3):
         lever[row, axis] = turned[side, axis, 0] * x + turned[side, axis, 1] * y + turned[side, axis, 2] * z
     lever[row, 3], lever[row, 4], lever[row, 5] = x, y, z
-    depth[row] = -(apart[side, 2] + lever[row, 2])
-    x, y = apart[side, 0] + lever[row, 0], apart[side, 1] + lever[row, 1]
-    return inside(face[side, 0], face[side, 1], face[side, 2], face[side, 3], x, y)
-
-
-@kernel_in_place
-def _list(state: State, row: int, node: int, slot: int, share: float, deepest: float) -> int:
-    """List a point that is on the face, or forget what it held where it is not; return the next row."""
-    touched, slip, nodes, slots, shares = state.touched, state.slip, state.node, state.slot, state.share
-    entry, depth = state.entry, state.depth
-    nodes[row], slots[row], shares[row] = node, slot, share
+    depth = -(apart[side, 2] + lever[row, 2])
+    along, across = apart[side, 0] + lever[row, 0], apart[side, 1] + lever[row, 1]
+    share = weight * inside(face[side, 0], face[side, 1], face[side, 2], face[side, 3], along, across)
+    state.node[row], state.slot[row] = node, slot
+    state.stiffness[row], state.damping[row] = share * system.stiffness[node], share * system.damping[node]
     # From where on it bears; off the face it is kept as −1 less that.
     bears = entry[slot] if entry[slot] >= 0.0 else -1.0 - entry[slot]
-    if depth[row] <= 0.0:
+    if depth <= 0.0:
         bears = 0.0
     if share == 0.0:
-        touched[slot], slip[slot, 0], slip[slot, 1], entry[slot] = 0, 0.0, 0.0, -1.0 - bears
-        return row
+        state.touched[slot], state.slip[slot, 0], state.slip[slot, 1], entry[slot] = 0, 0.0, 0.0, -1.0 - bears
+        return
     # One that comes over the outline from below bears from there on: the spring that it meets was never compressed.
-    if entry[slot] < 0.0 and depth[row] > bears + deepest:
-        bears = depth[row]
-    entry[slot] = bears
-    depth[row] -= bears
-    return row + 1
+    half_width = face[side, 0] if system.radii[node] == 0.0 else system.radii[node]
+    if entry[slot] < 0.0 and depth > bears + DEEPEST * half_width:
+        bears = depth
+    entry[slot], state.depth[row], state.listed[side + 1] = bears, depth - bears, row + 1
 
 
 @kernel_in_place
@@ -162,9 +149,9 @@ def inside(half_x: float, half_y: float, band: float, is_round: float, x: float,
 
 
 @kernel_in_place
-def _place_ring(system: System, state: State, side: int, node: int, count: int, step: float) -> int:
-    """Add the points of a ring's arc that may touch within the step to the `count` points that are listed."""
-    turned, twist, arc, arcs, slots = state.turned, state.twist, system.arc, state.arcs, system.slots
+def _place_ring(system: System, state: State, side: int, node: int, step: float) -> None:
+    """List the points of a ring's arc that may touch within the step."""
+    turned, twist, arc, arcs = state.turned, state.twist, system.arc, state.arcs
     radius, z = system.radii[node], system.nodes[node, 2]
     depth, rise = _lowest(system, state, side, node)
     # How fast the ring can sink anywhere: at its middle, and by its turning at the radius.
@@ -180,10 +167,8 @@ def _place_ring(system: System, state: State, side: int, node: int, count: int, 
         _move_arc(system, state, side, node, angle, half)
     for point in range(arc.shape[1] if half > 0.0 else 0):
         about = angle + half * arc[0, point]
-        share = _put(system, state, side, count, radius * cos(about), radius * sin(about), z)
-        share *= half * arc[1, point] / (2.0 * pi)
-        count = _list(state, count, node, slots[node] + point, share, DEEPEST * radius)
-    return count
+        weight = half * arc[1, point] / (2.0 * pi)
+        _list(system, state, side, node, point, weight, radius * cos(about), radius * sin(about), z)
 
 
 @kernel_in_place
