@@ -259,8 +259,15 @@ class AssemblyHistory(Together, Digested):
     assembly : Assembly
     bodies : mapping of str to BodyHistory
         From the bottom to the top.
-    law, time, energies, base_force, step
-        As of a single body.
+    law : ContactLaw
+    time : ndarray, shape (n,)
+        s.
+    energies : EnergyBalance
+        Of all bodies; it does not hold after the first has fallen.
+    base_force : ndarray, shape (n, 3)
+        N, of the table on all that stands on it: the mean since the sample before.
+    step : float
+        s.
 
     Examples
     --------
@@ -286,8 +293,9 @@ class AssemblyHistory(Together, Digested):
     @property
     def angle(self) -> Array:
         """
-        Lean of the lowest body with all that stands on it alone, rad, positive to +x, shape (n,): the angle with the
-        vertical of the line from its base to their common centre of mass.
+        Lean of the lowest body with all that stands on it alone, rad, positive to +x, shape (n,).
+
+        The angle with the vertical of the line from its base to their common centre of mass.
         """
         name, body = next(iter(self.bodies.items()))
         return np.copysign(body.lean * self.assembly.critical_angles[name], body.arm[:, 0])
