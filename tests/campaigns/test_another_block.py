@@ -4,12 +4,13 @@ offset, decimal commas, a free vibration that starts tilted, and a test in which
 """
 
 import json
+from functools import partial
 
 import pytest
 
 from colonnade.campaign.channel import MAIN
 from colonnade.dynamics.block import Block
-from colonnade.laboratory.files import Flavour
+from colonnade.laboratory.files import FileFormat, text
 from colonnade.laboratory.plan import Plan, Recorder, Trial
 from colonnade.laboratory.runs import write
 from colonnade.laboratory.table import ramped_sine
@@ -46,7 +47,9 @@ pytestmark = pytest.mark.whole
 
 
 def _plan():
-    flavour = Flavour(delimiter=";", decimal=",", encoding="utf-16", time_name="Zeit", units_in_names=True)
+    flavour = FileFormat(
+        ".csv", partial(text, delimiter=";", decimal=",", encoding="utf-16", time_name="Zeit", units_in_names=True)
+    )
     sine = {"frequency": 1.5, "start": 1.5, "ramp": 2}
     rocks = ramped_sine(acceleration=1.5 * STONE.uplift_acceleration, cycles=8, **sine)
     falls = ramped_sine(acceleration=3.5 * STONE.uplift_acceleration, cycles=8, **sine)

@@ -6,7 +6,7 @@ import pytest
 from colonnade.campaign import FILE_NAME, load
 from colonnade.campaign.channel import MAIN
 from colonnade.errors import CampaignError
-from colonnade.laboratory.files import Tdms
+from colonnade.laboratory.files import TDMS
 from colonnade.laboratory.plan import MARK, TESTS_A_DAY, Plan, Recorder, Trial, begun, claim
 
 HEAD = """
@@ -29,7 +29,7 @@ low = {column = "LVDT", quantity = "displacement", unit = "mm", on = "table", di
 
 def plan():
     shaken = Trial("span-2.0", "earthquake", "frame", 9.0, entry={"span": 2.0, "motion": 'the "big" one'})
-    recorders = {MAIN: Recorder(200.0), "daq2": Recorder(400.0, Tdms(), late=0.3)}
+    recorders = {MAIN: Recorder(200.0), "daq2": Recorder(400.0, TDMS, late=0.3)}
     return Plan(HEAD, {"prism.a": 0.93}, {"frame": recorders}, (shaken,))
 
 

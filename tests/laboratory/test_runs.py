@@ -1,7 +1,7 @@
 """Virtual campaigns on disk: what each test writes, the campaign that reads back, and the truth next to it."""
 
 import json
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,10 +13,10 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.errors import CampaignError, StoreError
 from colonnade.laboratory import write_campaign
-from colonnade.laboratory.files import GERMAN, FileFormat, Sheet
+from colonnade.laboratory.files import GERMAN, FileFormat
 from colonnade.laboratory.plan import OPERATOR, Plan, Recorder, Trial
 from colonnade.laboratory.programme import COLUMNS, CYCLES, LADDERS, LASTING, MARGIN, RAMP, RAMPS, RESTITUTION, sine
-from colonnade.laboratory.runs import START_SCATTER, run_test, truth_of, with_its_truth, write
+from colonnade.laboratory.runs import START_SCATTER, run_test, write
 from colonnade.laboratory.table import Imperfections, ramped_sine
 from colonnade.laboratory.truth import simulate
 from colonnade.workflow import executors
@@ -50,26 +50,25 @@ SHAKEN = ramped_sine(2.0, 1.2 * PRISM.uplift_acceleration, start=0.5, cycles=2, 
 PERFECT = Imperfections(noise=0.0, drift=0.0, zero=0.0)
 
 
-@dataclass
-class Kept(FileFormat):
-    """A format that keeps the sheets it was to write."""
+def keeping(sheets):
+    """Give a format that keeps the sheets it was to write."""
 
-    suffix: str = ".kept"
-    sheets: list[Sheet] = field(default_factory=list)
-
-    def content(self, sheet):
-        self.sheets.append(sheet)
+    def content(sheet):
+        sheets.append(sheet)
         return b"kept"
 
-
-@pytest.fixture
-def formats():
-    return Kept(), Kept()
+    return FileFormat(".kept", content)
 
 
 @pytest.fixture
-def plan(formats):
-    main, second = formats
+def sheets():
+    """Sheets of the main and of the second recorder."""
+    return [], []
+
+
+@pytest.fixture
+def plan(sheets):
+    main, second = map(keeping, sheets)
     recorders = {MAIN: Recorder(500.0, main), "daq2": Recorder(400.0, second, LATE)}
     trials = (
         Trial("free", "free-vibration", "both", duration=2.0, theta0=0.1, release=0.5),
@@ -88,20 +87,20 @@ def run(plan, number, folder, seed=4):
     return run_test(plan, loaded(plan, folder), plan.trials[number], np.random.SeedSequence(seed))
 
 
-def test_each_recorder_has_a_clock_that_begins_at_its_own_start(plan, formats, tmp_path):
+def test_each_recorder_has_a_clock_that_begins_at_its_own_start(plan, sheets, tmp_path):
     starts = run(plan, 1, tmp_path)["recorder_starts"]
     assert starts[MAIN] == 0.0
     assert 0 < abs(starts["daq2"] - LATE) <= START_SCATTER
-    for kept, rate, start in zip(formats, (500.0, 400.0), starts.values(), strict=True):
-        (sheet,) = kept.sheets
+    for kept, rate, start in zip(sheets, (500.0, 400.0), starts.values(), strict=True):
+        (sheet,) = kept
         assert sheet.time.size == int((3.0 - start) * rate)
         np.testing.assert_allclose(sheet.time, np.arange(sheet.time.size) / rate, atol=1e-12)
 
 
-def test_each_recorder_sees_the_moment_of_its_own_clock(plan, formats, tmp_path):
+def test_each_recorder_sees_the_moment_of_its_own_clock(plan, sheets, tmp_path):
     plan = replace(plan, trials=(replace(plan.trials[1], spikes=0),))
     start = run(plan, 0, tmp_path)["recorder_starts"]["daq2"]
-    (sheet,) = formats[1].sheets
+    (sheet,) = sheets[1]
     unit, volts = sheet.columns["Table"]
     assert unit == "V"
     np.testing.assert_allclose(volts, SHAKEN.acceleration(sheet.time + start) / 20.0 * 10.0, atol=10.0 / 2**15)
@@ -150,11 +149,9 @@ def test_the_largest_acceleration_is_that_of_the_table(plan, tmp_path):
 
 
 def test_the_truth_holds_specimens_errors_and_tests_and_reads_back(plan, tmp_path):
-    records = {"rest": run(plan, 2, tmp_path)}
-    truth = with_its_truth(tmp_path, truth_of(plan, loaded(plan, tmp_path), records, 11)).truth
+    truth = write(plan, tmp_path, seed=11).truth
     assert json.loads((tmp_path / "truth" / "truth.json").read_text("utf-8")) == truth
-    assert truth["seed"] == 11
-    assert truth["tests"] == records
+    assert (truth["seed"], list(truth["tests"])) == (11, ["free", "sine", "rest"])
     assert truth["imperfections"] == {"noise": 0.0, "drift": 0.0, "zero": 0.0}
     prism = truth["specimens"]["prism"]
     assert prism["restitution"] == 0.97

@@ -7,8 +7,7 @@ optical system sees their markers, with noise. What became of each body is kept 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
-from functools import partial
+from collections.abc import Callable
 from importlib.resources import files as resources
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -16,13 +15,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.campaign import FILE_NAME, Campaign, load
+from colonnade.campaign import Campaign
 from colonnade.campaign.assembly import Whole
 from colonnade.campaign.channel import MAIN
 from colonnade.dynamics.assembly import Assembly, Placed
 from colonnade.laboratory.files import put
-from colonnade.laboratory.plan import claim
-from colonnade.laboratory.runs import WrittenCampaign, spread_over, with_its_truth
+from colonnade.laboratory.runs import WrittenCampaign, shake, with_its_truth
 from colonnade.laboratory.table import ramped_sine
 from colonnade.laboratory.truth import NO_ROCKING_RATIO
 
@@ -60,7 +58,8 @@ SHAKEN = {
 
 CYCLES, RAMP = 3, 1
 
-WORST_FIRST = ("overturned", "rocking", "no-rocking")
+OUTCOMES = ("overturned", "rocking", "no-rocking")
+"""The worst first."""
 
 _MODEL = """
 <mujoco>
@@ -104,11 +103,8 @@ def write_assemblies(folder: Path, *, seed: int = 0, workers: int | None = 1) ->
     CampaignError
         If the folder holds a campaign that the laboratory did not write.
     """
-    claim(folder)
-    put(folder / FILE_NAME, (resources("colonnade.laboratory") / "assemblies.toml").read_bytes())
-    campaign = load(folder.absolute())  # as workers may have started in another folder
-    seeds = np.random.SeedSequence(seed).spawn(len(SHAKEN))
-    done = spread_over(workers, partial(_record, campaign), SHAKEN, seeds)
+    text = (resources("colonnade.laboratory") / "assemblies.toml").read_bytes()
+    _, done = shake(folder, text, _record, SHAKEN, seed=seed, workers=workers)
     return with_its_truth(folder, {"seed": seed, "tests": {name: true for each in done for name, true in each.items()}})
 
 
@@ -116,16 +112,20 @@ def _record(campaign: Campaign, recording: str, seed: np.random.SeedSequence) ->
     """Shake what is on the table in one recording, and write its file; give what is true of its tests."""
     random = np.random.default_rng(seed)
     tests = [test for test in campaign.tests.values() if test.files[MAIN].stem == recording]
-    (setup,) = {test.setup for test in tests}
-    stood = _standing(campaign, [test.specimen for test in tests])
+    whole, setup = campaign.specimens[tests[0].specimen], campaign.setups[tests[0].setup]
+    if isinstance(whole, Whole):
+        stood = whole.assembly(campaign.gravity)
+    else:
+        blocks = [(test.specimen, campaign.block(test.specimen)) for test in tests]
+        stood = Assembly({name: Placed(block, (), (0.0, APART * row)) for row, (name, block) in enumerate(blocks)})
     frequency, amplitude = SHAKEN[recording]
     table = ramped_sine(frequency, amplitude, start=QUIET, cycles=CYCLES, ramp=RAMP)
     time = np.arange(round((table.stop + AFTER) * RATE) + 1) / RATE
     moved = move(stood, table.acceleration, time)
     base = table.acceleration(time)
     columns = {"time [s]": time, "table [m/s^2]": base + NOISE["acceleration"] * random.normal(size=time.size)}
-    axes = np.array(campaign.setups[setup].tracking.axes, dtype=np.float64)
-    for marker in campaign.setups[setup].markers.values():
+    axes = np.array(setup.tracking.axes, dtype=np.float64)
+    for marker in setup.markers.values():
         number, placed = list(stood.bodies).index(marker.on), stood.bodies[marker.on]
         arm = np.array(marker.at) - (0.0, 0.0, placed.centre_height)
         place = moved.place[:, number] + moved.turned[:, number] @ arm
@@ -134,22 +134,11 @@ def _record(campaign: Campaign, recording: str, seed: np.random.SeedSequence) ->
     rows = "\n".join(",".join(f"{value:.4f}" for value in row) for row in np.column_stack(list(columns.values())))
     put(campaign.path.parent / "raw" / f"{recording}.csv", f"{','.join(columns)}\n{rows}\n".encode())
     bodies = became(stood, moved)
-    return {test.id: _true_of({test.specimen} & bodies.keys() or bodies.keys(), bodies) for test in tests}
-
-
-def _true_of(names: Collection[str], bodies: Mapping[str, dict[str, Any]]) -> dict[str, Any]:
-    own = {name: body for name, body in bodies.items() if name in names}
-    return {"outcome": min((body["outcome"] for body in own.values()), key=WORST_FIRST.index), "bodies": own}
-
-
-def _standing(campaign: Campaign, specimens: list[str]) -> Assembly:
-    """Give all that stands on the table: an assembly, or blocks side by side across it."""
-    one = campaign.specimens[specimens[0]]
-    if isinstance(one, Whole):
-        return one.assembly(campaign.gravity)
-    return Assembly(
-        {name: Placed(campaign.block(name), position=(0.0, APART * number)) for number, name in enumerate(specimens)}
-    )
+    true = {}
+    for test in tests:
+        own = {test.specimen: bodies[test.specimen]} if test.specimen in bodies else bodies
+        true[test.id] = {"outcome": min((body["outcome"] for body in own.values()), key=OUTCOMES.index), "bodies": own}
+    return true
 
 
 def move(assembly: Assembly, acceleration: Callable[[Array], Array], time: Array, step: float = STEP) -> Moved:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from io import BytesIO
 from pathlib import Path
-from typing import ClassVar
+from typing import NamedTuple
 
 import numpy as np
 
@@ -38,122 +38,97 @@ class Sheet:
     begun: np.datetime64
 
 
-class FileFormat(ABC):
-    """A way to write raw files; `suffix` ends their names."""
+class FileFormat(NamedTuple):
+    """A way to write raw files: the end of their names, and their bytes; the same sheet gives the same bytes."""
 
-    suffix: ClassVar[str]
-
-    @abstractmethod
-    def content(self, sheet: Sheet) -> bytes:
-        """Bytes of a file; the same sheet gives the same bytes."""
+    suffix: str
+    content: Callable[[Sheet], bytes]
 
 
-@dataclass(frozen=True)
-class Flavour(FileFormat):
+def text(
+    sheet: Sheet,
+    *,
+    delimiter: str = ",",
+    decimal: str = ".",
+    encoding: str = "utf-8",
+    time_name: str = "Time",
+    preamble: tuple[str, ...] = (),
+    units_in_names: bool = False,
+) -> bytes:
     """
-    How one recorder writes its text files.
+    Write delimited text: four decimals of the times, six of the values.
 
-    Attributes
-    ----------
-    delimiter, decimal, encoding : str
-    time_name : str
-        Name of the clock's column.
-    preamble : tuple of str
-        Lines above the names.
-    units_in_names : bool
-        Names such as `LVDT 1 [V]`; else the units have a row of their own.
+    The names are below the `preamble`, above a row of units; with `units_in_names` they are such as `LVDT 1 [V]`.
     """
-
-    delimiter: str = ","
-    decimal: str = "."
-    encoding: str = "utf-8"
-    time_name: str = "Time"
-    preamble: tuple[str, ...] = ()
-    units_in_names: bool = False
-
-    suffix: ClassVar[str] = ".csv"
-
-    def content(self, sheet: Sheet) -> bytes:
-        """Bytes of a file; four decimals of the times are written, six of the values."""
-        named = {self.time_name: ("s", sheet.time), **sheet.columns}
-        lines = [*self.preamble, self.delimiter.join(self.heading(name, unit) for name, (unit, _) in named.items())]
-        if not self.units_in_names:
-            lines.append(self.delimiter.join(unit for unit, _ in named.values()))
-        row = self.delimiter.join(["%.4f", *(["%.6f"] * len(sheet.columns))])
-        table = np.column_stack([values for _, values in named.values()])
-        samples = [row % tuple(values) for values in table.tolist()]
-        if self.decimal != ".":
-            samples = [sample.replace(".", self.decimal) for sample in samples]
-        return "\n".join([*lines, *samples, ""]).encode(self.encoding)
-
-    def heading(self, name: str, unit: str) -> str:
-        """Name of a column as written in the file."""
-        return f"{name} [{unit}]" if self.units_in_names else name
-
-
-GERMAN = Flavour(
-    delimiter=";",
-    decimal=",",
-    encoding="latin-1",
-    time_name="Zeit",
-    preamble=("Messdatei des Rütteltischs", "Messbereich ±10 V; 16 bit", "Kanäle gemäß Belegungsplan"),
-    units_in_names=True,
-)
-"""Semicolons, decimal commas, Latin-1 and a preamble."""
-
-COMMAS = Flavour()
-"""Comma-separated, names above a row of units."""
-
-TABS = Flavour(delimiter="\t", preamble=("Data logger export",))
-"""Tab-separated, names above a row of units, below one line of text."""
+    named = {time_name: ("s", sheet.time), **sheet.columns}
+    heads = [[f"{name} [{unit}]" for name, (unit, _) in named.items()]]
+    if not units_in_names:
+        heads = [list(named), [unit for unit, _ in named.values()]]
+    row = delimiter.join(["%.4f", *(["%.6f"] * len(sheet.columns))])
+    table = np.column_stack([values for _, values in named.values()])
+    samples = [(row % tuple(values)).replace(".", decimal) for values in table.tolist()]
+    return "\n".join([*preamble, *map(delimiter.join, heads), *samples, ""]).encode(encoding)
 
 
 GROUP = "Messung"
 """Of the channels in a TDMS file."""
 
+
+def _tdms(sheet: Sheet) -> bytes:
+    """Write LabVIEW's TDMS: one group, each channel with its unit and the properties of a waveform."""
+    from nptdms import ChannelObject, GroupObject, RootObject, TdmsWriter
+
+    waveform = {
+        "wf_start_time": sheet.begun,
+        "wf_start_offset": 0.0,
+        "wf_increment": 1.0 / sheet.sampling_rate_hz,
+        "wf_samples": sheet.time.size,
+    }
+    channels = [
+        ChannelObject(GROUP, name, values, properties={**waveform, "unit_string": unit})
+        for name, (unit, values) in sheet.columns.items()
+    ]
+    stream = BytesIO()
+    with TdmsWriter(stream) as writer:
+        writer.write_segment([RootObject(), GroupObject(GROUP), *channels])
+    return stream.getvalue()
+
+
 MATLAB_HEADER = b"MATLAB 5.0 MAT-file, Platform: virtual shake table"
 """First bytes of a MATLAB file; scipy would put the time of writing there, and no two files would be alike."""
 
 
-class Tdms(FileFormat):
-    """LabVIEW's TDMS: one group, each channel with its unit and the properties of a waveform."""
+def _matlab(sheet: Sheet) -> bytes:
+    """Write MATLAB's version 5: the clock and each column a variable; it has no place for units."""
+    from scipy.io import savemat
 
-    suffix: ClassVar[str] = ".tdms"
-
-    def content(self, sheet: Sheet) -> bytes:
-        """Return the bytes of a file."""
-        from nptdms import ChannelObject, GroupObject, RootObject, TdmsWriter
-
-        waveform = {
-            "wf_start_time": sheet.begun,
-            "wf_start_offset": 0.0,
-            "wf_increment": 1.0 / sheet.sampling_rate_hz,
-            "wf_samples": sheet.time.size,
-        }
-        channels = [
-            ChannelObject(GROUP, name, values, properties={**waveform, "unit_string": unit})
-            for name, (unit, values) in sheet.columns.items()
-        ]
-        stream = BytesIO()
-        with TdmsWriter(stream) as writer:
-            writer.write_segment([RootObject(), GroupObject(GROUP), *channels])
-        return stream.getvalue()
+    variables = {"time": sheet.time} | {name: values for name, (_, values) in sheet.columns.items()}
+    stream = BytesIO()
+    savemat(stream, variables, do_compression=True, oned_as="column")
+    return MATLAB_HEADER.ljust(116) + stream.getvalue()[116:]
 
 
-class Matlab(FileFormat):
-    """MATLAB's own files, version 5: the clock and each column a variable; it has no place for units."""
+COMMAS = FileFormat(".csv", text)
+"""Comma-separated, names above a row of units."""
 
-    suffix: ClassVar[str] = ".mat"
+TABS = FileFormat(".csv", partial(text, delimiter="\t", preamble=("Data logger export",)))
+"""Tab-separated, names above a row of units, below one line of text."""
 
-    def content(self, sheet: Sheet) -> bytes:
-        """Return the bytes of a file."""
-        from scipy.io import savemat
+GERMAN = FileFormat(
+    ".csv",
+    partial(
+        text,
+        delimiter=";",
+        decimal=",",
+        encoding="latin-1",
+        time_name="Zeit",
+        preamble=("Messdatei des Rütteltischs", "Messbereich ±10 V; 16 bit", "Kanäle gemäß Belegungsplan"),
+        units_in_names=True,
+    ),
+)
+"""Semicolons, decimal commas, Latin-1 and a preamble."""
 
-        variables = {"time": sheet.time} | {name: values for name, (_, values) in sheet.columns.items()}
-        stream = BytesIO()
-        savemat(stream, variables, do_compression=True, oned_as="column")
-        written = stream.getvalue()
-        return MATLAB_HEADER.ljust(116) + written[116:]
+TDMS, MATLAB = FileFormat(".tdms", _tdms), FileFormat(".mat", _matlab)
 
 
 def put(path: Path, data: bytes) -> None:

@@ -31,10 +31,6 @@ _HEAD = (
 """
 )
 
-_TESTS = """
-# The tests, in the order in which they were done.
-"""
-
 FIRST_DAY = np.datetime64("2013-05-14")
 FIRST_TEST = time(9)
 """A working day begins with it."""
@@ -115,26 +111,24 @@ class Plan:
 
     def campaign_text(self) -> str:
         """Write out the campaign file."""
-        lines = [f"{_HEAD}\n{self.head.strip()}", _TESTS.rstrip()]
+        lines = [f"{_HEAD}\n{self.head.strip()}\n\n# The tests, in the order in which they were done."]
         for position, trial in enumerate(self.trials):
-            lines += ["", "[[tests]]", *entries(self._entry(trial, position))]
+            paths = {
+                name: f"raw/{trial.name}{'' if name == MAIN else f'-{name}'}{recorder.format.suffix}"
+                for name, recorder in self.recorders[trial.setup].items()
+            }
+            entry = {
+                "id": trial.name,
+                "kind": trial.kind,
+                "specimen": trial.specimen or next(iter(self.restitution)),
+                "setup": trial.setup,
+                "file": paths[MAIN] if len(paths) == 1 else paths,
+                "date": begun(position).date(),
+                "operator": OPERATOR,
+                **trial.entry,
+            }
+            lines += ["", "[[tests]]", *entries(entry)]
         return "\n".join([*lines, ""])
-
-    def _entry(self, trial: Trial, position: int) -> dict[str, object]:
-        paths = {
-            name: f"raw/{trial.name}{'' if name == MAIN else f'-{name}'}{recorder.format.suffix}"
-            for name, recorder in self.recorders[trial.setup].items()
-        }
-        return {
-            "id": trial.name,
-            "kind": trial.kind,
-            "specimen": trial.specimen or next(iter(self.restitution)),
-            "setup": trial.setup,
-            "file": paths[MAIN] if len(paths) == 1 else paths,
-            "date": begun(position).date(),
-            "operator": OPERATOR,
-            **trial.entry,
-        }
 
 
 def entries(values: Mapping[str, object]) -> list[str]:

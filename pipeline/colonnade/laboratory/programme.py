@@ -22,10 +22,10 @@ from colonnade.campaign.channel import MAIN
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import ReadError
-from colonnade.laboratory.files import COMMAS, GERMAN, TABS, FileFormat, Matlab, Tdms
+from colonnade.laboratory.files import COMMAS, GERMAN, MATLAB, TABS, TDMS, FileFormat
 from colonnade.laboratory.plan import Plan, Recorder, Trial
 from colonnade.laboratory.table import ramped_sine, recorded
-from colonnade.readers.motion import EL_CENTRO, el_centro
+from colonnade.readers.motion import EL_CENTRO, el_centro, read_motion
 from colonnade.units.text import format_percent
 
 LENGTH_SCALE = 20
@@ -94,7 +94,7 @@ The true e: of the prism the paper's. It gives none of the others: the cylinder'
 rigid body would lose as the prism does, the cone's 0.57, so that the three cannot be taken for each other.
 """
 
-FORMATS = {"prism": (TABS, GERMAN, COMMAS), "cylinder": (Tdms(), Tdms(), COMMAS), "cone": (Matlab(), Matlab(), Tdms())}
+FORMATS = {"prism": (TABS, GERMAN, COMMAS), "cylinder": (TDMS, TDMS, COMMAS), "cone": (MATLAB, MATLAB, TDMS)}
 """Of the recorder on the bench, of the main one on the table and of its second one: text, LabVIEW's and MATLAB's."""
 
 PRISM, COLUMNS = (Path(__file__).with_name(name) for name in ("prism.toml", "columns.toml"))
@@ -119,8 +119,6 @@ def load_record(path: Path | None) -> tuple[str, Motion]:
     """
     if path is None:
         return EL_CENTRO, el_centro()
-    from colonnade.readers.motion import read_motion
-
     motion = read_motion(path, unit="m/s^2")
     if not motion.peak > 0.0:
         raise ReadError(f"{path}: every acceleration is zero; a record that moves the table was expected.")

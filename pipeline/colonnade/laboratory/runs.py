@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 from math import pi
 from pathlib import Path
-from typing import Any, TypeVar, cast
+from typing import Any
 
 import numpy as np
 
-from colonnade.arrays import Array
 from colonnade.campaign import FILE_NAME, Campaign, load
 from colonnade.campaign.channel import MAIN
 from colonnade.laboratory.files import Sheet, put
@@ -20,9 +19,7 @@ from colonnade.laboratory.plan import Plan, Trial, begun, claim
 from colonnade.laboratory.programme import load_record, prism_programme
 from colonnade.laboratory.site import add_site
 from colonnade.laboratory.table import measure, sense
-from colonnade.laboratory.truth import Truth, simulate
-
-Result = TypeVar("Result")
+from colonnade.laboratory.truth import simulate
 
 START_SCATTER = 1e-3
 """A recorder that starts late does so within ± this, s: no two starts are alike."""
@@ -96,29 +93,36 @@ def write_campaign(
 
 def write(plan: Plan, folder: Path | str, *, seed: int = 0, workers: int | None = 1) -> WrittenCampaign:
     """Run a plan: write its campaign file, its raw files and its truth; see `write_campaign`."""
-    folder = Path(folder)
-    claim(folder)
-    put(folder / FILE_NAME, plan.campaign_text().encode())
-    campaign = load(folder.absolute())  # as workers that were left waiting may have started in another folder
-    seeds = np.random.SeedSequence(seed).spawn(len(plan.trials))
-    done = spread_over(workers, partial(run_test, plan, campaign), plan.trials, seeds)
+    text = plan.campaign_text().encode()
+    campaign, done = shake(folder, text, partial(run_test, plan), plan.trials, seed=seed, workers=workers)
+    names = ("critical_angle", "pole_distance", "inertia", "p")
+    specimens = {
+        name: {"restitution": restitution} | {key: getattr(campaign.block(name), key) for key in names}
+        for name, restitution in plan.restitution.items()
+    }
     records = {trial.name: record for trial, record in zip(plan.trials, done, strict=True)}
-    return with_its_truth(folder, truth_of(plan, campaign, records, seed))
+    truth = {"seed": seed, "specimens": specimens, "imperfections": asdict(plan.imperfections), "tests": records}
+    return with_its_truth(folder, truth)
 
 
-def with_its_truth(folder: Path, truth: dict[str, Any]) -> WrittenCampaign:
-    """Write truth/truth.json next to a campaign that was written."""
-    put(folder / "truth" / "truth.json", (json.dumps(truth, indent=1, ensure_ascii=False) + "\n").encode())
-    return WrittenCampaign(folder / FILE_NAME, truth)
-
-
-def spread_over(workers: int | None, function: Callable[..., Result], *arguments: Collection[Any]) -> Iterable[Result]:
-    """Call a function with each of several arguments, as `map` does, in so many processes; None takes one a core."""
+def shake(
+    folder: Path | str, text: bytes, one: Callable[..., Any], asked: Collection[Any], *, seed: int, workers: int | None
+) -> tuple[Campaign, list[Any]]:
+    """Write the campaign file, and record each of what is asked with a seed of its own; `workers` None: one a core."""
     from joblib import Parallel, cpu_count, delayed
 
-    count = min(workers or cpu_count(), len(arguments[0]))
-    calls = (delayed(function)(*each) for each in zip(*arguments, strict=True))
-    return cast(list[Result], Parallel(count, max_nbytes=None)(calls))
+    claim(Path(folder))
+    put(Path(folder, FILE_NAME), text)
+    campaign = load(Path(folder).absolute())  # as workers that were left waiting may have started in another folder
+    seeds = np.random.SeedSequence(seed).spawn(len(asked))
+    calls = (delayed(one)(campaign, each, own) for each, own in zip(asked, seeds, strict=True))
+    return campaign, list(Parallel(min(workers or cpu_count(), len(asked)), max_nbytes=None)(calls))
+
+
+def with_its_truth(folder: Path | str, truth: dict[str, Any]) -> WrittenCampaign:
+    """Write truth/truth.json next to a campaign that was written."""
+    put(Path(folder, "truth", "truth.json"), (json.dumps(truth, indent=1, ensure_ascii=False) + "\n").encode())
+    return WrittenCampaign(Path(folder, FILE_NAME), truth)
 
 
 def run_test(plan: Plan, campaign: Campaign, trial: Trial, seed: np.random.SeedSequence) -> dict[str, Any]:
@@ -138,17 +142,30 @@ def run_test(plan: Plan, campaign: Campaign, trial: Trial, seed: np.random.SeedS
         release=trial.release,
         catch=campaign.setups[trial.setup].catch or pi / 2,
     )
-    errors = _record(plan, campaign, trial, truth, starts, clocks, generator)
-    main = np.searchsorted(truth.time, clocks[MAIN])
-    rows = "".join(f"{time:.6f},{angle:.9g}\n" for time, angle in zip(clocks[MAIN], truth.angle[main], strict=True))
+    angles = {name: truth.angle[np.searchsorted(truth.time, clock)] for name, clock in clocks.items()}
+    channels, errors = campaign.channels(test), {}
+    wired = [(key, clocks[channel.recorder].size) for key, channel in channels.items()]
+    spikes = _draw_spikes(trial.spikes, wired, generator)
+    start = np.datetime64(begun(plan.trials.index(trial)), "us")
+    for name, recorder in plan.recorders[trial.setup].items():
+        columns = {}
+        for key, channel in channels.items():
+            if channel.recorder == name:
+                value = sense(channel, truth.block, trial.table, clocks[name], angles[name])
+                written, errors[key] = measure(value, channel, plan.imperfections, generator, spikes.get(key, ()))
+                columns[str(channel.column)] = (channel.unit or "", written)
+        sheet = Sheet(clocks[name] - starts[name], recorder.sampling_rate_hz, columns, start)
+        put(test.files[name], recorder.format.content(sheet))
+    rows = "".join(f"{time:.6f},{angle:.9g}\n" for time, angle in zip(clocks[MAIN], angles[MAIN], strict=True))
     put(campaign.folder / "truth" / f"{trial.name}.csv", ("time_s,angle_rad\n" + rows).encode())
+    peak_ratio, peak_time = truth.peak
     return {
         "kind": trial.kind,
         "specimen": test.specimen,
         "outcome": truth.outcome,
-        "peak_ratio": truth.peak_ratio,
-        "peak_time": truth.peak_time,
-        "release_ratio": truth.release_ratio,
+        "peak_ratio": peak_ratio,
+        "peak_time": peak_time,
+        "release_ratio": float(truth.amplitude[0]) if truth.angle[0] != 0.0 else None,
         "overturning_time": truth.overturning_time if np.isfinite(truth.overturning_time) else None,
         "impact_count": int(truth.impact_times.size),
         "pga": float(np.abs(trial.table.acceleration(clocks[MAIN])).max()),
@@ -158,34 +175,6 @@ def run_test(plan: Plan, campaign: Campaign, trial: Trial, seed: np.random.SeedS
         "recorder_starts": starts,
         "channels": errors,
     }
-
-
-def _record(
-    plan: Plan,
-    campaign: Campaign,
-    trial: Trial,
-    truth: Truth,
-    starts: Mapping[str, float],
-    clocks: Mapping[str, Array],
-    generator: np.random.Generator,
-) -> dict[str, dict[str, Any]]:
-    """Write what each recorder saw, each on its own clock; return the errors of its channels."""
-    test = campaign.tests[trial.name]
-    channels = campaign.channels(test)
-    wired = [(name, clocks[channel.recorder].size) for name, channel in channels.items()]
-    spikes = _draw_spikes(trial.spikes, wired, generator)
-    start = np.datetime64(begun(plan.trials.index(trial)), "us")
-    errors = {}
-    for name, recorder in plan.recorders[trial.setup].items():
-        angle, columns = truth.angle[np.searchsorted(truth.time, clocks[name])], {}
-        for key, channel in channels.items():
-            if channel.recorder == name:
-                value = sense(channel, truth.block, trial.table, clocks[name], angle)
-                written, errors[key] = measure(value, channel, plan.imperfections, generator, spikes.get(key, ()))
-                columns[str(channel.column)] = (channel.unit or "", written)
-        sheet = Sheet(clocks[name] - starts[name], recorder.sampling_rate_hz, columns, start)
-        put(test.files[name], recorder.format.content(sheet))
-    return errors
 
 
 def _draw_spikes(
@@ -198,20 +187,6 @@ def _draw_spikes(
         sample = int((part + generator.uniform(0.1, 0.9)) / count * size)
         drawn[channel] = (*drawn.get(channel, ()), sample)
     return drawn
-
-
-def truth_of(plan: Plan, campaign: Campaign, records: Mapping[str, Mapping[str, Any]], seed: int) -> dict[str, Any]:
-    """Gather what is true: e and properties of each specimen, and of each test."""
-    names = ("critical_angle", "pole_distance", "inertia", "p")
-    return {
-        "seed": seed,
-        "specimens": {
-            name: {"restitution": restitution} | {key: getattr(campaign.block(name), key) for key in names}
-            for name, restitution in plan.restitution.items()
-        },
-        "imperfections": asdict(plan.imperfections),
-        "tests": dict(records),
-    }
 
 
 def with_truth(truth: Mapping[str, Any], summary: Path) -> dict[str, Any]:

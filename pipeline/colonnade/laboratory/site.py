@@ -134,7 +134,7 @@ def _record(number: int, seed: int) -> SyntheticRecord:
 
 
 def write_suite(folder: Path, records: list[SyntheticRecord]) -> Path:
-    """Write the accelerations of a suite as CSV files, and their list (`LIST`), whose path is returned."""
+    """Write the accelerations of a suite as CSV files, and their list, whose path is returned."""
     rows = ["file,unit,interval,record,magnitude,distance [km]"]
     for name, motion, magnitude, distance, _period in records:
         values = "\n".join(f"{value:.6e}" for value in motion.acceleration)

@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
-from math import copysign, cos, pi, sin
+from math import copysign, cos, inf, pi, sin
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.interpolate import PPoly
 
 from colonnade.arrays import Array
 from colonnade.campaign import Channel
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
+
+Acceleration = Callable[[float], float]
+"""Acceleration, m/s², at a time, s."""
 
 PIECES_PER_CYCLE = 8
 """A sine is cut so finely that its acceleration has at most one extremum in a piece."""
@@ -31,14 +36,14 @@ class TableMotion:
     edges : tuple of float
         s, between which the acceleration is smooth; empty for a table that stands still.
     acceleration_in : callable
-        Acceleration, m/s², at a time, s, by the formula of the piece with a number.
-    displacement_of : callable
+        Acceleration, m/s², by the formula of the piece with a number, at a time, s.
+    displacement : callable
         Displacement, m, at an array of times, s.
     """
 
     edges: tuple[float, ...]
-    acceleration_in: Callable[[float, int], float]
-    displacement_of: Callable[[Array], Array]
+    acceleration_in: Callable[[int, float], float]
+    displacement: Callable[[Array], Array]
 
     def acceleration(self, time: ArrayLike) -> Array:
         """Acceleration, m/s², at times of shape (n,), s: exactly what the specimen stands on."""
@@ -46,22 +51,16 @@ class TableMotion:
         pieces = np.minimum(np.searchsorted(self.edges, instants, side="right") - 1, len(self.edges) - 2)
         values = np.zeros(instants.size)
         for moving in np.flatnonzero((pieces >= 0) & (instants <= self.stop)).tolist():
-            values[moving] = self.acceleration_in(float(instants[moving]), int(pieces[moving]))
+            values[moving] = self.acceleration_in(int(pieces[moving]), float(instants[moving]))
         return values
 
-    def displacement(self, time: ArrayLike) -> Array:
-        """Displacement, m, at times of shape (n,), s."""
-        return self.displacement_of(np.atleast_1d(np.asarray(time, dtype=np.float64)))
-
-    @property
-    def pieces(self) -> Iterator[tuple[float, float, Callable[[float], float]]]:
-        """Start, stop (s) and acceleration at a time of each piece in order."""
-
-        def formula(number: int) -> Callable[[float], float]:
-            return lambda instant: self.acceleration_in(instant, number)
-
-        for number, (left, right) in enumerate(pairwise(self.edges)):
-            yield left, right, formula(number)
+    def pieces(self, start: float, stop: float) -> Iterator[tuple[float, float, Acceleration]]:
+        """Start, stop (s) and acceleration at a time of each piece from one time to another, rest included."""
+        for number, both in enumerate(pairwise((-inf, *self.edges, inf)), start=-1):
+            left, right = max(both[0], start), min(both[1], stop)
+            is_moving = 0 <= number < len(self.edges) - 1
+            if right > left:
+                yield left, right, partial(self.acceleration_in, number) if is_moving else _rest
 
     @property
     def stop(self) -> float:
@@ -69,9 +68,13 @@ class TableMotion:
         return self.edges[-1] if self.edges else 0.0
 
 
+def _rest(instant: float) -> float:
+    return 0.0
+
+
 def still() -> TableMotion:
     """Return the motion of a table that does not move."""
-    return TableMotion((), lambda instant, piece: 0.0, np.zeros_like)
+    return TableMotion((), lambda piece, instant: 0.0, np.zeros_like)
 
 
 def ramped_sine(frequency: float, acceleration: float, *, start: float, cycles: int, ramp: int) -> TableMotion:
@@ -104,7 +107,7 @@ def ramped_sine(frequency: float, acceleration: float, *, start: float, cycles: 
         grown = fraction**4 * (35 + fraction * (-84 + fraction * (70 - 20 * fraction)))
         return np.asarray(-acceleration / omega**2 * grown * np.sin(omega * (time - start)))
 
-    def acceleration_in(time: float, piece: int) -> float:
+    def acceleration_in(piece: int, time: float) -> float:
         x = min(time - start, end - time) / ramp_duration
         phase = omega * (time - start)
         if x >= 1.0:
@@ -127,37 +130,25 @@ def recorded(motion: Motion, *, start: float) -> TableMotion:
     displacement is then the exact double integral of the acceleration that the specimen stands on. For El Centro 1940
     NS this takes off 4e-5 of the largest acceleration.
     """
-    time, dt = motion.time, motion.dt
-    velocity, displacement = _integrate(motion.acceleration, dt)
-    duration = motion.duration
+    dt, duration = motion.dt, motion.duration
+    ends = [_line(motion.acceleration, dt, 0.0).antiderivative(order)(duration) for order in (1, 2)]
     # ∫∫ of c₀ + c₁ t from rest: c₀ T + c₁ T²/2 and c₀ T²/2 + c₁ T³/6 have to equal what is left at the end.
-    system = np.array([[duration, duration**2 / 2], [duration**2 / 2, duration**3 / 6]])
-    constant, slope = np.linalg.solve(system, [velocity[-1], displacement[-1]])
-    acceleration = motion.acceleration - constant - slope * time
-    velocity, displacement = _integrate(acceleration, dt)
+    constant, slope = np.linalg.solve([[duration, duration**2 / 2], [duration**2 / 2, duration**3 / 6]], ends)
+    played = _line(motion.acceleration - constant - slope * motion.time, dt, start)
+    (slopes, levels), edges, place = played.c.tolist(), played.x.tolist(), played.antiderivative(2)
 
-    rates = np.diff(acceleration) / dt
-    edges = tuple(start + k * dt for k in range(rates.size + 1))
-    levels, slopes = acceleration.tolist(), rates.tolist()
-
-    def line(instant: float, piece: int) -> float:
+    def line(piece: int, instant: float) -> float:
         return float(levels[piece] + slopes[piece] * (instant - edges[piece]))
 
-    def shape(instants: Array) -> Array:
-        k = np.clip(((instants - start) / dt).astype(np.int64), 0, rates.size - 1)
-        passed = instants - start - k * dt
-        inside = displacement[k] + passed * (velocity[k] + passed * (acceleration[k] / 2 + passed * rates[k] / 6))
-        return np.where((instants > start) & (instants < start + duration), inside, 0.0)
+    def displacement(time: Array) -> Array:
+        return np.where((time > start) & (time < edges[-1]), place(time), 0.0)
 
-    return TableMotion(edges, line, shape)
+    return TableMotion(tuple(edges), line, displacement)
 
 
-def _integrate(acceleration: Array, dt: float) -> tuple[Array, Array]:
-    """Velocity and displacement of a piecewise-linear acceleration, from rest, exactly."""
-    before, after = acceleration[:-1], acceleration[1:]
-    velocity = np.concatenate(([0.0], np.cumsum((before + after) * dt / 2)))
-    steps = velocity[:-1] * dt + (2 * before + after) * dt**2 / 6
-    return velocity, np.concatenate(([0.0], np.cumsum(steps)))
+def _line(values: Array, dt: float, start: float) -> PPoly:
+    """Values at equal steps from `start` on, linear between them."""
+    return PPoly([np.diff(values) / dt, values[:-1]], start + dt * np.arange(values.size))
 
 
 VOLTS = 10.0

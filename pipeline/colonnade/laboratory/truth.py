@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, product
 from math import cos, nextafter, pi, sin, tan
 from typing import Any
 
@@ -22,9 +22,8 @@ from scipy.optimize import brentq
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block, Side
-from colonnade.laboratory.table import TableMotion, still
+from colonnade.laboratory.table import Acceleration, TableMotion, still
 
-Acceleration = Callable[[float], float]
 Curve = Callable[[Any], Array]
 
 RELATIVE_TOLERANCE = 1e-11
@@ -81,27 +80,14 @@ class Truth:
         return "rocking" if self.amplitude.max() > NO_ROCKING_RATIO else "no-rocking"
 
     @property
-    def peak_ratio(self) -> float | None:
-        """Largest |θ|/α, of a free vibration after its first impact; None for a block that overturned."""
-        return None if self._peak is None else float(self.amplitude[self._peak])
-
-    @property
-    def peak_time(self) -> float | None:
-        """When that is, s."""
-        return None if self._peak is None else float(self.time[self._peak])
-
-    @property
-    def release_ratio(self) -> float | None:
-        """|θ|/α from which a free vibration was released; None for other tests."""
-        return float(self.amplitude[0]) if self.angle[0] != 0.0 else None
-
-    @property
-    def _peak(self) -> int | None:
+    def peak(self) -> tuple[float | None, float | None]:
+        """Largest |θ|/α, of a free vibration after its first impact, and when, s; None of a block that overturned."""
         if self.outcome == "overturned":
-            return None
-        is_decay = self.release_ratio is not None and self.impact_times.size
+            return None, None
+        is_decay = self.angle[0] != 0.0 and self.impact_times.size
         first = int(np.searchsorted(self.time, self.impact_times[0])) if is_decay else 0
-        return first + int(np.argmax(self.amplitude[first:]))
+        sample = first + int(np.argmax(self.amplitude[first:]))
+        return float(self.amplitude[sample]), float(self.time[sample])
 
 
 def simulate(
@@ -138,23 +124,9 @@ def simulate(
     run = Integration(block, np.atleast_1d(np.asarray(time, dtype=np.float64)), restitution, catch, theta0)
     run.move_to(release)
     run.release(theta0, 0.0)
-    for start, stop, acceleration in _pieces(table or still(), release, float(run.time[-1])):
+    for start, stop, acceleration in (table or still()).pieces(release, float(run.time[-1])):
         run.go(start, stop, acceleration)
-        if run.caught:
-            break
     return Truth(block, run.time, run.angles, np.array(run.impact_times), np.array(run.impact_velocities), run.passed)
-
-
-def _pieces(table: TableMotion, start: float, stop: float) -> list[tuple[float, float, Acceleration]]:
-    """Pieces of the base motion from `start` to `stop`, rest included."""
-    edges = table.edges or (stop,)
-    pieces = [(start, edges[0], _no_acceleration), *table.pieces, (edges[-1], stop, _no_acceleration)]
-    clipped = ((max(left, start), min(right, stop), acceleration) for left, right, acceleration in pieces)
-    return [piece for piece in clipped if piece[1] > piece[0]]
-
-
-def _no_acceleration(instant: float) -> float:
-    return 0.0
 
 
 class Integration:
@@ -216,23 +188,23 @@ class Integration:
 
     def _rest(self, stop: float, acceleration: Acceleration) -> None:
         """Stand still up to uplift or to the end of the piece."""
-        sides = ((-1.0, tan(self.block.negative.critical_angle)), (1.0, tan(self.block.positive.critical_angle)))
         looks = np.linspace(self.now, stop, LOOKS_PER_STEP + 1).tolist()
-        for left, right in pairwise(looks):
-            for side, threshold in sides:
+        sides = zip((-1.0, 1.0), self.block.sides, strict=True)
+        for (left, right), (side, geometry) in product(pairwise(looks), sides):
+            sign, threshold = -side, tan(geometry.critical_angle)
 
-                def excess(instant: float, side: float = side, threshold: float = threshold) -> float:
-                    return -side * acceleration(instant) / self.block.gravity - threshold
+            def excess(instant: float, sign: float = sign, threshold: float = threshold) -> float:
+                return sign * acceleration(instant) / self.block.gravity - threshold
 
-                if excess(right) > 0.0:
-                    instant = left if excess(left) > 0.0 else _root(excess, left, right)
-                    # The end of the bracket that is past the threshold: there the block does rise.
-                    while excess(instant) <= 0.0:
-                        instant = nextafter(instant, right)
-                    self.move_to(instant)
-                    self._stand_on(side)
-                    self.velocity, self.resting = 0.0, False
-                    return
+            if excess(right) > 0.0:
+                instant = left if excess(left) > 0.0 else _root(excess, left, right)
+                # The end of the bracket that is past the threshold: there the block does rise.
+                while excess(instant) <= 0.0:
+                    instant = nextafter(instant, right)
+                self.move_to(instant)
+                self._stand_on(side)
+                self.velocity, self.resting = 0.0, False
+                return
         self.move_to(stop)
 
     def _rock(self, stop: float, acceleration: Acceleration) -> None:
@@ -260,20 +232,20 @@ class Integration:
             curve = solver.dense_output()
             looks = np.linspace(self.now, solver.t, LOOKS_PER_STEP + 1)
             heights = side * curve(looks)[0]
-            below, above = np.flatnonzero(heights[1:] < 0.0), np.flatnonzero(heights[1:] >= self.catch)
-            if below.size:
-                self._land(curve, looks, int(below[0]), acceleration)
-                return
-            if above.size:
-                self._fall_into_frame(curve, *looks[above[0] : above[0] + 2])
+            crossed = np.flatnonzero((heights[1:] < 0.0) | (heights[1:] >= self.catch))
+            if crossed.size:
+                low, high = looks[crossed[0] : crossed[0] + 2].tolist()
+                if heights[crossed[0] + 1] < 0.0:
+                    self._land(curve, low, high, acceleration)
+                else:
+                    self._fall_into_frame(curve, low, high)
                 return
             self._follow(curve, solver.t)
             self.now, self.angle, self.velocity = solver.t, float(solver.y[0]), float(solver.y[1])
 
-    def _land(self, curve: Curve, looks: Array, look: int, acceleration: Acceleration) -> None:
+    def _land(self, curve: Curve, low: float, high: float, acceleration: Acceleration) -> None:
         """Find the impact between two looks, and go on from it."""
-        low, high = float(looks[look]), float(looks[look + 1])
-        if look == 0 and self.side * self.angle <= 0.0:
+        if low == self.now and self.side * self.angle <= 0.0:
             if self.side * self.velocity <= 0.0:
                 # An uplift that was only rounding: the block stands.
                 self.angle, self.velocity, self.resting = 0.0, 0.0, True
