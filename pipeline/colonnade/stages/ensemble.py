@@ -13,19 +13,17 @@ from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.settings import ContactEnsembleSettings, MeasurementSettings, PlaneEnsembleSettings
 from colonnade.dynamics.assembly import Assembly
-from colonnade.dynamics.contact.body import ContactBody, InSpace
-from colonnade.dynamics.contact.ensemble import ContactPlan, Range
-from colonnade.dynamics.contact.simulate import plane_block
+from colonnade.dynamics.contact.ensemble import ContactPlan
 from colonnade.dynamics.ensemble import Plan, PlanePlan
 from colonnade.dynamics.models import model_of
 from colonnade.dynamics.uncertainty import INPUTS
 from colonnade.identification.response.rank import Measurement
-from colonnade.stages.contact import assembly_law, body_of, law_of, refusals
-from colonnade.stages.parts.beginning import RECORDED, Beginning, begin
+from colonnade.stages.contact import refusals
+from colonnade.stages.parts.beginning import RECORDED, Beginning
 from colonnade.stages.parts.rank import describe_bands
 from colonnade.stages.parts.transducers import along, transducers
-from colonnade.stages.predict import PredictInputs, sides
-from colonnade.stages.specimen import centre, spread_of
+from colonnade.stages.predict import PredictInputs, planned
+from colonnade.stages.specimen import spread_of
 from colonnade.store.provenance import Inputs
 
 if TYPE_CHECKING:
@@ -129,18 +127,17 @@ def ensemble(
     StageError
         As `predict`.
     """
-    prediction, block = inputs.prediction, inputs.prediction.block
-    if specimen is not None:
-        block = centre(specimen, block)
-    beginning = begin(rocking, prediction, identified, block)
+    prediction = inputs.prediction
+    beginning, plan = planned(rocking, prediction, specimen, contact, identified)
     errors = measurement_errors(conditioned, rocking, beginning, inputs)
-    plan: PlanePlan | ContactPlan
-    if specimen is not None and inputs.plane is not None:
-        plan = _plane_plan(conditioned, specimen, beginning, errors, inputs, inputs.plane)
+    about: dict[str, Any] = {}
+    if isinstance(plan, PlanePlan):
+        assert specimen is not None  # which the plan is of
+        plan = _varied(plan, conditioned, specimen, beginning, errors, inputs)
         deviations = dict(zip(INPUTS, plan.uncertainty.deviations.tolist(), strict=True))
         about = {"noise": plan.uncertainty.noise, "cutoff_hz": plan.uncertainty.cutoff}
     else:
-        plan, about = _contact_plan(contact, beginning, inputs), {}
+        plan = _ranging(plan, inputs)
         # Relative to the law's; of a tilt as it is.
         middles = {name: getattr(plan.space.law, name, 1.0) or 1.0 for name in plan.ranges}
         deviations = {name: np.ptp(both) / np.sqrt(12.0) / middles[name] for name, both in plan.ranges.items()}
@@ -179,36 +176,29 @@ def measurement_errors(
     )
 
 
-def _plane_plan(
+def _varied(
+    plan: PlanePlan,
     conditioned: xr.Dataset,
     specimen: xr.Dataset,
     beginning: Beginning,
     errors: Measurement,
     inputs: EnsembleInputs,
-    settings: PlaneEnsembleSettings,
 ) -> PlanePlan:
-    is_driven = beginning.driven_by == RECORDED
+    """Vary block, e and motion about a prediction in the plane."""
+    assert inputs.plane is not None  # the inputs of a plane model have them
+    settings, is_driven = inputs.plane, beginning.driven_by == RECORDED
     noise, cutoff = _base_noise(conditioned, inputs.table) if is_driven else (0.0, None)
-    return PlanePlan(
-        block=centre(specimen, inputs.prediction.block),
-        motion=beginning.motion,
-        restitution=sides(specimen),
-        uncertainty=replace(
-            spread_of(specimen, settings),
-            gain=settings.gain if is_driven else 0.0,
-            clock=settings.clock,
-            noise=noise,
-            cutoff=cutoff,
-            filter=0.0 if cutoff is None else settings.filter,
-            filter_order=inputs.filter_order,
-            theta0=errors.start_deviation,
-        ),
-        count=settings.members,
-        model=inputs.prediction.model,
-        theta0=beginning.theta0,
-        omega0=beginning.omega0,
-        rest_angle=inputs.prediction.rest_angle,
+    uncertainty = replace(
+        spread_of(specimen, settings),
+        gain=settings.gain if is_driven else 0.0,
+        clock=settings.clock,
+        noise=noise,
+        cutoff=cutoff,
+        filter=0.0 if cutoff is None else settings.filter,
+        filter_order=inputs.filter_order,
+        theta0=errors.start_deviation,
     )
+    return replace(plan, uncertainty=uncertainty, count=settings.members)
 
 
 def _base_noise(conditioned: xr.Dataset, table: tuple[str, ...]) -> tuple[float, float | None]:
@@ -221,33 +211,20 @@ def _base_noise(conditioned: xr.Dataset, table: tuple[str, ...]) -> tuple[float,
     return float(np.sqrt(np.sum(noise**2))) / noise.size, cutoff
 
 
-def _contact_plan(contact: xr.Dataset | None, beginning: Beginning, inputs: EnsembleInputs) -> ContactPlan:
-    space, ranges, assembled = inputs.prediction.space, inputs.contact, inputs.prediction.assembly
-    assert space is not None  # the contact model's inputs have them
-    assert ranges is not None
-    law = assembly_law(space.settings) if contact is None else law_of(contact)
-    varied = {
-        "friction": _about(law.friction, ranges.friction * law.friction),
-        "damping_fraction": _about(law.damping_fraction, ranges.damping_fraction * law.damping_fraction),
+def _ranging(plan: ContactPlan, inputs: EnsembleInputs) -> ContactPlan:
+    """Vary law, tilt and places about a prediction of the contact model."""
+    assert inputs.contact is not None  # the inputs of the contact model have them
+    settings, law = inputs.contact, plan.space.law
+    halves = {
+        "friction": (law.friction, settings.friction * law.friction),
+        "damping_fraction": (law.damping_fraction, settings.damping_fraction * law.damping_fraction),
     }
-    body: ContactBody | Assembly
-    if assembled is not None:
-        body, block = assembled.assembly, space.block
-        varied["penetration"] = _about(law.penetration, ranges.penetration * law.penetration)
+    if isinstance(plan.space.body, Assembly):
+        halves["penetration"] = law.penetration, settings.penetration * law.penetration
     else:
-        body = body_of(space, law)
-        block = plane_block(body, space.block.gravity)
-        varied["out_of_plane"] = _about(space.settings.out_of_plane, abs(ranges.out_of_plane))
-    return ContactPlan(
-        block=block,
-        motion=beginning.motion,
-        theta0=beginning.theta0,
-        omega0=beginning.omega0,
-        count=int(ranges.members),
-        space=InSpace(body, law, space.settings.step),
-        ranges=varied,
-        misplacement=abs(ranges.misplacement),
-    )
+        halves["out_of_plane"] = plan.ranges["out_of_plane"][0], abs(settings.out_of_plane)
+    ranges = {name: (middle - half, middle + half) for name, (middle, half) in halves.items()}
+    return replace(plan, ranges=ranges, misplacement=abs(settings.misplacement), count=int(settings.members))
 
 
 def _ends(bodies: Sequence[str], parts: Parts, levels: Array) -> dict[str, Any]:
@@ -260,7 +237,3 @@ def _ends(bodies: Sequence[str], parts: Parts, levels: Array) -> dict[str, Any]:
         "body_overturning_probability": ("body", fell.mean(axis=0)),
         "body_moved_band": (("quantile", "body"), np.array(bands).T),
     }
-
-
-def _about(middle: float, half: float) -> Range:
-    return middle - half, middle + half

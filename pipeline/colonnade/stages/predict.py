@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
-from colonnade.dynamics.history import History, amplitude
+from colonnade.dynamics.contact.body import InSpace
+from colonnade.dynamics.contact.ensemble import ContactPlan
+from colonnade.dynamics.contact.history import AssemblyHistory, ContactHistory
+from colonnade.dynamics.contact.simulate import plane_block
+from colonnade.dynamics.ensemble import PlanePlan
+from colonnade.dynamics.history import amplitude
 from colonnade.dynamics.models import model_of
-from colonnade.dynamics.rock import rock
+from colonnade.dynamics.uncertainty import Uncertainty
 from colonnade.findings import serious
 from colonnade.stages.contact import ContactInputs, assembly_law, body_of, law_of, law_variables, refusals
 from colonnade.stages.parts.beginning import Beginning, BeginningInputs, begin
@@ -20,8 +24,6 @@ from colonnade.stages.specimen import centre
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from colonnade.dynamics.contact.history import AssemblyHistory
 
 
 class PredictInputs(BeginningInputs):
@@ -98,124 +100,103 @@ def predict(
     StageError
         If there is no base motion, or a free vibration shows no arc to start from.
     """
-    block = inputs.block if inputs.is_in_space else centre(specimen, inputs.block)
+    import xarray as xr
+
+    beginning, plan = planned(rocking, inputs, specimen, contact, identified)
+    with refusals():
+        history = plan.central()
+    time, warnings = rocking["elapsed"].to_numpy(), list(beginning.warnings)
+    start = float(time[beginning.first])
+    variables: dict[str, Any] = {
+        "rocking_angle": ("elapsed", beginning.padded(history.angle)),
+        "base_acceleration": ("elapsed", beginning.base),
+        "zero_offset": beginning.zero_offset,
+        "angle_gain": beginning.angle_gain,
+        "overturning_time": history.overturning_time + start,
+    }
+    if isinstance(history, AssemblyHistory):
+        assert inputs.assembly is not None  # whose bodies were moved
+        # Its rocking angle is the lean of the lowest body with all that it carries.
+        peak, ratio = int(np.argmax(np.abs(history.angle))), history.peak_ratio
+        impacts = next(iter(history.bodies.values())).impact_times
+        variables |= {"energy_residual": history.energies.relative_residual, "impact_count": impacts.size}
+        variables |= predicted_variables(history, beginning, inputs.assembly)
+    else:
+        peak, impacts = int(np.searchsorted(history.time, history.peak_time)), history.impact_times
+        # By the α of the campaign file, as the measured one is.
+        ratio = None if history.peak_ratio is None else float(amplitude(history.angle, inputs.block).max())
+        variables |= {"restitution": float(specimen["restitution"]), "impact_count": history.impacts}
+    if isinstance(history, ContactHistory):
+        over_time = {
+            "slide": history.slide[:, 0],
+            "transverse_slide": history.slide[:, 1],
+            "uplift": history.uplift,
+            "out_of_plane_angle": history.out_of_plane_angle,
+            "yaw": history.yaw,
+        }
+        variables |= {name: ("elapsed", beginning.padded(values)) for name, values in over_time.items()}
+        variables |= law_variables(history.body, history.law, history.block.gravity)
+        variables["energy_residual"] = history.energies.relative_residual
+        warnings += [serious("energy balance", text) for text in history.warnings]
+    variables |= {
+        "impact_time": ("impact", impacts + start),
+        "peak_angle": float(history.angle[peak]),
+        "peak_ratio": np.nan if ratio is None else ratio,
+        "peak_time": float(history.time[peak]) + start,
+    }
+    attributes = {
+        "outcome": history.outcome,
+        "driven_by": beginning.driven_by,
+        "model": inputs.model,
+        "restitution_source": specimen.attrs["restitution_source"] if "restitution" in variables else "",
+        "warnings": warnings,
+    }
+    if isinstance(history, ContactHistory):
+        attributes["body"] = history.body.description
+    return xr.Dataset(variables, coords={"elapsed": ("elapsed", time)}, attrs=attributes)
+
+
+def planned(
+    rocking: xr.Dataset,
+    inputs: PredictInputs,
+    specimen: xr.Dataset | None,
+    contact: xr.Dataset | None,
+    identified: xr.Dataset | None,
+) -> tuple[Beginning, PlanePlan | ContactPlan]:
+    """Find where a prediction begins, and put together what moves from there on; nothing is varied."""
+    space, block = inputs.space, inputs.block
+    if specimen is not None and space is None:
+        block = centre(specimen, block)
     beginning = begin(rocking, inputs, identified, block)
-    time = rocking["elapsed"].to_numpy()
-    if inputs.space is not None:
-        return _in_space(beginning, time, specimen, inputs, inputs.space, contact)
-    history = rock(
-        block,
-        beginning.motion,
-        restitution=sides(specimen),
-        model=inputs.model,
-        theta0=beginning.theta0,
-        omega0=beginning.omega0,
-        rest_angle=inputs.rest_angle,
+    start: dict[str, Any] = {
+        "motion": beginning.motion,
+        "theta0": beginning.theta0,
+        "omega0": beginning.omega0,
+        "count": 1,
+    }
+    if space is None:
+        assert specimen is not None  # which a model in the plane reads
+        return beginning, PlanePlan(
+            block=block,
+            restitution=sides(specimen),
+            uncertainty=Uncertainty(),
+            model=inputs.model,
+            rest_angle=inputs.rest_angle,
+            **start,
+        )
+    law = assembly_law(space.settings) if contact is None else law_of(contact)
+    if inputs.assembly is not None:
+        return beginning, ContactPlan(block=block, space=InSpace(inputs.assembly.assembly, law), ranges={}, **start)
+    body, out_of_plane = body_of(space, law), space.settings.out_of_plane
+    return beginning, ContactPlan(
+        block=plane_block(body, block.gravity),
+        space=InSpace(body, law, space.settings.step),
+        ranges={"out_of_plane": (out_of_plane, out_of_plane)},
+        **start,
     )
-    return _of_block(history, time, beginning, specimen, inputs)
 
 
 def sides(specimen: xr.Dataset) -> tuple[float, float]:
     """Return e that predictions take, of impacts that end an arc at θ < 0 and at θ > 0."""
     negative, positive = (float(e) for e in specimen["side_restitution"].to_numpy())
     return negative, positive
-
-
-def _in_space(
-    beginning: Beginning,
-    time: Array,
-    specimen: xr.Dataset,
-    inputs: PredictInputs,
-    space: ContactInputs,
-    contact: xr.Dataset | None,
-) -> xr.Dataset:
-    """Move one body with its calibrated law, or the bodies of an assembly, by the contact model."""
-    from colonnade.dynamics.contact.simulate import simulate, simulate_assembly
-
-    settings, motion = space.settings, beginning.motion
-    theta0, omega0 = beginning.theta0, beginning.omega0
-    law = assembly_law(settings) if contact is None else law_of(contact)
-    if inputs.assembly is not None:
-        bodies = inputs.assembly.assembly
-        with refusals():
-            together = simulate_assembly(bodies, motion, law=law, theta0=theta0, omega0=omega0)
-        return _of_assembly(together, time, beginning, inputs, inputs.assembly)
-    body = body_of(space, law)
-    with refusals():
-        moved = simulate(
-            body,
-            motion,
-            law=law,
-            gravity=space.block.gravity,
-            step=settings.step,
-            theta0=theta0,
-            omega0=omega0,
-            out_of_plane=settings.out_of_plane,
-        )
-    over_time = {
-        "slide": moved.slide[:, 0],
-        "transverse_slide": moved.slide[:, 1],
-        "uplift": moved.uplift,
-        "out_of_plane_angle": moved.out_of_plane_angle,
-        "yaw": moved.yaw,
-    }
-    described = _of_block(moved, time, beginning, specimen, inputs).assign(
-        {name: ("elapsed", beginning.padded(values)) for name, values in over_time.items()}
-        | law_variables(moved.body, law, moved.block.gravity)
-        | {"energy_residual": moved.energies.relative_residual}
-    )
-    warnings = [*beginning.warnings, *(serious("energy balance", text) for text in moved.warnings)]
-    return described.assign_attrs(body=moved.body.description, warnings=warnings)
-
-
-def _of_block(
-    history: History, time: Array, beginning: Beginning, specimen: xr.Dataset, inputs: PredictInputs
-) -> xr.Dataset:
-    peak = int(np.searchsorted(history.time, history.peak_time))
-    # By the α of the campaign file, as the measured one is.
-    ratio = None if history.peak_ratio is None else float(amplitude(history.angle, inputs.block).max())
-    described = _described(history, time, beginning, peak, ratio, history.impact_times)
-    return described.assign(restitution=float(specimen["restitution"]), impact_count=history.impacts).assign_attrs(
-        model=inputs.model, restitution_source=specimen.attrs["restitution_source"]
-    )
-
-
-def _of_assembly(
-    history: AssemblyHistory, time: Array, beginning: Beginning, inputs: PredictInputs, assembly: AssemblyInputs
-) -> xr.Dataset:
-    """Its rocking angle is the lean of the lowest body with all that it carries."""
-    peak, impacts = int(np.argmax(np.abs(history.angle))), next(iter(history.bodies.values())).impact_times
-    described = _described(history, time, beginning, peak, history.peak_ratio, impacts)
-    return described.assign(
-        {"impact_count": impacts.size, "energy_residual": history.energies.relative_residual}
-        | predicted_variables(history, beginning, assembly)
-    ).assign_attrs(model=inputs.model, restitution_source="")
-
-
-def _described(
-    history: History | AssemblyHistory,
-    time: Array,
-    beginning: Beginning,
-    peak: int,
-    peak_ratio: float | None,
-    impacts: Array,
-) -> xr.Dataset:
-    """What all models say; the history's largest angle is at its sample `peak`."""
-    import xarray as xr
-
-    start = float(time[beginning.first])
-    return xr.Dataset(
-        {
-            "rocking_angle": ("elapsed", beginning.padded(history.angle)),
-            "base_acceleration": ("elapsed", beginning.base),
-            "impact_time": ("impact", impacts + start),
-            "zero_offset": beginning.zero_offset,
-            "angle_gain": beginning.angle_gain,
-            "peak_angle": float(history.angle[peak]),
-            "peak_ratio": np.nan if peak_ratio is None else peak_ratio,
-            "peak_time": float(history.time[peak]) + start,
-            "overturning_time": history.overturning_time + start,
-        },
-        coords={"elapsed": ("elapsed", time)},
-        attrs={"outcome": history.outcome, "driven_by": beginning.driven_by, "warnings": beginning.warnings},
-    )

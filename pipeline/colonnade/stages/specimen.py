@@ -93,12 +93,7 @@ def specimen(identified: Mapping[str, xr.Dataset], inputs: SpecimenInputs) -> xr
         `side_restitution` (θ < 0, θ > 0) that predictions take and `restitution`, their mean: the one given in the
         campaign file, else the identified one, else the rigid-body value; `restitution_source` says which.
     """
-    refused = [
-        f"{name}: {result.attrs['reason']}"
-        for name, result in sorted(identified.items())
-        if not np.isfinite(result["restitution"])
-    ]
-    return _taken(_gathered(identified, refused), inputs)
+    return _taken(_gathered(identified), inputs)
 
 
 def taken(stored: xr.Dataset | None, inputs: SpecimenInputs) -> xr.Dataset:
@@ -116,16 +111,23 @@ def taken(stored: xr.Dataset | None, inputs: SpecimenInputs) -> xr.Dataset:
     pooled : xr.Dataset
         As of `specimen`.
     """
-    if stored is not None and "test_method" in stored.attrs and "known" in stored and _is_of(stored, inputs.block):
+    properties = _properties(inputs.block)
+    is_complete = stored is not None and "test_method" in stored.attrs and "known" in stored
+    if stored is not None and is_complete and all(float(stored[name]) == properties[name] for name in properties):
         return _taken(stored[[f"test_{name}" for name in OF_TESTS]], inputs)
-    return _taken(_gathered({}, ["the free vibrations have not been identified"]), inputs)
+    return _taken(_gathered({}).assign_attrs(refused=["the free vibrations have not been identified"]), inputs)
 
 
-def _gathered(identified: Mapping[str, xr.Dataset], refused: list[str]) -> xr.Dataset:
+def _gathered(identified: Mapping[str, xr.Dataset]) -> xr.Dataset:
     """What the free vibrations that have an e say of e, α and p, and why others have none."""
     import xarray as xr
 
-    tests = {name: result for name, result in sorted(identified.items()) if np.isfinite(result["restitution"])}
+    tests, refused = {}, []
+    for name, result in sorted(identified.items()):
+        if np.isfinite(result["restitution"]):
+            tests[name] = result
+        else:
+            refused.append(f"{name}: {result.attrs['reason']}")
     values = {
         name: np.array([result[name].to_numpy() for result in tests.values()]).reshape(len(tests), *shape)
         for name, shape in OF_TESTS.items()
@@ -184,17 +186,10 @@ def spread_of(pooled: xr.Dataset, usual: PlaneEnsembleSettings) -> Uncertainty:
 
 def pooled_of(pooled: xr.Dataset) -> Pooled:
     """Give what the free vibrations in a result of `specimen` say of e, α and p together."""
-    return _pooled(pooled, float(pooled["level"]), (float(pooled["known"][0]), float(pooled["known"][1])))
-
-
-def _pooled(found: xr.Dataset, level: float, known: tuple[float, float]) -> Pooled:
-    values, errors, means, covariances = (found[f"test_{name}"].to_numpy() for name in OF_TESTS)
+    values, errors, means, covariances = (pooled[f"test_{name}"].to_numpy() for name in OF_TESTS)
     joints = [Joint(mean, covariance) for mean, covariance in zip(means, covariances, strict=True)]
-    return pool(values, errors, level=level, joints=joints, known=known)
-
-
-def _is_of(stored: xr.Dataset, block: Block) -> bool:
-    return all(float(stored[name]) == value for name, value in _properties(block).items())
+    critical_angle, p = pooled["known"].to_numpy().tolist()
+    return pool(values, errors, level=float(pooled["level"]), joints=joints, known=(critical_angle, p))
 
 
 def _properties(block: Block) -> dict[str, float]:
@@ -205,13 +200,14 @@ def _properties(block: Block) -> dict[str, float]:
 def _taken(found: xr.Dataset, inputs: SpecimenInputs) -> xr.Dataset:
     """The rule: e as given, else as identified, else of the rigid body."""
     block, refused = inputs.block, list(found.attrs["refused"])
+    found = found.assign(level=inputs.level, known=("property", np.array(inputs.known)))
     low = high = between = np.nan
     method = reason = ""
     warnings: list[Finding] = []
     if inputs.given is not None:
         value, source, method = pair(inputs.given), "given", "given in the campaign file"
     elif tests := found.sizes["test"]:
-        pooled = _pooled(found, inputs.level, inputs.known)
+        pooled = pooled_of(found)
         value, source = pair(pooled.value), "identified"
         low, high, between = pooled.low, pooled.high, pooled.between
         method = f"{found.attrs['test_method']}; random effects over {count(tests, 'free vibration')}"
@@ -228,9 +224,7 @@ def _taken(found: xr.Dataset, inputs: SpecimenInputs) -> xr.Dataset:
             "restitution_low": low,
             "restitution_high": high,
             "between_test_scatter": between,
-            "level": inputs.level,
             **_properties(block),
-            "known": ("property", np.array(inputs.known)),
         }
     )
     described.attrs = {
