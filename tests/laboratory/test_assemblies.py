@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from colonnade.campaign import load
-from colonnade.errors import CampaignError
 from colonnade.laboratory import assemblies
 from colonnade.laboratory.runs import with_truth
 from colonnade.laboratory.table import ramped_sine
@@ -38,12 +37,6 @@ def test_two_blocks_on_one_table_are_two_tests_on_one_file(recorded, tmp_path):
         "pair-stout": "no-rocking",
     }
     assert all(test["outcome"] == test["true_outcome"] for test in compared.values())
-
-
-def test_a_campaign_of_somebody_else_is_not_written_over(tmp_path):
-    (tmp_path / "campaign.toml").write_text("schema = 1\n")
-    with pytest.raises(CampaignError, match="was not written by the virtual laboratory"):
-        assemblies.write_assemblies(tmp_path)
 
 
 @pytest.mark.slow

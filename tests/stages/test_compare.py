@@ -101,8 +101,13 @@ def test_models_stand_in_order_each_with_its_own_numbers():
         assert float(found["nrmse"][number]) == pytest.approx(abs(shares[model] - 1) * rms, abs=1e-12)
         assert float(found["predicted_peak_ratio"][number]) == pytest.approx(shares[model] * peak)
         assert float(found["peak_ratio_error"][number]) == pytest.approx((shares[model] - 1) * peak, abs=1e-12)
-    assert float(found["measured_peak_ratio"]) == pytest.approx(peak)
-    assert float(found["measured_peak_time"]) == TIME[np.argmax(np.abs(SWING))]
+    alone = compare(history(SWING), {}, inputs(frequency=3.0))  # without models, and of a test that is no sine
+    assert alone.sizes["model"] == 0
+    assert "frequency_ratio" not in alone
+    assert "response_order" not in alone.attrs
+    for each in (found, alone):
+        assert float(each["measured_peak_ratio"]) == pytest.approx(peak)
+        assert float(each["measured_peak_time"]) == TIME[np.argmax(np.abs(SWING))]
 
 
 def test_without_a_measured_angle_only_what_is_predicted_has_numbers():
@@ -112,12 +117,6 @@ def test_without_a_measured_angle_only_what_is_predicted_has_numbers():
     assert float(found["predicted_peak_ratio"]) == pytest.approx(float(np.abs(SWING).max()))
     assert found.attrs["outcome_measured"] == "rocking"
     assert found.attrs["warnings"] == []
-
-
-def test_without_models_the_measured_peak_is_still_given():
-    found = compare(history(SWING), {}, inputs())
-    assert found.sizes["model"] == 0
-    assert float(found["measured_peak_ratio"]) == pytest.approx(float(np.abs(SWING).max()))
 
 
 @every(
@@ -152,12 +151,6 @@ def test_a_sine_without_a_record_of_the_table_keeps_the_frequency_that_was_given
     assert [each.kind for each in found.attrs["warnings"]] == ["outcome", "no steady sine"]
 
 
-def test_a_test_that_is_not_a_sine_has_no_order():
-    found = against(history(SWING), history(SWING), frequency=3.0)
-    assert "response_order" not in found.attrs
-    assert "frequency_ratio" not in found
-
-
 def test_of_a_free_vibration_the_peak_is_that_of_the_time_that_is_predicted():
     decaying = np.exp(-(TIME - TIME[0])) * 0.8
     predicted = np.where(TIME < 2.5, np.nan, decaying)
@@ -189,21 +182,19 @@ def predicted(small_campaign, measured, sine_test):
     }
 
 
-def test_frequency_and_amplitude_ratio_are_those_of_the_recorded_motion(small_campaign, sine_test, measured, predicted):
+def test_the_forcing_is_the_recorded_one_and_responses_have_the_true_order(
+    small_campaign, sine_test, shaken, measured, predicted
+):
+    _, time, angle, _ = shaken
+    late = (time > 4.5) & (time < 5.75)
+    unlike = np.std(np.interp(time[late] + 1 / FREQUENCY, time, angle) - angle[late]) / np.std(angle[late])
+    assert unlike < 0.6
     result = compared(small_campaign, sine_test, measured, predicted)
     block = small_campaign.block("prism")
     assert float(result["forcing_frequency"]) == pytest.approx(FREQUENCY, rel=1e-3)
     assert float(result["frequency_ratio"]) == pytest.approx(2 * np.pi * FREQUENCY / block.p, rel=1e-3)
     assert float(result["amplitude_ratio"]) == pytest.approx(AMPLITUDE, rel=5e-3)
     assert result.attrs["warnings"] == []
-
-
-def test_measured_and_predicted_responses_have_the_true_order(small_campaign, sine_test, shaken, measured, predicted):
-    _, time, angle, _ = shaken
-    late = (time > 4.5) & (time < 5.75)
-    unlike = np.std(np.interp(time[late] + 1 / FREQUENCY, time, angle) - angle[late]) / np.std(angle[late])
-    assert unlike < 0.6
-    result = compared(small_campaign, sine_test, measured, predicted)
     assert result.attrs["response_order"] == "1"
     assert "every period" in result.attrs["response_order_reason"]
     assert result["model"].to_numpy().tolist() == ["linear", "nonlinear"]
@@ -234,12 +225,20 @@ def test_another_amplitude_than_the_given_one_is_told_with_what_follows(
     assert all(f"then A is {1 / ratio:.2f} times" in text for text in told)
 
 
-@pytest.mark.parametrize(("outcome", "words"), [("overturned", "overturned"), ("no-rocking", "did not rock")])
-def test_what_overturned_or_did_not_rock_has_no_order(outcome, words, small_campaign, sine_test, measured, predicted):
-    result = compared(small_campaign, sine_test, measured.assign_attrs(outcome=outcome), predicted)
+@pytest.mark.parametrize(
+    ("outcome", "words"), [("overturned", "overturned"), ("no-rocking", "did not rock"), ("", "No rocking angle")]
+)
+def test_what_overturned_did_not_rock_or_was_not_measured_has_no_order(
+    outcome, words, small_campaign, sine_test, measured, predicted
+):
+    seen = (
+        measured.assign_attrs(outcome=outcome) if outcome else measured[["base_acceleration"]].assign_attrs(outcome="")
+    )
+    result = compared(small_campaign, sine_test, seen, predicted)
     assert result.attrs["response_order"] == ""
     assert words in result.attrs["response_order_reason"]
     assert np.isfinite(float(result["amplitude_ratio"]))
+    assert result["predicted_response_order"].to_numpy()[0] == "1"
 
 
 def test_a_motion_that_is_no_sine_keeps_the_given_frequency_and_is_told(small_campaign, sine_test, measured, predicted):
@@ -249,13 +248,3 @@ def test_a_motion_that_is_no_sine_keeps_the_given_frequency_and_is_told(small_ca
     assert "no stretch of 3 periods" in result.attrs["warnings"][0].text
     assert float(result["frequency_ratio"]) == pytest.approx(2 * np.pi * 4.0 / small_campaign.block("prism").p)
     assert "amplitude_ratio" not in result
-
-
-def test_a_specimen_without_transducers_has_forcing_and_predicted_orders(
-    small_campaign, sine_test, measured, predicted
-):
-    bare = xr.Dataset({"base_acceleration": measured["base_acceleration"]}, attrs={"outcome": ""})
-    result = compared(small_campaign, sine_test, bare, predicted)
-    assert result.attrs["response_order"] == ""
-    assert "No rocking angle" in result.attrs["response_order_reason"]
-    assert result["predicted_response_order"].to_numpy()[0] == "1"

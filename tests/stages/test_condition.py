@@ -80,14 +80,6 @@ def test_a_channel_of_another_quantity_links_recorders_but_is_not_conditioned(li
     assert result["late"].attrs["clock_offset"] == pytest.approx(OFFSET, abs=1e-3)
 
 
-def test_nothing_above_the_cut_off_is_folded_into_a_lower_sampling_rate(linked):
-    recorded = _two_recorders(_shaking(FIRST) + 0.3 * np.sin(2 * np.pi * 195 * FIRST), _shaking(SECOND - OFFSET))
-    slow = linked.model_copy(update={"settings": linked.settings.model_copy(update={"sampling_rate": 200.0})})
-    result = condition(recorded, slow)
-    error = result["first"].to_numpy() - _shaking(result["elapsed"].to_numpy())
-    assert np.sqrt(np.mean(error[50:-50] ** 2)) < 5e-3
-
-
 @pytest.fixture
 def zeros(small_campaign, shaken):
     """Findings on the zero with something added to the table's acceleration, g."""
@@ -131,34 +123,12 @@ def top(free_vibration):
     return free_vibration[0]["main"].channel("LVDT 1").values
 
 
-def test_missing_cells_stay_missing(free, top):
-    top[1500:1680] = np.nan
-    top[2000:2003] = np.nan
-    result = free()
-    assert np.flatnonzero(np.isnan(result["top"])).tolist() == list(range(1500, 1680))
-    assert (result["top_quality"][1500:1680] == Flag.MISSING).all()
-    assert (result["top_quality"][2000:2003] == Flag.SUSPECT).all()
-    assert np.isfinite(result["bottom"]).all()
-
-
 def test_a_channel_without_values_where_zero_is_taken_is_left_out(free, top):
     top[-300:] = np.nan
     result = free()
     assert "top" not in result
     assert any("channel top is left out: it has no value from" in warning.text for warning in result.attrs["warnings"])
     assert result["elapsed"][-1] == pytest.approx(11.998)
-
-
-def test_rounded_times_give_the_clock_behind_them(free, free_vibration):
-    recordings, time, _, _ = free_vibration
-    exact = free()
-    for channel in recordings["main"].channels:
-        channel.time[:] = np.round(time, 2)
-    result = free()
-    assert np.diff(result["elapsed"]) == pytest.approx(0.002, rel=1e-4)
-    expected = np.interp(result["elapsed"], exact["elapsed"], exact["top"])
-    # The clock is known to a fraction of the last digit that was written.
-    np.testing.assert_allclose(result["top"], expected, atol=2e-4)
 
 
 def test_a_free_vibration_that_starts_tilted_is_zeroed_at_its_end_where_its_noise_is_left(free):

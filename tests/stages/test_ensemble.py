@@ -72,12 +72,6 @@ def test_a_free_vibration_varies_with_its_first_angle_and_not_with_the_table(res
     assert float(bands["overturning_probability"]) == 0.0
 
 
-def test_an_e_that_was_not_identified_has_the_deviation_of_the_settings(results, ensemble):
-    nobody = results[1].assign_attrs(restitution_source="rigid-body")
-    bands = ensemble("shake-01", specimen=nobody, restitution=0.007)
-    assert float(bands["input_deviation"].sel(input="restitution")) == 0.007
-
-
 def test_the_measured_angle_is_within_the_spread_of_the_model_that_it_follows(small_campaign, results, ensemble):
     bands = ensemble("shake-01")
     compared = compare(small_campaign, results, bands)

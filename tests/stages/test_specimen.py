@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 import xarray as xr
-from scipy import stats
 
 from colonnade.campaign.settings import PlaneEnsembleSettings
 from colonnade.dynamics.block import Block
 from colonnade.findings import Severity
-from colonnade.stages.specimen import SpecimenInputs, centre, restitution_spread, specimen, spread_of, taken
+from colonnade.stages.specimen import SpecimenInputs, centre, specimen, spread_of, taken
 from every import every
 from prism import PRISM
 
@@ -37,30 +36,6 @@ def refused(reason):
 
 def inputs(given=None, level=0.95, block=PRISM):
     return SpecimenInputs(block=block, given=given, level=level)
-
-
-@pytest.mark.parametrize("level", [0.5, 0.9, 0.95])
-def test_one_test_keeps_its_normal_interval_at_the_level(level):
-    found = specimen({"a": identified(0.93, 0.002)}, inputs(level=level))
-    half = stats.norm.ppf((1 + level) / 2) * 0.002
-    limits = found["restitution_low"], found["restitution_high"]
-    assert [float(each) for each in limits] == pytest.approx([0.93 - half, 0.93 + half], rel=1e-9)
-    assert float(found["level"]) == level
-
-
-@pytest.mark.parametrize(
-    ("tests", "given_e", "spread"),
-    [
-        ({"a": identified(0.92, 1e-6), "b": identified(0.94, 1e-6)}, None, (np.sqrt(1.5) * 0.02 / np.sqrt(2), 1)),
-        ({"a": identified(0.93, 0.003)}, None, (0.005, None)),
-        ({"a": identified(0.93, 0.003)}, 0.95, (0.004, None)),
-        ({}, None, (0.004, None)),
-    ],
-    ids=["two tests", "one test", "given", "rigid body"],
-)
-def test_predictions_take_e_of_a_new_test(tests, given_e, spread):
-    found = restitution_spread(specimen(tests, inputs(given_e)), usual=0.004)
-    assert found == (pytest.approx(spread[0], rel=1e-4), spread[1])
 
 
 def test_a_refused_test_is_left_out_and_keeps_its_reason():
@@ -165,15 +140,6 @@ def test_one_record_gives_the_centre_of_predictions_and_what_varies_together():
     assert spread.correlations[1] * spread.restitution / 0.93 * spread.p == pytest.approx(-2.4e-6)
     assert spread.correlations[2] * spread.critical_angle * spread.p == pytest.approx(-3.0e-6)
     xr.testing.assert_identical(taken(found, KNOWN), found)
-
-
-def test_two_records_know_the_block_better_than_one():
-    one = specimen({"a": jointly(0.93, MEAN, COVARIANCE)}, KNOWN)
-    two = specimen({name: jointly(0.93, MEAN, COVARIANCE) for name in "ab"}, KNOWN)
-    assert spread_of(two, USUAL).critical_angle < 0.8 * spread_of(one, USUAL).critical_angle
-    assert spread_of(two, USUAL).restitution_freedom == 1
-    assert centre(two, PRISM).critical_angle > centre(one, PRISM).critical_angle
-    xr.testing.assert_identical(taken(two, KNOWN), two)
 
 
 @every(

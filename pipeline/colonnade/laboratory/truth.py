@@ -121,12 +121,11 @@ def simulate(
     -------
     truth : Truth
     """
-    run = Integration(block, np.atleast_1d(np.asarray(time, dtype=np.float64)), restitution, catch, theta0)
-    run.move_to(release)
-    run.release(theta0, 0.0)
-    for start, stop, acceleration in (table or still()).pieces(release, float(run.time[-1])):
+    wanted = np.atleast_1d(np.asarray(time, dtype=np.float64))
+    run = Integration(block, wanted, restitution, catch, (float(theta0), 0.0), release)
+    for start, stop, acceleration in (table or still()).pieces(release, float(wanted[-1])):
         run.go(start, stop, acceleration)
-    return Truth(block, run.time, run.angles, np.array(run.impact_times), np.array(run.impact_velocities), run.passed)
+    return Truth(block, wanted, run.angles, np.array(run.impact_times), np.array(run.impact_velocities), run.passed)
 
 
 class Integration:
@@ -147,24 +146,18 @@ class Integration:
         The block stands, or rests in its safety frame.
     """
 
-    def __init__(self, block: Block, time: Array, restitution: float, catch: float, held: float) -> None:
+    def __init__(
+        self, block: Block, time: Array, restitution: float, catch: float, state: tuple[float, float], now: float = 0.0
+    ) -> None:
         self.block, self.time, self.restitution, self.catch = block, time, restitution, catch
-        self.angles = np.full(time.size, float(held))
-        self.filled = 0
-        self.now, self.angle, self.velocity = 0.0, float(held), 0.0
-        self.resting = self.caught = False
+        (self.angle, self.velocity), self.now = state, now
+        self.angles = np.full(time.size, self.angle)
+        self.filled = int(np.searchsorted(time, now, side="right"))
+        self.resting, self.caught = state == (0.0, 0.0), False
         self.impact_times: list[float] = []
         self.impact_velocities: list[float] = []
-        self.passed = float("nan")
-        self._stand_on(1.0 if held >= 0 else -1.0)
-
-    def release(self, angle: float, velocity: float) -> None:
-        """Let the block go."""
-        self.angle, self.velocity = float(angle), float(velocity)
-        self.resting = angle == 0.0 and velocity == 0.0
-        self._stand_on(1.0 if angle > 0 or (angle == 0 and velocity >= 0) else -1.0)
-        if abs(angle) > self.geometry.critical_angle:
-            self.passed = self.now
+        self._stand_on(1.0 if state >= (0.0, 0.0) else -1.0)
+        self.passed = now if abs(self.angle) > self.geometry.critical_angle else float("nan")
 
     def move_to(self, instant: float) -> None:
         """Let time pass without a change of the angle."""

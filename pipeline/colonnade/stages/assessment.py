@@ -22,7 +22,7 @@ from colonnade.assessment.fragility import MISFITS, Fragility
 from colonnade.assessment.ground import Ground
 from colonnade.assessment.intervals import Interval, Resampling
 from colonnade.assessment.measures import measure_of
-from colonnade.assessment.real_column import UNCERTAIN, RealColumn
+from colonnade.assessment.real_column import UNCERTAIN
 from colonnade.assessment.study import Study, counted_draws, judge
 from colonnade.campaign.forms.assessed import (
     UNCORRECTED,
@@ -35,7 +35,6 @@ from colonnade.campaign.forms.assessed import (
     RecordUsed,
     Variant,
 )
-from colonnade.dynamics.block import pair
 from colonnade.dynamics.spectra import response_spectrum
 from colonnade.errors import StageError
 from colonnade.findings import warning
@@ -93,9 +92,6 @@ def assessment(plan: Plan, outcomes: Mapping[str, CaseOutcomes]) -> xr.Dataset:
     return result.assign_attrs(
         answer=said.model_dump_json(),
         measure_asked=f"{said.measure} [{said.unit or '1'}]",
-        restitution_source=plan.restitution_source,
-        record_files=[file for each in said.records_used for file in each.files],
-        record_sha256=[digest for each in said.records_used for digest in each.files.values()],
         warnings=[warning("assessment", text) for text in said.warnings],
     )
 
@@ -115,7 +111,6 @@ def _dataset(plan: Plan, outcomes: CaseOutcomes, needed: Array | None, fragility
     import xarray as xr
 
     study, isotonic = plan.studies[ASSUMED], fragility.isotonic
-    units = [measure_of(name).unit or "1" for name in study.values]
     reach = np.sqrt(study.levels[-1] / study.levels[0])
     over = np.geomspace(study.levels[0] / reach, study.levels[-1] * reach, CURVE)
     # Pseudo-acceleration of the components as recorded, m/s².
@@ -145,7 +140,6 @@ def _dataset(plan: Plan, outcomes: CaseOutcomes, needed: Array | None, fragility
             "curve_intensity": ("curve", over),
             "stripe_intensity": ("stripe", isotonic.intensity),
             "record_spectrum": (("record", "component", "period"), spectra),
-            "record_measure": (("measure", "record", "component"), np.stack(list(study.values.values()))),
             **variables,
         },
         coords={
@@ -153,8 +147,6 @@ def _dataset(plan: Plan, outcomes: CaseOutcomes, needed: Array | None, fragility
             "level_intensity": ("level", study.levels),
             "component": np.array(COMPONENTS, dtype=object),
             "spectrum_period": ("period", PERIODS),
-            "measure": np.array(list(study.values), dtype=object),
-            "measure_unit": ("measure", np.array(units, dtype=object)),
         },
     )
 
@@ -194,7 +186,7 @@ def _answer(
         critical_angle_range=column.critical_angle_range,
         p=column.block.p,
         p_range=column.p_range,
-        restitution=Estimate(value=_both(column), low=low, high=high) if one else Estimate(),
+        restitution=Estimate(value=column.central[0], low=low, high=high) if one else Estimate(),
         restitution_source=plan.restitution_source if one else None,
         displaced=asked.displaced,
         friction=column.friction,
@@ -230,11 +222,6 @@ def _answer(
     )
 
 
-def _both(column: RealColumn) -> float:
-    """The mean e of its sides."""
-    return float(np.mean(pair(column.restitution)))
-
-
 def _estimate(interval: Interval | None) -> Estimate:
     if interval is None:
         return Estimate()
@@ -255,17 +242,15 @@ def _why_not(found: Fragility) -> str:
 
 def _variants(plan: Plan, fragilities: Mapping[str, Fragility]) -> Iterator[Variant]:
     """Give the answer under each other assumption; of the records without their correction at least the reason."""
-    for name, found in fragilities.items():
-        if name == ASSUMED:
-            continue
-        fit, e = found.lognormal, _both(plan.studies[name].cases.column)
+    for name, found in list(fragilities.items())[1:]:
+        fit, e = found.lognormal, plan.studies[name].cases.column.central[0]
         common: dict[str, Any] = {"name": name, "restitution": e, "records": len(found.outcomes.records)}
         if fit.reason:
             yield Variant(**common, reason=NO_CURVE[fit.reason])
         else:
             yield Variant(**common, median=_estimate(fit.median), five_percent=_estimate(fit.reaches(0.05)))
     if plan.without_correction:
-        e = _both(plan.studies[ASSUMED].cases.column)
+        e = plan.studies[ASSUMED].cases.column.central[0]
         yield Variant(name=UNCORRECTED, restitution=e, reason=plan.without_correction)
 
 

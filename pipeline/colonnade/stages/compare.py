@@ -76,25 +76,24 @@ def compare(
     """
     import xarray as xr
 
-    models = sorted(predicted)
-    zero = {"zero_offset": 0.0, "angle_gain": 1.0}
-    zero = {name: float(predicted[models[0]][name]) for name in zero} if models else zero
+    models, block = sorted(predicted), inputs.block
+    zero = {name: float(predicted[models[0]][name]) if models else usual for name, usual in ZERO.items()}
     if "rocking_angle" in rocking:
         true = (rocking["rocking_angle"] - zero["zero_offset"]) / zero["angle_gain"]
         rocking = rocking.assign(rocking_angle=true)
     peak, peak_time, release = _peak(rocking, predicted, inputs)
-    rows = [_misfit(rocking, predicted[model], inputs.block) for model in models]
+    misfits, untils = np.reshape([_misfit(rocking, predicted[model], block) for model in models], (-1, 2)).T
     ratios = np.array([float(predicted[model]["peak_ratio"]) for model in models])
     outcomes = np.array([predicted[model].attrs["outcome"] for model in models], dtype=object)
     warnings: list[Finding] = []
     measured, observed = rocking.attrs["outcome"], inputs.observed_outcome
-    if measured and observed and not _agree(measured, observed):
+    if measured and observed not in (None, measured) and (observed != "not-overturned" or measured == "overturned"):
         text = f"The transducers show {measured}, the test log says {observed}: check the record."
         warnings.append(serious("outcome", text, follows=MEASUREMENT))
     compared = xr.Dataset(
         {
-            "nrmse": ("model", np.array([row[0] for row in rows])),
-            "compared_until": ("model", np.array([row[1] for row in rows])),
+            "nrmse": ("model", misfits),
+            "compared_until": ("model", untils),
             "predicted_peak_ratio": ("model", ratios),
             "peak_ratio_error": ("model", ratios - peak),
             "predicted_outcome": ("model", outcomes),
@@ -103,11 +102,15 @@ def compare(
             "release_ratio": release,
         }
         | zero
-        | horizons_and_ranks(rocking, ensembles or {}, models, inputs.block),
+        | horizons_and_ranks(rocking, ensembles or {}, models, block),
         coords={"model": ("model", np.array(models, dtype=object))},
         attrs={"outcome_measured": measured or observed or "", "warnings": warnings},
     )
     return _with_sine(compared, rocking, predicted, inputs) if inputs.is_sine else compared
+
+
+ZERO = {"zero_offset": 0.0, "angle_gain": 1.0}
+"""Of the measured angle, where no prediction says another."""
 
 
 def _misfit(rocking: xr.Dataset, predicted: xr.Dataset, block: Block) -> tuple[float, float]:
@@ -122,10 +125,6 @@ def _misfit(rocking: xr.Dataset, predicted: xr.Dataset, block: Block) -> tuple[f
     if not both.any():
         return np.nan, np.nan
     return nrmse(measured[:until][both], model[:until][both], block.critical_angle), float(time[until - 1])
-
-
-def _agree(measured: str, observed: str) -> bool:
-    return measured == observed or (observed == "not-overturned" and measured != "overturned")
 
 
 SETTLED = 0.1
@@ -261,19 +260,14 @@ def _measured(rocking: xr.Dataset, forcing: Forcing) -> Response:
     return _response(rocking, forcing, threshold, noise)
 
 
+NO_RESPONSE = {"overturned": "The specimen overturned.", "no-rocking": "The specimen did not rock."}
+
+
 def _response(motion: xr.Dataset, forcing: Forcing, threshold: float, noise: float) -> Response:
-    if motion.attrs["outcome"] in ("overturned", "no-rocking"):
-        fell = motion.attrs["outcome"] == "overturned"
-        return Response(None, "The specimen overturned." if fell else "The specimen did not rock.")
-    return response_order(
-        motion["elapsed"],
-        motion["rocking_angle"],
-        forcing.frequency,
-        start=forcing.start,
-        stop=forcing.stop,
-        threshold=threshold,
-        noise=noise,
-    )
+    if motion.attrs["outcome"] in NO_RESPONSE:
+        return Response(None, NO_RESPONSE[motion.attrs["outcome"]])
+    time, angle, steady = motion["elapsed"], motion["rocking_angle"], {"start": forcing.start, "stop": forcing.stop}
+    return response_order(time, angle, forcing.frequency, threshold=threshold, noise=noise, **steady)
 
 
 def _text(response: Response) -> str:

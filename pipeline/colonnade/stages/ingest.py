@@ -181,11 +181,11 @@ def _judged(
     channel, values, physical = track.channel, track.values, track.physical
     verdicts = channel_verdicts(time, values, physical, channel, inputs.settings)
     if channel.on == "specimen" and channel.quantity == "acceleration":
-        along = [other.physical for other in table if _same_axis(channel, other.channel)]
+        axis = np.array(channel.direction or NO_AXIS)
+        along = [other.physical for other in table if abs(axis @ (other.channel.direction or NO_AXIS)) > SAME_AXIS]
         if along:
             verdicts.append(quality.check_dead(physical, max(along, key=np.nanstd), share=DEAD_SHARE))
-    flags, found = quality.combine([*timed, *verdicts], values.size)
-    seen, decisions = quality.combine(reviewed(track.name, time, inputs.review), values.size)
+    flags, found = quality.combine([*timed, *verdicts, *reviewed(track.name, time, inputs.review)], values.size)
     variable = variable_name(track.name)
     attributes = {
         "channel": track.name,
@@ -193,21 +193,15 @@ def _judged(
         "recorder": channel.recorder,
         "recorded_unit": channel.unit or track.column.unit or "",
         "column": track.column.heading,
-        "quality_report": "; ".join(map(str, [*found, *decisions])),
+        "quality_report": "; ".join(map(str, found)),
     }
     variables = {
         variable: (track.dimension, physical, {key: value for key, value in attributes.items() if value}),
         f"{variable}_recorded": (track.dimension, values),
-        f"{variable}_quality": (track.dimension, np.maximum(flags, seen) if decisions else flags),
+        f"{variable}_quality": (track.dimension, flags),
     }
     own = [verdict.finding for verdict in verdicts if verdict.reason]
     return variables, [*track.warnings, *(replace(each, text=f"channel {track.name}: {each}.") for each in own)]
-
-
-def _same_axis(first: ChannelInputs, second: ChannelInputs) -> bool:
-    if first.direction is None or second.direction is None:
-        return False
-    return bool(abs(np.dot(first.direction, second.direction)) > SAME_AXIS)
 
 
 def _of_clocks(tracks: list[_Track], timed: Mapping[str, list[quality.Verdict]]) -> list[Finding]:
@@ -229,6 +223,8 @@ def _of_clocks(tracks: list[_Track], timed: Mapping[str, list[quality.Verdict]])
 
 DEAD_SHARE = 0.08
 """An accelerometer on the specimen that moves less than this share of the table's is practically dead."""
+
+NO_AXIS = (0.0, 0.0, 0.0)
 
 SAME_AXIS = 0.9
 """Smallest product of two directions with which they are compared."""
@@ -350,10 +346,6 @@ def dimension_of(known: Mapping[str, Array], time: Array, name: str, channel: Ch
     return f"{own}_{len(known)}"
 
 
-ZONES = (timedelta(hours=-12), timedelta(0), timedelta(hours=14))
-"""From UTC to the clocks on the wall anywhere: a file in UTC does not say in which of them the laboratory is."""
-
-
 def recorded_at(recordings: Mapping[str, Recording], begin: float = 0.0) -> str:
     """Write when a test that begins so late in its files (s) was recorded, by the first that says so, or nothing."""
     starts = (moment_after(recording.start, begin) for recording in recordings.values())
@@ -365,7 +357,10 @@ def contradictions(recordings: Mapping[str, Recording], day: date | None, begin:
     found = []
     for recording in recordings.values():
         start = moment_after(recording.start, begin)
-        if day is not None and start is not None and day not in _days(start):
+        if day is None or start is None:
+            continue
+        # A file in UTC does not say in which zone the laboratory's clocks are.
+        if abs((start.date() - day).days) > (start.utcoffset() == timedelta(0)):
             text = (
                 f"{recording.path.name} was recorded on {start.date()} by its own clock ({_written(start)}), but the "
                 f"campaign file gives the date {day}. Correct the date, or check that this is the file of the test and "
@@ -373,14 +368,6 @@ def contradictions(recordings: Mapping[str, Recording], day: date | None, begin:
             )
             found.append(warning("date", text))
     return found
-
-
-def _days(start: datetime) -> set[date]:
-    """Days that it may have been on the wall."""
-    if start.utcoffset() != timedelta(0):
-        return {start.date()}
-    shifted = (moment_after(start, zone.total_seconds()) for zone in ZONES)
-    return {moment.date() for moment in shifted if moment is not None}
 
 
 def _written(start: datetime) -> str:

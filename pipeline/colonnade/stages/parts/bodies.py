@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -41,9 +40,6 @@ MOTIONS = {
     "yaw": "yaw",
 }
 """What is known of a body over time, as `body_…`, and its name in a fitted motion."""
-
-RESIDUALS = ("residual_x", "residual_y", "residual_yaw")
-"""Where the centre of its base is at the end, and how it is turned, from where it stood."""
 
 OUTCOMES = ("overturned", "rocking", "no-rocking")
 """The worst first."""
@@ -109,30 +105,41 @@ class AssemblyInputs(Inputs):
 
 @dataclass(frozen=True)
 class Measured:
-    """Motions of the bodies that were measured, and why others were not."""
+    """
+    Motions of the bodies that were measured, and why others were not.
+
+    Attributes
+    ----------
+    motions : dict of str to SpecimenMotion
+    placed : dict of str to (ndarray, ndarray)
+        Their rotations, shape (3, 3, n), and displacements of the centres of their bases, m, shape (3, n).
+    reasons : dict of str to str
+    """
 
     motions: dict[str, SpecimenMotion]
+    placed: dict[str, tuple[Array, Array]]
     reasons: dict[str, str]
 
 
 def measure(conditioned: xr.Dataset, inputs: AssemblyInputs, test: Circumstances) -> Measured:
     """Fuse what is on each body into its motion relative to the table."""
-    motions: dict[str, SpecimenMotion] = {}
-    reasons: dict[str, str] = {}
+    found = Measured({}, {}, {})
     for name, body in inputs.bodies.items():
-        missing = sorted({other for other in body.against.values() if other not in motions})
+        missing = sorted({other for other in body.against.values() if other not in found.motions})
         if missing:
-            reasons[name] = f"it is measured against {', '.join(missing)}, whose motion is not known"
+            found.reasons[name] = f"it is measured against {', '.join(missing)}, whose motion is not known"
         elif not any(each in conditioned for each in body.transducers.on_specimen):
-            reasons[name] = "no transducer on it could be used"
+            found.reasons[name] = "no transducer on it could be used"
         else:
             positions, rates, forces = readings(conditioned, body.transducers, body.block.gravity)
-            positions = _from_the_table(positions, name, conditioned, inputs, motions)
+            positions = _from_the_table(positions, name, conditioned, inputs, found)
             try:
-                motions[name] = specimen_motion(positions, rates, forces, body.block, body.outline, test)
+                motion = specimen_motion(positions, rates, forces, body.block, body.outline, test)
             except UnseenRotationError as error:
-                reasons[name] = f"{error}"
-    return Measured(motions, reasons)
+                found.reasons[name] = str(error)
+            else:
+                found.motions[name], found.placed[name] = motion, _placed(motion, body.block)
+    return found
 
 
 def together(motion: SpecimenMotion | None, found: Measured, inputs: AssemblyInputs) -> SpecimenMotion | None:
@@ -159,12 +166,10 @@ def together(motion: SpecimenMotion | None, found: Measured, inputs: AssemblyInp
     masses = np.array([inputs.bodies[name].block.mass for name in names])
     arms = []
     for name in names:
-        turned, centre = _placed(found.motions[name], inputs.bodies[name].block)
+        turned, centre = found.placed[name]
         place = centre + assembly.bodies[name].centre_height * turned[:, 2]
         arms.append(place + _apart(assembly, name, lowest)[:, None])
-    x, y, z = (
-        np.tensordot(masses / masses.sum(), arms, 1) - _placed(found.motions[lowest], inputs.bodies[lowest].block)[1]
-    )
+    x, y, z = np.tensordot(masses / masses.sum(), arms, 1) - found.placed[lowest][1]
     first = found.motions[lowest]
     values = first.values | {"rocking_angle": np.copysign(np.arctan2(np.hypot(x, y), z), x)}
     return replace(first, values=values, residual=motion.residual, entered=motion.entered)
@@ -175,7 +180,7 @@ def _from_the_table(
     name: str,
     conditioned: xr.Dataset,
     inputs: AssemblyInputs,
-    motions: Mapping[str, SpecimenMotion],
+    found: Measured,
 ) -> Readings[Transducer]:
     """Add to what is measured against another body how its own point there moved."""
     body, values = inputs.bodies[name], positions.values.copy()
@@ -183,7 +188,7 @@ def _from_the_table(
     for row, (variable, sensor) in enumerate(zip(used, positions.sensors, strict=True)):
         if variable in body.against:
             other = body.against[variable]
-            turned, centre = _placed(motions[other], inputs.bodies[other].block)
+            turned, centre = found.placed[other]
             arm = np.array(sensor.at) + _apart(inputs.assembly, name, other)
             values[row] += np.array(sensor.direction) @ (centre + np.einsum("ijn,j->in", turned, arm) - arm[:, None])
     return replace(positions, values=values)
@@ -231,18 +236,18 @@ def _measured_row(name: str, time: Array, found: Measured, inputs: AssemblyInput
     row: dict[str, Any] = {key: values.get(each, unknown) for key, each in MOTIONS.items()}
     row |= {f"{key}_standard_error": _median(errors.get(each)) for key, each in MOTIONS.items()}
     row |= dict.fromkeys(("joint_angle", "joint_slide", "joint_yaw"), unknown)
-    row |= dict.fromkeys(("peak_ratio", "opening", "opening_time", *RESIDUALS), np.nan)
+    row |= dict.fromkeys(("peak_ratio", "opening", "opening_time", "residual_x", "residual_y", "residual_yaw"), np.nan)
     row |= {"outcome": "", "separation": f"not measured: {found.reasons.get(name, '')}"}
     if motion is None:
         return row
     row["separation"] = motion.separation
-    turned, centre = _placed(motion, body.block)
+    turned, centre = found.placed[name]
     joint_turned, joint_moved, error = turned, centre, row["angle_standard_error"]
     for below in inputs.assembly.bodies[name].on[:1]:
         if below not in found.motions:
             row["separation"] += f"; not relative to {below}: {found.reasons[below]}"
             return row
-        support, moved = _placed(found.motions[below], inputs.bodies[below].block)
+        support, moved = found.placed[below]
         arm = _apart(inputs.assembly, name, below)[:, None]
         joint_turned = np.einsum("jin,jkn->ikn", support, turned)
         joint_moved = np.einsum("jin,jn->in", support, arm + centre - moved) - arm
@@ -250,29 +255,26 @@ def _measured_row(name: str, time: Array, found: Measured, inputs: AssemblyInput
     angle = np.arctan2(-joint_turned[2, 0], joint_turned[2, 2])
     half_width = body.block.governing.half_width
     swung = np.copysign(half_width, angle) * (joint_turned[0, 0] - 1.0)
+    # The base, or the top below where that is narrower.
+    tops = [inputs.bodies[below].block.solid for below in inputs.assembly.bodies[name].on]
+    narrower = min([half_width, *(solid.top[0] for solid in tops if solid is not None)])
     seen = angle_features(time, angle, error, body.part, rest_duration=inputs.rest_duration, catch=None)
     opened = np.flatnonzero(np.abs(angle) > seen.threshold)
     at_end = time >= time[-1] - inputs.rest_duration
-    left = {"residual_x": centre[0], "residual_y": centre[1], "residual_yaw": motion.pose.yaw}
-    is_known = {"residual_x": "slide", "residual_y": "transverse_slide", "residual_yaw": "yaw"}
-    known = {key: each for key, each in left.items() if is_known[key] in values and np.isfinite(each[at_end]).any()}
+    # Where the centre of its base is at the end, and how it is turned, from where it stood.
+    left = {"slide": ("x", centre[0]), "transverse_slide": ("y", centre[1]), "yaw": ("yaw", motion.pose.yaw)}
+    for key, (axis, moved) in left.items():
+        if key in values and np.isfinite(moved[at_end]).any():
+            row[f"residual_{axis}"] = float(np.nanmean(moved[at_end]))
     return row | {
         "joint_angle": angle,
         "joint_slide": joint_moved[0] + swung if "slide" in values else unknown,
         "joint_yaw": np.arctan2(-joint_turned[0, 1], joint_turned[1, 1]) if "yaw" in values else unknown,
         "outcome": seen.verdict.outcome,
         "peak_ratio": seen.peak_ratio,
-        "opening": 2 * _narrower(name, inputs.assembly) * float(np.nanmax(np.abs(angle))),
+        "opening": 2 * narrower * float(np.nanmax(np.abs(angle))),
         "opening_time": float(time[opened[0]]) if opened.size else np.nan,
-        **{key: float(np.nanmean(each[at_end])) for key, each in known.items()},
     }
-
-
-def _narrower(name: str, assembly: Assembly) -> float:
-    """Half the width of a joint along x, m: of the base, or of the top below where that is narrower."""
-    width = assembly.bodies[name].block.governing.half_width
-    tops = [assembly.bodies[below].block.solid for below in assembly.bodies[name].on]
-    return min([width, *(solid.top[0] for solid in tops if solid is not None)])
 
 
 def _median(errors: Array | None) -> float:
