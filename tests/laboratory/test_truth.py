@@ -41,21 +41,6 @@ def test_each_side_lifts_at_g_tan_of_its_own_critical_angle(push, side):
     assert after.angle == pytest.approx(side * risen, rel=2e-3)
 
 
-@pytest.mark.parametrize("pushed", [-0.8, 0.0, 0.1], ids=["towards the pole", "not at all", "away from it"])
-def test_energy_and_work_of_a_constant_push_are_kept_in_an_arc(pushed):
-    run = running(0.02, 0.7)
-
-    def energy():
-        lean = ALPHA - run.angle
-        return run.velocity**2 / 2 + P**2 * (cos(lean) - pushed / PRISM.gravity * sin(lean))
-
-    first = energy()
-    for stop in (0.05, 0.1):
-        run.go(run.now, stop, lambda instant: pushed)
-        assert not run.impact_times
-        assert energy() == pytest.approx(first, rel=1e-10)
-
-
 def test_angles_between_steps_are_those_of_shorter_pieces():
     time = np.linspace(0.0, 2.0, 41)
     whole, parts = (running(0.6 * ALPHA, 0.0, time=time) for _ in range(2))
@@ -187,14 +172,6 @@ def test_one_sine_leaves_the_published_energy(pole_distance, energy):
         run.go(*piece)
     risen = (cos(0.2 - abs(run.angle)) - cos(0.2)) / (1 - cos(0.2))
     assert run.velocity**2 / (2 * block.p**2 * (1 - cos(0.2))) + risen == pytest.approx(energy, abs=1e-8)
-
-
-def test_acceleration_towards_plus_x_starts_rocking_with_negative_angle_at_g_tan_alpha():
-    ramp = TableMotion((0.0, 1.0), lambda piece, time: 2.0 * PRISM.uplift_acceleration * time, np.zeros_like)
-    time = np.linspace(0.0, 0.7, 701)
-    angle = simulate(PRISM, time, ramp, restitution=0.9).angle
-    assert not angle[time <= 0.5].any()
-    assert (angle[time > 0.502] < 0.0).all()
 
 
 def test_the_frame_catches_and_holds_an_overturning_block():
