@@ -10,7 +10,6 @@ import chain
 from colonnade.dynamics.uncertainty import INPUTS
 from colonnade.identification.response.rank import is_within, rank
 from colonnade.stages import ensemble as running
-from prism import PRISM
 
 MEMBERS = 60
 
@@ -51,17 +50,13 @@ def test_the_bands_lie_about_the_prediction_on_its_clock(small_campaign, results
     assert float(np.abs(median - bands["rocking_angle"]).mean()) < 0.3 * float((high - low).mean())
 
 
-def test_noise_cutoff_and_interval_are_those_of_the_record(results, ensemble):
-    (conditioned, _), pooled = results[0]["shake-01"], results[1]
+def test_noise_and_cutoff_are_those_of_the_record(results, ensemble):
+    conditioned, _ = results[0]["shake-01"]
     bands = ensemble("shake-01")
     table = conditioned["table_acceleration"].attrs
     assert bands.attrs["noise"] == table["noise"]
     assert bands.attrs["cutoff_hz"] == table["cutoff_hz"]
-    deviations = dict(zip(bands["input"].to_numpy(), bands["input_deviation"].to_numpy(), strict=True))
-    # One free vibration shows its own error, and the setting stands for the scatter between tests.
-    own = float(pooled["test_restitution_standard_error"][0])
-    assert deviations["restitution"] == pytest.approx(np.hypot(own, 0.005))
-    assert set(deviations) == set(INPUTS) - {"theta0"}
+    assert set(bands["input"].to_numpy()) == set(INPUTS) - {"theta0"}
 
 
 def test_a_free_vibration_varies_with_its_first_angle_and_not_with_the_table(results, ensemble):
@@ -95,15 +90,9 @@ def test_an_angle_that_no_run_has_is_outside(small_campaign, results, ensemble, 
     assert float(open_gain["measured_distance"]) < float(known["measured_distance"])
 
 
-def test_runs_of_a_free_vibration_are_measured_to_start_where_it_was_measured(results, ensemble):
+def test_runs_of_a_free_vibration_are_measured_to_start_where_it_was_measured(ensemble):
     """A wrong calibration of the angle moves the start too: every run that starts higher is read as lower."""
     bands = ensemble("free-01", model="nonlinear")
-    measured = results[0]["free-01"][1]
-    error = float(measured["rocking_angle_standard_error"])
-    spread = float(bands["input_deviation"].sel(input="theta0"))
-    theta0 = float(measured["rocking_angle"].sel(elapsed=float(bands["elapsed"][0])))
-    zero = 5e-4 * PRISM.critical_angle
-    assert spread == pytest.approx(np.sqrt((0.005 * theta0) ** 2 + zero**2 + error**2), rel=0.01)
     assert is_within(rank(float(bands["measured_distance"]), bands["member_distance"].values))
 
 

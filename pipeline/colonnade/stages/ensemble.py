@@ -16,7 +16,6 @@ from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.contact.ensemble import ContactPlan
 from colonnade.dynamics.ensemble import Plan, PlanePlan
 from colonnade.dynamics.models import model_of
-from colonnade.dynamics.uncertainty import INPUTS
 from colonnade.identification.response.rank import Measurement
 from colonnade.stages.contact import refusals
 from colonnade.stages.parts.beginning import RECORDED, Beginning
@@ -117,10 +116,9 @@ def ensemble(
     bands : xr.Dataset
         `rocking_angle_band` by `quantile` on the record's clock, from where the prediction starts; the
         `overturning_probability` with its interval; `member_peak_ratio` (NaN if it overturns) and
-        `member_overturning_time`; by `input` its standard deviation (of the contact model that of values that are
-        equally likely in their range) and `peak_sensitivity`; what `describe_bands` adds. Of an assembly by `body` the
-        `body_overturning_probability` and, of the members in which it stands, the quantiles of how far it moved for
-        good, `body_moved_band` (m).
+        `member_overturning_time`; by `input` that varies its `peak_sensitivity`; what `describe_bands` adds. Of an
+        assembly by `body` the `body_overturning_probability` and, of the members in which it stands, the quantiles of
+        how far it moved for good, `body_moved_band` (m).
 
     Raises
     ------
@@ -134,20 +132,16 @@ def ensemble(
     if isinstance(plan, PlanePlan):
         assert specimen is not None  # which the plan is of
         plan = _varied(plan, conditioned, specimen, beginning, errors, inputs)
-        deviations = dict(zip(INPUTS, plan.uncertainty.deviations.tolist(), strict=True))
         about = {"noise": plan.uncertainty.noise, "cutoff_hz": plan.uncertainty.cutoff}
     else:
         plan = _ranging(plan, inputs)
-        # Relative to the law's; of a tilt as it is.
-        middles = {name: getattr(plan.space.law, name, 1.0) or 1.0 for name in plan.ranges}
-        deviations = {name: np.ptp(both) / np.sqrt(12.0) / middles[name] for name, both in plan.ranges.items()}
     with refusals():
         central = plan.central_angle()
         parts = run(plan, central)
     found = plan.gather(central, parts)
     starts = found.inputs[:, found.names.index("theta0")] if "theta0" in found.names else np.zeros(plan.count)
     width = inputs.measured.horizon * prediction.block.critical_angle
-    bands = describe_bands(rocking, beginning, found, deviations, starts, errors, prediction.block, width)
+    bands = describe_bands(rocking, beginning, found, starts, errors, prediction.block, width)
     if isinstance(plan, ContactPlan) and isinstance(plan.space.body, Assembly):
         bands = bands.assign(_ends(list(plan.space.body.bodies), parts, found.levels))
     return bands.assign_attrs(model=prediction.model, members=plan.count, **about, warnings=[])

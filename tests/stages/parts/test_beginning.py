@@ -164,8 +164,7 @@ def test_it_is_driven_as_its_restitution_is(small_campaign, rocking, predicted):
 @pytest.mark.parametrize(("share", "varied"), [(0.0, False), (0.05, True)], ids=["at rest", "moving"])
 def test_an_ensemble_varies_the_base_motion_only_if_it_drives(small_campaign, released, bands, share, varied):
     found = bands(*measured(small_campaign, "free-01", released(E, share)[0]), "linear", 4)
-    deviations = found["input_deviation"].sel(input="gain") if "gain" in found["input"] else 0.0
-    assert (float(deviations) > 0.0) == varied
+    assert ("gain" in found["input"]) == varied
     assert (found.attrs["noise"] > 0.0) == varied
 
 

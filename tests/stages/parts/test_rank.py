@@ -121,21 +121,17 @@ def ensemble(members=40, *, overturned=0, widens_at=None, scatter=1e-3):
     )
 
 
-DEVIATIONS = {name: 0.001 * k for k, name in enumerate(INPUTS)}
-
-
 def ranked(measured=None, found=None, *, offset=0.0, horizon=0.2):
     measured = rocking() if measured is None else measured
     found = ensemble() if found is None else found
     beginning = replace(BEGINNING, zero_offset=offset)
     starts = np.zeros(found.peak_ratio.size)
-    return describe_bands(measured, beginning, found, DEVIATIONS, starts, errors_of(measured), PRISM, horizon * ALPHA)
+    return describe_bands(measured, beginning, found, starts, errors_of(measured), PRISM, horizon * ALPHA)
 
 
 def test_bands_name_only_the_inputs_that_vary_and_how_the_peak_follows():
     found = ranked()
     assert found["input"].to_numpy().tolist() == ["p"]
-    assert found["input_deviation"].to_numpy().tolist() == [0.001 * INPUTS.index("p")]
     assert found["peak_sensitivity"].to_numpy() == pytest.approx([1.0])
 
 

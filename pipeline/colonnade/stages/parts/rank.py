@@ -25,7 +25,6 @@ def describe_bands(
     rocking: xr.Dataset,
     beginning: Beginning,
     found: Ensemble,
-    deviations: Mapping[str, float],
     starts: Array,
     errors: Measurement,
     block: Block,
@@ -41,8 +40,6 @@ def describe_bands(
     beginning : Beginning
         Of the prediction.
     found : Ensemble
-    deviations : mapping of str to float
-        Standard deviation of each input.
     starts : ndarray, shape (members,)
         By how much each run began above the measured start, rad.
     errors : Measurement
@@ -76,7 +73,6 @@ def describe_bands(
             "overturning_probability_high": high,
             "member_peak_ratio": ("member", found.peak_ratio),
             "member_overturning_time": ("member", found.overturning_time + start),
-            "input_deviation": ("input", np.array([deviations[name] for name in sensitivity])),
             "peak_sensitivity": ("input", np.array(list(sensitivity.values()))),
             "horizon": horizon,
         },
