@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import PPoly
+from scipy.integrate import cumulative_trapezoid
 
 from colonnade.arrays import Array
 from colonnade.campaign import Channel
@@ -131,24 +131,34 @@ def recorded(motion: Motion, *, start: float) -> TableMotion:
     NS this takes off 4e-5 of the largest acceleration.
     """
     dt, duration = motion.dt, motion.duration
-    ends = [_line(motion.acceleration, dt, 0.0).antiderivative(order)(duration) for order in (1, 2)]
+    velocity, displacement = _integrate(motion.acceleration, dt)
     # ∫∫ of c₀ + c₁ t from rest: c₀ T + c₁ T²/2 and c₀ T²/2 + c₁ T³/6 have to equal what is left at the end.
-    constant, slope = np.linalg.solve([[duration, duration**2 / 2], [duration**2 / 2, duration**3 / 6]], ends)
-    played = _line(motion.acceleration - constant - slope * motion.time, dt, start)
-    (slopes, levels), edges, place = played.c.tolist(), played.x.tolist(), played.antiderivative(2)
+    system = np.array([[duration, duration**2 / 2], [duration**2 / 2, duration**3 / 6]])
+    constant, slope = np.linalg.solve(system, [velocity[-1], displacement[-1]])
+    acceleration = motion.acceleration - constant - slope * motion.time
+    velocity, displacement = _integrate(acceleration, dt)
+
+    rates = np.diff(acceleration) / dt
+    edges = tuple(start + k * dt for k in range(rates.size + 1))
+    levels, slopes = acceleration.tolist(), rates.tolist()
 
     def line(piece: int, instant: float) -> float:
         return float(levels[piece] + slopes[piece] * (instant - edges[piece]))
 
-    def displacement(time: Array) -> Array:
-        return np.where((time > start) & (time < edges[-1]), place(time), 0.0)
+    def shape(instants: Array) -> Array:
+        k = np.clip(((instants - start) / dt).astype(np.int64), 0, rates.size - 1)
+        passed = instants - start - k * dt
+        inside = displacement[k] + passed * (velocity[k] + passed * (acceleration[k] / 2 + passed * rates[k] / 6))
+        return np.where((instants > start) & (instants < start + duration), inside, 0.0)
 
-    return TableMotion(tuple(edges), line, displacement)
+    return TableMotion(edges, line, shape)
 
 
-def _line(values: Array, dt: float, start: float) -> PPoly:
-    """Values at equal steps from `start` on, linear between them."""
-    return PPoly([np.diff(values) / dt, values[:-1]], start + dt * np.arange(values.size))
+def _integrate(acceleration: Array, dt: float) -> tuple[Array, Array]:
+    """Velocity and displacement of a piecewise-linear acceleration, from rest, exactly."""
+    velocity = cumulative_trapezoid(acceleration, dx=dt, initial=0.0)
+    steps = velocity[:-1] * dt + (2 * acceleration[:-1] + acceleration[1:]) * dt**2 / 6
+    return velocity, np.concatenate(([0.0], np.cumsum(steps)))
 
 
 VOLTS = 10.0
