@@ -114,12 +114,6 @@ def test_a_result_shows_itself_in_a_line_and_as_a_small_table(result):
     assert len(table) < 2000
 
 
-def test_a_history_says_what_happened(history):
-    assert repr(history) == (
-        f"<History: outcome rocking, max |θ|/α 0.5, impacts {history.impacts}, duration 6 s, model linear>"
-    )
-
-
 def test_an_assembly_is_drawn_joint_by_joint_and_moves_body_by_body():
     pillar = colonnade.Block.prism(width=0.4, depth=0.4, height=1.6, mass=640.0)
     beam = colonnade.Block.prism(width=2.4, depth=0.4, height=0.3, mass=720.0)

@@ -43,12 +43,6 @@ def _driven_by(one, motion):
     return replace(one, stored=replace(one.stored, datasets=datasets))
 
 
-def test_each_model_has_a_panel_of_its_spread(reported):
-    picture = record.bands(reported["span-3.0"])
-    assert len(picture.figure.axes) == 2
-    assert "of its runs overturn." in picture.description
-
-
 def test_of_many_spans_some_are_drawn_and_the_caption_says_so():
     curve = Curve(np.array([0.0, 1.0]), np.array([0.0, 0.1]))
     panels = [record.SpanPanel(f"Span {k}", {"measured": curve, "linear": curve}, curve) for k in range(40)]

@@ -3,22 +3,6 @@ import pytest
 from colonnade.campaign.forms import summary
 from colonnade.store.records import wording
 
-
-@pytest.mark.parametrize(
-    ("measured", "predicted", "verdict"),
-    [
-        ("rocking", "rocking", True),
-        ("rocking", "overturned", False),
-        ("not-overturned", "rocking", True),
-        ("not-overturned", "overturned", False),
-        ("", "rocking", None),
-        ("rocking", "", None),
-    ],
-)
-def test_outcomes_are_compared_only_where_both_are_known(measured, predicted, verdict):
-    assert wording.agree(measured, predicted) is verdict
-
-
 SHAKEN = {"status": "done", "kind": "earthquake", "specimen": "prism"}
 
 
