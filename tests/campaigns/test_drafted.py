@@ -36,7 +36,7 @@ def test_the_shake_table_recordings_of_others_run(shared_data, tmp_path):
         return {"sampling_rate": '"100 Hz"', "unit": '"m/s^2"', "on": '"table"'}[key]
 
     path = filled_in(drafted, answer)
-    assert [test.kind for test in load(path).tests.values()] == ["earthquake", "sine", "other", "sine"]
+    assert [test.kind for test in load(path).tests.values()] == ["earthquake", "sine", "other", "other"]
     result = run(path, until="rocking", workers=1)
     refused = {stage.subject: stage.reason for stage in result.stages if stage.action == "failed"}
     assert refused.keys() <= {"grashorn_testingData"}  # of which "other" was answered for both columns

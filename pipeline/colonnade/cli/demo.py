@@ -140,7 +140,7 @@ def init(folder: Path, as_json: bool) -> int:
 
     with work_progress("Reading raw files") as advance:
         drafted = draft(folder, progress=advance)
-    drawing = None if drafted.asks_first else drafted.path.with_name(DRAWING)
+    drawing = drafted.path.with_name(DRAWING)
     expect_places(drawing)
     write_text(drafted.path, drafted.text)
     saved(lambda: of_draft(drafted.text), drawing)
@@ -155,18 +155,12 @@ def init(folder: Path, as_json: bool) -> int:
     return 0
 
 
-def _tell(drafted: CampaignDraft, drawing: Path | None) -> None:
+def _tell(drafted: CampaignDraft, drawing: Path) -> None:
     say(f"campaign: {drafted.path}")
-    if drawing:
-        say(f"drawing: {drawing}")
+    say(f"drawing: {drawing}")
     say(f"{count(drafted.tests, 'test')}, {count(drafted.setups, 'set-up')}")
     for name, reason in drafted.refused:
         say(f"  not used: {name}: {reason}")
-    if drafted.asks_first:
-        say(
-            f"First question: which of these {drafted.setups} kinds of files are recordings of tests? Remove the # "
-            "from their groups."
-        )
     show_table(
         ("line", "to fill in", "", "what is asked"),
         [(str(each.line), each.key, each.value, each.asked) for each in drafted.open[:MOST_SHOWN]],

@@ -1,16 +1,15 @@
-"""What columns and tests are, by units, names and signals: keys with the reason of each guess, and what is asked."""
+"""What columns and tests are, by units and names: keys with the reason of each guess, and what is asked."""
 
 from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from pathlib import PurePosixPath
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 from colonnade import units
 from colonnade.campaign.channel import MAIN, Channel
-from colonnade.campaign.draft.survey import Column, Files
+from colonnade.campaign.draft.survey import Column
 from colonnade.campaign.draft.words import AXES, Line, asked, axis, comment, find, plain, unique
 from colonnade.campaign.setup import Marker
 from colonnade.campaign.syntax.document import toml_value
@@ -19,13 +18,6 @@ from colonnade.campaign.test import Test
 MOST_UNKNOWN = 12
 """Unknown columns are asked about one by one up to this many."""
 
-STILL = 0.05
-"""A table that moves by less than this fraction of its motion in another test is still."""
-
-SAME_FREQUENCY = 0.05
-"""A frequency in a name that is further off the recorded one than this fraction is doubted."""
-
-
 # What readers say themselves: a column that has no name, a block of a file.
 _NUMBERED = re.compile(r"^(?:column \d+$|block \d+: )")
 # A separate word: "usp000hzq8" is not a frequency.
@@ -33,90 +25,77 @@ _FREQUENCY = re.compile(r"(?<![\d.,])(\d{1,6}(?:[.,p]\d{1,6})?)[ _-]?hz(?![a-z0-
 _MARKER = re.compile(r"(.+?)[ _.:-]*([xyz])", re.IGNORECASE)
 _SPAN = re.compile(r"(?<![a-z])span[ _=-]?(\d{1,6}(?:[.,p]\d{1,6})?)(?![\d.,])")
 
-_USUAL_PLACE = {"displacement": "specimen", "acceleration": "table", "velocity": "table"}
-_BY_SIGNAL = "guessed from its signal"
+_USUAL_PLACE = {None: "?", "acceleration": "table", "velocity": "table"}
 
 
 @dataclass(frozen=True)
 class Meaning:
-    """
-    What a column measures, None where nothing shows it; what shows it, and how name and unit contradict each other.
-
-    It is physical if its unit is one of the quantity, not of a voltage.
-    """
+    """What a column measures, None where nothing shows it, and on what; what shows each, and what contradicts it."""
 
     column: Column
+    recorder: str
     quantity: str | None
     because: str
     conflict: str
-    is_physical: bool
-    place: str | None
+    place: str
     place_word: str
     axis: str | None
-    recorder: str = MAIN
-    id: str = ""
-
-    def of(self, test: Files) -> Column:
-        """Give its column in a test."""
-        return test[self.recorder].columns[self.column.number - 1]
 
     @property
     def is_of_table(self) -> bool:
         """Whether it shows how the table moves."""
-        place = self.place or ("table" if self.quantity == "acceleration" else "")
-        return place == "table" and self.quantity in ("acceleration", "displacement")
+        return self.place == "table" and self.quantity in ("acceleration", "displacement")
 
 
-def meaning(column: Column) -> Meaning | str:
-    """Find out what a column is from its unit, its name and its signal; or why it is not a channel."""
+def meaning(column: Column, recorder: str = MAIN) -> Meaning | str:
+    """Find out what a column is from its unit and its name; or why it is not a channel."""
     name, unit = _NUMBERED.sub("", column.name), column.unit or ""
     by_unit = next((each for each, dim in units.QUANTITY_DIMENSIONS.items() if dim and units.is_of(unit, dim)), None)
     by_name, word = find(name, "quantities") or (None, "")
-    place, place_word = find(name, "places") or (None, "")
     other = find(name, "left_out")
     if column.is_clock:
         return "the clock"
-    if not column.spread > 0.0:
+    if column.spread <= 0.0:
         return f"{'it never changes' if column.spread == 0.0 else 'it holds no number'} in any of these files"
-    if by_unit is None and column.counts:
-        return "a running number: it rises by one from sample to sample"
     if by_unit is None and by_name is None and other:
         return f"{other[0]}, {_from(other[1])}"
     because = f'from its unit "{unit}"' if by_unit else _from(word)
     contradict = by_unit and by_name and by_unit != by_name
     conflict = f'its unit "{unit}" says {by_unit}, its name "{word}" {by_name}' if contradict else ""
-    quantity, is_physical = by_unit or by_name, by_unit is not None
-    return Meaning(column, quantity, because, conflict, is_physical, place, _from(place_word), axis(column.name))
+    quantity = by_unit or by_name
+    place, place_word = find(name, "places") or (_USUAL_PLACE.get(quantity, "specimen"), "")
+    return Meaning(column, recorder, quantity, because, conflict, place, _from(place_word), axis(column.name))
 
 
 def _from(word: str) -> str:
     return f'from "{word}" in its name' if word else ""
 
 
-def draft_channels(recorders: Mapping[str, Sequence[Column]]) -> tuple[list[Meaning], dict[str, list[str]]]:
-    """Draft the channels of the columns of each recorder; and the headings of the others by the reason."""
-    found = [(recorder, column, meaning(column)) for recorder, columns in recorders.items() for column in columns]
-    known = any(isinstance(each, Meaning) and each.quantity is not None for *_, each in found)
+def draft_channels(recorders: Mapping[str, Sequence[Column]]) -> tuple[dict[str, Meaning], dict[str, list[str]]]:
+    """Draft the channels of the columns of each recorder, by id; and the headings of the others by the reason."""
+    found = [(column, meaning(column, recorder)) for recorder, columns in recorders.items() for column in columns]
+    known = any(isinstance(each, Meaning) and each.quantity is not None for _, each in found)
     taken: list[Meaning] = []
     left_out: defaultdict[str, list[str]] = defaultdict(list)
-    for recorder, column, each in found:
+    for column, each in found:
         if isinstance(each, str):
             left_out[each].append(column.heading)
         elif each.quantity is None and (known or len(taken) >= MOST_UNKNOWN):
             unit = f'its unit is "{column.unit}" and its name' if column.unit else "its name"
             left_out[f"{unit} does not show what it measures"].append(column.heading)
         else:
-            taken.append(replace(each, recorder=recorder))
+            taken.append(each)
     ids = unique((each.column.name for each in taken), "channel", as_variables=True)
-    return [replace(each, id=name) for name, each in zip(ids, taken, strict=True)], left_out
+    return dict(zip(ids, taken, strict=True)), left_out
 
 
-def markers_of(channels: Sequence[Meaning]) -> dict[str, list[Meaning]]:
+def markers_of(channels: Iterable[Meaning]) -> dict[str, list[Meaning]]:
     """Find markers of an optical system, by id: three displacements whose names differ in a last x, y and z alone."""
     alike: defaultdict[tuple[str, str, str | None], dict[str, Meaning]] = defaultdict(dict)
     for each in channels:
         found = _MARKER.fullmatch(each.column.name.strip())
-        if found and each.quantity == "displacement" and each.is_physical and each.place != "table":
+        is_length = units.is_of(each.column.unit or "", "length")
+        if found and each.quantity == "displacement" and is_length and each.place != "table":
             alike[each.recorder, found[1], each.column.unit][found[2].casefold()] = each
     whole = {name: [axes[axis] for axis in AXES] for (_, name, _), axes in alike.items() if len(axes) == len(AXES)}
     return dict(zip(unique(whole, "marker", as_variables=True), whole.values(), strict=True))
@@ -147,13 +126,13 @@ def channel_lines(each: Meaning, others: Sequence[Column]) -> Iterator[Line | st
     yield from _recorder_and_unit(each)
     if quantity == "force":
         return
-    place = each.place or (_USUAL_PLACE.get(quantity, "specimen") if quantity else "?")
-    yield Line("on", toml_value(place), each.place_word, "" if each.place else asked(Channel, "on", "").question)
-    follows = quantity == "displacement" and place == "specimen"
+    question = "" if each.place_word else asked(Channel, "on", "").question
+    yield Line("on", toml_value(each.place), each.place_word, question)
+    follows = quantity == "displacement" and each.place == "specimen"
     if follows:
         yield asked(Channel, "at", '["? mm", "0 mm", "? mm"]')
         yield asked(Channel, "relative_to", '"?"')
-    if quantity == "acceleration" and place == "specimen":
+    if quantity == "acceleration" and each.place == "specimen":
         where = "where it is fixed; two or more along x at different heights improve the angle"
         yield comment(f'at = ["43 mm", "0 mm", "440 mm"]      {where}')
     direction = AXES[each.axis or ("y" if quantity in ("angle", "angular_velocity") else "x")]
@@ -181,54 +160,27 @@ def _recorder_and_unit(each: Meaning) -> Iterator[Line]:
         yield Line("unit", '"?"', question=f'the file says "{unit}", which is not a known unit')
     else:
         yield Line("unit", toml_value(unit), "as in the file")
-        if dimension is not None and not each.is_physical:
+        if dimension is not None and not units.is_of(unit, dimension):
             below = f"({found.symbol})" if {"/", " "} & set(found.symbol) else found.symbol
             yield Line("gain", toml_value(f"? {usual}/{below}"), question="from its calibration sheet")
 
 
-def kind_lines(test: Files, channels: Sequence[Meaning], others: Collection[Files]) -> Iterator[Line | str]:
-    """Guess the kind of a test, and its frequency, motion or span; `others` are all tests of its setup."""
-    name = PurePosixPath(test[MAIN].stem).name
-    # Impacts disturb the displacement less than the acceleration.
-    table = sorted((each for each in channels if each.is_of_table), key=lambda each: each.quantity != "displacement")
-    recorded = next((sine for each in table if (sine := each.of(test).sine) is not None), None)
-    still = bool(table) and all(
-        each.of(test).spread < STILL * max(each.of(other).spread for other in others) for each in table
-    )
-    angles = [each for each in channels if each.quantity in ("displacement", "angle") and each not in table]
-    named = _number(_FREQUENCY, name)
-    kind, word = find(name, "kinds") or (("sine", f"{named:g} Hz") if named else ("", ""))
-    reason, doubt = _from(word), ""
-    if not kind and recorded is not None:
-        kind, reason, doubt = "sine", "the table moves as a steady sine", _BY_SIGNAL
-    elif not kind and still and any(each.of(test).dies_away for each in angles):
-        kind, reason = "free-vibration", "the table does not move and the specimen comes to rest"
-        doubt = _BY_SIGNAL
-    elif not kind:
-        what_was_done = asked(Test, "kind", "").question
-        kind, doubt = "other", f'neither name nor signal shows {what_was_done}; "other" has no prediction'
-    elif recorded is not None and kind in ("free-vibration", "earthquake", "noise"):
-        doubt = f"the table moves as a steady sine of {recorded:.3g} Hz"
-    elif still and kind in ("earthquake", "noise", "sine", "pulse"):
-        doubt = "the table hardly moves in this test"
-    yield Line("kind", toml_value(kind), reason, doubt)
-    if kind in ("sine", "pulse"):
-        recorded = recorded if kind == "sine" else None
-        if named is not None:
-            differs = recorded is not None and abs(recorded - named) > SAME_FREQUENCY * named
-            doubt = f"the table moves at {recorded:.3g} Hz" if differs else ""
-            yield Line("frequency", toml_value(f"{named:g} Hz"), "from its name", doubt)
-        elif recorded is not None:
-            guessed = toml_value(f"{recorded:.3g} Hz")
-            yield Line("frequency", guessed, "of the table's motion", _BY_SIGNAL)
-        else:
-            yield comment('frequency = "3 Hz"      if it is known')
+def kind_lines(name: str) -> Iterator[Line | str]:
+    """Guess the kind of a test, and its frequency, motion or span, from the name of its file."""
+    frequency, span = _number(_FREQUENCY, name), _number(_SPAN, name)
+    kind, word = find(name, "kinds") or (("sine", f"{frequency:g} Hz") if frequency else ("other", ""))
+    doubt = f'its name does not show {asked(Test, "kind", "").question}; "other" has no prediction'
+    yield Line("kind", toml_value(kind), _from(word), "" if word else doubt)
+    if kind in ("sine", "pulse") and frequency:
+        yield Line("frequency", toml_value(f"{frequency:g} Hz"), "from its name")
+    elif kind in ("sine", "pulse"):
+        yield comment('frequency = "3 Hz"      if it is known')
     elif kind == "earthquake":
         if motion := find(name, "motions"):
             yield Line("motion", toml_value(motion[0]), "from its name", "with component and year")
         else:
             yield comment('motion = "El Centro 1940 NS"      the motion that the table was given')
-        if span := _number(_SPAN, name):
+        if span:
             yield Line("span", toml_value(span), "from its name")
 
 

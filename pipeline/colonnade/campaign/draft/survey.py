@@ -1,4 +1,4 @@
-"""The content of a folder of raw files: columns, what their signals look like, and which files belong to one test."""
+"""The content of a folder of raw files: columns, and which files belong to one test."""
 
 from __future__ import annotations
 
@@ -9,19 +9,16 @@ from datetime import date
 from pathlib import Path, PurePosixPath
 
 import numpy as np
-import scipy
 
-from colonnade.arrays import Array
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.draft.words import as_id, unique
-from colonnade.campaign.syntax.document import natural, toml_value
+from colonnade.campaign.syntax.document import natural
 from colonnade.campaign.syntax.names import inside
 from colonnade.errors import ColonnadeError
 from colonnade.readers.clock import may_be_clock
 from colonnade.readers.files import irregular
-from colonnade.readers.recording import RecordedChannel, Recording
+from colonnade.readers.recording import RecordedChannel
 from colonnade.readers.registry import MOST_GENERAL, read
-from colonnade.signals.timing import sampling_interval
 
 OWN_FOLDERS = ("processed", "report")
 """Folders that colonnade itself writes next to a campaign file."""
@@ -33,29 +30,14 @@ NO_RECORDINGS = (
 )
 """Endings of files that are kept with recordings but are not recordings."""
 
-LOG_HEADS = {"id", "kind", "specimen"}
-"""Column heads by which a table is a log of tests."""
-
-LONGEST = 1 << 20
-"""Samples of a signal that are examined; enough to see the shape of any test."""
-
-SINE_SHARE = 0.6
-"""A signal with this share of its power at one frequency is a steady sine."""
-
-FEWEST_CYCLES = 4
-"""Of a sine that is distinguished from a pulse."""
-
-QUIET_END = 0.1
-"""A signal whose last sixth varies by less than this fraction of the first half has died away."""
-
 
 @dataclass(frozen=True)
 class Column:
     """
-    One column of a raw file, by its number from 1, and what its signal looks like.
+    One column of a raw file, by its number from 1.
 
-    `spread` is its standard deviation in the file's unit, NaN without a number; `counts`: it rises by one from sample
-    to sample; `sine`: Hz of a steady one; `hint`: it may be the clock of a file in which none was found.
+    `spread` is the largest value less the smallest, −1 without a number; `hint`: it may be the clock of a file in
+    which none was found.
     """
 
     number: int
@@ -65,32 +47,22 @@ class Column:
     is_clock: bool
     has_clock: bool
     spread: float
-    counts: bool = False
-    sine: float | None = None
-    dies_away: bool = False
     hint: str = ""
 
 
 @dataclass(frozen=True)
 class RawFile:
-    """A raw file: its path from the folder, with /; Hz and s if it has a clock; the day of its first sample if told."""
+    """A raw file: its path from the folder, with /; and the day of its first sample, if it tells it."""
 
     relative: str
     format: str
     columns: tuple[Column, ...]
-    rate: float | None
-    duration: float | None
-    warnings: tuple[str, ...]
     day: date | None = None
 
     @property
-    def layout(self) -> tuple[object, ...]:
-        """What files of one recorder have in common: format and headings; without headings their rate and ending."""
-        headings = tuple(column.heading for column in self.columns)
-        if any(column.heading != f"column {column.number}" for column in self.columns):
-            return self.format, *headings
-        rate = None if self.rate is None else f"{self.rate:.3g}"
-        return self.format, *headings, rate, Path(self.relative).suffix.casefold()
+    def layout(self) -> tuple[str, ...]:
+        """What files of one recorder have in common: format and headings."""
+        return self.format, *(column.heading for column in self.columns)
 
     @property
     def names(self) -> frozenset[str]:
@@ -117,11 +89,11 @@ def survey(
             path = inside(folder, relative)
             if kind := irregular(path):
                 refused.append((relative, f"it is {kind}, not a file"))
-            elif _is_log(path):
-                key = f"tests = {toml_value(relative)} above [specimens]"
-                refused.append((relative, f"it looks like a test log; use it with {key} instead of [[tests]]"))
             else:
-                found.append(_seen(relative, read(path, within=folder)))
+                recording = read(path, within=folder)
+                columns = tuple(look_at(number, channel) for number, channel in enumerate(recording.channels, start=1))
+                day = recording.start and recording.start.date()
+                found.append(RawFile(relative, recording.format, columns, day))
         except UnicodeEncodeError:
             refused.append((ascii(relative)[1:-1], "its name is not UTF-8; rename it"))
         except (ColonnadeError, ValueError, OSError) as error:
@@ -140,15 +112,6 @@ def _candidates(folder: Path) -> Iterator[Path]:
             yield path
 
 
-def _is_log(path: Path) -> bool:
-    """Whether the first row of a text table has the heads of a test log."""
-    if path.suffix.lower() not in (".csv", ".txt"):
-        return False
-    with path.open("rb") as stream:
-        head = stream.readline(4096).decode("utf-8-sig", errors="replace")
-    return {cell.strip(' "\r\n').casefold() for cell in re.split(r"[;,\t]", head)} >= LOG_HEADS
-
-
 def _first_reason(refusal: str, name: str) -> str:
     """Keep the part of a refusal that shows that a file is not a recording, or names the extra that reads it."""
     lines = [line.strip() for line in refusal.removeprefix(f"{name}: ").splitlines() if line.strip()]
@@ -157,53 +120,13 @@ def _first_reason(refusal: str, name: str) -> str:
     return extra or (f"{lines[0].rstrip('.')} ({general})" if general else lines[0])
 
 
-def _seen(relative: str, recording: Recording) -> RawFile:
-    clock = next((channel.time for channel in recording.channels if channel.time is not None), np.empty(0))
-    interval = sampling_interval(clock)
-    rate, duration = (1 / interval, float(np.nanmax(clock) - np.nanmin(clock))) if interval > 0 else (None, None)
-    columns = tuple(look_at(number, channel) for number, channel in enumerate(recording.channels, start=1))
-    day = recording.start and recording.start.date()
-    return RawFile(relative, recording.format, columns, rate, duration, recording.warnings, day)
-
-
 def look_at(number: int, channel: RecordedChannel) -> Column:
-    """Look at a column and its signal; without its times no frequency is found."""
-    time = np.zeros(channel.values.size) if channel.time is None else channel.time
-    known = np.isfinite(channel.values) & np.isfinite(time)
-    signal, time = channel.values[known][:LONGEST], time[known][:LONGEST]
-    of_file = (number, channel.name, channel.heading, channel.unit, channel.is_clock, channel.time is not None)
-    hint = may_be_clock(channel.heading, channel.values) if channel.time is None else ""
-    if signal.size < 2 or not np.ptp(signal) > 0:
-        return Column(*of_file, 0.0 if signal.size else np.nan, hint=hint)
-    counts = bool(np.all(np.diff(signal) == 1.0))
-    interval, half, sixth = float(np.median(np.diff(time))), signal.size // 2, signal.size // 6
-    with np.errstate(over="ignore", invalid="ignore"):
-        dies_away = sixth > 8 and float(signal[-sixth:].std()) < QUIET_END * float(signal[:half].std())
-        sine = steady_sine(signal, interval) if interval > 0 and not counts else None
-        return Column(*of_file, float(signal.std()), counts, sine, dies_away, hint)
-
-
-def steady_sine(signal: Array, interval: float) -> float | None:
-    """
-    Frequency of a signal that is a steady sine while it moves, Hz; None if it is not.
-
-    Examples
-    --------
-    >>> round(steady_sine(np.sin(2 * np.pi * 3.0 * np.arange(0, 10, 0.005)), 0.005), 2)
-    3.0
-    """
-    distance = np.abs(signal - np.median(signal))
-    moving = np.flatnonzero(distance > 0.3 * distance.max())
-    part = signal[moving[0] : moving[-1] + 1]
-    if part.size < 32:
-        return None
-    power = scipy.signal.periodogram(part, window="hann", scaling="spectrum")[1]
-    peak = int(power.argmax())
-    if not FEWEST_CYCLES <= peak < power.size - 2 or not power[peak - 3 : peak + 4].sum() >= SINE_SHARE * power.sum():
-        return None
-    left, middle, right = np.log(np.maximum(power[peak - 1 : peak + 2], 1e-300))
-    shift = 0.5 * (left - right) / (left - 2 * middle + right)
-    return float((peak + shift) / (part.size * interval))
+    """Look at a column: what it is called, and whether it moves."""
+    known, has_clock = channel.values[np.isfinite(channel.values)], channel.time is not None
+    with np.errstate(over="ignore"):
+        spread = float(np.ptp(known)) if known.size else -1.0
+    hint = "" if has_clock else may_be_clock(channel.heading, channel.values)
+    return Column(number, channel.name, channel.heading, channel.unit, channel.is_clock, has_clock, spread, hint)
 
 
 Files = dict[str, RawFile]

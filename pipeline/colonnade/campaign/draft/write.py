@@ -6,16 +6,17 @@ import os
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from operator import attrgetter
 from pathlib import Path, PurePosixPath
 
 from colonnade.campaign.campaign import SCHEMA
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.draft.guess import channel_lines, draft_channels, kind_lines, marker_lines, markers_of
-from colonnade.campaign.draft.survey import Column, Files, arrange, survey
-from colonnade.campaign.draft.words import Line, as_id, asked, comment, find, unique
+from colonnade.campaign.draft.survey import Files, arrange, survey
+from colonnade.campaign.draft.words import Line, as_id, asked, comment, unique
 from colonnade.campaign.loading import FILE_NAME
 from colonnade.campaign.setup import Tracking
-from colonnade.campaign.specimen import OUTER_DIMENSIONS, SIZED, Specimen
+from colonnade.campaign.specimen import Prism, Specimen
 from colonnade.campaign.syntax.document import toml_key, toml_value
 from colonnade.errors import CampaignError, count, quoted
 from colonnade.readers.files import irregular
@@ -26,9 +27,6 @@ RAW_FOLDERS = ("raw", "data", "rohdaten", "dati", "daten")
 
 MOST_TOLD = 5
 
-MOST_SETUPS = 5
-"""Largest usual number of ways of recording in one campaign; with more, most files are something else."""
-
 _FIRST_LINES = (
     comment("Drafted by `colonnade init` from the raw files. The text after each # says why a value was chosen."),
     comment('Fill in each "?" in a value before the first run; check each guess that is marked "# ?".'),
@@ -38,17 +36,20 @@ _FIRST_LINES = (
     ),
     comment("and delay; `colonnade schema campaign` lists all keys."),
 )
-_GROUPED = (
-    comment("Which are recordings of tests? Remove the # from each line of their groups, delete the other groups."),
-    comment('Ground motions as published belong under [motions]: "its name" = "its file".'),
-)
-
 _STACK = comment(
     'bodies on each other are an assembly: [assemblies.column] stack = ["specimen", "specimen"], with bodies "1", "2"'
 )
 _TRACKING = (asked(Tracking, "axes", "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"), asked(Tracking, "relative_to", '"?"'))
 
 Lines = list[Line | str]
+
+_SPECIMEN: Lines = [
+    "",
+    "[specimens.specimen]",
+    asked(Specimen, "shape", '"prism"'),
+    *(asked(Prism, size, '"? mm"') for size in ("width", "depth", "height")),
+    asked(Prism, "mass", '"? kg"'),
+]
 
 
 @dataclass(frozen=True)
@@ -77,8 +78,6 @@ class CampaignDraft:
         What has to be filled in, and guesses to check.
     refused : tuple of (str, str)
         Files that are not used, with the reason.
-    asks_first : bool
-        Whether it asks of each kind of files whether they are recordings of tests, before anything else about them.
     """
 
     path: Path
@@ -88,7 +87,6 @@ class CampaignDraft:
     open: tuple[Question, ...]
     doubts: tuple[Question, ...]
     refused: tuple[tuple[str, str], ...]
-    asks_first: bool = False
 
 
 def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> CampaignDraft:
@@ -109,17 +107,21 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     """
     folder = _expected(folder)
     files, refused = survey(folder, progress)
-    if not files:
-        raise CampaignError("\n".join([f"{folder}: no readable recording found.", *_told(refused)]))
     arranged, copies = arrange(files)
     refused += copies
     setups = [DraftSetup(tests) for tests in arranged]
-    refused += [unused for each in setups if not each.channels for unused in each.without_channels()]
+    refused += [
+        (file.relative, f"none of its columns measures anything: {'; '.join(each.left_out)}")
+        for each in setups
+        if not each.channels
+        for test in each.tests
+        for file in test.values()
+    ]
     setups = [each for each in setups if each.channels]
     for number, each in enumerate(setups, start=1):
         each.name = "setup" if len(setups) == 1 else f"setup-{number}"
     if not setups:
-        raise CampaignError("\n".join([f"{folder}: no file has a column that measures anything.", *_told(refused)]))
+        raise CampaignError("\n".join([f"{folder}: no readable recording found.", *_told(refused)]))
     home = folder.parent if folder.name.casefold() in RAW_FOLDERS else folder
     lines, asked = _asked(written(as_id(home.name, "campaign"), setups, refused))
     return CampaignDraft(
@@ -130,7 +132,6 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
         tuple(each for each in asked if "?" in each.value),
         tuple(each for each in asked if "?" not in each.value),
         tuple(refused),
-        asks_first=len(setups) > MOST_SETUPS,
     )
 
 
@@ -178,45 +179,27 @@ def _asked(lines: Lines) -> tuple[list[str], list[Question]]:
 
 def written(name: str, setups: Sequence[DraftSetup], refused: Sequence[tuple[str, str]]) -> Lines:
     """Write out what was found, and the files that are left out with the reason."""
-    tests = [test for each in setups for test in each.tests]
-    stems = [PurePosixPath(test[MAIN].stem) for test in tests]
+    stems = [PurePosixPath(test[MAIN].stem) for each in setups for test in each.tests]
     often = Counter(stem.name for stem in stems)
-    names = [stem.name if often[stem.name] == 1 else "-".join(stem.parts[-2:]) for stem in stems]
-    shapes = [found[0] if (found := find(test[MAIN].stem, "shapes")) else "" for test in tests]
-    entries = iter(zip(unique(names, "test"), shapes, strict=True))
+    ids = iter(unique((stem.name if often[stem.name] == 1 else "-".join(stem.parts[-2:]) for stem in stems), "test"))
     lines: Lines = [
         *_FIRST_LINES,
         Line("schema", str(SCHEMA)),
         Line("campaign", toml_value(name), "from the name of the folder"),
         Line("title", toml_value(f"Campaign {name}"), "title of the report; write a better one"),
         comment('facility = "…"         the laboratory and its table'),
-        *(line for shape in dict.fromkeys(shapes) for line in _specimen(shape)),
+        *_SPECIMEN,
     ]
     lines += [_STACK] if any(each.markers for each in setups) else []
-    if len(setups) > MOST_SETUPS:
-        files = sum(len(test) for test in tests)
-        lines += ["", comment(f"{files} files of {len(setups)} kinds were found."), *_GROUPED]
-    for number, each in enumerate(setups, start=1):
+    for each in setups:
         some = listed([test[MAIN].relative for test in each.tests], 3)
-        own = each.lines() + [line for test in each.tests for line in each.test(test, *next(entries))]
-        if len(setups) > MOST_SETUPS:
-            lines += ["", comment(f"==== Group {number} of {len(setups)}: {some}")]
-            lines += [f"# {line}".rstrip() for line in own]
-        else:
-            how_many = count(len(each.tests), "test", "tests, all recorded in the same way")
-            lines += ["", comment(f"The set-up of {how_many}: {some}"), *own]
+        how_many = count(len(each.tests), "test", "tests, all recorded in the same way")
+        lines += ["", comment(f"The set-up of {how_many}: {some}"), *each.lines()]
+        for test in each.tests:
+            lines += each.test(test, next(ids))
     if refused:
         lines += ["", comment("Files that are not used:"), *(comment(f"{file}: {why}") for file, why in refused)]
     return lines
-
-
-def _specimen(shape: str) -> Lines:
-    first = asked(Specimen, "shape", '"prism"')
-    if shape:
-        first = Line("shape", toml_value(shape), "from the names of files")
-    keys = SIZED[shape or "prism"]
-    sizes = [asked(keys, size, '"? mm"') for size in OUTER_DIMENSIONS if size in keys.model_fields]
-    return ["", f"[specimens.{shape or 'specimen'}]", first, *sizes, asked(keys, "mass", '"? kg"')]
 
 
 class DraftSetup:
@@ -224,30 +207,22 @@ class DraftSetup:
 
     def __init__(self, tests: list[Files]) -> None:
         self.name, self.tests = "setup", tests
-        self.columns = {name: self._moving(name) for name in tests[0]}
+        columns = {recorder: [test[recorder].columns for test in tests] for recorder in tests[0]}
+        # Each column is as it is in the file where it moves most.
+        self.columns = {
+            recorder: [max(alike, key=attrgetter("spread")) for alike in zip(*each, strict=True)]
+            for recorder, each in columns.items()
+        }
         self.channels, self.left_out = draft_channels(self.columns)
-        self.markers = markers_of(self.channels)
-
-    def _moving(self, recorder: str) -> tuple[Column, ...]:
-        """Columns of a recorder, each as it is in the file where it moves most."""
-        return tuple(
-            max(alike, key=lambda column: column.spread if column.spread > 0 else -1.0)
-            for alike in zip(*(test[recorder].columns for test in self.tests), strict=True)
-        )
-
-    def without_channels(self) -> list[tuple[str, str]]:
-        """Give its files with the reason why none of their columns is a channel."""
-        reasons = [f'"{heading}": {reason}' for reason, headings in self.left_out.items() for heading in headings]
-        reason = f"none of its columns measures anything ({'; '.join(reasons[:MOST_TOLD])})"
-        return [(file.relative, reason) for test in self.tests for file in test.values()]
+        self.markers = markers_of(self.channels.values())
 
     def lines(self) -> Lines:
         """Give its recorders, its channels, and what is left out."""
         place = f"setups.{toml_key(self.name)}"
         lines: Lines = [f"[{place}]", *self._recorder(MAIN)]
         lines.append(comment('catch = "0.3 rad"      the rotation at which a safety frame catches the specimen'))
-        of_table = [each for each in self.channels if each.is_of_table and each.axis in (None, "x")]
-        table = {each.recorder: each.id for each in reversed(of_table)}
+        of_table = {name: each for name, each in self.channels.items() if each.is_of_table and each.axis in (None, "x")}
+        table = {each.recorder: name for name, each in reversed(of_table.items())}
         for recorder in list(self.tests[0])[1:]:
             lines += ["", f"[{place}.recorders.{toml_key(recorder)}]", *self._recorder(recorder)]
             if {MAIN, recorder} <= table.keys():
@@ -257,10 +232,10 @@ class DraftSetup:
             else:
                 either = 'or {align = ["a channel of main", "a channel of this one that measures the same"]}'
                 lines.append(Line("clock", '"trigger"', "", either))
-        tracked = {each.id for marker in self.markers.values() for each in marker}
-        for channel in self.channels:
-            if channel.id not in tracked:
-                lines += ["", f"[{place}.channels.{toml_key(channel.id)}]"]
+        tracked = [each for marker in self.markers.values() for each in marker]
+        for name, channel in self.channels.items():
+            if channel not in tracked:
+                lines += ["", f"[{place}.channels.{toml_key(name)}]"]
                 lines += channel_lines(channel, self.columns[channel.recorder])
         if self.markers:
             lines += ["", f"[{place}.tracking]", *_TRACKING]
@@ -282,18 +257,17 @@ class DraftSetup:
             lines.append(Line("sampling_rate", '"? Hz"', question=asked))
         return lines
 
-    def test(self, test: Files, name: str, shape: str) -> Lines:
+    def test(self, test: Files, name: str) -> Lines:
         """Give the entry of a test."""
-        file, paths = test[MAIN], {recorder: file.relative for recorder, file in test.items()}
-        rate = f"{file.rate:.6g} Hz, {file.duration:.4g} s" if file.rate and file.duration else ""
+        paths = {recorder: file.relative for recorder, file in test.items()}
         lines: Lines = [
             *("", "[[tests]]"),
             Line("id", toml_value(name)),
-            *kind_lines(test, self.channels, self.tests),
-            Line("specimen", toml_value(shape or "specimen")),
+            *kind_lines(PurePosixPath(test[MAIN].stem).name),
+            Line("specimen", toml_value("specimen")),
             Line("setup", toml_value(self.name)),
-            Line("file", toml_value(paths[MAIN] if len(paths) == 1 else paths), rate),
+            Line("file", toml_value(paths if len(paths) > 1 else paths[MAIN])),
         ]
-        if file.day:
-            lines.append(Line("date", file.day.isoformat(), "from the file's own time"))
-        return [*lines, *(comment(f"the file: {warning}") for warning in file.warnings[:3])]
+        if day := test[MAIN].day:
+            lines.append(Line("date", day.isoformat(), "from the file's own time"))
+        return lines
