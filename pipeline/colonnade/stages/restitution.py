@@ -150,8 +150,8 @@ def _warnings(result: Restitution) -> list[Finding]:
     doubts = [
         ("no restitution", f"No restitution from this test: {result.reason}" if result.reason else ""),
         *((kind, text) for kind, text in result.doubts),
-        # One that refuses the value is the reason already.
-        *((found.name, found.sentence) for found in result.departures if found.sentence not in result.reason),
+        # Without a value its reason says all.
+        *((found.name, found.sentence) for found in result.departures if not result.reason),
     ]
     return [warning(kind, text, follows=MEASUREMENT) for kind, text in doubts if text]
 
