@@ -81,7 +81,7 @@ def test_a_raw_file_and_a_reference_motion_that_are_pipes_fail_their_test_alone(
 def test_a_pipe_in_the_folder_of_a_draft_is_told(tmp_path):
     os.mkfifo(tmp_path / "a.csv")
     (tmp_path / "b.csv").write_text(RECORD)
-    assert ("a.csv", "it is a named pipe, not a file") in draft(tmp_path).refused
+    assert ("a.csv", "this is a named pipe; a raw file was expected.") in draft(tmp_path).refused
     with pytest.raises(CampaignError, match="this is a named pipe"):
         draft(tmp_path / "a.csv")
 

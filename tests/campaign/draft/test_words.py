@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.campaign.draft.words import Line, axis, comment, find, unique
-from colonnade.campaign.syntax.document import toml_key, toml_value
+from colonnade.campaign.draft.words import axis, comment, find, line, unique
+from colonnade.campaign.syntax.document import toml_key
 from colonnade.campaign.syntax.names import clashes, identifier
 from every import every
 
@@ -87,5 +87,5 @@ TEXT = st.text(st.characters(exclude_categories=("Cs",)))
 
 @given(name=TEXT.filter(bool), content=TEXT, said=TEXT)
 def test_every_line_reads_back(name, content, said):
-    text = f"{comment(said)}\n{Line(toml_key(name), toml_value({name: content}), said, said)}\n"
+    text = f"{comment(said)}\n{line(toml_key(name), {name: content}, said, said)}\n"
     assert tomllib.loads(text) == {name: {name: content}}

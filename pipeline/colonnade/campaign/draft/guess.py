@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from colonnade import units
 from colonnade.campaign.channel import MAIN, Channel
 from colonnade.campaign.draft.survey import Column
-from colonnade.campaign.draft.words import AXES, Line, asked, axis, comment, find, plain, unique
+from colonnade.campaign.draft.words import AXES, asked, axis, comment, find, line, plain, unique
 from colonnade.campaign.setup import Marker
-from colonnade.campaign.syntax.document import toml_value
+from colonnade.campaign.syntax.table import purpose
 from colonnade.campaign.test import Test
 
 MOST_UNKNOWN = 12
@@ -101,12 +101,12 @@ def markers_of(channels: Iterable[Meaning]) -> dict[str, list[Meaning]]:
     return dict(zip(unique(whole, "marker", as_variables=True), whole.values(), strict=True))
 
 
-def marker_lines(marker: Sequence[Meaning], others: Sequence[Column]) -> Iterator[Line]:
+def marker_lines(marker: Sequence[Meaning], others: Sequence[Column]) -> Iterator[str]:
     """Give the lines of a marker's keys; `others` are the columns of its recorder."""
-    yield Line("columns", toml_value([_named(each.column, others) for each in marker]))
+    yield line("columns", [_named(each.column, others) for each in marker])
     yield from _recorder_and_unit(marker[0])
-    yield asked(Marker, "on", '"?"')
-    yield asked(Marker, "at", '["? mm", "? mm", "? mm"]')
+    yield asked(Marker, "on", "?")
+    yield asked(Marker, "at", ["? mm", "? mm", "? mm"])
 
 
 def _named(column: Column, others: Sequence[Column]) -> str | int:
@@ -115,73 +115,71 @@ def _named(column: Column, others: Sequence[Column]) -> str | int:
     return column.name if alone else column.number
 
 
-def channel_lines(each: Meaning, others: Sequence[Column]) -> Iterator[Line | str]:
+def channel_lines(each: Meaning, others: Sequence[Column]) -> Iterator[str]:
     """Give the lines of a channel's keys; `others` are the columns of its recorder."""
     quantity, name = each.quantity, each.column.name
-    yield Line("column", toml_value(_named(each.column, others)))
+    yield line("column", _named(each.column, others))
     if quantity is None:
-        yield asked(Channel, "quantity", '"?"')
+        yield asked(Channel, "quantity", "?")
     else:
-        yield Line("quantity", toml_value(quantity), each.because, each.conflict)
+        yield line("quantity", quantity, each.because, each.conflict)
     yield from _recorder_and_unit(each)
     if quantity == "force":
         return
-    question = "" if each.place_word else asked(Channel, "on", "").question
-    yield Line("on", toml_value(each.place), each.place_word, question)
+    yield line("on", each.place, each.place_word) if each.place_word else asked(Channel, "on", each.place)
     follows = quantity == "displacement" and each.place == "specimen"
     if follows:
-        yield asked(Channel, "at", '["? mm", "0 mm", "? mm"]')
-        yield asked(Channel, "relative_to", '"?"')
+        yield asked(Channel, "at", ["? mm", "0 mm", "? mm"])
+        yield asked(Channel, "relative_to", "?")
     if quantity == "acceleration" and each.place == "specimen":
         where = "where it is fixed; two or more along x at different heights improve the angle"
         yield comment(f'at = ["43 mm", "0 mm", "440 mm"]      {where}')
     direction = AXES[each.axis or ("y" if quantity in ("angle", "angular_velocity") else "x")]
-    reverse = toml_value([-part or 0 for part in direction])
-    reason = "from its name" if each.axis else ""
-    yield Line("direction", toml_value(direction), reason, f"of a positive reading; {reverse} if it is reversed")
+    question = f"of a positive reading; {[-part or 0 for part in direction]} if it is reversed"
+    yield line("direction", direction, "from its name" if each.axis else "", question)
     sensing, word = (find(name, "sensing") if follows else None) or ("point", "")
     if sensing != "point":
-        yield Line("sensing", toml_value(sensing), _from(word))
+        yield line("sensing", sensing, _from(word))
     if sensing == "surface":
-        yield asked(Channel, "normal", '"?"')
+        yield asked(Channel, "normal", "?")
     elif sensing == "wire":
-        yield asked(Channel, "anchor", '["? mm", "0 mm", "? mm"]')
+        yield asked(Channel, "anchor", ["? mm", "0 mm", "? mm"])
 
 
-def _recorder_and_unit(each: Meaning) -> Iterator[Line]:
+def _recorder_and_unit(each: Meaning) -> Iterator[str]:
     if each.recorder != MAIN:
-        yield Line("recorder", toml_value(each.recorder))
+        yield line("recorder", each.recorder)
     unit, dimension = each.column.unit, units.QUANTITY_DIMENSIONS[each.quantity or "other"]
     usual = units.DIMENSIONS[dimension or "length"][1]
     if not unit:
-        asked = f'write one such as "{usual}", or "V" with a line gain = "10 {usual}/V" below it'
-        yield Line("unit", '"?"', question=f"the file gives no unit: {asked}")
+        wanted = f'write one such as "{usual}", or "V" with a line gain = "10 {usual}/V" below it'
+        yield line("unit", "?", question=f"the file gives no unit: {wanted}")
     elif (found := units.find_unit(unit)) is None:
-        yield Line("unit", '"?"', question=f'the file says "{unit}", which is not a known unit')
+        yield line("unit", "?", question=f'the file says "{unit}", which is not a known unit')
     else:
-        yield Line("unit", toml_value(unit), "as in the file")
+        yield line("unit", unit, "as in the file")
         if dimension is not None and not units.is_of(unit, dimension):
             below = f"({found.symbol})" if {"/", " "} & set(found.symbol) else found.symbol
-            yield Line("gain", toml_value(f"? {usual}/{below}"), question="from its calibration sheet")
+            yield line("gain", f"? {usual}/{below}", question="from its calibration sheet")
 
 
-def kind_lines(name: str) -> Iterator[Line | str]:
+def kind_lines(name: str) -> Iterator[str]:
     """Guess the kind of a test, and its frequency, motion or span, from the name of its file."""
     frequency, span = _number(_FREQUENCY, name), _number(_SPAN, name)
     kind, word = find(name, "kinds") or (("sine", f"{frequency:g} Hz") if frequency else ("other", ""))
-    doubt = f'its name does not show {asked(Test, "kind", "").question}; "other" has no prediction'
-    yield Line("kind", toml_value(kind), _from(word), "" if word else doubt)
+    doubt = f'its name does not show {purpose(Test, "kind").rstrip(".")}; "other" has no prediction'
+    yield line("kind", kind, _from(word), "" if word else doubt)
     if kind in ("sine", "pulse") and frequency:
-        yield Line("frequency", toml_value(f"{frequency:g} Hz"), "from its name")
+        yield line("frequency", f"{frequency:g} Hz", "from its name")
     elif kind in ("sine", "pulse"):
         yield comment('frequency = "3 Hz"      if it is known')
     elif kind == "earthquake":
         if motion := find(name, "motions"):
-            yield Line("motion", toml_value(motion[0]), "from its name", "with component and year")
+            yield line("motion", motion[0], "from its name", "with component and year")
         else:
             yield comment('motion = "El Centro 1940 NS"      the motion that the table was given')
         if span:
-            yield Line("span", toml_value(span), "from its name")
+            yield line("span", span, "from its name")
 
 
 def _number(pattern: re.Pattern[str], name: str) -> float | None:

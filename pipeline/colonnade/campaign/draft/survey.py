@@ -16,7 +16,6 @@ from colonnade.campaign.syntax.document import natural
 from colonnade.campaign.syntax.names import inside
 from colonnade.errors import ColonnadeError
 from colonnade.readers.clock import may_be_clock
-from colonnade.readers.files import irregular
 from colonnade.readers.recording import RecordedChannel
 from colonnade.readers.registry import MOST_GENERAL, read
 
@@ -87,13 +86,10 @@ def survey(
         try:
             relative.encode()
             path = inside(folder, relative)
-            if kind := irregular(path):
-                refused.append((relative, f"it is {kind}, not a file"))
-            else:
-                recording = read(path, within=folder)
-                columns = tuple(look_at(number, channel) for number, channel in enumerate(recording.channels, start=1))
-                day = recording.start and recording.start.date()
-                found.append(RawFile(relative, recording.format, columns, day))
+            recording = read(path, within=folder)
+            columns = tuple(look_at(number, channel) for number, channel in enumerate(recording.channels, start=1))
+            day = recording.start and recording.start.date()
+            found.append(RawFile(relative, recording.format, columns, day))
         except UnicodeEncodeError:
             refused.append((ascii(relative)[1:-1], "its name is not UTF-8; rename it"))
         except (ColonnadeError, ValueError, OSError) as error:
@@ -107,8 +103,12 @@ def _candidates(folder: Path) -> Iterator[Path]:
     for path in folder.rglob("*"):
         parts = path.relative_to(folder).parts
         hidden = any(part.startswith((".", "~")) for part in parts)
-        is_one = path.is_file() or (bool(irregular(path)) and not path.is_dir())
-        if is_one and not hidden and parts[0] not in OWN_FOLDERS and path.suffix.lower() not in NO_RECORDINGS:
+        if (
+            not path.is_dir()
+            and not hidden
+            and parts[0] not in OWN_FOLDERS
+            and path.suffix.lower() not in NO_RECORDINGS
+        ):
             yield path
 
 

@@ -6,9 +6,9 @@ import re
 import tomllib
 import unicodedata
 from collections.abc import Iterable
-from dataclasses import dataclass
 from pathlib import Path
 
+from colonnade.campaign.syntax.document import toml_value
 from colonnade.campaign.syntax.fields import one_line
 from colonnade.campaign.syntax.names import folded, identifier
 from colonnade.campaign.syntax.table import Table, purpose
@@ -23,26 +23,15 @@ _GREEK = dict(zip("αβγδεζηθικλμνξοπρσςτυφχψω", _LATIN.s
 _SHORT_ENDINGS = ("weg", "acc")  # as in Tischweg, tableacc
 
 
-@dataclass(frozen=True)
-class Line:
-    """One key of the draft as TOML: a person has to replace a "?" in its value and to check what is in question."""
-
-    key: str
-    value: str
-    reason: str = ""
-    question: str = ""
-
-    def __str__(self) -> str:
-        """Write the line, followed by its reason or question."""
-        said = f"? {self.question}" if self.question else self.reason
-        if self.question and self.reason:
-            said = f"? {self.question} ({self.reason})"
-        return f"{self.key} = {self.value}" + (f"    # {one_line(said)}" if said else "")
+def line(key: str, value: object, reason: str = "", question: str = "") -> str:
+    """Write one key of the draft: a person has to replace a "?" in its value and to check what is in question."""
+    said = f"? {question}{reason and f' ({reason})'}" if question else reason
+    return f"{key} = {toml_value(value)}" + (f"    # {one_line(said)}" if said else "")
 
 
-def asked(table: type[Table], key: str, value: str) -> Line:
+def asked(table: type[Table], key: str, value: object, reason: str = "") -> str:
     """Ask for a key by what its model says of it."""
-    return Line(key, value, question=purpose(table, key).rstrip("."))
+    return line(key, value, reason, purpose(table, key).rstrip("."))
 
 
 def comment(text: str) -> str:

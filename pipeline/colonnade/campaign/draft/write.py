@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
+import tomllib
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from operator import attrgetter
 from pathlib import Path, PurePosixPath
 
@@ -13,11 +15,11 @@ from colonnade.campaign.campaign import SCHEMA
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.draft.guess import channel_lines, draft_channels, kind_lines, marker_lines, markers_of
 from colonnade.campaign.draft.survey import Files, arrange, survey
-from colonnade.campaign.draft.words import Line, as_id, asked, comment, unique
+from colonnade.campaign.draft.words import AXES, as_id, asked, comment, line, unique
 from colonnade.campaign.loading import FILE_NAME
 from colonnade.campaign.setup import Tracking
 from colonnade.campaign.specimen import Prism, Specimen
-from colonnade.campaign.syntax.document import toml_key, toml_value
+from colonnade.campaign.syntax.document import Source, key_lines, toml_key
 from colonnade.errors import CampaignError, count, quoted
 from colonnade.readers.files import irregular
 from colonnade.units.text import listed
@@ -39,17 +41,15 @@ _FIRST_LINES = (
 _STACK = comment(
     'bodies on each other are an assembly: [assemblies.column] stack = ["specimen", "specimen"], with bodies "1", "2"'
 )
-_TRACKING = (asked(Tracking, "axes", "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"), asked(Tracking, "relative_to", '"?"'))
-
-Lines = list[Line | str]
-
-_SPECIMEN: Lines = [
+_SPECIMEN = (
     "",
     "[specimens.specimen]",
-    asked(Specimen, "shape", '"prism"'),
-    *(asked(Prism, size, '"? mm"') for size in ("width", "depth", "height")),
-    asked(Prism, "mass", '"? kg"'),
-]
+    asked(Specimen, "shape", "prism"),
+    *(asked(Prism, size, "? mm") for size in ("width", "depth", "height")),
+    asked(Prism, "mass", "? kg"),
+)
+_TRACKING = (asked(Tracking, "axes", list(AXES.values())), asked(Tracking, "relative_to", "?"))
+_QUESTION = re.compile(r"([a-z_]+ = (.*)    # \? )(.*)", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -123,10 +123,10 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     if not setups:
         raise CampaignError("\n".join([f"{folder}: no readable recording found.", *_told(refused)]))
     home = folder.parent if folder.name.casefold() in RAW_FOLDERS else folder
-    lines, asked = _asked(written(as_id(home.name, "campaign"), setups, refused))
+    text, asked = _asked(written(as_id(home.name, "campaign"), setups, refused))
     return CampaignDraft(
         folder / FILE_NAME,
-        "\n".join([*lines, ""]),
+        text,
         sum(len(each.tests) for each in setups),
         len(setups),
         tuple(each for each in asked if "?" in each.value),
@@ -157,36 +157,35 @@ def _told(refused: Sequence[tuple[str, str]]) -> list[str]:
     return lines or ["  It contains only documents. Name the folder with the raw files."]
 
 
-def _asked(lines: Lines) -> tuple[list[str], list[Question]]:
-    """Write the lines, each question in full once only; and give all questions."""
-    section, texts, asked = "", [], []
+def _asked(lines: Sequence[str]) -> tuple[str, list[Question]]:
+    """Write the lines, each question in full once only in a set-up; and give all questions."""
+    text = "\n".join(lines)
+    source = Source(FILE_NAME, tomllib.loads(text), key_lines(text))
+    places = {number: place for place, number in source.lines.items()}
+    texts, asked = [], []
     before: set[str] = set()
-    for number, line in enumerate(lines, start=1):
-        if isinstance(line, str):
-            section = line.strip("[]") if line.startswith("[") else section
-            if line.startswith("[") and section.count(".") == 1:  # another specimen or set-up
-                before.clear()
-        elif section == "tests" and line.key == "id":
-            section = f"tests[{line.value.strip(chr(34))}]"
-        elif line.question:
-            if line.question in before:
-                line = replace(line, question="as above")
-            before.add(line.question)
-            asked.append(Question(number, f"{section}.{line.key}".lstrip("."), line.value, line.question))
-        texts.append(str(line))
-    return texts, asked
+    for number, written in enumerate(lines, start=1):
+        if written.startswith("[") and written.count(".") == 1:  # another specimen or set-up
+            before.clear()
+        if found := _QUESTION.fullmatch(written):
+            said = "as above" if found[3] in before else found[3]
+            before.add(found[3])
+            asked.append(Question(number, source.path(places[number]), found[2], said))
+            written = found[1] + said
+        texts.append(written)
+    return "\n".join([*texts, ""]), asked
 
 
-def written(name: str, setups: Sequence[DraftSetup], refused: Sequence[tuple[str, str]]) -> Lines:
+def written(name: str, setups: Sequence[DraftSetup], refused: Sequence[tuple[str, str]]) -> list[str]:
     """Write out what was found, and the files that are left out with the reason."""
     stems = [PurePosixPath(test[MAIN].stem) for each in setups for test in each.tests]
     often = Counter(stem.name for stem in stems)
     ids = iter(unique((stem.name if often[stem.name] == 1 else "-".join(stem.parts[-2:]) for stem in stems), "test"))
-    lines: Lines = [
+    lines = [
         *_FIRST_LINES,
-        Line("schema", str(SCHEMA)),
-        Line("campaign", toml_value(name), "from the name of the folder"),
-        Line("title", toml_value(f"Campaign {name}"), "title of the report; write a better one"),
+        line("schema", SCHEMA),
+        line("campaign", name, "from the name of the folder"),
+        line("title", f"Campaign {name}", "title of the report; write a better one"),
         comment('facility = "…"         the laboratory and its table'),
         *_SPECIMEN,
     ]
@@ -216,10 +215,10 @@ class DraftSetup:
         self.channels, self.left_out = draft_channels(self.columns)
         self.markers = markers_of(self.channels.values())
 
-    def lines(self) -> Lines:
+    def lines(self) -> list[str]:
         """Give its recorders, its channels, and what is left out."""
         place = f"setups.{toml_key(self.name)}"
-        lines: Lines = [f"[{place}]", *self._recorder(MAIN)]
+        lines = [f"[{place}]", *self._recorder(MAIN)]
         lines.append(comment('catch = "0.3 rad"      the rotation at which a safety frame catches the specimen'))
         of_table = {name: each for name, each in self.channels.items() if each.is_of_table and each.axis in (None, "x")}
         table = {each.recorder: name for name, each in reversed(of_table.items())}
@@ -227,11 +226,11 @@ class DraftSetup:
             lines += ["", f"[{place}.recorders.{toml_key(recorder)}]", *self._recorder(recorder)]
             if {MAIN, recorder} <= table.keys():
                 reason = "both record the table's motion, which shows how late it started"
-                align = toml_value({"align": [table[MAIN], table[recorder]]})
-                lines.append(Line("clock", align, reason, '"trigger" if both start together'))
+                align = {"align": [table[MAIN], table[recorder]]}
+                lines.append(line("clock", align, reason, '"trigger" if both start together'))
             else:
                 either = 'or {align = ["a channel of main", "a channel of this one that measures the same"]}'
-                lines.append(Line("clock", '"trigger"', "", either))
+                lines.append(line("clock", "trigger", "", either))
         tracked = [each for marker in self.markers.values() for each in marker]
         for name, channel in self.channels.items():
             if channel not in tracked:
@@ -248,26 +247,26 @@ class DraftSetup:
             lines.append(comment(f"  {listed(list(map(quoted, headings)), MOST_TOLD)}: {reason}"))
         return lines
 
-    def _recorder(self, recorder: str) -> Lines:
+    def _recorder(self, recorder: str) -> list[str]:
         file = self.tests[0][recorder]
-        lines: Lines = [Line("file", toml_value({"format": file.format}), "recognised; the rest is detected")]
+        lines = [line("file", {"format": file.format}, "recognised; the rest is detected")]
         if not any(column.has_clock for column in file.columns):
             hint = next((column.hint for column in file.columns if column.hint), "")
             asked = f"no time column found: give the samples per second{hint}"
-            lines.append(Line("sampling_rate", '"? Hz"', question=asked))
+            lines.append(line("sampling_rate", "? Hz", question=asked))
         return lines
 
-    def test(self, test: Files, name: str) -> Lines:
+    def test(self, test: Files, name: str) -> list[str]:
         """Give the entry of a test."""
         paths = {recorder: file.relative for recorder, file in test.items()}
-        lines: Lines = [
+        lines = [
             *("", "[[tests]]"),
-            Line("id", toml_value(name)),
+            line("id", name),
             *kind_lines(PurePosixPath(test[MAIN].stem).name),
-            Line("specimen", toml_value("specimen")),
-            Line("setup", toml_value(self.name)),
-            Line("file", toml_value(paths if len(paths) > 1 else paths[MAIN])),
+            line("specimen", "specimen"),
+            line("setup", self.name),
+            line("file", paths if len(paths) > 1 else paths[MAIN]),
         ]
         if day := test[MAIN].day:
-            lines.append(Line("date", day.isoformat(), "from the file's own time"))
+            lines.append(line("date", day, "from the file's own time"))
         return lines
