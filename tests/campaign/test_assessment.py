@@ -30,7 +30,7 @@ def test_an_assessment_has_defaults_and_paths_within_the_campaign(load_text, con
         (COLUMN + ASKED.replace('"prism"', '"prsm"'), 'Unknown specimen "prsm". Did you mean "prism"?'),
         (COLUMN.replace("prism", "statue2"), 'Unknown specimen "statue2".'),
         (COLUMN + ASKED.replace('"records"', '"/etc"'), "is an absolute path"),
-        (COLUMN + ASKED + "draws = 0\n", "A whole number from 1 to 1000 was expected."),
+        (COLUMN + ASKED + "draws = 0\n", "A whole number of at least 1 and at most 1000 was expected."),
         (COLUMN + ASKED + 'model = "contact"\n', '"contact" was found.'),
         (COLUMN + ASKED + 'measure = "pvg"\n', 'Unknown measure of intensity "pvg". Did you mean "pgv"?'),
         (COLUMN + ASKED + 'measure = "d5_95"\n', "does not grow with a motion"),
@@ -59,7 +59,7 @@ def test_values_and_limits_become_si():
     [
         ({}, "restitution", "It is missing."),
         ({"restitution": "guessed"}, "restitution", 'Or "identified", "rigid-body".'),
-        ({"restitution": 1.2}, "restitution", "above 0, at most 1"),
+        ({"restitution": 1.2}, "restitution", "above 0 and at most 1"),
         ({"restitution": 0.95, "restitution_range": [0.97, 0.93]}, "restitution_range", "has to be the larger one"),
         ({"restitution": 0.9, "restitution_range": [0.93, 0.97]}, "restitution_range", "do not hold restitution = 0.9"),
         ({"restitution": 0.9, "critical_angle": 0.18}, "critical_angle", "has no unit"),

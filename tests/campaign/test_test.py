@@ -36,11 +36,6 @@ def test_intervals_and_frequencies_are_in_si(made):
     assert test.frequency == 3.0
 
 
-@pytest.mark.parametrize("zero", ["auto", "start", "end", "none"])
-def test_a_zero_may_be_a_word(made, zero):
-    assert made(zero=zero).zero == zero
-
-
 def test_a_photo_is_listed_once_and_not_looked_for(made):
     assert made(photos=["photos/b.jpg", " photos/a.jpg", "photos/b.jpg"]).photos == ("photos/b.jpg", "photos/a.jpg")
 

@@ -119,12 +119,6 @@ def test_unknown_columns_alone_are_asked_about_up_to_a_number():
     assert [len(headings) for headings in left_out.values()] == [2]
 
 
-def test_a_letter_that_may_be_a_label_is_asked_about_by_its_gain():
-    (lines,) = lines_of(("Acc (V)", "V"))
-    assert lines["unit"].startswith('"V"')
-    assert lines["gain"].startswith('"? g/V"')
-
-
 def drafted_tests(folder, files):
     for name, (specimen, table) in files.items():
         folder.write(f"{name}.csv", {"LVDT 1 [mm]": specimen, "Table disp [mm]": table})

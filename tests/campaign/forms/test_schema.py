@@ -8,7 +8,7 @@ import jsonschema
 import pytest
 
 from colonnade.campaign.campaign import CampaignFile
-from colonnade.campaign.forms.schema import DIALECT, MODELS, json_schema
+from colonnade.campaign.forms.schema import json_schema
 from colonnade.readers.registry import formats
 
 # JSON has no dates: a validator is given them as text.
@@ -65,11 +65,6 @@ def inside(node):
             yield from inside(value)
 
 
-@pytest.mark.parametrize("name", MODELS)
-def test_it_names_its_dialect(name):
-    assert json_schema(name)["$schema"] == DIALECT
-
-
 @pytest.mark.parametrize("name", ["campaign", "review"])
 def test_what_toml_does_not_have_is_not_in_a_schema_of_a_file_that_people_write(name):
     assert [table for table in inside(json_schema(name)) if table.get("type") == "null"] == []
@@ -88,7 +83,3 @@ def test_defaults_are_written_as_people_write_them():
 def test_every_format_has_its_options():
     options = json_schema("campaign")["$defs"]["FileOptions"]["anyOf"]
     assert [each["properties"]["format"]["const"] for each in options] == list(formats())
-
-
-def test_entries_of_a_review_have_no_default():
-    assert all("default" not in table for table in json_schema("review")["properties"].values())

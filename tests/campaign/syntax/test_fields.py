@@ -58,7 +58,7 @@ def test_what_is_written_becomes_its_si_value(kind, value, found):
         (fields.Length, "1e400 m", "is too large"),
         (fields.Frequency, "86 mm", "frequency"),
         (fields.Sided[fields.PositiveAngle], ["0.2 rad"], "A list of 2 was expected: what it is for."),
-        (fields.Sided[fields.Restitution], 1.2, "above 0, at most 1"),
+        (fields.Sided[fields.Restitution], 1.2, "above 0 and at most 1 was expected."),
         (fields.Direction, [0, 0, 0], "A direction other than zero was expected"),
         (fields.Interval, ["14 s", "2 s"], "The second has to be the larger one."),
         (fields.Interval, "2 s", "A list of 2 was expected: what it is for."),
@@ -68,8 +68,8 @@ def test_what_is_written_becomes_its_si_value(kind, value, found):
         (fields.PositiveNumber, True, "A plain number was expected"),
         (fields.PositiveNumber, 10**400, "a whole number of very many digits was found."),
         (fields.PositiveNumber, float("nan"), "A finite number was expected."),
-        (fields.Scale, 0, "A number from 0.001 to 100000 was expected."),
-        (Annotated[fields.Number, Field(gt=0.0, lt=1.0)], 1.0, "between 0 and 1 was expected."),
+        (fields.Scale, 0, "A number of at least 0.001 and at most 100000 was expected."),
+        (Annotated[fields.Number, Field(gt=0.0, lt=1.0)], 1.0, "above 0 and below 1 was expected."),
         (Literal["auto"] | fields.Frequency, "atuo", 'Or "auto".'),
         (Annotated[str, fields.OneOf(("table", "ground"))], "tabel", '"tabel" was found. Did you mean "table"?'),
         (Annotated[str, fields.OneOf(("table", "ground"))], 3, 'Choose one of: "table", "ground".'),
@@ -255,13 +255,10 @@ def test_the_usual_numbers_are_accepted(folder):
     assert expect_usable_or_refused(folder, "specimens.prism.mass", 26.1)
 
 
-@pytest.mark.parametrize("key", NUMBERS)
-def test_a_number_far_from_any_laboratory_is_refused_in_a_sentence_or_harmless(folder, key):
-    for value in EXTREMES:
-        expect_usable_or_refused(folder, key, value)
-
-
-@given(key=st.sampled_from(sorted(NUMBERS)), value=st.floats(min_value=5e-324, allow_infinity=False, allow_nan=False))
+@given(
+    key=st.sampled_from(sorted(NUMBERS)),
+    value=st.sampled_from(EXTREMES) | st.floats(min_value=5e-324, allow_infinity=False, allow_nan=False),
+)
 def test_any_finite_number_above_zero_makes_a_usable_campaign_or_is_refused(folder, key, value):
     expect_usable_or_refused(folder, key, value)
 
@@ -269,9 +266,7 @@ def test_any_finite_number_above_zero_makes_a_usable_campaign_or_is_refused(fold
 @pytest.mark.parametrize(
     ("key", "value", "expected"),
     [
-        ("specimens.prism.scale", 1e300, "A number from 0.001 to 100000 was expected."),
-        ("processing.predict.rest_angle", 1e-300, "A number between 1e-10 and 0.1 was expected."),
-        ("setups.frame.sampling_rate", 1e300, "A value between 0.0001 Hz and 1e+07 Hz was expected."),
+        ("processing.predict.rest_angle", 1e-300, "A number above 1e-10 and below 0.1 was expected."),
         ("processing.sampling_rate", 1e300, "A value between 0.0001 Hz and 1e+07 Hz was expected."),
         ("gravity", 1e-300, "A value between 0.01 m/s^2 and 10000 m/s^2 was expected."),
         ("processing.predict.contact.step", 5e-13, "A value between 1e-07 s and 0.001 s was expected."),

@@ -11,7 +11,7 @@ from pathlib import Path, PurePosixPath
 import numpy as np
 
 from colonnade.campaign.channel import MAIN
-from colonnade.campaign.draft.words import as_id, unique
+from colonnade.campaign.draft.words import unique
 from colonnade.campaign.syntax.document import natural
 from colonnade.campaign.syntax.names import inside
 from colonnade.errors import ColonnadeError
@@ -155,7 +155,7 @@ def arrange(files: Sequence[RawFile]) -> tuple[list[list[Files]], list[tuple[str
         for name, tag in _names(file):
             test = named.get(name)
             if test and tag and (_RECORDER.fullmatch(tag) or not test[MAIN].names & file.names):
-                test[unique([*test, as_id(tag, "recorder")], "recorder")[-1]] = file
+                test[unique([*test, tag], "recorder")[-1]] = file
                 break
         else:
             tests.append({MAIN: file})

@@ -15,7 +15,7 @@ from colonnade.campaign.campaign import SCHEMA
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.draft.guess import channel_lines, draft_channels, kind_lines, marker_lines, markers_of
 from colonnade.campaign.draft.survey import Files, arrange, survey
-from colonnade.campaign.draft.words import AXES, as_id, asked, comment, line, unique
+from colonnade.campaign.draft.words import AXES, asked, comment, line, unique
 from colonnade.campaign.loading import FILE_NAME
 from colonnade.campaign.setup import Tracking
 from colonnade.campaign.specimen import Prism, Specimen
@@ -123,7 +123,7 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     if not setups:
         raise CampaignError("\n".join([f"{folder}: no readable recording found.", *_told(refused)]))
     home = folder.parent if folder.name.casefold() in RAW_FOLDERS else folder
-    text, asked = _asked(written(as_id(home.name, "campaign"), setups, refused))
+    text, asked = _asked(written(unique([home.name], "campaign")[0], setups, refused))
     return CampaignDraft(
         folder / FILE_NAME,
         text,

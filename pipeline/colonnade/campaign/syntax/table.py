@@ -175,15 +175,9 @@ def _number(either: list[dict[str, Any]]) -> str:
     """Say which number was expected."""
     kinds = [*either, *(item for each in either for item in each.get("prefixItems", ()))]
     bounds: dict[str, Any] = next((each for each in kinds if each.get("type") in ("number", "integer")), {})
-    words = {"minimum": "at least", "exclusiveMinimum": "above", "maximum": "at most", "exclusiveMaximum": "below"}
-    ends = [f"{bounds[key]:.10g}" for key in words if key in bounds]
-    if {"minimum", "maximum"} <= bounds.keys():
-        said = f"from {ends[0]} to {ends[1]}"
-    elif {"exclusiveMinimum", "exclusiveMaximum"} <= bounds.keys():
-        said = f"between {ends[0]} and {ends[1]}"
-    else:
-        said = "".join(f"{words[key]} {bounds[key]:.10g}, " for key in words if key in bounds).strip()
-    return f"A {'whole ' if bounds.get('type') == 'integer' else ''}number {said} was expected."
+    words = {"minimum": "of at least", "exclusiveMinimum": "above", "maximum": "at most", "exclusiveMaximum": "below"}
+    ends = " and ".join(f"{word} {bounds[key]:.10g}" for key, word in words.items() if key in bounds)
+    return f"A {'whole ' if bounds.get('type') == 'integer' else ''}number {ends} was expected."
 
 
 def missing(table: type[Table], key: str) -> str:
