@@ -4,18 +4,21 @@ Speed of the engines as ratios to named peers in the same run: processor time of
 Marked slow; `python -m pytest -m slow tests/benchmarks/test_engine_speed.py -s` prints the figures.
 """
 
+import itertools
+import math
 from functools import partial
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import paper_schemes as schemes
 from colonnade.dynamics.plane.march import NONE, Forcing, propagate
 from colonnade.dynamics.plane.sides import sides_of
-from peers import least_seconds
+from peers import integrator, least_seconds
 from prism import PRISM
 
-ALPHA = PRISM.critical_angle
+ALPHA, P = PRISM.critical_angle, PRISM.p
 RESTITUTION, REST = 0.976, 1e-6
 SIDES = sides_of(PRISM, (RESTITUTION, RESTITUTION), REST)
 INTERVAL = 0.002
@@ -51,28 +54,137 @@ def _exact(base, weights=NONE):
     return propagate(Forcing(0.0, np.pi / 2, INTERVAL, NONE, base, weights), SIDES, is_linearised=True)
 
 
-@pytest.mark.parametrize("base", _records(), ids=["4 Hz", "5 Hz", "7 Hz"])
-def test_the_exact_engine_beside_the_papers_runge_kutta(base, capsys):
+def _solve_ivp(base):
+    """SciPy's DOP853 on the same equation, restarted at every sample and impact; angles at the samples."""
+    angle, velocity, side = 0.0, 0.0, 0.0
+    angles, impacts = [0.0], 0
+    for start, end in itertools.pairwise(base):
+        moment, slope = 0.0, (end - start) / INTERVAL
+        if side == 0.0:
+            if abs(end) > ALPHA:
+                moment, side = (np.sign(end) * ALPHA - start) / slope, -np.sign(end)
+            else:
+                angles.append(0.0)
+                continue
+        while moment < INTERVAL:
+            landing = lambda t, y: y[0]  # noqa: E731
+            landing.terminal, landing.direction = True, -side
+            solution = solve_ivp(
+                lambda t, y, s=side, a=start, b=slope: [y[1], P**2 * (y[0] - ALPHA * s - a - b * t)],
+                (moment, INTERVAL), [angle, velocity], method="DOP853", rtol=1e-12, atol=1e-15, events=landing,
+            )  # fmt: skip
+            moment, (angle, velocity) = solution.t[-1], solution.y[:, -1]
+            if solution.status == 1:
+                side, angle, velocity = -side, 0.0, RESTITUTION * velocity
+                impacts += 1
+        angles.append(angle)
+    return np.array(angles), impacts
+
+
+def _error(angles, reference):
+    return np.abs(angles - reference).max() / ALPHA
+
+
+def test_the_exact_engine_beside_solve_ivp_and_the_papers_runge_kutta(capsys):
+    records = _records()
     steps = round(INTERVAL / schemes.PAPERS_STEP)
 
-    def papers():
+    def papers(base):
         return schemes.integrate(
             base, INTERVAL, *map(np.array, SIDES[:3]), REST, 0.0, 0.0, steps, schemes.PAPERS_REFINEMENT, False
         )
 
-    # The Taylor series of the linearised equation share no formula with the exact solution.
-    reference = _exact(base, np.ones_like(base))[0]
-    angles, _, impact_times, _, end = _exact(base)
-    assert impact_times.size >= 50
-    assert np.isnan(end.time)
-    error, theirs = (np.abs(each - reference).max() / ALPHA for each in (angles, papers()[0]))
-    assert error < 1e-11
-    own, runge_kutta = least_seconds(partial(_exact, base), papers, rounds=20)
-    cost = steps * base.size * own / runge_kutta
-    allowed = STEPS_A_SAMPLE * base.size + STEPS_AN_IMPACT * impact_times.size
+    rows = []
+    for base in records:
+        # The Taylor series of the linearised equation share no formula with the exact solution.
+        reference = _exact(base, np.ones_like(base))[0]
+        angles, _, impact_times, _, end = _exact(base)
+        assert impact_times.size >= 50
+        assert np.isnan(end.time)
+        theirs, impacts = _solve_ivp(base)
+        assert impacts == impact_times.size
+        errors = [_error(angles, reference), _error(theirs, reference), _error(papers(base)[0], reference)]
+        assert errors[0] < 1e-11
+        assert errors[1] < 1e-11
+        own, runge_kutta = least_seconds(partial(_exact, base), partial(papers, base), rounds=20)
+        (ivp,) = least_seconds(partial(_solve_ivp, base), rounds=1)
+        rows.append((own, ivp, runge_kutta, *errors, impact_times.size))
+    ratios = [[row[k] / row[0] for row in rows] for k in (1, 2)]
+    cost = [steps * base.size * row[0] / row[2] for base, row in zip(records, rows, strict=True)]
+    allowed = [STEPS_A_SAMPLE * base.size + STEPS_AN_IMPACT * row[-1] for base, row in zip(records, rows, strict=True)]
     with capsys.disabled():
-        print(
-            f"\n{impact_times.size} impacts: exact {1e6 * own:.0f} µs (error {error:.0e} α), the paper's Runge–Kutta "
-            f"{1e3 * runge_kutta:.1f} ms ({theirs:.0e} α): as much as {cost:.0f} of {allowed:.0f} steps allowed"
-        )
-    assert cost <= allowed
+        for own, ivp, runge_kutta, *errors, impacts in rows:
+            print(
+                f"\n{impacts} impacts: exact {1e6 * own:.0f} µs (error {errors[0]:.0e} α), solve_ivp {ivp:.2f} s "
+                f"({errors[1]:.0e} α), paper's Runge–Kutta {1e3 * runge_kutta:.1f} ms ({errors[2]:.0e} α)",
+                end="",
+            )
+        print(f"\n{', '.join(f'{each:,.0f}' for each in ratios[0])} times solve_ivp")
+        print(f"{', '.join(f'{each:.1f}' for each in ratios[1])} times the paper's Runge–Kutta: as much as", end=" ")
+        print(", ".join(f"{own:.0f} of {most:.0f}" for own, most in zip(cost, allowed, strict=True)), "steps allowed")
+    assert min(ratios[0]) >= 15_000
+    assert all(own <= most for own, most in zip(cost, allowed, strict=True))
+
+
+def _heyoka(tolerance):
+    """Make heyoka's integrator of a/g linear in x from a sample on."""
+    return integrator(
+        lambda heyoka: heyoka.par[1] + heyoka.par[2] * heyoka.time,
+        is_linearised=False,
+        restitution=RESTITUTION,
+        tolerance=tolerance,
+    )
+
+
+def _angles(peer, base, first, state):
+    """Angles over α at the samples after the `first`, at which the block has this state, by heyoka."""
+    width, angles = P * INTERVAL, []
+    peer.state[:], peer.pars[0] = state, math.copysign(1.0, state[0])
+    peer.reset_cooldowns()
+    for start, end in itertools.pairwise(base[first:]):
+        peer.pars[1:] = start, (end - start) / width
+        peer.time = 0.0
+        peer.propagate_until(width)
+        angles.append(peer.state[0])
+    return np.array(angles)
+
+
+def test_the_full_equation_on_a_record_beside_heyoka(capsys):
+    peer, finest = _heyoka(1e-10), _heyoka(1e-17)
+    for base in _records():
+        own = partial(propagate, Forcing(0.0, np.pi / 2, INTERVAL, NONE, base, NONE), SIDES, is_linearised=False)
+        angles, velocities, impacts, _, end = own()
+        assert np.isnan(end.time)
+        first = int(np.flatnonzero(np.abs(angles) > 0.05 * ALPHA)[0])
+        start = angles[first] / ALPHA, velocities[first] / (ALPHA * P)
+        reference, theirs = (_angles(each, base, first, start) for each in (finest, peer))
+        errors = [np.abs(each - reference).max() for each in (angles[first + 1 :] / ALPHA, theirs)]
+        seconds = least_seconds(own, partial(_angles, peer, base, first, start), rounds=10)
+        with capsys.disabled():
+            print(
+                f"\n{impacts.size} impacts, nonlinear: {1e3 * seconds[0]:.2f} ms (error {errors[0]:.0e} α), heyoka "
+                f"{1e3 * seconds[1]:.1f} ms ({errors[1]:.0e} α): {seconds[1] / seconds[0]:.1f} times",
+                end="",
+            )
+        assert errors[0] < 1e-9
+        assert seconds[1] / seconds[0] >= 2.2
+
+
+def test_the_exact_engine_beside_a_bare_pass_over_the_samples(capsys):
+    # 50 s at 500 Hz, without rocking and with 400 impacts; the peer reads, multiplies and writes each sample.
+    moment = np.arange(0, 50, 0.002)
+    base = np.sin(2 * np.pi * 4 * moment) * ALPHA
+    written = np.empty_like(base)
+    levels = 0.9, 1.5
+    bare, *seconds = least_seconds(
+        partial(np.multiply, base, 2.0, out=written), *(partial(_exact, level * base) for level in levels), rounds=20
+    )
+    with capsys.disabled():
+        print(f"\nbare pass: {1e9 * bare / base.size:.2f} ns a sample", end="")
+        for level, cost in zip(levels, seconds, strict=True):
+            print(
+                f"; exact engine at A α/tan α = {level}: {1e9 * cost / base.size:.1f} ns, {cost / bare:.0f} times",
+                end="",
+            )
+        print()
+    assert seconds[1] / bare < 200

@@ -11,12 +11,14 @@ installed by the extra `bench`.
 """
 
 import math
+import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
 from colonnade.dynamics.plane.run import Harmonic, harmonic_outcomes, harmonic_run
-from peers import least_seconds
+from peers import integrator, least_seconds
 from prism import PRISM
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
@@ -28,23 +30,12 @@ class Peer:
     """heyoka on the same equation: x = p t, angle over α."""
 
     def __init__(self, model, tolerance):
-        heyoka = pytest.importorskip("heyoka", reason="install the extra bench")
-        heyoka.set_logger_level_critical()
-        angle, rate = heyoka.make_vars("angle", "rate")
-        side, base = heyoka.par[0], heyoka.par[1] * heyoka.sin(heyoka.par[2] * heyoka.time)
-        bend = angle - side - base / ALPHA
-        if model == "nonlinear":
-            turned = ALPHA * (side - angle)
-            bend = -(heyoka.sin(turned) + base * heyoka.cos(turned)) / ALPHA
-
-        def impact(integrator, _sign):
-            state, pars = integrator.state, integrator.pars
-            state[0], state[1], pars[0] = 0.0, RESTITUTION * state[1], -pars[0]
-            return True
-
-        event = heyoka.t_event(angle, callback=impact, cooldown=1e-6)
-        equations = [(angle, rate), (rate, bend)]
-        self.integrator = heyoka.taylor_adaptive(equations, [0.0, 0.0], tol=tolerance, t_events=[event])
+        self.integrator = integrator(
+            lambda heyoka: heyoka.par[1] * heyoka.sin(heyoka.par[2] * heyoka.time),
+            is_linearised=model == "linear",
+            restitution=RESTITUTION,
+            tolerance=tolerance,
+        )
 
     def run(self, ratio, amplitude, start, state):
         integrator = self.integrator
@@ -108,3 +99,23 @@ def test_trajectories_a_second_beside_heyoka(capsys, model, least):
     assert len(cases) >= 50
     assert np.median(errors["own"]) <= max(np.median(errors["heyoka"]), 1e-12)
     assert theirs / seconds > least
+
+
+@pytest.mark.slow
+def test_a_map_of_a_million_points(capsys):
+    ratios, amplitudes = np.linspace(1.1, 7.8, 1000), np.linspace(0.7, 9.0, 1000)
+
+    def column(ratio):
+        return harmonic_outcomes(PRISM, Harmonic.cycles(ratio * P, 20), amplitudes, (RESTITUTION,) * 2, "linear")
+
+    column(2.0)
+    seconds, busy, maps = {}, {}, {}
+    for threads in (1, 2):
+        begin, used = time.perf_counter(), time.process_time()
+        with ThreadPoolExecutor(threads) as pool:
+            maps[threads] = np.stack(list(pool.map(column, ratios)))
+        seconds[threads], busy[threads] = time.perf_counter() - begin, time.process_time() - used
+    with capsys.disabled():
+        for threads, elapsed in seconds.items():
+            print(f"\n10⁶ points, 20 cycles, {threads} thread(s): {elapsed:.1f} s, of processor {busy[threads]:.1f} s")
+    np.testing.assert_array_equal(maps[1], maps[2])

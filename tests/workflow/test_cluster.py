@@ -115,6 +115,7 @@ def test_a_scheduler_without_workers_is_told_with_what_to_do(scheduler, monkeypa
         ("no address", "that is not an address"),
         ("127.0.0.1:notaport", "that is not an address"),
     ],
+    ids=["nobody", "no-address", "no-port"],
 )
 def test_what_is_no_scheduler_is_told(monkeypatch, address, said):
     monkeypatch.setattr("colonnade.workflow.cluster._PATIENCE", 1)

@@ -24,6 +24,25 @@ def test_a_point_among_decimal_commas_is_missing_rather_than_guessed(tmp_path):
     assert recording.warnings == ('"force": 1 cell holds no number (on line 4: "1.234"); missing',)
 
 
+def around_a_thousand(sign, time):
+    """Rows of whole numbers from 980 to 1030 with a sign between thousands."""
+    return "time;force\n" + "".join(f"{time(row)};{f'{980 + row:,}'.replace(',', sign)}\n" for row in range(51))
+
+
+@every(("sign", "time"), [(".", lambda row: f"0,{row:02d}"), (",", lambda row: f"0.{row:02d}")])
+def test_what_is_no_decimal_sign_elsewhere_stands_between_thousands_and_is_told(tmp_path, sign, time):
+    recording = recorded(tmp_path, around_a_thousand(sign, time))
+    assert values(recording, "force") == list(range(980, 1031))
+    assert values(recording, "time")[50] == 0.5
+    assert [f'"{sign}" is taken as a mark between thousands' in told for told in recording.warnings] == [True]
+
+
+def test_a_fall_from_a_thousand_to_one_is_doubted(tmp_path):
+    recording = recorded(tmp_path, around_a_thousand(".", str))
+    assert values(recording, "force")[19:21] == [999.0, 1.0]
+    assert ['set thousands = "."' in told for told in recording.warnings] == [True]
+
+
 @every(("thousands", "text"), [(".", "1.234"), ("'", "1'234"), (" ", "1 234")])
 def test_thousands_that_were_declared_are_read(tmp_path, thousands, text):
     recording = recorded(tmp_path, f"n;force\n1;0,5\n2;{text}\n3;0,6\n4;0,7\n", thousands=thousands, decimal=",")

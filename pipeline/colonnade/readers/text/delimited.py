@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
+import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
 from colonnade.errors import ReadError
@@ -20,6 +22,9 @@ from colonnade.readers.text.encoding import Text, TextOptions, looks_binary
 from colonnade.readers.text.heading import Heading, Lines, find_heading, read_heading, unread_numbers
 from colonnade.readers.text.rows import RowForm, Rows, read_rows
 from colonnade.readers.text.running import HeaderClaims, header_claims, read_series, series_of, why_running
+
+NEAR_THOUSAND = 900
+"""From here on a whole number may be the last one without a mark between thousands."""
 
 DELIMITER_WORDS = {"comma": ",", "semicolon": ";", "tab": "\t", "\\t": "\t", "pipe": "|", "space": " ", "spaces": " "}
 
@@ -220,8 +225,23 @@ def _recording(header: Header, rows: Rows, options: DelimitedOptions) -> Recordi
             *(*header.notes, *heading.notes, f"first sample on line {header.first + 1}"),
             *(*found.notes, *mended.notes),
         ),
-        warnings=(*header.warnings, *found.warnings, *mended.warnings),
+        warnings=(*header.warnings, *found.warnings, *mended.warnings, *_divided(recording, header, options)),
     )
+
+
+def _divided(recording: Recording, header: Header, options: DelimitedOptions) -> Iterator[str]:
+    """Doubt columns that go from whole numbers just below 1000 to just above 1: as with a mark between thousands."""
+    if options.decimal is not None or options.thousands is not None:
+        return
+    for channel in recording.channels:
+        size = np.abs(channel.values)
+        high, low = (size >= NEAR_THOUSAND) & (size < 1000), (size >= 1) & (size < 1.1)
+        if high.any() and ((high[1:] & low[:-1]) | (low[1:] & high[:-1])).any() and not (size[high] % 1).any():
+            sign = header.form.dialect.decimal
+            yield (
+                f'"{channel.heading}" goes from just below 1000 to just above 1: "{sign}" was read as a decimal sign; '
+                f'if it stands between thousands, set thousands = "{sign}"'
+            )
 
 
 FORMAT = Format(

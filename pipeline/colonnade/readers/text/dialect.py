@@ -201,6 +201,12 @@ def sniff(
     if decimal is None:
         why = " assumed: the numbers examined have none" if signed is None else f' (as in "{signed}")'
         notes.append(f'decimal sign "{dialect.decimal}"{why}')
+    if dialect.thousands != given.thousands:
+        warnings.append(
+            f'the decimal sign is "{dialect.decimal}", so that "{dialect.thousands}" is taken as a mark between '
+            f"thousands, as in 1{dialect.thousands}234: if it is none, write the file with one decimal sign; "
+            f'thousands = "{dialect.thousands}" says that it is one'
+        )
     is_open = not delimiter and not decimal and signed is None and (dialect.delimiter, best.columns) == (",", 2)
     if is_open and any(fit.columns == 1 and fit.score == best.score for fit in fits):
         warnings.append(
@@ -218,7 +224,21 @@ def _candidates(sample: list[str], given: Dialect, delimiter: str | None, decima
             continue
         for sign in (".", ",") if decimal is None else (decimal,):
             if sign != candidate or quoted:
-                yield replace(given, delimiter=candidate, decimal=sign, quoted=quoted)
+                plain = replace(given, delimiter=candidate, decimal=sign, quoted=quoted)
+                yield plain
+                if given.thousands is None and _is_marked(sample, plain):
+                    yield replace(plain, thousands=plain.other_sign)
+
+
+def _is_marked(sample: list[str], dialect: Dialect) -> bool:
+    """Whether a column has whole numbers alone, some with the other sign between their groups of three digits."""
+    columns: defaultdict[int, list[str]] = defaultdict(list)
+    for line in filter(looks_like_numbers, sample):
+        for place, cell in enumerate(dialect.split(line)):
+            columns[place].append(cell.lstrip("+-"))
+    sign = dialect.other_sign
+    whole = re.compile(rf"\d*|[1-9]\d{{0,2}}({re.escape(sign)}\d{{3}})+")
+    return any(sign in "".join(cells) and all(map(whole.fullmatch, cells)) for cells in columns.values())
 
 
 def _fit(sample: list[str], dialect: Dialect) -> _Fit:
