@@ -36,13 +36,6 @@ def test_the_main_recorder_is_the_setups_own_and_comes_first():
     assert [recorder.sampling_rate for recorder in found.values()] == [200.0, 500.0, None]
 
 
-def test_nothing_but_channels_is_needed():
-    found = setup()
-    assert list(found.recorders) == ["main"]
-    assert found.file == FileOptions(format=None, options={})
-    assert (found.sampling_rate, found.catch, found.table_tilt) == (None, None, None)
-
-
 def test_a_setup_without_channels_is_refused():
     assert "channels" in problems(channels={})
 

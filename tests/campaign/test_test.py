@@ -29,13 +29,6 @@ def test_a_single_file_is_that_of_the_main_recorder_in_the_folder_of_the_campaig
     assert several == {"main": tmp_path / "raw" / "a.csv", "daq2": tmp_path / "raw" / "b.tdms"}
 
 
-def test_intervals_and_frequencies_are_in_si(made):
-    test = made(kind="sine", window=["200 ms", "14 s"], zero=["0 s", "500 ms"], frequency="3 Hz")
-    assert test.window == pytest.approx((0.2, 14.0))
-    assert test.zero == pytest.approx((0.0, 0.5))
-    assert test.frequency == 3.0
-
-
 def test_a_photo_is_listed_once_and_not_looked_for(made):
     assert made(photos=["photos/b.jpg", " photos/a.jpg", "photos/b.jpg"]).photos == ("photos/b.jpg", "photos/a.jpg")
 

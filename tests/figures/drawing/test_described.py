@@ -87,6 +87,11 @@ def test_a_draft_is_drawn_on_a_body_that_stands_in():
     assert "white" in places.values()
 
 
+def test_a_draft_with_markers_alone_is_drawn_without_transducers():
+    elevation = described.of_draft('[setups.setup.markers.m1]\non = "?"\n').figure.axes[0]
+    assert not any("m1" in text.get_text() for text in elevation.texts)
+
+
 def test_bodies_of_an_assembly_are_drawn_where_they_stand(tmp_path):
     (tmp_path / "raw").mkdir()
     marker = 'm1 = {columns = ["m1 X", "m1 Y", "m1 Z"], unit = "mm", on = "2", at = ["100 mm", "0 mm", "180 mm"]}\n'

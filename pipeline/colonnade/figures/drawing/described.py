@@ -148,7 +148,11 @@ def of_draft(text: str) -> Picture:
         Drawn(
             f"{name}, as drafted",
             STAND_IN._replace(words=words),
-            {channel: _drafted(keys) for channel, keys in setup["channels"].items() if keys.get("on", "?") != "?"},
+            {
+                channel: _drafted(keys)
+                for channel, keys in setup.get("channels", {}).items()
+                if keys.get("on", "?") != "?"
+            },
         )
         for name, setup in setups.items()
     ]
