@@ -160,8 +160,6 @@ class Quantity:
                 f'{shown(value)} still has to be filled in. A quantity such as "{self.such_as}" was expected.'
             )
         number, unit = units.to_si(value, self.dimension), UNITS[self.dimension]
-        if not isfinite(number):
-            raise ValueError(f"{shown(value)} is too large.")
         low, high = self.bounds
         if self.signed:
             expected = "" if abs(number) <= high else f"At most {high:g} {unit} was expected."
