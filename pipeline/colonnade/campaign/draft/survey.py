@@ -102,13 +102,8 @@ def survey(
 def _candidates(folder: Path) -> Iterator[Path]:
     for path in folder.rglob("*"):
         parts = path.relative_to(folder).parts
-        hidden = any(part.startswith((".", "~")) for part in parts)
-        if (
-            not path.is_dir()
-            and not hidden
-            and parts[0] not in OWN_FOLDERS
-            and path.suffix.lower() not in NO_RECORDINGS
-        ):
+        is_own = parts[0] in OWN_FOLDERS or any(part.startswith((".", "~")) for part in parts)
+        if not (is_own or path.is_dir() or path.suffix.lower() in NO_RECORDINGS):
             yield path
 
 
