@@ -198,6 +198,14 @@ def test_a_file_in_which_nothing_moves_is_left_out(folder):
         draft(folder.path)
 
 
+def test_a_name_that_looks_like_a_question_is_none(folder):
+    for name in ("a    # ? c.csv", "b    # ? c.csv"):
+        folder.write(name, {"LVDT 1 [mm]": SINE})
+    document, drafted = folder.draft()
+    assert [test["file"] for test in document["tests"]] == ["a    # ? c.csv", "b    # ? c.csv"]
+    assert not any(question.key.endswith("file") for question in drafted.open + drafted.doubts)
+
+
 def test_line_numbers_hold_behind_signs_that_look_like_line_ends(folder):
     folder.write("a\x85b\u2028c.csv", {"LVDT 1 [mm]": SINE})
     drafted = folder.draft()[1]

@@ -26,7 +26,8 @@ _SHORT_ENDINGS = ("weg", "acc")  # as in Tischweg, tableacc
 def line(key: str, value: object, reason: str = "", question: str = "") -> str:
     """Write one key of the draft: a person has to replace a "?" in its value and to check what is in question."""
     said = f"? {question}{reason and f' ({reason})'}" if question else reason
-    return f"{key} = {toml_value(value)}" + (f"    # {one_line(said)}" if said else "")
+    written = toml_value(value).replace("# ?", r"\u0023 ?")  # no name of a file or column looks like a question
+    return f"{key} = {written}" + (f"    # {one_line(said)}" if said else "")
 
 
 def asked(table: type[Table], key: str, value: object, reason: str = "") -> str:

@@ -49,7 +49,7 @@ _SPECIMEN = (
     asked(Prism, "mass", "? kg"),
 )
 _TRACKING = (asked(Tracking, "axes", list(AXES.values())), asked(Tracking, "relative_to", "?"))
-_QUESTION = re.compile(r"([a-z_]+ = (.*)    # \? )(.*)", re.DOTALL)
+_QUESTION = re.compile(r"([a-z_]+ = (.*)    # \? )(.*)")
 
 
 @dataclass(frozen=True)
