@@ -12,7 +12,7 @@ from colonnade.campaign.assembly import AssemblyTable, Whole
 from colonnade.campaign.assessment import Assessment, Prototype
 from colonnade.campaign.channel import Channel
 from colonnade.campaign.review import Review
-from colonnade.campaign.settings import EnsembleSettings, NextSettings, Processing
+from colonnade.campaign.settings import OVERNIGHT, EnsembleSettings, NextSettings, Processing
 from colonnade.campaign.setup import Setup, ShakeTable
 from colonnade.campaign.specimen import AnySpecimen, Specimen
 from colonnade.campaign.syntax.fields import Quantity, Text
@@ -21,6 +21,7 @@ from colonnade.campaign.syntax.table import Table
 from colonnade.campaign.test import ReferenceMotion, Test
 from colonnade.campaign.watched import Watched
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
+from colonnade.dynamics.models import model_of
 from colonnade.findings import Finding
 
 Known = Annotated[Specimen, GetPydanticSchema(lambda _, handler: handler.generate_schema(AnySpecimen))]
@@ -138,7 +139,11 @@ class Campaign(CampaignKeys):
 
     def members(self, test: Test, model: str) -> int:
         """Runs of a model's ensemble on the motion of a test; 0 for no ensemble."""
-        return self.processing.predict.members(model, is_assembly=self.specimens[test.specimen].is_assembly)
+        ensemble = self.processing.predict.ensemble
+        if not model_of(model).in_space:
+            return ensemble.members
+        asked = ensemble.contact.members
+        return asked if asked != "auto" else OVERNIGHT * self.specimens[test.specimen].is_assembly
 
     def ensemble_settings(self, specimen: str) -> EnsembleSettings:
         """Settings of a specimen's ensembles, with what its own `uncertainty` says."""

@@ -14,7 +14,7 @@ from pydantic import AfterValidator, BeforeValidator, Field
 from colonnade.campaign.syntax import fields
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.contact.body import DEFAULT_STEP, STATIC_PENETRATION
-from colonnade.dynamics.models import MODELS, model_of
+from colonnade.dynamics.models import MODELS
 
 DEFAULT_MODELS = tuple(name for name, model in MODELS.items() if model.is_default)
 """Models that `predict` runs unless the campaign names others."""
@@ -161,13 +161,6 @@ class PredictSettings(Table):
     """The ensembles of the predictions."""
     contact: ContactSettings = ContactSettings()
     """The contact model, if it is among the models."""
-
-    def members(self, model: str, *, is_assembly: bool) -> int:
-        """Runs of a model's ensemble; 0 for no ensemble."""
-        if not model_of(model).in_space:
-            return self.ensemble.members
-        asked = self.ensemble.contact.members
-        return asked if asked != "auto" else OVERNIGHT * is_assembly
 
 
 class NextSettings(Table):
