@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 
 import study
-from colonnade import figures
+from colonnade.figures.files.output import to_svg
 from faults.believed import COURSE, SCALES
 from faults.fault import Fault, Group
 from faults.pictures import draw
@@ -107,7 +107,7 @@ def rebuild(documents: Path) -> None:
             without, faulty = Path(scratch) / f"{slug}-without", planted(fault, sound, Path(scratch) / slug)
             shutil.copytree(sound, without)
             keep_only(fault.test, without)
-            drawn = figures.to_svg(
+            drawn = to_svg(
                 draw(fault.picture, without, faulty), identity=slug, title=fault.name, description=fault.picture.shows
             )
             (documents / "pictures" / f"{slug}.svg").write_text(drawn, encoding="utf-8")
