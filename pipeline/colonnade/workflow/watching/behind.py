@@ -90,7 +90,7 @@ class Behind:
         self._running, ended = None, None
         with suppress(EOFError), told:
             ended = told.recv()
-        process.join()
+        _wait(process)  # it has nothing left to do, but must not hold the watch
         return ended or Ended(process.exitcode or 1, problem=f"It ended with exit code {process.exitcode}.")
 
     def give_way(self) -> None:
@@ -100,10 +100,15 @@ class Behind:
         process, told = self._running
         self._running = None
         process.terminate()
-        process.join(PATIENCE)
-        process.kill()  # its workers end with it
-        process.join()
+        _wait(process)
         told.close()
+
+
+def _wait(process: BaseProcess) -> None:
+    """Wait for the end of a process, and bring it about if it takes long; its workers end with it."""
+    process.join(PATIENCE)
+    process.kill()
+    process.join()
 
 
 def _run(tell: Connection, watch: int, campaign_file: Path, results: Path | None, workers: int | None) -> None:
