@@ -81,7 +81,8 @@ def perform(folder: Path, workers: int | None = None) -> Path:
     points = (len(FREQUENCIES), MAP_POINTS)
     for model in (ANALYTICAL, PLANE, NUMERICAL):
         # One call a model: the width of a limit would else depend on all, and the next run make the map again.
-        wanted = Wanted((model,), (first, last), MAP_LEVELS, points, cycles=CYCLES, ramp=MAP_RAMP)
+        asked = {"omega": (first, last), "amplitude": MAP_LEVELS, "points": points, "cycles": CYCLES, "ramp": MAP_RAMP}
+        wanted = Wanted(models=(model,), **asked)
         with work_progress(f"Mapping by the {model} model") as progress:
             make_maps(path, wanted, specimens=(SPECIMEN,), workers=workers, progress=progress)
     return path
