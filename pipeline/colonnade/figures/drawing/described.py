@@ -142,19 +142,15 @@ def _said(one: Channel) -> str:
 
 def of_draft(text: str) -> Picture:
     """Draw what a drafted file, in which "?" is not known, guesses of transducers, on a body that stands in."""
-    setups = tomllib.loads(text)["setups"]
+    setups = {name: setup.get("channels", {}) for name, setup in tomllib.loads(text)["setups"].items()}
     words = ["dimensions and places are asked for in campaign.toml; hollow: not yet placed", "", *SIGNS]
     drawn = [
         Drawn(
             f"{name}, as drafted",
             STAND_IN._replace(words=words),
-            {
-                channel: _drafted(keys)
-                for channel, keys in setup.get("channels", {}).items()
-                if keys.get("on", "?") != "?"
-            },
+            {channel: _drafted(keys) for channel, keys in channels.items() if keys.get("on", "?") != "?"},
         )
-        for name, setup in setups.items()
+        for name, channels in setups.items()
     ]
     said = (
         "Directions of positive readings as guessed; the specimen stands in for one whose dimensions are not known yet."
