@@ -351,7 +351,7 @@ def _index(numbers: Numbers) -> str:
                 "# The paper, statement by statement",
                 f"**Of its {len(STATEMENTS)} statements {counts['agrees']} agree, {counts['differs']} differ, and "
                 f"{counts['undecided']} cannot be decided with synthetic data.**",
-                f"{PAPER} The copy at hand shows neither title nor year: these words describe it. Its "
+                f"{PAPER} The copy used shows neither title nor year: these words describe it. Its "
                 "recordings are not public.",
                 "`make reproduce` runs the paper's programme on the virtual shake table (seed "
                 f"{numbers['made']['seed']}), draws its figures and answers each statement by rule. All numbers are in "

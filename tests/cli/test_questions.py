@@ -1,4 +1,4 @@
-"""Questions as a person asks them: with a campaign and without, what is written, what is said where it cannot be."""
+"""Questions as a person asks them: with a campaign and without, what is written, and each refusal."""
 
 import csv
 import json

@@ -1,4 +1,4 @@
-"""A bad file, a missing file, a share that drops: that test fails alone, and why is told."""
+"""A bad file, a missing file, a share that drops: only that test fails, with its reason."""
 
 import errno
 from dataclasses import replace

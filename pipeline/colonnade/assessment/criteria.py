@@ -1,7 +1,7 @@
 """
 Criteria of practice for rocking and overturning by their ids: a new one is its entry here.
 
-Formulas are those by which the papers are cited. Of Housner (1963) and Ishiyama (1982) summaries were at hand; both
+Formulas are those by which the papers are cited. Of Housner (1963) and Ishiyama (1982) summaries were read; both
 formulas are held to their derivations by tests: the energy that a sudden velocity gives the block against the energy
 that overturns it.
 """
@@ -164,7 +164,7 @@ CRITERIA = (
 )
 """In the order of pages."""
 
-NOT_COMPUTED = {"ASCE 43": "The full text of the rocking procedure of ASCE/SEI 43-05, appendix A, was not at hand."}
+NOT_COMPUTED = {"ASCE 43": "The full text of the rocking procedure of ASCE/SEI 43-05, appendix A, was not available."}
 """Criteria that are asked for and not computed, with the reason."""
 
 

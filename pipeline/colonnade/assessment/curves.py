@@ -31,7 +31,7 @@ STEP = 1e-5
 @dataclass(frozen=True)
 class LognormalFit:
     """
-    P = Φ(ln(x / median) / β), or why there is none.
+    P = Φ(ln(x / median) / β), or why there is no curve.
 
     Attributes
     ----------

@@ -81,7 +81,7 @@ class Fragility(Digested):
 
     @cached_property
     def lognormal(self) -> LognormalFit:
-        """Lognormal curve of overturning; its `reason` is why there is none, else empty."""
+        """Lognormal curve of overturning; `reason` says why it is missing, else it is empty."""
         return fit_lognormal(self.outcomes, self.resampling)
 
     @cached_property

@@ -181,7 +181,7 @@ def draw_limit(axes: Axes, level: float, name: str) -> None:
 
 
 def largest_of(parts: Iterable[Array]) -> float:
-    """Return the largest finite magnitude, 0 if there is none."""
+    """Return the largest finite magnitude, 0 without a finite value."""
     return max((float(np.abs(values[np.isfinite(values)]).max(initial=0.0)) for values in parts), default=0.0)
 
 

@@ -67,7 +67,7 @@ def motion_asked_for(
     by_shape : bool, optional
         Of a file, too, only the shape counts.
     **reading
-        How a file is read, as of `read_motion`: if anything is said, it is a file.
+        How a file is read, as in `read_motion`; if any option is given, the name is that of a file.
 
     Raises
     ------

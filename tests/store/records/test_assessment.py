@@ -1,4 +1,4 @@
-"""The answer in words, also where there is none."""
+"""The answer in words, also if it is missing."""
 
 from colonnade.campaign.forms.assessed import UNCORRECTED, AssessmentSummary, Estimate, Variant
 from colonnade.store.records.assessment import sentences

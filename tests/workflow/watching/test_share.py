@@ -1,4 +1,4 @@
-"""A watched folder: what ends a wait, files copied from a share, and the command that is told of each."""
+"""A watched folder: what ends a wait, files copied from a share, and the command that is called for each."""
 
 import json
 import sys

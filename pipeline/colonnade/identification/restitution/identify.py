@@ -230,7 +230,7 @@ def _result(
 
 
 def _estimate(name: str, assumptions: str, level: float, solved: Solved | str) -> Estimate:
-    """Give e by the distribution of ln e, or the reason why there is none."""
+    """Return e from the distribution of ln e, or the reason why it is missing."""
     if isinstance(solved, str):
         return Estimate(name, level, assumptions, solved)
     # A record that says next to nothing has an interval beyond all numbers.

@@ -16,7 +16,7 @@ EXACT = 1e-9
 @dataclass(frozen=True)
 class Estimate:
     """
-    A value of e, or the reason why there is none.
+    A value of e, or the reason why it is missing.
 
     Attributes
     ----------

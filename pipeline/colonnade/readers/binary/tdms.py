@@ -143,7 +143,7 @@ def _recording(
     for step, number in Counter(clock.step for clock in clocks).items():
         why = "LabVIEW's default, which yields to a channel of times" if step == NO_TIMING else f"{1 / step:.9g} Hz"
         told.notes.append(f"clock of {count(number, 'channel')}: a step of {step:.9g} s ({why}), by wf_increment")
-    # LabVIEW's default step yields to a channel of times, and is all that is known where there is none.
+    # A channel of times comes before LabVIEW's default step, which is used only if there is no such channel.
     yielding = {n for n, each in enumerate(channels) if each.clock is not None and each.clock.step == NO_TIMING}
     return recorded(path, "tdms", columns, told, options, yielding=yielding)
 
