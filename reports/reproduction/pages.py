@@ -186,7 +186,8 @@ def _sines(numbers: Numbers) -> list[str]:
         "## In space",
         "The contact model on recorded motions of four tests, from a rotation about x of 1 mrad: largest slide of the "
         "base and rotations about x and about the vertical, up to the angle of 0.28 rad at which the frame catches "
-        "the prism. The last column is what the balance of energy misses.",
+        "the prism. The last column is what the balance of energy misses. These runs are chaotic: a start that differs "
+        "by a billionth can give another largest rotation, and even another outcome.",
         columns(IN_SPACE, numbers["in_space"]),
     ]
 
