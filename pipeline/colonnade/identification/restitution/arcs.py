@@ -169,11 +169,11 @@ def arcs_between(impacts: Array, time: Array, angle: Array, p: float, *, critica
         columns = _shape(rate[number] * (time[fitted] - middle[number]))
         pieces = list(starmap(slice, pairwise([0, *np.cumsum(count).tolist()])))
         normal = np.array([columns[piece].T @ columns[piece] for piece in pieces])
+        right = np.array([columns[piece].T @ angle[piece] for piece in pieces])
     is_known = (count >= FEWEST_SAMPLES) & np.isfinite(normal).all(axis=(1, 2))
     is_known[is_known] = np.linalg.cond(normal[is_known]) < SINGULAR
     inverse = np.full(normal.shape, np.nan)
     inverse[is_known] = np.linalg.inv(normal[is_known])
-    right = np.array([columns[piece].T @ angle[piece] for piece in pieces])
     coefficients = (inverse @ right[:, :, None])[:, :, 0]
     residual = np.where(is_known[number], angle - (columns * coefficients[number]).sum(axis=1), 0.0)
     variance = np.bincount(number, residual**2, start.size) / np.maximum(count - 3, 1)
