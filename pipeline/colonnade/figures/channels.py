@@ -193,7 +193,13 @@ MOST_CHANNELS = 12
 
 
 def picture(one: OfTest) -> Picture | None:
-    """Draw all channels of a test as recorded; None without their samples."""
+    """
+    Every channel as recorded: flags, spikes, spectra.
+
+    Left: channels as recorded, in their physical unit and, at the right of each panel, in the unit of the recorder.
+    Right: amplitude spectral density before and after the filter, flagged samples bridged; dotted line: cut-off of the
+    low-pass.
+    """
     stored = one.stored
     recorded, conditioned = (stored.datasets.get((stage, None)) for stage in ("ingest", "condition"))
     variables = {} if recorded is None else recorded.data_vars

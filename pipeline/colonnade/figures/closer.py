@@ -102,7 +102,12 @@ AROUND = 2.5
 
 
 def picture(one: OfTest) -> Picture | None:
-    """Draw a test that rocked more closely; None if nothing rocked."""
+    """
+    Phase portrait, and of a sine the steady state.
+
+    Left: phase portrait of the same stretch; on the dotted line, the separatrix, the free motion just reaches the
+    critical angle. The angular velocity is over pα.
+    """
     record, block, curves = one.record, one.block, one.ratios()
     if record.outcome == "no-rocking" or not curves:
         return None

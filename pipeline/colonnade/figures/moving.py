@@ -127,7 +127,7 @@ def _at(curve: Curve, times: Array) -> Array:
 
 
 def animation(one: OfTest) -> Movie | None:
-    """Draw the block of a test as it rocks, measured and by each model; None without an angle."""
+    """The rocking block, measured and by each model, as a GIF."""
     angles, stored, block = dict[str, Curve](), one.stored, one.block
     for name, (stage, model) in one.sources.items():
         if stored.has(stage, "rocking_angle", model):

@@ -39,7 +39,7 @@ from colonnade.report.forecasts_page import forecasts_page
 from colonnade.report.interactive import panels, test_data
 from colonnade.report.methods import Used
 from colonnade.report.overview import SpanTest, TestRow
-from colonnade.report.pictures import FreeVibration, picture, span_of
+from colonnade.report.pictures import FreeVibration, picture, pictures_in, span_of
 from colonnade.report.test_page import channels, facts, page
 from colonnade.report.test_page.channels import ChannelRow
 from colonnade.store.layout import Layout
@@ -104,6 +104,7 @@ def _environment() -> Environment:
     environment.globals |= {
         "count": count,
         "picture": picture,
+        "pictures_in": pictures_in,
         "listed": text.listed,
         "test_page": of_test,
         "scripts_of": scripts_of,

@@ -1,14 +1,15 @@
 """
 The figures of tests, specimens and the campaign, each by its name: what it is of, shows and needs, and who draws it.
 
-A new figure is a module in `figures` and an entry in `FIGURES`; from then on pages can show it and `colonnade figure`
-draws it.
+A new figure is a module in `figures` and an entry in `FIGURES`: its section of the page and the PDF show it, and
+`colonnade figure` draws it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from inspect import cleandoc
 from math import isfinite
 from typing import Any, Literal, NamedTuple
 
@@ -122,6 +123,9 @@ class OfCampaign:
 Subject = OfTest | OfSpecimen | OfCampaign
 """What a figure is drawn of."""
 
+SUBJECTS = {"test": OfTest, "specimen": OfSpecimen, "campaign": OfCampaign}
+"""The same by their names."""
+
 
 def read_of_test(campaign: Campaign, layout: Layout, test: str, *, with_samples: bool = True) -> OfTest:
     """Read what is stored of a test, as of the last run, with the samples of its channels."""
@@ -171,32 +175,48 @@ def span_of(one: OfTest) -> SpanTest | None:
 
 class Entry(NamedTuple):
     """
-    A figure.
+    A figure; the docstring of what draws it says what it shows, and under it the caption.
 
     Attributes
     ----------
     name : str
         Its name, the same for a test and a specimen if it shows the same of both.
     of : {"test", "specimen", "campaign"}
-    shows : str
-        In words, for lists.
     needs : str
         What has to be there.
     draw : callable
         Takes an `OfTest`, `OfSpecimen` or `OfCampaign`; None if there is nothing to draw.
+    section : str
+        Of the subject's page, which shows it; empty if a template places it.
     is_narrow : bool
         Whether it is legible in a single column of a journal.
     """
 
     name: str
     of: Literal["test", "specimen", "campaign"]
-    shows: str
     needs: str
     draw: Callable[[Any], Picture | Movie | None]
+    section: str = ""
     is_narrow: bool = True
+
+    @property
+    def shows(self) -> str:
+        """In words, for lists."""
+        return cleandoc(self.draw.__doc__ or "").partition("\n\n")[0].rstrip(".")
+
+    @property
+    def caption(self) -> str:
+        """What stands under it on a page."""
+        return " ".join(cleandoc(self.draw.__doc__ or "").partition("\n\n")[2].split())
 
 
 def _estimators_of_test(one: OfTest) -> Picture | None:
+    """
+    e from every estimator.
+
+    e from the whole history and, as a cross-check, from the peaks, with intervals; diamond: the value given. Dotted
+    line: rigid-body e, without bounce.
+    """
     rows = estimators.estimate_rows(one.stored)
     return estimators.estimators(f"estimators-{one.test.id}", {"": rows}, one.block.restitution)
 
@@ -209,26 +229,47 @@ def _decays(one: OfTest | OfSpecimen) -> tuple[str, Sequence[FreeVibration], Est
 
 
 def _peaks(one: OfTest | OfSpecimen) -> Picture | None:
+    """
+    Energy of successive peaks and its line.
+
+    Energy of each peak over the energy that overturns the block, against the number of the preceding impact: a constant
+    e is a straight line. Band: 95 % confidence band of the line. Bars: ± two standard errors.
+    """
     name, decays, _ = _decays(one)
     series, note = some_of([each.peaks for each in decays if each.peaks is not None], "free vibrations")
     return decay.peaks(f"peaks-{name}", series, one.block, note)
 
 
 def _impacts(one: OfTest | OfSpecimen) -> Picture | None:
+    """
+    e of each impact over its velocity.
+
+    e of each impact against the angular velocity before it, and against its number; each free vibration has its own
+    marker. Bars, or of many impacts the grey band: ± two standard errors of an impact. Line and narrow band: e that is
+    identified, with its interval.
+    """
     name, decays, level = _decays(one)
     series, note = some_of([each.impacts for each in decays if each.impacts is not None], "free vibrations")
     return decay.impacts(f"impacts-{name}", series, level, one.block.restitution, note)
 
 
 def _base(one: OfTest) -> Picture | None:
+    """Motion of the table and its spectrum, with the target."""
     return base_motion.base_picture(one, base_motion.base_of(one))
 
 
 def _setup(one: OfTest) -> Picture:
+    """Specimen and transducers to scale."""
     return described.picture(one.campaign, one.test.specimen, one.test.setup)
 
 
 def _estimators(one: OfSpecimen) -> Picture | None:
+    """
+    e from every estimator and record.
+
+    e from the history and from the peaks, with intervals; diamond: the value given, and the one pooled over all
+    records. Dotted line: rigid-body e, without bounce.
+    """
     shown, note = some_of(one.decays, "free vibrations")
     groups = {each.test: each.estimates for each in shown}
     _, _, level = _decays(one)
@@ -238,14 +279,28 @@ def _estimators(one: OfSpecimen) -> Picture | None:
 
 
 def _measured_map(one: OfSpecimen) -> Picture | None:
+    """
+    Sine tests by outcome over Ω and A.
+
+    Each mark is a sine test. A bar spans the two tests around a boundary. Dotted line: A = 1. Labels: order of a
+    sub-harmonic response.
+    """
     return response_orders.tested(f"map-{one.name}", one.points) if makes_map(one.points) else None
 
 
 def _map(one: OfSpecimen) -> Picture | None:
+    """
+    Computed stability map with the measured points.
+
+    Computed outcomes over frequency ratio Ω and amplitude ratio A, with the measured sine tests. Thick line: lower
+    limit of overturning; thin line: upper limit, above which every test overturns. Labels: order of a sub-harmonic
+    response.
+    """
     return response_orders.computed(one.name, one.charts, one.points) if one.charts else None
 
 
 def _spans(one: OfSpecimen) -> Picture | None:
+    """Earthquake tests of a motion side by side by Span."""
     groups = sorted(span_groups(one.spans), key=lambda group: -len(group.tests))
     if not groups:
         return None
@@ -255,11 +310,13 @@ def _spans(one: OfSpecimen) -> Picture | None:
 
 
 def _agreement(one: OfCampaign) -> Picture | None:
+    """Predicted over measured peak of each test."""
     models = models_shown(one.campaign)
     return overview.peaks_picture(overview.peak_points(one.rows, models, overview.worst(one.rows, models)))
 
 
 def _calibration(one: OfCampaign) -> Picture | None:
+    """Reliability and PIT of forecasts."""
     return forecasts_page.calibration(one.calibrations)
 
 
@@ -270,40 +327,42 @@ _RAW = "It needs a raw file that could be read."
 _ANGLE = "It needs a measured or predicted angle."
 _FREE = "It needs a free vibration with an angle."
 _FREED = f"{_FREE} Its fit must free the critical angle."
-_TWO = "It needs two Spans of one motion."
-_SCORED = f"It needs {FEWEST} scored forecasts."
 FIGURES: tuple[Entry, ...] = (
-    Entry("record", "test", "all of a test over time: angle, misfit, other motions, base", _ANGLE, record.record),
-    Entry("angle", "test", "rocking angle over time, measured and predicted", _ANGLE, record.angle),
-    Entry("closer", "test", "phase portrait, and of a sine the steady state", _ANGLE, closer.picture, is_narrow=False),
-    Entry("base", "test", "table's motion and its spectrum, with the target", "It needs a table motion.", _base),
-    Entry(
-        "channels", "test", "every channel as recorded: flags, spikes, spectra", _RAW, channels.picture, is_narrow=False
-    ),
-    Entry("bands", "test", "measured angle over each model's bands", "It needs an ensemble.", record.bands),
-    Entry("fitted", "test", "free vibration, fitted history and residual", _FREE, estimators.fitted),
-    Entry("estimators", "test", "e from every estimator", _FREE, _estimators_of_test, is_narrow=False),
-    Entry("peaks", "test", "energy of successive peaks and its line", _FREE, _peaks),
-    Entry("impacts", "test", "e of each impact over its velocity", _FREE, _impacts),
-    Entry("region", "test", "joint region of e and the critical angle", _FREED, estimators.region, is_narrow=False),
-    Entry("joints", "test", "angle in the joint below each body over time", _BODIES, bodies.joints),
-    Entry("plan", "test", "where each body stands at the end, from above", _BODIES, bodies.plan, is_narrow=False),
-    Entry("setup", "test", "specimen and transducers to scale", "", _setup, is_narrow=False),
-    Entry("animation", "test", "the rocking block, measured and by each model, as a GIF", _ANGLE, moving.animation),
-    Entry("estimators", "specimen", "e from every estimator and record", _FREE, _estimators, is_narrow=False),
-    Entry("peaks", "specimen", "energy of successive peaks of every record", _FREE, _peaks),
-    Entry("impacts", "specimen", "e of each impact of every record", _FREE, _impacts),
-    Entry("measured-map", "specimen", "sine tests by outcome over Ω and A", _SINES, _measured_map),
-    Entry("map", "specimen", "computed stability map with the measured points", f"{_SINES} {_MAP}", _map),
-    Entry("spans", "specimen", "earthquake tests of a motion side by side by Span", _TWO, _spans),
-    Entry("agreement", "campaign", "predicted over measured peak of each test", "A test must have rocked.", _agreement),
-    Entry("calibration", "campaign", "reliability and PIT of forecasts", _SCORED, _calibration),
+    Entry("record", "test", _ANGLE, record.record),
+    Entry("angle", "test", _ANGLE, record.angle),
+    Entry("closer", "test", _ANGLE, closer.picture, "closer", is_narrow=False),
+    Entry("base", "test", "It needs a table motion.", _base),
+    Entry("channels", "test", _RAW, channels.picture, "channels", is_narrow=False),
+    Entry("bands", "test", "It needs an ensemble.", record.bands),
+    Entry("fitted", "test", _FREE, estimators.fitted, "restitution"),
+    Entry("estimators", "test", _FREE, _estimators_of_test, "restitution", is_narrow=False),
+    Entry("peaks", "test", _FREE, _peaks, "restitution"),
+    Entry("impacts", "test", _FREE, _impacts, "restitution"),
+    Entry("region", "test", _FREED, estimators.region, "restitution", is_narrow=False),
+    Entry("plan", "test", _BODIES, bodies.plan, "bodies", is_narrow=False),
+    Entry("joints", "test", _BODIES, bodies.joints, "bodies"),
+    Entry("setup", "test", "", _setup, is_narrow=False),
+    Entry("animation", "test", _ANGLE, moving.animation),
+    Entry("peaks", "specimen", _FREE, _peaks, "restitution"),
+    Entry("estimators", "specimen", _FREE, _estimators, "restitution", is_narrow=False),
+    Entry("impacts", "specimen", _FREE, _impacts, "restitution"),
+    Entry("map", "specimen", f"{_SINES} {_MAP}", _map, "map"),
+    Entry("measured-map", "specimen", _SINES, _measured_map, "measured-map"),
+    Entry("spans", "specimen", "It needs two Spans of one motion.", _spans),
+    Entry("agreement", "campaign", "A test must have rocked.", _agreement),
+    Entry("calibration", "campaign", f"It needs {FEWEST} scored forecasts.", _calibration),
 )
 """Every figure; no two of one subject have the same name."""
 
 
 def picture(name: str, of: Subject) -> Picture | None:
     """Draw a figure of a test, a specimen or the campaign by its name; None if there is nothing to draw."""
-    kind = "test" if isinstance(of, OfTest) else "specimen" if isinstance(of, OfSpecimen) else "campaign"
-    drawn = next(entry for entry in FIGURES if (entry.of, entry.name) == (kind, name)).draw(of)
+    drawn = next(entry for entry in FIGURES if isinstance(of, SUBJECTS[entry.of]) and entry.name == name).draw(of)
     return drawn if isinstance(drawn, Picture) else None
+
+
+def pictures_in(section: str, of: Subject) -> Iterator[tuple[Picture, str]]:
+    """Draw the figures that are entered for a section of a page, each with its caption."""
+    for entry in FIGURES:
+        if isinstance(of, SUBJECTS[entry.of]) and entry.section == section and (drawn := picture(entry.name, of)):
+            yield drawn, entry.caption

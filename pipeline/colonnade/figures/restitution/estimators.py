@@ -151,7 +151,11 @@ SMALLEST_RESIDUAL = 1e-2
 
 
 def fitted(one: OfTest) -> Picture | None:
-    """Draw the measured angle, the history fitted to it and the residual; None if none was fitted."""
+    """
+    Free vibration, fitted history and residual.
+
+    Measured rocking angle and the free rocking fitted to the whole history. Lower panel: measured minus fitted.
+    """
     stored = one.stored
     time, angle = (stored.array(STAGE, name) for name in ("fitted_elapsed", "fitted_history"))
     if not time.size or not angle.size:
@@ -192,7 +196,12 @@ POINTS = 181
 
 
 def region(one: OfTest) -> Picture | None:
-    """Draw the joint region of e and the critical angle; None if the angle was not freed."""
+    """
+    Joint region of e and the critical angle.
+
+    e and critical angle as the record and what was known of the block show them together: joint regions of 50 % and
+    95 %.
+    """
     mean, covariance = (one.stored.array(STAGE, f"joint_{name}") for name in ("mean", "covariance"))
     if not mean.size:
         return None

@@ -42,7 +42,11 @@ def panels(one: OfTest) -> list[Panel]:
 
 @styled()
 def joints(one: OfTest) -> Picture | None:
-    """Draw the rocking angle in the joint below each body, the upper ones above; None without several bodies."""
+    """
+    Angle in the joint below each body over time.
+
+    Rocking angle of each body relative to the first that it stands on, or to the table.
+    """
     shown = panels(one)
     if not shown:
         return None
@@ -62,7 +66,11 @@ def _said(outcome: str | None, opening: float | None) -> str:
 
 
 def plan(one: OfTest) -> Picture | None:
-    """Draw the base of each body from above, to scale: at rest, at the end, and as predicted; None without bodies."""
+    """
+    Where each body stands at the end, from above.
+
+    The base of each body from above, to scale: at rest, at the end as measured, and as each model has it.
+    """
     shown: dict[str, dict[str, BodyPrediction]] = {}
     for name, record in one.record.bodies.items():
         every = {"measured": record, **record.predicted}

@@ -81,7 +81,7 @@ AFTER = 0.05
 
 
 def record(one: OfTest) -> Picture | None:
-    """Draw a test over time: angle, misfit, other motions, and the base motion if it drives; None without anything."""
+    """All of a test over time: angle, misfit, other motions, and the base motion if it drives."""
     test, stored, curves = one.test, one.stored, one.ratios()
     base = quantities(one, BASE) if test.kind != "free-vibration" or driven_by(stored) == RECORDED else []
     if not curves and not base:
@@ -135,7 +135,7 @@ def whole_record(
 
 
 def bands(one: OfTest) -> Picture | None:
-    """Draw the measured angle over what each model's own uncertainty leaves; None without an ensemble."""
+    """Measured angle over each model's bands."""
     found, measured = one.spreads(), one.measured_ratio()
     if not found:
         return None
@@ -251,7 +251,7 @@ def rocking_angle(curves: Mapping[str, Curve], *, title: str) -> Figure:
 
 
 def angle(one: OfTest) -> Picture | None:
-    """Draw the measured and the predicted angle of a test; None without any."""
+    """Rocking angle over time, measured and predicted."""
     curves = one.ratios()
     if not curves:
         return None
