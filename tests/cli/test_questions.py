@@ -294,7 +294,7 @@ def test_an_e_that_was_not_identified_is_shown_as_the_velocity_ratio(colonnade, 
     path = campaign / "campaign.toml"
     given = path.read_text(encoding="utf-8").replace('"26.10 kg"', '"26.10 kg", restitution = 0.97')
     path.write_text(given + few, encoding="utf-8")
-    assert re.search(r"prism +300 .* velocity-ratio ", colonnade("calibrate", "--workers", "1").stdout)
+    assert "as none could be identified" in colonnade("calibrate", "--workers", "1").stdout
     (made,) = json.loads(colonnade("calibrate", "--workers", "1", "--json").stdout)
     assert made["source"] == "velocity-ratio"
     assert made["restitution"] == made["velocity_ratio"]

@@ -34,7 +34,7 @@ from colonnade.cli.common.options import (
     workers_option,
 )
 from colonnade.errors import count
-from colonnade.units.text import NOTHING, number, quantity, written
+from colonnade.units.text import number
 
 if TYPE_CHECKING:
     from colonnade.identification.response.boundaries import Misfit
@@ -355,12 +355,6 @@ def _misfit(misfit: Misfit) -> str:
     return f"{misfit.mean:+.3f} in A (RMS {misfit.rms:.3f}, {misfit.frequencies} Ω)"
 
 
-HEADS = (
-    *("specimen", "mesh", "step", "CDF ξ", "ξ_eff", "stiffness"),
-    *("e", "source", "e wanted", "velocity ratio"),
-)
-
-
 @click.command(epilog="Example: colonnade calibrate demo --specimen prism")
 @campaign_argument
 @specimen_option
@@ -376,40 +370,24 @@ def calibrate(
 
     e is identified from the rocking angle of a free vibration of the model, as from a record. The mean velocity ratio
     of its impacts is shown with it: a contact that bounces also loses energy between impacts, so the two differ. If e
-    cannot be identified, as after too few impacts, the mean velocity ratio is used: "source" shows which of the two.
+    cannot be identified, as after too few impacts, the mean velocity ratio is used, and it says so.
 
     Mesh and step are those of the settings (processing.predict.contact). Writes processed/contact/<SPECIMEN>.nc, as a
     run does.
     """
+    from colonnade.report.specimens_page import law_facts
+    from colonnade.store.records.stored import Stored
+    from colonnade.store.results import ResultId
     from colonnade.workflow.calibration import calibrate as calibrated
 
     made = calibrated(campaign, specimens=specimen, workers=workers, results=results)
     if as_json:
         show_json(made)
-        return int(any(each["restitution"] is None for each in made))
-    rows = [
-        (
-            each["specimen"],
-            str(each["mesh"]),
-            quantity(each["step"], "µs"),
-            number(each["damping_fraction"]),
-            number(each["effective_damping"]),
-            written(each["stiffness"] and 1e-9 * each["stiffness"], "N/mm³", 3),
-            _e(each["restitution"]),
-            each["source"] or NOTHING,
-            _e(each["target"]),
-            _e(each["velocity_ratio"]),
-        )
-        for each in made
-    ]
-    show_table(HEADS, rows)
-    for each in made:
-        if each["reason"]:
-            say("{specimen}: {reason}".format_map(each))
+    for each in () if as_json else made:
+        say("specimen {specimen}: {reason}".format_map(each) if each["reason"] else f"specimen {each['specimen']}")
         if each["path"] is not None:
+            stored = Stored()
+            stored.add(ResultId(each["specimen"], "contact"), each["path"])
+            show_rows(law_facts(stored))
             say("law: {path}".format_map(each))
     return int(any(each["restitution"] is None for each in made))
-
-
-def _e(value: float | None) -> str:
-    return NOTHING if value is None else f"{value:.4f}"

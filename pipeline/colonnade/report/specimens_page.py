@@ -98,7 +98,7 @@ def of_specimen(subject: OfSpecimen, tests: Sequence[TestRow]) -> dict[str, Any]
                 ("remark", pooled.text("specimen", "reason")),
             ]
         ),
-        "contact": _contact(pooled),
+        "contact": law_facts(pooled),
         "warnings": [Warned.of(found, explained=explained) for found, explained in in_order(pooled.findings)],
         "failures": pooled.failures,
         "free_vibrations": subject.decays,
@@ -136,7 +136,7 @@ def _between(pooled: Stored) -> str:
     return f"{number(between, 2)} (standard deviation of e); standard error within a test {within}"
 
 
-def _contact(pooled: Stored) -> list[tuple[str, str]]:
+def law_facts(pooled: Stored) -> list[tuple[str, str]]:
     """Write the law of contact that gives the specimen's e, and what it acts on."""
     if not pooled.has("contact", "contact_stiffness"):
         return []
