@@ -55,9 +55,6 @@ class Format:
         (Path, options) -> Recording, which is refused if no channel has values; raises ReadError.
     options : type of Options
         Options for files of this format, all optional.
-    read_window : callable or None
-        (Path, options, (low, high)) -> Recording that holds at least what is between these times, s, in memory for
-        little more than that; of a long file only this is read.
     modules : tuple of str
         Heavy packages that `read` imports; the bounded process imports them once for all files.
     companions : callable or None
@@ -72,7 +69,6 @@ class Format:
     recognise: Callable[[Path], Recognition]
     read: Callable[[Path, Any], Recording]
     options: type[Options] = Options
-    read_window: Callable[[Path, Any, tuple[float, float]], Recording] | None = None
     modules: tuple[str, ...] = ()
     companions: Callable[[Path], tuple[Path, ...]] | None = None
     in_process: bool = False

@@ -33,9 +33,6 @@ GROUP = "colonnade.formats"
 MOST_GENERAL = "delimited"
 """The format that recognises almost any text: it is tried last."""
 
-LONG_FILE = 100_000_000
-"""Size, bytes, from which on only the part of a file that is needed is read."""
-
 
 @cache
 def formats() -> dict[str, Format]:
@@ -51,7 +48,6 @@ def read(
     format: str | None = None,
     options: Mapping[str, Any] | None = None,
     *,
-    window: tuple[float, float] | None = None,
     within: Path | None = None,
 ) -> Recording:
     """
@@ -65,8 +61,6 @@ def read(
         Name of its format; without it, the first format that recognises the file is used.
     options : mapping, optional
         Options of that format.
-    window : (float, float), optional
-        What is wanted, in s from the file's own zero; of a file longer than `LONG_FILE` the rest may be left out.
     within : Path, optional
         Folder whose files may be read, that of the campaign; the file's own by default.
 
@@ -85,7 +79,7 @@ def read(
     except ValidationError as error:  # campaign.toml was refused for it before, with its line
         told = "; ".join(f"{'.'.join(map(str, each['loc']))}: {each['msg']}" for each in error.errors())
         raise ReadError(f'{path.name}: format "{chosen.name}" cannot be read with these options: {told}.') from error
-    recording = (_read if chosen.in_process else _read_bounded)(chosen, path, checked, window, within)
+    recording = (_read if chosen.in_process else _read_bounded)(chosen, path, checked, within)
     return replace(recording, notes=(*evidence, *recording.notes))
 
 
@@ -115,17 +109,13 @@ def companions(path: Path, format: str | None = None) -> tuple[Path, ...]:
     return () if chosen.companions is None else chosen.companions(path)
 
 
-def read_here(
-    path: Path, format: str, options: Mapping[str, Any], window: tuple[float, float] | None
-) -> tuple[dict[str, Any], Arrays]:
+def read_here(path: Path, format: str, options: Mapping[str, Any]) -> tuple[dict[str, Any], Arrays]:
     """Read a raw file in this process for another one, whatever its format; see `read`."""
     chosen = _named(format)
-    return told(_read(chosen, path, chosen.options(**options), window))
+    return told(_read(chosen, path, chosen.options(**options)))
 
 
-def _read_bounded(
-    format: Format, path: Path, options: BaseModel, window: tuple[float, float] | None, within: Path | None
-) -> Recording:
+def _read_bounded(format: Format, path: Path, options: BaseModel, within: Path | None) -> Recording:
     """Have the bounded process read a file."""
     folder = path.resolve().parent if within is None else within.resolve()
     others = () if format.companions is None else format.companions(path)
@@ -135,15 +125,10 @@ def _read_bounded(
                 f"{path.name}: its values are in {other.name}, which is a link to {to}, outside {folder}. "
                 "It is not followed. Copy the file itself there."
             )
-    given = {
-        "format": format.name,
-        "options": options.model_dump(mode="json", exclude_unset=True),
-        "window": window,
-    }
     return run_bounded(
         f"{__name__}:read_here",
         path,
-        given,
+        {"format": format.name, "options": options.model_dump(mode="json", exclude_unset=True)},
         partial(recording_of, path),
         kind=format.name,
         within=folder,
@@ -152,14 +137,9 @@ def _read_bounded(
     )
 
 
-def _read(
-    format: Format, path: Path, options: BaseModel, window: tuple[float, float] | None, within: Path | None = None
-) -> Recording:
+def _read(format: Format, path: Path, options: BaseModel, within: Path | None = None) -> Recording:
     with refusing(path, f'"{format.name}"'):
-        if window is not None and format.read_window is not None and path.stat().st_size > LONG_FILE:
-            recording = format.read_window(path, options, window)
-        else:
-            recording = format.read(path, options)
+        recording = format.read(path, options)
     if any(np.isfinite(channel.values).any() for channel in recording.channels):
         return recording
     left_out = (note for note in recording.notes if "left out" in note)

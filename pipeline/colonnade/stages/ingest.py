@@ -55,12 +55,6 @@ class IngestInputs(Inputs):
     review: Review = Review()
     settings: QualitySettings
 
-    def wanted(self, recorder: str) -> tuple[float, float] | None:
-        """Give the part of a recorder's file that the test is; None for all, as where its times are not the file's."""
-        others = [channel.time for channel in self.channels.values() if channel.recorder == recorder]
-        is_own = self.sampling_rates.get(recorder) is None and not any(time is not None for time in others)
-        return self.window if is_own else None
-
     @classmethod
     def of(cls, campaign: Campaign, test: Test) -> IngestInputs:
         """Gather what `ingest` reads for one test."""

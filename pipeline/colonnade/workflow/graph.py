@@ -190,8 +190,7 @@ def _ingest(folder: Path, paths: Mapping[str, Path], raw: RawFiles, *, inputs: I
     recordings = {}
     for recorder, path in paths.items():
         how = inputs.files[recorder]
-        window = inputs.wanted(recorder)
-        recordings[recorder] = read(path, how["format"], how["options"], window=window, within=folder)
+        recordings[recorder] = read(path, how["format"], how["options"], within=folder)
     result = ingest(recordings, inputs)
     expect_unchanged(folder, raw)
     return result

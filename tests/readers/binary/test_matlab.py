@@ -1,6 +1,5 @@
 """MATLAB: vectors, matrices and structs of both file formats become channels, with the clock and how it was found."""
 
-import re
 import struct
 
 import h5py
@@ -115,33 +114,19 @@ def test_the_time_that_was_given_is_taken(form, tmp_path):
         read(path, options={"time": "m"})
 
 
-def test_only_the_variables_that_were_asked_for_are_read(tmp_path):
-    path = saved(tmp_path / "a.mat", {"t": TIME, "top": TOP, "bottom": TOP})
-    assert [each.name for each in read(path, options={"variables": ["t", "top"]}).channels] == ["t", "top"]
-    with pytest.raises(ReadError, match=r'variable "tpo" is missing\. Did you mean "top"'):
-        read(path, options={"variables": ["tpo"]})
-
-
 def test_a_file_without_columns_says_what_it_holds(form, tmp_path):
     with pytest.raises(ReadError, match=r"no column of numbers in it; it holds (?:note, fs|fs, note)\."):
         read(form(tmp_path / "a.mat", {"note": "calibration", "fs": 200.0}))
 
 
-def test_bristols_numbered_channels_have_names_and_units_and_the_first_is_time(form, tmp_path):
-    variables = {"File_Header": {"NumberOfChannels": "3", "SampleFrequency": "200"}}
-    for number, (name, unit, values) in enumerate([("T", "s", TIME), ("LVDT 1", "mm", TOP), ("ACC", "g", -TOP)], 1):
+def test_bristols_numbered_channels_have_names_and_units_and_the_rate_of_the_header(form, tmp_path):
+    variables = {"File_Header": {"NumberOfChannels": "2", "SampleFrequency": "200"}}
+    for number, (name, unit, values) in enumerate([("LVDT 1", "mm", TOP), ("ACC", "g", -TOP)], 1):
         variables[f"Channel_{number}_Header"] = {"SignalName": name, "Unit": unit, "MaxLevel": "10"}
         variables[f"Channel_{number}_Data"] = values
     recording = read(form(tmp_path / "a.mat", variables))
-    assert [(each.name, each.unit) for each in recording.channels] == [("time", "s"), ("LVDT 1", "mm"), ("ACC", "g")]
+    assert [(each.name, each.unit) for each in recording.channels] == [("LVDT 1", "mm"), ("ACC", "g")]
     np.testing.assert_array_equal(column(recording, "LVDT 1"), TOP)
-    assert any("layout of Bristol" in note for note in recording.notes)
-
-
-def test_bristols_numbered_channels_without_a_clock_go_by_the_rate_of_the_header(tmp_path):
-    variables = {"File_Header": {"SampleFrequency": "200"}, "Channel_1_Data": TOP, "Channel_2_Data": -TOP}
-    recording = read(saved(tmp_path / "a.mat", {**variables, "Channel_1_Header": {"SignalName": "ACC", "Unit": "g"}}))
-    np.testing.assert_array_equal(column(recording, "ACC"), TOP)
 
 
 @every(
@@ -200,18 +185,13 @@ def of_elements(path, *variables):
     return path
 
 
-@every(
-    ("variable", "reason"),
-    [
-        (matrix(16, ONE), "x is left out: it is a function; nothing in a recording is executed"),
-        (opaque(b"x", b"timetable"), "x is left out: it is an object of MATLAB's class timetable.*timetable2table"),
-        (matrix(5, *SPARSE), "x is left out: it is a sparse matrix"),
-    ],
-)
-def test_what_is_no_data_is_left_out_with_the_reason(tmp_path, variable, reason):
+@every("variable", [matrix(16, ONE), opaque(b"x", b"timetable"), matrix(5, *SPARSE)])
+def test_what_is_no_data_is_left_out_with_what_to_do(tmp_path, variable):
     recording = read(of_elements(tmp_path / "a.mat", variable, NUMBERS))
     assert recording.channel("good").values.tolist() == [0.0, 1.0, 2.0]
-    assert any(re.search(reason, note) for note in recording.notes)
+    (told,) = (note for note in recording.notes if note.startswith("x is left out: it holds no real numbers"))
+    assert "nothing in a recording is executed" in told
+    assert "table2struct" in told
 
 
 @every(
@@ -285,15 +265,15 @@ def virtual_numbers(file):
 @every(
     ("fill", "reason"),
     [
-        (object_of_a_class, "it is an object of MATLAB's class timetable, which only MATLAB can open"),
-        (lambda file: of_class(file, "function_handle"), "it is a function; nothing in a recording is executed"),
+        (object_of_a_class, "a function or an object of one of MATLAB's classes"),
+        (lambda file: of_class(file, "function_handle"), "nothing in a recording is executed"),
         (external_link, "it is a link to another place or file"),
         (
             lambda file: file.create_dataset("x", (5, 1), "f8", external=[("/etc/hostname", 0, 40)]),
             "its numbers are in another file",
         ),
         (virtual_numbers, "its numbers are in another file"),
-        (lambda file: file.create_group("x").attrs.create("MATLAB_sparse", np.uint64(3)), "it is a sparse matrix"),
+        (lambda file: file.create_group("x").attrs.create("MATLAB_sparse", np.uint64(3)), "sparse"),
     ],
 )
 def test_what_is_no_data_of_this_file_is_left_out_with_the_reason(tmp_path, fill, reason):

@@ -8,7 +8,6 @@ import pytest
 from nptdms import ChannelObject, GroupObject, RootObject, TdmsWriter
 
 from colonnade.errors import ReadError
-from colonnade.readers.binary import tdms
 from colonnade.readers.registry import read
 from every import every
 
@@ -57,9 +56,6 @@ def test_a_name_in_two_groups_needs_its_group(path):
     assert recording.channel("scaled/top").values.tolist() == [1.0] * 5
     with pytest.raises(ReadError, match='no column is called "top"'):
         recording.channel("top")
-    assert read(path, options={"group": "raw"}).channel("top").values.tolist() == [0.0] * 5
-    with pytest.raises(ReadError, match=r'group "row" not found\. Did you mean "raw"'):
-        read(path, options={"group": "row"})
 
 
 def test_a_channel_of_times_is_the_clock_where_the_properties_give_none(path):
@@ -102,7 +98,6 @@ def test_a_step_of_one_second_that_nobody_gave_yields_to_a_channel_of_times(path
     columns = [ChannelObject("g", "Time", np.arange(5) / 100, default), ChannelObject("g", "top", np.zeros(5), default)]
     recording = read(written(path, columns))
     np.testing.assert_array_equal(recording.channel("top").time, np.arange(5) / 100)
-    assert any("LabVIEW's default, which yields to a channel of times" in note for note in recording.notes)
     assert read(written(path, columns[1:])).channel("top").time.tolist() == [0, 1, 2, 3, 4]
 
 
@@ -123,7 +118,7 @@ def test_text_is_left_out_and_infinities_are_missing(path):
     remarks = ChannelObject("g", "remarks", ["a", "b", "c"])
     recording = read(written(path, [remarks, sampled("a", np.array([1.0, np.inf, 2.0]))]))
     assert [channel.name for channel in recording.channels] == ["a"]
-    assert any('"g/remarks" is left out: it holds text' in note for note in recording.notes)
+    assert any('"g/remarks" is left out: it holds samples that are not numbers' in note for note in recording.notes)
     assert np.isnan(recording.channel("a").values[1])
 
 
@@ -136,42 +131,32 @@ def test_a_stale_index_file_beside_it_is_not_looked_at(path):
         read(index)
 
 
-@every(("cut", "lost", "left"), [(8, "b", 99), (800, "b", 0), (1000, "a", 75)])
-def test_a_file_that_was_cut_off_says_how_many_samples_are_there(path, cut, lost, left):
+CUT_OFF = "within its last segment: the recorder was stopped, or a copy was interrupted"
+
+
+@every(("cut", "left"), [(8, 100), (800, 100), (1000, 75)])
+def test_a_file_that_was_cut_off_gives_what_is_there(path, cut, left):
     written(path, [sampled("a", np.arange(100.0)), sampled("b", np.arange(100.0))])
-    whole = path.read_bytes()
-    path.write_bytes(whole[:-cut])
+    path.write_bytes(path.read_bytes()[:-cut])
     recording = read(path)
-    assert any(f"ends after {len(whole) - cut} of {len(whole)} bytes" in warning for warning in recording.warnings)
-    if left:
-        assert any(f'{left} samples of "{lost}"' in warning for warning in recording.warnings)
-    np.testing.assert_array_equal(recording.channel("a").values, np.arange(75.0 if lost == "a" else 100.0))
+    assert any(CUT_OFF in warning for warning in recording.warnings)
+    np.testing.assert_array_equal(recording.channel("a").values, np.arange(left))
 
 
 TEN = [sampled("a", np.arange(10.0))]
 
 
-def with_length_of_its_segment(path, length):
-    """Write ten samples, with another length of the segment than it has."""
+@every(
+    ("length", "more", "left"),
+    [(lambda length: length + 4 * 80, np.arange(10.0, 24.0).tobytes(), 24), (lambda _: 2**64 - 1, b"", 10)],
+)
+def test_a_segment_that_the_recorder_did_not_finish_is_told(path, length, more, left):
     content = bytearray(written(path, TEN).read_bytes())
     content[12:20] = struct.pack("<Q", length(*struct.unpack("<Q", content[12:20])))
-    path.write_bytes(content)
-    return bytes(content)
-
-
-def test_samples_are_counted_over_several_chunks(path):
-    content = with_length_of_its_segment(path, lambda length: length + 4 * 80)  # five chunks of ten samples
-    path.write_bytes(content + np.arange(10.0, 24.0).tobytes())
+    path.write_bytes(content + more)
     recording = read(path)
-    assert recording.channel("a").values.tolist() == list(range(24))
-    assert any('it has 24 samples of "a"' in warning for warning in recording.warnings)
-
-
-def test_a_recorder_that_was_stopped_by_force_is_told(path):
-    with_length_of_its_segment(path, lambda _: 2**64 - 1)
-    recording = read(path)
-    assert recording.channel("a").values.size == 10
-    assert any("did not finish the last segment" in warning for warning in recording.warnings)
+    assert recording.channel("a").values.tolist() == list(range(left))
+    assert any(CUT_OFF in warning for warning in recording.warnings)
 
 
 def test_a_segment_of_which_only_the_start_is_there_is_told(path):
@@ -180,7 +165,7 @@ def test_a_segment_of_which_only_the_start_is_there_is_told(path):
     path.write_bytes(content[: one + 60])
     recording = read(path)
     assert recording.channel("a").values.size == 10
-    assert any('was interrupted; it has 10 samples of "a"' in warning for warning in recording.warnings)
+    assert any(CUT_OFF in warning for warning in recording.warnings)
 
 
 def test_a_broken_chain_of_segments_is_refused(path):
@@ -193,41 +178,10 @@ def test_a_broken_chain_of_segments_is_refused(path):
 
 
 def test_a_file_without_numbers_says_so(path):
-    with pytest.raises(ReadError, match=r"no column of numbers in it.\n.* it holds text"):
+    with pytest.raises(ReadError, match=r"no column of numbers in it.\n.* it holds samples that are not numbers"):
         read(written(path, [ChannelObject("g", "remarks", ["a", "b"])]))
 
 
 def test_raw_counts_are_scaled_as_the_file_says(shared_data):
     channel = read(shared_data / "tdms" / "raw1.tdms").channel("First  Channel")
     assert channel.values[0] == pytest.approx(-603 * 0.0003051850947599719, rel=1e-12)  # a 16-bit count of a 10 V range
-
-
-def whole_and_part(path, window, step=0.005):
-    """A file in several segments of which the second channel starts 0.1 s late and at another rate."""
-    late = START + np.timedelta64(100, "ms")
-    segments = [
-        [
-            sampled("LVDT 1", np.arange(400.0) + 400 * part, step),
-            sampled("ACC", np.arange(200.0) + 200 * part, 0.01, wf_start_time=late),
-        ]
-        for part in range(5)
-    ]
-    written(path, *segments)
-    return read(path), tdms.read(path, tdms.TdmsOptions(), window)
-
-
-@every("window", [(2.0, 3.0), (0.0, 0.5), (9.0, 30.0), (0.05, 0.06)])
-def test_a_window_of_a_long_file_is_what_the_whole_file_holds_there(path, window):
-    whole, part = whole_and_part(path, window)
-    for entire, found in zip(whole.channels, part.channels, strict=True):
-        assert found.name == entire.name
-        inside, there = ((time >= window[0]) & (time <= window[1]) for time in (entire.time, found.time))
-        np.testing.assert_array_equal(found.values[there], entire.values[inside])
-        np.testing.assert_array_equal(found.time[there], entire.time[inside])
-    longest = max(channel.values.size for channel in part.channels)
-    assert longest <= (window[1] - window[0]) / 0.005 + 4
-
-
-def test_a_window_of_channels_without_a_clock_of_their_own_is_the_whole_file(path):
-    whole, part = whole_and_part(path, (2.0, 3.0), step=1.0)  # LabVIEW's step where nobody told it one
-    assert [channel.values.size for channel in part.channels] == [channel.values.size for channel in whole.channels]

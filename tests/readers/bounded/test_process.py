@@ -209,7 +209,7 @@ def test_a_worker_that_may_have_no_children_of_multiprocessing_reads_too(do, tmp
 def test_a_system_without_safe_copies_reads_in_the_process_itself(installed, tmp_path):
     path = tmp_path / "free-01.hostile"
     path.write_bytes(b"1")
-    function, given = "colonnade.readers.registry:read_here", {"format": "hostile", "options": {}, "window": None}
+    function, given = "colonnade.readers.registry:read_here", {"format": "hostile", "options": {}}
     told = {"function": function, "path": path, "within": tmp_path, "kind": "hostile", "modules": ()}
     request = messages.Request(**told, options=given, bounds=enclosure.bounds_of(path))
     serve = (
