@@ -80,24 +80,16 @@ def test_groups_of_hdf5_have_clocks_of_their_own(tmp_path):
         assert channel.unit == "mm"
         np.testing.assert_array_equal(channel.values, TOP * factor)
         np.testing.assert_allclose(channel.time, TIME * factor)
-    assert [each.heading for each in read(tmp_path / "a.h5", options={"group": "second"}).channels] == [
-        "second/t",
-        "second/top",
-    ]
-    with pytest.raises(ReadError, match='no column of numbers in group "third"'):
-        read(tmp_path / "a.h5", options={"group": "third"})
 
 
-def test_a_table_of_hdf5_gives_its_columns_and_a_rate_among_the_attributes_the_clock(tmp_path):
-    table = np.zeros(40, dtype=[("top", "f8"), ("remark", "S4")])
-    table["top"] = TOP
+def test_a_rate_among_the_attributes_is_the_clock_and_a_table_is_left_out(tmp_path):
     with h5py.File(tmp_path / "a.h5", "w") as file:
-        file["table"] = table
+        file["top"] = TOP
+        file["table"] = np.zeros(40, dtype=[("top", "f8"), ("remark", "S4")])
         file.attrs["sampling_rate"] = 200.0
     recording = read(tmp_path / "a.h5")
-    np.testing.assert_array_equal(recording.channel("top").values, TOP)
     np.testing.assert_allclose(recording.channel("top").time, TIME, atol=1e-12)
-    assert "table/remark is left out: it holds no numbers" in recording.notes
+    assert "table is left out: it holds no numbers; of a table, save each column as a variable" in recording.notes
 
 
 def test_what_is_not_read_is_left_out_with_its_reason(tmp_path):
@@ -115,13 +107,11 @@ def test_what_is_not_read_is_left_out_with_its_reason(tmp_path):
     recording = read(path)
     assert [each.heading for each in recording.channels] == ["again", "run/top"]
     assert {note for note in recording.notes if "left out" in note} == {
-        "text is left out: it holds no numbers",
+        "text is left out: it holds no numbers; of a table, save each column as a variable",
         "soft is left out: it is a link to another place or file; only this file is read",
         "elsewhere is left out: it is a link to another place or file; only this file is read",
         "external is left out: its numbers are in another file; only this file is read",
         "empty is left out: it holds nothing",
-        "run/circle is left out: it is another name of a group that is read",
-        "run/whole is left out: it is another name of a group that is read",
     }
 
 

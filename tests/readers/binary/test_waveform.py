@@ -54,14 +54,12 @@ def test_each_piece_of_a_channel_has_its_own_times(tmp_path, rate, after):
 def test_the_step_of_a_sac_file_is_not_rounded_to_microseconds_or_single_precision(tmp_path, rate):
     recording = read(stored(tmp_path, "SAC", trace("ACC", np.ones(4096), rate)))
     assert recording.channels[0].time[-1] == pytest.approx(4095 / rate, rel=1e-12)
-    assert any(f"{rate} Hz" in note for note in recording.notes)
 
 
 def test_a_file_without_a_date_has_no_start(path):
     obspy.Trace(np.ones(10, dtype=np.float32), {"delta": 0.01}).write(str(path), format="SAC")
     recording = read(path)
     assert recording.start is None
-    assert any("no date" in note for note in recording.notes)
 
 
 def test_the_start_is_in_utc(tmp_path):
@@ -71,18 +69,8 @@ def test_the_start_is_in_utc(tmp_path):
 
 def test_a_pickle_is_never_opened(path):
     path.write_bytes(pickle.dumps({"opened": True}))
-    with pytest.raises(ReadError, match="format PICKLE is not read here") as refused:
-        read(path, "waveform", {"kind": "pickle"})
-    assert "obspy.read" not in str(refused.value)  # which would run what it holds
-    with pytest.raises(ReadError, match="do not show its format"):
+    with pytest.raises(ReadError, match=r"not those of miniSEED.*convert other seismic files.* Python pickle"):
         read(path, "waveform")
-
-
-@every("kind", ["CSS", "NNSA_KB_CORE", "Q", "SEGY", "MSED"])
-def test_a_kind_that_is_not_read_is_refused_with_the_export_to_make(tmp_path, kind):
-    path = stored(tmp_path, "MSEED", ONES)
-    with pytest.raises(ReadError, match=rf"r.mseed: .*ObsPy's format {kind} is not read here.* Convert the"):
-        read(path, "waveform", {"kind": kind})
 
 
 def test_the_kinds_that_are_read_are_known_to_obspy_under_these_names():
@@ -143,11 +131,6 @@ def kinemetrics(length=2040):
     ("head", "kind"),
     [
         (b"Origin Time       2011/01/24 19:51:00", "KNET"),
-        (b"WID2 1996/10/13", "GSE2"),
-        (b"\x55\x3a" + bytes(30), "SEG2"),
-        (b"TIMESERIES XX_TEST, 50 samples, 1 sps, SLIST, FLOAT", "SLIST"),
-        (b"TIMESERIES XX_TEST, 50 samples, 1 sps, TSPAIR, FLOAT", "TSPAIR"),
-        (b"RIFF\x00\x00\x00\x00WAVEfmt ", "WAV"),
         (mini_seed(), "MSEED"),
         (mini_seed(order="<"), "MSEED"),
         (mini_seed(year=1), None),
@@ -160,6 +143,7 @@ def kinemetrics(length=2040):
         (sac(step=-1.0), None),
         (sac(points=0), None),
         (sac()[:600], None),
+        (b"WID2 1996/10/13", None),
         (b"time;top\n0;1\n", None),
         (b"", None),
     ],
