@@ -15,7 +15,6 @@ from raw_files import tdm
         ("explicit_external", "", [0, 1, -2, 100]),
         ("raw_linear_external", "1.5 0.25", [1.5, 1.75, 1, 26.5]),
         ("implicit_linear", "3 2", [3, 5, 7, 9, 11, 13, 15]),
-        ("implicit_constant", "4", [4] * 7),
     ],
 )
 def test_a_channel_is_scaled_or_made_up_as_its_column_says(path, kind, parameters, values):

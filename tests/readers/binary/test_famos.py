@@ -52,14 +52,7 @@ def test_numbers_of_every_kind_are_scaled(tmp_path, kind, form, order):
     assert channel.unit == "mm"
 
 
-@every(("kind", "packing"), [(4, "0,0,1,6"), (4, "255,0,1,0"), (9, "0,0,1,0")])
-def test_numbers_that_are_packed_in_another_way_are_refused(tmp_path, kind, packing):
-    with pytest.raises(ReadError, match="interleaved or of an unknown kind"):
+@every(("kind", "packing"), [(4, "0,0,1,6"), (4, "255,0,1,0"), (9, "0,0,1,0"), (11, "0,0,1,0")])
+def test_numbers_that_are_packed_in_another_way_are_refused_with_what_to_do(tmp_path, kind, packing):
+    with pytest.raises(ReadError, match=r'"top" is left out: bits of words and numbers that are interleaved .* export'):
         read(whole_numbers(tmp_path / "record.raw", kind, "i2", packing=packing))
-
-
-def test_a_bit_of_a_word_is_refused_with_what_to_do(tmp_path):
-    words = np.array([0b0000, 0b0001, 0b0110], dtype="<u2").tobytes()
-    path = stored(tmp_path / "record.raw", "1,2,11,16,0,0,1,0", words, ("CN", "0,0,1,7,release,0,"))
-    with pytest.raises(ReadError, match=r'"release": a digital channel.*export it as numbers'):
-        read(path)

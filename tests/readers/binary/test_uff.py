@@ -36,7 +36,6 @@ def test_what_is_no_function_of_time_is_left_out(written):
     recording = read(path)
     assert [channel.name for channel in recording.channels] == ["table"]
     assert any('"top": not a real function of time' in note for note in recording.notes)
-    assert any("data set 164" in note for note in recording.notes)
 
 
 @every("is_binary", [False, True])
@@ -59,7 +58,7 @@ def test_a_universal_file_without_functions_is_refused_as_such(path, line_end):
     nodes = [f"{node:10d}{0:10d}{0:10d}{0:10d}{0.1 * node:13.5E}{0:13.5E}{0:13.5E}" for node in range(1, 40)]
     lines = ["    -1", "   151", "model", "    -1", "    -1", "    15", *nodes, "    -1", ""]
     path.write_bytes(line_end.join(lines).encode())
-    with pytest.raises(ReadError, match=r"universal file without functions: .* sets 151, 15, but no data set 58"):
+    with pytest.raises(ReadError, match=r"it holds data sets 151, 15, but no data set 58"):
         read(path)
 
 

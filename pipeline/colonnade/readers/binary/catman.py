@@ -59,7 +59,11 @@ def read(path: Path, options: Options) -> Recording:
     """
     with path.open("rb") as stream:
         _, place = _taken(stream, "hi")  # the first is the version
-        headers = _headers(stream)
+        for _ in range(1 + RESERVED_TEXTS):
+            _text(stream)
+        count, _ = _taken(stream, "hi")  # the second is the largest length
+        stream.read(4 * count + 4)  # offsets of the channels' headers, reduction
+        headers = [_header(stream) for _ in range(count)]
     content = np.memmap(path, dtype=np.uint8, mode="r")
     numeric = [header for header in headers if header.is_numeric and header.length]
     channels: list[RecordedChannel] = []
@@ -71,10 +75,10 @@ def read(path: Path, options: Options) -> Recording:
             scale, place = (low, (high - low) / TWO_BYTE_STEPS), place + 16
         values = numbers_at(content, header.name, header.precision, place, header.length, warnings, scale=scale)
         place += header.length * size
-        if over := int((values == OVERFLOW).sum()):
-            values[values == OVERFLOW] = np.nan
-            what = "catman's sign of an overflow or an open input"
-            warnings.append(f'"{header.name}": {over} of {values.size} values are {what}; missing')
+        if (over := values == OVERFLOW).any():
+            values[over] = np.nan
+            what = f"{over.sum()} of {values.size} values are catman's sign of an overflow or an open input; missing"
+            warnings.append(f'"{header.name}": {what}')
         times = even_times(values.size, header.step) if header.step else None
         channels.append(RecordedChannel(header.name, header.unit or None, values, times))
     notes = [f'no numbers in "{header.name}": left out' for header in headers if not header.is_numeric]
@@ -92,16 +96,6 @@ def _taken(stream: BinaryIO, form: str) -> Any:
 def _text(stream: BinaryIO, length_form: str = "h") -> str:
     """A text behind its length."""
     return stream.read(_taken(stream, length_form)).decode("cp1252", errors="replace").strip("\0 ")
-
-
-def _headers(stream: BinaryIO) -> list[_Header]:
-    """Read the rest of the file's header, and that of each channel."""
-    for _ in range(1 + RESERVED_TEXTS):
-        _text(stream)
-    count, _ = _taken(stream, "hi")  # the second is the largest length
-    stream.read(4 * count)  # offsets of the channels' headers
-    _taken(stream, "i")  # reduction
-    return [_header(stream) for _ in range(count)]
 
 
 def _header(stream: BinaryIO) -> _Header:

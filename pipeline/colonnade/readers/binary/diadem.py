@@ -22,8 +22,8 @@ FORMS = {
     **{"eFloat64Usi": "f8", "eFloat32Usi": "f4", "eInt64Usi": "i8", "eInt32Usi": "i4", "eInt16Usi": "i2"},
     **{"eInt8Usi": "i1", "eUInt64Usi": "u8", "eUInt32Usi": "u4", "eUInt16Usi": "u2", "eUInt8Usi": "u1"},
 }
-EXPLICIT, SCALED = ("explicit", "explicit_external"), ("raw_linear", "raw_linear_external")
-"""How values of a file of their own are stored: as they are, or to be scaled."""
+KINDS = ("explicit", "explicit_external", "raw_linear", "raw_linear_external", "implicit_linear")
+"""How values are given: stored as they are, stored and to be scaled, or by the numbers of their rows alone."""
 
 
 @from_head
@@ -84,16 +84,13 @@ class _Header:
         """Read a channel; ValueError or KeyError where its entry cannot be used."""
         column = self._referred(element, "local_columns")
         kind = (column.findtext("sequence_representation") or "explicit").strip()
-        told = [float(number) for number in (column.findtext("generation_parameters") or "").split()]
-        if kind == "implicit_constant" and told:
-            scale = told[0], 0.0
-        elif kind in ("implicit_linear", *SCALED) and len(told) > 1:
-            scale = told[0], told[1]
-        elif kind in (*EXPLICIT, *SCALED):
-            scale = 0.0, 1.0
-        else:
+        if kind not in KINDS:
             raise ValueError(f'its values are "{kind}"')
-        if kind.startswith("implicit"):  # values that follow from the numbers of their rows are not stored
+        scale = (0.0, 1.0)
+        if kind.endswith(("linear", "linear_external")):
+            offset, factor = map(float, (column.findtext("generation_parameters") or "").split())
+            scale = (offset, factor)
+        if kind == "implicit_linear":
             rows = int(self._referred(column, "submatrix").findtext("number_of_rows") or 0)
             values = even_times(rows, scale[1], scale[0])
         else:

@@ -10,7 +10,6 @@ from typing import BinaryIO
 
 import numpy as np
 
-from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times
 from colonnade.readers.format import Format, Options, Recognition
@@ -33,10 +32,6 @@ IEEE = "2"
 BYTE_ORDERS = {"1": "<", "2": ">"}
 OPENING = re.compile(rb" {4}-1 *\r?\n *(?:\d{2,4}|58b .*) *\r?\n")
 """As Fortran writes the mark and the number of a data set; numbers of a table look otherwise."""
-DIRECTIONS = {
-    **{1: "+X", -1: "-X", 2: "+Y", -2: "-Y", 3: "+Z", -3: "-Z"},
-    **{4: "+RX", -4: "-RX", 5: "+RY", -5: "-RY", 6: "+RZ", -6: "-RZ"},
-}
 
 
 @from_head
@@ -52,25 +47,19 @@ def read(path: Path, options: Options) -> Recording:
     warnings: list[str] = []
     notes: list[str] = []
     channels: list[RecordedChannel] = []
-    held: list[str] = []
+    kinds: list[str] = []
     with path.open("rb") as stream:
         for place, fields in _data_sets(stream):
-            held.append(fields[0])
-            if fields[0] not in FUNCTIONS:
-                notes.append(f"data set {fields[0]} at byte {place}: left out")
-                continue
+            kinds.append(fields[0])
             try:
-                channels += _function(stream, fields, warnings, notes)
+                channels += _function(stream, fields, warnings, notes) if fields[0] in FUNCTIONS else ()
             except (ValueError, IndexError, OverflowError) as error:
                 warnings.append(f"the data set 58 at byte {place} is damaged or was cut off ({error}); left out")
-    if not {*FUNCTIONS} & {*held}:
+    if not {*FUNCTIONS} & {*kinds}:
         raise ReadError(
-            f"{path.name}: a universal file without functions: it holds data sets {', '.join(dict.fromkeys(held))}, "
-            'but no data set 58, the one with recorded histories. Export the time histories ("functions at nodal '
-            'DOF", data set 58).'
+            f"{path.name}: it holds data sets {', '.join(dict.fromkeys(kinds))}, but no data set 58, the one with "
+            'recorded histories. Export the time histories ("functions at nodal DOF", data set 58).'
         )
-    if any(channel.time is not None for channel in channels):
-        notes.append("clock: each function's own abscissa")
     return Recording(path, "uff", tuple(channels), notes=tuple(notes), warnings=tuple(warnings))
 
 
@@ -91,9 +80,7 @@ def _function(stream: BinaryIO, fields: list[str], warnings: list[str], notes: l
     lines = [stream.readline() for _ in range(HEADER_LINES)]
     texts = (line.decode(encoding_of(line).name, errors="replace").rstrip("\r\n") for line in lines)
     title, *_, kinds, form, abscissa, ordinate, _, _ = texts
-    direction = DIRECTIONS.get(int(kinds[51:55] or 0), "")
-    node = f"node {kinds[31:41].strip()} {kinds[41:51].strip()} {direction}"
-    name = _label(title) or node.replace("NONE", "").strip()
+    name = _label(title) or f"node {kinds[41:51].strip()} direction {kinds[51:55].strip()}"
     number, points, spacing, start, interval = (*form.split(), *[""] * 5)[:5]
     function, kind, size, begin, step = int(kinds[:5]), int(number), int(points), float(start), float(interval)
     if size < 0:
@@ -103,7 +90,10 @@ def _function(stream: BinaryIO, fields: list[str], warnings: list[str], notes: l
         notes.append(f'"{name}": not a real function of time (kind {function}); left out')
         return
     if fields[0] == "58b":
-        numbers = _binary(stream, fields, kind, is_even=is_even)
+        if not is_even or fields[1] not in BYTE_ORDERS or fields[2] != IEEE:
+            raise ValueError("only even steps of IEEE numbers are read in binary; export it as text")
+        stored, content = np.dtype(BYTE_ORDERS[fields[1]] + REAL_KINDS[kind]), stream.read(int(fields[4]))
+        numbers = np.frombuffer(content, stored, len(content) // stored.itemsize).astype(np.float64)
     else:
         rows = takewhile(lambda line: line.strip() != MARK, iter(stream.readline, b""))
         numbers, told = read_running(enumerate((row.decode("latin-1") for row in rows), 1))
@@ -122,18 +112,6 @@ def _function(stream: BinaryIO, fields: list[str], warnings: list[str], notes: l
 def _label(text: str) -> str:
     bare = text.strip()
     return "" if bare.upper() == "NONE" else bare
-
-
-def _binary(stream: BinaryIO, fields: list[str], kind: int, *, is_even: bool) -> Array:
-    """Read binary numbers; uneven abscissae are in single precision."""
-    order = BYTE_ORDERS.get(fields[1])
-    if order is None or fields[2] != IEEE:
-        raise ValueError(f"byte order {fields[1]}, floating point {fields[2]}")
-    ordinate = [("y", order + REAL_KINDS[kind])]
-    form = np.dtype(ordinate if is_even else [("x", order + "f4"), *ordinate])
-    content = stream.read(int(fields[4]))
-    found = np.frombuffer(content[: len(content) // form.itemsize * form.itemsize], form)
-    return np.column_stack([found[each].astype(np.float64) for each in form.names or ()]).ravel()
 
 
 FORMAT = Format(
