@@ -11,8 +11,8 @@ from colonnade.dynamics.motion import Motion
 from colonnade.laboratory import site
 from colonnade.laboratory.programme import prism_programme
 from colonnade.laboratory.site import LEVELS, LIST, LOWEST, broad_band, synthetic_records
-from colonnade.readers.ground_motions.hazard import read_hazard
-from colonnade.readers.ground_motions.record_set import read_record_set
+from colonnade.readers.hazard import read_hazard
+from colonnade.readers.record_set import read_record_set
 
 STEP = 0.02
 
@@ -79,7 +79,7 @@ def test_the_files_and_their_list_are_read_back(suite, tmp_path):
         assert read.motion.dt == made.motion.dt
         assert read.magnitude == pytest.approx(made.magnitude, abs=0.01)
         assert read.distance == pytest.approx(made.distance, abs=100)
-    assert found.left_out == ()
+    assert found.left_out == {}
     assert all(each.name.startswith("synthetic") for each in found.records)
 
 

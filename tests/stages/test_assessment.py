@@ -17,7 +17,7 @@ from colonnade.campaign.forms.assessed import UNCORRECTED, AssessmentSummary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import StageError
-from colonnade.readers.ground_motions.record_set import GroundMotion, RecordSet
+from colonnade.readers.record_set import GroundMotion, RecordSet
 from colonnade.stages.assessment import assessment
 from colonnade.stages.assessment_plan import AssessmentInputs, ColumnInputs, plan_assessment, real_column
 from colonnade.stages.specimen import SpecimenInputs, taken
@@ -79,7 +79,7 @@ def test_the_result_holds_what_it_was_made_from(stored, answer):
 
 def test_without_records_there_is_no_answer():
     with pytest.raises(StageError, match="no ground motion that can be used; at least 2"):
-        _plan(RecordSet((), (), ()))
+        _plan(RecordSet((), {}, ()))
 
 
 def _plan(records, restitution="rigid-body", **keys):
@@ -97,7 +97,7 @@ def _answered(plan):
 def _records(offset):
     motions = [Motion(ground_motion(seed) + offset * (seed > 0), 1 / RATE) for seed in range(6)]
     records = (GroundMotion(f"r{seed}", each, ("x",), ()) for seed, each in enumerate(motions))
-    return RecordSet(tuple(records), (), ("cut",))
+    return RecordSet(tuple(records), {}, ("cut",))
 
 
 @pytest.mark.whole

@@ -279,8 +279,7 @@ def _used(plan: Plan) -> tuple[RecordUsed, ...]:
 
 def _left_out(plan: Plan) -> tuple[RecordLeftOut, ...]:
     """Name the files, records and components that are not used, with the reason."""
-    files = [(each.name, each.reason.removeprefix(f"{each.name}: ")) for each in plan.records.left_out]
-    reasons = [*files, *plan.studies[ASSUMED].left_out.items()]
+    reasons = [*plan.records.left_out.items(), *plan.studies[ASSUMED].left_out.items()]
     return tuple(RecordLeftOut(record=name, reason=reason) for name, reason in reasons)
 
 

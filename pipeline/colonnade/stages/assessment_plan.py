@@ -28,7 +28,7 @@ from colonnade.dynamics.block import Block, Side, Sided, pair
 from colonnade.dynamics.size import EXPONENTS
 from colonnade.dynamics.uncertainty import member_block
 from colonnade.errors import StageError, count
-from colonnade.readers.ground_motions.record_set import RecordSet
+from colonnade.readers.record_set import RecordSet
 from colonnade.stages.contact import assembly_law
 from colonnade.stages.specimen import restitution_spread
 from colonnade.store.provenance import Inputs
@@ -226,8 +226,7 @@ def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | Non
     except ValueError as error:
         raise StageError(f"The real column cannot be: {error}") from error
     asked = inputs.asked
-    unread = {each.name: each.reason.removeprefix(f"{each.name}: ") for each in records.left_out}
-    _expect_enough([each.name for each in records.records], "that can be used", unread)
+    _expect_enough([each.name for each in records.records], "that can be used", records.left_out)
     motions = {each.name: each.motion for each in records.records}
 
     several = None if inputs.several is None else inputs.several.enlarged(inputs.scale, asked.displaced)
@@ -252,7 +251,7 @@ def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | Non
     except ValueError as error:
         raise StageError(str(error)) from error
     drifting = asked.baseline if study.left_out else ""
-    _expect_enough(study.names, f"with a {study.measure.name}", study.left_out | unread, drifting)
+    _expect_enough(study.names, f"with a {study.measure.name}", {**study.left_out, **records.left_out}, drifting)
     # The contact model has no e to vary, and takes minutes for each history.
     variants = _variants(column) if inputs.several is None else {}
     studies = {ASSUMED: study} | {name: study.of(other) for name, other in variants.items()}

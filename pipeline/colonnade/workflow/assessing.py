@@ -15,7 +15,7 @@ from colonnade.campaign.assessment import Assessment
 from colonnade.campaign.forms.assessed import AssessmentSummary
 from colonnade.errors import CampaignError, ColonnadeError, ReadError
 from colonnade.readers.files import sha256_of
-from colonnade.readers.ground_motions.record_set import files_of
+from colonnade.readers.record_set import files_of
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
@@ -185,8 +185,8 @@ def _digest(catalogue: Catalogue, path: Path) -> str | None:
 
 
 def _made(asked: Assessment, *, inputs: AssessmentInputs, specimen: xr.Dataset, run: Run) -> xr.Dataset:
-    from colonnade.readers.ground_motions.hazard import read_hazard
-    from colonnade.readers.ground_motions.record_set import read_record_set
+    from colonnade.readers.hazard import read_hazard
+    from colonnade.readers.record_set import read_record_set
     from colonnade.stages.assessment import assessment
     from colonnade.stages.assessment_plan import plan_assessment
 

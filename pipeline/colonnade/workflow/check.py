@@ -127,8 +127,8 @@ def _checked(campaign: Campaign, test: Test, reading: Callable[[Path, str, str],
 def _records_checked(campaign: Campaign, name: str, asked: Assessment) -> list[StageRun]:
     """Read the ground motions and the hazard of an assessment; no history is run."""
     from colonnade.assessment.outcomes import FEWEST
-    from colonnade.readers.ground_motions.hazard import read_hazard
-    from colonnade.readers.ground_motions.record_set import read_record_set
+    from colonnade.readers.hazard import read_hazard
+    from colonnade.readers.record_set import read_record_set
 
     problems, findings = list[str](), list[Finding]()
     try:
@@ -140,11 +140,8 @@ def _records_checked(campaign: Campaign, name: str, asked: Assessment) -> list[S
             problems.append(
                 f"{count(len(records.records), 'ground motion')} can be used; at least {FEWEST} were expected."
             )
-        said = (
-            f"{each.name} is left out: {each.reason.removeprefix(f'{each.name}: ').splitlines()[0]}"
-            for each in records.left_out
-        )
-        findings += [warning("ground motion", each) for each in said]
+        for left_out, reason in records.left_out.items():
+            findings.append(warning("ground motion", f"{left_out} is left out: {reason.splitlines()[0]}"))
         findings += [note("ground motion", each) for each in records.notes]
         if not campaign.specimens[asked.specimen].is_in_plane:
             motions = sum(2 - (each.motion.transverse is None) for each in records.records)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import atexit
 import errno
 import os
-import signal
 import subprocess
 import sys
 import threading
@@ -88,7 +87,7 @@ class _Reader:
         )
         assert process.stdin is not None
         assert process.stdout is not None
-        self.process, self.requests, self.answers = process, process.stdin, process.stdout
+        self.process, self.requests, self.answers, self.is_late = process, process.stdin, process.stdout, False
         with suppress(ImportError, AttributeError, OSError):
             import fcntl
 
@@ -96,25 +95,24 @@ class _Reader:
 
     def ask(self, request: Request) -> tuple[Answer, Arrays]:
         """Request a file; raises ReadError and ends the process if no answer comes."""
-        late = threading.Event()
         begun = False
         try:
-            with self._deadline(START, late):
+            with self._deadline(START):
                 self.requests.write(request.line())
                 self.requests.flush()
                 begun = self.answers.readline(len(messages.BEGUN)) == messages.BEGUN
             if begun:
-                with self._deadline(request.bounds.elapsed, late):
+                with self._deadline(request.bounds.elapsed):
                     return messages.receive(self.answers, request.bounds.memory)
         except (OSError, BrokenAnswerError):
             pass  # its exit code says why
         except BaseException:
-            self.kill()  # what is still to come would be taken for the next answer
+            self.process.kill()  # what is still to come would be taken for the next answer
             self.end()
             raise
         code = self.end()
         if begun:
-            raise _failure(request, code, is_late=late.is_set())
+            raise _failure(request, errno.ETIMEDOUT if self.is_late else errno.ENOMEM if code == STOPPED else None)
         raise _refusal(
             f"{request.path.name}: the process that reads binary files could not be started, so the file was not "
             "looked at. Run again with less else open.",
@@ -122,14 +120,9 @@ class _Reader:
         )
 
     @contextmanager
-    def _deadline(self, seconds: float, late: threading.Event) -> Iterator[None]:
-        """End the process if it takes longer, and note that in `late`."""
-
-        def pass_by() -> None:
-            late.set()
-            self.kill()
-
-        timer = threading.Timer(seconds, pass_by)
+    def _deadline(self, seconds: float) -> Iterator[None]:
+        """End the process if it takes longer."""
+        timer = threading.Timer(seconds, self._pass_by)
         timer.daemon = True
         timer.start()
         try:
@@ -137,14 +130,9 @@ class _Reader:
         finally:
             timer.cancel()
 
-    def kill(self) -> None:
-        """End it at once, with its copies."""
-        if self.process.poll() is None:
-            with suppress(OSError):
-                if sys.platform == "win32":
-                    self.process.kill()
-                else:
-                    os.killpg(self.process.pid, signal.SIGKILL)
+    def _pass_by(self) -> None:
+        self.is_late = True
+        self.process.kill()
 
     def end(self) -> int:
         """Let it end; its exit code, as that of a copy that a signal has ended."""
@@ -154,7 +142,7 @@ class _Reader:
         try:
             code = self.process.wait(ENDING)
         except subprocess.TimeoutExpired:
-            self.kill()
+            self.process.kill()
             code = self.process.wait()
         return code if code >= 0 else 128 - code
 
@@ -191,21 +179,16 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_forget)
 
 
-def _failure(request: Request, code: int = 0, *, is_late: bool = False) -> ReadError:
-    """What to say of a file that had no answer, or one that cannot be trusted."""
-    name, bounds = request.path.name, request.bounds
-    if code == STOPPED and not is_late:
-        return _refusal(
-            f"{name}: the system stopped the process that read it, most often because memory ran out. Run again with "
-            "less else open, or with fewer workers.",
-            errno.ENOMEM,
-        )
+def _failure(request: Request, number: int | None = None) -> ReadError:
+    """What to say of a file that had no answer, or one that cannot be trusted; a machine that was busy may be why."""
+    bounds = request.bounds
     return _refusal(
-        f'{name}: reading it as "{request.kind}" took too much memory (more than {bounds.memory // MEGABYTE} MB) or '
-        f"time (more than {bounds.processor} s), or crashed the library that does it. The file is damaged, was cut "
-        "off, was made to cause this, or is a workbook with a cell far outside its table. Nothing else was affected. "
-        "Copy it from the recorder again, or export it as text.",
-        errno.ETIMEDOUT if is_late else None,  # the machine may have been busy: the next run tries again
+        f'{request.path.name}: reading it as "{request.kind}" took too much memory (more than '
+        f"{bounds.memory // MEGABYTE} MB, or than was free) or time (more than {bounds.processor} s), or crashed the "
+        "library that does it. The file is damaged, was cut off, was made to cause this, or is a workbook with a cell "
+        "far outside its table. Nothing else was affected. Copy it from the recorder again, export it as text, or run "
+        "again with fewer workers.",
+        number,
     )
 
 

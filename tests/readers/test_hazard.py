@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.ground_motions.hazard import read_hazard
+from colonnade.readers.hazard import read_hazard
 from every import every
 
 
@@ -20,9 +20,9 @@ def read(tmp_path, text, measure="pgv"):
     ("text", "measure", "factor"),
     [
         ("pgv [cm/s],rate [1/year]\n1,0.1\n2,0.01\n", "pgv", 0.01),
-        ("PGV [m/s];Annual rate\n1;0,1\n2;0,01\n", "pgv", 1.0),
+        ("PGV [m/s];Rate\n1;0,1\n2;0,01\n", "pgv", 1.0),
         ("Sa(0.5 s) [g],rate\n1,0.1\n2,0.01\n", "sa(0.5 s)", 9.80665),
-        ("# site 1\npga_ratio,rate [1/yr]\n\n1,0.1\n2,0.01\n", "pga_ratio", 1.0),
+        ("# site 1\npga_ratio,rate [1/year]\n\n1,0.1\n2,0.01\n", "pga_ratio", 1.0),
     ],
 )
 def test_intensity_comes_in_si(tmp_path, text, measure, factor):
@@ -39,11 +39,12 @@ def test_intensity_comes_in_si(tmp_path, text, measure, factor):
         ("pgv,rate\n1,2\n2,1\n", 'its heads are "pgv, rate"'),
         ("pgv [m/s],probability\n1,2\n2,1\n", 'its heads are "pgv [m/s], probability"'),
         ("pgv [m/s],rate [1/day]\n1,2\n2,1\n", 'its heads are "pgv [m/s], rate [1/day]"'),
+        ("pgv [m/s],annual rate\n1,2\n2,1\n", 'its heads are "pgv [m/s], annual rate"'),
         ("pgv [furlong],rate\n1,2\n2,1\n", 'Unknown unit "furlong"'),
         ("pgv [m/s]\n1\n2\n", 'its heads are "pgv [m/s]"'),
-        ("pgv [m/s],rate\n1,2\n", "1 rows of numbers; at least two"),
-        ("pgv [m/s],rate\n1,2\n1,1\n", "line 3: 1 follows 1; rising intensities"),
-        ("pgv [m/s],rate\n1,2\n2,3\n", "line 3: 3 follows 2; a rate that falls"),
+        ("pgv [m/s],rate\n1,2\n", "at least 2"),
+        ("pgv [m/s],rate\n1,2\n1,1\n", "rising intensities were expected"),
+        ("pgv [m/s],rate\n1,2\n2,3\n", "rate is not positive and falling"),
         ("pgv [m/s],rate\n1,2\n2,0\n", 'line 3: "0" is not a positive number'),
         ("pgv [m/s],rate\n1,2\n2,\n", 'line 3: "" is not a positive number'),
         ("pgv [m/s],rate\n1,2\n2,nan\n", 'line 3: "nan" is not a positive number'),

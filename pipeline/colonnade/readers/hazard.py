@@ -13,9 +13,6 @@ from colonnade.assessment.measures import measure_of
 from colonnade.errors import ReadError, UnitError, quoted
 from colonnade.readers.small_table import SmallTable, read_table
 
-RATES = ("rate", "annual rate", "annual rate of exceedance")
-PER_YEAR = ("1/year", "1/yr", "1/a", "per year", "/year")
-
 
 def read_hazard(path: Path, measure: str) -> Hazard:
     """
@@ -51,24 +48,13 @@ def read_hazard(path: Path, measure: str) -> Hazard:
         found = units.resolve(intensity.unit or "1")
     except UnitError as error:
         raise ReadError(f"{table.name}: {error}") from None
-    is_rate = rate.name.casefold() in RATES and (rate.unit is None or rate.unit.casefold() in PER_YEAR)
+    is_rate = rate.name.casefold() == "rate" and rate.unit in (None, "1/year")
     if not is_rate or found.si_unit != units.resolve(known.unit or "1").si_unit:
         raise ReadError(wrong)
     if table.faults:
         line, fault = table.faults[0]
         raise ReadError(f"{table.name}, line {line}: {fault}")
     values = np.array([_number(table, line, cell) for line, cells in table.rows for cell in cells]).reshape(-1, 2)
-    if len(values) < 2:
-        raise ReadError(f"{table.name}: {len(values)} rows of numbers; at least two were expected.")
-    lines = [line for line, _ in table.rows]
-    for column, breaks, expected in (
-        (0, np.diff(values[:, 0]) <= 0.0, "rising intensities were expected"),
-        (1, np.diff(values[:, 1]) > 0.0, "a rate that falls as the intensity rises was expected"),
-    ):
-        if breaks.any():
-            first = int(np.argmax(breaks))
-            before, after = values[first, column], values[first + 1, column]
-            raise ReadError(f"{table.name}, line {lines[first + 1]}: {after:g} follows {before:g}; {expected}.")
     try:
         return hazard_curve(values[:, 0] * found.factor, values[:, 1])
     except ValueError as error:

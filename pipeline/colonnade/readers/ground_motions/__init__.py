@@ -1,1 +1,0 @@
-"""Sets of ground motions, and the hazard of a site."""
