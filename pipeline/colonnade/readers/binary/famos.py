@@ -37,8 +37,8 @@ def read(path: Path, options: Options) -> Recording:
     current, order = data_set, "<"
     for key, block in _blocks(np.memmap(path, dtype=np.uint8, mode="r"), warnings):
         if key == "CS":
-            number = block[:LARGEST_HEAD].tobytes().split(b",", 1)[0]
-            places[number.strip()] = block[len(number) + 1 :]
+            index = block[:LARGEST_HEAD].tobytes().split(b",", 1)[0]
+            places[index.strip()] = block[len(index) + 1 :]
             continue
         fields = block.tobytes().split(b",", TEXTS.get(key, -1))
         if key == "CF":
@@ -51,7 +51,7 @@ def read(path: Path, options: Options) -> Recording:
             current[key] = fields
     if "CG" in current and current is data_set:
         warnings.append("the last data set has no channel: the file was cut off")
-    channels = []
+    channels: list[RecordedChannel] = []
     for number, said in enumerate(components, 1):
         name = _text(said, "CN") or f"channel {number}"
         try:
