@@ -34,7 +34,6 @@ from colonnade.cli.common.options import (
     workers_option,
 )
 from colonnade.errors import count
-from colonnade.units.text import number
 
 if TYPE_CHECKING:
     from colonnade.identification.response.boundaries import Misfit
@@ -253,36 +252,17 @@ def fragility(
 
 
 def _show_assessed(assessed: Assessed) -> None:
-    from colonnade.report.assessments_page import symbol
-    from colonnade.store.records.assessment import level, sentences
-    from colonnade.units.text import format_percent
+    from colonnade.store.records.assessment import deciding, sentences
 
     record = assessed.record
     verdict, *others = sentences(record)
     of = "" if record.specimen == assessed.name else f" ({record.specimen})"
     say(f"{assessed.name}{of}: {verdict}")
-    for sentence in others:
+    for sentence in filter(None, (*others, deciding(record))):
         say(f"  {sentence}")
-    for said in record.warnings:
-        complain(f"warning: {said}")
-    for said in record.notes:
-        complain(f"note: {said}")
-    if record.status == "failed":
-        return
-    say()
-    rows = [
-        (
-            *(symbol(each.measure), number(each.deviance), number(each.auc, 2), number(each.scatter, 2)),
-            "–" if each.best is None else format_percent(each.best),
-        )
-        for each in record.measures
-    ]
-    show_table(("measure", "deviance", "AUC", "scatter of ln peak", "best in"), rows)
-    if record.deciding:
-        without = (
-            f"{each.record} (median without it {level(record.measure, each.median)})" for each in record.deciding
-        )
-        say(f"The records that change the answer most: {', '.join(without)}.")
+    for kind, said in (("warning", record.warnings), ("note", record.notes)):
+        for each in said:
+            complain(f"{kind}: {each}")
     if assessed.path is not None:
         say(f"result: {assessed.path}")
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
-from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -157,7 +156,8 @@ def show_result(result: RunResult, *, verbose: bool = False) -> None:
 
     redone = [stage for stage in result.stages if stage.action == "done"]
     if verbose:
-        show_table(("redone", "stages", "why", "seconds"), list(_grouped(redone)))
+        rows = [(each.subject, each.stage, each.because, f"{each.seconds:.1f}") for each in redone]
+        show_table(("redone", "stage", "why", "seconds"), rows)
     known = Summary.model_validate_json(result.summary.read_bytes())
     last = {stage.subject: stage.stage for stage in redone if stage.of == "test"}
     show_tests({name: test for name, test in known.tests.items() if name in last}, known.specimens, last)
@@ -180,15 +180,6 @@ def show_result(result: RunResult, *, verbose: bool = False) -> None:
         if findings:
             say(f"all findings: {result.report.parent / 'problems.html'}")
         say(f"report: {result.report}")
-
-
-def _grouped(stages: Iterable[StageRun]) -> Iterator[tuple[str, str, str, str]]:
-    """One row for the stages of a test that were redone for the same reason."""
-    ordered = sorted(stages, key=lambda stage: stage.subject)
-    for (subject, because), group in groupby(ordered, key=lambda stage: (stage.subject, stage.because)):
-        members = list(group)
-        seconds = sum(member.seconds for member in members)
-        yield subject, ", ".join(member.stage for member in members), because, f"{seconds:.1f}"
 
 
 def _record(result: RunResult) -> dict[str, Any]:

@@ -46,7 +46,7 @@ from colonnade.store.layout import Layout
 from colonnade.store.records import advice as advising
 from colonnade.store.records import wording
 from colonnade.store.records.advice import Advice
-from colonnade.store.records.assessment import estimated, level
+from colonnade.store.records.assessment import deciding, estimated
 from colonnade.store.records.forecast import shown_table
 from colonnade.store.records.stored import Failure, read_test
 from colonnade.store.records.summary import read_summary
@@ -113,7 +113,7 @@ def _environment() -> Environment:
         "peak_time": predicted_peak_time,
         "registry": MODELS,
         "symbol": symbol,
-        "level": level,
+        "deciding": deciding,
         "estimated": estimated,
         "version": __version__,
         "way": way,

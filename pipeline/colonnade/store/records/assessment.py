@@ -87,6 +87,12 @@ def sentences(record: AssessmentSummary) -> list[str]:
     return found
 
 
+def deciding(record: AssessmentSummary) -> str:
+    """Name the records without which the answer changes most; empty if there are none."""
+    without = [f"{each.record} (median without it {level(record.measure, each.median)})" for each in record.deciding]
+    return f"The records that change the answer most: {', '.join(without)}." if without else ""
+
+
 def _has_several(record: AssessmentSummary) -> bool:
     """Whether it is about bodies that do not rock as one block, and so have no e."""
     return record.restitution.value is None
