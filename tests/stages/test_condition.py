@@ -59,13 +59,6 @@ def test_a_delay_and_a_clock_offset_are_each_taken_off_once(linked, of_first, of
         np.testing.assert_allclose(result[name], _shaking(result["elapsed"].to_numpy()), atol=2e-2)
 
 
-def test_an_offset_that_a_steady_sine_leaves_open_is_warned_of(linked):
-    recorded = _two_recorders(np.sin(6 * np.pi * FIRST), np.sin(6 * np.pi * (SECOND - 0.2)))
-    result = condition(recorded, linked)
-    assert any("fits as well" in warning.text for warning in result.attrs["warnings"])
-    assert "clock_offset_standard_error" not in result["second"].attrs
-
-
 def test_a_channel_of_another_quantity_links_recorders_but_is_not_conditioned(linked):
     pulse = np.where((FIRST > 3) & (FIRST < 3.5), 5.0, 0.0), np.where((SECOND > 3.02) & (SECOND < 3.52), 5.0, 0.0)
     recorded = _two_recorders(*pulse)

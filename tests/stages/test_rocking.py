@@ -115,16 +115,6 @@ def test_missing_samples_that_cannot_hold_the_peak_are_not_serious(small_campaig
         assert "missing samples" not in [each.kind for each in _rocking(small_campaign, test, gaps).attrs["warnings"]]
 
 
-def test_a_single_shock_in_the_base_motion_is_told_with_its_time_and_size(small_campaign, shaken):
-    recordings, time, _, _ = shaken
-    blow = (time >= 6.0) & (time < 6.01)
-    recordings["main"].channel("ACC").values[blow] += 6.0 * np.sin(np.pi * (time[blow] - 6.0) / 0.01)
-    result = _rocking(small_campaign, "shake-01", recordings)
-    (told,) = [found for found in result.attrs["warnings"] if found.kind == "single shock"]
-    assert "at 6.00" in told.text
-    assert "[[flag]]" in told.text
-
-
 @pytest.mark.parametrize("share", [0.06, 0.12, 0.4])
 def test_a_block_that_walks_under_its_only_transducer_is_told(share, small_campaign, shaken):
     recordings, time, _, _ = shaken

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from math import log
 
 import numpy as np
 import scipy
@@ -23,20 +22,14 @@ BANDWIDTH = 10.0
 FEWEST_SAMPLES = 16
 """That two records have to share."""
 
-RIVAL_EVIDENCE = 10.0
+EVIDENCE = 10.0
 """Difference of log-likelihood needed to prefer one delay to another."""
 
 OPPOSED = 2.0
 """Times less that has to be left unexplained with the sign of one record turned, before the sign is doubted."""
 
-STRETCHES = 8
-"""Number of parts of the motion, of equal information; the delay is found in each."""
-
-FEWEST_STRETCHES = 4
-"""That have to agree with a line."""
-
-SHORTEST = 3.0
-"""Of the shortest stretch, in periods of the bandwidth."""
+ROUNDS = 6
+"""Of the fit of delay and rate, whose errors each squares."""
 
 SIGNIFICANCE = 4.0
 """Standard errors by which a rate differs from zero before it is taken off."""
@@ -44,8 +37,8 @@ SIGNIFICANCE = 4.0
 LEAST_CHANGE = 5e-4
 """s; a delay that changes less than this over the motion is left as it is."""
 
-HELD = 0.5
-"""Correlation of a stretch below which its delay is not used."""
+MOTION = 0.01, 0.99
+"""Shares of a record's energy between which it moves."""
 
 
 @dataclass(frozen=True)
@@ -57,25 +50,16 @@ class ClockRate:
     ----------
     rate, standard_error : float
         Seconds gained in a second; positive where the second recorder's clock runs fast.
-    seconds, seconds_error : float
-        Delay in the middle of the motion, s.
     middle : float
-        Time of that, s.
+        Time of the delay, s.
     change : float
-        Of the delay over the stretches, s.
+        Of the delay over the motion, s.
     """
 
     rate: float
     standard_error: float
-    seconds: float
-    seconds_error: float
     middle: float
     change: float
-
-    @property
-    def is_significant(self) -> bool:
-        """Whether the change of the delay is more than chance and large enough to matter."""
-        return abs(self.rate) >= SIGNIFICANCE * self.standard_error and abs(self.change) >= LEAST_CHANGE
 
     def __str__(self) -> str:
         return f"{1e6 * abs(self.rate):.0f} ± {1e6 * self.standard_error:.0f} ppm {'fast' if self.rate > 0 else 'slow'}"
@@ -94,8 +78,6 @@ class Offset:
         s.
     correlation : float
         Of the two records once aligned, 0 to 1.
-    rival : float or None
-        Another delay, s, that fits as well where both records have values.
     beyond : float or None
         A delay, s, longer than those looked for, with which the two agree better.
     opposed : bool
@@ -107,7 +89,6 @@ class Offset:
     seconds: float
     standard_error: float
     correlation: float
-    rival: float | None = None
     beyond: float | None = None
     opposed: bool = False
     drift: ClockRate | None = None
@@ -125,28 +106,22 @@ class Offset:
     @property
     def doubt(self) -> str:
         """What speaks against the delay; empty if nothing does."""
-        said = []
         if self.beyond is not None:
-            said.append(
+            return (
                 f"the two agree better at {1e3 * self.beyond:.4g} ms, beyond the range searched; if the recorder can "
                 "start that late or early, set processing.longest_offset above it"
             )
-        elif not self.is_determined:
-            said.append(
+        if not self.is_determined:
+            return (
                 f"the two agree poorly (correlation {self.correlation:.2f}; {WEAKEST_CORRELATION:g} is needed), as "
                 "happens if the table hardly moves"
             )
-        if self.is_determined and self.rival is not None:
-            said.append(
-                f"{1e3 * self.rival:.4g} ms fits as well as the {1e3 * self.seconds:.4g} ms used, as in a steady sine. "
-                "Record the start or the end of the motion, or set processing.longest_offset below half a period"
-            )
-        if self.is_determined and self.opposed:
-            said.append(
+        if self.opposed:
+            return (
                 f"the two agree only with the sign of one reversed (correlation {self.correlation:.2f}); check the "
                 "`direction` of both and the sign of their gains"
             )
-        return "; ".join(said)
+        return ""
 
 
 def find_offset(reference: Array, values: Array, interval: float, *, longest: float, bandwidth_hz: float) -> Offset:
@@ -172,8 +147,7 @@ def find_offset(reference: Array, values: Array, interval: float, *, longest: fl
     Notes
     -----
     The correlation is over the whole of both records, not over their overlap, so that the beginning and end of a motion
-    tell one period of a sine from the next. The standard error is that of a shift fitted by least squares. A steady
-    sine that began before the records and outlasts them fits as well one period off: see `Offset.rival`.
+    tell one period of a sine from the next. The standard error is that of a shift fitted by least squares.
     """
     first, second = reference - reference.mean(), values - values.mean()
     power = float(np.sqrt((first @ first) * (second @ second)))
@@ -193,40 +167,14 @@ def find_offset(reference: Array, values: Array, interval: float, *, longest: fl
     slope = max(float(np.sqrt((np.gradient(first, interval) ** 2).mean())), 1e-300)
     # Beyond what was looked for, a better one counts if the best one is at the border or fits far worse.
     reached = float(everywhere.max())
-    is_beyond = abs(furthest) > reach and reached >= WEAKEST_CORRELATION
-    is_beyond &= at_border or _evidence(1 - agreement**2, 1 - reached**2, independent) > RIVAL_EVIDENCE
-    rival = _rival(first, second, correlation, best, independent)
+    evidence = 0.5 * independent * log(max(1 - agreement**2, 1e-12) / max(1 - reached**2, 1e-12))
+    is_beyond = abs(furthest) > reach and reached >= WEAKEST_CORRELATION and (at_border or evidence > EVIDENCE)
     return Offset(
         shift * interval,
         float(residual / slope / np.sqrt(independent)),
         agreement,
-        None if rival is None else rival * interval,
         furthest * interval if is_beyond else None,
     )
-
-
-def _evidence(misfit: float, other: float, independent: float) -> float:
-    """Log-likelihood by which what leaves the second misfit is better than what leaves the first."""
-    return 0.5 * independent * float(np.log(max(misfit, 1e-12) / max(other, 1e-12)))
-
-
-def _rival(first: Array, second: Array, correlation: Array, best: int, independent: float) -> int | None:
-    """Shift, in samples, of a further peak of the correlation that fits the overlap as well as the best one."""
-    reach = correlation.size // 2
-    misfit = _misfit(first, second, best - reach)
-    peaks = scipy.signal.find_peaks(correlation, height=0.0)[0]
-    for peak in sorted(peaks[peaks != best], key=lambda index: -float(correlation[index])):
-        if _evidence(_misfit(first, second, int(peak) - reach), misfit, independent) < RIVAL_EVIDENCE:
-            return int(peak) - reach
-    return None
-
-
-def _misfit(first: Array, second: Array, shift: int) -> float:
-    """Share of the power in the overlap that the shifted record does not explain, one minus the correlation squared."""
-    size = first.size - abs(shift)
-    one, other = first[max(-shift, 0) :][:size], second[max(shift, 0) :][:size]
-    power = float((one @ one) * (other @ other))
-    return 1.0 - max(float(one @ other), 0.0) ** 2 / power if power > 0 else 1.0
 
 
 def link(reference: Record, record: Record, *, quantities: tuple[str, str], longest: float, sign: float) -> Offset:
@@ -267,106 +215,64 @@ def link(reference: Record, record: Record, *, quantities: tuple[str, str], long
     first, second = shared[0] - shared[0].mean(), sign * (shared[1] - shared[1].mean())
     offset = find_offset(first, second, interval, longest=longest, bandwidth_hz=bandwidth)
     turned = find_offset(first, -second, interval, longest=longest, bandwidth_hz=bandwidth)
-    if turned.is_determined and turned.beyond is None and _is_better(turned, offset, clock, first, second, bandwidth):
-        offset, second = replace(turned, opposed=True), -second
+    if turned.is_determined and turned.beyond is None:
+        # Half a period of a sine is told from a wrong sign where both have values.
+        misfits = [
+            _unexplained(first, each, round(found.seconds / interval))
+            for each, found in ((second, offset), (-second, turned))
+        ]
+        if misfits[0] > OPPOSED * misfits[1]:
+            offset, second = replace(turned, opposed=True), -second
     if not offset.is_determined or offset.beyond is not None:
         return offset
-    rate = find_rate(clock, first, second, delay=offset.seconds, bandwidth_hz=bandwidth)
-    if rate is None or not rate.is_significant:
-        return offset
-    return replace(offset, seconds=rate.seconds, standard_error=rate.seconds_error, drift=rate)
+    return with_drift(offset, clock, first, second, bandwidth_hz=bandwidth)
 
 
-def _is_better(turned: Offset, offset: Offset, time: Array, first: Array, second: Array, bandwidth_hz: float) -> bool:
-    """Whether two records agree much better with the sign of one turned, where both have values."""
-    spline = scipy.interpolate.CubicSpline(time, second)
-
-    def unexplained(sign: float, shift: float) -> float:
-        shared = (time + shift >= time[0]) & (time + shift <= time[-1])
-        return _misfit(first[shared], sign * spline(time[shared] + shift), 0)
-
-    misfits = unexplained(1.0, offset.seconds), unexplained(-1.0, turned.seconds)
-    independent = 2 * bandwidth_hz * float(time[-1] - time[0])
-    return misfits[0] > OPPOSED * misfits[1] and _evidence(*misfits, independent) > RIVAL_EVIDENCE
+def _unexplained(first: Array, second: Array, shift: int) -> float:
+    """Share of the power in the overlap that the record shifted by so many samples does not explain."""
+    size = first.size - abs(shift)
+    one, other = first[max(-shift, 0) :][:size], second[max(shift, 0) :][:size]
+    power = float((one @ one) * (other @ other))
+    return 1.0 - max(float(one @ other), 0.0) ** 2 / power if power > 0 else 1.0
 
 
-def find_rate(time: Array, reference: Array, values: Array, *, delay: float, bandwidth_hz: float) -> ClockRate | None:
+def with_drift(offset: Offset, time: Array, reference: Array, values: Array, *, bandwidth_hz: float) -> Offset:
     """
-    Fit a line through the delays of a record's stretches.
+    Find whether a delay changes over the motion.
 
     Parameters
     ----------
+    offset : Offset
+        How late `values` are as a whole.
     time, reference, values : ndarray, shape (n,)
         s, at equal steps; the same quantity, band-limited alike, in any unit.
-    delay : float
-        How late `values` are as a whole, s.
     bandwidth_hz : float
         Of both records: it determines how many of their samples are independent.
 
     Returns
     -------
-    rate : ClockRate or None
-        None if too few stretches have a delay of their own.
+    offset : Offset
+        As given, where the change may be chance or is too small to matter.
 
     Notes
     -----
-    In each stretch delay and gain are fitted by least squares. A scatter of the delays about the line that is larger
-    than their standard errors widens that of the rate.
+    Gain, level, delay and rate are fitted to the whole record by least squares.
     """
     spline = scipy.interpolate.CubicSpline(time, values)
-    found: list[tuple[float, float, float]] = []
-    for start, stop in _stretches(time, reference, bandwidth_hz):
-        # Each stretch starts from the delay of the one nearest to it.
-        near = min(found, key=lambda each: abs(each[0] - time[start]))[1] if found else delay
-        local = _local_delay(time[start:stop], reference[start:stop], spline, near, bandwidth_hz)
-        if local is not None:
-            found.append(local)
-    if len(found) < FEWEST_STRETCHES:
-        return None
-    middles, delays, errors = np.array(sorted(found)).T
-    middle = float(np.average(middles, weights=errors**-2))
-    line, covariance = np.polyfit(middles - middle, delays, 1, w=1 / errors, cov="unscaled")
-    misfit = ((delays - np.polyval(line, middles - middle)) / errors) ** 2
-    deviations = np.sqrt(np.diag(covariance) * max(float(misfit.sum()) / (middles.size - 2), 1.0))
-    (slope, mean), (slope_error, mean_error) = line.tolist(), deviations.tolist()
-    return ClockRate(slope, slope_error, mean, mean_error, middle, slope * float(np.ptp(middles)))
-
-
-def _stretches(time: Array, reference: Array, bandwidth_hz: float) -> list[tuple[int, int]]:
-    """Parts of the record in which the motion's slope has equal energy, those nearest to the middle first."""
-    slope = np.gradient(reference)
-    energy = np.cumsum(slope**2)
-    if not energy[-1] > 0:
-        return []
-    shares = np.linspace(0.01, 0.99, STRETCHES + 1) * energy[-1]
-    edges = np.searchsorted(energy, shares)
-    shortest = SHORTEST / bandwidth_hz / float(time[1] - time[0])
-    parts = [(int(a), int(b)) for a, b in pairwise(edges) if b - a >= shortest]
-    return sorted(parts, key=lambda part: abs(sum(part) - edges[0] - edges[-1]))
-
-
-def _local_delay(
-    time: Array, reference: Array, values: scipy.interpolate.CubicSpline, delay: float, bandwidth_hz: float
-) -> tuple[float, float, float] | None:
-    """Middle, delay and standard error of a stretch; None if it does not agree or leaves the record."""
-
-    def moved(time: Array, gain: float, shift: float) -> Array:
-        late = values(time + shift)
-        return np.asarray(gain * (late - late.mean()))
-
-    centred = reference - reference.mean()
-    try:
-        with warnings.catch_warnings(action="ignore", category=scipy.optimize.OptimizeWarning):
-            (gain, shift), covariance = scipy.optimize.curve_fit(
-                moved, time, centred, p0=(1.0, delay), ftol=1e-13, xtol=1e-13
-            )
-    except RuntimeError:  # it does not converge
-        return None
-    residual = centred - moved(time, gain, shift)
-    agreement = 1 - float(residual @ residual) / max(float(centred @ centred), 1e-300)
-    independent = max(2 * bandwidth_hz * float(time[-1] - time[0]), 3.0)
-    error = float(np.sqrt(covariance[1, 1] * (time.size - 2) / (independent - 2)))
-    is_inside = values.x[0] <= time[0] + shift and time[-1] + shift <= values.x[-1]
-    if not is_inside or gain <= 0 or agreement < HELD**2 or not np.isfinite(error):
-        return None
-    return float(time.mean()), float(shift), max(error, 1e-9)
+    energy = np.cumsum(np.gradient(reference) ** 2)
+    begin, middle, end = time[np.searchsorted(energy, np.array([MOTION[0], 0.5, MOTION[1]]) * energy[-1])].tolist()
+    along = time - middle
+    delay, rate = offset.seconds, 0.0
+    for _ in range(ROUNDS):
+        at = np.clip(time + delay + rate * along, time[0], time[-1])
+        late, slope = spline(at), spline(at, 1)
+        columns = np.column_stack((late, np.ones_like(late), slope, slope * along))
+        found = np.linalg.lstsq(columns, reference, rcond=None)[0]
+        delay, rate = delay + found[2] / found[0], rate + found[3] / found[0]
+    independent = max(2 * bandwidth_hz * float(time[-1] - time[0]), 1.0)
+    left = reference - columns @ found
+    errors = np.sqrt(np.diag(np.linalg.pinv(columns.T @ columns)) * float(left @ left) / independent) / abs(found[0])
+    drift = ClockRate(float(rate), float(errors[3]), middle, float(rate) * (end - begin))
+    if abs(drift.rate) < SIGNIFICANCE * drift.standard_error or abs(drift.change) < LEAST_CHANGE:
+        return offset
+    return replace(offset, seconds=float(delay), standard_error=float(errors[2]), drift=drift)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 import scipy
@@ -50,9 +49,6 @@ OTHERWISE = 0.7
 LEAST_DIFFERENCE = 0.1
 """Of the motion's largest acceleration; a smaller one is not told."""
 
-LEAST_ENERGY = 0.01
-"""Of the motion, that has to lie outside of the record before it is said to be cut off."""
-
 
 @dataclass(frozen=True)
 class Series:
@@ -61,26 +57,39 @@ class Series:
     acceleration: Array
     interval: float
 
-    def stretched(self, scale: float) -> Series:
-        """The same with its time multiplied."""
-        return Series(self.acceleration, self.interval * scale)
-
-    def at(self, interval: float) -> Series:
-        """The same, linear between its samples, at another interval (s)."""
-        own = self.interval * np.arange(self.acceleration.size)
+    def at(self, interval: float, scale: float = 1.0) -> Series:
+        """The same with its time multiplied, linear between its samples, at another interval (s)."""
+        own = self.interval * scale * np.arange(self.acceleration.size)
         wanted = interval * np.arange(int(own[-1] / interval + 1e-6) + 1)
         return Series(np.interp(wanted, own, self.acceleration), interval)
 
-    def every(self, step: int) -> Series:
-        """Every `step`-th sample of it."""
-        return Series(self.acceleration[::step], self.interval * step)
+    def below(self, cutoff_hz: float) -> Series:
+        """The same below a frequency, without its mean."""
+        if self.acceleration.size < FEWEST_SAMPLES:
+            return self
+        smooth = lowpass(self.acceleration, self.interval, cutoff_hz)
+        return Series(smooth - smooth.mean(), self.interval)
 
 
-class Match(NamedTuple):
-    """Largest correlation of a motion with a record, with its sign, and where in the record the motion begins, s."""
+@dataclass(frozen=True)
+class Match:
+    """
+    A motion where it fits a record best, whatever its amplitude and sign.
 
+    Attributes
+    ----------
+    recorded, due : ndarray, shapes (n,) and (m,)
+        Both at the record's interval, below the frequency up to which the motion has its power; means taken off.
+    correlation : float
+        With its sign.
+    begin : int
+        Sample of the record at which the motion begins; below zero if that is not recorded.
+    """
+
+    recorded: Array
+    due: Array
     correlation: float
-    start: float
+    begin: int
 
 
 @dataclass(frozen=True)
@@ -93,7 +102,7 @@ class Laid:
     acceleration : ndarray, shape (n,)
         At the record's samples, in its unit; zero before it begins and after it ends.
     factor : float
-        On the motion's own values: record over motion by least squares below the frequency of `match`.
+        On the motion's own values: record over motion by least squares below the frequency of `Match`.
     correlation : float
     scale : float
         Factor on the motion's own time.
@@ -122,16 +131,14 @@ def laid_on(record: Series, motion: Series, *, time_scale: float | None) -> Laid
         None if the record is not of this motion.
     """
     scale = time_scale if time_scale is not None else best_scale(record, motion)
-    stretched = motion.stretched(scale)
-    found = match(record, stretched)
+    found = match(record, motion, scale)
     if abs(found.correlation) < AGREES:
         return None
-    own = found.start + stretched.interval * np.arange(stretched.acceleration.size)
-    clock = record.interval * np.arange(record.acceleration.size)
-    on_clock = np.interp(clock, own, stretched.acceleration, left=0.0, right=0.0)
-    one, other = (series.acceleration for series in _below_one_cutoff(record, Series(on_clock, record.interval)))
-    factor = float(one @ other / max(float(other @ other), 1e-300))
-    return Laid(factor * on_clock, factor, found.correlation, scale)
+    size = record.acceleration.size
+    due = _shifted(found.due, -found.begin, size)
+    factor = float(found.recorded @ due / max(float(due @ due), 1e-300))
+    whole = _shifted(motion.at(record.interval, scale).acceleration, -found.begin, size)
+    return Laid(factor * whole, factor, found.correlation, scale)
 
 
 def check_motion(
@@ -158,9 +165,9 @@ def check_motion(
         Empty if the record is that motion, whatever its amplitude.
     """
     scale = time_scale if time_scale is not None else best_scale(record, named)
-    found = match(record, named.stretched(scale))
+    found = match(record, named, scale)
     if found.correlation >= AGREES:
-        return _differences(record, name, named.stretched(scale), found, scale)
+        return _differences(found, name, scale, record.interval)
     if -found.correlation >= AGREES:
         text = (
             f'the table moved as "{name}" with the other polarity (correlation {found.correlation:.2f}): reverse '
@@ -169,8 +176,7 @@ def check_motion(
         return [warning("polarity", text, follows=("sign",))]
     begun = f'the table did not move as "{name}" at time scale {scale:.4g} (correlation {found.correlation:.2f}'
     for other, series in {name: named, **others}.items():
-        likely = [each for each in (scale, best_scale(record, series)) if each > 0]
-        fits = {match(record, series.stretched(each)).correlation: each for each in likely}
+        fits = {match(record, series, each).correlation: each for each in (scale, best_scale(record, series))}
         fit = max(fits, key=abs)
         if abs(fit) < max(AGREES, abs(found.correlation) + BETTER):
             continue
@@ -184,9 +190,11 @@ def check_motion(
     return [warning("another motion", text, follows=("dead channel", "table motion"))]
 
 
-def match(record: Series, motion: Series) -> Match:
-    """Find where in a record a motion fits best, whatever its amplitude and sign."""
-    return _correlated(*_below_one_cutoff(record, motion))
+def match(record: Series, motion: Series, scale: float) -> Match:
+    """Find where in a record a motion fits best, its time multiplied by a scale."""
+    cutoff = min(_cutoff(motion) / scale, 0.2 / record.interval)
+    one, other = record.below(cutoff), motion.at(record.interval, scale).below(cutoff)
+    return Match(one.acceleration, other.acceleration, *_correlated(one.acceleration, other.acceleration))
 
 
 def best_scale(record: Series, motion: Series) -> float:
@@ -196,34 +204,27 @@ def best_scale(record: Series, motion: Series) -> float:
         return 1.0
     steps = int(np.log1p(SCALE_REACH) / SCALE_STEP)
     scales = about * np.exp(SCALE_STEP * np.arange(-steps, steps + 1))
-    first, second = _below_one_cutoff(record, motion.stretched(about))
-    coarse = first.every(max(int(1 / (OVERSAMPLING * _cutoff(motion.stretched(about)) * record.interval)), 1))
-    tried = (second.stretched(scale / about).at(coarse.interval) for scale in scales)
-    return float(scales[int(np.argmax([abs(_correlated(coarse, each).correlation) for each in tried]))])
+    cutoff = min(_cutoff(motion) / about, 0.2 / record.interval)
+    step = max(int(1 / (OVERSAMPLING * cutoff * record.interval)), 1)
+    coarse, smooth = record.below(cutoff).acceleration[::step], motion.at(record.interval, about).below(cutoff)
+    tried = (smooth.at(step * record.interval, scale / about).acceleration for scale in scales)
+    return float(scales[int(np.argmax([abs(_correlated(coarse, each)[0]) for each in tried]))])
 
 
-def _correlated(first: Series, second: Series) -> Match:
-    one, other = first.acceleration, second.acceleration
+def _correlated(one: Array, other: Array) -> tuple[float, int]:
+    """Largest correlation, with its sign, and the sample of the first at which the second then begins."""
     power = float(np.sqrt((one @ one) * (other @ other)))
     if not power > 0 or min(one.size, other.size) < FEWEST_SAMPLES:
-        return Match(0.0, 0.0)
+        return 0.0, 0
     correlation = scipy.signal.correlate(one, other, mode="full", method="fft") / power
     best = int(np.argmax(np.abs(correlation)))
-    return Match(float(correlation[best]), (best - other.size + 1) * first.interval)
+    return float(correlation[best]), best - other.size + 1
 
 
-def _below_one_cutoff(record: Series, motion: Series) -> tuple[Series, Series]:
-    """Both at the record's interval, below the frequency up to which the motion has its power; means taken off."""
-    second = motion.at(record.interval)
-    cutoff = min(_cutoff(motion), 0.2 / record.interval)
-    return _below(record, cutoff), _below(second, cutoff)
-
-
-def _below(series: Series, cutoff_hz: float) -> Series:
-    if series.acceleration.size < FEWEST_SAMPLES:
-        return series
-    smooth = lowpass(series.acceleration, series.interval, cutoff_hz)
-    return Series(smooth - smooth.mean(), series.interval)
+def _shifted(values: Array, first: int, size: int) -> Array:
+    """So many values from a sample on; zero where there are none."""
+    padded = np.pad(values, (max(-first, 0), max(first + size - values.size, 0)))
+    return padded[max(first, 0) :][:size]
 
 
 def _cutoff(motion: Series) -> float:
@@ -243,40 +244,24 @@ def _duration(series: Series) -> float:
     return float(last - first) * series.interval
 
 
-def _differences(record: Series, name: str, motion: Series, found: Match, scale: float) -> list[Finding]:
-    """Parts of the motion that are not in the record, or otherwise."""
-    one, other = (series.acceleration for series in _below_one_cutoff(record, motion))
-    interval = record.interval
-    begin = round(found.start / interval)
-    inside = slice(max(-begin, 0), min(other.size, one.size - begin))
-    energy = np.cumsum(other**2) / float(other @ other)
-    lost = {
-        f"the first {inside.start * interval:.3g} s": energy[inside.start] if inside.start else 0.0,
-        f"the last {(other.size - inside.stop) * interval:.3g} s": 1 - energy[inside.stop - 1],
-    }
-    told = [
-        warning("cut motion", f'{part} of "{name}" are missing from the record')
-        for part, share in lost.items()
-        if share > LEAST_ENERGY
-    ]
-    size = min(max(int(STRETCH * scale / interval), 4), inside.stop - inside.start)
-    due, recorded = (
-        sliding_window_view(values, size)[:: size // 2]
-        for values in (other[inside], one[inside.start + begin : inside.stop + begin])
-    )
+def _differences(found: Match, name: str, scale: float, interval: float) -> list[Finding]:
+    """Say which part of the motion is not in the record, or otherwise."""
+    size = min(max(int(STRETCH * scale / interval), 4), found.due.size)
+    recorded = _shifted(found.recorded, found.begin, found.due.size)
+    due, seen = (sliding_window_view(values, size)[:: size // 2] for values in (found.due, recorded))
     # The gain is the median of the stretches by their energy, so that a missing one does not matter.
     strength = (due**2).sum(axis=1)
-    gains = (recorded * due).sum(axis=1) / np.maximum(strength, 1e-300)
+    gains = (seen * due).sum(axis=1) / np.maximum(strength, 1e-300)
     order = np.argsort(gains)
     gain = gains[order][np.searchsorted(np.cumsum(strength[order]), 0.5 * strength.sum())]
-    off, usual = np.sqrt(((recorded - gain * due) ** 2).mean(axis=1)), abs(gain) * np.sqrt(strength / size)
-    least = np.maximum(STANDS_OUT * np.quantile(off, QUIET), LEAST_DIFFERENCE * np.abs(gain * other[inside]).max())
+    off, usual = np.sqrt(((seen - gain * due) ** 2).mean(axis=1)), abs(gain) * np.sqrt(strength / size)
+    least = np.maximum(STANDS_OUT * np.quantile(off, QUIET), LEAST_DIFFERENCE * np.abs(gain * found.due).max())
     odd = np.flatnonzero((off > least) & (off > OTHERWISE * usual))
-    if odd.size:
-        low, high = ((odd[end] * (size // 2) + inside.start) * interval / scale for end in (0, -1))
-        text = (
-            f'the table did not move as "{name}" from {low:.3g} to {high + STRETCH:.3g} s of its own time: a part '
-            "is missing or differs"
-        )
-        told.append(warning("cut motion", text))
-    return told
+    if not odd.size:
+        return []
+    low, high = odd[[0, -1]] * (size // 2) * interval / scale
+    text = (
+        f'the table did not move as "{name}" from {low:.3g} to {high + STRETCH:.3g} s of its own time: a part is '
+        "missing or differs"
+    )
+    return [warning("cut motion", text)]

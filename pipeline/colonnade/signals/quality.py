@@ -7,12 +7,13 @@ from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Codes, Mask
 from colonnade.errors import count
 from colonnade.findings import Finding, Severity
-from colonnade.signals.samples import BLOCK, blocks, filled_in, stretches
+from colonnade.signals.samples import blocks, filled_in, stretches
 
 ENOUGH = 100_000
 """Number of samples that is enough for a median."""
@@ -34,7 +35,7 @@ FEW_BEYOND = 0.01
 """Share of the samples that may be beyond it: spikes and overflows do not mean a wrong unit."""
 
 FIRST = 10
-"""Samples with which a channel begins, and ends."""
+"""Samples with which a channel begins, and ends: where it rests."""
 
 BAND = 8.0
 """Standard deviations of the noise, below the extreme value, within which samples are at it."""
@@ -138,13 +139,8 @@ def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
         Largest magnitude that the recorder or transducer can give. The top code of 12 bits, 2047/2048 of it, counts as
         reached.
     """
-    limit = full_scale * (1 - 5e-4)
-    if values.size == 0 or (values.max() < limit and values.min() > -limit):  # neither holds where a value is missing
-        return Verdict.good(values.size)
     size = np.abs(values)
-    where = size >= limit
-    if not where.any():
-        return Verdict.good(values.size)
+    where = size >= full_scale * (1 - 5e-4)
     if (size > BEYOND * full_scale).mean() > FEW_BEYOND:
         reason = (
             f"{counted(where)} beyond the range of ±{full_scale:g}, up to {float(np.nanmax(size)):.4g}: the "
@@ -152,8 +148,6 @@ def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
         )
         return Verdict(Flag.SUSPECT, where, reason, "unit", Severity.SERIOUS)
     reason = f"{counted(where)} at the end of the range (±{full_scale:g}){first_at(time, where)}: the value was larger"
-    if where[:FIRST].all():
-        reason = f"{reason}. It begins there: check its cable, supply and zero"
     return Verdict(Flag.SUSPECT, where, reason, "end of the range")
 
 
@@ -173,7 +167,7 @@ def check_flat(time: Array, values: Array, *, duration: float) -> Verdict:
 
 def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
     """
-    Flag spikes of one or two samples.
+    Flag spikes of one sample.
 
     Parameters
     ----------
@@ -186,35 +180,41 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
     Notes
     -----
     A spike stands out, to one side, from the line through the two samples before it and from the line through the two
-    after it, and these samples agree. At an impact, where a record may have a cusp, a sample lies on one of the lines;
-    a step lies on one as well, and passes.
+    after it. At an impact, where a record may have a cusp, a sample lies on one of the lines; a step lies on one as
+    well, and passes.
     """
-    known = np.isfinite(values)
+    where, known = np.zeros(values.size, dtype=bool), np.isfinite(values)
     if known.sum() < FEWEST:
         return Verdict.good(values.size)
     filled = filled_in(values)
     every = max(1, (values.size - 2) // ENOUGH)
-    usual = 1.4826 * float(np.median(_bend(filled[:-2:every], filled[1:-1:every], filled[2::every])))
+    bends = filled[:-2:every] - 2 * filled[1:-1:every] + filled[2::every]
     # A coarse converter gives mostly zeros: its step is then the least that can be told.
-    typical = max(usual, _smallest_step(filled))
-    # A spike bends the line through the two samples before it by more than this; few others do.
-    doubtful = _bent(filled, threshold * typical) + 2
-    doubtful = doubtful[(doubtful >= 3) & (doubtful < values.size - 4)]
-    least = threshold * np.maximum(_roughness(filled, doubtful - 1), typical)
-    single = doubtful[_standing_out(filled, doubtful, least, 1)]
-    # Lines carried over two samples are less certain.
-    double = doubtful[_standing_out(filled, doubtful, 1.5 * least, 2)]
-    where = np.zeros(values.size, dtype=bool)
-    where[np.concatenate((single, double, double + 1))] = True
+    typical = max(1.4826 * float(np.median(np.abs(bends))), _smallest_step(filled))
+    for part in blocks(values.size):
+        begin = max(part.start - NEIGHBOURHOOD, 0)
+        places = begin + _standing_out(filled[begin : part.stop + NEIGHBOURHOOD], threshold, typical)
+        where[places[(places >= part.start) & (places < part.stop)]] = True
     where &= known
     # They are bridged: a few do not touch the result.
     severity = Severity.NOTE if where.mean() <= FEW_SPIKES else Severity.WARNING
     return Verdict(Flag.FAIL, where, f"spikes on {counted(where)}{first_at(time, where)}", "spikes", severity)
 
 
-def _bend(before: Array, sample: Array, behind: Array) -> Array:
-    """Magnitude of the second difference."""
-    return np.asarray(np.abs((behind - sample) - (sample - before)))
+def _standing_out(values: Array, threshold: float, typical: float) -> NDArray[np.intp]:
+    """Find the samples that stand out from the lines on both sides by more than what is rough around them."""
+    bends = np.abs(np.diff(values, 2))
+    places = np.flatnonzero(bends > threshold * typical) + 1
+    places = places[(places >= 3) & (places < values.size - 3)]
+    earlier, before, sample, behind, later = (values[places + shift] for shift in range(-2, 3))
+    lines = sample - 2 * before + earlier, sample - 2 * behind + later
+    height = np.where(lines[0] * lines[1] > 0, np.minimum(*np.abs(lines)), 0.0)
+    stands = np.abs(behind - before) < 0.5 * np.abs(sample - 0.5 * (before + behind))
+    stands &= height > threshold * typical
+    places, height = places[stands], height[stands]
+    # The upper tenth, not the median: a motion recorded at few samples a period is rough now and then all along.
+    around = sliding_window_view(np.pad(bends, NEIGHBOURHOOD // 2, mode="edge"), NEIGHBOURHOOD)[places - 1]
+    return places[height > threshold * np.quantile(around, 0.9, axis=1, method="lower") / 1.645]
 
 
 def _smallest_step(values: Array) -> float:
@@ -222,40 +222,6 @@ def _smallest_step(values: Array) -> float:
     parts = (np.abs(np.diff(values[part.start : part.stop + 1])) for part in blocks(values.size - 1))
     smallest = min(float(steps[steps > 0].min(initial=np.inf)) for steps in parts)
     return smallest if np.isfinite(smallest) else 0.0
-
-
-def _bent(values: Array, limit: float) -> NDArray[np.intp]:
-    """Places of second differences larger than a limit."""
-    parts = ((part.start, np.diff(values[part.start : part.stop + 2], 2)) for part in blocks(values.size - 2))
-    return np.concatenate([np.flatnonzero(np.abs(bend) > limit) + start for start, bend in parts])
-
-
-def _roughness(values: Array, places: NDArray[np.intp]) -> Array:
-    """Size of the second difference around some of its places."""
-    # The upper tenth, not the median: a motion recorded at few samples a period is rough now and then all along.
-    bends = values.size - 2
-    size = min(NEIGHBOURHOOD, bends)
-    rank, shifts = int(0.9 * size), np.arange(size) - size // 2
-    roughness = np.empty(places.size)
-    for part in blocks(places.size, BLOCK // size):
-        around = np.clip(places[part, None] + shifts, 0, bends - 1)
-        bend = _bend(values[around], values[around + 1], values[around + 2])
-        roughness[part] = np.partition(bend, rank, axis=1)[:, rank] / 1.645
-    return roughness
-
-
-def _standing_out(values: Array, places: NDArray[np.intp], least: Array, width: int) -> Mask:
-    """Which places begin a run of `width` that stands out from the lines on both sides by more than `least`."""
-    earlier, before, behind, later = (values[places + shift] for shift in (-2, -1, width, width + 1))
-    kept = np.ones(places.size, dtype=bool)
-    height = np.full(places.size, np.inf)
-    for place in range(width):
-        sample = values[places + place]
-        from_left = sample - (before + (place + 1) * (before - earlier))
-        from_right = sample - (behind + (width - place) * (behind - later))
-        kept &= (from_left * from_right > 0) & (np.minimum(np.abs(from_left), np.abs(from_right)) > least)
-        height = np.minimum(height, np.abs(sample - 0.5 * (before + behind)))
-    return kept & (np.abs(behind - before) < 0.5 * height)
 
 
 def check_dead(values: Array, reference: Array, *, share: float) -> Verdict:

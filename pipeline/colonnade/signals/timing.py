@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Mask
 from colonnade.errors import count
+from colonnade.findings import Severity
 from colonnade.signals.quality import Flag, Verdict, counted, first_at
 from colonnade.signals.samples import blocks, stretches
 
@@ -23,9 +24,6 @@ COARSEST = 0.01
 
 EXACT = 1e-7
 """Of an interval; times that lie closer than this to an even clock are on it."""
-
-STRONG = 0.5
-"""Of the largest departure from the median; samples with as much belong to the strong part of a record."""
 
 LAG = 200
 """Samples over which the interval of rounded times is first taken."""
@@ -103,16 +101,12 @@ def check_order(stamps: Array, clock: Clock) -> Verdict:
     if back.size:
         at, then = stamps[back[0] : back[0] + 2]
         first = f"the clock goes from {at:.6g} to {then:.6g} s at sample {back[0] + 2:,}"
-    return Verdict(Flag.FAIL, where, f"{counted(where)} whose time is out of order; {first}", "time column")
-
-
-def loses_motion(values: Array, where: Mask) -> bool:
-    """Whether samples that are left out, more than can be bridged, belong to the strong part of a channel's record."""
+    reason = f"{counted(where)} whose time is out of order; {first}"
     starts, stops = stretches(where)
-    size = np.abs(values - np.nanmedian(values))
-    return bool((stops - starts > LONGEST_BRIDGE).any()) and bool(
-        np.nanmax(size[where], initial=0.0) >= STRONG * np.nanmax(size[~where], initial=0.0)
-    )
+    if (stops - starts <= LONGEST_BRIDGE).all():
+        return Verdict(Flag.FAIL, where, reason, "time column")
+    reason += ". They are left out, and the largest readings may be among them: repair the time column"
+    return Verdict(Flag.FAIL, where, reason, "time column", Severity.SERIOUS)
 
 
 def check_steps(clock: Clock, *, share: float, factor: float) -> list[Verdict]:

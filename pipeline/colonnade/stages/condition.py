@@ -192,7 +192,7 @@ def _resting(channel: Channel, gravity: float) -> float:
 def _clock_attributes(offset: Offset, delay: float) -> dict[str, float]:
     """What was subtracted from a channel's times, and how well it is known."""
     known = {"clock_offset": offset.seconds + delay}
-    if offset.rival is None and np.isfinite(offset.standard_error):
+    if np.isfinite(offset.standard_error):
         known["clock_offset_standard_error"] = offset.standard_error
     if offset.drift is not None:
         known |= {

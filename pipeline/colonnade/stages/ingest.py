@@ -15,7 +15,7 @@ from colonnade.campaign import Campaign, Test
 from colonnade.campaign.review import Review
 from colonnade.campaign.settings import QualitySettings
 from colonnade.errors import StageError, count
-from colonnade.findings import Finding, Severity, note, serious, warning
+from colonnade.findings import Finding, note, serious, warning
 from colonnade.readers.clock import moment_after
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.heading import LETTERED
@@ -203,15 +203,9 @@ def _of_clocks(tracks: list[_Track], timed: Mapping[str, list[quality.Verdict]])
     found = []
     for dimension, verdicts in timed.items():
         timed_so = [track for track in tracks if track.dimension == dimension]
-        telling = [track for track in timed_so if track.channel.on == "specimen"] or timed_so
         whose = f"channel{'s' if len(timed_so) > 1 else ''} {', '.join(track.name for track in timed_so)}"
         for verdict in [each for each in verdicts if each.reason]:
-            text, severity = f"{whose}: {verdict.reason}.", verdict.severity
-            is_lost = any(timing.loses_motion(track.values, verdict.where) for track in telling)
-            if verdict.flag == quality.Flag.FAIL and is_lost:
-                text += " They are left out, and the largest readings may be among them: repair the time column."
-                severity = Severity.SERIOUS
-            found.append(replace(verdict.finding, text=text, severity=severity))
+            found.append(replace(verdict.finding, text=f"{whose}: {verdict.reason}."))
     return found
 
 

@@ -17,9 +17,7 @@ from colonnade.identification.fusion.pose import SpecimenMotion
 from colonnade.identification.fusion.sensors import UnseenRotationError
 from colonnade.identification.response.outcome import angle_features, ending
 from colonnade.signals.quality import Flag
-from colonnade.signals.rest import single_shock
 from colonnade.signals.samples import stretches
-from colonnade.signals.timing import STRONG
 from colonnade.stages.parts.bodies import AssemblyInputs, measure, measured_variables, together
 from colonnade.stages.parts.transducers import (
     LEAST_NOISE,
@@ -34,6 +32,9 @@ from colonnade.stages.parts.transducers import (
 if TYPE_CHECKING:
     import xarray as xr
 
+
+STRONG = 0.5
+"""Of the recorded peak; missing samples next to as much may hold a larger one."""
 
 NEARBY = 0.5
 """s, on either side of missing samples, of motion that they may go on with; as long as they last, if that is longer."""
@@ -129,7 +130,6 @@ def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
     variables["peak_ground_acceleration"] = np.nan
     if acceleration is not None:
         variables["peak_ground_acceleration"] = float(np.nanmax(np.abs(acceleration)))
-        warnings += [] if inputs.free_vibration else _shock(acceleration, time)
     attributes = {"outcome": "", "separation": separation, "warnings": warnings}
     if motion is not None:
         variables |= _motion_variables(time, motion, acceleration, inputs, attributes)
@@ -140,20 +140,6 @@ def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
         variables |= described
         attributes["outcome"] = outcome or attributes["outcome"]
     return xr.Dataset(variables, coords={"elapsed": ("elapsed", time)}, attrs=attributes)
-
-
-def _shock(acceleration: Array, time: Array) -> list[Finding]:
-    """Report a single shock in the base motion, which would be its peak and drive a prediction."""
-    shock = single_shock(acceleration, float(time[1] - time[0]))
-    if shock is None:
-        return []
-    text = (
-        f"The base acceleration has a single shock of {shock.peak:.3g} m/s² at {time[0] + shock.time:.4g} s, "
-        f"{1e3 * shock.duration:.2g} ms long; elsewhere it stays below {shock.elsewhere:.3g} m/s². It is the peak "
-        "ground acceleration and drives the prediction. If it is a blow, not a motion of the table, [[flag]] that "
-        "window of the channel as failed in review.toml."
-    )
-    return [warning("single shock", text, follows=("gain", "unit"))]
 
 
 def _hidden_peak(time: Array, angle: Array, block: Block) -> list[Finding]:

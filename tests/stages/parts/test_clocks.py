@@ -189,7 +189,7 @@ def test_a_clock_far_faster_than_rocking_is_slowed_down_unless_it_is_asked_for(r
     assert 1 / np.diff(common(records, rate=float(rate))) == pytest.approx(rate)
 
 
-DRIFT = ClockRate(rate=0.01, standard_error=1e-6, seconds=0.0, seconds_error=1e-6, middle=0.0, change=0.04)
+DRIFT = ClockRate(rate=0.01, standard_error=1e-6, middle=0.0, change=0.04)
 
 
 @every(

@@ -24,7 +24,7 @@ from colonnade.identification.plausibility.scale import (
     least_squares,
 )
 from colonnade.identification.plausibility.transducers import Rotation
-from colonnade.signals.alignment import RIVAL_EVIDENCE, find_offset
+from colonnade.signals.alignment import EVIDENCE, find_offset
 from colonnade.signals.filters import lowpass, second_derivative
 from colonnade.signals.metrics import find_hum
 from colonnade.signals.samples import filled_in
@@ -149,7 +149,7 @@ def compare(interval: float, acceleration: Array, reference: Array, where: Mask)
     best, how = plain, ("", 0.0, 0.0)
     for fit, kind, size, error, is_seen in candidates:
         better = 2 * log(max(plain[2], 1e-300) / max(fit[2], 1e-6 * plain[2], 1e-300))
-        is_sure = better > log(MUCH_BETTER) and 0.5 * independent * better > RIVAL_EVIDENCE
+        is_sure = better > log(MUCH_BETTER) and 0.5 * independent * better > EVIDENCE
         if is_seen and is_sure and fit[0][0] > 0 and abs(size) > SURE * abs(error) and fit[2] < best[2]:
             best, how = fit, (kind, float(size), float(error))
     (share, *_), (error, *_), left = best
