@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.signals.filters import default_lowpass, displacement, lowpass, noise_below, second_derivative
+from colonnade.signals.filters import default_lowpass, lowpass, noise_below, second_derivative
 
 TIME = np.arange(0, 4, 0.002)
 
@@ -53,15 +53,3 @@ def test_noise_left_below_the_cut_off_is_what_the_filter_leaves():
     for values, counted in ((noise + signal, noise < np.inf), (bridged, recorded)):
         smooth = lowpass(values, 0.002, 35.0)
         assert noise_below(values, smooth, 0.002, 35.0, counted) == pytest.approx(left, rel=0.1)
-
-
-def test_a_motion_that_begins_and_ends_at_rest_comes_out_of_its_acceleration_and_an_offset():
-    time = np.arange(0, 20, 0.002)
-    moved = 0.01 * np.sin(2 * np.pi * 2.0 * time) * np.exp(-(((time - 10) / 3) ** 2))
-    acceleration = np.gradient(np.gradient(moved, time), time)
-    np.testing.assert_allclose(displacement(time, 0.05 + acceleration), moved, atol=2e-4)
-
-
-@pytest.mark.parametrize("count", [1, 5])
-def test_too_short_a_record_stands_still(count):
-    assert not displacement(np.arange(count) / 100, np.ones(count)).any()

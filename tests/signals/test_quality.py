@@ -4,6 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from colonnade.dynamics.rock import rock
+from colonnade.findings import Finding
 from colonnade.signals.quality import (
     Flag,
     Verdict,
@@ -118,8 +119,8 @@ def test_a_channel_beside_a_moving_table_that_hardly_moves_is_dead():
 
 def test_the_worst_flag_of_a_sample_stands():
     verdicts = [
-        Verdict(Flag.FAIL, np.array([True, False, False]), "a"),
-        Verdict(Flag.SUSPECT, np.array([True, True, False]), "b"),
+        Verdict(Flag.FAIL, np.array([True, False, False]), Finding("a")),
+        Verdict(Flag.SUSPECT, np.array([True, True, False]), Finding("b")),
         Verdict.good(3),
     ]
     flags, found = combine(verdicts, 3)
@@ -162,7 +163,7 @@ def test_a_saturated_channel_is_told_whatever_its_noise(limit, motion, noise_beh
     values = _noisy(np.clip(values, -limit, limit)) if noise_behind else np.clip(_noisy(values), -limit, limit)
     verdict = check_rails(TIME_RAILS, values)
     assert verdict.flag is Flag.SUSPECT
-    assert verdict.kind == "end of the range"
+    assert verdict.finding.kind == "end of the range"
     assert "the channel saturates, and the value was larger. Its peaks are lower bounds" in verdict.reason
     beyond = np.abs(motion()) > limit
     assert verdict.where[beyond].mean() > 0.5

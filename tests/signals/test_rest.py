@@ -1,7 +1,6 @@
 """Rest is told from motion."""
 
 import numpy as np
-import pytest
 
 from colonnade.signals.rest import drift, find_rest
 

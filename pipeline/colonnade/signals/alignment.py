@@ -232,8 +232,7 @@ def _unexplained(first: Array, second: Array, shift: int) -> float:
     """Share of the power in the overlap that the record shifted by so many samples does not explain."""
     size = first.size - abs(shift)
     one, other = first[max(-shift, 0) :][:size], second[max(shift, 0) :][:size]
-    power = float((one @ one) * (other @ other))
-    return 1.0 - max(float(one @ other), 0.0) ** 2 / power if power > 0 else 1.0
+    return 1.0 - max(float(np.corrcoef(one, other)[0, 1]), 0.0) ** 2
 
 
 def with_drift(offset: Offset, time: Array, reference: Array, values: Array, *, bandwidth_hz: float) -> Offset:

@@ -1,4 +1,4 @@
-"""Zero-phase filters, their cut-off, the noise that they leave, derivatives and integrals."""
+"""Zero-phase filters, their cut-off, the noise that they leave, and derivatives."""
 
 from __future__ import annotations
 
@@ -14,9 +14,6 @@ SMALL_AMPLITUDE = 0.02
 
 HARMONICS = 5.0
 """Default cut-off over that frequency: the arcs' third harmonic passes, see the notes of `default_lowpass`."""
-
-SLOWEST = 0.2
-"""Hz: what is slower in a displacement that is integrated from an acceleration is its drift, not the table."""
 
 
 def default_lowpass(p: float, rate: float) -> float:
@@ -116,29 +113,3 @@ def noise_below(values: Array, smooth: Array, interval: float, cutoff_hz: float,
     above -= np.median(above)
     deviation = 1.4826 * float(np.median(np.abs(above, out=above), overwrite_input=True))
     return deviation * float(np.sqrt(kept / (1 - kept)))
-
-
-def displacement(time: Array, acceleration: Array) -> Array:
-    """
-    Integrate an acceleration twice, without what is slower than `SLOWEST`: an offset would carry the base away.
-
-    Parameters
-    ----------
-    time : ndarray, shape (n,)
-        s, even.
-    acceleration : ndarray, shape (n,)
-        m/s²; NaN counts as 0.
-
-    Returns
-    -------
-    displacement : ndarray, shape (n,)
-        m.
-    """
-    values = np.nan_to_num(acceleration)
-    rate = (time.size - 1) / float(time[-1] - time[0]) if time.size > 1 else 0.0
-    if rate <= 4 * SLOWEST or time.size < 20:
-        return np.zeros_like(values)
-    highpass = scipy.signal.butter(2, SLOWEST, "highpass", fs=rate, output="sos")
-    for _ in range(2):
-        values = scipy.integrate.cumulative_trapezoid(scipy.signal.sosfiltfilt(highpass, values), time, initial=0.0)
-    return np.asarray(scipy.signal.sosfiltfilt(highpass, values))

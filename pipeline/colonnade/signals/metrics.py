@@ -90,13 +90,8 @@ def density(values: Array, interval: float, usable: Mask) -> Density | None:
     if good.sum() < SMALLEST_SEGMENT or not interval > 0:
         return None
     bridged = filled_in(np.where(good, values, np.nan))
-    wanted = 2 * values.size // (FEWEST_SEGMENTS + 1)
-    segment = int(np.clip(1 << (max(wanted, 1).bit_length() - 1), SMALLEST_SEGMENT, LARGEST_SEGMENT))
-    frequency, power = scipy.signal.welch(bridged, 1 / interval, nperseg=min(segment, values.size))
-    return _thinned(frequency[1:], power[1:])
-
-
-def _thinned(frequency: Array, power: Array) -> Density:
+    segment = int(np.clip(2 * values.size // (FEWEST_SEGMENTS + 1), SMALLEST_SEGMENT, LARGEST_SEGMENT))
+    frequency, power = (each[1:] for each in scipy.signal.welch(bridged, 1 / interval, nperseg=segment))
     edges = np.geomspace(frequency[0], frequency[-1] * (1 + 1e-9), CLASSES + 1)
     starts = np.unique(np.searchsorted(frequency, edges[:-1]))
     starts = starts[starts < frequency.size]

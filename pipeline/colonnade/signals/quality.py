@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Codes, Mask
 from colonnade.errors import count
-from colonnade.findings import Finding, Severity
+from colonnade.findings import Finding, note, serious, warning
 from colonnade.signals.samples import blocks, filled_in, stretches
 
 ENOUGH = 100_000
@@ -76,30 +76,23 @@ class Verdict(NamedTuple):
     flag : Flag
     where : ndarray of bool, shape (n,)
         The samples it applies to; none if all is good.
-    text, kind, severity : str, str, Severity
-        Of the finding that it makes.
+    finding : Finding
+        That it makes.
     """
 
     flag: Flag
     where: Mask
-    text: str = ""
-    kind: str = "samples"
-    severity: Severity = Severity.WARNING
+    finding: Finding
 
     @property
     def reason(self) -> str:
-        """Its text; empty if all is good."""
-        return self.text if self.where.any() else ""
-
-    @property
-    def finding(self) -> Finding:
-        """The reason, with how much it matters."""
-        return Finding(self.reason, self.kind, self.severity)
+        """The text of its finding; empty if all is good."""
+        return self.finding.text if self.where.any() else ""
 
     @classmethod
     def good(cls, size: int) -> Verdict:
         """Verdict that flags nothing."""
-        return cls(Flag.GOOD, np.zeros(size, dtype=bool))
+        return cls(Flag.GOOD, np.zeros(size, dtype=bool), Finding(""))
 
 
 def combine(verdicts: Iterable[Verdict], size: int) -> tuple[Codes, list[Finding]]:
@@ -124,7 +117,7 @@ def check_missing(time: Array, values: Array) -> Verdict:
     """Flag samples without a value or a time."""
     where = ~(np.isfinite(values) & np.isfinite(time))
     reason = f"{counted(where)} without a value{first_at(time, where)}"
-    return Verdict(Flag.MISSING, where, reason, "missing samples")
+    return Verdict(Flag.MISSING, where, warning("missing samples", reason))
 
 
 def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
@@ -146,9 +139,9 @@ def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
             f"{counted(where)} beyond the range of ±{full_scale:g}, up to {float(np.nanmax(size)):.4g}: the "
             "values are in another unit, of another column, or the range is wrong"
         )
-        return Verdict(Flag.SUSPECT, where, reason, "unit", Severity.SERIOUS)
+        return Verdict(Flag.SUSPECT, where, serious("unit", reason))
     reason = f"{counted(where)} at the end of the range (±{full_scale:g}){first_at(time, where)}: the value was larger"
-    return Verdict(Flag.SUSPECT, where, reason, "end of the range")
+    return Verdict(Flag.SUSPECT, where, warning("end of the range", reason))
 
 
 def check_flat(time: Array, values: Array, *, duration: float) -> Verdict:
@@ -160,9 +153,9 @@ def check_flat(time: Array, values: Array, *, duration: float) -> Verdict:
         where[starts[run] : stops[run] + 1] = True
     if where.size and where.all():
         reason = f"the channel is dead: every sample is {values[0]:g}"
-        return Verdict(Flag.SUSPECT, where, reason, "dead channel", Severity.SERIOUS)
+        return Verdict(Flag.SUSPECT, where, serious("dead channel", reason))
     reason = f"{counted(where)} flat for more than {duration:g} s{first_at(time, where)}"
-    return Verdict(Flag.SUSPECT, where, reason, "flat stretch")
+    return Verdict(Flag.SUSPECT, where, warning("flat stretch", reason))
 
 
 def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
@@ -197,8 +190,8 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
         where[places[(places >= part.start) & (places < part.stop)]] = True
     where &= known
     # They are bridged: a few do not touch the result.
-    severity = Severity.NOTE if where.mean() <= FEW_SPIKES else Severity.WARNING
-    return Verdict(Flag.FAIL, where, f"spikes on {counted(where)}{first_at(time, where)}", "spikes", severity)
+    told = note if where.mean() <= FEW_SPIKES else warning
+    return Verdict(Flag.FAIL, where, told("spikes", f"spikes on {counted(where)}{first_at(time, where)}"))
 
 
 def _standing_out(values: Array, threshold: float, typical: float) -> NDArray[np.intp]:
@@ -241,7 +234,7 @@ def check_dead(values: Array, reference: Array, *, share: float) -> Verdict:
         f"the channel is practically dead: its standard deviation is {deviation:.3g}, that of the table's "
         f"{expected:.3g} in the same unit; check its cable, sensor and range"
     )
-    return Verdict(Flag.SUSPECT, where, reason, "dead channel", Severity.SERIOUS)
+    return Verdict(Flag.SUSPECT, where, serious("dead channel", reason))
 
 
 def check_rails(time: Array, values: Array, *, longest: float = np.inf) -> Verdict:
@@ -275,7 +268,7 @@ def check_rails(time: Array, values: Array, *, longest: float = np.inf) -> Verdi
         f"{counted(where)} stay at {level:.4g} (as recorded){first_at(time, where)}, between steep flanks: the channel "
         "saturates, and the value was larger. Its peaks are lower bounds. Choose a larger range"
     )
-    return Verdict(Flag.SUSPECT, where, reason, "end of the range")
+    return Verdict(Flag.SUSPECT, where, warning("end of the range", reason))
 
 
 def check_torn(time: Array, values: Array) -> Verdict:
@@ -297,7 +290,7 @@ def check_torn(time: Array, values: Array) -> Verdict:
         f"it jumps by {size:.4g} (as recorded) at {time[jump + 1]:.4g} s, and stands still from then on: its cable "
         "tore, or its core came off. The peak is a lower bound, and the specimen may have overturned"
     )
-    return Verdict(Flag.SUSPECT, where, reason, "dead channel", Severity.SERIOUS)
+    return Verdict(Flag.SUSPECT, where, serious("dead channel", reason))
 
 
 def counted(where: Mask) -> str:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +10,7 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Mask
 from colonnade.errors import count
-from colonnade.findings import Severity
+from colonnade.findings import serious, warning
 from colonnade.signals.quality import Flag, Verdict, counted, first_at
 from colonnade.signals.samples import blocks, stretches
 
@@ -25,8 +23,11 @@ COARSEST = 0.01
 EXACT = 1e-7
 """Of an interval; times that lie closer than this to an even clock are on it."""
 
+WILD = 2.5
+"""Steps by which a stamp differs from the median of five around it that is not of this clock."""
+
 LAG = 200
-"""Samples over which the interval of rounded times is first taken."""
+"""Samples, at least, over which the interval of rounded times is first taken."""
 
 LONGEST_BRIDGE = 5
 """Intervals; over a longer gap values are not interpolated but missing."""
@@ -70,8 +71,8 @@ def read_clock(stamps: Array) -> Clock:
 
     Notes
     -----
-    Kept is the longest run of stamps in order, so that one wild stamp costs one sample. A line through the kept stamps
-    over their sample numbers, with a step at each gap, replaces them where it meets all of them within their rounding.
+    Kept are stamps above all before, without single ones gone wild. A line through them over their sample numbers,
+    with a step at each gap, replaces them where it meets all of them within their rounding.
 
     Examples
     --------
@@ -104,9 +105,9 @@ def check_order(stamps: Array, clock: Clock) -> Verdict:
     reason = f"{counted(where)} whose time is out of order; {first}"
     starts, stops = stretches(where)
     if (stops - starts <= LONGEST_BRIDGE).all():
-        return Verdict(Flag.FAIL, where, reason, "time column")
+        return Verdict(Flag.FAIL, where, warning("time column", reason))
     reason += ". They are left out, and the largest readings may be among them: repair the time column"
-    return Verdict(Flag.FAIL, where, reason, "time column", Severity.SERIOUS)
+    return Verdict(Flag.FAIL, where, serious("time column", reason))
 
 
 def check_steps(clock: Clock, *, share: float, factor: float) -> list[Verdict]:
@@ -130,8 +131,8 @@ def check_steps(clock: Clock, *, share: float, factor: float) -> list[Verdict]:
     largest = 1e3 * clock.interval * float(off[uneven].max(initial=0.0))
     jitter = f"{counted(odd)} up to {largest:.3g} ms off an even clock of {1e3 * clock.interval:.6g} ms"
     return [
-        Verdict(Flag.SUSPECT, beside, gaps, "lost samples"),
-        Verdict(Flag.SUSPECT, odd, jitter, "time column"),
+        Verdict(Flag.SUSPECT, beside, warning("lost samples", gaps)),
+        Verdict(Flag.SUSPECT, odd, warning("time column", jitter)),
     ]
 
 
@@ -151,33 +152,17 @@ def _in_place(kept: NDArray[np.intp], times: Array, size: int) -> Array:
 
 
 def _in_order(stamps: Array, *, repeats: bool) -> NDArray[np.intp]:
-    """Indices of the longest increasing (or, with `repeats`, not decreasing) subsequence of the finite stamps."""
+    """Indices of stamps above (or, with `repeats`, not below) all before, without single ones gone wild."""
     finite = np.flatnonzero(np.isfinite(stamps))
-    steps = np.diff(stamps[finite])
-    if (steps < 0).any() or not (repeats or (steps > 0).all()):
-        finite = finite[_longest_increasing(stamps[finite].tolist(), bisect_right if repeats else bisect_left)]
-    # A wild stamp at an end is in order all the same, but further off than all others reach.
     if finite.size > 8:
-        first, second, last_but_one, last = stamps[finite[[0, 1, -2, -1]]]
-        reach = last_but_one - second
-        finite = finite[int(second - first > reach) : finite.size - int(last - last_but_one > reach)]
-    return finite
-
-
-def _longest_increasing(values: list[float], place: Callable[[list[float], float], int]) -> list[int]:
-    """Indices of the longest subsequence in order, by patience sorting."""
-    tops: list[float] = []
-    on_top: list[int] = []
-    before: list[int] = []
-    for index, value in enumerate(values):
-        pile = place(tops, value)
-        before.append(on_top[pile - 1] if pile else -1)
-        tops[pile : pile + 1] = [value]
-        on_top[pile : pile + 1] = [index]
-    chain = on_top[-1:]
-    while before[chain[-1]] >= 0:
-        chain.append(before[chain[-1]])
-    return chain[::-1]
+        times = stamps[finite]
+        steps = np.diff(times)
+        limit = np.full(finite.size, WILD * float(np.median(steps[steps > 0])) if (steps > 0).any() else np.inf)
+        # A wild stamp at an end may be in order all the same, but is further off than all others reach.
+        limit[[0, -1]] = np.where(steps[[0, -1]] < 0, limit[0], abs(times[-2] - times[1]))
+        finite = finite[np.abs(times - scipy.ndimage.median_filter(times, 5, mode="mirror")) <= limit]
+    highest = np.maximum.accumulate(stamps[finite])
+    return finite[stamps[finite] == highest if repeats else np.diff(highest, prepend=-np.inf) > 0]
 
 
 def _resolution(times: Array) -> float:
@@ -193,9 +178,8 @@ def _resolution(times: Array) -> float:
 
 def _even(numbers: NDArray[np.intp], times: Array, resolution: float) -> tuple[Array, float]:
     """Line of one slope through times over sample numbers, with a step at each gap; and the slope, s."""
-    lags = (min(LAG, numbers.size - 1), numbers.size // 2)
-    intervals = (float(np.median((times[lag:] - times[:-lag]) / (numbers[lag:] - numbers[:-lag]))) for lag in lags)
-    interval = next((each for each in intervals if each > 0), 0.0)
+    lag = min(max(LAG, numbers.size // 50), numbers.size - 1)
+    interval = float(np.median((times[lag:] - times[:-lag]) / (numbers[lag:] - numbers[:-lag])))
     gaps = np.diff(times) > (np.diff(numbers) + 0.5) * interval + resolution
     stretch = np.concatenate(([0], np.cumsum(gaps)))
     sizes = np.bincount(stretch)

@@ -263,7 +263,7 @@ def channel_verdicts(
         found.append(quality.check_torn(stamps, values))
     # Nothing but a saturated channel holds an acceleration; a specimen holds a place only for long.
     is_acceleration = channel.on == "table" and channel.quantity == "acceleration"
-    if (sees_rotation or is_acceleration) and not any(verdict.kind == "end of the range" for verdict in found):
+    if (sees_rotation or is_acceleration) and not any(verdict.finding.kind == "end of the range" for verdict in found):
         longest = settings.flat_duration if sees_rotation else np.inf
         found.append(quality.check_rails(stamps, values, longest=longest))
     return found
@@ -276,7 +276,7 @@ def reviewed(name: str, time: Array, review: Review) -> list[quality.Verdict]:
         if flagged.channel == name:
             low, high = flagged.window or (-np.inf, np.inf)
             inside = np.ones(time.shape, bool) if flagged.window is None else (time >= low) & (time <= high)
-            found.append(quality.Verdict(quality.Flag[flagged.flag.upper()], inside, flagged.reason))
+            found.append(quality.Verdict(quality.Flag[flagged.flag.upper()], inside, Finding(flagged.reason)))
     return found
 
 

@@ -9,18 +9,21 @@ from typing import TypeVar
 import numpy as np
 
 from colonnade.arrays import Array
+from colonnade.assessment.ground import Ground, corrected
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block
 from colonnade.figures.histories import Spread
 from colonnade.figures.panels.curve import Curve, known
-from colonnade.signals.filters import displacement
 from colonnade.store.records.stored import Failure, Stored
 from colonnade.units import from_si
 
 Shown = TypeVar("Shown")
 
+
+DRIFTLESS = "highpass(0.2 Hz)"
+"""What is slower in a displacement that is integrated from an acceleration is its drift, not the table."""
 
 MOST = 12
 """Tests that are drawn side by side."""
@@ -127,7 +130,11 @@ class OfTest:
         if recorded is not None:
             return recorded, "recorded displacement"
         if acceleration is not None:
-            return acceleration._replace(values=displacement(*acceleration)), "recorded acceleration integrated twice"
+            time, values = acceleration
+            values, interval = np.nan_to_num(values), float(time[-1] - time[0]) / (time.size - 1)
+            ground = Ground(values - values.mean(), interval, at_rest=True)
+            moved = corrected(ground, DRIFTLESS).displacement
+            return acceleration._replace(values=moved), "recorded acceleration integrated twice"
         return None, "not recorded, drawn at rest"
 
     def bodies(self, place: int, name: str) -> dict[str, Curve]:
