@@ -134,7 +134,7 @@ def _clipped(samples: Array) -> Array:
 
 def _spikes(samples: Array) -> Array:
     rng = np.random.default_rng(0)
-    struck = rng.choice(np.arange(600, samples.shape[0] - 100), 40, replace=False)
+    struck = rng.choice(np.arange(600, samples.shape[0] - 100, 4), 40, replace=False)
     samples[struck, TOP] += rng.choice([-1, 1], struck.size) * rng.uniform(2.0, 5.0, struck.size)
     return samples
 

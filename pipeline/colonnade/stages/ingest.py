@@ -263,7 +263,9 @@ def channel_verdicts(
         found.append(quality.check_torn(stamps, values))
     # Nothing but a saturated channel holds an acceleration; a specimen holds a place only for long.
     is_acceleration = channel.on == "table" and channel.quantity == "acceleration"
-    if (sees_rotation or is_acceleration) and not any(verdict.finding.kind == "end of the range" for verdict in found):
+    if (sees_rotation or is_acceleration) and not any(
+        verdict.reason and verdict.finding.kind == "end of the range" for verdict in found
+    ):
         longest = settings.flat_duration if sees_rotation else np.inf
         found.append(quality.check_rails(stamps, values, longest=longest))
     return found
