@@ -207,7 +207,8 @@ def _standing_out(values: Array, threshold: float, typical: float) -> NDArray[np
     places, height = places[stands], height[stands]
     # The upper tenth, not the median: a motion recorded at few samples a period is rough now and then all along.
     around = sliding_window_view(np.pad(bends, NEIGHBOURHOOD // 2, mode="edge"), NEIGHBOURHOOD)[places - 1]
-    return places[height > threshold * np.quantile(around, 0.9, axis=1, method="lower") / 1.645]
+    roughness: Array = np.quantile(around, 0.9, axis=1, method="lower") / 1.645
+    return np.asarray(places[height > threshold * roughness])
 
 
 def _smallest_step(values: Array) -> float:
