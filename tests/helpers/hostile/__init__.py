@@ -16,14 +16,14 @@ from hostile.scientific import (
     netcdf_elsewhere,
     numpy_object,
 )
-from hostile.seismic import mini_seed, seismic_pickle
+from hostile.seismic import gse, mini_seed, seismic_pickle
 
 __all__ = ["FILES", "SECRET", "Hostile", "Place", "secrets"]
 
 FILES = {
     writer.__name__: writer
     for writer in (
-        *(seismic_pickle, pickle_as_text, numpy_object, mini_seed, tdms_index, netcdf_elsewhere),
+        *(seismic_pickle, pickle_as_text, numpy_object, mini_seed, gse, tdms_index, netcdf_elsewhere),
         *(matlab_elsewhere, hdf5_swelling, matlab_swelling, netcdf_classic, workbook_entity, open_document_entity),
         *(workbook_of_97, diadem_entity, diadem_elsewhere, text_formulas),
     )

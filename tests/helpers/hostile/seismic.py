@@ -14,9 +14,17 @@ def seismic_pickle(place):
 
 def mini_seed(place):
     """ObsPy's library in C: sound, to be damaged."""
+    return _recorded(place.folder / "r.mseed", format="MSEED", encoding="STEIM2")
+
+
+def gse(place):
+    """ObsPy's other library in C: sound, to be damaged."""
+    return _recorded(place.folder / "r.gse", format="GSE2")
+
+
+def _recorded(path, **how):
     import obspy
 
-    path = place.folder / "r.mseed"
     header = {"station": "TABLE", "channel": "ACC", "delta": 0.01}
-    obspy.Stream([obspy.Trace(COUNTS.astype("i4"), header)]).write(str(path), format="MSEED", encoding="STEIM2")
+    obspy.Stream([obspy.Trace(COUNTS.astype("i4"), header)]).write(str(path), **how)
     return Hostile(path)

@@ -69,7 +69,7 @@ def test_the_start_is_in_utc(tmp_path):
 
 def test_a_pickle_is_never_opened(path):
     path.write_bytes(pickle.dumps({"opened": True}))
-    with pytest.raises(ReadError, match=r"not those of miniSEED.*convert other seismic files.* Python pickle"):
+    with pytest.raises(ReadError, match=r"not those of GSE1.*convert other seismic files.* Python pickle"):
         read(path, "waveform")
 
 
@@ -131,6 +131,11 @@ def kinemetrics(length=2040):
     ("head", "kind"),
     [
         (b"Origin Time       2011/01/24 19:51:00", "KNET"),
+        (b"WID2 1996/10/13", "GSE2"),
+        (b"\x55\x3a" + bytes(30), "SEG2"),
+        (b"TIMESERIES XX_TEST, 50 samples, 1 sps, SLIST, FLOAT", "SLIST"),
+        (b"TIMESERIES XX_TEST, 50 samples, 1 sps, TSPAIR, FLOAT", "TSPAIR"),
+        (b"RIFF\x00\x00\x00\x00WAVEfmt ", "WAV"),
         (mini_seed(), "MSEED"),
         (mini_seed(order="<"), "MSEED"),
         (mini_seed(year=1), None),
@@ -143,7 +148,6 @@ def kinemetrics(length=2040):
         (sac(step=-1.0), None),
         (sac(points=0), None),
         (sac()[:600], None),
-        (b"WID2 1996/10/13", None),
         (b"time;top\n0;1\n", None),
         (b"", None),
     ],

@@ -1,4 +1,4 @@
-"""Seismic waveforms, recognised by their first bytes and read by ObsPy: miniSEED, SAC, K-NET and Kinemetrics EVT."""
+"""Seismic waveforms of ten kinds, recognised by their first bytes, read by ObsPy: miniSEED, SAC, K-NET and others."""
 
 from __future__ import annotations
 
@@ -20,16 +20,28 @@ from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import RecordedChannel, Recording
 
 READERS = {
+    "GSE1": "obspy.io.gse2.core:_read_gse1",
+    "GSE2": "obspy.io.gse2.core:_read_gse2",
     "KINEMETRICS_EVT": "obspy.io.kinemetrics.core:read_evt",
     "KNET": "obspy.io.nied.knet:_read_knet_ascii",
     "MSEED": "obspy.io.mseed.core:_read_mseed",
     "SAC": "obspy.io.sac.core:_read_sac",
+    "SEG2": "obspy.io.seg2.seg2:_read_seg2",
+    "SLIST": "obspy.io.ascii.core:_read_slist",
+    "TSPAIR": "obspy.io.ascii.core:_read_tspair",
+    "WAV": "obspy.io.wav.core:_read_wav",
 }
 """ObsPy's functions by kind; none follows what a file says to another file, or runs what it holds."""
 LONGEST_STEP = 1e5
 """Seconds; a header with a larger one is none of SAC's."""
 STARTS = {
     "KNET": rb"Origin Time",
+    "GSE1": rb"WID1 |XW01 ",
+    "GSE2": rb"WID2 |BEGIN GSE2|BEGIN IMS",
+    "SEG2": rb"\x55\x3a|\x3a\x55",
+    "SLIST": rb"TIMESERIES [^\n]*SLIST",
+    "TSPAIR": rb"TIMESERIES [^\n]*TSPAIR",
+    "WAV": rb"RIFF.{4}WAVE",
     # A number of six digits or blanks, a letter for the kind of record, a blank; then a year of two bytes, or the
     # volume's first blockette.
     "MSEED": rb"[0-9 \0]{6}(?:[DRQM][ \0].{12}(?:[\x07\x08].|.[\x07\x08]).{26}|V.010.{36})",
@@ -47,8 +59,9 @@ def recognise(head: Head) -> Recognition:
     kind = kind_of_waveform(head)
     if kind is not None:
         return Recognition(True, f"its first bytes are those of {kind}")
-    known = "miniSEED, SAC, K-NET or Kinemetrics EVT"
-    return Recognition(False, f"its first bytes are not those of {known}; convert other seismic files to miniSEED")
+    return Recognition(
+        False, f"its first bytes are not those of {', '.join(READERS)}; convert other seismic files to miniSEED"
+    )
 
 
 def read(path: Path, options: Options) -> Recording:
@@ -121,8 +134,8 @@ def _stream(path: Path, kind: str) -> tuple[Any, list[str]]:
 
 FORMAT = Format(
     name="waveform",
-    summary="Seismic waveforms: miniSEED, SAC, K-NET, Kinemetrics EVT.",
-    suffixes=(".mseed", ".sac", ".evt"),
+    summary="Seismic waveforms: miniSEED, SAC, K-NET, Kinemetrics, GSE1, GSE2, SEG-2, WAV, SLIST, TSPAIR.",
+    suffixes=(".mseed", ".sac", ".evt", ".gse", ".sg2"),
     recognise=recognise,
     read=read,
     modules=(*sorted({reader.partition(":")[0] for reader in READERS.values()}), "numpy.ma"),
