@@ -56,6 +56,9 @@ def test_a_name_in_two_groups_needs_its_group(path):
     assert recording.channel("scaled/top").values.tolist() == [1.0] * 5
     with pytest.raises(ReadError, match='no column is called "top"'):
         recording.channel("top")
+    assert read(path, options={"group": "raw"}).channel("top").values.tolist() == [0.0] * 5
+    with pytest.raises(ReadError, match=r'group "row" not found\. Did you mean "raw"'):
+        read(path, options={"group": "row"})
 
 
 def test_a_channel_of_times_is_the_clock_where_the_properties_give_none(path):

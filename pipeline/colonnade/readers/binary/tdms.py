@@ -12,9 +12,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from pydantic import Field
 
 from colonnade.arrays import Array
-from colonnade.errors import count
+from colonnade.errors import ReadError, count, nearest
 from colonnade.readers.binary.numbers import Told, recorded
 from colonnade.readers.clock import ClockOptions
 from colonnade.readers.format import Format
@@ -33,10 +34,17 @@ UNIT_PROPERTIES = ("unit_string", "ni_unitdescription", "unit", "units")
 NO_TIMING = 1.0
 """Step, s, that LabVIEW writes by default: it yields to a channel of times."""
 
+
+class TdmsOptions(ClockOptions):
+    """Options of a TDMS file; what is not given is detected."""
+
+    group: str | None = Field(default=None, description="Read only this group; by default all of them.")
+
+
 recognise = by_mark((b"TDSm",), "TDSm, the mark of LabVIEW's TDMS")
 
 
-def read(path: Path, options: ClockOptions) -> Recording:
+def read(path: Path, options: TdmsOptions) -> Recording:
     """Read a TDMS file; text and other samples that are not numbers are left out."""
     from nptdms import TdmsFile
     from nptdms.log import log_manager
@@ -44,12 +52,16 @@ def read(path: Path, options: ClockOptions) -> Recording:
     recognise.expected(path)
     log_manager.set_level(logging.CRITICAL)  # what it would print is said by `_cut_off`
     with path.open("rb") as stream:  # by its path, npTDMS would use a .tdms_index next to it, be it another file's
-        groups = TdmsFile.read(stream).groups()
+        file = TdmsFile.read(stream)
+    if options.group not in (None, *file):
+        raise ReadError(f'{path.name}: group "{options.group}" not found.{nearest(str(options.group), file)}')
     told = Told(warnings=_cut_off(path))
     columns: list[RecordedChannel] = []
     steps: dict[int, float] = {}
     shared: dict[tuple[float, float, int], Array] = {}  # channels with the same properties share their times
-    for source in (channel for group in groups for channel in group.channels()):
+    for source in (
+        channel for group in file.groups() if options.group in (None, group.name) for channel in group.channels()
+    ):
         if not len(source) or source.dtype.kind not in "fiubM":
             what = "samples that are not numbers" if len(source) else "no samples"
             told.left_out[f'"{source.group_name}/{source.name}"'] = f"it holds {what}"
@@ -119,7 +131,7 @@ FORMAT = Format(
     name="tdms",
     summary="LabVIEW TDMS: channels in groups, each with its unit and its own clock.",
     suffixes=(".tdms",),
-    options=ClockOptions,
+    options=TdmsOptions,
     recognise=recognise,
     read=read,
     modules=("nptdms",),
