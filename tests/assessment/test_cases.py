@@ -144,8 +144,3 @@ def test_a_column_that_nothing_overturns_has_levels_up_to_the_largest_trial():
     quick = (Motion(0.01 * np.sin(np.pi * np.arange(50)), 1e-4),)
     levels = default_levels(COLUMN, quick, np.array([[quick[0].peak, np.nan]]))
     assert levels[-1] == pytest.approx(50 * BLOCK.uplift_acceleration, rel=1e-2)
-
-
-def test_records_that_do_not_move_have_none():
-    with pytest.raises(ValueError, match="no record has a component with a positive measure"):
-        default_levels(COLUMN, (Motion(np.zeros(9), 0.01),), np.array([[0.0, np.nan]]))

@@ -46,7 +46,7 @@ def test_a_base_that_starts_at_once_overturns_at_the_sudden_velocity(factor, ove
 def test_ishiyamas_velocity_is_ten_times_width_over_root_height():
     """10 B/√H with B and H in cm, the velocity in cm/s."""
     cited = 10 * 30 / sqrt(180) / 100
-    assert ratio("ishiyama_velocity", velocity=cited) == pytest.approx(1.0, rel=0.04)
+    assert ratio("ishiyama", acceleration=np.inf, velocity=cited) == pytest.approx(1.0, rel=0.04)
 
 
 def test_ishiyama_asks_for_both():

@@ -81,13 +81,6 @@ def test_the_interval_holds_the_true_rate(found):
     assert found.in_50_years.low == pytest.approx(1 - np.exp(-50 * found.rate.low))
 
 
-def test_its_contributions_and_what_is_outside_add_up(found):
-    assert found.contributions.sum() == pytest.approx(1 - found.outside_hazard)
-    assert (found.edges[0], found.edges[-1]) == pytest.approx((LEVELS_OF_RATE[0], LEVELS_OF_RATE[-1]))
-    peak = found.edges[np.argmax(found.contributions)]
-    assert MEDIAN * np.exp(-3 * BETA) < peak < MEDIAN
-
-
 def test_a_hazard_curve_that_ends_too_early_is_seen():
     x = np.array([0.05, 0.3])
     found = rate_of(lognormal(4), hazard_curve(x, 1e-4 * x**-2))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from colonnade.figures.agreement import Calibration, reliability_and_pit
-from colonnade.figures.fragility import COLUMNS, Curve, fragility, rate_by_intensity, response_spectra, twenty_columns
+from colonnade.figures.fragility import COLUMNS, Curve, fragility, response_spectra, twenty_columns
 from colonnade.identification.calibration import Reliability
 
 CURVE = Curve(
@@ -35,12 +35,6 @@ def test_as_many_columns_lie_as_fall(share, lie, words, more):
     assert len(lying) == lie + more
     if not more:
         assert words in {text.get_text() for text in axes.texts}
-
-
-def test_the_rate_is_drawn_in_per_cent():
-    [axes] = rate_by_intensity(np.array([0.1, 0.2, 0.4]), np.array([0.25, 0.75]), label="PGV (m/s)").axes
-    [bars] = axes.patches
-    assert bars.get_data().values == pytest.approx([25.0, 75.0])
 
 
 def test_spectra_are_drawn_with_their_median():

@@ -273,7 +273,7 @@ def default_levels(
     column : RealColumn
     motions : sequence of Motion
     intensity : ndarray, shape (records, components)
-        The measure of each as recorded; NaN for a component that is not run.
+        The measure of each as recorded, at least one positive; NaN for a component that is not run.
     power : int, optional
         As of `factors_at`.
     model : str, optional
@@ -283,13 +283,13 @@ def default_levels(
     levels : ndarray, shape (`LEVELS`,)
         Rising, in the unit of the measure; from the last trial below the first that overturns the column, to the first
         from which on every record does, or the largest trial. Rounded to three digits.
-
-    Raises
-    ------
-    ValueError
-        If no record has the component and a positive measure.
     """
-    lowest = _first_uplift(column, motions, intensity, power)
+    # The level from which the first of the records uplifts the column, vertical motion left out.
+    lowest = min(
+        float(intensity[record, place]) * (column.block.uplift_acceleration / plane.peak) ** power
+        for record, place, plane in components(motions)
+        if intensity[record, place] > 0.0
+    )
     trials = np.geomspace(lowest, REACH**power * lowest, TRIALS)
     draws = np.stack([draw(column, 0)] * len(motions))
     outcomes = run_cases(Cases(column, draws, tuple(motions), factors_at(trials, intensity, power), model))
@@ -301,18 +301,6 @@ def default_levels(
     last = min(int(standing[-1]) + 1 if standing.size else 0, TRIALS - 1)
     ends = trials[max(first - 1, 0)], trials[max(last, first, 1)]
     return np.array([float(f"{level:.3g}") for level in np.geomspace(*ends, LEVELS)])
-
-
-def _first_uplift(column: RealColumn, motions: Sequence[Motion], intensity: Array, power: int) -> float:
-    """Give the level from which the first of the records uplifts the column, vertical motion left out."""
-    found = [
-        float(intensity[record, place]) * (column.block.uplift_acceleration / plane.peak) ** power
-        for record, place, plane in components(motions)
-        if plane.peak > 0.0 and intensity[record, place] > 0.0
-    ]
-    if not found:
-        raise ValueError("no record has a component with a positive measure; a record that moves was expected")
-    return min(found)
 
 
 def friction_needed(cases: Cases) -> Array:

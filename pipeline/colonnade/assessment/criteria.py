@@ -88,20 +88,15 @@ def _west(block: Block, demands: Demands) -> Array:
     return demands.acceleration / block.uplift_acceleration
 
 
-def _ishiyama_velocity(block: Block, demands: Demands) -> Array:
-    return demands.velocity / (ISHIYAMA_FACTOR * sudden_velocity(block))
-
-
 def _ishiyama(block: Block, demands: Demands) -> Array:
     """Both have to be exceeded."""
-    return np.minimum(_west(block, demands), _ishiyama_velocity(block, demands))
+    velocity = demands.velocity / (ISHIYAMA_FACTOR * sudden_velocity(block))
+    return np.minimum(_west(block, demands), velocity)
 
 
 def _housner(block: Block, demands: Demands) -> Array:
     return block.p * demands.spectral_velocity / (block.gravity * block.critical_angle)
 
-
-_WCEE = "Ishiyama (1982), Earthquake Engineering and Structural Dynamics 10, 635–650; (1984), 8th World Conference"
 
 CRITERIA = (
     Criterion(
@@ -117,35 +112,15 @@ CRITERIA = (
         _west,
     ),
     Criterion(
-        "ishiyama_acceleration",
-        "Ishiyama, acceleration alone",
-        _WCEE,
-        "PGA > g tan α",
-        "overturning",
-        "A lower limit of the acceleration of motions that overturned the block.",
-        "Needed, not enough: it has no size of the block and no duration of the motion.",
-        _west,
-    ),
-    Criterion(
-        "ishiyama_velocity",
-        "Ishiyama, velocity alone",
-        _WCEE,
-        f"PGV > {ISHIYAMA_FACTOR} √(8 g R (1 − cos α) / 3) / cos α for a rectangle, about 10 B/√H in cm and cm/s; any "
-        "block with its own p",
-        "overturning",
-        "A lower limit of the velocity of sines and recorded earthquakes that overturned rectangles, in simulations "
-        "and on a shake table.",
-        "The factor is a round lower limit of the motions that were tried: many above it do not overturn.",
-        _ishiyama_velocity,
-    ),
-    Criterion(
         "ishiyama",
-        "Ishiyama, acceleration and velocity",
-        _WCEE,
-        f"PGA > g tan α and PGV > {ISHIYAMA_FACTOR} √(8 g R (1 − cos α) / 3) / cos α",
+        "Ishiyama",
+        "Ishiyama (1982), Earthquake Engineering and Structural Dynamics 10, 635–650; (1984), 8th World Conference",
+        f"PGA > g tan α and PGV > {ISHIYAMA_FACTOR} √(8 g R (1 − cos α) / 3) / cos α for a rectangle, about 10 B/√H in "
+        "cm and cm/s; any block with its own p",
         "overturning",
-        "As of its two parts.",
-        "As of its two parts: both are lower limits, so that it errs to overturning.",
+        "Lower limits of the acceleration and of the velocity of sines and recorded earthquakes that overturned "
+        "rectangles, in simulations and on a shake table.",
+        "Many motions above both do not overturn, so that it errs to overturning.",
         _ishiyama,
     ),
     Criterion(

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,9 +13,6 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.errors import UnitError, nearest
 from colonnade.validation import text
-
-if TYPE_CHECKING:
-    from colonnade.assessment.wavelet import Pulse
 
 LARGEST_DRIFT = 0.1
 """Default of the largest end velocity over PGV of a record without drift."""
@@ -111,13 +107,6 @@ class Ground:
             whole = whole - first - (last - first) * steps
         peak = float(np.abs(whole).max())
         return whole, off / peak if peak > 0.0 else 0.0
-
-    @cached_property
-    def pulse(self) -> Pulse:
-        """The largest velocity pulse."""
-        from colonnade.assessment.wavelet import largest_pulse
-
-        return largest_pulse(self.velocity, self.interval)
 
 
 def integral(values: Array, interval: float) -> Array:

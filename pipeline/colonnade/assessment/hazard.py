@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -110,16 +109,12 @@ def isotonic_rate(hazard: Hazard, intensity: Array, probability: Array) -> float
     intensity, probability : ndarray, shape (k,)
         0 below the first intensity, constant above the last, linear in ln x between.
     """
-    y = np.log(intensity)
-    points, slopes = np.log(hazard.intensity), hazard.slopes
-    found = probability[0] * _rate_at(hazard, y[:1])[0]
-    for low, high, rise in zip(y[:-1], y[1:], np.diff(probability), strict=True):
-        ends = np.concatenate(([low], points[(points > low) & (points < high)], [high]))
-        length = np.diff(ends)
-        falls = slopes[np.searchsorted(points, (ends[:-1] + ends[1:]) / 2)] * length
-        mean = np.where(falls > 0, -np.expm1(-falls) / np.where(falls > 0, falls, 1.0), 1.0)
-        found += rise * (_rate_at(hazard, ends[:-1]) * length * mean).sum() / (high - low)
-    return float(found)
+    y, points = np.log(intensity), np.log(hazard.intensity)
+    ends = np.union1d(y, points[(points > y[0]) & (points < y[-1])])
+    rates, rises = _rate_at(hazard, ends), np.diff(np.interp(ends, y, probability))
+    falls = -np.diff(np.log(rates))
+    mean = np.where(falls > 0, -np.expm1(-falls) / np.where(falls > 0, falls, 1.0), 1.0)
+    return float(probability[0] * rates[0] + rises @ (rates[:-1] * mean))
 
 
 def _rate_at(hazard: Hazard, y: Array) -> Array:
@@ -150,9 +145,6 @@ YEARS = 50.0
 LARGEST_SHARE = 0.05
 """Of a rate from outside the range of hazard or levels, above which it depends on extrapolation."""
 
-BINS = 20
-"""Of the disaggregation."""
-
 
 @dataclass(frozen=True)
 class AnnualRate:
@@ -167,8 +159,6 @@ class AnnualRate:
         Share of the rate from below the first point of the hazard curve and above its last, which is extrapolated.
     outside_levels : float
         Share from below the lowest level and above the highest, where nothing was computed.
-    edges, contributions : ndarray, shape (n + 1,) and (n,)
-        Disaggregation: shares of the rate between intensities.
     isotonic : float
         Rate by the isotonic curve: 0 below the lowest level, constant above the highest, ln x linear between.
     """
@@ -177,8 +167,6 @@ class AnnualRate:
     in_50_years: Interval
     outside_hazard: float
     outside_levels: float
-    edges: Array
-    contributions: Array
     isotonic: float
 
     @property
@@ -210,21 +198,14 @@ def annual_rate(hazard: Hazard, fit: LognormalFit, isotonic: IsotonicCurve) -> A
 
     rate = fit.interval(log_rate)
 
-    def share(low: float, high: float) -> float:
-        return float(lognormal_rate(hazard, fit.median.value, fit.beta.value, low=low, high=high)[0]) / rate.value
-
     def outside(known: Array) -> float:
-        return share(0.0, known[0]) + share(known[-1], np.inf)
+        inside = lognormal_rate(hazard, fit.median.value, fit.beta.value, low=known[0], high=known[-1])
+        return max(1.0 - float(inside[0]) / rate.value, 0.0)
 
-    levels = isotonic.intensity
-    ends = min(hazard.intensity[0], levels[0]), max(hazard.intensity[-1], levels[-1])
-    edges = np.geomspace(*ends, BINS + 1)
     return AnnualRate(
         rate,
         Interval(*(float(-np.expm1(-YEARS * each)) for each in rate)),
         outside(hazard.intensity),
-        outside(levels),
-        edges,
-        np.array([share(low, high) for low, high in pairwise(edges)]),
+        outside(isotonic.intensity),
         isotonic_rate(hazard, isotonic.intensity, isotonic.probability.value),
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import nan, pi
 
 import numpy as np
@@ -28,7 +29,7 @@ from colonnade.validation import described, instance, number, text
 PERIODS = (0.2, 0.5, 1.0, 2.0)
 """s, of the spectral accelerations that are given if no measures are asked for."""
 
-UNITS = {"acceleration": "m/s²", "velocity": "m/s", "length": "m", "time": "s", "dimensionless": ""}
+UNITS = {"acceleration": "m/s²", "velocity": "m/s", "length": "m", "time": "s"}
 """SI units of the measures by their dimension, as they are written for people."""
 
 
@@ -46,12 +47,10 @@ class Measure:
         A key of `UNITS`, and of `units.DIMENSIONS`.
     power : int
         A motion n times as strong has n**power times the measure; 0 of one that does not grow with it.
-    definition, source : str
     value : callable
-        Of a motion, SI; of a motion and a block if one is needed.
+        Of a motion, SI.
     is_integrated : bool
         Whether it needs a record without drift.
-    needs_block : bool
     """
 
     id: str
@@ -59,22 +58,13 @@ class Measure:
     name: str
     dimension: str
     power: int
-    definition: str
-    source: str
-    value: Callable[..., float]
+    value: Callable[[Ground], float]
     is_integrated: bool = False
-    needs_block: bool = False
 
     @property
     def unit(self) -> str:
         """SI, as it is written for people."""
         return UNITS[self.dimension]
-
-    @property
-    def filter(self) -> str:
-        """What filtering and baseline it takes the motion to have."""
-        limits = ", integrated from rest; only of records without drift" if self.is_integrated else ""
-        return f"the motion as it is{limits}"
 
 
 @dataclass(frozen=True, repr=False)
@@ -133,7 +123,6 @@ def intensity_measures(
     measures: Sequence[str] | None = None,
     drift: float | None = None,
     baseline: str = NONE,
-    gravity: float | None = None,
     at_rest: bool = False,
 ) -> IntensityMeasures:
     """
@@ -144,18 +133,15 @@ def intensity_measures(
     motion : Motion
         Its acceleration along x counts.
     block : Block, optional
-        For the measures over those of a block.
+        Whose gravity counts in the Arias intensity; without it 9.81 m/s².
     measures : sequence of str, optional
-        Ids, such as "pgv" or "sa(0.5 s)". Default: all that the motion and the block allow, with spectral
-        accelerations at `PERIODS`.
+        Ids, such as "pgv" or "sa(0.5 s)". Default: all, with spectral accelerations at `PERIODS`.
     drift : float, optional
         Largest ratio of the velocity at the end to the largest one, of a record whose velocity and displacement count.
         Default 0.1; 0.25 with `at_rest`, where it is the ratio of what the line subtracts.
     baseline : str, optional
         Name of a correction of the baseline, done before anything is measured: "linear", "quadratic" or
         "highpass(0.1 Hz)". Default: none.
-    gravity : float, optional
-        m/s², of the Arias intensity; default that of the block, else 9.81.
     at_rest : bool, optional
         Whether it is the motion of a table, which begins and ends at rest: a line through the ends is subtracted from
         the velocity and from the displacement.
@@ -178,27 +164,23 @@ def intensity_measures(
     {'pga': 3.0, 'pgv': 0.955, 'arias': 1.441, 'd5_95': 1.664}
     """
     instance("motion", motion, Motion)
-    if block is not None:
-        instance("block", block, Block)
     instance("at_rest", at_rest, bool)
-    usual = LARGEST_DRIFT_AT_REST if at_rest else LARGEST_DRIFT
-    drift = number("drift", usual if drift is None else drift, "a positive share of the peak velocity", above=0.0)
-    if gravity is None:
-        gravity = STANDARD_GRAVITY if block is None else block.gravity
-    gravity = number("gravity", gravity, "a positive acceleration in m/s²", above=0.0)
-    asked = _default(block) if measures is None else measures_of(measures)
+    if drift is None:
+        drift = LARGEST_DRIFT_AT_REST if at_rest else LARGEST_DRIFT
+    number("drift", drift, "a positive share of the peak velocity", above=0.0)
+    gravity = STANDARD_GRAVITY if block is None else instance("block", block, Block).gravity
+    usual = [*MEASURES, *(f"sa({period:g} s)" for period in PERIODS)]
+    asked = measures_of(usual if measures is None else measures)
     ground = corrected(Ground(motion.acceleration, motion.dt, gravity, at_rest), baseline)
     values, reasons = {}, {}
     for each in asked:
-        values[each.id], reason = measured(each, ground, block, drift=drift)
+        values[each.id], reason = measured(each, ground, drift)
         if reason:
             reasons[each.id] = reason
     return IntensityMeasures(values, reasons, ground.drift, drift, baseline)
 
 
-def measured(
-    measure: Measure, ground: Ground, block: Block | None = None, *, drift: float = LARGEST_DRIFT
-) -> tuple[float, str]:
+def measured(measure: Measure, ground: Ground, drift: float) -> tuple[float, str]:
     """
     Evaluate one measure.
 
@@ -209,13 +191,11 @@ def measured(
     reason : str
         Why it has no value; empty if it has one.
     """
-    if measure.needs_block and block is None:
-        return float("nan"), "a block is needed"
     drifted = ground.drift_of_displacement if measure.id == "pgd" else ground.drift
     if measure.is_integrated and not drifted <= drift:
         return float("nan"), f"the record drifts, by {drifted:.2g} of its peak; at most {drift:g} was expected"
     with np.errstate(over="ignore", invalid="ignore"):
-        value = measure.value(ground, block) if measure.needs_block else measure.value(ground)
+        value = measure.value(ground)
     if not np.isfinite(value):
         return float("nan"), "the motion is at rest, too short or beyond what can be computed"
     return value, ""
@@ -230,7 +210,7 @@ def table_measures(
     A gap of the acceleration (m/s²) counts as zero.
     """
     ground = Ground(np.nan_to_num(acceleration), interval, gravity, at_rest=True)
-    found = {name: measured(MEASURES[name], ground, drift=LARGEST_DRIFT_AT_REST)[0] for name in ("pgv", "pgd", "arias")}
+    found = {name: measured(MEASURES[name], ground, LARGEST_DRIFT_AT_REST)[0] for name in ("pgv", "pgd", "arias")}
     return found, ground.drift if ground.drift > LARGEST_DRIFT_AT_REST else ground.drift_of_displacement
 
 
@@ -242,12 +222,6 @@ def measures_of(names: Sequence[str]) -> list[Measure]:
         return [measure_of(name) for name in names]
     except ValueError as error:
         raise ValueError(f"measures: {error}") from None
-
-
-def _default(block: Block | None) -> list[Measure]:
-    usual = [each for each in MEASURES.values() if block is not None or not each.needs_block]
-    spectral = [measure_of(f"sa({period:g} s)") for period in PERIODS]
-    return [*usual, *spectral]
 
 
 def measure_of(name: str) -> Measure:
@@ -268,69 +242,41 @@ def measure_of(name: str) -> Measure:
     if bare == "sa":
         if given is None:
             raise ValueError('"sa" has no period; one was expected in brackets, such as "sa(0.5 s)"')
-        return _spectral(quantity_of(name, given, "time"))
+        period = quantity_of(name, given, "time")
+        of = f"({period:.6g} s)"
+        return Measure(f"sa{of}", f"Sa{of}", "spectral acceleration", "acceleration", 1, partial(_spectral, period))
     if bare not in MEASURES or given is not None:
         raise ValueError(f'Unknown measure of intensity "{name}".{nearest(name, (*MEASURES, "sa(0.5 s)"))}')
     return MEASURES[bare]
 
 
-MEASURES: dict[str, Measure] = {}
-"""All measures by id, in the order of tables: a new one is a function below."""
-
-
-def _measure(
-    name: str, symbol: str, title: str, dimension: str, power: int, source: str = "", **needs: bool
-) -> Callable[[Callable[..., float]], Callable[..., float]]:
-    """Enter a function into `MEASURES`; its docstring is the definition."""
-
-    def enter(function: Callable[..., float]) -> Callable[..., float]:
-        definition = " ".join((function.__doc__ or "").split()).removesuffix(".")
-        MEASURES[name] = Measure(name, symbol, title, dimension, power, definition, source, function, **needs)
-        return function
-
-    return enter
-
-
-@_measure("pga", "PGA", "peak ground acceleration", "acceleration", 1)
 def _peak_acceleration(ground: Ground) -> float:
     """max |a|."""
     return float(np.abs(ground.acceleration).max())
 
 
-@_measure("pgv", "PGV", "peak ground velocity", "velocity", 1, is_integrated=True)
 def _peak_velocity(ground: Ground) -> float:
     """max |v|, v = ∫ a dt."""
     return float(np.abs(ground.velocity).max())
 
 
-@_measure("pgd", "PGD", "peak ground displacement", "length", 1, is_integrated=True)
 def _peak_displacement(ground: Ground) -> float:
     """max |∫ v dt|."""
     return float(np.abs(ground.displacement).max())
 
 
-@_measure("pgv_pga", "PGV/PGA", "ratio of the peaks", "time", 0, "Zhu, Tso and Heidebrecht 1988", is_integrated=True)
-def _ratio_of_peaks(ground: Ground) -> float:
-    """max |v| over max |a|."""
-    peak = _peak_acceleration(ground)
-    return _peak_velocity(ground) / peak if peak > 0.0 else nan
-
-
-@_measure("arias", "I_A", "Arias intensity", "velocity", 2, "Arias 1970")
 def _arias(ground: Ground) -> float:
-    """π/(2g) ∫ a² dt."""
+    """π/(2g) ∫ a² dt (Arias 1970)."""
     return float(pi / (2 * ground.gravity) * integral(ground.acceleration**2, ground.interval)[-1])
 
 
-@_measure("cav", "CAV", "cumulative absolute velocity", "velocity", 1, "EPRI 1988")
 def _cumulative_velocity(ground: Ground) -> float:
-    """∫ |a| dt."""
+    """∫ |a| dt (EPRI 1988)."""
     return float(integral(np.abs(ground.acceleration), ground.interval)[-1])
 
 
-@_measure("d5_95", "D₅₋₉₅", "significant duration", "time", 0, "Trifunac and Brady 1975")
 def _significant_duration(ground: Ground) -> float:
-    """time in which ∫ a² dt grows from 5 to 95 % of its final value."""
+    """Time in which ∫ a² dt grows from 5 to 95 % of its final value (Trifunac and Brady 1975)."""
     energy = integral(ground.acceleration**2, ground.interval)
     if not energy[-1] > 0.0:
         return nan
@@ -338,9 +284,11 @@ def _significant_duration(ground: Ground) -> float:
     return float(end - begin)
 
 
-@_measure("housner", "SI", "Housner's intensity", "length", 1, "Housner 1952; damping of 5 % as is usual today")
 def _housner(ground: Ground) -> float:
-    """integral of the pseudo-velocity ω max |u| over periods from 0.1 to 2.5 s, damped by 5 %."""
+    """
+    Integral of the pseudo-velocity ω max |u| over periods from 0.1 to 2.5 s (Housner 1952), damped by 5 % as is usual
+    today.
+    """
     from colonnade.dynamics.spectra import response_spectrum  # it loads scipy
 
     step = 0.02
@@ -348,56 +296,21 @@ def _housner(ground: Ground) -> float:
     return float(integral(2 * pi / spectrum.period * spectrum.displacement, step)[-1])
 
 
-@_measure("pulse_period", "T_p", "pulse period", "time", 0, "Baker 2007", is_integrated=True)
-def _pulse_period(ground: Ground) -> float:
-    """period of the wavelet with the largest coefficient of the velocity, Daubechies 4; 1.4 times its scale."""
-    return ground.pulse.period
+def _spectral(period: float, ground: Ground) -> float:
+    """Pseudo-acceleration ω² max |u| of an oscillator, damped by 5 % (Nigam and Jennings 1969)."""
+    from colonnade.dynamics.spectra import response_spectrum
+
+    return float(response_spectrum(ground.acceleration, ground.interval, [period]).pseudo_acceleration[0])
 
 
-@_measure("pulse_indicator", "PI", "pulse indicator", "dimensionless", 0, "Baker 2007", is_integrated=True)
-def _pulse_indicator(ground: Ground) -> float:
-    """
-    1/(1 + exp(−23.3 + 14.6 r + 20.5 E)), r and E the PGV and the energy that are left without the pulse; pulse-like
-    above 0.85.
-    """
-    return ground.pulse.indicator
-
-
-@_measure(
-    "pga_ratio",
-    "PGA/(g tan α)",
-    "peak acceleration over that of uplift",
-    "dimensionless",
-    1,
-    "Housner 1963; Dimitrakopoulos and Paraskeva 2015",
-    needs_block=True,
+_TABLE = (
+    Measure("pga", "PGA", "peak ground acceleration", "acceleration", 1, _peak_acceleration),
+    Measure("pgv", "PGV", "peak ground velocity", "velocity", 1, _peak_velocity, is_integrated=True),
+    Measure("pgd", "PGD", "peak ground displacement", "length", 1, _peak_displacement, is_integrated=True),
+    Measure("arias", "I_A", "Arias intensity", "velocity", 2, _arias),
+    Measure("cav", "CAV", "cumulative absolute velocity", "velocity", 1, _cumulative_velocity),
+    Measure("d5_95", "D₅₋₉₅", "significant duration", "time", 0, _significant_duration),
+    Measure("housner", "SI", "Housner's intensity", "length", 1, _housner),
 )
-def _acceleration_ratio(ground: Ground, block: Block) -> float:
-    """max |a| over g tan α of the block."""
-    return _peak_acceleration(ground) / block.uplift_acceleration
-
-
-@_measure(
-    "pgv_ratio",
-    "p PGV/(g tan α)",
-    "peak velocity over that of the block",
-    "dimensionless",
-    1,
-    "Dimitrakopoulos and Paraskeva 2015",
-    is_integrated=True,
-    needs_block=True,
-)
-def _velocity_ratio(ground: Ground, block: Block) -> float:
-    """p max |v| over g tan α of the block."""
-    return block.p * _peak_velocity(ground) / block.uplift_acceleration
-
-
-def _spectral(period: float) -> Measure:
-    def value(ground: Ground) -> float:
-        from colonnade.dynamics.spectra import response_spectrum
-
-        return float(response_spectrum(ground.acceleration, ground.interval, [period]).pseudo_acceleration[0])
-
-    definition = "pseudo-acceleration ω² max |u| of an oscillator of period T, damped by 5 %"
-    given, source = f"({period:.6g} s)", "Nigam and Jennings 1969"
-    return Measure(f"sa{given}", f"Sa{given}", "spectral acceleration", "acceleration", 1, definition, source, value)
+MEASURES = {each.id: each for each in _TABLE}
+"""All measures by id, in the order of tables."""

@@ -17,6 +17,9 @@ STEPS, CLOSE = 50, 1e-10
 FAR = 25.0
 """Beyond it the hazard of the normal distribution is given by its series."""
 
+SURE = 1e-300
+"""Below it a hazard belongs to a probability of 1, with a logarithm of 0."""
+
 
 @kernel
 def _hazard(z: float) -> float:
@@ -27,63 +30,34 @@ def _hazard(z: float) -> float:
 
 
 @kernel
-def _log_below(z: float) -> float:
-    """ln Φ(z)."""
-    if z < -FAR:
-        return -0.5 * z * z - log(-z * sqrt(2.0 * pi))
-    return log(0.5 * erfc(-z / sqrt(2.0)))
+def _log_above(z: float, hazard: float) -> float:
+    """ln Φ(−z), of z with its hazard."""
+    return -0.5 * z * z - log(sqrt(2.0 * pi) * hazard) if hazard > SURE else 0.0
 
 
 @kernel
-def _at(y: Array, events: Array, histories: Array, weights: Array, a: float, b: float) -> Array:
-    """Log-likelihood, its score (2), information (3: aa, ab, bb) and the records' squared scores (3), in one row."""
-    found = np.zeros(9)
+def _at(y: Array, events: Array, histories: Array, weights: Array, fit: Array) -> tuple[float, Array, Array, Array]:
+    """Log-likelihood at (a, b), its score (2), its information (2, 2), and the records' squared scores (2, 2)."""
+    likelihood, score, information, squares = 0.0, np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
+    own, by = np.zeros(2), np.ones(2)
     for r in range(y.shape[0]):
-        if weights[r] > 0.0:
-            one, two = 0.0, 0.0
-            for m in range(y.shape[1]):
-                if histories[r, m] > 0.0:
-                    z = a + b * y[r, m]
-                    left = histories[r, m] - events[r, m]
-                    if events[r, m] > 0.0:
-                        found[0] += weights[r] * events[r, m] * _log_below(z)
-                    if left > 0.0:
-                        found[0] += weights[r] * left * _log_below(-z)
-                    up, down = _hazard(-z), _hazard(z)
-                    slope = events[r, m] * up - left * down
-                    curved = events[r, m] * up * (up + z) + left * down * (down - z)
-                    one += slope
-                    two += slope * y[r, m]
-                    found[3] += weights[r] * curved
-                    found[4] += weights[r] * curved * y[r, m]
-                    found[5] += weights[r] * curved * y[r, m] ** 2
-            found[1] += weights[r] * one
-            found[2] += weights[r] * two
-            found[6] += weights[r] * one * one
-            found[7] += weights[r] * one * two
-            found[8] += weights[r] * two * two
-    return found
-
-
-@kernel
-def _maximise(y: Array, events: Array, histories: Array, weights: Array) -> tuple[float, float, Array]:
-    """Newton with halved steps: the log-likelihood is concave."""
-    a, b = 0.0, 0.0
-    d = _at(y, events, histories, weights, a, b)
-    for _ in range(STEPS):
-        whole = d[3] * d[5] - d[4] * d[4]
-        da, db = (d[5] * d[1] - d[4] * d[2]) / whole, (d[3] * d[2] - d[4] * d[1]) / whole
-        step = 1.0
-        tried = _at(y, events, histories, weights, a + da, b + db)
-        while not tried[0] >= d[0]:
-            step *= 0.5
-            if step <= 1e-6:
-                return a, b, d
-            tried = _at(y, events, histories, weights, a + step * da, b + step * db)
-        a, b, d = a + step * da, b + step * db, tried
-        if abs(step * da) + abs(step * db) < CLOSE * (1.0 + abs(a) + abs(b)):
-            break
-    return a, b, d
+        own[:] = 0.0
+        for m in range(y.shape[1] if weights[r] > 0.0 else 0):
+            if histories[r, m] > 0.0:
+                by[1] = y[r, m]
+                z, left = fit[0] + fit[1] * y[r, m], histories[r, m] - events[r, m]
+                up, down = _hazard(-z), _hazard(z)
+                likelihood += weights[r] * (events[r, m] * _log_above(-z, up) + left * _log_above(z, down))
+                curved = weights[r] * (events[r, m] * up * (up + z) + left * down * (down - z))
+                for i in range(2):
+                    own[i] += by[i] * (events[r, m] * up - left * down)
+                    for j in range(2):
+                        information[i, j] += by[i] * by[j] * curved
+        for i in range(2):
+            score[i] += weights[r] * own[i]
+            for j in range(2):
+                squares[i, j] += weights[r] * own[i] * own[j]
+    return likelihood, score, information, squares
 
 
 @kernel
@@ -96,13 +70,20 @@ def fit_each(y: Array, events: Array, histories: Array, weights: Array) -> Array
     """
     fits = np.empty((weights.shape[0], 6))
     for n in range(weights.shape[0]):
-        a, b, d = _maximise(y, events, histories, weights[n])
-        whole = d[3] * d[5] - d[4] * d[4]
-        aa, ab, bb = d[5] / whole, -d[4] / whole, d[3] / whole
-        fits[n, 0], fits[n, 1], fits[n, 5] = a, b, d[0]
-        fits[n, 2] = aa * aa * d[6] + 2.0 * aa * ab * d[7] + ab * ab * d[8]
-        fits[n, 3] = aa * ab * d[6] + (aa * bb + ab * ab) * d[7] + ab * bb * d[8]
-        fits[n, 4] = ab * ab * d[6] + 2.0 * ab * bb * d[7] + bb * bb * d[8]
+        # Newton with halved steps: the log-likelihood is concave.
+        fit, step, likelihood, covariance = np.zeros(2), np.zeros(2), -np.inf, np.eye(2)
+        for _ in range(STEPS):
+            tried, score, information, squares = _at(y, events, histories, weights[n], fit + step)
+            if not tried >= likelihood:
+                step *= 0.5
+                continue
+            fit, likelihood = fit + step, tried
+            step = np.linalg.solve(information, score)
+            covariance = np.linalg.solve(information, np.linalg.solve(information, squares).T)
+            if np.abs(step).sum() < CLOSE * (1.0 + np.abs(fit).sum()):
+                break
+        fits[n, :2], fits[n, 5] = fit + step, likelihood
+        fits[n, 2], fits[n, 3], fits[n, 4] = covariance[0, 0], covariance[0, 1], covariance[1, 1]
     return fits
 
 

@@ -32,16 +32,11 @@ from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.contact.body import ContactLaw
 from colonnade.dynamics.models import NONLINEAR
 from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.plane.run import OVERTURNS
 from colonnade.validation import described, instance, number, samples, whole
 
 DRAWS = 8
 """Columns that are drawn besides the one with nothing varied."""
-
-USUAL = tuple(name for name, measure in MEASURES.items() if not measure.needs_block)
-"""Measures that are compared if none are named: over one block the others are in proportion to these."""
-
-FALLS = "it does not move, or at all levels its base falls faster than the column; lower levels are needed"
-"""Why a record has no history at all."""
 
 
 @dataclass(frozen=True)
@@ -107,7 +102,7 @@ def plan_study(
     levels : array_like, optional
         Of it, SI; chosen so that the share of records that overturn goes from 0 to 1 if not given.
     measures : sequence of str, optional
-        Ids of the measures that are compared with it; default `USUAL`.
+        Ids of the measures that are compared with it; default all but spectral accelerations.
     draws : int, optional
         Columns that are drawn for each record, the same at all its levels.
     model : str, optional
@@ -131,15 +126,16 @@ def plan_study(
     if not scaled_over.power:
         raise ValueError(f"{scaled_over.id} does not grow with a motion; a measure that does was expected")
     drift = number("drift", drift, "a positive share of the peak velocity", above=0.0)
-    compared = [scaled_over, *measures_of(USUAL if measures is None else measures)]
+    compared = [scaled_over, *measures_of(list(MEASURES) if measures is None else measures)]
     corrected = {name: _corrected(motion, baseline) for name, motion in motions.items()}
-    names, recorded = list(corrected), list(corrected.values())
     values, drifts, reasons = _measured(corrected, compared, block, drift)
-    intensity, power = values[scaled_over.id], scaled_over.power
-    known = np.isfinite(intensity).any(axis=1)
-    if not known.any():
+    runs = (values[scaled_over.id] > 0.0).any(axis=1)
+    if not runs.any():
         why = next(iter(reasons.values()), "there is no record")
         raise ValueError(f"No record has a {scaled_over.name}: {why}")
+    values = {name: each[runs] for name, each in values.items()}
+    kept = {name: motion for (name, motion), is_run in zip(corrected.items(), runs, strict=True) if is_run}
+    intensity, power, recorded = values[scaled_over.id], scaled_over.power, tuple(kept.values())
     if levels is not None:
         found = np.unique(samples("levels", levels))
         if not found[0] > 0.0:
@@ -148,17 +144,12 @@ def plan_study(
         found = default_levels(column, recorded, intensity, power=power, model=model)
     else:
         raise ValueError(f"levels are needed for several bodies: levels of the {scaled_over.name} were expected")
-    factors = factors_at(found, intensity, power)
-    runs = np.array([_has_history(*each, block.gravity) for each in zip(recorded, factors, strict=True)])
-    if not runs.any():
-        raise ValueError(f"No record can be run: {FALLS}")
-    reasons |= {(names[row], "z"): FALLS for row in np.flatnonzero(known & ~runs)}
-    rows = np.flatnonzero(runs)
-    drawn = np.stack([draw(column, draws, seed, record=number) for number in range(rows.size)])
-    cases = Cases(column, drawn, tuple(recorded[row] for row in rows), factors[rows], model, several)
-    kept = tuple(names[row] for row in rows)
-    values = {name: each[rows] for name, each in values.items()}
-    return Study(kept, cases, scaled_over, found, values, drifts[rows], _left_out(kept, reasons))
+    drawn = np.stack([draw(column, draws, seed, record=number) for number in range(len(kept))])
+    cases = Cases(column, drawn, recorded, factors_at(found, intensity, power), model, several)
+    left_out: dict[str, str] = {}
+    for (name, component), reason in reasons.items():
+        left_out.setdefault(f"{name}, component {component}" if name in kept else name, reason)
+    return Study(tuple(kept), cases, scaled_over, found, values, drifts[runs], left_out)
 
 
 def _measured(
@@ -168,7 +159,7 @@ def _measured(
     Measure each horizontal component of the records.
 
     Returns the values by measure, shape (records, components), the largest drift of each record, and by record and
-    component why it does not have the first of the measures.
+    component why it cannot be scaled over the first of the measures.
     """
     values = {each.id: np.full((len(motions), len(COMPONENTS)), np.nan) for each in compared}
     names, drifts, reasons = list(motions), np.zeros(len(motions)), dict[tuple[str, str], str]()
@@ -176,9 +167,9 @@ def _measured(
         ground = Ground(along.acceleration, along.dt, block.gravity)
         drifts[row] = max(drifts[row], ground.drift)
         for each in compared:
-            values[each.id][row, place], reason = measured(each, ground, block, drift=drift)
-            if reason and each is compared[0]:
-                reasons[names[row], COMPONENTS[place]] = reason
+            values[each.id][row, place], why = measured(each, ground, drift)
+            if each is compared[0] and not values[each.id][row, place] > 0.0:
+                reasons[names[row], COMPONENTS[place]] = why or "it does not move"
     return values, drifts, reasons
 
 
@@ -219,15 +210,15 @@ def judge(
         If an argument is out of its range, or there are too few records.
     """
     records, levels, draws, signs, components = outcomes.outcome.shape
-    drawn = counted_draws(draws)
-    directions = (records, levels, -1, signs * components)
-    peak = np.where(outcomes.is_run & np.isnan(outcomes.peak_ratio), np.inf, outcomes.peak_ratio)
-    gathered = gather(
-        study.names,
-        study.levels,
-        np.where(outcomes.is_run, peak, np.nan)[:, :, drawn].reshape(directions),
-        outcomes.exceeds(overturned)[:, :, drawn].reshape(directions),
+    if not outcomes.is_run.any():
+        raise ValueError("No record can be run: their bases fall faster than the column; lower levels are needed")
+    # NaN counts as not run.
+    peak = np.where(outcomes.outcome == OVERTURNS, np.inf, outcomes.peak_ratio)
+    by_direction = (
+        each[:, :, counted_draws(draws)].reshape(records, levels, -1, signs * components)
+        for each in (peak, outcomes.exceeds(overturned))
     )
+    gathered = gather(study.names, study.levels, *by_direction)
     varies = study.measure.id != "pga" or any(motion.vertical is not None for motion in study.cases.motions)
     measure, scaled = study.measure.id, _scaled(study, signs)
     return Fragility(gathered, resampling, varies, hazard, scaled, magnitude, distance, measure)
@@ -236,21 +227,6 @@ def judge(
 def counted_draws(draws: int) -> slice:
     """Give the draws that count: the first, with nothing varied, only if it is the only one."""
     return slice(1 if draws > 1 else 0, None)
-
-
-def _has_history(motion: Motion, factors: Array, gravity: float) -> bool:
-    """Tell whether a record is run at any level: its factors, shape (levels, components), may be too large for all."""
-    smallest = np.nanmin(factors, initial=np.inf)
-    falls = motion.vertical is not None and not smallest * motion.vertical.min() > -gravity
-    return bool(np.isfinite(smallest) and not falls)
-
-
-def _left_out(kept: Sequence[str], reasons: Mapping[tuple[str, str], str]) -> dict[str, str]:
-    """Name whole records, and of those that are kept the component."""
-    found: dict[str, str] = {}
-    for (name, component), reason in reasons.items():
-        found.setdefault(f"{name}, component {component}" if name in kept else name, reason)
-    return found
 
 
 def _corrected(motion: Motion, baseline: str) -> Motion:
@@ -320,7 +296,7 @@ def fragility(
     hazard : pair of array_like, optional
         Levels of the measure, SI, and the annual rates at which they are exceeded.
     measures : sequence of str, optional
-        Ids of the measures that are compared; default all that need no block.
+        Ids of the measures that are compared; default all but spectral accelerations.
     model : str, optional
         A plane one.
     drift, baseline : optional

@@ -84,16 +84,6 @@ def twenty_columns(levels: Sequence[str], probability: Array) -> Figure:
 
 
 @styled()
-def rate_by_intensity(edges: Array, shares: Array, *, label: str) -> Figure:
-    """Draw the shares of the annual rate of overturning between edges of the measure; `label` has its unit."""
-    figure, axes = one_panel(2.4)
-    axes.stairs(100 * shares, edges, fill=True, color=SOFT, alpha=0.6)
-    axes.set(xscale="log", xlabel=label, ylabel="share of the annual rate (%)")
-    plain_decades(axes.xaxis)
-    return figure
-
-
-@styled()
 def response_spectra(period: Array, acceleration: Array) -> Figure:
     """Draw spectra of ground motions (g; a row each) over period (s) as recorded, with their median."""
     figure, axes = one_panel(2.8)

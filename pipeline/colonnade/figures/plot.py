@@ -118,7 +118,7 @@ def _draw_fragility(axes: Axes, result: Fragility) -> None:
     label = "measure of intensity (SI)"
     if result.measure:
         measure = measure_of(result.measure)
-        label = f"{measure.symbol} ({measure.unit})" if measure.unit else measure.symbol
+        label = f"{measure.symbol} ({measure.unit})"
     steps = fragility.Curve(rising.intensity, *rising.probability)
     fragility.draw_fragility(axes, curve, steps, label=label, taken=result.taken)
 

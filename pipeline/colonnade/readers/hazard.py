@@ -35,7 +35,7 @@ def read_hazard(path: Path, measure: str) -> Hazard:
     known = measure_of(measure)
     heads = ", ".join(head.name if head.unit is None else f"{head.name} [{head.unit}]" for head in table.heads)
     wrong = f"{table.name}: its heads are {quoted(heads)}; "
-    wrong += f'"{known.id} [{known.unit or "1"}], rate [1/year]" was expected.'
+    wrong += f'"{known.id} [{known.unit}], rate [1/year]" was expected.'
     if len(table.heads) != 2:
         raise ReadError(wrong)
     intensity, rate = table.heads
@@ -49,7 +49,7 @@ def read_hazard(path: Path, measure: str) -> Hazard:
     except UnitError as error:
         raise ReadError(f"{table.name}: {error}") from None
     is_rate = rate.name.casefold() == "rate" and rate.unit in (None, "1/year")
-    if not is_rate or found.si_unit != units.resolve(known.unit or "1").si_unit:
+    if not is_rate or found.si_unit != units.resolve(known.unit).si_unit:
         raise ReadError(wrong)
     if table.faults:
         line, fault = table.faults[0]

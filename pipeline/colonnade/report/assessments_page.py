@@ -24,7 +24,7 @@ from colonnade.store.records.assessment import estimated, sentences, unit_of
 from colonnade.units import from_si
 from colonnade.units.text import listed, number
 
-SHOWN = ("pga", "pgv", "arias", "d5_95", "pulse_period")
+SHOWN = ("pga", "pgv", "arias", "d5_95")
 """Measures of the table of records."""
 
 ROWS = (0.02, 0.1, 0.25, 0.5, 0.75, 0.95)
@@ -69,7 +69,7 @@ class Assessment:
 
     def pictures(self) -> dict[str, Picture | None]:
         """Draw what it found, by the names that the template uses."""
-        drawn = {"columns": _columns, "curves": curves, "rate": _rate, "spectra": _spectra}
+        drawn = {"columns": _columns, "curves": curves, "spectra": _spectra}
         if self.stored is None:
             return dict.fromkeys(drawn)
         return {name: draw(self.name, self.record, self.stored) for name, draw in drawn.items()}
@@ -95,14 +95,12 @@ def symbol(measure: str) -> str:
 
 
 def _label(measure: str) -> str:
-    unit = unit_of(measure)
-    return f"{symbol(measure)} ({unit})" if unit else symbol(measure)
+    return f"{symbol(measure)} ({unit_of(measure)})"
 
 
 def _factor(measure: str) -> float:
     """Of the unit in which a measure is shown."""
-    unit = unit_of(measure)
-    return from_si(1.0, unit) if unit else 1.0
+    return from_si(1.0, unit_of(measure))
 
 
 def _curve(record: AssessmentSummary, stored: xr.Dataset, kind: str) -> figures.Curve:
@@ -137,7 +135,7 @@ def _columns(name: str, record: AssessmentSummary, stored: xr.Dataset) -> Pictur
     if not levels:
         return None
     shares = np.interp(levels, over, probability)
-    texts = [f"{symbol(record.measure)} {number(value)} {unit_of(record.measure)}".strip() for value in levels]
+    texts = [f"{symbol(record.measure)} {number(value)} {unit_of(record.measure)}" for value in levels]
     drawn = figures.twenty_columns(texts, shares)
     said = [f"{text}: {round(figures.COLUMNS * float(share))}" for text, share in zip(texts, shares, strict=True)]
     title = f"How many of {figures.COLUMNS} such columns fall, {name}"
@@ -150,14 +148,3 @@ def _spectra(name: str, _: AssessmentSummary, stored: xr.Dataset) -> Picture:
     drawn = figures.response_spectra(stored["spectrum_period"].to_numpy(), found)
     described = f"Response spectra of {len(found)} components before scaling, damped by 5 %, and their median."
     return Picture(drawn, f"spectra-{name}", f"Response spectra of the ground motions, {name}", described)
-
-
-def _rate(name: str, record: AssessmentSummary, stored: xr.Dataset) -> Picture | None:
-    if "rate_share" not in stored:
-        return None
-    edges, shares = _factor(record.measure) * stored["rate_edge"].to_numpy(), stored["rate_share"].to_numpy()
-    largest = int(np.argmax(shares))
-    ends = f"{number(edges[largest])} to {number(edges[largest + 1])} {unit_of(record.measure)}".strip()
-    described = f"The largest share of the rate is from {symbol(record.measure)} {ends}."
-    drawn = figures.rate_by_intensity(edges, shares, label=_label(record.measure))
-    return Picture(drawn, f"rate-{name}", f"Which intensities make the annual rate, {name}", described)

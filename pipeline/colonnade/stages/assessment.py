@@ -91,7 +91,7 @@ def assessment(plan: Plan, outcomes: Mapping[str, CaseOutcomes]) -> xr.Dataset:
     result = _dataset(plan, outcomes[ASSUMED], needed, found[ASSUMED])
     return result.assign_attrs(
         answer=said.model_dump_json(),
-        measure_asked=f"{said.measure} [{said.unit or '1'}]",
+        measure_asked=f"{said.measure} [{said.unit}]",
         warnings=[warning("assessment", text) for text in said.warnings],
     )
 
@@ -129,8 +129,6 @@ def _dataset(plan: Plan, outcomes: CaseOutcomes, needed: Array | None, fragility
     variables |= {f"drawn_{name}": (("record", "draw"), study.cases.drawn(name)) for name in UNCERTAIN}
     if needed is not None:
         variables["case_friction"] = (("record", "level", "sign", "component"), needed)
-    if (rate := fragility.rate) is not None:
-        variables |= {"rate_edge": ("edge", rate.edges), "rate_share": ("part", rate.contributions)}
     return xr.Dataset(
         {
             "case_outcome": (AXES, outcomes.outcome),

@@ -25,8 +25,8 @@ def unit_of(measure: str) -> str:
 
     Examples
     --------
-    >>> unit_of("pga"), unit_of("pgv"), unit_of("pga_ratio")
-    ('g', 'm/s', '')
+    >>> unit_of("pga"), unit_of("pgv")
+    ('g', 'm/s')
     """
     found = measure_of(measure)
     return "g" if found.dimension == "acceleration" else found.unit
@@ -41,7 +41,7 @@ def level(measure: str, value: float | None) -> str:
     >>> level("pga", 1.8501), level("pgv", 0.69754), level("pgv", None)
     ('0.189 g', '0.698 m/s', '–')
     """
-    return quantity(value, unit_of(measure)).strip()
+    return quantity(value, unit_of(measure))
 
 
 def estimated(measure: str, estimate: Estimate) -> str:
