@@ -18,7 +18,6 @@ def test_everything_is_of_the_same_outcomes():
     found = Fragility(
         outcomes,
         Resampling(100),
-        uplift_varies=False,
         hazard=hazard_curve([0.05, 2.0], [1e-1, 1e-5]),
         compared={"pgv": np.tile(outcomes.levels[:, None], (30, 1, 1))},
         magnitude=np.linspace(5, 7, 30),
@@ -26,8 +25,8 @@ def test_everything_is_of_the_same_outcomes():
     assert found.lognormal.median.low < MEDIAN < found.lognormal.median.high
     total = np.hypot(*found.betas)
     assert total == pytest.approx(found.lognormal.beta.value)
-    assert found.rate.rate.low < found.influence.rate.mean() < found.rate.rate.high
-    assert (found.uplift, found.resurrected, found.measures[0].measure) == (None, 0.0, "pgv")
+    assert found.rate.rate.low < np.mean([each.rate for each in found.influence]) < found.rate.rate.high
+    assert (found.resurrected, found.measures[0].measure) == (0.0, "pgv")
     assert found.misfit > 0.05
 
 
@@ -75,20 +74,20 @@ def test_what_cannot_be_split_has_no_value():
 def test_it_is_the_curve_of_all_other_records():
     outcomes = lognormal(2)
     found = Fragility(outcomes, Resampling(2), hazard=hazard_curve([0.1, 1.0], [1e-2, 1e-5])).influence
-    place = found.records.index("record 3")
+    [one] = [each for each in found if each.record == "record 3"]
     kept = np.arange(30) != 3
     others = gather(names(29), outcomes.levels, outcomes.peak[kept], outcomes.overturned[kept])
     without = fit_lognormal(others, Resampling(2))
-    assert found.median[place] == pytest.approx(without.median.value)
+    assert one.median == pytest.approx(without.median.value)
     expected = lognormal_rate(hazard_curve([0.1, 1.0], [1e-2, 1e-5]), without.median.value, without.beta.value)
-    assert found.rate[place] == pytest.approx(expected[0])
+    assert one.rate == pytest.approx(expected[0])
 
 
 def test_a_record_without_which_there_is_no_curve_comes_first():
     capacity = np.full((6, 2), MEDIAN)
     capacity[4] *= 3
     found = Fragility(outcomes_of(capacity), Resampling(2)).influence
-    assert (found.records[0], np.isnan(found.median[0])) == ("record 4", True)
+    assert (found[0].record, np.isnan(found[0].median)) == ("record 4", True)
 
 
 def test_of_a_mean_of_normal_values_it_is_about_students_interval():

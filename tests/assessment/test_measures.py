@@ -32,7 +32,6 @@ EXACT = {
     "pgv": 2 * PEAK / OMEGA,  # from rest: v = (1 − cos ωt) a/ω
     "pgd": PEAK / OMEGA * CYCLES / FREQUENCY,
     "arias": math.pi / (2 * 9.81) * PEAK**2 * CYCLES / FREQUENCY / 2,
-    "cav": 2 / math.pi * PEAK * CYCLES / FREQUENCY,
     "d5_95": energy_time(0.95) - energy_time(0.05),
 }
 
@@ -40,14 +39,6 @@ EXACT = {
 @every("name", EXACT)
 def test_a_sine_has_its_closed_forms(name):
     assert intensity_measures(SINE, measures=[name]).values[name] == pytest.approx(EXACT[name], rel=1e-7)
-
-
-def test_housners_intensity_of_a_step_is_its_closed_form():
-    # max |u| of an undamped step is 2a/ω²; with damping 1 + exp(−πζ/√(1−ζ²)) takes the place of 2.
-    motion = Motion(np.ones(2000), 0.01)
-    overshoot = 1 + math.exp(-math.pi * 0.05 / math.sqrt(1 - 0.05**2))
-    expected = overshoot * (2.5**2 - 0.1**2) / (4 * math.pi)
-    assert intensity_measures(motion, measures=["housner"]).values["housner"] == pytest.approx(expected, rel=2e-3)
 
 
 def test_the_spectral_acceleration_at_resonance_is_that_of_steady_vibration():
@@ -69,7 +60,6 @@ def test_measures_agree_with_eqsig():
     assert ours.values["pgv"] == pytest.approx(np.abs(theirs.velocity).max(), rel=1e-9)
     assert ours.values["pgd"] == pytest.approx(np.abs(theirs.displacement).max(), rel=1e-3)
     assert ours.values["arias"] == pytest.approx(eqsig.im.calc_arias_intensity(theirs)[-1], rel=1e-12)
-    assert ours.values["cav"] == pytest.approx(eqsig.im.calc_cav(theirs)[-1], rel=1e-12)
     assert ours.values["d5_95"] == pytest.approx(eqsig.im.calc_sig_dur(theirs), abs=2 * step)
 
 
@@ -130,7 +120,7 @@ def test_the_result_is_shown_with_units():
         ({"measures": ["pga(1 s)"]}, "Unknown measure"),
         ({"drift": 0.0}, "drift is 0.0"),
         ({"baseline": "cubic"}, 'Unknown baseline correction "cubic"'),
-        ({"baseline": "linear(1 Hz)"}, "nothing in brackets"),
+        ({"baseline": "linear(1 Hz)"}, 'Unknown baseline correction "linear'),
         ({"baseline": "highpass(1e-9 Hz)"}, "at least 0.001 Hz"),
         ({"baseline": "highpass(90 Hz)"}, "not below half the sampling rate"),
     ],

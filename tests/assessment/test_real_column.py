@@ -64,7 +64,6 @@ def test_the_sides_of_a_column_keep_their_proportions():
         ({"restitution_range": (0.93, 1.01)}, "restitution_range is 1.01"),
         ({"critical_angle_range": (0.0, 0.2)}, "critical_angle_range is 0"),
         ({"p_range": (-1.0, 1.0)}, "p_range is -1"),
-        ({"friction": None}, "friction_range is given without friction"),
         ({"friction": -0.1}, "friction is -0.1"),
         ({"restitution": 1.5}, "restitution is 1.5"),
     ],

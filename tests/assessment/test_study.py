@@ -40,7 +40,7 @@ def test_a_scaled_record_has_the_level_of_its_measure(measure, record):
 def test_a_record_that_drifts_has_no_velocity_and_is_left_out_unless_it_is_corrected():
     drifting = MOTIONS | {"drifts": Motion(ground_motion(7) + 0.05, 1 / RATE)}
     study = plan_study(COLUMN, drifting, levels=[1.0], draws=1)
-    assert study.left_out.keys() == {"drifts"}
+    assert study.left_out.keys() == {"drifts, component x"}
     assert "drifts" not in study.names
     corrected = plan_study(COLUMN, drifting, levels=[1.0], draws=1, baseline="linear")
     assert "drifts" in corrected.names
@@ -55,7 +55,7 @@ def test_outcomes_are_judged_as_they_are():
     hazard = hazard_curve([1.0, 20.0], [1e-2, 1e-6])
     found = judge(study, outcomes, Resampling(100), hazard=hazard)
     assert found.isotonic.probability.value.mean() == pytest.approx(outcomes.exceeds()[:, :, 1:, :, 0].mean())
-    assert found.uplift is None
+    assert found.uplift.reason == "always"
     assert found.rate is not None
     stricter = judge(study, outcomes, Resampling(100), overturned=0.2)
     assert stricter.outcomes.overturned.sum() > found.outcomes.overturned.sum()
@@ -75,9 +75,11 @@ def test_a_component_that_drifts_is_named_while_its_record_is_run():
 
 
 def test_records_without_a_history_leave_no_answer_if_there_are_no_others():
-    motions = {name: replace(each, vertical=20.0 * each.acceleration) for name, each in MOTIONS.items()}
+    motions = {
+        name: Motion(each.acceleration, each.dt, vertical=20.0 * each.acceleration) for name, each in MOTIONS.items()
+    }
     study = plan_study(COLUMN, motions | {"still": Motion(np.zeros(400), 1 / RATE)}, levels=[2.0, 4.0], draws=1)
-    assert study.left_out == {"still": "it does not move"}
+    assert study.left_out == {"still, component x": "it does not move"}
     with pytest.raises(ValueError, match="No record can be run"):
         judge(study, run_cases(study.cases), Resampling(20))
 

@@ -109,13 +109,10 @@ class Cases:
         plane_model_of(self.model)
         p = self.drawn("p")
         fastest, _ = drawn_column(self.column, self.draws[np.unravel_index(p.argmax(), p.shape)])
-        for record, place in np.argwhere(np.isfinite(self.factors).any(axis=1)).tolist():
-            largest = float(np.nanmax(self.factors[record, :, place]))
-            plane = in_plane(self.motions[record], place, largest)
-            if plane is None:
-                continue
+        for record, place, plane in components(self.motions):
+            largest = np.nanmax(self.factors[record, :, place], initial=0.0)
             try:
-                expect_usable(fastest, Motion(plane.acceleration, plane.dt))
+                expect_usable(fastest, Motion(largest * plane.acceleration, plane.dt))
             except ValueError as error:
                 raise ValueError(f"Record {record}, component {COMPONENTS[place]}: {error}") from None
 
@@ -319,22 +316,17 @@ def friction_needed(cases: Cases) -> Array:
     rocking. Once it rocks, the forces are those of `reactions`.
     """
     records, levels, _draws, signs, components = cases.shape
-    needed = np.full((records, levels, signs, components), np.nan)
+    block, needed = cases.column.block, np.full((records, levels, signs, components), np.nan)
+    at_rest = model_of(cases.model).uplift_threshold(max(side.critical_angle for side in block.sides))
     for place, plane in _planes(cases):
-        needed[place] = _needed(cases, plane)
+        if _falls_away(plane, block.gravity):
+            needed[place] = np.inf
+            continue
+        history = rock(block, plane, restitution=cases.column.restitution, model=cases.model)
+        forces, until = reactions(history, plane), np.fmin(history.overturning_time, np.inf)
+        moves = (history.angle != 0.0) | (history.angular_velocity != 0.0)
+        # A record that begins with a jump uplifts the column in its first sample: it stands there, but does not rest.
+        counts = (forces.time <= until) & (moves | (forces.required_friction <= at_rest))
+        impacts = forces.impact_friction[forces.impact_times <= until]
+        needed[place] = np.concatenate((forces.required_friction[counts], impacts)).max(initial=0.0)
     return needed
-
-
-def _needed(cases: Cases, motion: Motion) -> float:
-    block = cases.column.block
-    if _falls_away(motion, block.gravity):
-        return np.inf
-    history = rock(block, motion, restitution=cases.column.restitution, model=cases.model)
-    forces = reactions(history, motion)
-    until = history.overturning_time if np.isfinite(history.overturning_time) else np.inf
-    widest = max(side.critical_angle for side in block.sides)
-    moves = (history.angle != 0.0) | (history.angular_velocity != 0.0)
-    # A record that begins with a jump uplifts the column in its first sample: it stands there, but does not rest.
-    rests = forces.required_friction <= model_of(cases.model).uplift_threshold(widest)
-    continuous = forces.required_friction[(forces.time <= until) & (moves | rests)].max(initial=0.0)
-    return float(max(continuous, forces.impact_friction[forces.impact_times <= until].max(initial=0.0)))

@@ -67,10 +67,10 @@ def compare_measures(
     if not measures:
         return ()
     weights, was_run = resampling.weights(len(outcomes.records)), outcomes.was_run
-    deviances = np.array([_deviances(outcomes, each, weights) for each in measures.values()])
-    resampled = deviances[:, 1:][:, ~np.isnan(deviances[:, 1:]).any(axis=0)]
-    first = resampled <= resampled.min(axis=0, initial=np.inf) + 1e-12
-    best = (first / first.sum(axis=0)).mean(axis=1) if resampled.size else np.full(len(measures), np.nan)
+    likelihoods = [fit_parameters(outcomes.cells(intensity=each), weights)[1] for each in measures.values()]
+    deviances = -2 * np.array(likelihoods) / np.maximum(weights @ was_run.sum(axis=(1, 2, 3)), 1)
+    first = deviances[:, 1:] <= deviances[:, 1:].min(axis=0) + 1e-12
+    best = (first / first.sum(axis=0)).mean(axis=1)
     covariates = magnitude, None if distance is None else np.log(distance)
     scores = []
     for place, (name, intensity) in enumerate(measures.items()):
@@ -82,12 +82,6 @@ def compare_measures(
             auc = float(scipy.stats.mannwhitneyu(x[fell], x[~fell]).statistic) / (fell.sum() * (~fell).sum())
         scores.append(MeasureScore(name, float(deviances[place, 0]), float(best[place]), auc, scatter, *p_values))
     return tuple(sorted(scores, key=lambda score: score.deviance))
-
-
-def _deviances(outcomes: Outcomes, intensity: Array, weights: Array) -> Array:
-    """Deviance per history of each weighting, shape (n,)."""
-    cells = outcomes.cells(intensity=intensity)
-    return np.asarray(-2 * fit_parameters(cells, weights)[1] / (weights @ cells.histories.sum(axis=1)))
 
 
 def _histories(outcomes: Outcomes, intensity: Array, chosen: Mask) -> Array:

@@ -53,10 +53,8 @@ class Criterion:
     ----------
     id, name, source, formula : str
     predicts : {"rocking", "overturning"}
-    validity : str
-        For which blocks and motions it was made.
-    criticism : str
-        What is known against it.
+    remarks : str
+        For which blocks and motions it was made, and what is known against it.
     ratio : callable
         Demand over capacity of a block, of demands; the criterion predicts it above 1. NaN if a demand is not known.
     """
@@ -66,8 +64,7 @@ class Criterion:
     source: str
     formula: str
     predicts: Literal["rocking", "overturning"]
-    validity: str
-    criticism: str
+    remarks: str
     ratio: Callable[[Block, Demands], Array]
 
 
@@ -106,7 +103,7 @@ CRITERIA = (
         "Bulletin of the Seismological Society of America 17, 95–109",
         "PGA > g tan α",
         "rocking",
-        "Rigid block on a rigid base that does not slide, without vertical motion: the start of rocking is then exact.",
+        "Rigid block on a rigid base that does not slide, without vertical motion: the start of rocking is then exact. "
         "Long used as a limit of overturning, which it is not: large blocks stand far beyond it. Vertical motion "
         "changes the limit from instant to instant.",
         _west,
@@ -119,7 +116,7 @@ CRITERIA = (
         "cm and cm/s; any block with its own p",
         "overturning",
         "Lower limits of the acceleration and of the velocity of sines and recorded earthquakes that overturned "
-        "rectangles, in simulations and on a shake table.",
+        "rectangles, in simulations and on a shake table. "
         "Many motions above both do not overturn, so that it errs to overturning.",
         _ishiyama,
     ),
@@ -129,7 +126,7 @@ CRITERIA = (
         "Housner (1963), Bulletin of the Seismological Society of America 53, 403–417",
         "S_v > α √(g I₀ / (M R)) = g α / p, S_v the level of the undamped velocity spectrum",
         "overturning",
-        "Slender blocks (α below about 0.35 rad); motions like white noise, with a constant velocity spectrum.",
+        "Slender blocks (α below about 0.35 rad); motions like white noise, with a constant velocity spectrum. "
         "Equates the energy that an average spectrum gives an undamped oscillator with the one that overturns. A "
         "rocking block is not an oscillator, and impacts take energy: other shares than 50 % of simulated blocks "
         "overturn (Yim, Chopra and Penzien 1980), and a response spectrum does not replace a rocking spectrum "
@@ -138,9 +135,6 @@ CRITERIA = (
     ),
 )
 """In the order of pages."""
-
-NOT_COMPUTED = {"ASCE 43": "The full text of the rocking procedure of ASCE/SEI 43-05, appendix A, was not available."}
-"""Criteria that are asked for and not computed, with the reason."""
 
 
 def spectral_velocity(acceleration: ArrayLike, interval: float) -> float:

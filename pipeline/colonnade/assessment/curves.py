@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, cast
 
 import numpy as np
 import scipy
@@ -13,13 +12,9 @@ from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
 from colonnade.assessment.intervals import FEWEST_RECORDS, MOST_WITHOUT, Band, Interval, Resampling, studentised
-from colonnade.assessment.outcomes import Cells, Outcomes
+from colonnade.assessment.outcomes import Outcomes
 from colonnade.assessment.probit import Parameters, fit_parameters
-from colonnade.units.text import format_percent
 from colonnade.validation import samples
-
-Reason = Literal["", "separated", "falling", "never", "always", "one intensity"]
-"""Why there is no curve: no overlap of outcomes, fewer events at higher intensity, no event, only events."""
 
 ENOUGH_RECORDS, LEAST_MIXED = 50, 0.8
 """Of an interval: of fewer records, shares of the rarer outcome add up to so much, as of levels that are β apart."""
@@ -36,25 +31,19 @@ class LognormalFit:
     Attributes
     ----------
     reason : str
-        Empty if there is a curve.
-    rises : tuple of float
-        Up to the first intensity nothing overturned, from the second on everything: the curve rises between them.
-        If the outcomes are separated, that is all that is known. 0 or inf if there is no such intensity.
+        Empty if there is a curve, else "separated" (outcomes do not overlap), "falling" (fewer events at higher
+        intensity), "never", "always" or "one intensity".
     level : float
         Of the intervals.
     records : int
         Their number.
-    degenerate : float
-        Share of the resamples that have no curve.
     fit, resampled : Parameters
         Of all records, shape (1,), and of each resample with a curve, shape (n,); none if there is no interval.
     """
 
-    reason: Reason
-    rises: tuple[float, float]
+    reason: str
     level: float
     records: int
-    degenerate: float
     fit: Parameters
     resampled: Parameters
 
@@ -75,12 +64,9 @@ class LognormalFit:
             return ""
         if self.records < FEWEST_RECORDS:
             return f"There are {self.records} records. A curve has no interval below {FEWEST_RECORDS}. Add records."
-        why = f"The levels are too far apart for {self.records} records"
-        if self.degenerate > MOST_WITHOUT:
-            why = f"{format_percent(self.degenerate)} of the resamples of records have no curve"
         return (
-            f"{why}, so there is no interval: at too few levels some records stand and others overturn. "
-            "Add records, or levels closer together."
+            f"The levels are too far apart for {self.records} records, so there is no interval: at too few levels some "
+            "records stand and others overturn. Add records, or levels closer together."
         )
 
     def probability(self, intensity: ArrayLike) -> Band:
@@ -148,11 +134,9 @@ def fit_lognormal(outcomes: Outcomes, resampling: Resampling, *, event: Mask | N
     shows = records >= ENOUGH_RECORDS or mixed >= LEAST_MIXED
     usable = has_curve & (shows and records >= FEWEST_RECORDS and has_curve.mean() >= 1 - MOST_WITHOUT)
     return LognormalFit(
-        cast("Reason", str(reasons[0])),
-        _rises(cells),
+        str(reasons[0]),
         resampling.level,
         records,
-        float(1 - has_curve.mean()),
         Parameters(*(each[:1] for each in parameters)),
         Parameters(*(each[1:][usable] for each in parameters)),
     )
@@ -165,17 +149,6 @@ def _with_errors(function: Callable[[Array, Array], Array], at: Parameters) -> t
     by_beta = (function(mean, log_beta + STEP) - function(mean, log_beta - STEP)) / (2 * STEP)
     variance = by_mean**2 * at.mm[:, None] + 2 * by_mean * by_beta * at.mb[:, None] + by_beta**2 * at.bb[:, None]
     return function(mean, log_beta), np.sqrt(np.maximum(variance, 0.0))
-
-
-def _rises(cells: Cells) -> tuple[float, float]:
-    """Give the highest intensity below all events, and the lowest above all survivals."""
-    counted = cells.histories > 0
-    y = cells.log_intensity
-    first = y[counted & (cells.events > 0)].min(initial=np.inf)
-    last = y[counted & (cells.events < cells.histories)].max(initial=-np.inf)
-    low = y[counted & (y < first)].max(initial=-np.inf)
-    high = y[counted & (y > last)].min(initial=np.inf)
-    return float(np.exp(low)), float(np.exp(high))
 
 
 def lognormal_misfit(outcomes: Outcomes, resampling: Resampling) -> float:

@@ -36,15 +36,12 @@ class Fragility(Digested):
         Made by `gather`.
     resampling : Resampling
         Of all intervals.
-    uplift_varies : bool
-        Whether the start of rocking has a probability. It has none if the intensity is the peak acceleration and no
-        motion is vertical: the block then rocks exactly if it exceeds g tan α.
     hazard : Hazard or None
         Of the measure of the outcomes.
     compared, magnitude, distance : optional
         Measures that are compared, and what is known of the earthquakes, as of `compare_measures`.
     measure : str
-        Id of the measure of intensity; all intensities are in its SI unit. Empty if it was not said.
+        Id of the measure of intensity; all intensities are in its SI unit.
 
     Examples
     --------
@@ -62,22 +59,21 @@ class Fragility(Digested):
     ([0.0, 0.25, 1.0, 1.0], 0.0)
     >>> found.lognormal.reason, found.uplift.reason  # what follows from the curve is not a number then
     ('separated', 'separated')
-    >>> found.misfit, found.betas.records, found.influence.median.tolist(), found.rate
-    (nan, nan, [nan, nan, nan, nan], None)
+    >>> found.misfit, found.betas.records, found.influence[0].median, found.rate
+    (nan, nan, nan, None)
     >>> len(found.measures), found.measures[0].measure
-    (10, 'pgd')
+    (5, 'pgd')
     >>> found.digest()["records"]
     '4'
     """
 
     outcomes: Outcomes
     resampling: Resampling
-    uplift_varies: bool = True
     hazard: Hazard | None = None
     compared: Mapping[str, Array] = field(default_factory=dict)
     magnitude: Array | None = None
     distance: Array | None = None
-    measure: str = ""
+    measure: str = "pgv"
 
     @cached_property
     def lognormal(self) -> LognormalFit:
@@ -95,11 +91,9 @@ class Fragility(Digested):
         return lognormal_misfit(self.outcomes, self.resampling)
 
     @cached_property
-    def uplift(self) -> LognormalFit | None:
-        """Curve of the start of rocking; None if the peak acceleration alone decides it."""
-        return (
-            fit_lognormal(self.outcomes, self.resampling, event=self.outcomes.peak > 0) if self.uplift_varies else None
-        )
+    def uplift(self) -> LognormalFit:
+        """Curve of the start of rocking; "separated" if the intensity alone decides it, as PGA may."""
+        return fit_lognormal(self.outcomes, self.resampling, event=self.outcomes.peak > 0)
 
     @property
     def resurrected(self) -> float:
@@ -115,21 +109,21 @@ class Fragility(Digested):
 
     @cached_property
     @np.errstate(over="ignore", divide="ignore", invalid="ignore")  # without a record the curve may be nearly flat
-    def influence(self) -> Influence:
-        """The curve without each record, one left out after the other."""
+    def influence(self) -> tuple[Without, ...]:
+        """
+        The curve without each record, the most influential first: by the rate if there is a hazard, else the median.
+
+        A record without which there is no curve comes first of all.
+        """
         rows = len(self.outcomes.records)
         weights = np.vstack((np.ones(rows), 1.0 - np.eye(rows)))
         parameters = fit_parameters(self.outcomes.cells(), weights)[0]
         median, beta = np.exp(parameters.log_median), np.exp(parameters.log_beta)
-        rate = None if self.hazard is None else lognormal_rate(self.hazard, median, beta)
-        decides = median if rate is None else rate
-        change = np.abs(np.log(decides[1:] / decides[0]))
-        order = np.argsort(-np.where(np.isnan(change), np.inf, change), kind="stable")
-        return Influence(
-            tuple(self.outcomes.records[place] for place in order),
-            median[1:][order],
-            None if rate is None else rate[1:][order],
-        )
+        rate = np.full(rows + 1, np.nan) if self.hazard is None else lognormal_rate(self.hazard, median, beta)
+        decides = median if self.hazard is None else rate
+        change = np.nan_to_num(np.abs(np.log(decides[1:] / decides[0])), nan=np.inf)
+        found = list(map(Without, self.outcomes.records, median[1:].tolist(), rate[1:].tolist()))
+        return tuple(found[place] for place in np.argsort(-change, kind="stable"))
 
     @cached_property
     def measures(self) -> tuple[MeasureScore, ...]:
@@ -180,16 +174,13 @@ class Fragility(Digested):
         digest : dict of str to str
             Names and values with their units, as a notebook shows them.
         """
-        unit = measure_of(self.measure).unit if self.measure else ""
+        unit = measure_of(self.measure).unit
         curve: dict[str, str] = {"no curve": self.lognormal.reason}
         if not self.lognormal.reason:
             median, beta = self.lognormal.median, self.lognormal.beta
-            why = self.lognormal.no_interval
-            limits = ["" if why else f"({written(each.low)} to {written(each.high)}) " for each in (median, beta)]
             curve = {
-                "median": written(median.value, limits[0] + unit),
-                "β": written(beta.value, limits[1].rstrip()),
-                **({"no interval": why} if why else {}),
+                "median": written(median.value, f"({written(median.low)} to {written(median.high)}) {unit}"),
+                "β": written(beta.value, f"({written(beta.low)} to {written(beta.high)})"),
                 "p of the misfit": written(self.misfit, digits=2),
             }
         rate = {} if self.rate is None else {"rate": written(self.rate.rate.value, "1/year", 3)}
@@ -241,22 +232,9 @@ def split_beta(outcomes: Outcomes, fit: LognormalFit) -> Betas:
     return Betas(float(fit.beta.value * np.sqrt(rho)), float(fit.beta.value * np.sqrt(1.0 - rho)))
 
 
-@dataclass(frozen=True)
-class Influence:
-    """
-    A curve without each record.
+class Without(NamedTuple):
+    """Median of the curve without a record, and annual rate; NaN if there is then no curve, or no hazard."""
 
-    Attributes
-    ----------
-    records : tuple of str, length r
-        The most influential first: by the change of the rate if there is a hazard, else of the median. A record
-        without which there is no curve comes first of all.
-    median : ndarray, shape (r,)
-        Without the record; NaN if there is then no curve.
-    rate : ndarray, shape (r,), or None
-        Per year, if there is a hazard.
-    """
-
-    records: tuple[str, ...]
-    median: Array
-    rate: Array | None
+    record: str
+    median: float
+    rate: float

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import cached_property, partial
 
 import numpy as np
@@ -123,29 +123,14 @@ def correction_of(name: str) -> Correction:
     ValueError
         If it is not known, or its corner is not a frequency.
     """
-    bare, given = split_name(text("baseline", name, "the name of a correction"))
+    bare, corner = split_name(text("baseline", name, "the name of a correction"), {"highpass": "frequency"})
     if bare not in CORRECTIONS:
         raise ValueError(f'Unknown baseline correction "{name}".{nearest(name, CORRECTIONS)}')
-    if given is None:
+    if corner is None:
         return CORRECTIONS[bare]
-    if bare != "highpass":
-        raise ValueError(f'"{name}": nothing in brackets was expected, but for highpass its corner, "highpass(0.1 Hz)"')
-    corner = quantity_of(name, given, "frequency")
     if corner < LEAST_CORNER:
         raise ValueError(f'"{name}": a corner of at least {LEAST_CORNER:g} Hz was expected')
     return partial(_without_slow, corner=corner)
-
-
-def corrected(ground: Ground, baseline: str) -> Ground:
-    """
-    Correct the baseline of a motion.
-
-    Raises
-    ------
-    ValueError
-        As `correction_of`; or if the corner is not below half the sampling rate.
-    """
-    return replace(ground, acceleration=correction_of(baseline)(ground.acceleration, ground.interval))
 
 
 def _as_it_is(acceleration: Array, interval: float) -> Array:
@@ -193,34 +178,29 @@ CORRECTIONS: dict[str, Correction] = {
 """Corrections of the baseline by name. They are used only where one is asked for."""
 
 
-def split_name(name: str) -> tuple[str, str | None]:
+def split_name(name: str, dimensions: Mapping[str, str]) -> tuple[str, float | None]:
     """
-    Split a name from what is in its brackets.
-
-    Examples
-    --------
-    >>> split_name("sa(0.5 s)"), split_name("pga")
-    (('sa', '0.5 s'), ('pga', None))
-    """
-    bare, bracket, rest = name.partition("(")
-    if not bracket or not rest.endswith(")"):
-        return name.strip(), None
-    return bare.strip(), rest[:-1].strip()
-
-
-def quantity_of(name: str, given: str, dimension: str) -> float:
-    """
-    Give the positive quantity in the brackets of a name in SI.
+    Split a name from the quantity in its brackets, positive, in SI; a name that may have none is left whole.
 
     Raises
     ------
     ValueError
-        If it is not one.
+        If what is in the brackets is no such quantity.
+
+    Examples
+    --------
+    >>> split_name("sa(500 ms)", {"sa": "time"}), split_name("pga", {"sa": "time"})
+    (('sa', 0.5), ('pga', None))
     """
+    bare, bracket, given = (part.strip() for part in name.partition("("))
+    if not bracket or bare not in dimensions or not given.endswith(")"):
+        return name.strip(), None
     try:
-        value = units.to_si(given, dimension)
+        value = units.to_si(given[:-1].strip(), dimensions[bare])
     except UnitError as error:
         raise ValueError(f'"{name}": {error}') from None
     if not value > 0:
-        raise ValueError(f'"{name}": {given} was found in the brackets; a positive {dimension} was expected')
-    return value
+        raise ValueError(
+            f'"{name}": {given[:-1]} was found in the brackets; a positive {dimensions[bare]} was expected'
+        )
+    return bare, value

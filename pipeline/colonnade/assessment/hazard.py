@@ -31,8 +31,7 @@ class Hazard:
     @property
     def slopes(self) -> Array:
         """k = −d ln λ / d ln x below the first point, between points, and above the last, shape (points + 1,)."""
-        between = -np.diff(np.log(self.rate)) / np.diff(np.log(self.intensity))
-        return np.concatenate((between[:1], between, between[-1:]))
+        return np.pad(-np.diff(np.log(self.rate)) / np.diff(np.log(self.intensity)), 1, mode="edge")
 
 
 def hazard_curve(intensity: ArrayLike, rate: ArrayLike) -> Hazard:
@@ -49,13 +48,15 @@ def hazard_curve(intensity: ArrayLike, rate: ArrayLike) -> Hazard:
     ValueError
         If intensities are not positive and rising, or rates not positive and falling (a rate may repeat).
     """
-    x, annual = samples("intensity", intensity, fewest=2), samples("rate", rate, fewest=2)
+    x, annual = samples("hazard.intensity", intensity, fewest=2), samples("hazard.rate", rate, fewest=2)
     if x.size != annual.size or not (x > 0).all() or not (np.diff(x) > 0).all():
         raise ValueError(
-            f"intensity has {x.size} points and rate {annual.size}; as many positive, rising intensities were expected"
+            f"hazard: {x.size} intensities, {annual.size} rates; as many positive, rising intensities were expected"
         )
     if not (annual > 0).all() or not (np.diff(annual) <= 0).all() or annual[0] == annual[-1]:
-        raise ValueError("rate is not positive and falling; the annual rate at which an intensity is exceeded falls")
+        raise ValueError(
+            "hazard.rate is not positive and falling; the annual rate at which an intensity is exceeded falls"
+        )
     return Hazard(x, annual)
 
 
@@ -90,13 +91,23 @@ def lognormal_rate(
     1.0
     """
     mean, width = np.log(np.atleast_1d(median))[:, None], np.atleast_1d(beta).astype(np.float64)[:, None]
-    points = np.log(hazard.intensity)
+    points, k = np.log(hazard.intensity), hazard.slopes
     with np.errstate(divide="ignore"):
         ends = np.clip(np.concatenate(([-np.inf], points, [np.inf])), np.log(low), np.log(high))
-    # Each piece is referred to a point where its rate is known.
+    # By parts: P λ at both ends, and ∫ λ dP, of which each piece is a shifted normal from a point of known rate on.
     place = np.concatenate(([0], np.arange(points.size)))
-    pieces = _piece(mean, width, hazard.slopes, points[place], np.log(hazard.rate)[place], ends[:-1], ends[1:])
-    return np.asarray(pieces.sum(axis=1))
+    shift = np.log(hazard.rate)[place] - k * (mean - points[place]) + (k * width) ** 2 / 2
+    lower, upper = ((each - mean) / width + k * width for each in (ends[:-1], ends[1:]))
+    # In the upper tail the difference of the small complements keeps its digits.
+    turned = np.where(lower > 0, -1.0, 1.0)
+    pieces = turned * (np.exp(shift + log_ndtr(turned * upper)) - np.exp(shift + log_ndtr(turned * lower)))
+
+    def border(y: float) -> Array:
+        return np.asarray((ndtr((y - mean) / width) * _rate_at(hazard, np.array([y])))[:, 0])
+
+    # A rate that no longer falls at the last point is still there at the highest intensity.
+    found = np.where(lower < upper, pieces, 0.0).sum(axis=1) - border(min(ends[-1], points[-1] + FAR))
+    return np.asarray(found + border(ends[0]) if low > 0.0 else found)
 
 
 def isotonic_rate(hazard: Hazard, intensity: Array, probability: Array) -> float:
@@ -125,21 +136,8 @@ def _rate_at(hazard: Hazard, y: Array) -> Array:
     return np.asarray(hazard.rate[reference] * np.exp(-hazard.slopes[place] * (y - points[reference])))
 
 
-def _piece(mean: Array, width: Array, k: Array, at: Array, log_rate: Array, low: Array, high: Array) -> Array:
-    """∫ Φ((y − mean) / width) k λ dy over each piece, by parts: −Φ λ at its ends and a shifted normal between."""
-
-    def edge(y: Array) -> Array:
-        finite = np.isfinite(y)
-        rate = np.exp(log_rate - k * (np.where(finite, y, at) - at))
-        return np.where(finite, ndtr((np.where(finite, y, at) - mean) / width) * rate, 0.0)
-
-    shift = log_rate - k * (mean - at) + (k * width) ** 2 / 2
-    lower, upper = (low - mean) / width + k * width, (high - mean) / width + k * width
-    # In the upper tail the difference of the small complements keeps its digits.
-    turned = np.where(lower > 0, -1.0, 1.0)
-    between = turned * (np.exp(shift + log_ndtr(turned * upper)) - np.exp(shift + log_ndtr(turned * lower)))
-    return np.where((k > 0) & (low < high), edge(low) - edge(high) + between, 0.0)
-
+FAR = 1e6
+"""Beyond the last point, in ln x: where any hazard that falls has fallen to 0."""
 
 YEARS = 50.0
 LARGEST_SHARE = 0.05
@@ -168,11 +166,6 @@ class AnnualRate:
     outside_hazard: float
     outside_levels: float
     isotonic: float
-
-    @property
-    def is_extrapolated(self) -> bool:
-        """Whether more than `LARGEST_SHARE` is from outside either."""
-        return max(self.outside_hazard, self.outside_levels) > LARGEST_SHARE
 
 
 @np.errstate(over="ignore", divide="ignore", invalid="ignore")  # of few records a resample may be nearly flat

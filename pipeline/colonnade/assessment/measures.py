@@ -15,9 +15,8 @@ from colonnade.assessment.ground import (
     LARGEST_DRIFT_AT_REST,
     NONE,
     Ground,
-    corrected,
+    correction_of,
     integral,
-    quantity_of,
     split_name,
 )
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
@@ -171,7 +170,7 @@ def intensity_measures(
     gravity = STANDARD_GRAVITY if block is None else instance("block", block, Block).gravity
     usual = [*MEASURES, *(f"sa({period:g} s)" for period in PERIODS)]
     asked = measures_of(usual if measures is None else measures)
-    ground = corrected(Ground(motion.acceleration, motion.dt, gravity, at_rest), baseline)
+    ground = Ground(correction_of(baseline)(motion.acceleration, motion.dt), motion.dt, gravity, at_rest)
     values, reasons = {}, {}
     for each in asked:
         values[each.id], reason = measured(each, ground, drift)
@@ -238,14 +237,13 @@ def measure_of(name: str) -> Measure:
     >>> measure_of("pgv").unit, measure_of("sa(500 ms)").id
     ('m/s', 'sa(0.5 s)')
     """
-    bare, given = split_name(text("measure", name, "the id of a measure of intensity"))
-    if bare == "sa":
-        if given is None:
-            raise ValueError('"sa" has no period; one was expected in brackets, such as "sa(0.5 s)"')
-        period = quantity_of(name, given, "time")
+    bare, period = split_name(text("measure", name, "the id of a measure of intensity"), {"sa": "time"})
+    if period is not None:
         of = f"({period:.6g} s)"
         return Measure(f"sa{of}", f"Sa{of}", "spectral acceleration", "acceleration", 1, partial(_spectral, period))
-    if bare not in MEASURES or given is not None:
+    if bare == "sa":
+        raise ValueError('"sa" has no period; one was expected in brackets, such as "sa(0.5 s)"')
+    if bare not in MEASURES:
         raise ValueError(f'Unknown measure of intensity "{name}".{nearest(name, (*MEASURES, "sa(0.5 s)"))}')
     return MEASURES[bare]
 
@@ -270,11 +268,6 @@ def _arias(ground: Ground) -> float:
     return float(pi / (2 * ground.gravity) * integral(ground.acceleration**2, ground.interval)[-1])
 
 
-def _cumulative_velocity(ground: Ground) -> float:
-    """∫ |a| dt (EPRI 1988)."""
-    return float(integral(np.abs(ground.acceleration), ground.interval)[-1])
-
-
 def _significant_duration(ground: Ground) -> float:
     """Time in which ∫ a² dt grows from 5 to 95 % of its final value (Trifunac and Brady 1975)."""
     energy = integral(ground.acceleration**2, ground.interval)
@@ -284,21 +277,9 @@ def _significant_duration(ground: Ground) -> float:
     return float(end - begin)
 
 
-def _housner(ground: Ground) -> float:
-    """
-    Integral of the pseudo-velocity ω max |u| over periods from 0.1 to 2.5 s (Housner 1952), damped by 5 % as is usual
-    today.
-    """
-    from colonnade.dynamics.spectra import response_spectrum  # it loads scipy
-
-    step = 0.02
-    spectrum = response_spectrum(ground.acceleration, ground.interval, np.arange(0.1, 2.5 + step / 2, step))
-    return float(integral(2 * pi / spectrum.period * spectrum.displacement, step)[-1])
-
-
 def _spectral(period: float, ground: Ground) -> float:
     """Pseudo-acceleration ω² max |u| of an oscillator, damped by 5 % (Nigam and Jennings 1969)."""
-    from colonnade.dynamics.spectra import response_spectrum
+    from colonnade.dynamics.spectra import response_spectrum  # it loads scipy
 
     return float(response_spectrum(ground.acceleration, ground.interval, [period]).pseudo_acceleration[0])
 
@@ -308,9 +289,7 @@ _TABLE = (
     Measure("pgv", "PGV", "peak ground velocity", "velocity", 1, _peak_velocity, is_integrated=True),
     Measure("pgd", "PGD", "peak ground displacement", "length", 1, _peak_displacement, is_integrated=True),
     Measure("arias", "I_A", "Arias intensity", "velocity", 2, _arias),
-    Measure("cav", "CAV", "cumulative absolute velocity", "velocity", 1, _cumulative_velocity),
     Measure("d5_95", "D₅₋₉₅", "significant duration", "time", 0, _significant_duration),
-    Measure("housner", "SI", "Housner's intensity", "length", 1, _housner),
 )
 MEASURES = {each.id: each for each in _TABLE}
 """All measures by id, in the order of tables."""

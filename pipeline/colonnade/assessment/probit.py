@@ -30,9 +30,9 @@ def _hazard(z: float) -> float:
 
 
 @kernel
-def _log_above(z: float, hazard: float) -> float:
-    """ln Φ(−z), of z with its hazard."""
-    return -0.5 * z * z - log(sqrt(2.0 * pi) * hazard) if hazard > SURE else 0.0
+def _log_above(count: float, z: float, hazard: float) -> float:
+    """So many times ln Φ(−z), of z with its hazard."""
+    return -count * (0.5 * z * z + log(sqrt(2.0 * pi) * hazard)) if count > 0.0 and hazard > SURE else 0.0
 
 
 @kernel
@@ -47,7 +47,7 @@ def _at(y: Array, events: Array, histories: Array, weights: Array, fit: Array) -
                 by[1] = y[r, m]
                 z, left = fit[0] + fit[1] * y[r, m], histories[r, m] - events[r, m]
                 up, down = _hazard(-z), _hazard(z)
-                likelihood += weights[r] * (events[r, m] * _log_above(-z, up) + left * _log_above(z, down))
+                likelihood += weights[r] * (_log_above(events[r, m], -z, up) + _log_above(left, z, down))
                 curved = weights[r] * (events[r, m] * up * (up + z) + left * down * (down - z))
                 for i in range(2):
                     own[i] += by[i] * (events[r, m] * up - left * down)
@@ -71,17 +71,19 @@ def fit_each(y: Array, events: Array, histories: Array, weights: Array) -> Array
     fits = np.empty((weights.shape[0], 6))
     for n in range(weights.shape[0]):
         # Newton with halved steps: the log-likelihood is concave.
-        fit, step, likelihood, covariance = np.zeros(2), np.zeros(2), -np.inf, np.eye(2)
+        fit, step, likelihood, inverse = np.zeros(2), np.zeros(2), -np.inf, np.eye(2)
         for _ in range(STEPS):
             tried, score, information, squares = _at(y, events, histories, weights[n], fit + step)
             if not tried >= likelihood:
                 step *= 0.5
                 continue
             fit, likelihood = fit + step, tried
-            step = np.linalg.solve(information, score)
-            covariance = np.linalg.solve(information, np.linalg.solve(information, squares).T)
+            turned = np.array([[information[1, 1], -information[0, 1]], [-information[0, 1], information[0, 0]]])
+            inverse = turned / (information[0, 0] * information[1, 1] - information[0, 1] ** 2)
+            step = inverse @ score
             if np.abs(step).sum() < CLOSE * (1.0 + np.abs(fit).sum()):
                 break
+        covariance = inverse @ squares @ inverse
         fits[n, :2], fits[n, 5] = fit + step, likelihood
         fits[n, 2], fits[n, 3], fits[n, 4] = covariance[0, 0], covariance[0, 1], covariance[1, 1]
     return fits
@@ -113,7 +115,7 @@ def fit_parameters(cells: Cells, weights: Array) -> tuple[Parameters, Array, NDA
     log_likelihood : ndarray, shape (n,)
         If there is no curve its limit.
     reason : ndarray of str, shape (n,)
-        Why there is no curve that rises: a `Reason` of `assessment.curves`; empty if there is one.
+        Why there is no curve that rises: as of `assessment.curves.LognormalFit`; empty if there is one.
     """
     counted = cells.histories > 0
     centre = float(cells.log_intensity[counted].mean())

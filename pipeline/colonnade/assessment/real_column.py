@@ -56,8 +56,6 @@ class RealColumn:
         sided("restitution", self.restitution, "a number between 0 and 1", low=0.0, high=1.0)
         if self.friction is not None:
             number("friction", self.friction, "a coefficient from 0 on", low=0.0)
-        elif self.friction_range is not None:
-            raise ValueError("friction_range is given without friction; both, or neither, were expected")
         _limits("restitution_range", self.restitution_range, "numbers between 0 and 1", low=0.0, high=1.0)
         angles = "angles between 0 and π/2 rad"
         _limits("critical_angle_range", self.critical_angle_range, angles, above=0.0, below=pi / 2)
@@ -103,13 +101,12 @@ def draw(column: RealColumn, count: int, seed: int = 0, *, record: int = 0) -> A
         By `UNCERTAIN`: e, α (rad), p (rad/s), coefficient of friction (NaN if there is none). In the first row nothing
         is varied.
     """
-    values = np.tile(column.central, (1 + (count if any(column.ranges) else 0), 1))
-    for number_ in range(1, len(values)):
-        shares = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(record, number_))).random(len(UNCERTAIN))
-        for place, limits in enumerate(column.ranges):
-            if limits is not None:
-                values[number_, place] = limits[0] + shares[place] * (limits[1] - limits[0])
-    return values
+    central = column.central
+    keys = [(record, number_) for number_ in range(1, count + 1 if any(column.ranges) else 1)]
+    streams = [np.random.default_rng(np.random.SeedSequence(seed, spawn_key=key)) for key in keys]
+    shares = np.array([stream.random(len(UNCERTAIN)) for stream in streams]).reshape(-1, len(UNCERTAIN))
+    low, high = np.transpose([limits or (value, value) for value, limits in zip(central, column.ranges, strict=True)])
+    return np.vstack((central, low + shares * (high - low)))
 
 
 def drawn_column(column: RealColumn, values: Array) -> tuple[Block, tuple[float, float]]:

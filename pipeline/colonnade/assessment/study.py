@@ -58,7 +58,7 @@ class Study:
     drift : ndarray, shape (records,)
         Largest velocity at the end of a component over its peak velocity.
     left_out : dict of str to str
-        Records and components that cannot be scaled over the measure, and why.
+        Components of records that cannot be scaled over the measure, and why.
     """
 
     names: tuple[str, ...]
@@ -129,47 +129,42 @@ def plan_study(
     compared = [scaled_over, *measures_of(list(MEASURES) if measures is None else measures)]
     corrected = {name: _corrected(motion, baseline) for name, motion in motions.items()}
     values, drifts, reasons = _measured(corrected, compared, block, drift)
-    runs = (values[scaled_over.id] > 0.0).any(axis=1)
+    runs = np.asarray((values[scaled_over.id] > 0.0).any(axis=1))
     if not runs.any():
         why = next(iter(reasons.values()), "there is no record")
         raise ValueError(f"No record has a {scaled_over.name}: {why}")
     values = {name: each[runs] for name, each in values.items()}
     kept = {name: motion for (name, motion), is_run in zip(corrected.items(), runs, strict=True) if is_run}
     intensity, power, recorded = values[scaled_over.id], scaled_over.power, tuple(kept.values())
-    if levels is not None:
-        found = np.unique(samples("levels", levels))
-        if not found[0] > 0.0:
-            raise ValueError(f"levels begin at {found[0]:g}; positive levels of the {scaled_over.name} were expected")
-    elif several is None:
-        found = default_levels(column, recorded, intensity, power=power, model=model)
-    else:
+    if levels is None and several is not None:
         raise ValueError(f"levels are needed for several bodies: levels of the {scaled_over.name} were expected")
+    usual = default_levels(column, recorded, intensity, power=power, model=model) if levels is None else levels
+    found = np.unique(samples("levels", usual))
+    if not found[0] > 0.0:
+        raise ValueError(f"levels begin at {found[0]:g}; positive levels of the {scaled_over.name} were expected")
     drawn = np.stack([draw(column, draws, seed, record=number) for number in range(len(kept))])
     cases = Cases(column, drawn, recorded, factors_at(found, intensity, power), model, several)
-    left_out: dict[str, str] = {}
-    for (name, component), reason in reasons.items():
-        left_out.setdefault(f"{name}, component {component}" if name in kept else name, reason)
-    return Study(tuple(kept), cases, scaled_over, found, values, drifts[runs], left_out)
+    return Study(tuple(kept), cases, scaled_over, found, values, drifts[runs], reasons)
 
 
 def _measured(
     motions: Mapping[str, Motion], compared: Sequence[Measure], block: Block, drift: float
-) -> tuple[dict[str, Array], Array, dict[tuple[str, str], str]]:
+) -> tuple[dict[str, Array], Array, dict[str, str]]:
     """
     Measure each horizontal component of the records.
 
-    Returns the values by measure, shape (records, components), the largest drift of each record, and by record and
-    component why it cannot be scaled over the first of the measures.
+    Returns the values by measure, shape (records, components), the largest drift of each record, and by its name why a
+    component cannot be scaled over the first of the measures.
     """
     values = {each.id: np.full((len(motions), len(COMPONENTS)), np.nan) for each in compared}
-    names, drifts, reasons = list(motions), np.zeros(len(motions)), dict[tuple[str, str], str]()
+    names, drifts, reasons = list(motions), np.zeros(len(motions)), dict[str, str]()
     for row, place, along in components(list(motions.values())):
         ground = Ground(along.acceleration, along.dt, block.gravity)
         drifts[row] = max(drifts[row], ground.drift)
         for each in compared:
             values[each.id][row, place], why = measured(each, ground, drift)
             if each is compared[0] and not values[each.id][row, place] > 0.0:
-                reasons[names[row], COMPONENTS[place]] = why or "it does not move"
+                reasons[f"{names[row]}, component {COMPONENTS[place]}"] = why or "it does not move"
     return values, drifts, reasons
 
 
@@ -219,9 +214,7 @@ def judge(
         for each in (peak, outcomes.exceeds(overturned))
     )
     gathered = gather(study.names, study.levels, *by_direction)
-    varies = study.measure.id != "pga" or any(motion.vertical is not None for motion in study.cases.motions)
-    measure, scaled = study.measure.id, _scaled(study, signs)
-    return Fragility(gathered, resampling, varies, hazard, scaled, magnitude, distance, measure)
+    return Fragility(gathered, resampling, hazard, _scaled(study, signs), magnitude, distance, study.measure.id)
 
 
 def counted_draws(draws: int) -> slice:
@@ -325,7 +318,7 @@ def fragility(
     >>> taper = np.sin(np.pi * time / 6.0) ** 2
     >>> motions = [Motion(3.0 * taper * np.sin(2 * np.pi * f * (time - 3.0)), 0.02) for f in (0.4, 0.5, 0.6, 0.7)]
     >>> found = fragility(block, motions, restitution=0.95, levels=[0.5, 1.0, 2.0, 4.0], draws=1, resamples=100)
-    >>> found.lognormal.rises[0] < 4.0, len(found.outcomes.records)
+    >>> found.reaches(0.5).value < 4.0, len(found.outcomes.records)
     (True, 4)
     """
     several = _several(block, contact, friction_range, displaced)
@@ -389,7 +382,4 @@ def _curve(hazard: tuple[ArrayLike, ArrayLike] | None) -> Hazard | None:
         return None
     if not isinstance(hazard, (tuple, list)) or len(hazard) != 2:
         raise ValueError(f"hazard is {described(hazard)}; a pair of levels and of annual rates was expected")
-    try:
-        return hazard_curve(*hazard)
-    except ValueError as error:
-        raise ValueError(f"hazard: {error}") from None
+    return hazard_curve(*hazard)

@@ -115,12 +115,9 @@ def _draw_fragility(axes: Axes, result: Fragility) -> None:
     fitted, rising = result.lognormal, result.isotonic
     fine = np.geomspace(rising.intensity[0], rising.intensity[-1], FINE)
     curve = None if fitted.reason else fragility.Curve(fine, *fitted.probability(fine))
-    label = "measure of intensity (SI)"
-    if result.measure:
-        measure = measure_of(result.measure)
-        label = f"{measure.symbol} ({measure.unit})"
+    measure = measure_of(result.measure)
     steps = fragility.Curve(rising.intensity, *rising.probability)
-    fragility.draw_fragility(axes, curve, steps, label=label, taken=result.taken)
+    fragility.draw_fragility(axes, curve, steps, label=f"{measure.symbol} ({measure.unit})", taken=result.taken)
 
 
 DRAWN: dict[type, Callable[[Axes, Any], None]] = {

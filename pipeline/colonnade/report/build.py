@@ -20,7 +20,6 @@ from pydantic_core import to_json
 
 from colonnade import __version__
 from colonnade.arrays import Array
-from colonnade.assessment.criteria import NOT_COMPUTED
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import settings
 from colonnade.dynamics.models import MODELS
@@ -300,7 +299,6 @@ def whole_pages(campaign: Campaign, layout: Layout, parts: Sequence[Part], advic
         "advice_heads": [f"#{head}" if head in ("risk", "tests left") else head for head in advising.HEADS],
         "advice": [each.row() for each in advice],
         "assessments": assessed,
-        "not_computed": NOT_COMPUTED,
     }
     if campaign.assessments:
         yield from _page(campaign, "assessments", addresses.ASSESSMENTS, shown)

@@ -20,6 +20,7 @@ from colonnade.assessment.cases import (
 from colonnade.assessment.criteria import CRITERIA, Demands, agreement, spectral_velocity
 from colonnade.assessment.fragility import MISFITS, Fragility
 from colonnade.assessment.ground import Ground
+from colonnade.assessment.hazard import LARGEST_SHARE
 from colonnade.assessment.intervals import Interval, Resampling
 from colonnade.assessment.measures import measure_of
 from colonnade.assessment.real_column import UNCERTAIN
@@ -167,7 +168,7 @@ def _answer(
 ) -> AssessmentSummary:
     """Gather the answer: outcomes of the study as assumed, fragility of each, share that would slide."""
     study, found, column = plan.studies[ASSUMED], fragilities[ASSUMED], plan.studies[ASSUMED].cases.column
-    uplift, rate, asked = found.uplift, found.rate, plan.inputs.asked
+    rate, asked = found.rate, plan.inputs.asked
     one = plan.inputs.several is None
     low, high = column.restitution_range or (None, None)
     measures = tuple(JudgedMeasure(**vars(each)) for each in found.measures)
@@ -191,7 +192,7 @@ def _answer(
         friction_range=column.friction_range,
         uplift_acceleration=column.block.uplift_acceleration,
         baseline=asked.baseline,
-        uplift=_estimate(None if uplift is None else uplift.median),
+        uplift=_estimate(found.uplift.median),
         median=_estimate(found.lognormal.median),
         dispersion=_estimate(found.lognormal.beta),
         dispersion_records=found.betas.records,
@@ -255,10 +256,10 @@ def _variants(plan: Plan, fragilities: Mapping[str, Fragility]) -> Iterator[Vari
 def _deciding(found: Fragility) -> tuple[DecidingRecord, ...]:
     if found.lognormal.reason:
         return ()
-    without = found.influence
-    rates = [None] * len(without.records) if without.rate is None else without.rate.tolist()
-    rows = list(zip(without.records, without.median.tolist(), rates, strict=True))[:MOST_DECIDING]
-    return tuple(DecidingRecord(record=name, median=median, annual_rate=rate) for name, median, rate in rows)
+    return tuple(
+        DecidingRecord(record=each.record, median=each.median, annual_rate=each.rate)
+        for each in found.influence[:MOST_DECIDING]
+    )
 
 
 def _used(plan: Plan) -> tuple[RecordUsed, ...]:
@@ -311,7 +312,7 @@ def _doubts(
         yield f"Left out: {first.record}{others}. {first.record}: {first.reason.splitlines()[0]}"
     if found.lognormal.no_interval:
         yield found.lognormal.no_interval
-    if rate is not None and rate.is_extrapolated:
+    if rate is not None and max(rate.outside_hazard, rate.outside_levels) > LARGEST_SHARE:
         yield (
             f"{format_percent(rate.outside_hazard)} of the annual rate is from outside the hazard curve, and "
             f"{format_percent(rate.outside_levels)} from outside the levels."

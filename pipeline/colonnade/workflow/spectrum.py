@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from colonnade.assessment.ground import NONE, Ground, corrected
+from colonnade.assessment.ground import NONE, correction_of
 from colonnade.assessment.measures import IntensityMeasures, intensity_measures, measure_of
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessment import Baseline
@@ -317,5 +317,5 @@ def _base(
     base, vertical = factor * found.motion.acceleration, found.motion.vertical
     if asked.baseline != NONE:
         source = f"{source}, baseline corrected: {asked.baseline}"
-        base = corrected(Ground(base, dt), asked.baseline).acceleration
+        base = correction_of(asked.baseline)(base, dt)
     return Motion(base, dt, None if vertical is None else abs(factor) * vertical), source, found.test is not None

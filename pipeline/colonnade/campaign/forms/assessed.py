@@ -149,8 +149,8 @@ class AssessmentSummary(Record):
     uplift_acceleration: Known = None
     """Horizontal acceleration at which the column starts to rock, m/s², without vertical motion."""
     uplift: Estimate = Estimate()
-    """Measure at which it rocks, however little, in half of the histories; null if the measure is PGA without vertical
-    motion, of which `uplift_acceleration` decides alone."""
+    """Measure at which it rocks, however little, in half of the histories; null if it alone decides that, as the PGA
+    does without vertical motion, if α is not drawn."""
     median: Estimate = Estimate()
     """Of the lognormal curve: the measure at which half of the columns overturn."""
     dispersion: Estimate = Estimate()
