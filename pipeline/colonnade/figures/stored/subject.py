@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.assessment.ground import Ground, corrected
+from colonnade.assessment.ground import Ground, correction_of
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.campaign.specimen import Specimen
@@ -132,8 +132,8 @@ class OfTest:
         if acceleration is not None:
             time, values = acceleration
             values, interval = np.nan_to_num(values), float(time[-1] - time[0]) / (time.size - 1)
-            ground = Ground(values - values.mean(), interval, at_rest=True)
-            moved = corrected(ground, DRIFTLESS).displacement
+            driftless = correction_of(DRIFTLESS)(values - values.mean(), interval)
+            moved = Ground(driftless, interval, at_rest=True).displacement
             return acceleration._replace(values=moved), "recorded acceleration integrated twice"
         return None, "not recorded, drawn at rest"
 
