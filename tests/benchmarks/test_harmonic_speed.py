@@ -17,7 +17,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from colonnade.dynamics.plane.run import Harmonic, harmonic_outcomes, harmonic_run
+from colonnade.dynamics.plane.run import Harmonic, harmonic_outcomes
+from harmonic import harmonic_run
 from peers import integrator, least_seconds
 from prism import PRISM
 

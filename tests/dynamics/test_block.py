@@ -1,5 +1,4 @@
 import math
-import warnings
 
 import numpy as np
 import pytest
@@ -11,7 +10,6 @@ from colonnade.dynamics.block import Block, pair
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.reactions import reactions
 from colonnade.dynamics.rock import rock
-from colonnade.dynamics.size import UnlikelyBlockWarning
 
 LENGTHS = st.floats(1e-2, 10.0)
 
@@ -64,7 +62,6 @@ def test_the_values_at_an_angle_are_those_of_the_side_it_is_on():
     block = Block.measured(mass=80.0, pole_distance=(0.61, 0.62), critical_angle=(0.21, 0.19), inertia=(41.2, 42.0))
     angle = np.array([[-0.1, 0.1], [0.0, np.nan]])
     assert block.critical_angle_at(angle).tolist() == [[0.21, 0.19], [0.19, 0.19]]
-    assert block.pole_distance_at(angle).tolist() == [[0.61, 0.62], [0.62, 0.62]]
     assert block.p_at(-0.1) == block.side_p(block.negative)
 
 
@@ -90,31 +87,6 @@ def test_an_angle_of_half_a_turn_and_more_is_refused():
 def test_pair_spreads_one_value_and_passes_two():
     assert pair(0.2) == (0.2, 0.2)
     assert pair((0.2, 0.3)) == (0.2, 0.3)
-
-
-@pytest.mark.parametrize(
-    ("make", "unit"),
-    [
-        (lambda: Block.prism(width=86, depth=86, height=456, mass=26.1), "mm"),
-        (lambda: Block.prism(width=8.6, depth=8.6, height=45.6, mass=26.1), "cm"),
-        (lambda: Block.cylinder(diameter=97, height=455, mass=26.3), "mm"),
-        (lambda: Block.cone(base_diameter=97, top_diameter=75.5, height=480, mass=21.94), "mm"),
-        (lambda: Block.prism(width=0.086, depth=0.086, height=456, mass=26.1), "mm"),
-    ],
-)
-def test_lengths_that_were_not_in_metres_are_told_to_the_caller(make, unit):
-    with pytest.warns(UnlikelyBlockWarning, match=rf"Lengths are in m .* were they in {unit}\?") as told:
-        make()
-    assert [each.filename for each in told] == [__file__]
-
-
-@pytest.mark.parametrize("mass", [26.1, 1.0, 2.0])
-def test_a_block_of_any_mass_with_lengths_in_metres_is_built_without_a_word(mass):
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        Block.prism(width=0.086, depth=0.086, height=0.456, mass=mass)
-        Block.prism(width=1, depth=1, height=4, mass=mass)
-        Block.cylinder(diameter=0.5, height=2, mass=mass)
 
 
 def test_a_pole_distance_in_millimetres_is_refused():

@@ -116,10 +116,7 @@ def test_the_probability_of_overturning_is_that_of_the_factor_that_overturns():
     motion = Motion(low * np.exp(-0.5 * deviation) * PULSE.acceleration, PULSE.dt)  # half a deviation below the edge
     result = ensemble(PRISM, motion, restitution=0.9, uncertainty=Uncertainty(gain=deviation), count=2000)
     expected = 0.308538  # P(z > 0.5)
-    below, above = result.overturning_interval(3.3)
-    assert below < expected < above
-    assert above - below < 0.08
-    assert np.isinf(result.peak_quantiles((0.9,))).all()
+    assert abs(result.overturning_probability - expected) < 3.3 * np.sqrt(expected * (1 - expected) / 2000)
     assert np.isnan(result.peak_ratio[np.isfinite(result.overturning_time)]).all()
 
 
@@ -159,7 +156,5 @@ def test_no_certainty_follows_from_few_members():
 
 
 def test_peaks_that_do_not_vary_correlate_with_nothing():
-    result = ensemble(PRISM, PULSE, restitution=0.95, uncertainty=Uncertainty(gain=0.01), count=40)
-    assert np.isnan(result.correlations(np.ones(40))["gain"])
-    missing = result.correlations(np.where(result.inputs[:, 3] > 1.0, np.nan, result.inputs[:, 3]))
-    assert missing["gain"] > 0.8
+    result = ensemble(PRISM, REST, restitution=0.95, uncertainty=Uncertainty(gain=0.01), count=5)
+    assert np.isnan(result.sensitivity()["gain"])

@@ -4,7 +4,6 @@ import os
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numba
@@ -108,23 +107,6 @@ def test_the_users_folder_comes_before_the_package_and_that_before_the_home(monk
         Path(kernel.__file__).parent / "__pycache__",
         tmp_path / "home" / "colonnade",
     ]
-
-
-def test_folders_unused_for_long_go_when_sources_change(monkeypatch, tmp_path):
-    long_unused, recent = tmp_path / f"{kernel.FOLDER}a", tmp_path / f"{kernel.FOLDER}b"
-    for folder, age in ((long_unused, 1.1 * kernel.KEPT), (recent, 0.5 * kernel.KEPT)):
-        (folder / "inside").mkdir(parents=True)
-        os.utime(folder, (time.time() - age,) * 2)
-    found(monkeypatch, tmp_path)
-    assert not long_unused.exists()
-    assert recent.exists()
-
-
-def test_a_folder_in_use_is_young_again(monkeypatch, tmp_path):
-    folder = found(monkeypatch, tmp_path)
-    os.utime(folder, (0.0, 0.0))
-    assert found(monkeypatch, tmp_path) == folder
-    assert time.time() - folder.stat().st_mtime < kernel.KEPT
 
 
 def test_other_packages_keep_their_setting(monkeypatch):

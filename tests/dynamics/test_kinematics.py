@@ -76,10 +76,3 @@ def test_gravity_is_the_same_for_both():
     assert at_prototype("velocity", 1.0, SCALE) == pytest.approx(
         at_prototype("length", 1.0, SCALE) / at_prototype("time", 1.0, SCALE)
     )
-
-
-def test_an_unknown_quantity_or_scale_is_an_error():
-    with pytest.raises(ValueError, match="is not a quantity that scales"):
-        at_prototype("colour", 1.0, SCALE)
-    with pytest.raises(ValueError, match="positive"):
-        at_prototype("length", 1.0, 0.0)

@@ -46,8 +46,3 @@ def test_each_impact_loses_by_the_law_at_its_own_speed(model):
 def test_a_table_that_is_none_is_refused(speeds, values, words):
     with pytest.raises(ValueError, match=words):
         RestitutionLaw.table(speeds, values)
-
-
-def test_a_function_that_gains_energy_is_refused():
-    with pytest.raises(ValueError, match=r"e = 1\.\d+ at .* a number between 0 and 1"):
-        rock(PRISM, restitution=lambda speed: 1 + speed, **RELEASED)

@@ -27,7 +27,7 @@ def column_of(monkeypatch):
     """A column whose block overturns in given intervals of A."""
 
     def make(*intervals, width=0.05):
-        monkeypatch.setattr("colonnade.dynamics.maps._runs", lambda plan, omega: overturns(*intervals))
+        monkeypatch.setattr("colonnade.dynamics.maps.runs_of", lambda *_: overturns(*intervals))
         plan = MapPlan(PRISM, frequency_ratio=[2.0], amplitude_ratio=[1.0, 2.0, 3.0], width=width)
         return map_part(plan, [0])
 
@@ -74,17 +74,17 @@ def test_islands_are_kept_apart_with_their_share_of_a_cell(column_of):
 def test_edges_of_intervals_are_found_to_the_given_closeness(intervals):
     scan = np.linspace(1.0, 3.0, 41)
     runs = overturns(*intervals)
-    found = limits_of(scan, runs(scan), runs, width=0.05, edge=1e-4).intervals
+    found = limits_of(scan, runs, width=0.05, edge=1e-4).intervals
     expected = np.clip(np.array(intervals).reshape(-1, 2), 1.0, 3.0)
     np.testing.assert_allclose(found, expected, atol=1e-4)
 
 
 def test_a_gap_narrower_than_the_width_makes_no_upper_limit():
     scan, runs = np.linspace(1.0, 3.0, 201), overturns((1.5, 2.2), (2.25, 9.0))
-    wide, narrow = (limits_of(scan, runs(scan), runs, width=width, edge=1e-6) for width in (0.1, 0.02))
+    wide, narrow = (limits_of(scan, runs, width=width, edge=1e-6) for width in (0.1, 0.02))
     assert (wide.lower, wide.upper) == pytest.approx((1.5, 1.5), abs=1e-6)
     assert (narrow.lower, narrow.upper) == pytest.approx((1.5, 2.25), abs=1e-6)
-    assert math.isnan(limits_of(scan, runs(scan), overturns(), width=5.0, edge=1e-6).lower)
+    assert math.isnan(limits_of(scan, runs, width=5.0, edge=1e-6).lower)
 
 
 @pytest.mark.parametrize(

@@ -1,23 +1,15 @@
 """Lengths in other units than metres show in the density of a block."""
 
-import warnings
 from math import pi
 
 import pytest
 
-from colonnade.dynamics.size import (
-    cone_volume,
-    expect_metres,
-    is_likely,
-    mistaken_lengths,
-    prism_volume,
-)
+from colonnade.dynamics.size import cone_volume, is_likely, mistaken_lengths
 
 STEEL, MARBLE = 7850.0, 2700.0
 
 
 def test_volumes_are_those_of_the_formulas():
-    assert prism_volume(2.0, 3.0, 4.0) == 24.0
     assert cone_volume(2.0, 2.0, 3.0) == pytest.approx(3.0 * pi)  # a cylinder
     assert cone_volume(2.0, 0.0, 3.0) == pytest.approx(pi)  # a third of it
 
@@ -40,11 +32,3 @@ def test_one_length_in_millimetres_is_found():
 def test_what_no_unit_explains_is_left_open():
     assert mistaken_lengths(1e12) == ("", 0)
     assert mistaken_lengths(STEEL) == ("", 0)
-
-
-@pytest.mark.parametrize(("density", "slenderness", "is_warned"), [(7.8, 1e-4, True), (7.8, 0.2, False)])
-def test_one_length_counts_only_if_the_block_could_not_stand_either(density, slenderness, is_warned):
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        expect_metres(density, slenderness, width=0.086)
-    assert bool(told) == is_warned

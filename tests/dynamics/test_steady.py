@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.plane.run import Harmonic, harmonic_run
+from colonnade.dynamics.plane.run import Harmonic
 from colonnade.dynamics.steady import steady_response
+from harmonic import harmonic_run
 from prism import PRISM
 
 P = PRISM.p

@@ -49,7 +49,7 @@ RESULTS = {
             **{f"interval_{name}": ("interval", np.ones(4)) for name in ("frequency_ratio", "start", "end")},
         },
         coords={"frequency_ratio": [2.0, 3.0], "amplitude_ratio": [0.5, 1.0, 2.0]},
-        attrs={"model": "linear", "cycles": 20.0, "base_motion": "sine"},
+        attrs={"model": "linear", "cycles": 20.0},
     ),
     "failed": None,
 }

@@ -31,7 +31,7 @@ def sine(frequency_ratio, amplitude_ratio):
 def test_what_is_stored_of_a_wish_is_read_back():
     all_given = Wanted(
         **{"models": ("nonlinear",), "omega": (2.0, 5.0), "amplitude": (0.8, 2.0), "points": (6, 10)},
-        **{"cycles": 5.0, "phase": 1.5, "ramp": 2.0, "motion": "sine-01"},
+        **{"cycles": 5.0, "phase": 1.5, "ramp": 2.0},
     )
     for wanted in (Wanted(), all_given):
         assert Wanted.of(wanted.text(), wanted.models[0]) == wanted
@@ -89,7 +89,6 @@ def test_given_axes_come_before_those_of_the_tests(untouched):
         ({"cycles": 2 * MOST_CYCLES}, "--cycles: "),
         ({"ramp": float("nan")}, "--ramp: "),
         ({"points": (3, 10_001)}, "--points: "),
-        ({"motion": "sine-01", "responses": True}, "Steady responses are responses to a sine."),
     ],
 )
 def test_what_cannot_be_asked_is_refused_by_its_option(changes, said):

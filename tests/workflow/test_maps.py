@@ -2,7 +2,6 @@
 
 import json
 from copy import copy
-from functools import partial
 
 import numpy as np
 import pytest
@@ -11,14 +10,11 @@ from colonnade.campaign import load
 from colonnade.campaign.forms.summary import Summary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps import MapPlan, stability_map
-from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.steady import steady_response
 from colonnade.errors import CampaignError, StoreError
 from colonnade.store import files
-from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId
 from colonnade.workflow import map_plans as plans
-from colonnade.workflow import run
 from colonnade.workflow.executors import Where
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
@@ -27,7 +23,7 @@ from colonnade.workflow.maps import SETTLING, as_map, as_response, given, kept_m
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.walk import Walk
 from every import every
-from prism import PRISM, SPECIMEN, entry
+from prism import PRISM
 
 pytestmark = pytest.mark.whole
 
@@ -37,35 +33,6 @@ FEW = Wanted(models=("linear",), omega=(2.0, 5.0), amplitude=(0.8, 2.0), points=
 
 def asking(**changes):
     return Wanted(**(FEW.model_dump() | changes))
-
-
-SINE = f"""\
-schema = 1
-campaign = "sine"
-title = "One sine test, of which the table alone was recorded"
-
-[specimens]
-{SPECIMEN.replace("}", ", restitution = 0.93}")}
-
-[setups.frame.channels]
-table = {{column = "table", quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]}}
-
-{entry("sine-01", "sine", 'frequency = "3 Hz"', 'observed_outcome = "rocking"')}
-"""
-
-
-@pytest.fixture
-def sine_test(tmp_path):
-    """A campaign with one sine test of 12 cycles at 3 Hz, run up to the comparison."""
-    time = np.arange(0.0, 7.0, 0.005)
-    base = np.where((time > 1.5) & (time < 5.5), 1.5 * np.sin(2 * np.pi * 3.0 * (time - 1.5)), 0.0)
-    noisy = base + 0.002 * np.random.default_rng(3).standard_normal(time.size)
-    (tmp_path / "raw").mkdir()
-    write = partial(np.savetxt, delimiter=",", header="time,table", comments="", fmt="%.6f")
-    write(tmp_path / "raw" / "sine-01.csv", np.column_stack((time, noisy)))
-    (tmp_path / "campaign.toml").write_text(SINE, encoding="utf-8")
-    run(tmp_path, workers=1, until="compare")
-    return tmp_path
 
 
 def made(small, wanted=FEW, **options):
@@ -86,33 +53,12 @@ def test_a_map_takes_the_identified_restitution_and_is_that_of_the_library(small
     assert stored.options == expected.options
 
 
-def test_the_table_motion_of_a_sine_test_is_stretched_over_a_map(sine_test):
-    (result,) = make_maps(sine_test, asking(motion="sine-01", omega=(2.0, 6.0), points=(5, 13)), workers=1)
-    stored = as_map(files.read(result.path))
-    assert stored.options["base_motion"] == "recorded"
-    assert stored.options["motion_frequency"] == pytest.approx(3.0, rel=1e-4)
-    base = files.read(Layout(sine_test).stage("sine-01", "rocking"))
-    axes = {"frequency_ratio": np.linspace(2.0, 6.0, 5), "amplitude_ratio": np.linspace(0.8, 2.0, 13)}
-    motion = Motion(base["base_acceleration"].to_numpy(), 0.005)
-    hertz = stored.options["motion_frequency"]
-    expected = stability_map(PRISM, restitution=0.93, motion=motion, motion_frequency=hertz, **axes)
-    np.testing.assert_array_equal(stored.outcome, expected.outcome)
-    # What the table did is nearly the sine of twelve cycles that it was told to do.
-    plain = stability_map(PRISM, restitution=0.93, cycles=12, **axes)
-    assert np.mean(stored.outcome == plain.outcome) > 0.8
-    assert set(np.unique(stored.outcome)) == {0, 1, 2}
-    assert "recorded table motion" in result.figure.read_text(encoding="utf-8")
-
-
 def test_a_map_that_is_there_is_not_made_again_until_something_changes(small):
     assert made(small).action == "done"
     assert made(small).action == "up-to-date"
     assert made(small, asking(ramp=1.0)).because == "settings changed"
     small.edit('height = "456 mm"', 'height = "460 mm"')
     assert made(small, asking(ramp=1.0)).because == "upstream changed"
-
-
-PULSE = np.array([0.0, 1.0, 0.0])
 
 
 def changed(**change):
@@ -127,13 +73,11 @@ def changed(**change):
         ({"block": Block.prism(width=0.086, depth=0.086, height=0.457, mass=26.10)}, "block"),
         ({"frequency_ratio": np.array([2.0, 3.1])}, "axes"),
         ({"amplitude_ratio": np.array([1.0, 2.1])}, "axes"),
-        ({"motion": Motion(PULSE, 0.01)}, "motion"),
-        ({"motion": Motion(PULSE, 0.03)}, "motion"),
     ],
-    ids=["a block", "other Ω", "other A", "a recorded motion", "its step"],
+    ids=["a block", "other Ω", "other A"],
 )
 def test_each_thing_that_a_map_is_made_from_has_its_hash(change, name):
-    before, after = given(changed(motion=Motion(PULSE, 0.02)) if name == "motion" else PLAN), given(changed(**change))
+    before, after = given(PLAN), given(changed(**change))
     assert {key for key in before if before[key] != after[key]} == {name}
 
 
@@ -154,8 +98,6 @@ def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
     [
         (FEW, ("prysm",), 'no specimen "prysm".*Did you mean "prism"'),
         (Wanted(cycles=0.5), (), "at least one cycle"),
-        (Wanted(motion="pulse-99"), (), 'no test "pulse-99"'),
-        (Wanted(motion="pulse-01"), (), "pulse-01: its table motion cannot be stretched"),
     ],
 )
 def test_what_cannot_be_mapped_is_told(small, wanted, specimens, found):

@@ -228,7 +228,7 @@ def run_cases(cases: Cases) -> CaseOutcomes:
             found.outcome[here] = FALLS_AWAY
         elif cases.several is None:
             ends = ends_of(plane, columns[record], gravity=gravity, model=cases.model)
-            found.outcome[here], found.peak_ratio[here] = ends.outcome, ends.peak_ratio
+            found.outcome[here], found.peak_ratio[here] = ends
         else:
             several = [cases.several.end(plane, friction) for friction in cases.drawn("friction")[record].tolist()]
             found.outcome[here], found.peak_ratio[here] = zip(*several, strict=True)

@@ -153,18 +153,13 @@ def spectral_velocity(acceleration: ArrayLike, interval: float) -> float:
     velocity : float
         Mean undamped pseudo-velocity over `PERIODS`, evenly in ln T, m/s; proportional to the motion.
 
-    Raises
-    ------
-    ValueError
-        As of `response_spectrum`.
-
     Notes
     -----
     Housner (1963) takes the undamped spectrum as constant and does not say over which periods a recorded one is to be
     averaged; these are those of his spectrum intensity.
     """
     spectrum = response_spectrum(acceleration, interval, PERIODS, damping=0.0)
-    return float((2 * np.pi / spectrum.period * spectrum.displacement).mean())
+    return float((PERIODS / (2 * np.pi) * spectrum).mean())
 
 
 def agreement(ratio: Array, happened: Mask) -> dict[str, int]:

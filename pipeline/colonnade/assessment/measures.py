@@ -281,7 +281,7 @@ def _spectral(period: float, ground: Ground) -> float:
     """Pseudo-acceleration ω² max |u| of an oscillator, damped by 5 % (Nigam and Jennings 1969)."""
     from colonnade.dynamics.spectra import response_spectrum  # it loads scipy
 
-    return float(response_spectrum(ground.acceleration, ground.interval, [period]).pseudo_acceleration[0])
+    return float(response_spectrum(ground.acceleration, ground.interval, [period])[0])
 
 
 _TABLE = (

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from functools import lru_cache
 from math import cos, tan
@@ -13,11 +12,8 @@ from pydantic import Field
 from colonnade.campaign.syntax import fields
 from colonnade.campaign.syntax.table import Problems, Table
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
-from colonnade.dynamics.size import UnlikelyBlockWarning, cone_volume, prism_volume
+from colonnade.dynamics.size import cone_volume
 from colonnade.units.text import format_percent, quantity
-
-# The notices report it for a campaign's specimens.
-warnings.filterwarnings("ignore", category=UnlikelyBlockWarning, module=r"colonnade\.campaign\.specimen")
 
 LARGEST_DEVIATION = 0.01
 """A measured value further than this from the one of the dimensions is reported, as a fraction of the latter."""
@@ -31,7 +27,7 @@ OUTER_DIMENSIONS = ("width", "depth", "diameter", "base_diameter", "top_diameter
 _BLOCKS: dict[str, Callable[..., Block]] = {"prism": Block.prism, "cylinder": Block.cylinder, "cone": Block.cone}
 
 _VOLUMES: dict[str, Callable[..., float]] = {
-    "prism": prism_volume,
+    "prism": lambda width, depth, height: width * depth * height,
     "cylinder": lambda diameter, height: cone_volume(diameter, diameter, height),
     "cone": cone_volume,
 }

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
 from itertools import pairwise
-from math import atan2, cos
+from math import cos
 
 import numpy as np
 
@@ -247,10 +247,7 @@ class Assembly(Digested):
     @cached_property
     def critical_angles(self) -> dict[str, float]:
         """α of each body with all that stands on it alone, rad: the turn that brings their centre above the edge."""
-        return {
-            name: atan2(body.block.governing.half_width, carried(self, name, rigidly=True)[1])
-            for name, body in self.bodies.items()
-        }
+        return {name: as_one(self, name).critical_angle for name in self.bodies}
 
 
 def supports(assembly: Assembly, name: str) -> dict[str, float]:
@@ -269,17 +266,13 @@ def supports(assembly: Assembly, name: str) -> dict[str, float]:
     return dict(zip(on, np.clip(shares, 0.05, 1.0).tolist(), strict=True))
 
 
-def carried(assembly: Assembly, name: str, *, rigidly: bool = False) -> tuple[float, float]:
-    """
-    Return the mass (kg) of a body with its share of all that stands on it, and its centre's height (m).
-
-    The height is above the body's own base. `rigidly` counts only what stands on it alone, which turns with it.
-    """
+def carried(assembly: Assembly, name: str) -> tuple[float, float]:
+    """Return the mass (kg) of a body with its share of all on it, and the height (m) of their centre above its base."""
     body = assembly.bodies[name]
     mass, moment = body.block.mass, body.block.mass * body.centre_height
     for other, placed in assembly.bodies.items():
-        if name in placed.on and not (rigidly and len(placed.on) > 1):
-            above, height = carried(assembly, other, rigidly=rigidly)
+        if name in placed.on:
+            above, height = carried(assembly, other)
             share = supports(assembly, other)[name] * above
             mass, moment = mass + share, moment + share * (assembly.levels[other] - assembly.levels[name] + height)
     return mass, moment / mass

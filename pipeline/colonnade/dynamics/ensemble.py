@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import ceil, inf, nan, sqrt
+from math import ceil, inf, nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,7 +27,7 @@ from colonnade.dynamics.uncertainty import (
     member_restitution,
 )
 from colonnade.units.text import Digested, written
-from colonnade.validation import instance, number, samples, sided, whole
+from colonnade.validation import instance, number, sided, whole
 
 if TYPE_CHECKING:
     from colonnade.dynamics.contact.history import AssemblyHistory
@@ -39,9 +39,6 @@ LEVELS = (0.025, 0.25, 0.5, 0.75, 0.975)
 
 KEPT = 200
 """Members whose whole histories are kept."""
-
-LARGEST_Z = 1e6
-"""Standard deviations of an interval; beyond it is 0 to 1."""
 
 LONGEST_CLOCK = 25_000
 """Samples of a band; a longer record's band takes every second, third … of its samples."""
@@ -89,10 +86,8 @@ class Ensemble(Digested):
     >>> found = colonnade.ensemble(block, motion, restitution=0.95, uncertainty=inputs, count=50)
     >>> found.overturning_probability, tuple(round(end, 3) for end in found.overturning_interval())
     (0.0, (0.0, 0.071))
-    >>> found.peak_quantiles([0.5]).round(2).tolist(), found.horizon(0.5 * block.critical_angle)
-    ([0.13], 2.995)
-    >>> sorted(found.sensitivity()), found.sensitivity() == found.correlations(found.peak_ratio)
-    (['gain', 'restitution'], True)
+    >>> sorted(found.sensitivity()), found.horizon(0.5 * block.critical_angle)
+    (['gain', 'restitution'], 2.995)
     >>> list(found.digest())
     ['members', 'overturned', 'median of max |θ|/α', 'duration']
     """
@@ -116,7 +111,7 @@ class Ensemble(Digested):
         digest : dict of str to str
             Names and values with their units, as a notebook shows them.
         """
-        median = float(self.peak_quantiles([0.5])[0])
+        median = float(np.quantile(self._ranked, 0.5, method="nearest"))
         return {
             "members": str(self.overturning_time.size),
             "overturned": written(100 * self.overturning_probability, "%", 3),
@@ -146,45 +141,25 @@ class Ensemble(Digested):
         """Share of the members that overturn."""
         return float(np.isfinite(self.overturning_time).mean())
 
-    def overturning_interval(self, z: float = 1.959964) -> tuple[float, float]:
+    def overturning_interval(self) -> tuple[float, float]:
         """
         Return the interval (Wilson 1927) of the probability of overturning that the finite number of members leaves.
-
-        Parameters
-        ----------
-        z : float, optional
-            Half of its width in standard deviations, dimensionless; by default it has 95 %.
 
         Returns
         -------
         low, high : float
-            Probabilities, 0 to 1.
+            Probabilities, 0 to 1, of 95 %.
         """
-        z = number("z", z, "a positive number of standard deviations", above=0.0, high=LARGEST_Z)
-        members, share = self.overturning_time.size, self.overturning_probability
-        middle = (share + z**2 / (2 * members)) / (1 + z**2 / members)
-        half = z * sqrt(share * (1 - share) / members + z**2 / (4 * members**2)) / (1 + z**2 / members)
-        return max(middle - half, 0.0), min(middle + half, 1.0)
+        from scipy.stats import binomtest
 
-    def peak_quantiles(self, levels: Sequence[float] = LEVELS) -> Array:
-        """
-        Quantiles of max |θ|/α over the members.
+        overturned = int(np.isfinite(self.overturning_time).sum())
+        low, high = binomtest(overturned, self.overturning_time.size).proportion_ci(method="wilson")
+        return float(low), float(high)
 
-        Parameters
-        ----------
-        levels : sequence of float, optional
-            Shares of the members, 0 to 1.
-
-        Returns
-        -------
-        quantiles : ndarray, shape of `levels`
-            Dimensionless; members that overturn are above all others, inf.
-        """
-        wanted = samples("levels", levels)
-        if not ((wanted >= 0.0) & (wanted <= 1.0)).all():
-            raise ValueError(f"levels go from {wanted.min():g} to {wanted.max():g}; numbers from 0 to 1 were expected")
-        ranked = np.sort(np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio))
-        return np.asarray(ranked[np.rint(wanted * (ranked.size - 1)).astype(np.intp)])
+    @property
+    def _ranked(self) -> Array:
+        """The peaks; members that overturn share the highest rank."""
+        return np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio)
 
     def sensitivity(self) -> dict[str, float]:
         """
@@ -197,32 +172,13 @@ class Ensemble(Digested):
         sensitivity : dict of str to float
             −1 to 1, by input; NaN if all peaks are equal.
         """
-        return self.correlations(np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio))
-
-    def correlations(self, values: Array) -> dict[str, float]:
-        """
-        Rank correlation (Spearman 1904) of values of the members with each input that varies.
-
-        Parameters
-        ----------
-        values : ndarray, shape (members,)
-            In any unit; NaN is the highest.
-
-        Returns
-        -------
-        correlations : dict of str to float
-            −1 to 1, by input.
-        """
-        given = samples("values", values, finite=False)
-        if given.size != len(self.inputs):
-            raise ValueError(f"values has {given.size} numbers; {len(self.inputs)}, one a member, were expected")
         from scipy.stats import spearmanr
 
-        filled = np.where(np.isnan(given), inf, given)
-        varied = {name: column for name, column in zip(self.names, self.inputs.T, strict=True) if np.ptp(column) > 0.0}
-        if (filled == filled[0]).all():
+        peaks, columns = self._ranked, zip(self.names, self.inputs.T, strict=True)
+        varied = {name: column for name, column in columns if np.ptp(column) > 0.0}
+        if (peaks == peaks[0]).all():
             return dict.fromkeys(varied, nan)
-        return {name: float(spearmanr(filled, column).statistic) for name, column in varied.items()}
+        return {name: float(spearmanr(peaks, column).statistic) for name, column in varied.items()}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -404,7 +360,6 @@ def ensemble(
     seed: int = 0,
     model: str = DEFAULT,
     theta0: float = 0.0,
-    rest_angle: float = DEFAULT_REST_ANGLE,
 ) -> Ensemble:
     """
     Re-run a recorded motion over the uncertainty of the block, of e and of the motion itself.
@@ -422,7 +377,7 @@ def ensemble(
         Members.
     seed : int, optional
         The same seed gives the same members, however many there are.
-    model, theta0, rest_angle : optional
+    model, theta0 : optional
         As of `rock`.
 
     Returns
@@ -452,6 +407,5 @@ def ensemble(
         seed=seed,
         model=model,
         theta0=theta0,
-        rest_angle=rest_angle,
     )
     return plan.run()

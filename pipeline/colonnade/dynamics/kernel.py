@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-import os
 import re
-import shutil
 import tempfile
-import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import cache
@@ -23,9 +20,6 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 PACKAGE = Path(__file__).parents[1]
 FOLDER = "colonnade-kernels-"
 """What the name of a cache folder begins with; the hash of the kernels' sources follows."""
-
-KEPT = 30 * 86400.0
-"""s since a folder was last used, after which it is removed."""
 
 _SETTINGS: Any = numba.config
 _APPDIRS: Any = appdirs
@@ -90,13 +84,8 @@ def _cache_folder() -> Path | None:
     for place in _places():
         folder = place / name
         with suppress(OSError):
-            is_new = not folder.is_dir()
             folder.mkdir(parents=True, exist_ok=True)
             tempfile.TemporaryFile(dir=folder).close()
-            with suppress(OSError):  # somebody else's folder may be written, but not dated
-                os.utime(folder)
-            if is_new:
-                _remove_unused(place)
             return folder
     return None
 
@@ -113,13 +102,7 @@ def _places() -> Iterator[Path]:
 
 def _hash_of_sources() -> str:
     """Hash the modules with kernels and those from which they import, whose constants are compiled in."""
-    sources = {}
-    for folder, inner, files in os.walk(PACKAGE):
-        inner[:] = [name for name in inner if name != "__pycache__"]
-        for name in files:
-            if name.endswith(".py"):
-                with Path(folder, name).open("rb", buffering=0) as file:
-                    sources[os.path.relpath(file.name, PACKAGE).replace(os.sep, "/")] = file.read()
+    sources = {path.relative_to(PACKAGE).as_posix(): path.read_bytes() for path in PACKAGE.rglob("*.py")}
     with_kernels = {name for name, text in sources.items() if _MARK in text}
     imported = {
         module.decode().replace(".", "/") + ".py" for name in with_kernels for module in _IMPORT.findall(sources[name])
@@ -128,11 +111,3 @@ def _hash_of_sources() -> str:
     for name in sorted(with_kernels | imported & sources.keys()):
         digest.update(f"{name} {len(sources[name])}\n".encode() + sources[name])
     return digest.hexdigest()[:16]
-
-
-def _remove_unused(place: Path) -> None:
-    """Remove the folders of other sources that no process has opened for long; another process may do so too."""
-    for folder in place.glob(FOLDER + "*"):
-        with suppress(OSError):
-            if time.time() - folder.stat().st_mtime > KEPT:
-                shutil.rmtree(folder, ignore_errors=True)

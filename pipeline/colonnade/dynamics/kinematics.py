@@ -16,26 +16,6 @@ def pole_position(block: Block) -> float:
     return (block.negative.half_width + block.positive.half_width) / 2
 
 
-def arm(at: ArrayLike, side: float, block: Block) -> tuple[Array, Array]:
-    """
-    Horizontal and vertical distance of points from the active pole, at rest.
-
-    Parameters
-    ----------
-    at : array_like, shape (m, 3)
-        Positions in the specimen frame, m.
-    side : float
-        sgn θ: the pole is at +x for θ > 0 and at −x for θ < 0.
-
-    Returns
-    -------
-    horizontal, vertical : ndarray, shape (m,)
-        m, along x and z.
-    """
-    points = np.asarray(at, dtype=np.float64).reshape(-1, 3)
-    return points[:, 0] - side * pole_position(block), points[:, 2]
-
-
 def point_displacement(angle: ArrayLike, at: ArrayLike, block: Block, slide: ArrayLike = 0.0) -> Array:
     """
     Displacement of material points of the block relative to the table.

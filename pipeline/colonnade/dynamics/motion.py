@@ -15,9 +15,6 @@ from colonnade.validation import number, samples
 MOST_SAMPLES = 10_000_000
 """Of a motion that is made for a duration: an hour of a small block; more asks for a wrong unit, or does not end."""
 
-FEWEST_TIMES = 10
-"""Number of samples from which accelerations equal to their times are refused as times."""
-
 
 class Motion(Digested):
     """
@@ -55,11 +52,6 @@ class Motion(Digested):
     ) -> None:
         self.dt = number("dt", dt, "a positive sampling interval in seconds, Motion(acceleration, dt),", above=0.0)
         self.acceleration = samples("acceleration", acceleration, each="sample")
-        if _is_clock(self.acceleration, self.dt):
-            raise ValueError(
-                f"acceleration rises from 0 by dt = {self.dt:g} from sample to sample, as times do; accelerations in "
-                "m/s² were expected"
-            )
         self.vertical = None if vertical is None else self._other("vertical", vertical)
         self.transverse = None if transverse is None else self._other("transverse", transverse)
 
@@ -119,10 +111,3 @@ def at_rest(block: Block, duration: float | None) -> Motion:
     seconds = number("duration", duration, expected, above=0.0, high=MOST_SAMPLES / rate)
     intervals = max(ceil(seconds * rate), 2)
     return Motion(np.zeros(intervals + 1), seconds / intervals)
-
-
-def _is_clock(values: Array, dt: float) -> bool:
-    """Whether accelerations are the times of their samples."""
-    if values.size < FEWEST_TIMES or values[0] != 0.0 or abs(values[-1] - (values.size - 1) * dt) > 1e-6 * dt:
-        return False
-    return bool(np.abs(np.diff(values) - dt).max() <= 1e-6 * dt)

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from math import pi
 
 import numpy as np
-import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
@@ -19,11 +18,9 @@ from colonnade.dynamics.search import (
     LARGEST_RATIO,
     LEAST_EDGE,
     WIDTH,
-    Limits,
     OverFrequency,
     checked_ratios,
     checked_widths,
-    in_threads,
     limits_of,
     over_frequency,
     restitution_options,
@@ -38,6 +35,9 @@ SAMPLE = 0.0125
 
 RICKER_REACH = 10.0
 """In ω t: where Ricker's wavelet, fallen to 7e-10, is cut off."""
+
+FINE = 20_000
+"""Points a cycle among which the largest acceleration of a pulse is found, to 1e-8 of it."""
 
 MOST_CYCLES = 50.0
 """Largest γ."""
@@ -104,7 +104,12 @@ def sampled_pulse(name: str, cycles: float, phase: float) -> tuple[Array, float]
     reach = RICKER_REACH if name == RICKER.name else pi * cycles
     count = 2 * int(np.ceil(reach / SAMPLE)) + 1
     angle = np.linspace(-reach, reach, count)
-    values = ricker(angle) if name == RICKER.name else _normalised(cycles, phase, angle)
+    if name == RICKER.name:
+        values = ricker(angle)
+    else:
+        fine = np.linspace(-reach, reach, FINE * int(np.ceil(cycles)) + 1)
+        values = mavroeidis_papageorgiou(cycles, phase, angle)
+        values /= np.abs(mavroeidis_papageorgiou(cycles, phase, fine)).max()
     values[1:-1] -= np.diff(values, 2) / 12
     return values, float(angle[1] - angle[0])
 
@@ -131,17 +136,6 @@ def mavroeidis_papageorgiou(cycles: float, phase: float, angle: Array) -> Array:
     """
     slow, fast = angle / cycles, angle + phase
     return np.asarray(-0.5 * (np.sin(slow) * np.cos(fast) / cycles + (1 + np.cos(slow)) * np.sin(fast)))
-
-
-def _normalised(cycles: float, phase: float, angle: Array) -> Array:
-    """Divide the pulse by its largest acceleration, which lies near the largest of finer samples."""
-    fine = np.linspace(-pi * cycles, pi * cycles, 400 * int(np.ceil(cycles)) + 1)
-    place = int(np.argmax(np.abs(mavroeidis_papageorgiou(cycles, phase, fine))))
-    bounds = fine[max(place - 1, 0)], fine[min(place + 1, fine.size - 1)]
-    found = scipy.optimize.minimize_scalar(
-        lambda at: -abs(float(mavroeidis_papageorgiou(cycles, phase, np.array(at)))), bounds=bounds, method="bounded"
-    )
-    return mavroeidis_papageorgiou(cycles, phase, angle) / -float(found.fun)
 
 
 RICKER = PulseKind("ricker", "(1 − φ²/2) exp(−φ²/4)", "Ricker 1943; Vassiliou and Makris 2011")
@@ -221,7 +215,6 @@ def overturning_spectrum(
     largest: float = 10.0,
     width: float = WIDTH,
     edge: float = LEAST_EDGE,
-    threads: int = 1,
 ) -> OverturningSpectrum:
     """
     Find the amplitudes at which a pulse overturns a block at rest, over its frequency.
@@ -245,8 +238,6 @@ def overturning_spectrum(
         In A: intervals narrower than this make no limit; those narrower than a fourth of it may be passed over.
     edge : float, optional
         In A: how closely the edges of intervals are found.
-    threads : int, optional
-        Frequencies computed at a time. The result is the same to the last bit.
 
     Returns
     -------
@@ -280,15 +271,14 @@ def overturning_spectrum(
     e = law_of(block, restitution)
     scan = scan_over(np.array([0.0, largest]), width)[1:]
 
-    def limits(ratio: float) -> Limits:
+    limits = []
+    for ratio in omegas.tolist():
         motion = kind.motion(ratio * block.p, block.uplift_acceleration, cycles, phase)
-        runs = runs_of(block, motion, e, model)
-        return limits_of(scan, runs(scan), runs, width=width, edge=edge)
-
+        limits.append(limits_of(scan, runs_of(block, motion, e, model), width=width, edge=edge))
     shaped = {"cycles": cycles, "phase": phase} if kind is MAVROEIDIS_PAPAGEORGIOU else {}
     searched = {"largest": largest, "width": width, "edge": edge}
     return OverturningSpectrum(
-        **over_frequency(omegas, in_threads(limits, omegas.tolist(), threads)),
+        **over_frequency(omegas, limits),
         options={**restitution_options(e), **shaped, "rest_angle": DEFAULT_REST_ANGLE, **searched},
         pulse=pulse,
         model=model,

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, TypedDict, Unpack, overload
 
 import numpy as np
 
 from colonnade.dynamics.assembly import Assembly
-from colonnade.dynamics.block import Block, Sided
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactLaw, InSpace, rigid_body
 from colonnade.dynamics.history import History
 from colonnade.dynamics.models import DEFAULT, model_of
 from colonnade.dynamics.motion import Motion, at_rest
-from colonnade.dynamics.restitution_law import RestitutionLaw
+from colonnade.dynamics.restitution_law import Given
 from colonnade.validation import described, instance, number
 
 if TYPE_CHECKING:
@@ -32,40 +31,32 @@ LARGEST_VELOCITY = 1e6
 """In p, of the initial state."""
 
 
-@overload
-def rock(
-    block: Block,
-    motion: Motion | None = None,
-    *,
-    restitution: Sided | RestitutionLaw | Callable[[float], float] | None = None,
-    model: str = DEFAULT,
-    theta0: float = 0.0,
-    omega0: float = 0.0,
-    duration: float | None = None,
-    rest_angle: float = DEFAULT_REST_ANGLE,
-    contact: ContactLaw | None = None,
-    out_of_plane: float = 0.0,
-) -> History: ...
+class Options(TypedDict, total=False):
+    """What `rock` takes beside block and motion, which it describes."""
+
+    restitution: Given
+    model: str
+    theta0: float
+    omega0: float
+    duration: float | None
+    rest_angle: float
+    contact: ContactLaw | None
+    out_of_plane: float
 
 
 @overload
-def rock(
-    block: Assembly,
-    motion: Motion | None = None,
-    *,
-    model: str,
-    theta0: float = 0.0,
-    omega0: float = 0.0,
-    duration: float | None = None,
-    contact: ContactLaw | None = None,
-) -> AssemblyHistory: ...
+def rock(block: Block, motion: Motion | None = None, **options: Unpack[Options]) -> History: ...
+
+
+@overload
+def rock(block: Assembly, motion: Motion | None = None, **options: Unpack[Options]) -> AssemblyHistory: ...
 
 
 def rock(
     block: Block | Assembly,
     motion: Motion | None = None,
     *,
-    restitution: Sided | RestitutionLaw | Callable[[float], float] | None = None,
+    restitution: Given = None,
     model: str = DEFAULT,
     theta0: float = 0.0,
     omega0: float = 0.0,
@@ -84,10 +75,10 @@ def rock(
     motion : Motion, optional
         Base motion along x and, where given, z; without it the block rocks freely for `duration`. The contact model
         takes motion along y too.
-    restitution : float, pair of float, RestitutionLaw or function, optional
-        e, between 0 and 1; a pair is for impacts that end an arc at (θ < 0, θ > 0); a law or a function gives e at
-        |ω| (rad/s) just before the impact. Default: the rigid-body value. Not for the contact model, whose restitution
-        follows from its law.
+    restitution : float, pair of float or RestitutionLaw, optional
+        e, between 0 and 1; a pair is for impacts that end an arc at (θ < 0, θ > 0); a law gives e at |ω| (rad/s) just
+        before the impact. Default: the rigid-body value. Not for the contact model, whose restitution follows from
+        its law.
     model : str, optional
         "linear" (default): the linear equation, solved exactly for a base motion that is linear between samples;
         "nonlinear": the full one, by Taylor series to rounding (with vertical motion both by Taylor series);
@@ -125,7 +116,7 @@ def rock(
     >>> rock(block, restitution=0.976, theta0=0.5 * block.critical_angle, duration=5.0).outcome
     'rocking'
     """
-    asked, several = model_of(model), isinstance(block, Assembly)
+    asked = model_of(model)
     blocks = [body.block for body in block.bodies.values()] if isinstance(block, Assembly) else [block]
     if motion is not None and duration is not None:
         raise ValueError(f"duration is {described(duration)}, and a motion is given; one of the two was expected")
@@ -136,11 +127,6 @@ def rock(
     out_of_plane = number("out_of_plane", out_of_plane, between, above=-HALF, below=HALF, unit="rad")
     expected = f"a fraction of the critical angle from {LEAST_REST_ANGLE:g} to 1"
     rest_angle = number("rest_angle", rest_angle, expected, low=LEAST_REST_ANGLE, below=1.0)
-    if several and (not asked.in_space or restitution is not None or out_of_plane != 0.0):
-        raise ValueError(
-            f'model is "{model}", restitution {described(restitution)}, out_of_plane {out_of_plane:g} rad; of '
-            'bodies on each other only model="contact" was expected, which finds what an impact takes by itself'
-        )
     motion = at_rest(blocks[0], duration) if motion is None else instance("motion", motion, Motion)
     if asked.in_space:
         if restitution is not None:
@@ -155,9 +141,12 @@ def rock(
         law = ContactLaw() if contact is None else instance("contact", contact, ContactLaw)
         space = InSpace(block if isinstance(block, Assembly) else rigid_body(block), law)
         return space.run(motion, blocks[0].gravity, theta0=theta0, omega0=omega0, out_of_plane=out_of_plane)
-    if contact is not None or out_of_plane:
-        raise ValueError(f'contact and out_of_plane are for models in space; the model is "{model}"')
+    if isinstance(block, Assembly) or contact is not None or out_of_plane:
+        raise ValueError(
+            f'model is "{model}"; bodies on each other, contact and out_of_plane are for model="contact", which was '
+            "expected with them"
+        )
     # The kernels are decorated on import.
     from colonnade.dynamics.plane.run import run
 
-    return run(asked, blocks[0], motion, restitution, theta0=theta0, omega0=omega0, rest_angle=rest_angle)
+    return run(asked, block, motion, restitution, theta0=theta0, omega0=omega0, rest_angle=rest_angle)

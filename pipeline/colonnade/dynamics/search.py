@@ -6,12 +6,11 @@ A scan is run, and each change between its outcomes is halved: from where on it 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, log2
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,7 +22,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.run import OUTCOMES, OVERTURNS, Harmonic, ends_of, expect_usable, harmonic_outcomes
 from colonnade.dynamics.restitution_law import Restitution, RestitutionLaw
 from colonnade.units.text import Digested
-from colonnade.validation import number, samples, whole
+from colonnade.validation import number, samples
 
 WIDTH = 0.01
 """In A: narrower intervals of overturning, or of survival, are islands and make no limit."""
@@ -40,13 +39,8 @@ MOST_STEPS = 1_000_000
 LARGEST_RATIO = 1e6
 """Of Ω and A, and one over their least."""
 
-MOST_THREADS = 1024
-
 Runs = Callable[[Array], Codes]
 """Returns the outcomes at some A, indices into `OUTCOMES`."""
-
-Of = TypeVar("Of")
-To = TypeVar("To")
 
 
 class Limits(NamedTuple):
@@ -61,11 +55,14 @@ class Limits(NamedTuple):
         End of the last surviving interval by the same rule; NaN if that reaches the largest A, or without one.
     intervals : ndarray, shape (k, 2)
         Every interval of A that overturns, from and to.
+    codes : ndarray of int8, shape (n,)
+        Outcomes of the A that were scanned.
     """
 
     lower: float
     upper: float
     intervals: Array
+    codes: Codes
 
 
 def checked_ratios(name: str, values: ArrayLike, *, fewest: int = 1) -> Array:
@@ -115,36 +112,33 @@ def runs_of(
         return lambda amplitudes: harmonic_outcomes(block, motion, amplitudes, restitution, model)
     unit, dt = motion if isinstance(motion, tuple) else motion.sampled(block.uplift_acceleration)
     if space is None:
-        expect_usable(block, Motion(unit, dt))
-
-    def outcome(motion: Motion) -> int:
-        if space is not None:
-            return OUTCOMES.index(space.run(motion, block.gravity).outcome)
         # The kernels are decorated on import.
         from colonnade.dynamics.plane.sides import sides_of
 
+        expect_usable(block, Motion(unit, dt))
         sides = [sides_of(block, restitution)]
-        return int(ends_of(motion, sides, gravity=block.gravity, model=model).outcome[0])
 
-    def recorded(amplitudes: Array) -> Codes:
-        return np.array([outcome(Motion(unit * amplitude, dt)) for amplitude in amplitudes], dtype=np.int8)
+    def outcome(amplitude: float) -> int:
+        scaled = Motion(unit * amplitude, dt)
+        if space is not None:
+            return OUTCOMES.index(space.run(scaled, block.gravity).outcome)
+        return int(ends_of(scaled, sides, gravity=block.gravity, model=model)[0][0])
 
-    return recorded
+    return lambda amplitudes: np.array([outcome(amplitude) for amplitude in amplitudes], dtype=np.int8)
 
 
-def limits_of(scan: Array, codes: Codes, runs: Runs, *, width: float, edge: float) -> Limits:
+def limits_of(scan: Array, runs: Runs, *, width: float, edge: float) -> Limits:
     """
-    Find the limits between the outcomes of some A, rising; intervals narrower than `width` make no limit, edges are
-    found to `edge`.
+    Run some A, rising, and find the limits between their outcomes; intervals narrower than `width` make no limit, edges
+    are found to `edge`.
     """
+    codes = runs(scan)
     intervals = _intervals(scan, codes == OVERTURNS, lambda amplitudes: runs(amplitudes) == OVERTURNS, edge)
     stands = np.concatenate([scan[:1], intervals.ravel(), scan[-1:]]).reshape(-1, 2)
-    falls, stands = (
-        each[each[:, 1] - each[:, 0] >= width] for each in (intervals, stands[stands[:, 1] > stands[:, 0]])
-    )
+    falls, stands = (each[each[:, 1] - each[:, 0] >= width] for each in (intervals, stands))
     lower = float(falls[0, 0]) if falls.size else float("nan")
     upper = float(stands[-1, 1]) if stands.size and stands[-1, 1] < scan[-1] else float("nan")
-    return Limits(lower, upper, intervals)
+    return Limits(lower, upper, intervals, codes)
 
 
 def onset_of(scan: Array, codes: Codes, runs: Runs, *, edge: float) -> float:
@@ -222,15 +216,6 @@ def over_frequency(frequency_ratio: Array, limits: Sequence[Limits]) -> dict[str
         "interval_start": intervals[:, 0],
         "interval_end": intervals[:, 1],
     }
-
-
-def in_threads(function: Callable[[Of], To], values: Iterable[Of], threads: int) -> list[To]:
-    """
-    Compute something of many values, some at a time, in their order; ValueError if the number of threads is out of its
-    range.
-    """
-    with ThreadPoolExecutor(whole("threads", threads, 1, MOST_THREADS)) as pool:
-        return list(pool.map(function, values))
 
 
 def restitution_options(restitution: Restitution) -> dict[str, Any]:

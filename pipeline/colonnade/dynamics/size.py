@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from math import pi
 
 LIGHTEST, HEAVIEST = 100.0, 23_000.0
@@ -11,23 +10,11 @@ LIGHTEST, HEAVIEST = 100.0, 23_000.0
 FOAM = 20.0
 """kg/m³, below which not even a foam stands: something is wrong."""
 
-SLENDEREST = 0.005
-"""rad; a critical angle below this is of no block that stands."""
-
 HOLLOW = 0.9
 """Of m R²; no body has a smaller moment of inertia about its pole, whatever its shape and the errors of measurement."""
 
 _SMALLER = {"mm": 1e3, "cm": 1e2}
 """Units often mistaken for metres, and the number of them in a metre."""
-
-
-class UnlikelyBlockWarning(UserWarning):
-    """A block's lengths and mass look as if they were in other units."""
-
-
-def prism_volume(width: float, depth: float, height: float) -> float:
-    """Volume of a prism, m³; lengths in m."""
-    return width * depth * height
 
 
 def cone_volume(base_diameter: float, top_diameter: float, height: float) -> float:
@@ -62,19 +49,6 @@ def mistaken_lengths(density: float) -> tuple[str, int]:
                 if is_likely(density * factor**count):
                     return unit, count
     return "", 0
-
-
-def expect_metres(density: float, slenderness: float, **lengths: float) -> None:
-    """Warn the caller of `Block` where lengths (m) and density (kg/m³) look as if a length was in another unit."""
-    unit, count = mistaken_lengths(density)
-    if count == 3 or (count and slenderness < SLENDEREST):
-        given = ", ".join(f"{name}={value:g}" for name, value in lengths.items())
-        warnings.warn(
-            f"Block: {given} with this mass make {density:.2g} kg/m³. Lengths are in m and the mass in kg: were "
-            f"they in {unit}?",
-            UnlikelyBlockWarning,
-            stacklevel=3,
-        )
 
 
 def expect_inertia(inertia: float, mass: float, pole_distance: float) -> None:
@@ -121,11 +95,6 @@ def at_prototype(quantity: str, value: float, scale: float) -> float:
     scale : float
         s of a 1:s model.
 
-    Raises
-    ------
-    ValueError
-        If the quantity is not known or the scale is not positive.
-
     Notes
     -----
     Gravity is the same for both, so accelerations are, and time goes with the square root of length. Mass and inertia
@@ -136,8 +105,4 @@ def at_prototype(quantity: str, value: float, scale: float) -> float:
     >>> at_prototype("length", 0.5, 20), round(at_prototype("frequency", 5.631, 20), 4)
     (10.0, 1.2591)
     """
-    if quantity not in EXPONENTS:
-        raise ValueError(f"{quantity!r} is not a quantity that scales; one of {', '.join(EXPONENTS)} was expected")
-    if not scale > 0:
-        raise ValueError(f"scale is {scale}; a positive number was expected")
     return float(value * scale ** EXPONENTS[quantity])

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi
+from math import inf, pi, tan
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.models import DEFAULT
-from colonnade.dynamics.plane.run import Harmonic, harmonic_run, restitution_up_to
-from colonnade.dynamics.restitution_law import Given
+from colonnade.dynamics.models import DEFAULT, plane_model_of
+from colonnade.dynamics.plane.run import Harmonic
+from colonnade.dynamics.restitution_law import Given, law_of
 from colonnade.dynamics.search import checked_ratios
 
 AT_REST, IRREGULAR, OVERTURNED = 0, -1, -2
@@ -71,7 +71,7 @@ def steady_response(
     block : Block
     frequency_ratio, amplitude_ratio : array_like, shape (n,) and (m,)
         Ω = ω / p and A = a / (g tan α).
-    restitution : float, pair of float, RestitutionLaw or function, optional
+    restitution : float, pair of float or RestitutionLaw, optional
         e, see `rock`; default the rigid-body value.
     settling : int, optional
         Cycles at full amplitude before the response is looked at. A deviation dies out as e² a cycle where there are
@@ -96,23 +96,37 @@ def steady_response(
     amplitudes = checked_ratios("amplitude_ratio", amplitude_ratio)
     if settling < 1:
         raise ValueError(f"settling is {settling}; at least one cycle was expected")
-    e = restitution_up_to(block, restitution, float(amplitudes.max()))
+    linearised = plane_model_of(model).is_linearised
+    # The kernels are decorated on import.
+    from colonnade.dynamics.plane.march import propagate
+    from colonnade.dynamics.plane.sides import sides_of
+
+    sides = sides_of(block, law_of(block, restitution))
     first = round(ramp) + settling
     count, cycles = first + LARGEST_ORDER * (REPEATS + 1), 2 * pi / (omegas * block.p)
     order = np.zeros((omegas.size, amplitudes.size), dtype=np.int8)
     amplitude = np.full(order.shape, np.nan)
-    for row, omega in enumerate(omegas * block.p):
-        cycle = 2 * pi / omega
-        motion = Harmonic(omega, phase, (ramp * cycle, count * cycle, count * cycle))
-        watched = {"samples": count, "interval": cycle, "peaks_from": (first + LARGEST_ORDER) * cycle}
-        for column, level in enumerate(amplitudes.tolist()):
-            run = harmonic_run(block, motion, level, e, model=model, **watched)
-            if run.outcome == "overturned":
+    for row, cycle in enumerate(cycles.tolist()):
+        times = cycle * np.arange(count)
+        forcing = Harmonic(2 * pi / cycle, phase, (ramp * cycle, count * cycle, count * cycle)).forcing(*times)
+        at, since = (
+            np.searchsorted(forcing.times, times),
+            int(np.searchsorted(forcing.times, times[first + LARGEST_ORDER])),
+        )
+        for column, level in enumerate((tan(block.critical_angle) * amplitudes).tolist()):
+            angles, velocities, _, _, end = propagate(
+                forcing._replace(levels=level * forcing.levels),
+                sides,
+                is_linearised=linearised,
+                since=since,
+                floor=inf,
+            )
+            if np.isfinite(end.time):
                 order[row, column] = OVERTURNED
                 continue
-            amplitude[row, column] = run.peak_ratio
-            states = np.column_stack([run.angle, run.angular_velocity / block.p])[first:] / block.critical_angle
-            order[row, column] = AT_REST if run.peak_ratio == 0.0 else _order(states)
+            amplitude[row, column] = end.peak
+            states = np.column_stack([angles[at], velocities[at] / block.p])[first:] / block.critical_angle
+            order[row, column] = AT_REST if end.peak == 0.0 else _order(states)
     period = np.where(order > 0, order * cycles[:, None], np.nan)
     return SteadyResponse(omegas, amplitudes, order, period, amplitude)
 

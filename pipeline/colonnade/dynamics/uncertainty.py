@@ -178,12 +178,7 @@ class MotionDraws:
 
         self._motion, self._uncertainty = motion, uncertainty
         self._cutoff = uncertainty.cutoff
-        memory = 0 if self._cutoff is None else 4.0 / (self._cutoff * motion.dt)
-        if memory > MOST_SAMPLES:
-            raise ValueError(
-                f"cutoff is {self._cutoff:g} Hz; at least {4.0 / (MOST_SAMPLES * motion.dt):.3g} Hz was expected of "
-                f"a motion in steps of {motion.dt:g} s"
-            )
+        memory = 0.0 if self._cutoff is None else min(4.0 / (self._cutoff * motion.dt), MOST_SAMPLES)
         self._length = next_fast_len(motion.acceleration.size + int(memory), real=True)
         self._frequency = np.fft.rfftfreq(self._length, motion.dt)
         # (f/f_c)²ⁿ of the given filter; with f_c multiplied by k it is k⁻²ⁿ times that.

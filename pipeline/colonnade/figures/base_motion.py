@@ -164,12 +164,8 @@ def _spectra(base: BaseMotion) -> BaseSpectra:
     length = base.interval * base.time.size
     shortest = max(SHORTEST, FEWEST * base.interval)
     period = np.geomspace(shortest, max(min(LONGEST, length / 4), 2 * shortest), PERIODS)
-
-    def spectrum(acceleration: Array) -> Array:
-        return response_spectrum(acceleration, base.interval, period).pseudo_acceleration
-
-    target = None if base.target is None else spectrum(base.target.acceleration)
-    return BaseSpectra(period, spectrum(base.acceleration), target)
+    target = None if base.target is None else response_spectrum(base.target.acceleration, base.interval, period)
+    return BaseSpectra(period, response_spectrum(base.acceleration, base.interval, period), target)
 
 
 def _reference(campaign: Campaign, motion: str | None) -> Series | None:

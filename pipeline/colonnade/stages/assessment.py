@@ -117,7 +117,7 @@ def _dataset(plan: Plan, outcomes: CaseOutcomes, needed: Array | None, fragility
     # Pseudo-acceleration of the components as recorded, m/s².
     spectra = np.full((len(study.names), len(COMPONENTS), PERIODS.size), np.nan)
     for record, place, along in components(study.cases.motions):
-        spectra[record, place] = response_spectrum(along.acceleration, along.dt, PERIODS).pseudo_acceleration
+        spectra[record, place] = response_spectrum(along.acceleration, along.dt, PERIODS)
     bands = {
         "lognormal_probability": ("curve", fragility.lognormal.probability(over)),
         "isotonic_probability": ("stripe", isotonic.probability),

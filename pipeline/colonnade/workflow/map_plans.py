@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from math import isfinite, nan, radians
+from math import radians
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
@@ -13,7 +13,7 @@ from pydantic import Field
 from colonnade.campaign import Campaign
 from colonnade.campaign.assembly import APART, Whole
 from colonnade.campaign.syntax.fields import MOST_CYCLES, Limits, MapPoints, MapRatio, Number, OneOf
-from colonnade.campaign.syntax.table import Problems, Table
+from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import Sided
 from colonnade.dynamics.models import MODELS, NONLINEAR
 from colonnade.errors import CampaignError
@@ -21,13 +21,11 @@ from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.results import models_moving
-from colonnade.workflow.motions import recorded
-from colonnade.workflow.pooling import expect_known, restitution_taken
+from colonnade.workflow.pooling import restitution_taken
 
 if TYPE_CHECKING:
     from colonnade.dynamics.contact.body import InSpace
     from colonnade.dynamics.maps import MapPlan
-    from colonnade.dynamics.motion import Motion
 
 USUAL_FREQUENCIES = (1.0, 8.0)
 """Ω of a map of a specimen without sine tests."""
@@ -57,15 +55,8 @@ class Wanted(Table):
     """Phase of the sine at its start, in degrees."""
     ramp: _Cycles = 0.0
     """Cycles of the linear rise, and of the fall."""
-    motion: str | None = None
-    """A sine test whose recorded table motion is used instead of a sine, stretched to Ω and scaled to A."""
     responses: bool = False
     """Also compute the orders and amplitudes of the steady responses, with curves."""
-
-    def contradictions(self) -> Problems:
-        """Say that a recorded motion has no steady responses."""
-        if self.responses and self.motion is not None:
-            yield (), "Steady responses are responses to a sine. Leave out the recorded motion."
 
     def text(self) -> str:
         """Write what a map of one model is asked for with, as it is stored with the map; of others, those in space."""
@@ -105,7 +96,6 @@ def plan_of(
         raise CampaignError(
             f"{specimen}: {APART}, which the {model} model moves. Give --model contact, or another --specimen."
         )
-    motion, frequency = (None, None) if wanted.motion is None else _recorded(campaign, layout, wanted.motion)
     omegas = wanted.omega or _around([point.frequency_ratio for point in measured.points], USUAL_FREQUENCIES)
     largest = max((1.2 * point.amplitude_ratio for point in measured.points), default=0.0)
     space = _space(campaign, layout, specimen) if MODELS[model].in_space else None
@@ -130,8 +120,6 @@ def plan_of(
             phase=radians(wanted.phase),
             ramp=wanted.ramp,
             model=model,
-            motion=motion,
-            motion_frequency=frequency,
             width=width,
             edge=edge,
             space=space,
@@ -168,16 +156,3 @@ def restitution_of(campaign: Campaign, layout: Layout, specimen: str) -> tuple[S
     pooled = restitution_taken(campaign, layout, specimen)
     negative, positive = (float(e) for e in pooled["side_restitution"])
     return (negative, positive), str(pooled.attrs["restitution_source"])
-
-
-def _recorded(campaign: Campaign, layout: Layout, test: str) -> tuple[Motion, float]:
-    """Return the recorded table motion of a sine test, and its frequency (Hz)."""
-    expect_known(campaign, "test", [test])
-    motion, sine = recorded(layout, campaign.tests[test]), files.read(layout.stage(test, "compare"))
-    frequency = float(sine["forcing_frequency"]) if "forcing_frequency" in sine else nan
-    if motion is None or not isfinite(frequency):
-        raise CampaignError(
-            f"{test}: its table motion cannot be stretched over a map. A sine test whose table acceleration is "
-            "recorded and steady was expected, as `colonnade show tests` lists them with their Ω."
-        )
-    return motion, frequency

@@ -266,10 +266,9 @@ def _in_blocks(
 
 
 def given(plan: MapPlan) -> dict[str, str | None]:
-    """Hash what a map is made from besides its options: block, axes and motion."""
-    motion = None if plan.motion is None else [plan.motion.dt, plan.motion.acceleration.tolist()]
+    """Hash what a map is made from besides its options: block and axes."""
     axes = [plan.frequency_ratio.tolist(), plan.amplitude_ratio.tolist()]
-    return {"block": hash_of(repr(plan.block)), "axes": hash_of(axes), "motion": hash_of(motion)}
+    return {"block": hash_of(repr(plan.block)), "axes": hash_of(axes)}
 
 
 def _columns(plan: MapPlan, indices: range) -> Arrays:

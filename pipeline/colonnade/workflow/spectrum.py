@@ -189,7 +189,7 @@ def _rocking(column: FoundColumn, asked: AskedSpectrum, motion: Motion, source: 
         ],
         [
             (("measure", "symbol", "value", "why not"), [_measured(measures, name) for name in measures.values]),
-            (("α", "2π/p", "p", "outcome", "largest |θ|/α", "largest |θ'|"), sizes),
+            (("α", "2π/p", "p", "outcome", "largest |θ|/α"), sizes),
         ],
         {
             "column": column.record(),
@@ -213,14 +213,12 @@ def _measured(measures: IntensityMeasures, name: str) -> Row:
 def _size(spectrum: RockingSpectrum, *place: int) -> Row:
     """Write what the motion does to blocks of one slenderness and size."""
     period, peak = float(spectrum.period[place[1]]), float(spectrum.peak_ratio[place])
-    p = 2 * pi / period
     return (
         quantity(float(spectrum.critical_angle[place[0]]), "rad", 4),
         quantity(period, "s"),
-        quantity(p, "rad/s"),
+        quantity(2 * pi / period, "rad/s"),
         "overturned" if spectrum.overturned[place] else "rocking" if peak > 0.0 else "no-rocking",
         ratio(peak),
-        quantity(float(spectrum.peak_velocity_ratio[place]) * p, "rad/s"),
     )
 
 

@@ -146,7 +146,7 @@ def test_arguments_out_of_range_are_refused(arguments, message):
     ("arguments", "message"),
     [
         ({"model": "contact", "restitution": 0.9}, "Do not give `restitution` to the contact model"),
-        ({"model": "linear", "out_of_plane": 0.01}, 'are for models in space; the model is "linear"'),
+        ({"model": "linear", "out_of_plane": 0.01}, 'contact and out_of_plane are for model="contact"'),
     ],
     ids=["restitution", "out of plane"],
 )

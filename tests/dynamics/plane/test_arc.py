@@ -123,11 +123,11 @@ def test_where_it_passes_alpha_is_given():
 
 @pytest.mark.parametrize("x", [1e-6, 1e-3, 0.3, LONGEST_STEP])
 def test_ten_terms_are_the_functions_to_rounding_up_to_the_longest_step(x):
-    excess, rise = series._excess_rise(x * x)
+    excess, rise = series.excess_rise(x * x)
     assert 1 + excess == pytest.approx(sinh(x) / x, rel=1e-15)
     assert rise == pytest.approx(2 * sinh(x / 2) ** 2 / x**2, rel=1e-15)
     assert x * x * rise == pytest.approx(cosh(x) - 1, rel=1e-3 if x < 1e-5 else 1e-9)
-    excess, rise = series._excess_rise(-x * x)
+    excess, rise = series.excess_rise(-x * x)
     assert 1 + excess == pytest.approx(sin(x) / x, rel=1e-15)
     assert rise == pytest.approx(2 * sin(x / 2) ** 2 / x**2, rel=1e-15)
 

@@ -28,16 +28,6 @@ def test_without_e_it_is_that_of_a_rigid_body():
     assert history.rebound_velocities[0] / history.impact_velocities[0] == pytest.approx(PRISM.restitution)
 
 
-def test_a_law_reaches_as_far_as_the_fastest_impact():
-    """Thrown down ten times faster than it falls by itself: the law is asked there too, not held at its end."""
-    history = rock(PRISM, **FREE, restitution=lambda speed: 1.0 / (1.0 + 0.1 * speed), omega0=-10 * ALPHA * P)
-    speed = abs(history.impact_velocities[0])
-    assert speed > 9 * ALPHA * P
-    assert history.rebound_velocities[0] / history.impact_velocities[0] == pytest.approx(
-        1 / (1 + 0.1 * speed), rel=1e-3
-    )
-
-
 @pytest.mark.parametrize(
     ("motion", "message"),
     [
@@ -66,12 +56,12 @@ def test_ends_are_those_of_the_histories(model, vertical):
     drawn, seen = [sides_of(*each) for each in blocks], set()
     for level in (0.1, 0.15, 0.22, 0.3, 0.6, 1.2):
         motion = Motion(level * SHAKEN, 0.005, vertical)
-        ends = ends_of(motion, drawn, gravity=PRISM.gravity, model=model)
+        codes, peaks = ends_of(motion, drawn, gravity=PRISM.gravity, model=model)
         for number, (block, e) in enumerate(blocks):
             history = rock(block, motion, restitution=e, model=model)
-            assert OUTCOMES[ends.outcome[number]] == history.outcome
+            assert OUTCOMES[codes[number]] == history.outcome
             expected = np.nan if history.peak_ratio is None else history.peak_ratio
-            np.testing.assert_array_equal(ends.peak_ratio[number], expected)
+            np.testing.assert_array_equal(peaks[number], expected)
             seen.add(history.outcome)
     assert seen == set(OUTCOMES)
 

@@ -53,9 +53,7 @@ def test_scatter_of_e_from_impact_to_impact_is_no_departure():
 def test_an_e_that_depends_on_the_speed_of_impact_is_no_three_dimensional_rocking(law):
     at_rest, slope = law
     for seed in range(6):
-        record = Record(
-            restitution=RestitutionLaw.of(lambda speed: at_rest - slope * speed, largest_speed=5), seed=seed
-        )
+        record = Record(restitution=RestitutionLaw.table([0.0, 5.0], [at_rest, at_rest - 5 * slope]), seed=seed)
         assert "three-dimensional rocking" not in record.departures()
 
 

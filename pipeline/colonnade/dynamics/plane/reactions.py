@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf, pi
+from math import pi
 
 import numpy as np
 
-from colonnade.arrays import Array, Mask
+from colonnade.arrays import Array
 from colonnade.dynamics.history import History
 from colonnade.dynamics.models import MODELS
 from colonnade.dynamics.motion import Motion
 from colonnade.units.text import Digested, written
-from colonnade.validation import instance, number
+from colonnade.validation import instance
 
 
 @dataclass(frozen=True, repr=False)
@@ -30,8 +30,6 @@ class Reactions(Digested):
         |H|/N, dimensionless; inf where the vertical force does not press.
     impact_times, impact_friction : ndarray, shape (m,)
         s; ratio of the horizontal to the vertical impulse of each impact.
-    friction : float or None
-        The coefficient of friction that the flags are for.
 
     Examples
     --------
@@ -40,11 +38,11 @@ class Reactions(Digested):
     >>> block = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
     >>> time = np.arange(200) * 0.01
     >>> motion = colonnade.Motion(3.0 * np.sin(4 * np.pi * time) * (time < 0.5), 0.01)
-    >>> forces = colonnade.reactions(colonnade.rock(block, motion, restitution=0.9), motion, friction=0.2)
-    >>> forces.first_break, int(forces.slides.sum()), bool(forces.impacts_slide.any()), bool(forces.loses_contact.any())
-    (0.08, 34, True, True)
-    >>> forces.digest()["pure rocking until"]
-    '0.08 s'
+    >>> forces = colonnade.reactions(colonnade.rock(block, motion, restitution=0.9), motion)
+    >>> float(forces.required_friction[1].round(4)), round(float(forces.vertical[0]), 2)
+    (0.0383, 256.04)
+    >>> forces.digest()["at impacts"]
+    '0.2791'
     """
 
     time: Array
@@ -53,11 +51,10 @@ class Reactions(Digested):
     required_friction: Array
     impact_times: Array
     impact_friction: Array
-    friction: float | None
 
     def digest(self) -> dict[str, str]:
         """
-        Return the friction that is needed, and from when pure rocking is not what the block would do.
+        Return the friction that is needed between impacts and at them.
 
         Returns
         -------
@@ -68,37 +65,10 @@ class Reactions(Digested):
         return {
             "friction needed": written(float(known.max(initial=0.0))),
             "at impacts": written(float(self.impact_friction.max(initial=0.0))),
-            "friction": written(self.friction),
-            "pure rocking until": "the end" if np.isnan(self.first_break) else written(self.first_break, "s"),
         }
 
-    @property
-    def loses_contact(self) -> Mask:
-        """Samples at which the base would have to pull, N ≤ 0, shape (n,)."""
-        return np.asarray(self.vertical <= 0.0)
 
-    @property
-    def slides(self) -> Mask:
-        """Samples at which more friction is required than there is, shape (n,); none if no friction was given."""
-        return np.asarray(self.required_friction > self._limit)
-
-    @property
-    def impacts_slide(self) -> Mask:
-        """Impacts whose impulse requires more friction than there is, shape (m,); none if no friction was given."""
-        return np.asarray(self.impact_friction > self._limit)
-
-    @property
-    def _limit(self) -> float:
-        return inf if self.friction is None else self.friction
-
-    @property
-    def first_break(self) -> float:
-        """Time from which pure rocking is not what the block would do, s; NaN where it holds throughout."""
-        broken = np.concatenate((self.time[self.loses_contact | self.slides], self.impact_times[self.impacts_slide]))
-        return float(broken.min()) if broken.size else np.nan
-
-
-def reactions(history: History, motion: Motion, *, friction: float | None = None) -> Reactions:
+def reactions(history: History, motion: Motion) -> Reactions:
     """
     Compute the forces of the base on a block that rocks or rests.
 
@@ -107,8 +77,6 @@ def reactions(history: History, motion: Motion, *, friction: float | None = None
     history : History
     motion : Motion
         The base motion that it is the answer to.
-    friction : float, optional
-        Coefficient of friction of block on base, for the flags.
 
     Returns
     -------
@@ -117,7 +85,7 @@ def reactions(history: History, motion: Motion, *, friction: float | None = None
     Raises
     ------
     ValueError
-        If the motion has not as many samples as the history, or the friction is negative.
+        If the motion has not as many samples as the history.
 
     Notes
     -----
@@ -132,9 +100,8 @@ def reactions(history: History, motion: Motion, *, friction: float | None = None
     >>> from colonnade.dynamics.rock import rock
     >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
     >>> motion = Motion([0.0, 1.0], 0.01)
-    >>> forces = reactions(rock(block, motion), motion, friction=0.3)
-    >>> forces.horizontal.round(2).tolist(), forces.first_break
-    ([0.0, 26.1], nan)
+    >>> reactions(rock(block, motion), motion).horizontal.round(2).tolist()
+    [0.0, 26.1]
     """
     instance("history", history, History)
     instance("motion", motion, Motion)
@@ -143,12 +110,11 @@ def reactions(history: History, motion: Motion, *, friction: float | None = None
             f"The motion has {motion.acceleration.size} samples and the history {history.time.size}; "
             "the motion that the history was computed from was expected"
         )
-    if friction is not None:
-        friction = number("friction", friction, "a coefficient from 0 on", low=0.0, finite=False)
     block, angle, velocity = history.block, history.angle, history.angular_velocity
     rests = (angle == 0.0) & (velocity == 0.0)
     side = np.where(angle == 0.0, velocity, angle)
-    distance, square = block.pole_distance_at(side), block.p_at(side) ** 2
+    distance = np.where(side < 0.0, *(each.pole_distance for each in block.sides))
+    square = block.p_at(side) ** 2
     lean = np.where(side < 0.0, -1.0, 1.0) * block.critical_angle_at(side) - angle
     weight = block.gravity + (0.0 if motion.vertical is None else motion.vertical)
     pull, lift = motion.acceleration / block.gravity, weight / block.gravity
@@ -166,9 +132,7 @@ def reactions(history: History, motion: Motion, *, friction: float | None = None
     vertical = np.where(lies, np.nan, block.mass * above)
     with np.errstate(divide="ignore", invalid="ignore"):
         required = np.where(vertical <= 0.0, np.inf, np.abs(horizontal) / vertical)
-    return Reactions(
-        history.time, horizontal, vertical, required, history.impact_times, _impact_friction(history), friction
-    )
+    return Reactions(history.time, horizontal, vertical, required, history.impact_times, _impact_friction(history))
 
 
 def _impact_friction(history: History) -> Array:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import ceil, cos, hypot, inf, pi, sin, tan
-from typing import TYPE_CHECKING, NamedTuple
+from math import ceil, pi, tan
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from colonnade.arrays import Array, Codes
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import NO_ROCKING_RATIO, History
-from colonnade.dynamics.models import DEFAULT, Model, plane_model_of
+from colonnade.dynamics.models import Model, plane_model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.restitution_law import Given, Restitution, RestitutionLaw, law_of
 
@@ -43,16 +43,10 @@ def run(
 
     law = law_of(block, restitution)
     expect_usable(block, motion)
-    forcing = forcing_of(motion, block.gravity)
-    while True:
-        sides = sides_of(block, law, rest_angle)
-        angle, velocity, times, before, end = propagate(
-            forcing, sides, is_linearised=model.is_linearised, angle=theta0, velocity=omega0
-        )
-        wider = law.reaching(before) if isinstance(law, RestitutionLaw) else law
-        if wider is law:
-            break
-        law = wider
+    forcing, sides = forcing_of(motion, block.gravity), sides_of(block, law, rest_angle)
+    angle, velocity, times, before, end = propagate(
+        forcing, sides, is_linearised=model.is_linearised, angle=theta0, velocity=omega0
+    )
     e = law(np.abs(before)) if isinstance(law, RestitutionLaw) else np.where(before > 0.0, *law)
     return History(block, motion.time, angle, velocity, times, before, e * before, end.time, model.name)
 
@@ -95,26 +89,7 @@ def expect_usable(block: Block, motion: Motion) -> None:
         )
 
 
-class Ends(NamedTuple):
-    """
-    How the histories of n blocks end.
-
-    Attributes
-    ----------
-    outcome : ndarray of int8, shape (n,)
-        Index into `OUTCOMES`.
-    peak_ratio : ndarray, shape (n,)
-        Largest |θ|/α at the samples; NaN if the block overturns.
-    peak_velocity : ndarray, shape (n,)
-        Largest |ω| at the samples up to overturning, rad/s.
-    """
-
-    outcome: Codes
-    peak_ratio: Array
-    peak_velocity: Array
-
-
-def ends_of(motion: Motion, blocks: Sequence[Sides], *, gravity: float, model: str) -> Ends:
+def ends_of(motion: Motion, blocks: Sequence[Sides], *, gravity: float, model: str) -> tuple[Codes, Array]:
     """
     Run blocks from rest under one motion.
 
@@ -131,8 +106,10 @@ def ends_of(motion: Motion, blocks: Sequence[Sides], *, gravity: float, model: s
 
     Returns
     -------
-    ends : Ends
-        The same, to the last bit, as outcome and `peak_ratio` of `rock`.
+    outcome : ndarray of int8, shape (n,)
+        Index into `OUTCOMES`.
+    peak_ratio : ndarray, shape (n,)
+        Largest |θ|/α at the samples; NaN if the block overturns. Both the same, to the last bit, as of `rock`.
 
     Notes
     -----
@@ -143,19 +120,17 @@ def ends_of(motion: Motion, blocks: Sequence[Sides], *, gravity: float, model: s
     chosen, forcing = plane_model_of(model), forcing_of(motion, gravity)
     largest = np.inf if forcing.weights.size > 0 else float(np.abs(forcing.levels).max())
     codes = np.full(len(blocks), STANDS, dtype=np.int8)
-    peaks, speeds = np.zeros((2, len(blocks)))
+    peaks = np.zeros(len(blocks))
     for number, sides in enumerate(blocks):
         if largest <= chosen.uplift_threshold(min(sides.critical)):
             continue
-        angles, velocities, _, _, (time, _, _) = propagate(forcing, sides, is_linearised=chosen.is_linearised)
-        if np.isfinite(time):
+        angles, *_, end = propagate(forcing, sides, is_linearised=chosen.is_linearised)
+        if np.isfinite(end.time):
             codes[number], peaks[number] = OVERTURNS, np.nan
-            speeds[number] = np.abs(velocities[: int(time / motion.dt) + 1]).max()
             continue
         peaks[number] = max(-angles.min() / sides.critical[0], angles.max() / sides.critical[1])
-        speeds[number] = np.abs(velocities).max()
         codes[number] = ROCKS if peaks[number] > NO_ROCKING_RATIO else STANDS
-    return Ends(codes, peaks, speeds)
+    return codes, peaks
 
 
 SAMPLES_A_CYCLE = 100
@@ -211,83 +186,6 @@ class Harmonic:
 
         knots = np.unique([0.0, *self.edges, *(time for time in times if time < self.edges[2])])
         return Forcing(self.omega, self.phase, 0.0, knots, self.level(knots), NONE)
-
-
-@dataclass(frozen=True)
-class HarmonicRun:
-    """
-    What one run gives.
-
-    Attributes
-    ----------
-    outcome : str
-        Of `OUTCOMES`.
-    peak_ratio : float
-        Largest |θ|/α under the motion up to overturning, from the time asked for on.
-    angle, angular_velocity : ndarray, shape (n,)
-        rad, rad/s, at the samples asked for; those after the motion's end are as at its end.
-    impact_times, impact_velocities : ndarray, shape (m,)
-        s; rad/s just before each impact.
-    """
-
-    outcome: str
-    peak_ratio: float
-    angle: Array
-    angular_velocity: Array
-    impact_times: Array
-    impact_velocities: Array
-
-
-def restitution_up_to(block: Block, restitution: Given, amplitude_ratio: float) -> Restitution:
-    """
-    Put e into the form that the kernels take: a function is sampled as far as impacts can go up to an A of the base
-    motion.
-
-    With q the largest a/g, no impact of a block that has not overturned is faster than p (α + q) in the linear model,
-    whose S = h' − (h − α) obeys S' = −S − q sin φ; nor, in the nonlinear one, than the fall from α + atan q inwards
-    under −q throughout, ω²/p² = 2 (sqrt(1 + q²) − cos α + q sin α).
-    """
-    q, speeds = amplitude_ratio * tan(block.critical_angle), []
-    for side in block.sides:
-        alpha = side.critical_angle
-        fall = 2.0 * (hypot(1.0, q) - cos(alpha) + q * sin(alpha))
-        speeds.append(block.side_p(side) * max(alpha + q, fall**0.5))
-    return law_of(block, restitution, max(speeds))
-
-
-def harmonic_run(
-    block: Block,
-    motion: Harmonic,
-    amplitude_ratio: float,
-    restitution: Given,
-    *,
-    model: str = DEFAULT,
-    samples: int = 0,
-    interval: float = 1.0,
-    peaks_from: float = 0.0,
-) -> HarmonicRun:
-    """
-    Run a block from rest under a harmonic motion, without sampling that motion.
-
-    A = a / (g tan α) is `amplitude_ratio`. The history has so many `samples` at an `interval` (s) from time 0, and
-    `peak_ratio` counts from `peaks_from` (s) on.
-    """
-    # Its kernels are compiled on import.
-    from colonnade.dynamics.plane.march import propagate
-    from colonnade.dynamics.plane.sides import sides_of
-
-    times = np.minimum(interval * np.arange(samples), motion.edges[2])
-    forcing = motion.forcing(peaks_from, *times)
-    levels = forcing.levels * (amplitude_ratio * tan(block.critical_angle))
-    linearised = plane_model_of(model).is_linearised
-    sides = sides_of(block, restitution_up_to(block, restitution, amplitude_ratio))
-    since = int(np.searchsorted(forcing.times, peaks_from))
-    angles, velocities, impact_times, impact_velocities, end = propagate(
-        forcing._replace(levels=levels), sides, is_linearised=linearised, since=since, floor=inf
-    )
-    outcome = OUTCOMES[OVERTURNS if np.isfinite(end.time) else ROCKS if end.peak > NO_ROCKING_RATIO else STANDS]
-    at = np.searchsorted(forcing.times, times)
-    return HarmonicRun(outcome, end.peak, angles[at], velocities[at], impact_times, impact_velocities)
 
 
 def harmonic_outcomes(

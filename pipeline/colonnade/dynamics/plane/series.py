@@ -97,7 +97,7 @@ def closed_bounds(end: float, wave: Wave) -> tuple[float, float]:
 
 
 @kernel_fused
-def _excess_rise(z: float) -> tuple[float, float]:
+def excess_rise(z: float) -> tuple[float, float]:
     """Return sinh x / x − 1 and (cosh x − 1)/x² for z = x²; sin x / x − 1 and (1 − cos x)/x² for z = −x²."""
     # Every second term, and those between: two sums that do not wait for each other.
     square = z * z
@@ -117,14 +117,14 @@ def _excess_rise(z: float) -> tuple[float, float]:
 def closed_jet(x: float, wave: Wave) -> Jet:
     """State after x, all formed from differences to the beginning, so that short arcs keep their digits."""
     critical, ratio, gain, growth, lag, height, rate, sine, cosine, free, forced_rate = wave
-    more, even = _excess_rise(x * x)
+    more, even = excess_rise(x * x)
     excess, rise = x * more, x * x * even
     sinh = x + excess
     # y and y' less what they would be if y' stayed as it is: nothing between two samples of a record.
     sine_rise, cosine_rise, forced, forced_rise, new_gain = 0.0, 0.0, 0.0, 0.0, gain + growth * x
     if ratio > 0.0:
         turn = ratio * x
-        more, even = _excess_rise(-turn * turn)
+        more, even = excess_rise(-turn * turn)
         across, back = turn + turn * more, turn * turn * even
         sine_rise, cosine_rise = cosine * across - sine * back, -sine * across - cosine * back
         forced = (growth * sine - forced_rate) * x + lag * cosine_rise + new_gain * sine_rise

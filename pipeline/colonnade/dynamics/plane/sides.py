@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import asin, cos, pi, sin, sinh, sqrt, tan
+from math import asin, cos, pi, sin, sqrt, tan
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +10,8 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kernel import kernel_in_place
-from colonnade.dynamics.restitution_law import Restitution, restitution_table
+from colonnade.dynamics.plane.series import excess_rise
+from colonnade.dynamics.restitution_law import Restitution, RestitutionLaw
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 
 Pair = tuple[float, float]
@@ -34,7 +35,9 @@ class Sides(NamedTuple):
 
 def sides_of(block: Block, restitution: Restitution, rest_angle: float = DEFAULT_REST_ANGLE) -> Sides:
     """Put a block, its restitution and its rule of rest into the form that the kernels take."""
-    speeds, values = restitution_table(restitution)
+    speeds, values = np.zeros(1), np.array(restitution)
+    if isinstance(restitution, RestitutionLaw):
+        speeds, values = restitution.speeds, np.tile(restitution.values, 2)
     left, right = block.sides
     critical, p = (left.critical_angle, right.critical_angle), (block.side_p(left), block.side_p(right))
     return Sides(critical, p, values, speeds, rest_angle)
@@ -63,10 +66,8 @@ def restitution_of(restitution: Array, speeds: Array, here: int, velocity: float
     if speeds.size == 1:
         return float(restitution[here])
     speed, first = abs(velocity), here * speeds.size
-    above = int(np.searchsorted(speeds, speed))
-    if above == 0 or above == speeds.size:
-        return float(restitution[first + min(above, speeds.size - 1)])
-    share = (speed - speeds[above - 1]) / (speeds[above] - speeds[above - 1])
+    above = min(max(int(np.searchsorted(speeds, speed)), 1), speeds.size - 1)
+    share = min(max((speed - speeds[above - 1]) / (speeds[above] - speeds[above - 1]), 0.0), 1.0)
     lower, upper = restitution[first + above - 1], restitution[first + above]
     return float(lower + share * (upper - lower))
 
@@ -91,9 +92,9 @@ def rebound(rate: float, here: int, weight: float, pull: float, sides: Sides, li
 
 
 @kernel_in_place
-def _hill(lean: float) -> float:
+def _hill(lean: float, linearised: bool) -> float:
     """Potential over m g R at lean = α − |θ|; 0 where the centre of mass is above the pole."""
-    return -2.0 * sin(0.5 * lean) ** 2
+    return -0.5 * lean * lean if linearised else -2.0 * sin(0.5 * lean) ** 2
 
 
 @kernel_in_place
@@ -104,25 +105,14 @@ def survives_free_rocking(height: float, rate: float, here: int, sides: Sides, l
     `height` is |θ|, `rate` its velocity over p. What is left after one impact decides both sides: every later impact
     only takes energy.
     """
-    critical, p, restitution, speeds, _rest_angle = sides
-    alpha, other_alpha = of_side(critical, here), of_side(critical, 1 - here)
-    p_here, p_there = of_side(p, here), of_side(p, 1 - here)
-    if linearised:
-        # h − α = C eˣ + D e⁻ˣ: outwards for good if C > 0; else the energy gives the velocity of the impact.
-        beyond = height - alpha
-        if beyond + rate > 0.0:
-            return False
-        arriving = p_here * sqrt(max(rate * rate - beyond * beyond + alpha**2, 0.0))
-        after = restitution_of(restitution, speeds, here, arriving) * arriving
-        return bool(after <= p_there * other_alpha)
+    alpha, there = of_side(sides.critical, here), 1 - here
     # The energy shows whether the block passes α, outwards, or from beyond it back inwards.
-    energy = 0.5 * rate * rate + _hill(alpha - height)
-    passed = height > alpha
-    if (passed and (rate >= 0.0 or energy <= 0.0)) or (not passed and rate > 0.0 and energy > 0.0):
+    energy = 0.5 * rate * rate + _hill(alpha - height, linearised)
+    if (height > alpha and (rate >= 0.0 or energy <= 0.0)) or (height <= alpha and rate > 0.0 and energy > 0.0):
         return False
-    arriving = p_here * sqrt(max(2.0 * (energy - _hill(alpha)), 0.0))
-    after = restitution_of(restitution, speeds, here, arriving) * arriving / p_there
-    return bool(0.5 * after * after + _hill(other_alpha) <= 0.0)
+    arriving = of_side(sides.p, here) * sqrt(max(2.0 * (energy - _hill(alpha, linearised)), 0.0))
+    leaving = restitution_of(sides.restitution, sides.speeds, here, arriving) * arriving / of_side(sides.p, there)
+    return bool(0.5 * leaving * leaving + _hill(of_side(sides.critical, there), linearised) <= 0.0)
 
 
 HALVINGS = 60
@@ -235,13 +225,10 @@ class WholeSample(NamedTuple):
 def whole_sample(side: float, critical: float, p: float, dt: float, largest: float) -> WholeSample:
     """Prepare one side for samples of the length `dt` under a motion of at most `largest` a/g."""
     step = p * dt
-    # cosh x − 1, and sinh x − x without the cancellation at small x.
-    rise, q = 2.0 * sinh(0.5 * step) ** 2, step * step
-    excess = sinh(step) - step
-    if step < 0.3:
-        excess = step * q * (1 / 6 + q * (1 / 120 + q * (1 / 5040 + q * (1 / 362880 + q / 39916800))))
-    c, s, mean, mean_rate = 1.0 + rise, step + excess, excess / step, rise / step
-    factors = c, s, rise * critical, s * critical, rise - mean, s - mean_rate, mean, mean_rate
+    more, even = excess_rise(step * step)
+    rise, mean_rate = step * step * even, step * even
+    c, s = 1.0 + rise, step + step * more
+    factors = c, s, rise * critical, s * critical, rise - more, s - mean_rate, more, mean_rate
     limit, most = 0.25 * step**2, critical + largest
     return WholeSample(side, p, step, critical, factors, (limit, limit * most, 0.5 * step * most))
 

@@ -190,10 +190,7 @@ def scale_axes(axes: Axes, frequency_ratio: Array, amplitude_ratio: Array, point
 def _words(charts: Sequence[StabilityMap]) -> str:
     """Return in words what the limits depend on; of several maps, how finely each was scanned is left to its own."""
     options = charts[0].options
-    motion = "recorded table motion, stretched"
-    if options["base_motion"] == "sine":
-        motion = f"{options['cycles']:g} cycles, {words_of_sine(options)}"
-    e = words_of_restitution(options)
+    motion, e = f"{options['cycles']:g} cycles, {words_of_sine(options)}", words_of_restitution(options)
     widths = " | ".join(dict.fromkeys(f"{chart.options['width']:.2g}" for chart in charts))
     scanned = f", scanned in steps of {options['scan_step']:.2g}" if len(charts) == 1 else ""
     return f"{motion}; {e}; limits at least {widths} wide{scanned}"
