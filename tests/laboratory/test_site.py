@@ -6,12 +6,9 @@ import numpy as np
 import pytest
 
 from colonnade.assessment.measures import intensity_measures
-from colonnade.campaign import FILE_NAME, load
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory import site
-from colonnade.laboratory.programme import prism_programme
-from colonnade.laboratory.site import LEVELS, LIST, LOWEST, broad_band, synthetic_records
-from colonnade.readers.hazard import read_hazard
+from colonnade.laboratory.site import LIST, LOWEST, broad_band, synthetic_records
 from colonnade.readers.record_set import read_record_set
 
 STEP = 0.02
@@ -79,30 +76,3 @@ def test_the_files_and_their_list_are_read_back(suite, tmp_path):
         assert read.distance == pytest.approx(made.distance, abs=100)
     assert found.left_out == {}
     assert all(each.name.startswith("synthetic") for each in found.records)
-
-
-@pytest.fixture(scope="module")
-def campaign(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("site")
-    plan = prism_programme("pulse", Motion(np.sin(np.linspace(0.0, 6.0, 600)), 0.01))
-    (folder / FILE_NAME).write_text(plan.campaign_text(), encoding="utf-8")
-    site.add_site(folder / FILE_NAME, seed=3)
-    return load(folder)
-
-
-def test_the_column_is_the_model_at_its_scale(campaign):
-    column, block = campaign.prototype["prism"], campaign.block("prism")
-    assert column.restitution == "identified"
-    assert np.mean(column.critical_angle_range) == pytest.approx(block.critical_angle, rel=1e-3)
-    assert np.mean(column.p_range) == pytest.approx(block.p / np.sqrt(20), rel=1e-3)
-
-
-def test_its_records_and_its_hazard_can_be_read(campaign):
-    asked = campaign.assessments["prism"]
-    records = read_record_set(asked.records)
-    assert len(records.records) == 24
-    assert not records.left_out
-    assert all(each.magnitude and each.distance for each in records.records)
-    hazard = read_hazard(asked.hazard, "pgv")
-    assert hazard.rate == pytest.approx([site.annual_rate(each) for each in LEVELS], rel=1e-3)
-    assert (np.diff(hazard.slopes) >= -0.1).all()

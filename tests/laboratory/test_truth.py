@@ -2,7 +2,7 @@
 
 import json
 from itertools import pairwise
-from math import acosh, cos, isnan, pi, sin, tan
+from math import acosh, cos, pi, sin, tan
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.runs import with_truth
 from colonnade.laboratory.table import TableMotion, ramped_sine, recorded
-from colonnade.laboratory.truth import REST_ANGLE, Integration, simulate
+from colonnade.laboratory.truth import REST_ANGLE, Simulation, simulate
 from every import every
 from prism import PRISM
 
@@ -24,7 +24,7 @@ def still(instant):
 
 
 def running(angle, velocity, *, block=PRISM, restitution=0.9, catch=pi / 2, time=(5.0,)):
-    return Integration(block, np.array(time), restitution, catch, (angle, velocity))
+    return Simulation(block, np.array(time), restitution, catch, (angle, velocity))
 
 
 @pytest.mark.parametrize(("push", "side"), [(1.0, -1), (-1.0, 1)], ids=["towards +x", "towards -x"])
@@ -38,7 +38,7 @@ def test_each_side_lifts_at_g_tan_of_its_own_critical_angle(push, side):
     assert (after.resting, after.side) == (False, side)
     # From uplift on θ̈ = p² cos α · 3 (t − t₀) / g to first order: θ = p² cos α · 3 (t − t₀)³ / 6 g.
     risen = UNEVEN.side_p(after.geometry) ** 2 * cos(critical) * 3.0 * 0.02**3 / (6 * UNEVEN.gravity)
-    assert after.angle == pytest.approx(side * risen, rel=2e-3)
+    assert after.theta == pytest.approx(side * risen, rel=2e-3)
 
 
 def test_angles_between_steps_are_those_of_shorter_pieces():
@@ -49,7 +49,7 @@ def test_angles_between_steps_are_those_of_shorter_pieces():
         parts.go(start, stop, still)
     assert len(whole.impact_times) >= 3
     np.testing.assert_allclose(parts.impact_times, whole.impact_times, atol=1e-9)
-    np.testing.assert_allclose(parts.angles, whole.angles, atol=1e-9)
+    np.testing.assert_allclose(parts.angle, whole.angle, atol=1e-9)
 
 
 def test_a_mirrored_push_gives_a_mirrored_history():
@@ -59,7 +59,7 @@ def test_a_mirrored_push_gives_a_mirrored_history():
         runs.append(running(sign * 0.3 * ALPHA, 0.0, time=time))
         runs[-1].go(0.0, 2.0, lambda instant, sign=sign: sign * 1.2 * sin(8 * instant))
     assert runs[0].impact_times
-    np.testing.assert_allclose(runs[1].angles, -runs[0].angles, atol=1e-12)
+    np.testing.assert_allclose(runs[1].angle, -runs[0].angle, atol=1e-12)
     np.testing.assert_allclose(runs[1].impact_velocities, -np.array(runs[0].impact_velocities), atol=1e-12)
 
 
@@ -72,20 +72,6 @@ def test_an_arc_shorter_than_a_look_has_its_impact():
     assert run.impact_times == pytest.approx([2 * velocity / (P**2 * sin(ALPHA))], rel=1e-5)
     assert run.impact_velocities == pytest.approx([-velocity], rel=1e-6)
     assert run.resting
-
-
-def test_the_last_outward_pass_of_the_critical_angle_is_kept_and_a_return_forgets_it():
-    outward = running(0.9 * ALPHA, 0.5)
-    outward.go(0.0, 0.3, still)
-    assert abs(outward.angle) > ALPHA
-    there = running(0.9 * ALPHA, 0.5)
-    there.go(0.0, outward.passed, still)
-    assert there.angle == pytest.approx(ALPHA, rel=1e-9)
-    inward = running(1.05 * ALPHA, -0.5)
-    assert inward.passed == 0.0
-    inward.go(0.0, 0.1, still)
-    assert abs(inward.angle) < ALPHA
-    assert isnan(inward.passed)
 
 
 SLENDER = Block.measured(mass=1.0, pole_distance=1.0, critical_angle=1e-4, inertia=1.3)
@@ -133,7 +119,8 @@ def test_energy_is_kept_between_impacts_and_each_impact_leaves_e_squared_of_it()
 
 def test_a_block_of_two_sides_goes_on_with_the_velocity_that_the_impact_leaves():
     truth = simulate(UNEVEN, [10.0], restitution=0.9, theta0=-0.1)
-    np.testing.assert_allclose(np.abs(truth.impact_velocities[1:] / truth.impact_velocities[:-1]), 0.9, rtol=1e-9)
+    speeds = np.abs(truth.impact_velocities)
+    np.testing.assert_allclose(speeds[1:] / speeds[:-1], 0.9, rtol=1e-9)
 
 
 def test_free_rocking_ends_by_the_rest_rule():
@@ -167,11 +154,11 @@ def test_no_amplitude_up_to_six_overturns_the_largest_block():
 def test_one_sine_leaves_the_published_energy(pole_distance, energy):
     # A = 2, over the energy barrier, to 1e-8.
     block, e = published(pole_distance)
-    run = Integration(block, np.array([0.5]), e, pi / 2, (0.0, 0.0))
+    run = Simulation(block, np.array([0.5]), e, pi / 2, (0.0, 0.0))
     for piece in one_sine(2.0, block, 0.5).pieces(0.0, 0.5):
         run.go(*piece)
-    risen = (cos(0.2 - abs(run.angle)) - cos(0.2)) / (1 - cos(0.2))
-    assert run.velocity**2 / (2 * block.p**2 * (1 - cos(0.2))) + risen == pytest.approx(energy, abs=1e-8)
+    risen = (cos(0.2 - abs(run.theta)) - cos(0.2)) / (1 - cos(0.2))
+    assert run.omega**2 / (2 * block.p**2 * (1 - cos(0.2))) + risen == pytest.approx(energy, abs=1e-8)
 
 
 def test_the_frame_catches_and_holds_an_overturning_block():
@@ -181,8 +168,6 @@ def test_the_frame_catches_and_holds_an_overturning_block():
     assert truth.peak == (None, None)
     caught = np.flatnonzero(np.abs(truth.angle) >= 0.28)
     assert np.all(np.abs(truth.angle[caught[0] :]) == 0.28)
-    passing = np.interp(truth.overturning_time, truth.time, np.abs(truth.angle))
-    assert passing == pytest.approx(PRISM.critical_angle, rel=1e-4)
 
 
 def test_a_held_block_stays_until_its_release():

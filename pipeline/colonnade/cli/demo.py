@@ -32,16 +32,11 @@ if TYPE_CHECKING:
 )
 @click.option("--short", is_flag=True, help="Ten tests of the prism instead of the whole programme.")
 @click.option(
-    "--full", is_flag=True, help="Also assess the real columns of the specimens, on synthetic ground motions."
-)
-@click.option(
     "--assemblies", is_flag=True, help="Drums, a portal and two blocks at once, moved by MuJoCo, in place of all that."
 )
 @workers_option
 @json_option
-def demo(
-    folder: Path, motion: Path | None, short: bool, full: bool, assemblies: bool, as_json: bool, **choices: Any
-) -> int:
+def demo(folder: Path, motion: Path | None, short: bool, assemblies: bool, as_json: bool, **choices: Any) -> int:
     """
     Write a virtual campaign with known truth, run all of it, and compare with the known truth.
 
@@ -58,8 +53,8 @@ def demo(
 
     if folder.is_dir() and any(folder.iterdir()) and not (folder / FILE_NAME).is_file():
         raise click.UsageError(f"{folder} contains other files. Name an empty folder, a new one, or an earlier demo.")
-    if assemblies and (short or full or motion is not None):
-        raise click.UsageError("--assemblies is a campaign of its own, without --short, --full and --motion")
+    if assemblies and (short or motion is not None):
+        raise click.UsageError("--assemblies is a campaign of its own, without --short and --motion")
     if assemblies and find_spec("mujoco") is None:
         raise click.UsageError("--assemblies needs the package `mujoco`: pip install colonnade[demo]")
     complain(f"Shaking the virtual table into {folder}")
@@ -68,7 +63,7 @@ def demo(
     else:
         programme = prism_programme if short else paper_programme
         try:
-            written = write_campaign(folder, motion=motion, programme=programme, site=full, **choices)
+            written = write_campaign(folder, motion=motion, programme=programme, **choices)
         except ReadError as error:
             raise click.UsageError(str(error)) from error
     result = run_with_progress(folder, workers=choices["workers"])

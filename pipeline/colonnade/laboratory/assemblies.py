@@ -19,10 +19,10 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.assembly import Whole
 from colonnade.campaign.channel import MAIN
 from colonnade.dynamics.assembly import Assembly, Placed
-from colonnade.laboratory.files import put
 from colonnade.laboratory.runs import WrittenCampaign, shake, with_its_truth
 from colonnade.laboratory.table import ramped_sine
 from colonnade.laboratory.truth import NO_ROCKING_RATIO
+from colonnade.store.files import write_text
 
 RATE = 200.0
 """Frames a second of the cameras, and samples of the accelerometer."""
@@ -103,8 +103,8 @@ def write_assemblies(folder: Path, *, seed: int = 0, workers: int | None = 1) ->
     CampaignError
         If the folder holds a campaign that the laboratory did not write.
     """
-    text = (resources("colonnade.laboratory") / "assemblies.toml").read_bytes()
-    _, done = shake(folder, text, _record, SHAKEN, seed=seed, workers=workers)
+    text = (resources("colonnade.laboratory") / "assemblies.toml").read_text(encoding="utf-8")
+    done = shake(folder, text, _record, SHAKEN, seed=seed, workers=workers)
     return with_its_truth(folder, {"seed": seed, "tests": {name: true for each in done for name, true in each.items()}})
 
 
@@ -132,7 +132,7 @@ def _record(campaign: Campaign, recording: str, seed: np.random.SeedSequence) ->
         seen = (place + NOISE["marker"] * random.normal(size=place.shape)) @ axes.T
         columns |= {f"{name} [{marker.unit}]": 1e3 * seen[:, axis] for axis, name in enumerate(marker.columns)}
     rows = "\n".join(",".join(f"{value:.4f}" for value in row) for row in np.column_stack(list(columns.values())))
-    put(campaign.path.parent / "raw" / f"{recording}.csv", f"{','.join(columns)}\n{rows}\n".encode())
+    write_text(campaign.path.parent / "raw" / f"{recording}.csv", f"{','.join(columns)}\n{rows}\n")
     bodies = became(stood, moved)
     true = {}
     for test in tests:

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from io import BytesIO
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.errors import StoreError
 
 
 @dataclass(frozen=True)
@@ -129,29 +126,3 @@ GERMAN = FileFormat(
 """Semicolons, decimal commas, Latin-1 and a preamble."""
 
 TDMS, MATLAB = FileFormat(".tdms", _tdms), FileFormat(".mat", _matlab)
-
-
-def put(path: Path, data: bytes) -> None:
-    """
-    Write a file of a virtual campaign, unless it holds these bytes already.
-
-    Raises
-    ------
-    StoreError
-        If it cannot be written.
-    """
-    with writing(path):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        if path.is_symlink():  # what it leads to is not ours
-            path.unlink()
-        if not path.is_file() or path.read_bytes() != data:
-            path.write_bytes(data)
-
-
-@contextmanager
-def writing(path: Path) -> Iterator[None]:
-    """Tell why a file or folder of a virtual campaign cannot be written."""
-    try:
-        yield
-    except OSError as error:
-        raise StoreError(f"{path}: the virtual campaign cannot be written here ({error.strerror}).") from error

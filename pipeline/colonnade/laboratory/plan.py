@@ -13,15 +13,13 @@ from colonnade.campaign import FILE_NAME
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.syntax.document import toml_key, toml_value
 from colonnade.errors import CampaignError
-from colonnade.laboratory.files import COMMAS, FileFormat, writing
+from colonnade.laboratory.files import COMMAS, FileFormat
 from colonnade.laboratory.table import Imperfections, TableMotion, still
 from colonnade.readers.files import irregular
 from colonnade.store.files import own_files
 
 MARK = "# Written by colonnade's virtual laboratory"
 """First words of every campaign file that may be overwritten by another one of the laboratory."""
-
-OPERATOR = "virtual laboratory"
 
 _HEAD = (
     MARK
@@ -69,8 +67,6 @@ class Trial:
         Further keys of the test in the campaign file, such as `{"span": 2.0}`.
     specimen : str or None
         Id of what is tested; None for the first of the plan.
-    steady : pair of float, or None
-        When the table shakes at full amplitude, s; None if it never does steadily.
     """
 
     name: str
@@ -83,7 +79,6 @@ class Trial:
     spikes: int = 0
     entry: Mapping[str, str | float] = field(default_factory=dict)
     specimen: str | None = None
-    steady: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -124,16 +119,11 @@ class Plan:
                 "setup": trial.setup,
                 "file": paths[MAIN] if len(paths) == 1 else paths,
                 "date": begun(position).date(),
-                "operator": OPERATOR,
+                "operator": "virtual laboratory",
                 **trial.entry,
             }
-            lines += ["", "[[tests]]", *entries(entry)]
+            lines += ["", "[[tests]]", *(f"{toml_key(key)} = {toml_value(value)}" for key, value in entry.items())]
         return "\n".join([*lines, ""])
-
-
-def entries(values: Mapping[str, object]) -> list[str]:
-    """Write a line of TOML for each key."""
-    return [f"{toml_key(key)} = {toml_value(value)}" for key, value in values.items()]
 
 
 def begun(position: int) -> datetime:
@@ -151,19 +141,12 @@ def begun(position: int) -> datetime:
 
 
 def claim(folder: Path) -> None:
-    """
-    Make the folders of a campaign, without the links to files that were put into them.
-
-    Refused is a folder with a campaign file that the laboratory did not write, or with a link in place of a folder.
-    """
+    """Refuse a folder with a campaign file that the laboratory did not write, or with a link in place of a folder."""
     path = folder / FILE_NAME
     if path.exists() and (irregular(path) or not path.read_bytes().startswith(MARK.encode())):
         raise CampaignError(
             f"{path}: this campaign was not written by the virtual laboratory and was not changed. Name another folder "
             "for the demo."
         )
-    for place in (folder / "raw", folder / "truth"):
-        with writing(place):
-            for link in filter(Path.is_symlink, own_files(place)):  # what it leads to is not ours
-                link.unlink()
-            place.mkdir(parents=True, exist_ok=True)
+    for place in ("raw", "truth"):
+        own_files(folder / place)

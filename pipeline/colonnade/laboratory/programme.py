@@ -150,7 +150,6 @@ def sine(block: Block, name: str, frequency: float, amplitude: float, *, cycles:
         duration=table.stop + 4.0,
         table=table,
         entry={"frequency": f"{frequency:g} Hz"},
-        steady=(QUIET + ramp / frequency, QUIET + (ramp + cycles) / frequency),
     )
 
 
@@ -185,12 +184,11 @@ def prism_programme(name: str, record: Motion, *, seed: int = 0) -> Plan:
     """
     block = load(PRISM).block("prism")
     sines = (sine(block, *each, cycles=round(4 * each[1]), ramp=RAMP) for each in SINES)
-    generator = np.random.default_rng(seed)
     return Plan(
         PRISM.read_text(encoding="utf-8"),
         {"prism": RESTITUTION["prism"]},
         recorders(*FORMATS["prism"]),
-        (*free_vibrations(block, generator), *sines, *earthquakes(name, record)),
+        (*free_vibrations(block, np.random.default_rng(seed)), *sines, *earthquakes(name, record)),
     )
 
 

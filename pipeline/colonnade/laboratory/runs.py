@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import partial
 from math import pi
 from pathlib import Path
@@ -14,12 +14,12 @@ import numpy as np
 
 from colonnade.campaign import FILE_NAME, Campaign, load
 from colonnade.campaign.channel import MAIN
-from colonnade.laboratory.files import Sheet, put
+from colonnade.laboratory.files import Sheet
 from colonnade.laboratory.plan import Plan, Trial, begun, claim
 from colonnade.laboratory.programme import load_record, prism_programme
-from colonnade.laboratory.site import add_site
 from colonnade.laboratory.table import measure, sense
 from colonnade.laboratory.truth import simulate
+from colonnade.store.files import write_changed, write_text
 
 START_SCATTER = 1e-3
 """A recorder that starts late does so within ± this, s: no two starts are alike."""
@@ -50,7 +50,6 @@ def write_campaign(
     motion: Path | None = None,
     programme: Callable[..., Plan] | None = None,
     workers: int | None = 1,
-    site: bool = False,
 ) -> WrittenCampaign:
     """
     Write a virtual campaign.
@@ -67,8 +66,6 @@ def write_campaign(
         `paper_programme`, or `prism_programme`, the default: its prism's ten tests.
     workers : int or None, optional
         Processes; None takes one a core.
-    site : bool, optional
-        Also ask whether the real columns stand, on synthetic ground motions.
 
     Returns
     -------
@@ -84,44 +81,34 @@ def write_campaign(
         If a file cannot be written.
     """
     name, record = load_record(motion)
-    plan = (programme or prism_programme)(name, record, seed=seed)
-    written = write(plan, folder, seed=seed, workers=workers)
-    if site:
-        add_site(written.path, seed=seed)
-    return written
+    return write((programme or prism_programme)(name, record, seed=seed), folder, seed=seed, workers=workers)
 
 
 def write(plan: Plan, folder: Path | str, *, seed: int = 0, workers: int | None = 1) -> WrittenCampaign:
     """Run a plan: write its campaign file, its raw files and its truth; see `write_campaign`."""
-    text = plan.campaign_text().encode()
-    campaign, done = shake(folder, text, partial(run_test, plan), plan.trials, seed=seed, workers=workers)
-    names = ("critical_angle", "pole_distance", "inertia", "p")
-    specimens = {
-        name: {"restitution": restitution} | {key: getattr(campaign.block(name), key) for key in names}
-        for name, restitution in plan.restitution.items()
-    }
+    done = shake(folder, plan.campaign_text(), partial(run_test, plan), plan.trials, seed=seed, workers=workers)
+    specimens = {name: {"restitution": restitution} for name, restitution in plan.restitution.items()}
     records = {trial.name: record for trial, record in zip(plan.trials, done, strict=True)}
-    truth = {"seed": seed, "specimens": specimens, "imperfections": asdict(plan.imperfections), "tests": records}
-    return with_its_truth(folder, truth)
+    return with_its_truth(folder, {"seed": seed, "specimens": specimens, "tests": records})
 
 
 def shake(
-    folder: Path | str, text: bytes, one: Callable[..., Any], asked: Collection[Any], *, seed: int, workers: int | None
-) -> tuple[Campaign, list[Any]]:
+    folder: Path | str, text: str, one: Callable[..., Any], asked: Collection[Any], *, seed: int, workers: int | None
+) -> list[Any]:
     """Write the campaign file, and record each of what is asked with a seed of its own; `workers` None: one a core."""
     from joblib import Parallel, cpu_count, delayed
 
     claim(Path(folder))
-    put(Path(folder, FILE_NAME), text)
+    write_text(Path(folder, FILE_NAME), text)
     campaign = load(Path(folder).absolute())  # as workers that were left waiting may have started in another folder
     seeds = np.random.SeedSequence(seed).spawn(len(asked))
     calls = (delayed(one)(campaign, each, own) for each, own in zip(asked, seeds, strict=True))
-    return campaign, list(Parallel(min(workers or cpu_count(), len(asked)), max_nbytes=None)(calls))
+    return list(Parallel(min(workers or cpu_count(), len(asked)), max_nbytes=None)(calls))
 
 
 def with_its_truth(folder: Path | str, truth: dict[str, Any]) -> WrittenCampaign:
     """Write truth/truth.json next to a campaign that was written."""
-    put(Path(folder, "truth", "truth.json"), (json.dumps(truth, indent=1, ensure_ascii=False) + "\n").encode())
+    write_text(Path(folder, "truth", "truth.json"), json.dumps(truth, indent=1, ensure_ascii=False) + "\n")
     return WrittenCampaign(Path(folder, FILE_NAME), truth)
 
 
@@ -143,7 +130,7 @@ def run_test(plan: Plan, campaign: Campaign, trial: Trial, seed: np.random.SeedS
         catch=campaign.setups[trial.setup].catch or pi / 2,
     )
     angles = {name: truth.angle[np.searchsorted(truth.time, clock)] for name, clock in clocks.items()}
-    channels, errors = campaign.channels(test), {}
+    channels = campaign.channels(test)
     wired = [(key, clocks[channel.recorder].size) for key, channel in channels.items()]
     spikes = _draw_spikes(trial.spikes, wired, generator)
     start = np.datetime64(begun(plan.trials.index(trial)), "us")
@@ -152,12 +139,12 @@ def run_test(plan: Plan, campaign: Campaign, trial: Trial, seed: np.random.SeedS
         for key, channel in channels.items():
             if channel.recorder == name:
                 value = sense(channel, truth.block, trial.table, clocks[name], angles[name])
-                written, errors[key] = measure(value, channel, plan.imperfections, generator, spikes.get(key, ()))
+                written = measure(value, channel, plan.imperfections, generator, spikes.get(key, ()))
                 columns[str(channel.column)] = (channel.unit or "", written)
         sheet = Sheet(clocks[name] - starts[name], recorder.sampling_rate_hz, columns, start)
-        put(test.files[name], recorder.format.content(sheet))
+        write_changed(test.files[name], recorder.format.content(sheet))
     rows = "".join(f"{time:.6f},{angle:.9g}\n" for time, angle in zip(clocks[MAIN], angles[MAIN], strict=True))
-    put(campaign.folder / "truth" / f"{trial.name}.csv", ("time_s,angle_rad\n" + rows).encode())
+    write_text(campaign.folder / "truth" / f"{trial.name}.csv", "time_s,angle_rad\n" + rows)
     peak_ratio, peak_time = truth.peak
     return {
         "kind": trial.kind,
@@ -166,14 +153,7 @@ def run_test(plan: Plan, campaign: Campaign, trial: Trial, seed: np.random.SeedS
         "peak_ratio": peak_ratio,
         "peak_time": peak_time,
         "release_ratio": float(truth.amplitude[0]) if truth.angle[0] != 0.0 else None,
-        "overturning_time": truth.overturning_time if np.isfinite(truth.overturning_time) else None,
-        "impact_count": int(truth.impact_times.size),
-        "pga": float(np.abs(trial.table.acceleration(clocks[MAIN])).max()),
-        "theta0": trial.theta0,
-        "release": trial.release,
-        "steady": None if trial.steady is None else list(trial.steady),
         "recorder_starts": starts,
-        "channels": errors,
     }
 
 

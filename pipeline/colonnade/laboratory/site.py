@@ -1,4 +1,4 @@
-"""The real columns of a virtual campaign and their site: synthetic motions, some with a pulse, a made-up hazard."""
+"""Synthetic ground motions for the assessment of real columns, some of them with a pulse."""
 
 from __future__ import annotations
 
@@ -10,13 +10,10 @@ import numpy as np
 import scipy
 
 from colonnade.arrays import Array
-from colonnade.campaign import load
-from colonnade.campaign.syntax.document import toml_key
-from colonnade.dynamics.block import STANDARD_GRAVITY, Block
+from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.pulses import mavroeidis_papageorgiou
-from colonnade.laboratory.files import put
-from colonnade.laboratory.plan import entries
+from colonnade.store.files import write_text
 
 INTERVAL = 0.01
 """s."""
@@ -39,21 +36,7 @@ LOWEST = 0.3
 SHAPE = 3.0
 """Of the gamma distribution whose density is the square of the envelope (Saragoni and Hart 1974)."""
 
-FOLDER, LIST, HAZARD = "records", "records.csv", "hazard-synthetic.csv"
-
-KNOWN_WITHIN = 0.02
-"""Limits of α and p of the real columns, relative."""
-
-RESTITUTION, FRICTION = (0.93, 0.985), (0.6, 0.8)
-"""Limits of e and of the friction of the real columns."""
-
-LEVELS = np.geomspace(0.02, 3.0, 16)
-"""PGV of the hazard, m/s."""
-
-_HEAD = """
-# The real columns that these specimens are models of, and a question about each of them. Ground motions and hazard
-# are synthetic: no site has them. That the e of a model holds for its column is an assumption, within the limits given.
-"""
+LIST = "records.csv"
 
 
 class SyntheticRecord(NamedTuple):
@@ -138,47 +121,7 @@ def write_suite(folder: Path, records: list[SyntheticRecord]) -> Path:
     rows = ["file,unit,interval,record,magnitude,distance [km]"]
     for name, motion, magnitude, distance, _period in records:
         values = "\n".join(f"{value:.6e}" for value in motion.acceleration)
-        put(folder / f"{name}.csv", f"acceleration [m/s^2]\n{values}\n".encode())
+        write_text(folder / f"{name}.csv", f"acceleration [m/s^2]\n{values}\n")
         rows.append(f"{name}.csv,m/s^2,{motion.dt:g} s,{name},{magnitude:.2f},{distance / 1000:.1f}")
-    put(folder / LIST, "\n".join([*rows, ""]).encode())
+    write_text(folder / LIST, "\n".join([*rows, ""]))
     return folder / LIST
-
-
-def annual_rate(velocity: float) -> float:
-    """
-    Rate a year at which a PGV (m/s) is exceeded at the made-up site: it falls ever faster.
-
-    Examples
-    --------
-    >>> [round(annual_rate(each), 6) for each in (0.1, 0.5)]
-    [0.01, 0.000386]
-    """
-    steps = np.log(velocity / 0.1)
-    return float(0.01 * np.exp(-1.7 * steps - 0.2 * steps**2))
-
-
-def add_site(campaign_file: Path, *, seed: int) -> None:
-    """Add the real columns, the ground motions (drawn by `seed`) and the hazard to a campaign that was written."""
-    folder, campaign = campaign_file.parent, load(campaign_file)
-    write_suite(folder / FOLDER, synthetic_records(seed=seed))
-    rows = [f"{level:.4g}, {annual_rate(level):.4g}" for level in LEVELS.tolist()]
-    put(folder / HAZARD, "\n".join(["pgv [m/s], rate [1/year]", *rows, ""]).encode())
-    lines = [_HEAD.rstrip()]
-    for name, specimen in campaign.specimens.items():
-        asked = {"specimen": name, "records": f"{FOLDER}/{LIST}", "measure": "pgv", "hazard": HAZARD}
-        for table, said in (("prototype", _column(campaign.block(name), specimen.scale)), ("assessments", asked)):
-            lines += ["", f"[{table}.{toml_key(name)}]", *entries(said)]
-    put(campaign_file, campaign_file.read_bytes() + "\n".join([*lines, ""]).encode())
-
-
-def _column(block: Block, scale: float | None) -> dict[str, object]:
-    changes = np.array([1 - KNOWN_WITHIN, 1 + KNOWN_WITHIN])
-    angles, rates = block.critical_angle * changes, block.p / sqrt(scale or 1.0) * changes
-    return {
-        "restitution": "identified",
-        "restitution_range": list(RESTITUTION),
-        "critical_angle_range": [f"{each:.4g} rad" for each in angles.tolist()],
-        "p_range": [f"{each:.4g} rad/s" for each in rates.tolist()],
-        "friction": sum(FRICTION) / 2,
-        "friction_range": list(FRICTION),
-    }

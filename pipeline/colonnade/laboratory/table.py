@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 from math import copysign, cos, inf, pi, sin
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -209,12 +208,11 @@ def measure(
     imperfections: Imperfections,
     generator: np.random.Generator,
     spikes: tuple[int, ...] = (),
-) -> tuple[Array, dict[str, Any]]:
+) -> Array:
     """
     Turn a physical value (SI) into what the recorder writes: its converter has ±10 V for the range of the channel.
 
-    At `spikes`, samples, a pulse of 2 to 5 V comes on top, towards the middle of the range. The errors are those of
-    truth.json: `zero_volts`, `drift_volts` over the record, and `spikes`.
+    At `spikes`, samples, a pulse of 2 to 5 V comes on top, towards the middle of the range.
     """
     zero = VOLTS * imperfections.zero * generator.uniform(-1.0, 1.0)
     drift = VOLTS * imperfections.drift * generator.choice([-1.0, 1.0])
@@ -225,4 +223,4 @@ def measure(
     for sample in spikes:
         volts[sample] -= np.copysign(generator.uniform(2.0, 5.0), volts[sample])
     codes = np.clip(np.rint(volts / STEP), -(2 ** (BITS - 1)), 2 ** (BITS - 1) - 1)
-    return codes * STEP * a_volt, {"zero_volts": float(zero), "drift_volts": float(drift), "spikes": list(spikes)}
+    return np.asarray(codes * STEP * a_volt)

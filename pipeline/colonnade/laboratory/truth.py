@@ -10,7 +10,7 @@ every impact and at every uplift, all of which are located as events.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise, product
 from math import cos, nextafter, pi, sin, tan
 from typing import Any
@@ -44,52 +44,6 @@ NO_ROCKING_RATIO = 1e-3
 """A block whose largest |θ|/α stays at or below this has not rocked."""
 
 
-@dataclass(frozen=True)
-class Truth:
-    """
-    The true rocking history of one test.
-
-    Attributes
-    ----------
-    block : Block
-    time, angle : ndarray, shape (n,)
-        s, rad.
-    impact_times, impact_velocities : ndarray, shape (m,)
-        s; rad/s just before each impact.
-    overturning_time : float
-        s, when |θ| passed α for good; NaN for a block that stands.
-    """
-
-    block: Block
-    time: Array
-    angle: Array
-    impact_times: Array
-    impact_velocities: Array
-    overturning_time: float
-
-    @property
-    def amplitude(self) -> Array:
-        """|θ|/α, shape (n,), with the critical angle of the side that each sample is on."""
-        return np.asarray(np.abs(self.angle) / self.block.critical_angle_at(self.angle))
-
-    @property
-    def outcome(self) -> str:
-        """no-rocking, rocking or overturned."""
-        if np.isfinite(self.overturning_time):
-            return "overturned"
-        return "rocking" if self.amplitude.max() > NO_ROCKING_RATIO else "no-rocking"
-
-    @property
-    def peak(self) -> tuple[float | None, float | None]:
-        """Largest |θ|/α, of a free vibration after its first impact, and when, s; None of a block that overturned."""
-        if self.outcome == "overturned":
-            return None, None
-        is_decay = self.angle[0] != 0.0 and self.impact_times.size
-        first = int(np.searchsorted(self.time, self.impact_times[0])) if is_decay else 0
-        sample = first + int(np.argmax(self.amplitude[first:]))
-        return float(self.amplitude[sample]), float(self.time[sample])
-
-
 def simulate(
     block: Block,
     time: ArrayLike,
@@ -99,7 +53,7 @@ def simulate(
     theta0: float = 0.0,
     release: float = 0.0,
     catch: float = pi / 2,
-) -> Truth:
+) -> Simulation:
     """
     Integrate the rocking of a block.
 
@@ -119,29 +73,28 @@ def simulate(
 
     Returns
     -------
-    truth : Truth
+    truth : Simulation
     """
     wanted = np.atleast_1d(np.asarray(time, dtype=np.float64))
-    run = Integration(block, wanted, restitution, catch, (float(theta0), 0.0), release)
+    run = Simulation(block, wanted, restitution, catch, (float(theta0), 0.0), release)
     for start, stop, acceleration in (table or still()).pieces(release, float(wanted[-1])):
         run.go(start, stop, acceleration)
-    return Truth(block, wanted, run.angles, np.array(run.impact_times), np.array(run.impact_velocities), run.passed)
+    return run
 
 
-class Integration:
+class Simulation:
     """
     A block on its way through a test; see `simulate` for the arguments.
 
     Attributes
     ----------
-    time, angles : ndarray, shape (n,)
+    block : Block
+    time, angle : ndarray, shape (n,)
         s, rad; filled as the test goes on.
-    now, angle, velocity : float
-        s, rad, rad/s.
     impact_times, impact_velocities : list of float
         s; rad/s just before each impact.
-    passed : float
-        When |θ| passed α outwards, s; NaN while the block is below it.
+    now, theta, omega : float
+        s, rad, rad/s.
     resting, caught : bool
         The block stands, or rests in its safety frame.
     """
@@ -150,20 +103,42 @@ class Integration:
         self, block: Block, time: Array, restitution: float, catch: float, state: tuple[float, float], now: float = 0.0
     ) -> None:
         self.block, self.time, self.restitution, self.catch = block, time, restitution, catch
-        (self.angle, self.velocity), self.now = state, now
-        self.angles = np.full(time.size, self.angle)
+        (self.theta, self.omega), self.now = state, now
+        self.angle = np.full(time.size, self.theta)
         self.filled = int(np.searchsorted(time, now, side="right"))
         self.resting, self.caught = state == (0.0, 0.0), False
         self.impact_times: list[float] = []
         self.impact_velocities: list[float] = []
         self._stand_on(1.0 if state >= (0.0, 0.0) else -1.0)
-        self.passed = now if abs(self.angle) > self.geometry.critical_angle else float("nan")
 
-    def move_to(self, instant: float) -> None:
-        """Let time pass without a change of the angle."""
+    @property
+    def amplitude(self) -> Array:
+        """|θ|/α, shape (n,), with the critical angle of the side that each sample is on."""
+        return np.asarray(np.abs(self.angle) / self.block.critical_angle_at(self.angle))
+
+    @property
+    def outcome(self) -> str:
+        """no-rocking, rocking or overturned: beyond α at the end."""
+        if self.amplitude[-1] > 1.0:
+            return "overturned"
+        return "rocking" if self.amplitude.max() > NO_ROCKING_RATIO else "no-rocking"
+
+    @property
+    def peak(self) -> tuple[float | None, float | None]:
+        """Largest |θ|/α, of a free vibration after its first impact, and when, s; None of a block that overturned."""
+        if self.outcome == "overturned":
+            return None, None
+        first = int(np.searchsorted(self.time, self.impact_times[0])) if self.angle[0] and self.impact_times else 0
+        sample = first + int(np.argmax(self.amplitude[first:]))
+        return float(self.amplitude[sample]), float(self.time[sample])
+
+    def move_to(self, instant: float, curve: Curve | None = None) -> None:
+        """Let time pass, along the curve of a step, or without a change of the angle."""
         end = int(np.searchsorted(self.time, instant, side="right"))
-        self.angles[self.filled : end] = self.angle
-        self.filled, self.now = max(end, self.filled), instant
+        if end > self.filled:
+            self.angle[self.filled : end] = self.theta if curve is None else curve(self.time[self.filled : end])[0]
+            self.filled = end
+        self.now = instant
 
     def go(self, start: float, stop: float, acceleration: Acceleration) -> None:
         """Integrate one smooth piece of the base motion."""
@@ -182,13 +157,8 @@ class Integration:
     def _rest(self, stop: float, acceleration: Acceleration) -> None:
         """Stand still up to uplift or to the end of the piece."""
         looks = np.linspace(self.now, stop, LOOKS_PER_STEP + 1).tolist()
-        sides = zip((-1.0, 1.0), self.block.sides, strict=True)
-        for (left, right), (side, geometry) in product(pairwise(looks), sides):
-            sign, threshold = -side, tan(geometry.critical_angle)
-
-            def excess(instant: float, sign: float = sign, threshold: float = threshold) -> float:
-                return sign * acceleration(instant) / self.block.gravity - threshold
-
+        for (left, right), side in product(pairwise(looks), (-1.0, 1.0)):
+            excess = partial(self._excess, side, acceleration)
             if excess(right) > 0.0:
                 instant = left if excess(left) > 0.0 else _root(excess, left, right)
                 # The end of the bracket that is past the threshold: there the block does rise.
@@ -196,9 +166,13 @@ class Integration:
                     instant = nextafter(instant, right)
                 self.move_to(instant)
                 self._stand_on(side)
-                self.velocity, self.resting = 0.0, False
+                self.omega, self.resting = 0.0, False
                 return
         self.move_to(stop)
+
+    def _excess(self, side: float, acceleration: Acceleration, instant: float) -> float:
+        """Base acceleration over g, less that which lifts the block onto a side."""
+        return -side * acceleration(instant) / self.block.gravity - tan(self.block.critical_angle_at(side))
 
     def _rock(self, stop: float, acceleration: Acceleration) -> None:
         """Integrate up to an impact, the catch or the end of the piece."""
@@ -211,7 +185,7 @@ class Integration:
         solver = DOP853(
             rate,
             self.now,
-            np.array([self.angle, self.velocity]),
+            np.array([self.theta, self.omega]),
             stop,
             first_step=min(stop - self.now, 0.02 / self.p),
             max_step=LARGEST_STEP / self.p,
@@ -233,51 +207,36 @@ class Integration:
                 else:
                     self._fall_into_frame(curve, low, high)
                 return
-            self._follow(curve, solver.t)
-            self.now, self.angle, self.velocity = solver.t, float(solver.y[0]), float(solver.y[1])
+            self.move_to(solver.t, curve)
+            self.theta, self.omega = solver.y.tolist()
 
     def _land(self, curve: Curve, low: float, high: float, acceleration: Acceleration) -> None:
         """Find the impact between two looks, and go on from it."""
-        if low == self.now and self.side * self.angle <= 0.0:
-            if self.side * self.velocity <= 0.0:
+        if low == self.now and self.side * self.theta <= 0.0:
+            if self.side * self.omega <= 0.0:
                 # An uplift that was only rounding: the block stands.
-                self.angle, self.velocity, self.resting = 0.0, 0.0, True
+                self.theta, self.omega, self.resting = 0.0, 0.0, True
                 self.move_to(high)
                 return
             # The whole arc lies between the looks: its impact comes after its turning point.
             low = _root(lambda t: curve(t)[1], low, high)
         instant = _root(lambda t: curve(t)[0], low, high)
-        self._follow(curve, instant)
+        self.move_to(instant, curve)
         velocity = float(curve(instant)[1])
         self.impact_times.append(instant)
         self.impact_velocities.append(velocity)
         self._stand_on(-self.side)
-        self.now, self.angle, self.velocity = instant, 0.0, self.restitution * velocity
+        self.theta, self.omega = 0.0, self.restitution * velocity
         critical = self.geometry.critical_angle
         holding = sin(critical) + self.side * acceleration(instant) / self.block.gravity * cos(critical)
-        risen = self.velocity**2 / (2 * self.p**2)
+        risen = self.omega**2 / (2 * self.p**2)
         if holding > 0.0 and risen <= REST_ANGLE * critical * holding:
-            self.velocity, self.resting = 0.0, True
+            self.omega, self.resting = 0.0, True
 
     def _fall_into_frame(self, curve: Curve, low: float, high: float) -> None:
-        self._follow(curve, _root(lambda t: self.side * curve(t)[0] - self.catch, low, high))
-        self.angle, self.velocity, self.caught = self.side * self.catch, 0.0, True
+        self.move_to(_root(lambda t: self.side * curve(t)[0] - self.catch, low, high), curve)
+        self.theta, self.omega, self.caught = self.side * self.catch, 0.0, True
         self.move_to(float(self.time[-1]))
-
-    def _follow(self, curve: Curve, stop: float) -> None:
-        """Take the wanted angles from a step, and the last outward pass of α; a step is too short for two."""
-        end = int(np.searchsorted(self.time, stop, side="right"))
-        if end > self.filled:
-            self.angles[self.filled : end] = curve(self.time[self.filled : end])[0]
-            self.filled = end
-
-        def beyond(instant: float) -> float:
-            return float(self.side * curve(instant)[0] - self.geometry.critical_angle)
-
-        if beyond(stop) <= 0.0:
-            self.passed = float("nan")
-        elif np.isnan(self.passed):
-            self.passed = _root(beyond, self.now, stop)
 
 
 def _root(function: Callable[[float], float], low: float, high: float) -> float:
