@@ -115,8 +115,7 @@ SCALES = Group(
             test="free",
             happens="The sizes are those of the block that was tested the day before.",
             plant=in_campaign('height = "456 mm"', 'height = "912 mm"'),
-            message=r"channels top and bottom all show 3\.\d+ times the rotation .* specimen's dimensions, or the "
-            "sampling rate",
+            message=r"channels top and bottom all show 3\.\d+ times the rotation .* a height × 0\.\d+",
             picture=pair(FREE, "The recordings are the same: only the equation of motion disagrees."),
             mend="Give the sizes of the specimen that was tested. If they are right, look at the sampling rate.",
             mending=in_campaign('height = "912 mm"', 'height = "456 mm"'),

@@ -246,7 +246,7 @@ def contradictions(forcing: Forcing | None, frequency: float | None, amplitude: 
             "m/s². The recorded one is used: the table did not do what was asked for, or the accelerometer's gain is "
             f"wrong; then A is {1 / ratio:.2f} times what is given."
         )
-        others = ("gain", "unit", "AC coupling", "hum", "end of the range", "dead channel")
+        others = ("gain", "unit", "end of the range", "dead channel")
         found.append(warning("amplitude", text, follows=others))
     return found
 

@@ -12,9 +12,8 @@ from colonnade.identification.plausibility.table_motion import (
     TableChannel,
     compare,
     derived,
-    guilty,
-    humming,
     table_doubts,
+    wrong_one,
 )
 from colonnade.identification.plausibility.transducers import ANGLES, Gauge, Rotation
 from every import every
@@ -42,18 +41,11 @@ def _compared(channel, displacement):
 
 
 def _told(channel, displacement):
-    found, factor = table_doubts([channel], [displacement], None, INTERVAL)
-    assert factor == 1.0
-    return found
+    return table_doubts([channel], [displacement], None, INTERVAL)
 
 
 def _late(seconds):
     return lambda shaken: np.interp(TIME - seconds, TIME, shaken)
-
-
-def _coupled(corner, order=1):
-    sections = scipy.signal.butter(order, corner, "high", fs=1 / INTERVAL, output="sos")
-    return lambda shaken: scipy.signal.sosfilt(sections, shaken)
 
 
 @pytest.mark.parametrize("factor", [1.0, 9.81, -1.0, 0.1, 0.93, 1.4])
@@ -61,7 +53,7 @@ def test_the_ratio_of_acceleration_and_displacement_is_found_with_its_error(fact
     found = _compared(*_pair(acceleration=factor))
     assert abs(found.factor - factor) < max(4 * found.factor_error, 0.002 * abs(factor))
     assert found.factor_error < 0.01 * abs(factor)
-    assert not found.misplaced
+    assert not found.delay
     assert found.differs == (factor != 1.0)
     assert bool(_told(*_pair(acceleration=factor))) == found.differs
 
@@ -82,7 +74,7 @@ def test_the_error_of_the_ratio_is_its_scatter():
 def test_a_late_acceleration_is_late_and_not_of_another_scale(late):
     pair = _pair(change=_late(late))
     found = _compared(*pair)
-    assert (found.misplaced, found.size) == ("late recorder", pytest.approx(late, abs=1e-3))
+    assert found.delay == pytest.approx(late, abs=1e-3)
     assert found.factor == pytest.approx(1.0, abs=0.01)
     (told,) = _told(*pair)
     assert (told.kind, told.severity) == ("late recorder", Severity.SERIOUS if abs(late) > 0.03 else Severity.WARNING)
@@ -90,27 +82,12 @@ def test_a_late_acceleration_is_late_and_not_of_another_scale(late):
     assert ("late against" in told.text) == (late > 0)
 
 
-@pytest.mark.parametrize("order", [1, 2])
-def test_a_high_pass_is_found_with_its_corner(order):
-    pair = _pair(change=_coupled(1.0, order))
-    found = _compared(*pair)
-    # √2 ω is the coefficient of the integral behind a Butterworth high-pass of the second order.
-    assert (found.misplaced, found.size) == ("AC coupling", pytest.approx(np.sqrt(order), rel=0.1))
-    assert "AC coupling" in str(*_told(*pair))
-
-
-def test_a_corner_far_below_the_motion_is_none():
-    found = _compared(*_pair(change=_coupled(0.02)))
-    assert not found.misplaced
-    assert not found.differs
-
-
 @every(
     ("found", "by_specimen", "wrong"),
     [
-        (1.1, -1.0, "either"),
-        (1.1, 1.0, "either"),
-        (9.8, None, "either"),
+        (1.1, -1.0, ""),
+        (1.1, 1.0, ""),
+        (9.8, None, ""),
         (9.8, 1.02, "displacement"),
         (9.8, 9.7, "acceleration"),
         (1.4, 1.38, "acceleration"),
@@ -118,11 +95,11 @@ def test_a_corner_far_below_the_motion_is_none():
         (0.7, 1.02, "displacement"),
         (-1.0, -0.98, "acceleration"),
         (-1.0, 1.0, "displacement"),
-        (0.1, 5.0, "either"),
+        (0.1, 5.0, ""),
     ],
 )
 def test_the_specimen_tells_which_of_the_two_is_wrong(found, by_specimen, wrong):
-    assert guilty(found, by_specimen) == wrong
+    assert wrong_one(found, by_specimen) == wrong
 
 
 @pytest.mark.parametrize(
@@ -163,50 +140,37 @@ def rocked():
     [
         (lambda shaken: shaken, ""),
         (lambda shaken: 0.8 * shaken, ""),
-        (lambda shaken: -shaken, ""),
+        (lambda shaken: -shaken, "ACC is opposite to what the specimen's rocking requires"),
         (
             lambda shaken: 9.81 * shaken,
             r"ACC is (9\.[5-9]|10)\.?\d* times what the specimen's rocking requires: g read as",
         ),
         (_late(0.3), "ACC is (29[89]|30[012]) ± .* ms late against what the specimen's rocking requires"),
         (_late(-0.05), r"ACC is (4[89]|5[012])(\.\d)? ± .* ms early"),
-        (_coupled(2.0), "ACC lacks what is slower than about (1.[89]|2.[012])\\d* ± "),
     ],
-    ids=["sound", "scale", "sign", "unit", "late", "early", "AC"],
+    ids=["sound", "scale", "sign", "unit", "late", "early"],
 )
-def test_the_rocking_alone_shows_a_late_or_coupled_acceleration(change, said, rocked):
+def test_the_rocking_alone_shows_a_wrong_acceleration(change, said, rocked):
     angle, shaken = rocked
     channel = TableChannel("ACC", change(shaken), 1e-4)
     rotation = Rotation((Gauge("tilt", angle, ANGLES, 1e-4, quantity="angle"),), PRISM, INTERVAL, channel.values)
-    found, _ = table_doubts([channel], [], rotation, INTERVAL)
+    found = table_doubts([channel], [], rotation, INTERVAL)
     assert bool(found) == bool(said)
     assert re.search(said, " ".join(map(str, found))), found
-
-
-def test_a_hum_is_told_by_its_share_of_the_peak():
-    sound = _pair()[0]
-    assert humming(INTERVAL, sound) == []
-    peak = np.abs(sound.values).max()
-    for share, severity in ((0.02, None), (0.08, Severity.WARNING), (0.5, Severity.SERIOUS)):
-        hum = share * peak * np.sin(2 * np.pi * 50 * TIME + 1.0)
-        told = humming(INTERVAL, TableChannel("ACC", sound.values + hum, 0.01))
-        assert [each.severity for each in told] == ([severity] if severity else [])
-    assert "hums at 50 Hz" in str(*told)
-    assert '`base_lowpass` = "30 Hz"' in str(*told)
 
 
 @pytest.mark.parametrize(
     ("changed", "said"),
     [
-        ({"acceleration": 0.0}, "channel ACC hardly moves"),
-        ({"displacement": 0.0}, "channel ACT hardly moves"),
+        ({"acceleration": 0.0}, r"ACC shows 0\.\d+ m/s² RMS"),
+        ({"displacement": 0.0}, r"ACT 0\.\d+ m/s²"),
         ({"acceleration": 0.0, "displacement": 0.0}, ""),
     ],
     ids=["acceleration", "displacement", "the table stands"],
 )
 def test_a_dead_channel_is_told_from_a_table_that_stands(changed, said):
     found = _told(*_pair(**changed))
-    assert "".join(map(str, found)).startswith(said)
+    assert re.search(said, "".join(map(str, found)))
     assert bool(found) == bool(said)
 
 
@@ -214,5 +178,5 @@ def test_two_motions_are_not_one():
     acceleration, _ = _pair()
     other = TableChannel("ACT", 0.01 * np.sin(4 * np.pi * TIME), 2e-5)
     message = str(*_told(acceleration, other))
-    assert "not like one table" in message
+    assert "do not move like one table" in message
     assert "did not start with the other (`clock`)" in message

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import scipy
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -96,7 +95,7 @@ def test_a_sound_set_up_is_not_doubted(sound):
         (10.0, "a gain wrong by a factor of 10"),
         (1 / 25.4, "inches read as mm"),
         (1e-3, "factor of 1000"),
-        (4.0, "look at its gain"),
+        (4.0, "its gain × "),
     ],
 )
 @pytest.mark.parametrize("index", [0, 1])
@@ -140,22 +139,22 @@ def test_a_dead_transducer_is_named(sound, index):
 def test_all_of_them_wrong_alike_is_told_as_such(sound):
     (told,) = _said(_all_times(sound, 10.0))
     assert "all show" in told
-    assert "the specimen's dimensions, or the sampling rate" in told
+    assert "all gains × 0.1 (all angles change alike), as of a gain wrong by a factor of 10" in told
 
 
 @pytest.mark.parametrize("factor", [1.0, 9.81, -1.0, 1 / 9.81])
-def test_only_the_sign_of_the_tables_acceleration_is_told_of_transducers(factor):
+def test_the_scale_of_the_tables_acceleration_is_no_fault_of_transducers(factor):
     rotation = _shaken(PRISM, (0.44, 0.04))
-    told = _said(replace(rotation, acceleration=factor * rotation.acceleration))
-    assert ["opposite to the table's acceleration" in each for each in told] == ([True] if factor < 0 else [])
+    assert _said(replace(rotation, acceleration=factor * rotation.acceleration)) == []
 
 
 @pytest.mark.parametrize("share", [-0.5, 0.5])
 def test_a_zero_taken_while_the_block_leans_is_no_gain(share):
     rotation = _shaken(PRISM, (0.44, 0.04))
-    for each in rotation.gauges:
-        rotation = rotation.added(each, np.array(-share * PRISM.critical_angle * each.lever))
-    assert _said(rotation) == []
+    leaning = (
+        replace(each, reading=each.reading - share * PRISM.critical_angle * each.lever) for each in rotation.gauges
+    )
+    assert _said(rotation.with_gauges(*leaning)) == []
 
 
 def test_a_gain_is_told_of_a_block_that_falls_onto_its_frame_and_of_a_record_that_is_cut_while_it_rocks():
@@ -229,34 +228,11 @@ TIME = np.arange(0, 10, 1 / RATE)
 
 @pytest.fixture(scope="module")
 def shaken():
-    """Sound rotation, and displacement of the table."""
-    rotation = _shaken(PRISM, (0.44, 0.04), frequency=4.0, amplitude=1.7)
-    moved = -rotation.acceleration / (8 * np.pi) ** 2
-    return rotation.with_gauges(*(replace(each, refixed=moved) for each in rotation.gauges)), moved
-
-
-def _read(rotation, change):
-    """The same with the readings of each changed."""
-    return rotation.with_gauges(*(replace(each, reading=change(each.reading)) for each in rotation.gauges))
-
-
-def _added(rotation, chosen, added):
-    for index in chosen:
-        rotation = rotation.added(rotation.gauges[index], added)
-    return rotation
+    return _shaken(PRISM, (0.44, 0.04), frequency=4.0, amplitude=1.7)
 
 
 def test_sound_transducers_have_nothing_to_undo(shaken):
-    assert shaken[0].mistake is None
-
-
-@pytest.mark.parametrize(
-    ("chosen", "names"), [([0], "channel top"), ([1], "channel bottom"), ([0, 1], "channels top and bottom")]
-)
-def test_transducers_on_the_wall_that_are_declared_to_the_table_are_named(chosen, names, shaken):
-    rotation, moved = shaken
-    wrong = _added(rotation, chosen, moved)
-    assert wrong.mistake.text.startswith(f"{names}: `relative_to` is wrong")
+    assert shaken.mistake is None
 
 
 def _moved(rotation, angle, noise):
@@ -270,55 +246,17 @@ def _moved(rotation, angle, noise):
     )
 
 
-def _behind_a_high_pass(rotation, corner):
-    numerator, denominator = scipy.signal.butter(1, corner, "high", fs=RATE)
-    top = rotation.gauges[0]
-    return rotation.with_gauges(replace(top, reading=scipy.signal.lfilter(numerator, denominator, top.reading)))
-
-
-@pytest.mark.parametrize(
-    ("corner", "part"),
-    [
-        (0.3, slice(None)),
-        (0.6, slice(None)),
-        (2.0, slice(None)),
-        (0.6, slice(None, 3000)),
-        (0.6, slice(1500, None)),
-    ],
-    ids=["0.3 Hz", "0.6 Hz", "2 Hz", "cut while it rocks", "begun while it rocks"],
-)
-def test_a_transducer_behind_a_high_pass_is_named_with_its_corner(corner, part, shaken):
-    rotation, _ = shaken
-    coupled = _read(
-        _behind_a_high_pass(rotation, corner),
-        lambda reading: reading[part] - (reading[-100:].mean() if part.start else 0),
-    )
-    free = (replace(each, refixed=None) for each in coupled.gauges)
-    found = replace(coupled, gauges=tuple(free), acceleration=rotation.acceleration[part]).mistake
-    assert found.text.startswith("channel top does not hold a constant value")
-    assert f"{corner:.1g}" in found.text
-
-
-def test_what_hardly_shows_is_not_told(shaken):
-    rotation, _ = shaken
-    angle = rotation.gauges[0].angle()
-    same = _moved(rotation, angle, 0.0)
-    coupled = _behind_a_high_pass(same, 2e-4)
-    assert coupled.residual > 4 * same.residual
-    assert coupled.mistake is None
-
-
 @pytest.mark.parametrize("walked", [0.0016, 0.005])
 def test_a_block_that_walks_is_no_mistake(walked, shaken):
     walk = walked * np.clip((TIME - 2) / 5, 0, 1)
-    assert _added(shaken[0], [0, 1], walk).mistake is None
+    walked = (replace(each, reading=each.reading + walk) for each in shaken.gauges)
+    assert shaken.with_gauges(*walked).mistake is None
 
 
 @pytest.mark.parametrize("scale", [None, 2.0], ids=["moved by hand", "twice as far as a block"])
 def test_agreement_on_a_motion_that_is_not_this_blocks_proves_no_exchange(scale, shaken):
-    rotation, _ = shaken
-    angle = 0.05 * np.sin(1.9 * TIME) ** 3 if scale is None else scale * rotation.gauges[0].angle()
-    noisy = _moved(rotation, angle, NOISE)
+    angle = 0.05 * np.sin(1.9 * TIME) ** 3 if scale is None else scale * shaken.gauges[0].angle()
+    noisy = _moved(shaken, angle, NOISE)
     assert noisy.exchanged(*noisy.gauges).mistake is None
 
 

@@ -62,7 +62,8 @@ def test_transducers_on_the_ground_are_judged_less_the_tables_displacement(small
     campaign = _with_displacement(small_campaign, shaken, *on_ground, on_ground=True)
     assert [warning for warning in _doubts(campaign, "shake-01", shaken[0]) if "Zero was" not in warning] == []
     shaken[0]["main"].channel("LVDT 1").values[:] *= 10
-    assert any("Channel top shows" in warning for warning in _doubts(campaign, "shake-01", shaken[0]))
+    told = _doubts(campaign, "shake-01", shaken[0])
+    assert any("Channel top shows" in warning for warning in told), told
 
 
 @pytest.mark.parametrize(

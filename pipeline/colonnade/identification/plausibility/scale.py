@@ -11,7 +11,6 @@ import scipy
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
-from colonnade.findings import Finding, serious
 from colonnade.signals.samples import filled_in
 
 LOOSE = 1.5
@@ -22,9 +21,6 @@ CLOSE = 1.12
 
 STANDING = 8.0
 """Times its noise below which a channel does not move."""
-
-DEAD = 0.1
-"""Share of what others give below which a channel is dead."""
 
 MISLEADING = 0.1
 """Relative departure of a scale from which on results are wrong."""
@@ -100,15 +96,6 @@ def cause(scale: float, quantity: str) -> str:
         if abs(abs(log(abs(scale))) - log(factor)) < log(CLOSE):
             return words
     return UNKNOWN
-
-
-def dead(still: str, shown: float, due: float, unit: str, by: str) -> Finding:
-    """Say that a channel stands still (RMS in a unit) although others, `by`, give more."""
-    return serious(
-        "dead channel",
-        f"channel {still} hardly moves ({shown:.2g} {unit} RMS), although {by} would give {due:.2g} {unit}: it is "
-        "dead, or its gain is far too small. Check cable and sensor",
-    )
 
 
 @dataclass(frozen=True)

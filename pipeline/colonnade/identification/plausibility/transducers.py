@@ -15,7 +15,6 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.findings import Finding, serious, warning
 from colonnade.identification.plausibility.scale import (
-    DEAD,
     STANDING,
     SURE,
     UNKNOWN,
@@ -23,7 +22,6 @@ from colonnade.identification.plausibility.scale import (
     Scale,
     as_expected,
     cause,
-    dead,
     scale_of,
 )
 from colonnade.signals.samples import filled_in
@@ -52,11 +50,8 @@ LEAST = 0.01
 ALIKE = 0.05
 """Relative difference up to which scales are one."""
 
-FAR = 2.3
-"""Factor from which on a scale is not that of a size or a calibration."""
-
-PLAIN_UNITS = {1.0: "m", 1e-2: "cm", 1e-3: "mm", 1e-6: "µm", 0.0254: "inches"}
-"""Units by the gain that a channel has which is given none."""
+DEAD = 0.1
+"""Share of what others give below which a channel is dead."""
 
 NOISE_FACTOR = 4.0
 """Noise that differs by more than this between two tests comes from another gain, cable or filter."""
@@ -91,8 +86,6 @@ class Gauge:
         Standard deviation; physical over recorded value.
     quantity : str
         "displacement" or "angle".
-    refixed : ndarray, shape (n,), or None
-        What it reads more if it is fixed to the ground and said to be on the table, or the reverse; None if unknown.
     """
 
     name: str
@@ -101,7 +94,6 @@ class Gauge:
     noise: float
     gain: float = 1.0
     quantity: str = "displacement"
-    refixed: Array | None = None
 
     @cached_property
     def lever(self) -> float:
@@ -159,42 +151,42 @@ class Rotation:
         best: tuple[float, Finding | None] = (np.inf, None)
         if len(self.gauges) == 1 or before < LEAST * moved:
             return None
-        for kind, text, changed in (*_turned(self), *_exchanged(self), *_refixed(self), *_coupled(self)):
+        for kind, text, changed in self._candidates():
             after = changed.residual
             if before <= BETTER * after or after >= best[0]:
                 continue
             # What agrees by chance, or with a block that walks, does not obey the equation of motion as well.
-            proved = kind == "geometry" or all(each.is_known for each in changed.scales)
-            proved &= kind != "sign" or not any(each.base < 0 for each in changed.scales)
-            if proved and all(as_expected(each.value) for each in changed.scales if each.is_known):
+            proved = all(each.is_known and as_expected(each.value) for each in changed.scales)
+            if proved and not (kind == "sign" and any(each.base < 0 for each in changed.scales)):
                 fall = f"their residual about one rotation falls from {1e3 * before:.2g} to {1e3 * after:.2g} mm"
                 best = after, serious(kind, f"{text}, {fall}")
         return best[1]
 
-    @cached_property
-    def misfit(self) -> Array:
-        """Readings less those of one common rotation, shape (m, n)."""
-        levers, readings = (np.array([getattr(each, name) for each in self.gauges]) for name in ("lever", "reading"))
-        angle = np.zeros(readings.shape[1])
-        # The responses are nearly straight, so that steps along their levers settle at once.
-        for _ in range(ITERATIONS):
-            misfit = readings - np.array([np.interp(angle, ANGLES, each.response) for each in self.gauges])
-            angle = angle + levers @ misfit / float(levers @ levers)
-        return np.asarray(misfit)
+    def _candidates(self) -> Iterator[tuple[str, str, Rotation]]:
+        """Kind of each mistake that is tried, its words, and the rotation without it."""
+        for gauge in self.gauges:
+            others = _names(each for each in self.gauges if each is not gauge)
+            text = f"channel {gauge.name} turns opposite to {others}: with its sign reversed (`direction` or gain)"
+            yield "sign", text, self.with_gauges(replace(gauge, reading=-gauge.reading))
+        for first, second in combinations(self.gauges, 2):
+            text = f"channels {first.name} and {second.name} look swapped: with their columns exchanged"
+            yield "swapped channels", text, self.exchanged(first, second)
 
     @property
     def residual(self) -> float:
-        """RMS of the misfit."""
-        return float(np.sqrt(np.nanmean(self.misfit**2)))
+        """RMS of the readings less those of one common rotation."""
+        levers, readings = (np.array([getattr(each, name) for each in self.gauges]) for name in ("lever", "reading"))
+        angle, misfit = np.zeros(readings.shape[1]), readings
+        # The responses are nearly straight, so that steps along their levers settle at once.
+        for _ in range(ITERATIONS):
+            angle = angle + levers @ misfit / float(levers @ levers)
+            misfit = readings - np.array([np.interp(angle, ANGLES, each.response) for each in self.gauges])
+        return float(np.sqrt(np.nanmean(misfit**2)))
 
     def with_gauges(self, *changed: Gauge) -> Rotation:
         """The same with gauges in place of those of the same names."""
         named = {each.name: each for each in changed}
         return replace(self, gauges=tuple(named.get(each.name, each) for each in self.gauges))
-
-    def added(self, gauge: Gauge, more: Array) -> Rotation:
-        """The same with something added to the readings of one."""
-        return self.with_gauges(replace(gauge, reading=gauge.reading + more))
 
     def exchanged(self, one: Gauge, other: Gauge) -> Rotation:
         """The same with the columns of two exchanged, under their own gains."""
@@ -203,49 +195,6 @@ class Rotation:
             replace(one, reading=factor * other.reading, noise=abs(factor) * other.noise),
             replace(other, reading=one.reading / factor, noise=one.noise / abs(factor)),
         )
-
-
-Candidate = tuple[str, str, Rotation]
-"""Kind of a mistake, its words, and the rotation without it."""
-
-
-def _turned(rotation: Rotation) -> Iterator[Candidate]:
-    for gauge in rotation.gauges:
-        others = _names(each for each in rotation.gauges if each is not gauge)
-        text = f"channel {gauge.name} turns opposite to {others}: with its sign reversed (`direction` or gain)"
-        yield "sign", text, rotation.with_gauges(replace(gauge, reading=-gauge.reading))
-
-
-def _exchanged(rotation: Rotation) -> Iterator[Candidate]:
-    for first, second in combinations(rotation.gauges, 2):
-        text = f"channels {first.name} and {second.name} look swapped: with their columns exchanged"
-        yield "swapped channels", text, rotation.exchanged(first, second)
-
-
-def _refixed(rotation: Rotation) -> Iterator[Candidate]:
-    """One of the transducers, or all, on the ground and not on the table, or the reverse."""
-    moved = [replace(each, reading=each.reading - each.refixed) for each in rotation.gauges if each.refixed is not None]
-    for chosen in (*([each] for each in moved), moved) if moved else ():
-        text = (
-            f"channel{'s' if len(chosen) > 1 else ''} {_names(chosen, ' and ')}: `relative_to` is wrong, the table for "
-            "the ground or the reverse: with the table's displacement taken off or added"
-        )
-        yield "geometry", text, rotation.with_gauges(*chosen)
-
-
-def _coupled(rotation: Rotation) -> Iterator[Candidate]:
-    """Each behind a high-pass of the first order, r' = r + ω∫r dt from either end, with the ω that leaves least."""
-    for gauge in rotation.gauges:
-        integral = np.cumsum(filled_in(gauge.reading)) * rotation.interval
-        for lost in (integral - integral[0], integral - integral[-1]):
-            effect = rotation.added(gauge, lost).misfit - rotation.misfit
-            corner = -float(np.nansum(effect * rotation.misfit) / max(float(np.nansum(effect**2)), 1e-300))
-            if corner > 0:
-                text = (
-                    f"channel {gauge.name} does not hold a constant value (AC-coupled, or a high-pass of "
-                    f"{corner / (2 * np.pi):.2g} Hz), which shows as a slide: with that undone"
-                )
-                yield "AC coupling", text, rotation.added(gauge, corner * lost)
 
 
 Seen = list[tuple[Gauge, Scale]]
@@ -260,10 +209,9 @@ def suspicions(rotation: Rotation) -> list[Finding]:
     see `scale_of`, so that a wrong one can be named.
     """
     seen = list(zip(rotation.gauges, rotation.scales, strict=True))
-    known = [(each, scale) for each, scale in seen if scale.is_known]
     if rotation.mistake:
         return [rotation.mistake]
-    return [*_gains(known, rotation.block), *_dead(seen), *_signs(known)] if known else []
+    return [*_gains([(each, scale) for each, scale in seen if scale.is_known], rotation.block), *_dead(seen)]
 
 
 def _names(gauges: Iterable[Gauge], between: str = ", ") -> str:
@@ -282,9 +230,15 @@ def _gains(known: Seen, block: Block) -> Iterator[Finding]:
     others = [each for each, scale in known if not scale.differs]
     shown = f", and that {_names(others)} {'shows' if len(others) == 1 else 'show'}" if others else ""
     for each, scale in wrong:
+        why = cause(scale.value, each.quantity)
+        if why == UNKNOWN:
+            length = 1e3 * each.lever
+            place = f", or a place (`at`) whose lever is {scale.value * length:.3g} mm and not {length:.3g} mm,"
+            place = "" if each.quantity == "angle" else place
+            why = f"its gain × {1 / scale.value:.3g}{place} would make them agree"
         text = f"channel {each.name} shows {scale.value:.3g} times the rotation that the equation of motion gives"
         build = serious if scale.misleads else warning
-        yield build("gain", f"{text}{shown}: {_why(each, scale.value)}", follows=("unit",))
+        yield build("gain", f"{text}{shown}: {why}", follows=("unit",))
 
 
 def _is_near(scale: Scale, value: float) -> bool:
@@ -299,46 +253,28 @@ def _of_all(wrong: list[Gauge], scale: Scale, block: Block) -> Finding:
 
     A wrong critical angle leaves alone what the table does to the specimen, a gain does not; a clock changes p, too.
     """
-    value, side = scale.value, block.governing
-    names = _names(wrong, " and ")
-    names = f"channels {names} all show" if len(wrong) > 1 else f"channel {names} shows"
-    text = f"{names} {value:.3g} times the rotation that the equation of motion gives for this specimen: "
-    build = serious if scale.misleads else warning
-    is_clock = isfinite(scale.rate)
-    if not is_clock and (not 1 / FAR < value < FAR or cause(value, wrong[0].quantity) != UNKNOWN):
-        text += (
-            f"{_why(wrong[0], value)}{', in all of them' if len(wrong) > 1 else ''}; or the specimen's dimensions, or "
-        )
-        return build("gain", f"{text}the sampling rate", follows=("unit", "specimen"))
-    half, height = side.half_width, side.pole_distance * cos(side.critical_angle)
+    value, side, several = scale.value, block.governing, len(wrong) > 1
+    names = f"channel{'s' if several else ''} {_names(wrong, ' and ')}{' all show' if several else ' shows'}"
+    height = side.pole_distance * cos(side.critical_angle)
     critical = min(value * side.critical_angle, 1.5)
-    wide, high = height * tan(critical), half / tan(critical) / height
+    wide, high = height * tan(critical), side.half_width / tan(critical) / height
     causes = {
-        "clock": "another sampling rate",
-        "gain": f"{'all gains' if len(wrong) > 1 else 'its gain'} × {1 / value:.3g} (all angles change alike)",
+        "gain": f"{'all gains' if several else 'its gain'} × {1 / value:.3g} (all angles change alike)",
         "specimen": f"sizes that make α {critical:.3g} rad and not {side.critical_angle:.3g} rad, as a base of "
-        f"{2e3 * wide:.3g} mm for {2e3 * half:.3g} mm or a height × {high:.3g}",
+        f"{2e3 * wide:.3g} mm for {2e3 * side.half_width:.3g} mm or a height × {high:.3g}",
+        "clock": "another sampling rate",
     }
-    kind = "gain"
-    if is_clock:
+    kind, why = "gain", cause(value, wrong[0].quantity)
+    if isfinite(scale.rate):
         kind, rate = "clock", scale.rate
         causes[kind] = f"a sampling rate × {1 / rate:.3g} (all times change alike), or all sizes × {rate**-2:.3g}"
     elif scale.base > 0 and abs(log(scale.base)) < abs(log(scale.base / value)):
         kind = "specimen"
-    others = "; or ".join(causes[each] for each in ("gain", "specimen", "clock") if each != kind)
-    return build(kind, f"{text}{causes[kind]}; or {others}, would make them agree", follows=("unit",))
-
-
-def _why(gauge: Gauge, scale: float) -> str:
-    """Probable cause of a scale; an odd one of a channel that is given no gain is that of a transducer in volts."""
-    known, is_angle = cause(scale, gauge.quantity), gauge.quantity == "angle"
-    unit = PLAIN_UNITS.get(float(gauge.gain))
-    if known != UNKNOWN or not 1 / FAR < scale < FAR:
-        is_plain = known == UNKNOWN and unit and not is_angle
-        return f"its values are probably not {unit} but volts, and its `gain` is missing" if is_plain else known
-    length = 1e3 * gauge.lever
-    place = f", or a place (`at`) whose lever is {scale * length:.3g} mm and not {length:.3g} mm,"
-    return f"its gain × {1 / scale:.3g}{'' if is_angle else place} would make them agree"
+    elif why != UNKNOWN:
+        causes["gain"] += f", as of {why}"
+    text = f"{names} {value:.3g} times the rotation that the equation of motion gives for this specimen: "
+    text += "; or ".join((causes.pop(kind), *causes.values()))
+    return (serious if scale.misleads else warning)(kind, f"{text}, would make them agree", follows=("unit",))
 
 
 def _dead(seen: Seen) -> Iterator[Finding]:
@@ -350,20 +286,12 @@ def _dead(seen: Seen) -> Iterator[Finding]:
     for each, scale in seen:
         due, shown = float(np.std(each.lever * angle)), float(np.nanstd(each.reading))
         if not scale.is_known and due > STANDING * max(each.noise, 1e-12) and shown < DEAD * due:
-            yield dead(each.name, 1e3 * shown, 1e3 * due, "mm", f"the rotation measured by {_names(right)}")
-
-
-def _signs(known: Seen) -> Iterator[Finding]:
-    """Say that all transducers turn against the table."""
-    shown = [scale.base < 0 for _, scale in known if isfinite(scale.base)]
-    if shown and all(shown):
-        several, names = len(known) > 1, _names((each for each, _ in known), " and ")
-        yield serious(
-            "sign",
-            f"{f'channels {names} turn' if several else f'channel {names} turns'} opposite to the table's "
-            "acceleration: the sign of the table's acceleration is wrong, or that of "
-            f"{'all of them' if several else 'this channel'} (`direction`, or the sign of the gain)",
-        )
+            yield serious(
+                "dead channel",
+                f"channel {each.name} hardly moves ({1e3 * shown:.2g} mm RMS), although the rotation measured by "
+                f"{_names(right)} would give {1e3 * due:.2g} mm: it is dead, or its gain is far too small. Check cable "
+                "and sensor",
+            )
 
 
 class ChannelState(NamedTuple):

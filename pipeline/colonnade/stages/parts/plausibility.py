@@ -80,26 +80,19 @@ def doubts(conditioned: xr.Dataset, inputs: PlausibilityInputs) -> list[Finding]
     """Say which of a test's channels, zeroed on the clock `elapsed`, cannot be right, with the probable cause."""
     time = conditioned["elapsed"].to_numpy()
     interval = float(time[1] - time[0])
-    accelerations = _along_x(conditioned, inputs.transducers.accelerations)
     displacements = _along_x(conditioned, inputs.transducers.displacements)
-    acceleration = None
-    if accelerations:
-        acceleration = accelerations[0].values
-    elif displacements:
-        acceleration = table_motion.derived(interval, displacements[0].values)
-    rotation = _rotation(conditioned, inputs, displacements, acceleration)
-    found: list[Finding] = []
-    if accelerations:
-        found, factor = table_motion.table_doubts(accelerations, displacements, rotation, interval)
-        if acceleration is not None and factor != 1.0:
-            acceleration = acceleration / factor
-            rotation = None if rotation is None else replace(rotation, acceleration=acceleration)
+    moved = displacements[0].values if displacements else None
+    accelerations = _along_x(conditioned, inputs.transducers.accelerations)
+    shaken = accelerations or [
+        each._replace(values=table_motion.derived(interval, each.values)) for each in displacements
+    ]
+    rotation = _rotation(conditioned, inputs, moved, shaken[0].values if shaken else None)
+    beside = displacements if accelerations else []
+    found = table_motion.table_doubts(shaken, beside, rotation, interval) if shaken else []
     if rotation is not None and not any(each.kind in table_motion.MISPLACED for each in found):
         found += suspicions(rotation)
-    for each in accelerations:
-        found += table_motion.humming(interval, each)
-    if accelerations and acceleration is not None:
-        found += _named_motion(Series(acceleration, interval), inputs)
+    if accelerations:
+        found += _named_motion(Series(accelerations[0].values, interval), inputs)
     return [replace(each, text=f"{each.text[0].upper()}{each.text[1:]}.") for each in found]
 
 
@@ -142,12 +135,13 @@ def _along_x(conditioned: xr.Dataset, channels: Mapping[str, Vector]) -> list[Ta
 
 
 def _rotation(
-    conditioned: xr.Dataset,
-    inputs: PlausibilityInputs,
-    displacements: list[TableChannel],
-    acceleration: Array | None,
+    conditioned: xr.Dataset, inputs: PlausibilityInputs, moved: Array | None, acceleration: Array | None
 ) -> Rotation | None:
-    """Readings of the transducers that see the rotation, relative to the table; None if no transducer does."""
+    """
+    Readings of the transducers that see the rotation, relative to the table; None if no transducer does.
+
+    `moved` is the displacement of the table along x, m.
+    """
     gauges, cutoffs = [], []
     for name, response in _responses(inputs).items():
         if name not in conditioned:
@@ -155,15 +149,12 @@ def _rotation(
         known, given = inputs.transducers.positions[name], conditioned[name].attrs
         cutoffs.append(float(given.get("cutoff_hz", np.inf)))
         reading = conditioned[name].to_numpy()
-        is_angle, refixed = known.sensing == "angle", None
-        if displacements:
-            refixed = displacements[0].values * (0.0 if is_angle else known.direction[0])
-            if known.on_ground:
-                reading, refixed = reading - refixed, -refixed
+        if known.on_ground and moved is not None:
+            reading = reading - known.direction[0] * moved
         if np.isfinite(response).all():
-            quantity = "angle" if is_angle else "displacement"
+            quantity = "angle" if known.sensing == "angle" else "displacement"
             noise = float(given.get("noise", 0.0))
-            gauges.append(Gauge(given["channel"], reading, response, noise, inputs.gains[name], quantity, refixed))
+            gauges.append(Gauge(given["channel"], reading, response, noise, inputs.gains[name], quantity))
     # Inclinometers have levers of one, displacements those in m.
     longest = max((abs(each.lever) for each in gauges if each.quantity == "displacement"), default=0.0)
     useful = [each for each in gauges if abs(each.lever) > LEAST_LEVER * (1.0 if each.quantity == "angle" else longest)]

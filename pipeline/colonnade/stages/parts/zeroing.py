@@ -112,7 +112,7 @@ def find_zero_error(
         f"{rest}, or give the test a `zero` where it is upright."
     )
     weight = serious if error > SERIOUS * effect.share else warning
-    return [weight("zero", text, follows=(*MEASUREMENT, "hum"))]
+    return [weight("zero", text, follows=MEASUREMENT)]
 
 
 def _error(stretch: Array) -> float:
