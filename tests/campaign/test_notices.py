@@ -29,7 +29,6 @@ def with_extra(contract, keys):
         ({"quantity": '"velocity"', "unit": '"m/s"'}, 'quantity = "velocity" on the specimen is valid but not'),
         ({"on": '"ground"'}, 'quantity = "displacement" on the ground is valid but not'),
         ({"on": '"table"', "direction": "[1, 0, 1]"}, "a motion of the table that is not along x, y or z"),
-        ({"quantity": '"acceleration"', "unit": '"g"', "at": None}, "an accelerometer on the specimen without `at`"),
     ],
 )
 def test_a_channel_without_a_stage_is_told(keys, told, contract, load_text):

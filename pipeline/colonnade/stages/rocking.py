@@ -183,7 +183,8 @@ def _motion(
             "the table."
         )
     motion = specimen_motion(
-        *readings(conditioned, known, inputs.block.gravity),
+        readings(conditioned, known.positions),
+        readings(conditioned, known.gyroscopes),
         inputs.block,
         inputs.outline,
         _circumstances(conditioned["elapsed"].to_numpy(), inputs, base),
@@ -201,13 +202,11 @@ def _motion(
 
 
 def _circumstances(time: Array, inputs: RockingInputs, base: Mapping[str, Array]) -> Circumstances:
-    resting = inputs.free_vibration or "base_acceleration" in base
     return Circumstances(
         float(time[1] - time[0]),
         inputs.rest_duration,
         ends_at_rest=inputs.free_vibration,
         displacement=axes(base, "displacement", time),
-        acceleration=axes(base, "acceleration", time) if resting else None,
     )
 
 

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from colonnade.dynamics.kinematics import Pose
 from colonnade.dynamics.rock import rock
 from colonnade.identification.fusion.inertial import (
+    LARGEST_BIAS,
     REST_ERROR,
     angle_from_rate,
     disagreement,
@@ -12,7 +14,7 @@ from colonnade.identification.fusion.inertial import (
     smooth,
     upright,
 )
-from colonnade.identification.fusion.sensors import Gyroscope
+from colonnade.identification.fusion.sensors import Gyroscope, angular_velocity
 from prism import PRISM
 
 INTERVAL, NOISE, BIAS = 0.002, 3e-3, 4e-4
@@ -112,26 +114,38 @@ def test_gyroscopes_that_are_turned_or_inclined_count_by_their_part_about_y():
 
 def test_the_smoother_is_the_least_squares_solution_of_the_whole_record():
     rng = np.random.default_rng(0)
-    count, interval, start = 40, 0.1, np.array([2.0, 1.4, 1.0])
-    derivative, deviation = rng.normal(size=count), rng.uniform(0.3, 1.0, count)
+    count, interval = 40, 0.1
+    rate, deviation = rng.normal(size=count), rng.uniform(0.3, 1.0, count)
     tracked = np.where(rng.random(count) < 0.3, rng.normal(size=count), np.nan)
     errors = rng.uniform(0.3, 1.0, count)
 
-    # Unknown are the first state and the noise of each step; every state is a linear function of them.
-    transition = np.array([[1.0, interval, interval**2 / 2], [0.0, 1.0, interval], [0.0, 0.0, 1.0]])
-    push = np.array([interval**2 / 2, interval, 0.0])
-    states, given = [np.eye(3, 3 + count - 1)], [np.zeros(3)]
-    for index in range(count - 1):
-        states.append(transition @ states[-1] + np.outer(push, np.eye(3 + count - 1)[3 + index]))
-        given.append(transition @ given[-1] + push * derivative[index : index + 2].mean())
-    known = np.isfinite(tracked)
-    rows = [np.diag(1 / np.concatenate((start, deviation[:-1]))), np.array(states)[known, 0] / errors[known, None]]
-    right = np.concatenate((np.zeros(3 + count - 1), (tracked - np.array(given)[:, 0])[known] / errors[known]))
-    matrix = np.concatenate(rows)
+    # Unknown are the first angle, minus the bias, and the noise of each step; every angle is a linear function of them.
+    of_bias, steps = interval * np.arange(count)[:, None], interval * np.tri(count, count - 1, -1)
+    design = np.hstack((np.ones((count, 1)), of_bias, steps))
+    given = np.append(0.0, np.cumsum(interval * (rate[1:] + rate[:-1]) / 2))
+    known, prior = np.isfinite(tracked), 1 / np.concatenate(([np.pi, LARGEST_BIAS], deviation[:-1]))
+    matrix = np.concatenate((np.diag(prior), design[known] / errors[known, None]))
+    right = np.concatenate((np.zeros(count + 1), (tracked - given)[known] / errors[known]))
     covariance = np.linalg.inv(matrix.T @ matrix)
-    expected = np.array(states) @ (covariance @ matrix.T @ right) + given
-    spread = [np.sqrt(np.diagonal(each @ covariance @ each.T)) for each in states]
 
-    found, deviations = smooth(derivative, deviation, interval, tracked, errors, start)
-    np.testing.assert_allclose(found, expected, atol=1e-10)
-    np.testing.assert_allclose(deviations, spread, rtol=1e-9)
+    found, error = smooth(rate, deviation, interval, tracked, errors)
+    np.testing.assert_allclose(found, design @ (covariance @ matrix.T @ right) + given, atol=1e-10)
+    np.testing.assert_allclose(error, np.sqrt(np.diagonal(design @ covariance @ design.T)), rtol=1e-9)
+
+
+def _rates(gyroscopes, **moving):
+    names = ("angle", "slide", "pole_rise", "out_of_plane_angle", "transverse_slide", "yaw")
+    pose = Pose(**{name: moving.get(name, np.zeros_like(TIME)) for name in names})
+    return angular_velocity([Gyroscope(each) for each in gyroscopes], pose, INTERVAL)
+
+
+def test_a_steady_rotation_is_read_by_the_gyroscope_along_its_axis_alone():
+    rates = _rates([(0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.6, 0.8)], angle=0.05 + 0.07 * TIME)
+    expected = np.array([[0.07], [0.0], [0.042]]) * np.ones(TIME.size - 2)
+    np.testing.assert_allclose(rates[:, 1:-1], expected, atol=1e-6)
+    assert np.isnan(rates[:, [0, -1]]).all()
+    assert _rates([]).shape == (0, TIME.size)
+
+
+def test_a_yaw_is_read_about_z():
+    np.testing.assert_allclose(_rates([(0.0, 0.0, 1.0)], yaw=0.03 * TIME)[0, 1:-1], 0.03, atol=1e-6)

@@ -7,7 +7,6 @@ import xarray as xr
 import chain
 from chain import measured
 from colonnade.errors import StageError
-from colonnade.identification.fusion.sensors import Accelerometer
 from colonnade.identification.response.rank import is_within, rank
 from colonnade.identification.restitution.arcs import find_impacts
 from colonnade.stages import ensemble as running
@@ -19,7 +18,7 @@ from colonnade.stages.parts.beginning import (
     base_acceleration,
 )
 from colonnade.stages.parts.reference_motions import load, reference_files
-from colonnade.stages.parts.transducers import Transducers, axes, base_motion, readings
+from colonnade.stages.parts.transducers import Transducers, axes, base_motion
 from every import every
 from prism import PRISM
 
@@ -211,7 +210,7 @@ def _conditioned(**channels):
 
 def _table(accelerations=(), displacements=()):
     along, across = (dict.fromkeys(names, (1.0, 0.0, 0.0)) for names in (accelerations, displacements))
-    on_specimen = {name: {} for name in ("positions", "gyroscopes", "accelerometers")}
+    on_specimen = {name: {} for name in ("positions", "gyroscopes")}
     return Transducers(**on_specimen, accelerations=along, displacements=across)
 
 
@@ -237,15 +236,6 @@ def test_without_a_usable_accelerometer_the_displacement_is_differentiated(accel
 def test_an_axis_that_was_not_recorded_does_not_move():
     moved = axes({"vertical_base_acceleration": SWELL}, "acceleration", LONGER)
     np.testing.assert_array_equal(moved, [0 * LONGER, 0 * LONGER, SWELL])
-
-
-def test_gravity_is_subtracted_unless_the_zero_was():
-    unused = {name: {} for name in ("positions", "gyroscopes", "accelerations", "displacements")}
-    upright = Transducers(accelerometers={"block": Accelerometer((0.0, 0.0, 1.0), (0.0, 0.0, 0.4))}, **unused)
-    whole = _conditioned(block=SWELL + 9.81)
-    np.testing.assert_allclose(readings(whole, upright, 9.81)[2].values[0], SWELL, atol=1e-12)
-    whole["block"].attrs |= {"zero": 0.1, "rest_value": 9.81}
-    np.testing.assert_allclose(readings(whole, upright, 9.81)[2].values[0], SWELL, atol=1e-12)
 
 
 def test_one_of_three_components_has_to_be_named(small_campaign):

@@ -1,1 +1,1 @@
-"""From transducers, gyroscopes and accelerometers to the motion of the specimen."""
+"""From transducers and gyroscopes to the motion of the specimen."""

@@ -1,4 +1,4 @@
-"""Motion of the specimen from everything that was on it: transducers, gyroscopes, accelerometers."""
+"""Motion of the specimen from everything that was on it: transducers and gyroscopes."""
 
 from __future__ import annotations
 
@@ -12,13 +12,11 @@ from colonnade.dynamics.kinematics import Outline, Pose
 from colonnade.identification.fusion import inertial
 from colonnade.identification.fusion.pose import SpecimenMotion, fit_pose
 from colonnade.identification.fusion.sensors import (
-    Accelerometer,
     Gyroscope,
     Readings,
     Transducer,
     UnseenRotationError,
     angular_velocity,
-    specific_force,
 )
 
 SEEN = 0.1
@@ -42,21 +40,19 @@ class Circumstances:
         Between samples, and of the shortest rest, s.
     ends_at_rest : bool
         Whether it ends at rest for sure, or starts so.
-    displacement, acceleration : ndarray, shape (3, n)
-        Of the table, m and m/s²; the acceleration is None if it is not known.
+    displacement : ndarray, shape (3, n)
+        Of the table, m.
     """
 
     interval: float
     rest_duration: float
     ends_at_rest: bool
     displacement: Array
-    acceleration: Array | None
 
 
 def specimen_motion(
     positions: Readings[Transducer],
     gyroscopes: Readings[Gyroscope],
-    accelerometers: Readings[Accelerometer],
     block: Block,
     outline: Outline,
     test: Circumstances,
@@ -66,8 +62,8 @@ def specimen_motion(
 
     Parameters
     ----------
-    positions, gyroscopes, accelerometers : Readings
-        Displacement transducers and inclinometers; rates; specific forces. Any of the three may be empty.
+    positions, gyroscopes : Readings
+        Displacement transducers and inclinometers; rates. Either may be empty.
     block : Block
     outline : Outline
     test : Circumstances
@@ -80,7 +76,7 @@ def specimen_motion(
     Notes
     -----
     Positions are fitted sample by sample. Gyroscopes are integrated, their drift held by that angle or, without one, by
-    the rests. Accelerometers give the angle if nothing else does; otherwise they are compared with it.
+    the rests.
     """
     fitted, refusal = None, UnseenRotationError("No transducer on the specimen measures its rotation")
     if positions.sensors:
@@ -101,12 +97,6 @@ def specimen_motion(
             tracked = fitted.angle, fitted.standard_error["rocking_angle"] / np.sqrt(kept)
         found, text = _from_rates(gyroscopes.only(turning), tracked, block, test)
         notes.append(text)
-    elif fitted is None and accelerometers.sensors:
-        found = _from_accelerometers(accelerometers, block, test)
-        notes.append(
-            f"angle only, from {len(accelerometers.sensors)} accelerometers: differences for the rotation, gravity for "
-            "the tilt; slide cannot be separated from tilt and is taken as zero"
-        )
     if fitted is None:
         if found is None:
             raise refusal
@@ -119,17 +109,9 @@ def specimen_motion(
         values, errors = values | {"rocking_angle": found[0]}, errors | {"rocking_angle": found[1]}
         pose = replace(pose, angle=found[0])
     rates = gyroscopes.values - angular_velocity(gyroscopes.sensors, pose, test.interval)
-    forces = np.full_like(accelerometers.values, np.nan)
-    if test.acceleration is not None:
-        forces = specific_force(accelerometers.sensors, pose, test.acceleration, test.interval, block)
-        forces = accelerometers.values - forces
-    entered = (
-        np.full(len(positions.sensors), bool(fitted.values)),
-        turning & (found is not None),
-        np.full(len(accelerometers.sensors), found is not None and not turning.any()),
-    )
-    residual, separation = np.concatenate((fitted.residual, rates, forces)), "; ".join(notes)
-    return SpecimenMotion(values, errors, residual, pose, separation, np.concatenate(entered), found is not None)
+    residual, separation = np.concatenate((fitted.residual, rates)), "; ".join(notes)
+    entered = np.append(np.full(len(positions.sensors), bool(fitted.values)), turning & (found is not None))
+    return SpecimenMotion(values, errors, residual, pose, separation, entered, found is not None)
 
 
 def _from_rates(
@@ -158,18 +140,3 @@ def _from_rates(
         f"angle only, from {count}, integrated, {where}: its standard error grows to "
         f"{1e3 * float(error.max()):.2g} mrad; slide and uplift are not measured and are taken as zero"
     )
-
-
-def _from_accelerometers(accelerometers: Readings[Accelerometer], block: Block, test: Circumstances) -> Angle:
-    if test.acceleration is None:
-        raise UnseenRotationError(
-            "Only accelerometers are on the specimen, and the table's acceleration is not known. Without it gravity "
-            "cannot be separated from the table's motion. Add a table channel along x"
-        )
-    found = inertial.angle_from_accelerations(accelerometers, test.acceleration, test.interval, block)
-    if found is None:
-        raise UnseenRotationError(
-            "Only accelerometers are on the specimen, and they do not separate its rotation from its translation. "
-            "Place two along x at different heights"
-        )
-    return found

@@ -69,20 +69,6 @@ class Gyroscope:
 
 
 @dataclass(frozen=True)
-class Accelerometer:
-    """
-    An accelerometer on the specimen at `at` (m, specimen frame at rest), along `direction`; it turns with the specimen.
-
-    Notes
-    -----
-    It senses specific force Rᵀ(a + g ẑ): at rest, gravity upwards.
-    """
-
-    direction: Vector
-    at: Vector
-
-
-@dataclass(frozen=True)
 class Readings(Generic[Kind]):
     """
     What the sensors of one kind read.
@@ -239,50 +225,6 @@ def _angle(axis: Array, turn: Array) -> tuple[Array, Array]:
     once = np.cross(vector, axis[:, None], axis=0)
     moment = axis[:, None] + once / 2 + curvature * np.cross(vector, once, axis=0)
     return axis @ vector, moment
-
-
-def specific_force(
-    accelerometers: list[Accelerometer], pose: Pose, base: Array, interval: float, block: Block
-) -> Array:
-    """
-    Specific force of accelerometers for a motion, as changes from rest.
-
-    Parameters
-    ----------
-    accelerometers : list of Accelerometer, length m
-    pose : Pose
-        Of n samples, smooth enough to be differentiated twice.
-    base : ndarray, shape (3, n)
-        Acceleration of the table, m/s².
-    interval : float
-        s.
-    block : Block
-
-    Returns
-    -------
-    readings : ndarray, shape (m, n)
-        m/s²; NaN at the first and last sample.
-
-    Notes
-    -----
-    The place of each accelerometer over time is differentiated twice, which holds every tangential, centripetal and
-    sliding part, and turned into the specimen's axes together with gravity.
-    """
-    side = np.where(pose.angle < 0, -1.0, 1.0)
-    turn = rotation_matrix(pose)
-    pole = np.zeros((3, side.size))
-    pole[0] = side * pole_position(block)
-    moved = pole + pole_displacement(pose, side, block)
-    readings = []
-    for each in accelerometers:
-        place = moved + np.einsum("ijn,jn->in", turn, np.array(each.at)[:, None] - pole)
-        acceleration = np.full_like(place, np.nan)
-        acceleration[:, 1:-1] = np.diff(place, 2, axis=1) / interval**2
-        acceleration += base
-        acceleration[2] += block.gravity
-        sensed = np.einsum("jin,jn->in", turn, acceleration)
-        readings.append(np.array(each.direction) @ sensed - block.gravity * each.direction[2])
-    return np.array(readings).reshape(len(accelerometers), side.size)
 
 
 def angular_velocity(gyroscopes: list[Gyroscope], pose: Pose, interval: float) -> Array:

@@ -131,10 +131,11 @@ def measure(conditioned: xr.Dataset, inputs: AssemblyInputs, test: Circumstances
         elif not any(each in conditioned for each in body.transducers.on_specimen):
             found.reasons[name] = "no transducer on it could be used"
         else:
-            positions, rates, forces = readings(conditioned, body.transducers, body.block.gravity)
+            positions = readings(conditioned, body.transducers.positions)
             positions = _from_the_table(positions, name, conditioned, inputs, found)
+            rates = readings(conditioned, body.transducers.gyroscopes)
             try:
-                motion = specimen_motion(positions, rates, forces, body.block, body.outline, test)
+                motion = specimen_motion(positions, rates, body.block, body.outline, test)
             except UnseenRotationError as error:
                 found.reasons[name] = str(error)
             else:

@@ -18,7 +18,7 @@ from colonnade.dynamics.assembly import Assembly
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, pole_position
 from colonnade.findings import MEASUREMENT, Finding, note, serious, warning
-from colonnade.identification.fusion.sensors import Accelerometer, Gyroscope, Readings, Transducer
+from colonnade.identification.fusion.sensors import Gyroscope, Readings, Transducer
 from colonnade.signals.filters import second_derivative
 from colonnade.store.description import variable_name
 from colonnade.store.provenance import Inputs
@@ -116,8 +116,6 @@ class Transducers(BaseModel):
     positions : dict of str to Transducer
         Displacement transducers and inclinometers on the specimen.
     gyroscopes : dict of str to Gyroscope
-    accelerometers : dict of str to Accelerometer
-        On the specimen, where their place is given.
     accelerations, displacements : dict of str to (x, y, z)
         Table channels and their directions.
     """
@@ -126,14 +124,13 @@ class Transducers(BaseModel):
 
     positions: dict[str, Transducer]
     gyroscopes: dict[str, Gyroscope]
-    accelerometers: dict[str, Accelerometer]
     accelerations: dict[str, Vector]
     displacements: dict[str, Vector]
 
     @property
     def on_specimen(self) -> tuple[str, ...]:
         """Names of all transducers on the specimen."""
-        return (*self.positions, *self.gyroscopes, *self.accelerometers)
+        return (*self.positions, *self.gyroscopes)
 
 
 def transducers(channels: Mapping[str, Channel]) -> Transducers:
@@ -163,8 +160,6 @@ def _sorted(channels: tuple[tuple[str, Channel], ...]) -> Transducers:
                 )
             case "specimen", "angular_velocity":
                 found["gyroscopes"][name] = Gyroscope(direction)
-            case "specimen", "acceleration" if channel.at is not None:
-                found["accelerometers"][name] = Accelerometer(direction, channel.at)
             case "table", "acceleration" | "displacement":
                 found[f"{channel.quantity}s"][name] = direction
     return Transducers(**found)
@@ -281,26 +276,13 @@ def axes(base: Mapping[str, Array], quantity: str, time: Array) -> Array:
     return np.array([along[axis] for axis in range(3)])
 
 
-def readings(
-    conditioned: xr.Dataset, known: Transducers, gravity: float
-) -> tuple[Readings[Transducer], Readings[Gyroscope], Readings[Accelerometer]]:
-    """Transducers on a specimen by their kinds, as far as they are usable, and what they read: changes from rest."""
-    return (
-        _group(conditioned, known.positions, gravity),
-        _group(conditioned, known.gyroscopes, gravity),
-        _group(conditioned, known.accelerometers, gravity),
-    )
-
-
-def _group(conditioned: xr.Dataset, known: Mapping[str, Kind], gravity: float) -> Readings[Kind]:
+def readings(conditioned: xr.Dataset, known: Mapping[str, Kind]) -> Readings[Kind]:
+    """Transducers on a specimen, as far as they are usable, and what they read: changes from rest."""
     names = [name for name in known if name in conditioned]
     values, noise, cutoff = [], [], []
     for name in names:
         given = conditioned[name].attrs
-        transducer = known[name]
-        # Gravity, unless what was read at rest was taken off whole.
-        resting = transducer.direction[2] * gravity if isinstance(transducer, Accelerometer) else 0.0
-        values.append(conditioned[name].to_numpy() - given.get("rest_value", 0.0 if "zero" in given else resting))
+        values.append(conditioned[name].to_numpy())
         noise.append(max(float(given.get("noise", 0.0)), LEAST_NOISE))
         cutoff.append(float(given.get("cutoff_hz", np.inf)))
     shape = (len(values), conditioned.sizes["elapsed"])
