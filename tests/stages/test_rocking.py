@@ -121,5 +121,6 @@ def test_a_block_that_walks_under_its_only_transducer_is_told(share, small_campa
     walk = share * PRISM.critical_angle * 400 / 12 * np.clip((time - 1) / 6, 0, 1)
     recordings["main"].channel("LVDT 1").values[:] += walk
     motion = _rocking(changed(small_campaign, ("\nbottom = ", "\n# bottom = ")), "shake-01", recordings)
-    (told,) = [str(each) for each in motion.attrs["warnings"] if "walked" in str(each)]
-    assert f"comes to rest at, {share:.2g} α" in told
+    (told,) = [str(each) for each in motion.attrs["warnings"] if each.kind == "rest"]
+    assert f"is at {share:.2g} α" in told
+    assert "the block walked under it" in told

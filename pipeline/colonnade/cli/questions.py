@@ -36,7 +36,6 @@ from colonnade.cli.common.options import (
 from colonnade.errors import count
 
 if TYPE_CHECKING:
-    from colonnade.identification.response.boundaries import Misfit
     from colonnade.store.records.advice import Advice
     from colonnade.workflow.assessing import Assessed
     from colonnade.workflow.foresee import Forecast
@@ -327,12 +326,6 @@ def _show_limits(made: MapMade) -> None:
     why = f"computed again, {made.because}" if made.because else "up to date"
     why = "computed" if made.because == NEVER_RUN else why
     say(f"{made.specimen}, {made.model} model: {measured}, e {made.restitution_source}; {why}")
-    limits = (("lower", made.lower), ("upper", made.upper))
-    show_rows([(f"{name} limit − measured", _misfit(misfit)) for name, misfit in limits if misfit is not None])
-
-
-def _misfit(misfit: Misfit) -> str:
-    return f"{misfit.mean:+.3f} in A (RMS {misfit.rms:.3f}, {misfit.frequencies} Ω)"
 
 
 @click.command(epilog="Example: colonnade calibrate demo --specimen prism")

@@ -22,7 +22,6 @@ from colonnade.stages.parts.bodies import AssemblyInputs, measure, measured_vari
 from colonnade.stages.parts.transducers import (
     LEAST_NOISE,
     SeenInputs,
-    Transducers,
     axes,
     base_motion,
     misplaced,
@@ -217,8 +216,8 @@ def _motion_variables(
     error, rest = median["rocking_angle"], inputs.rest_duration
     found = angle_features(time, motion.angle, error, inputs.block, rest_duration=rest, catch=inputs.catch)
     attributes |= {"outcome": found.verdict.outcome, "separation": motion.separation}
-    moved, lever = None if inputs.free_vibration else acceleration, _only_lever(inputs.transducers)
-    ended = ending(time, motion.angle, moved, found.verdict, inputs.block, error=error, duration=rest, lever=lever)
+    moved = None if inputs.free_vibration else acceleration
+    ended = ending(time, motion.angle, moved, found.verdict, inputs.block, error=error, duration=rest)
     # Bodies that slid on each other leave the one block leaning.
     attributes["warnings"] += [ended] if ended and inputs.assembly is None else []
     variables: dict[str, Any] = {f"{name}_standard_error": error for name, error in median.items()}
@@ -235,14 +234,6 @@ def _motion_variables(
         "overturning_time": found.verdict.overturning_time,
         "noise_threshold": found.threshold,
     }
-
-
-def _only_lever(known: Transducers) -> float | None:
-    """Height of the one displacement transducer along x, m, that cannot separate a slide; None of others."""
-    along = [
-        each.at[2] for each in known.positions.values() if each.sensing != "angle" and abs(each.direction[0]) > SEEN
-    ]
-    return along[0] if len(along) == 1 == len(known.on_specimen) else None
 
 
 def _of_transducers(conditioned: xr.Dataset, motion: SpecimenMotion, used: list[str]) -> dict[str, Any]:

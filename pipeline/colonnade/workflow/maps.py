@@ -16,7 +16,7 @@ from colonnade.campaign.forms.summary import Summary
 from colonnade.dynamics.block import pair
 from colonnade.dynamics.models import MODELS
 from colonnade.errors import CampaignError, StoreError
-from colonnade.identification.response.boundaries import MapPoint, Misfit, bracket_boundaries, limit_misfit, makes_map
+from colonnade.identification.response.boundaries import MapPoint, makes_map
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
@@ -67,8 +67,6 @@ class MapMade:
         Steady responses, if requested.
     measured : int
         Sine tests drawn on it.
-    lower, upper : Misfit or None
-        Distance of its limits from the measured boundary of overturning; None if that was not bracketed.
     action : str
         done, or up-to-date if nothing was recomputed.
     because : str
@@ -84,8 +82,6 @@ class MapMade:
     responses: Path | None
     responses_figure: Path | None
     measured: int
-    lower: Misfit | None
-    upper: Misfit | None
     action: str
     because: str
 
@@ -203,8 +199,6 @@ def _made(walk: Walk, specimen: str, wanted: Wanted, model: str, measured: Measu
         because = why or because
         drawn = response_orders.responses(specimen, as_response(steady), measured.points, _settings(plan))
         files.write_text(responses_figure, drawn.svg)
-    boundaries, chart = bracket_boundaries(measured.points), as_map(stored)
-    lower, upper = (limit_misfit(boundaries, chart.frequency_ratio, limit) for limit in (chart.lower, chart.upper))
     return MapMade(
         specimen=specimen,
         model=model,
@@ -215,8 +209,6 @@ def _made(walk: Walk, specimen: str, wanted: Wanted, model: str, measured: Measu
         responses=responses,
         responses_figure=responses_figure,
         measured=len(measured.points),
-        lower=lower,
-        upper=upper,
         action="done" if because else "up-to-date",
         because=because,
     )

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from colonnade.identification.response.base_motion import LEAST_MOTION, base_velocity, fit_forcing, table_moves
-from colonnade.identification.response.boundaries import Bracket, MapPoint, Misfit, bracket_boundaries, limit_misfit
+from colonnade.identification.response.boundaries import Bracket, MapPoint, bracket_boundaries
 from prism import PRISM
 
 
@@ -145,16 +145,3 @@ def test_recorded_frequencies_that_differ_a_little_are_one_group():
 def test_the_middle_is_known_only_where_both_sides_are():
     assert Bracket(1.0, 1.2).middle == pytest.approx(1.1)
     assert Bracket(1.0, None).middle is None
-
-
-def test_a_limit_is_compared_with_the_middles_of_the_brackets():
-    boundaries = bracket_boundaries([*points("nrroo", 2.0), *points("nrrro", 4.0), *points("nrrrr", 5.0)])
-    misfit = limit_misfit(boundaries, [1.0, 3.0, 5.0], [1.3, 1.7, 2.1])
-    # Middles 1.4 and 1.6; the limit there is 1.5 and 1.9; at the third frequency nothing overturned.
-    assert misfit == Misfit(pytest.approx(0.2), pytest.approx(np.sqrt((0.1**2 + 0.3**2) / 2)), 2)
-
-
-def test_without_a_limit_at_a_measured_frequency_there_is_no_misfit():
-    boundaries = bracket_boundaries(points("nrroo", 2.0))
-    assert limit_misfit(boundaries, [1.0, 3.0], [np.nan, np.nan]) is None
-    assert limit_misfit(boundaries, [3.0, 4.0], [1.0, 1.0]) is None

@@ -6,9 +6,6 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TypeVar
 
-import numpy as np
-
-from colonnade.arrays import Array
 from colonnade.dynamics.history import Outcome
 
 Of = TypeVar("Of")
@@ -125,36 +122,6 @@ def at_one_frequency(tests: Iterable[Of], frequency_ratio: Callable[[Of], float]
         else:
             groups.append([test])
     return groups
-
-
-@dataclass(frozen=True)
-class Misfit:
-    """How far a computed limit is above the measured boundary: mean and RMS in A, over how many frequencies."""
-
-    mean: float
-    rms: float
-    frequencies: int
-
-
-def limit_misfit(boundaries: Iterable[Boundaries], frequency_ratio: Array, limit: Array) -> Misfit | None:
-    """
-    Compare a computed limit of overturning with the measured boundary.
-
-    Parameters
-    ----------
-    boundaries : iterable of Boundaries
-    frequency_ratio, limit : ndarray, shape (n,)
-        Ω, increasing, and A of the limit, NaN where it has no value.
-
-    Returns
-    -------
-    misfit : Misfit or None
-        Limit, linear between its Ω, minus the middle of each bracket; None if no frequency has both.
-    """
-    middles = {each.frequency_ratio: middle for each in boundaries if (middle := each.overturning.middle) is not None}
-    differences = np.interp([*middles], frequency_ratio, limit, left=np.nan, right=np.nan) - [*middles.values()]
-    known = differences[np.isfinite(differences)]
-    return Misfit(float(known.mean()), float(np.sqrt((known**2).mean())), known.size) if known.size else None
 
 
 def _of_group(group: list[MapPoint]) -> Boundaries:

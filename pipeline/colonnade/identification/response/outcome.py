@@ -51,9 +51,6 @@ CYCLES = 3.0
 SMALL = 0.3
 """|θ|/α of rocking whose period is shorter than that."""
 
-FEWEST_PASSES = 3
-"""Times that a specimen passes the angle at which it comes to rest, if that is its true zero."""
-
 LOST = ("end of the range", "dead channel")
 """Kinds of findings of a transducer that lost the specimen."""
 
@@ -178,15 +175,13 @@ def angle_features(
 
 
 def ending(
-    time: Array, angle: Array, base: Array | None, verdict: Verdict, block: Block, *,
-    error: float, duration: float, lever: float | None,
-) -> Finding | None:  # fmt: skip
+    time: Array, angle: Array, base: Array | None, verdict: Verdict, block: Block, *, error: float, duration: float
+) -> Finding | None:
     """
     Say what the end of a record means, if the specimen does not stand where it began.
 
     `angle` (n,), rad, has the standard `error`; `base` is the acceleration of the table, m/s², None if it stands still;
-    `duration` is that of a rest, s; `lever` is the height of the transducer that alone gives the angle, m, None if
-    several separate it from a slide.
+    `duration` is that of a rest, s.
     """
     highest = float(amplitude(angle[np.isfinite(angle)], block).max(initial=0.0))
     if highest * block.critical_angle > FURTHEST or (highest > RETURNING and verdict.outcome == "rocking"):
@@ -212,31 +207,17 @@ def ending(
             f'What it did next is not known: the outcome "{verdict.outcome}" is that on a table at rest from then on, '
             "and a later peak is missed. Record until it rests.",
         )
-    level = float(tail.max() + tail.min()) / 2
-    share = float(amplitude(np.array([level]), block)[0])
+    share = float(amplitude(np.array([tail.max() + tail.min()]) / 2, block)[0])
     moves_on = not rest.quiet and (shaken or lasting > SMALL or tail.min() < 0.0 < tail.max())
     if share < UPRIGHT or moves_on:
         return None
-    before = time < rest.start
-    passes = find_impacts(time[before], angle[before] - level, lowest=max(10 * error, 0.1 * abs(level))).size
-    if passes >= FEWEST_PASSES:
-        walked = f", or the block walked by {abs(1e3 * level * lever):.2g} mm under its transducer" if lever else ""
-        return (serious if share > LASTING else warning)(
-            "zero",
-            f"The specimen rocks about, and comes to rest at, {share:.2g} α: its zero was taken while it leaned or was "
-            f"held (`zero`){walked}. Angles and peaks of either side are wrong by up to as much.",
-            follows=(*LOST, "AC coupling"),
-        )
-    if not rest.quiet:
-        return None
-    cause = "a transducer that tore off or lost its signal"
-    if share > 0.8 * highest:
-        cause = "a transducer that saturates or sticks there, or a safety frame (the set-up's `catch`)"
-    return serious(
+    return (serious if share > LASTING else warning)(
         "rest",
-        f"At its end the specimen is at rest at {share:.2g} α, where no block stands by itself: {cause}; or a zero "
-        "taken while it leaned (`zero`). It may have overturned; the peak and the outcome are not to be used.",
-        follows=(*LOST, "AC coupling"),
+        f"At its end the specimen is at {share:.2g} α, where no block stands by itself: its zero was taken while it "
+        "leaned or was held (`zero`); or a transducer saturates, sticks or tore off, or the block walked under it; or "
+        "a safety frame holds it (the set-up's `catch`). Angles and peaks are wrong by up to as much, and it may have "
+        "overturned.",
+        follows=LOST,
     )
 
 
