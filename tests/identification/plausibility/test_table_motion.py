@@ -36,8 +36,7 @@ def _pair(*, acceleration=1.0, displacement=1.0, noise=(0.01, 2e-5), change=lamb
 
 
 def _compared(channel, displacement):
-    due = derived(INTERVAL, displacement.values)
-    return compare(INTERVAL, channel.values, due, np.ones(due.size, dtype=bool))
+    return compare(INTERVAL, channel.values, derived(INTERVAL, displacement.values))
 
 
 def _told(channel, displacement):
@@ -87,7 +86,7 @@ def test_a_late_acceleration_is_late_and_not_of_another_scale(late):
     [
         (1.1, -1.0, ""),
         (1.1, 1.0, ""),
-        (9.8, None, ""),
+        (9.8, np.nan, ""),
         (9.8, 1.02, "displacement"),
         (9.8, 9.7, "acceleration"),
         (1.4, 1.38, "acceleration"),
@@ -145,10 +144,8 @@ def rocked():
             lambda shaken: 9.81 * shaken,
             r"ACC is (9\.[5-9]|10)\.?\d* times what the specimen's rocking requires: g read as",
         ),
-        (_late(0.3), "ACC is (29[89]|30[012]) ± .* ms late against what the specimen's rocking requires"),
-        (_late(-0.05), r"ACC is (4[89]|5[012])(\.\d)? ± .* ms early"),
     ],
-    ids=["sound", "scale", "sign", "unit", "late", "early"],
+    ids=["sound", "scale", "sign", "unit"],
 )
 def test_the_rocking_alone_shows_a_wrong_acceleration(change, said, rocked):
     angle, shaken = rocked

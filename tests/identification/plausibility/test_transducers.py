@@ -5,20 +5,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
-from colonnade.findings import Severity
 from colonnade.identification.plausibility.transducers import (
     ANGLES,
-    ChannelState,
     Gauge,
     Rotation,
-    changes,
     suspicions,
 )
 from prism import PRISM
@@ -258,32 +253,3 @@ def test_agreement_on_a_motion_that_is_not_this_blocks_proves_no_exchange(scale,
     angle = 0.05 * np.sin(1.9 * TIME) ** 3 if scale is None else scale * shaken.gauges[0].angle()
     noisy = _moved(shaken, angle, NOISE)
     assert noisy.exchanged(*noisy.gauges).mistake is None
-
-
-GOOD = ChannelState(zero=1e-3, noise=1e-5, motion=1e-2)
-
-
-def kinds(now, before):
-    return [(each.kind, each.severity) for each in changes(now, before, "span-2.0")]
-
-
-def test_a_channel_that_died_is_serious_while_others_move():
-    dead = ChannelState(zero=1e-3, noise=1e-5, motion=2e-5)
-    assert kinds({"top": dead, "bottom": GOOD}, {"top": GOOD, "bottom": GOOD}) == [("dead channel", Severity.SERIOUS)]
-    assert not kinds({"top": dead, "bottom": dead}, {"top": GOOD, "bottom": GOOD})  # the specimen did not rock
-
-
-def test_another_gain_shows_in_the_noise():
-    louder = ChannelState(zero=1e-2, noise=1e-4, motion=1e-1)
-    assert kinds({"top": louder}, {"top": GOOD}) == [("gain", Severity.WARNING)]
-
-
-def test_a_zero_that_wandered():
-    moved = ChannelState(zero=6e-3, noise=1e-5, motion=1e-2)
-    assert kinds({"top": moved}, {"top": GOOD}) == [("zero", Severity.WARNING)]
-
-
-@given(st.floats(0.5, 2.0), st.floats(-0.1, 0.1), st.floats(0.6, 1.6))
-def test_tests_of_the_same_instruments_are_silent(motion, shift, noise):
-    now = ChannelState(GOOD.zero + shift * GOOD.motion, noise * GOOD.noise, motion * GOOD.motion)
-    assert not kinds({"top": now, "new": GOOD}, {"top": GOOD, "old": GOOD})

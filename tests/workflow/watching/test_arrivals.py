@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from colonnade.campaign.forms import summary
 from colonnade.campaign.forms.summary import IdentifiedSummary, PredictionSummary, RestitutionSummary, Warned
-from colonnade.findings import Severity, serious
+from colonnade.findings import Severity
 from colonnade.workflow.product import marks_of
 from colonnade.workflow.watching.arrivals import Arrivals, last_change
 from colonnade.workflow.watching.measure import Line
@@ -63,9 +63,9 @@ def test_the_last_change_is_that_of_the_newest_file(tmp_path):
 KNOWN = RestitutionSummary(value=0.976, low=0.974, high=0.978, level=0.95, source="identified", tests=("a", "b"))
 
 
-def line(*, changed=(), **given):
+def line(**given):
     rocked = {"status": "done", "kind": "sine", "specimen": "prism", "outcome": "rocking"}
-    return Line("sine-07", summary.TestSummary(**rocked | given), KNOWN, changed, 2.34)
+    return Line("sine-07", summary.TestSummary(**rocked | given), KNOWN, 2.34)
 
 
 def test_a_sine_says_its_place_on_the_map():
@@ -85,18 +85,16 @@ def test_a_free_vibration_says_its_e_and_that_of_all_or_why_there_is_none():
     assert failed.text() == "sine-07: failed: ingest: cut off (2.3 s)"
 
 
-def test_what_changed_comes_before_other_findings_and_notes_are_left_out():
+def test_two_findings_are_said_and_others_named_and_notes_are_left_out():
     warnings = [
         Warned(severity=severity, kind=kind, text=f"{kind}.", explained=kind == "follows")
-        for severity, *kinds in ((Severity.WARNING, "clipped", "drift", "follows"), (Severity.NOTE, "note"))
+        for severity, *kinds in ((Severity.WARNING, "clipped", "drift", "spikes", "follows"), (Severity.NOTE, "note"))
         for kind in kinds
     ]
-    dead = serious("dead channel", "Channel top does not move.")
-    said = line(warnings=tuple(warnings), changed=(dead,)).text()
-    assert "serious: Channel top does not move; warning: clipped; and drift (" in said
+    assert "warning: clipped; warning: drift; and spikes (" in line(warnings=tuple(warnings)).text()
 
 
 def test_programs_get_the_record_and_what_is_added():
     said = json.loads(json.dumps(line(outcome="overturned").as_json(), allow_nan=False))
-    assert (said["test"], said["outcome"], said["changed"]) == ("sine-07", "overturned", [])
+    assert (said["test"], said["outcome"]) == ("sine-07", "overturned")
     assert said["specimen_restitution"]["tests"] == ["a", "b"]

@@ -14,7 +14,6 @@ from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.errors import count
 from colonnade.figures.files.output import Picture
-from colonnade.figures.panels.curve import draw_band
 from colonnade.figures.panels.layout import (
     BOTTOM,
     GAP,
@@ -28,9 +27,9 @@ from colonnade.figures.panels.layout import (
 )
 from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, SOFT, blank_figure, is_narrow, shortened, styled, width
-from colonnade.identification.restitution.peaks import confidence_band, released_energy
+from colonnade.identification.restitution.peaks import released_energy
 from colonnade.store.records.stored import Stored
-from colonnade.units.text import PERCENT, interval, number
+from colonnade.units.text import interval, number
 
 STAGE = "restitution"
 
@@ -108,8 +107,6 @@ class PeakSeries(NamedTuple):
     angle, standard_error, fitted_angle : ndarray
         rad.
     used : ndarray of bool
-    band : ndarray, optional
-        Half-width of the band of confidence about the fitted line, of ln energy (`confidence_band`).
     """
 
     title: str
@@ -117,7 +114,6 @@ class PeakSeries(NamedTuple):
     standard_error: Array
     fitted_angle: Array
     used: Mask
-    band: Array | None = None
 
 
 @styled()
@@ -166,10 +162,6 @@ def _draw_peaks(axes: Axes, peaks: PeakSeries, block: Block) -> None:
     if fitted.any():
         line = released_energy(np.abs(peaks.fitted_angle[fitted]), critical[fitted])
         axes.plot(number[fitted], line, label="fit", zorder=3, **FIT)
-        if peaks.band is not None and np.isfinite(peaks.band[fitted]).any():
-            wide = np.exp(peaks.band[fitted])
-            name = f"95{PERCENT} band"
-            draw_band(axes, number[fitted], line / wide, line * wide, color=FIT["color"], alpha=0.18, label=name)
     axes.set(yscale="log", xlim=(0, max(peaks.angle.size + 1, axes.get_xlim()[1])), title=peaks.title)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=5, integer=True))
     if not shown.any():
@@ -189,9 +181,7 @@ def peak_series(one: OfTest) -> PeakSeries | None:
     angle, error, fit, used = _columns(one, "peak_angle", "peak_angle_standard_error", "fitted_angle", "peak_used")
     if not angle.size:
         return None
-    used = used == 1
-    band = confidence_band(angle, error, used & np.isfinite(fit), one.block)
-    return PeakSeries(shortened(one.test.id, LONGEST_NAME), angle, error, fit, used, band)
+    return PeakSeries(shortened(one.test.id, LONGEST_NAME), angle, error, fit, used == 1)
 
 
 def peaks(identity: str, series: Sequence[PeakSeries], block: Block, note: str = "") -> Picture | None:
@@ -199,7 +189,7 @@ def peaks(identity: str, series: Sequence[PeakSeries], block: Block, note: str =
     if not series:
         return None
     described = [f"{one.title}: {int(one.used.sum())} of {count(one.used.size, 'peak')} used." for one in series]
-    title = "Energy of successive peaks against the impact number, with the fitted line and its band"
+    title = "Energy of successive peaks against the impact number, with the fitted line"
     return Picture(peak_decay(series, block), identity, title, " ".join(described), note)
 
 

@@ -8,9 +8,8 @@ from math import inf, log, pi
 from typing import NamedTuple
 
 import numpy as np
-import scipy
 
-from colonnade.arrays import Array, Mask
+from colonnade.arrays import Array
 from colonnade.findings import Finding, serious, warning
 from colonnade.identification.plausibility.scale import (
     LOOSE,
@@ -25,7 +24,6 @@ from colonnade.identification.plausibility.scale import (
 from colonnade.identification.plausibility.transducers import Rotation
 from colonnade.signals.alignment import find_offset
 from colonnade.signals.filters import lowpass, second_derivative
-from colonnade.signals.samples import filled_in
 from colonnade.units.text import format_uncertain
 
 BANDWIDTH = 10.0
@@ -39,15 +37,6 @@ WRONG_DELAY = 0.03
 
 SEEN = 0.2
 """Logarithm of a ratio from which on the specimen shows which of two channels is wrong."""
-
-LEAST_ROCKING = 0.03
-"""Of the critical angle, above which the specimen is taken to rock."""
-
-FEWEST_SECONDS = 5.0
-"""Of rocking, over p."""
-
-EXPLAINED = 0.85
-"""Correlation with what the specimen's rocking requires, from which on it shows what is wrong."""
 
 MISPLACED = ("late recorder", "table motion")
 """Kinds of findings of an acceleration that does not shake the specimen: no transducer is judged by it."""
@@ -98,22 +87,21 @@ class Comparison(NamedTuple):
         return abs(self.factor - 1) > max(CALIBRATED, SURE * self.factor_error)
 
 
-def compare(interval: float, acceleration: Array, reference: Array, where: Mask) -> Comparison:
+def compare(interval: float, acceleration: Array, reference: Array) -> Comparison:
     """
-    Regress a reference (m/s², finite) where it counts on an acceleration as it is, and shifted.
+    Regress a reference (m/s², finite) on an acceleration as it is, and shifted.
 
     Errors are from what is left, in as many independent samples as the bandwidth allows.
     """
     bandwidth = bandwidth_of(interval)
     recorded = lowpass(acceleration, interval, bandwidth)
-    if not (recorded.any() and reference[where].any()):
+    if not (recorded.any() and reference.any()):
         return Comparison(np.nan, np.nan, 0.0)
-    shown = np.where(where, reference, 0.0)
-    offset = find_offset(shown, recorded, interval, longest=LONGEST_DELAY, bandwidth_hz=bandwidth)
-    time = interval * np.arange(recorded.size)
-    independent = 2 * bandwidth * interval * float(where.sum())
+    offset = find_offset(reference, recorded, interval, longest=LONGEST_DELAY, bandwidth_hz=bandwidth)
+    time, everywhere = interval * np.arange(recorded.size), np.ones(recorded.size, dtype=np.bool_)
+    independent = 2 * bandwidth * interval * recorded.size
     best, late = (
-        least_squares(reference, [column], where, independent)
+        least_squares(reference, [column], everywhere, independent)
         for column in (recorded, np.interp(time + offset.seconds, time, recorded))
     )
     delay = 0.0, 0.0
@@ -121,7 +109,7 @@ def compare(interval: float, acceleration: Array, reference: Array, where: Mask)
     if is_sure and late[0][0] > 0 and best[2] > MUCH_BETTER * late[2]:
         best, delay = late, (offset.seconds, offset.standard_error)
     [share], [error], left = best
-    unexplained = left**2 / float(np.mean(reference[where] ** 2))
+    unexplained = left**2 / float(np.mean(reference**2))
     share = float(share) or 1e-300
     return Comparison(1 / share, float(error) / share**2, max(1 - unexplained, 0.0) ** 0.5, *delay)
 
@@ -145,32 +133,26 @@ def table_doubts(
     """
     Say which of the table's channels cannot be right.
 
-    They are held against each other, and the first acceleration against what rocks the specimen.
+    They are held against each other, and the first acceleration, that of the rotation, against what rocks the specimen.
     """
-    rocking = Comparison(np.nan, np.nan, 0.0)
-    if rotation is not None and not rotation.mistake:
-        rocking = compare(interval, accelerations[0].values, *_required(rotation))
-    is_known = rocking.correlation > EXPLAINED
+    by_specimen = np.nan if rotation is None or rotation.mistake else rotation.shaken
     found: list[Finding] = []
     agree = False
     for one, other in product(accelerations, displacements):
-        reference = derived(interval, other.values)
-        compared = compare(interval, one.values, reference, np.ones(reference.size, dtype=bool))
+        compared = compare(interval, one.values, derived(interval, other.values))
         if not compared.correlation >= SAME_MOTION:
             found += _unlike(interval, one, other, compared.correlation)
         elif compared.delay:
-            found.append(_late(one.name, compared, f"{other.name} shows"))
+            found.append(_late(one.name, compared, other.name))
         elif compared.differs and one.is_good and other.is_good:
-            wrong = wrong_one(compared.factor, rocking.factor if is_known and not rocking.delay else None)
+            wrong = wrong_one(compared.factor, by_specimen)
             found.append(_disagreement(one, other, compared, wrong))
         else:
             agree = True
-    if found or not is_known:
+    if found or np.isnan(by_specimen):
         return found
-    name, size = " and ".join(each.name for each in accelerations), abs(rocking.factor)
-    if rocking.delay:
-        return [_late(name, rocking, "the specimen's rocking requires")]
-    if rocking.factor < 0:
+    name, size = " and ".join(each.name for each in accelerations), abs(by_specimen)
+    if by_specimen < 0:
         text = (
             f"channel {name} is opposite to what the specimen's rocking requires: its sign is wrong, or that of all "
             "transducers on the specimen (`direction`, or the sign of the gain)"
@@ -182,28 +164,14 @@ def table_doubts(
     return [serious("gain", text)]
 
 
-def _required(rotation: Rotation) -> tuple[Array, Mask]:
-    """Acceleration that a rocking requires, a/g = θ − α sgn θ − θ̈/p², m/s², and where the specimen rocks."""
-    gauge = max(rotation.gauges, key=lambda each: abs(each.lever))
-    angle, noise = filled_in(gauge.reading) / gauge.lever, gauge.noise / abs(gauge.lever)
-    block, interval = rotation.block, rotation.interval
-    critical, bandwidth = block.critical_angle_at(angle), bandwidth_of(interval)
-    largest = scipy.ndimage.maximum_filter1d(np.abs(angle), max(int(1.6 / block.p / interval), 3))
-    rocks = (largest > max(STANDING * noise, LEAST_ROCKING * block.critical_angle)) & (np.abs(angle) < critical)
-    if rocks.sum() * interval < FEWEST_SECONDS / block.p:
-        return np.zeros(angle.size), rocks
-    required = lowpass(angle - critical * np.sign(angle), interval, bandwidth)
-    return block.gravity * (required - second_derivative(angle, interval, bandwidth) / block.p**2), rocks
-
-
-def wrong_one(ratio: float, by_specimen: float | None) -> str:
+def wrong_one(ratio: float, by_specimen: float) -> str:
     """
     Say which of two that differ is wrong, "acceleration" or "displacement"; empty if the specimen does not show it.
 
     `ratio` is the acceleration over the second derivative of the displacement, `by_specimen` how many times too large
     the acceleration is by what it does to the specimen.
     """
-    if by_specimen is None or (ratio > 0 and abs(log(ratio)) < SEEN):
+    if np.isnan(by_specimen) or (ratio > 0 and abs(log(ratio)) < SEEN):
         return ""
     # How far the other one is from what rocks the specimen.
     scales = {"displacement": by_specimen, "acceleration": by_specimen / ratio}
@@ -212,12 +180,12 @@ def wrong_one(ratio: float, by_specimen: float | None) -> str:
     return wrong if apart[wrong] < log(LOOSE) else ""
 
 
-def _late(name: str, found: Comparison, shows: str) -> Finding:
-    """Say of an acceleration that it is late; `shows` names what shows it."""
+def _late(name: str, found: Comparison, other: str) -> Finding:
+    """Say of an acceleration that it is late against a displacement."""
     delay, how = _written(1e3 * abs(found.delay), 1e3 * found.delay_error), "late" if found.delay > 0 else "early"
     return (serious if abs(found.delay) > WRONG_DELAY else warning)(
         "late recorder",
-        f"channel {name} is {delay} ms {how} against what {shows}; with that they agree (correlation "
+        f"channel {name} is {delay} ms {how} against what {other} shows; with that they agree (correlation "
         f"{found.correlation:.2f}): its recorder started at another time (align it by its `clock`), or its amplifier "
         "or a filter delays it (`delay` of the channel)",
         follows=("clock",),

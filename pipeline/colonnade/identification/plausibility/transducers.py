@@ -1,13 +1,12 @@
-"""Whether transducers agree: with each other, the table, the equation of motion, and themselves in the last test."""
+"""Whether transducers agree: with each other, and with the equation of motion."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
 from math import cos, isfinite, log, tan
-from typing import NamedTuple
 
 import numpy as np
 
@@ -52,15 +51,6 @@ ALIKE = 0.05
 
 DEAD = 0.1
 """Share of what others give below which a channel is dead."""
-
-NOISE_FACTOR = 4.0
-"""Noise that differs by more than this between two tests comes from another gain, cable or filter."""
-
-STILL, ALIVE = 3.0, 20.0
-"""Times its noise: a channel that moves by less does not move; one that moves by more does."""
-
-WANDERED = 0.25
-"""Of the largest motion of both tests: a zero that shifts by more wandered."""
 
 
 def lever(response: Array) -> float:
@@ -143,6 +133,14 @@ class Rotation:
             return UNKNOWN_SCALE
         noise = gauge.noise / abs(gauge.lever)
         return scale_of(self.interval, gauge.angle, noise, self.acceleration, self.block, blur=self.blur)
+
+    @property
+    def shaken(self) -> float:
+        """How many times too large the table's acceleration is by what it does to the specimen; NaN if not known."""
+        shown = [scale for scale in self.scales if scale.is_known and isfinite(scale.base)]
+        best = min(shown, key=lambda scale: scale.error / scale.value, default=UNKNOWN_SCALE)
+        # A wrong clock changes both alike.
+        return np.nan if best.differs and isfinite(best.rate) else best.value / best.base
 
     @cached_property
     def mistake(self) -> Finding | None:
@@ -291,37 +289,4 @@ def _dead(seen: Seen) -> Iterator[Finding]:
                 f"channel {each.name} hardly moves ({1e3 * shown:.2g} mm RMS), although the rotation measured by "
                 f"{_names(right)} would give {1e3 * due:.2g} mm: it is dead, or its gain is far too small. Check cable "
                 "and sensor",
-            )
-
-
-class ChannelState(NamedTuple):
-    """A channel in one test, SI: its reading at rest, standard deviation there, largest magnitude about the zero."""
-
-    zero: float
-    noise: float
-    motion: float
-
-
-def changes(now: Mapping[str, ChannelState], before: Mapping[str, ChannelState], last: str) -> Iterator[Finding]:
-    """Compare the channels of a test, by name, with those of the `last` test of the same set-up."""
-    something_moves = any(state.motion > ALIVE * state.noise for state in now.values())
-    for name in now.keys() & before.keys():
-        here, there = now[name], before[name]
-        largest = max(here.motion, there.motion)
-        if something_moves and here.motion <= STILL * here.noise and there.motion > ALIVE * there.noise:
-            yield serious(
-                "dead channel",
-                f"Channel {name} does not move, as it did in {last}, while others do. Check its cable and its core.",
-            )
-        elif there.noise > 0.0 and not 1 / NOISE_FACTOR < here.noise / there.noise < NOISE_FACTOR:
-            yield warning(
-                "gain",
-                f"The noise of channel {name} is {here.noise / there.noise:.2g} times that in {last}. "
-                "Was its gain, range or filter changed?",
-            )
-        elif abs(here.zero - there.zero) > WANDERED * largest:
-            share = abs(here.zero - there.zero) / largest
-            yield warning(
-                "zero",
-                f"The zero of channel {name} moved since {last} by {share:.2g} times its largest motion. Was it moved?",
             )

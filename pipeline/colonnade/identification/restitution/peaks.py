@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike
 
-from colonnade.arrays import Array, Mask
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.uncertainty import Uncertainty
 from colonnade.identification.restitution.result import EXACT, Peaks
@@ -160,33 +160,3 @@ def fit_peaks(seen: Peaks, block: Block, noise: float, known: Uncertainty) -> Pe
     rise = np.exp(height + 2 * mean * number) / p**2 / (1 - np.cos(alpha))
     fitted[usable] = np.sign(angle) * angle_of_energy(rise, alpha)
     return PeakFit(solved, replace(seen, angle=seen.angle - zero, fitted_angle=fitted))
-
-
-def confidence_band(angle: Array, standard_error: Array, used: Mask, block: Block, *, level: float = 0.95) -> Array:
-    """
-    Half-width of the band about the line of ln energy against the impact number, of peaks alone.
-
-    Parameters
-    ----------
-    angle, standard_error : ndarray, shape (n,)
-        θ of the peaks, signed, about their common zero, and its standard error, rad.
-    used : ndarray of bool, shape (n,)
-        Peaks through which the line goes.
-    block : Block
-    level : float, optional
-        Confidence that the line at one number lies inside.
-
-    Returns
-    -------
-    half_width : ndarray, shape (n,)
-        Of ln energy; NaN if fewer than `FEWEST_PEAKS` are used.
-    """
-    size, nothing = np.abs(angle), np.full(angle.shape, np.nan)
-    kept = used & np.isfinite(standard_error) & (size > 0) & (size < block.critical_angle_at(angle))
-    fit = fit_peaks(Peaks(nothing, angle, standard_error, nothing, kept), block, 0.0, Uncertainty())
-    if fit is None:
-        return nothing
-    at = np.column_stack((2.0 * (np.arange(angle.size) - np.flatnonzero(kept)[0]), np.ones(angle.size)))
-    covariance = fit.solved.covariance[:2, :2]
-    half = (fit.solved.quantile(0.5 + level / 2) - fit.solved.quantile(0.5 - level / 2)) / 2
-    return np.asarray(half * np.sqrt(((at @ covariance) * at).sum(axis=1) / covariance[0, 0]))

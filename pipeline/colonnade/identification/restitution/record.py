@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import scipy
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
@@ -36,20 +35,11 @@ SMOOTHED = 0.1
 PERIOD_TOLERANCE = 0.15
 """Largest median departure of the arcs' durations from those of this block."""
 
-LEAST_FOLLOWING = 0.6
-"""Power of the expected duration with which the measured one changes at least; 1 is a block, 0 an oscillator."""
-
 SHAPE_TOLERANCE = 0.03
 """Largest median difference of the duration that an arc has by its middle part; a sine seems 4 % too short."""
 
 SURE = 3.0
 """Standard errors by which a bound has to be passed."""
-
-BEYOND_ERRORS = 20.0
-"""Times by which the expected durations' variance exceeds that of their errors where measured ones must follow."""
-
-LEAST_CHANGE = 1e-6
-"""Sum of squares of the expected durations' logarithms about their mean, from which measured ones have to follow."""
 
 LARGEST_ERROR = 0.02
 """Of the durations by the middle part that are looked at, as a share of them."""
@@ -238,8 +228,8 @@ def objection(record: Record, base: Array | None) -> str:
 
     Notes
     -----
-    A rocking block's period falls with its amplitude in its own way, and its arcs are near to parabolas; the duration,
-    its change with the peak and what the middle of an arc says of its ends are held against the equation of motion.
+    The arcs of a rocking block are near to parabolas, and as long as their height says: the duration, and what the
+    middle of an arc says of its ends, are held against the equation of motion.
     """
     seen = record.counted
     if seen.start.size < FEWEST_ARCS:
@@ -264,18 +254,6 @@ def objection(record: Record, base: Array | None) -> str:
             f"Times between impacts differ by {format_percent(excess, signed=True)} from those of this block in "
             "free rocking at these amplitudes: this is not free rocking of this specimen, or its dimensions are wrong."
         )
-    higher = np.minimum(1.001 * peak, 0.5 * (peak + critical))
-    slope = np.log(2 * half_duration(higher, critical) / p / expected) / (higher - peak)
-    blur = float(np.mean((slope * seen.peak_standard_error) ** 2))
-    # What is not seen beyond all error shows nothing.
-    if expected.size > 2 and np.var(np.log(expected)) >= max(BEYOND_ERRORS * blur, LEAST_CHANGE / expected.size):
-        line = scipy.stats.linregress(np.log(expected), np.log(duration))
-        if line.slope + SURE * line.stderr < LEAST_FOLLOWING:
-            return (
-                f"Times between impacts change with the {line.slope:.2g} ± {line.stderr:.2g} power of those of a "
-                "rocking block; 1 was expected. A period that does not follow the amplitude is that of an oscillator "
-                "on springs, not of rocking."
-            )
     unsure = seen.duration_standard_error / duration
     sure = unsure < LARGEST_ERROR
     if not sure.any():

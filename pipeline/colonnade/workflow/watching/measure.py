@@ -6,17 +6,14 @@ import json
 import shlex
 import subprocess
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.forms.summary import RestitutionSummary, TestSummary, Warned
+from colonnade.campaign.forms.summary import RestitutionSummary, TestSummary
 from colonnade.errors import CampaignError
-from colonnade.findings import Finding, Severity, as_record
-from colonnade.identification.plausibility.transducers import ChannelState, changes
+from colonnade.findings import Severity
 from colonnade.store.layout import Layout
 from colonnade.store.records import wording
 from colonnade.store.records.stored import Failure, Stored
@@ -25,9 +22,8 @@ from colonnade.units.text import listed, number
 from colonnade.workflow.executors import Where
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.pooling import restitution_taken
-from colonnade.workflow.product import Catalogue, read_done
+from colonnade.workflow.product import Catalogue
 from colonnade.workflow.walk import Walk, walking
-from colonnade.workflow.watching.arrivals import last_change
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -46,8 +42,6 @@ class Line:
         As it will be in the summary, without what takes longer.
     restitution : RestitutionSummary
         The e of its specimen that is known so far.
-    changed : tuple of Finding
-        What is other than in the last test with the same set-up.
     seconds : float
         From the last change of its files to this line.
     """
@@ -55,7 +49,6 @@ class Line:
     test: str
     record: TestSummary
     restitution: RestitutionSummary
-    changed: tuple[Finding, ...]
     seconds: float
 
     def text(self) -> str:
@@ -75,7 +68,6 @@ class Line:
             "seconds": round(self.seconds, 2),
             **self.record.model_dump(mode="json"),
             "specimen_restitution": self.restitution.model_dump(mode="json"),
-            "changed": [as_record(each) for each in self.changed],
         }
 
     def _place(self) -> str:
@@ -85,8 +77,7 @@ class Line:
         return f"Ω {number(self.record.frequency_ratio)}, A {number(ratio)}"
 
     def _warnings(self) -> list[str]:
-        worst: list[Finding | Warned] = [*self.changed]
-        worst += [each for each in self.record.warnings if each.severity is not Severity.NOTE and not each.explained]
+        worst = [each for each in self.record.warnings if each.severity is not Severity.NOTE and not each.explained]
         shown = [f"{each.severity}: {each.text.rstrip('.')}" for each in worst[:2]]
         return [*shown, f"and {listed([each.kind for each in worst[2:]])}"] if len(worst) > 2 else shown
 
@@ -122,8 +113,7 @@ def measure(campaign: Campaign, layout: Layout, name: str, finished: float) -> L
     record = record_of_test(campaign, test, stored)
     pooled = restitution_taken(campaign, layout, test.specimen)
     known = record_of_specimen(campaign, test.specimen, pooled).restitution
-    changed = () if walk.failed["test"] else tuple(_changes(campaign, layout, test))
-    return Line(name, record, known, changed, time.time() - finished)
+    return Line(name, record, known, time.time() - finished)
 
 
 def measured(campaign: Campaign, layout: Layout) -> set[str]:
@@ -140,26 +130,6 @@ def _compare(campaign: Campaign, test: Test, stored: Stored) -> None:
     if ("rocking", None) in stored.datasets:
         measured = stored.datasets["rocking", None]
         stored.datasets["compare", None] = compare(measured, predicted, CompareInputs.of(campaign, test))
-
-
-def _changes(campaign: Campaign, layout: Layout, test: Test) -> Iterator[Finding]:
-    """Compare the channels with those of the test with the same set-up that was recorded last before this one."""
-    alike = [each for each in campaign.tests.values() if each.setup == test.setup]
-    recorded = {each.id: last_change(each.files.values()) for each in alike}
-    before = [name for name in recorded if 0 < recorded[name] < recorded[test.id]]
-    done = [name for name in before if layout.stage(name, "condition").exists()]
-    if done:
-        last = max(done, key=recorded.__getitem__)
-        yield from changes(_states(layout, test.id), _states(layout, last), last)
-
-
-def _states(layout: Layout, name: str) -> dict[str, ChannelState]:
-    conditioned = read_done(layout.stage(name, "condition"))
-    return {
-        str(variable): ChannelState(float(values.attrs["zero"]), float(values.attrs["noise"]), motion)
-        for variable, values in ({} if conditioned is None else conditioned.data_vars).items()
-        if {"zero", "noise"} <= values.attrs.keys() and np.isfinite(motion := float(np.abs(values).max()))
-    }
 
 
 PATIENCE = 10.0
