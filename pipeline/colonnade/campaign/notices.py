@@ -30,7 +30,7 @@ NARROWEST_RANGE = 0.1
 """Of the travel of a point until the specimen overturns; a transducer that reads less does not see it rock."""
 
 _USED = {
-    "specimen": {"displacement", "angle", "angular_velocity", "acceleration"},
+    "specimen": {"displacement", "angle", "angular_velocity"},
     "table": {"displacement", "acceleration"},
 }
 
