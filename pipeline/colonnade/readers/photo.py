@@ -86,8 +86,6 @@ def photo_here(path: Path) -> tuple[None, list[Pixels]]:
                 )
             photo.draft("RGB", (LARGEST_SIDE, LARGEST_SIDE))  # JPEG is decoded at half or a quarter of its size
             upright = ImageOps.exif_transpose(photo)
-            if upright.mode.startswith("I;16") or upright.mode == "I":
-                upright = upright.point(lambda value: value / 256).convert("L")
             if upright.has_transparency_data:
                 white = Image.new("RGBA", upright.size, "white")
                 upright = Image.alpha_composite(white, upright.convert("RGBA"))

@@ -6,6 +6,7 @@ import re
 import zipfile
 from pathlib import Path, PureWindowsPath
 from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
 
 import numpy as np
 
@@ -14,9 +15,8 @@ from colonnade.errors import ReadError, quoted
 from colonnade.readers.binary.numbers import numbers_at
 from colonnade.readers.clock import even_times, with_clocks
 from colonnade.readers.format import Format, Options, Recognition
-from colonnade.readers.head import ZIP, Head, from_head, head_of
+from colonnade.readers.head import ZIP, Head, from_head
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.refused import foreign_format
 
 FORMS = {
     **{"eFloat64Usi": "f8", "eFloat32Usi": "f4", "eInt64Usi": "i8", "eInt32Usi": "i4", "eInt16Usi": "i2"},
@@ -24,6 +24,8 @@ FORMS = {
 }
 KINDS = ("explicit", "explicit_external", "raw_linear", "raw_linear_external", "implicit_linear")
 """How values are given: stored as they are, stored and to be scaled, or by the numbers of their rows alone."""
+_Elements = dict[str | None, Element]
+"""Parts of the header by their id."""
 
 
 @from_head
@@ -43,18 +45,27 @@ def recognise(head: Head) -> Recognition:
 
 def read(path: Path, options: Options) -> Recording:
     """Read a DIAdem data set by its header; ReadError if the file with the values is not in its folder."""
-    header = _Header(path)
-    channels, warnings = [], header.warnings
-    elements = [element for element in header.root.iter() if element.tag.endswith("tdm_channel")]
+    content = path.read_bytes()
+    if recognise.expected(path).content.startswith(ZIP):
+        with zipfile.ZipFile(path) as archive:
+            content = archive.read(archive.infolist()[0])
+    root = ElementTree.fromstring(content)
+    objects = {element.get("id"): element for element in root.iter()}
+    files = {block.get("id"): file for file in root.iter("file") for block in file.iter("block")}
+    channels: list[RecordedChannel] = []
+    warnings: list[str] = []
+    elements = [element for element in root.iter() if element.tag.endswith("tdm_channel")]
     for number, element in enumerate(elements, 1):
         name = (element.findtext("name") or "").strip() or f"channel {number}"
         try:
-            channels.append(header.channel(name, element))
+            values = _values(path, name, element, objects, files, warnings)
+            step, begin = _attribute(element, "wf_increment"), _attribute(element, "wf_start_offset")
         except (ValueError, KeyError, OverflowError) as error:
             warnings.append(f'"{name}" is left out: its entry in the header cannot be used ({error})')
-    is_clocked = any(channel.time is not None for channel in channels)
-    notes = ("clock: each channel's own increment",) if is_clocked else ()
-    return with_clocks(Recording(path, "diadem", tuple(channels), notes=notes, warnings=tuple(warnings)))
+            continue
+        unit = (element.findtext("unit_string") or "").strip("[] ") or None
+        channels.append(RecordedChannel(name, unit, values, even_times(values.size, step, begin) if step > 0 else None))
+    return with_clocks(Recording(path, "diadem", tuple(channels), warnings=tuple(warnings)))
 
 
 def companions(path: Path) -> tuple[Path, ...]:
@@ -64,71 +75,48 @@ def companions(path: Path) -> tuple[Path, ...]:
     return (alike[0] if alike and values not in alike else values,)
 
 
-class _Header:
-    """What the XML says: objects that refer to one another, and blocks of numbers in other files."""
-
-    def __init__(self, path: Path) -> None:
-        if reason := foreign_format(head_of(path)):
-            raise ReadError(f"{path.name}: {reason}")
-        content = path.read_bytes()
-        if content.startswith(ZIP):
-            with zipfile.ZipFile(path) as archive:
-                content = archive.read(archive.infolist()[0])
-        self.path, self.root, self.warnings = path, ElementTree.fromstring(content), list[str]()
-        self._objects = {element.get("id"): element for element in self.root.iter()}
-        self._blocks = {
-            block.get("id"): (file, block) for file in self.root.iter("file") for block in file.iter("block")
-        }
-
-    def channel(self, name: str, element: ElementTree.Element) -> RecordedChannel:
-        """Read a channel; ValueError or KeyError where its entry cannot be used."""
-        column = self._referred(element, "local_columns")
-        kind = (column.findtext("sequence_representation") or "explicit").strip()
-        if kind not in KINDS:
-            raise ValueError(f'its values are "{kind}"')
-        scale = (0.0, 1.0)
-        if kind.endswith(("linear", "linear_external")):
-            offset, factor = map(float, (column.findtext("generation_parameters") or "").split())
-            scale = (offset, factor)
-        if kind == "implicit_linear":
-            rows = int(self._referred(column, "submatrix").findtext("number_of_rows") or 0)
-            values = even_times(rows, scale[1], scale[0])
-        else:
-            values = self._stored(name, self._referred(column, "values"), scale)
-        step, begin = _attribute(element, "wf_increment"), _attribute(element, "wf_start_offset")
-        unit = (element.findtext("unit_string") or "").strip("[] ")
-        return RecordedChannel(name, unit or None, values, even_times(values.size, step, begin) if step > 0 else None)
-
-    def _referred(self, element: ElementTree.Element, tag: str) -> ElementTree.Element:
-        """The object that a part of an element refers to."""
-        found = re.search(r'id\("([^"]+)"\)', element.findtext(tag) or "")
-        return self._objects[found[1] if found else f"no {tag}"]
-
-    def _stored(self, name: str, sequence: ElementTree.Element, scale: tuple[float, float]) -> Array:
-        """Numbers of a block of another file."""
-        inner = sequence.find("values")
-        external = None if inner is None else inner.get("external")
-        if external is None:
-            raise ValueError("its values are not in a separate file")
-        file, block = self._blocks[external]
-        form = (">" if file.get("byteOrder") == "bigEndian" else "<") + FORMS[block.get("valueType", "")]
-        count, first, stride = (int(block.get(key, "0")) for key in ("length", "byteOffset", "blockSize"))
-        first += int(block.get("blockOffset", "0")) if stride else 0
-        if min(count, first, stride) < 0 or 0 < stride < int(form[-1]):
-            raise ValueError(f"{count} values from byte {first} on, every {stride} bytes")
-        (path,) = companions(self.path)
-        other = PureWindowsPath(file.get("url", "")).name
-        if other.casefold() != path.name.casefold() or not path.is_file():
-            raise ReadError(
-                f"{self.path.name}: its values are in the file {quoted(other)}; they were expected next to it "
-                f"in {path.name}. Copy the file there, or save the data set from DIAdem under a new name instead of "
-                "renaming it."
-            )
-        content = np.memmap(path, dtype=np.uint8, mode="r") if path.stat().st_size else np.empty(0, dtype=np.uint8)
-        return numbers_at(content, name, form, first, count, self.warnings, stride=stride, scale=scale, file=path.name)
+def _values(
+    path: Path, name: str, element: Element, objects: _Elements, files: _Elements, warnings: list[str]
+) -> Array:
+    """Values of a channel, scaled; ValueError or KeyError where its entry cannot be used."""
+    column = _referred(objects, element, "local_columns")
+    kind = (column.findtext("sequence_representation") or "explicit").strip()
+    if kind not in KINDS:
+        raise ValueError(f'its values are "{kind}"')
+    offset, factor = 0.0, 1.0
+    if "linear" in kind:
+        offset, factor = map(float, (column.findtext("generation_parameters") or "").split())
+    if kind == "implicit_linear":
+        return even_times(int(_referred(objects, column, "submatrix").findtext("number_of_rows") or 0), factor, offset)
+    inner = _referred(objects, column, "values").find("values")
+    external = None if inner is None else inner.get("external")
+    if external is None:
+        raise ValueError("its values are not in a separate file")
+    file, block = files[external], objects[external]
+    form = (">" if file.get("byteOrder") == "bigEndian" else "<") + FORMS[block.get("valueType", "")]
+    count, first, stride = (int(block.get(key, "0")) for key in ("length", "byteOffset", "blockSize"))
+    first += int(block.get("blockOffset", "0")) if stride else 0
+    if min(count, first, stride) < 0 or 0 < stride < int(form[-1]):
+        raise ValueError(f"{count} values from byte {first} on, every {stride} bytes")
+    (stored,) = companions(path)
+    other = PureWindowsPath(file.get("url", "")).name
+    if other.casefold() != stored.name.casefold() or not stored.is_file():
+        raise ReadError(
+            f"{path.name}: its values are in the file {quoted(other)}; they were expected next to it in {stored.name}. "
+            "Copy the file there, or save the data set from DIAdem under a new name instead of renaming it."
+        )
+    content = np.memmap(stored, dtype=np.uint8, mode="r") if stored.stat().st_size else np.empty(0, dtype=np.uint8)
+    scale = (offset, factor)
+    return numbers_at(content, name, form, first, count, warnings, stride=stride, scale=scale, file=stored.name)
 
 
-def _attribute(channel: ElementTree.Element, name: str) -> float:
+def _referred(objects: _Elements, element: Element, tag: str) -> Element:
+    """The object that a part of an element refers to."""
+    found = re.search(r'id\("([^"]+)"\)', element.findtext(tag) or "")
+    return objects[found[1] if found else f"no {tag}"]
+
+
+def _attribute(channel: Element, name: str) -> float:
     """A number among a channel's own attributes; 0 if it is missing."""
     for attribute in channel.iter("double_attribute"):
         if attribute.get("name") == name:

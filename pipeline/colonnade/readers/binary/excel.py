@@ -97,8 +97,7 @@ def _sheet(path: Path, wanted: str | int | None) -> tuple[list[list[Any]], str]:
     if wanted is None and not samples.get(best):
         listed = ", ".join(f'"{name}"' for name in names)
         raise ReadError(f"{path.name}: no sheet holds rows of numbers ({listed or 'it has no sheet'}).")
-    others = ", ".join(f'"{other}"' for other in names if other != best) if wanted is None else ""
-    why = f", the one with most rows of numbers; not read: {others}" if others else ""
+    why = ", the one with most rows of numbers; `sheet` names another" if len(sheets) > 1 else ""
     return sheets[best], f'sheet "{best}"{why}'
 
 

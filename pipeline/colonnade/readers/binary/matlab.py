@@ -54,10 +54,8 @@ def read(path: Path, options: ClockOptions) -> Recording:
     """Read a MATLAB file; ReadError if it holds no column of numbers."""
     told = Told()
     is_hdf5 = recognise.expected(path).content[USER_BLOCK:].startswith(HDF5)
-    variables = (read_v73 if is_hdf5 else read_v5)(path, told)
-    columns, scalars = find_columns(variables, told)
-    held = ", ".join(list(variables)[:8]) or "no variable"
-    return recorded(path, "matlab", columns, told, options, scalars, where=f"in it; it holds {held}")
+    columns, scalars = find_columns((read_v73 if is_hdf5 else read_v5)(path, told), told)
+    return recorded(path, "matlab", columns, told, options, scalars)
 
 
 def read_v5(path: Path, told: Told) -> dict[str, Node]:

@@ -123,7 +123,6 @@ def recorded(
     options: ClockOptions,
     scalars: Mapping[str, float] | None = None,
     yielding: Collection[int] = (),
-    where: str = "in it",
 ) -> Recording:
     """
     Make a recording of columns of any numbers, on the clocks that they have or that are found, with what is said.
@@ -134,12 +133,11 @@ def recorded(
     Raises
     ------
     ReadError
-        If there is no column `where` they were looked for, with all that is said.
+        If there is no column, with all that is said.
     """
     left_out = [f"{place} is left out: {why}" for place, why in told.left_out.items()]
     if not columns:
-        message = f"{path.name}: no column of numbers {where}."
-        raise ReadError("\n  ".join([message, *told.warnings, *left_out]))
+        raise ReadError("\n  ".join([f"{path.name}: no column of numbers in it.", *told.warnings, *left_out]))
     last = [column.name or column.heading.rpartition(".")[2] for column in columns]
     counts = Counter(last)
     channels = []
