@@ -79,7 +79,7 @@ def problems(**keys):
     [
         ({}, "unit", "It is missing"),
         ({"unit": "V"}, "unit", 'add a gain in "mm/V"'),
-        ({"unit": "V", "gain": "0.5 g/V"}, "gain", 'is not a length. A gain in "mm/V" was expected'),
+        ({"unit": "V", "gain": "0.5 g/V"}, "gain", 'is not a length. A gain in "mm per V" was expected'),
         ({"unit": "V", "gain": "0 mm/V"}, "gain", "would erase the recording"),
         ({"unit": "V", "gain": "1e400 mm/V"}, "gain", "too large"),
         ({"unit": "V", "gain": True}, "gain", "Text in quotes was expected: physical over recorded"),

@@ -31,7 +31,6 @@ from every import every
         ("41.2 kg m^2", "inertia", 41.2),
         ("41.2 kg·m²", "inertia", 41.2),
         ("180°", "angle", 3.141592653589793),
-        ("60 rpm", "angular_velocity", 6.283185307179586),
         ("2 ms", "time", 0.002),
         ("200 Hz", "frequency", 200.0),
         ("0.9", "dimensionless", 0.9),
@@ -46,15 +45,15 @@ def test_quantity_becomes_si(text, dimension, expected):
     ("text", "dimension", "words"),
     [
         ("86", "length", ["has no unit", '"86 mm"']),
-        ("86 s", "length", ["unit of time", "A length was expected"]),
+        ("86 s", "length", ["unit of a time", "A length was expected"]),
         ("86,5 mm", "length", ["decimal comma", '"86.5 mm"']),
         ("mm", "length", ["not a quantity"]),
         ("", "length", ["not a quantity"]),
         ("nan mm", "length", ["not a quantity"]),
         ("1e999 mm", "length", ["too large"]),
         ("26 gram", "mass", ["gram", "Unknown unit", "A mass was expected"]),
-        ("26 g", "mass", ["unit of acceleration", "A mass was expected"]),
-        ("3 rad/s", "frequency", ["angular velocity", "A frequency was expected"]),
+        ("26 g", "mass", ["unit of an acceleration", "A mass was expected"]),
+        ("3 rad/s", "frequency", ["unit of an angular velocity", "A frequency was expected"]),
         ("3 gallon", "acceleration", ["Unknown unit"]),
         ("5 mm^99", "length", ["Unknown unit"]),
     ],
@@ -69,7 +68,7 @@ USUAL = {
     "g": ("g's", "G"),
     "V": ("Volts", "VOLTS"),
     "m/s^2": ("m/s²", "m/s^2", "m/sec2", "m/s/s"),
-    "mm": ("mm.", "MM", "millimetres"),
+    "mm": ("mm.", "MM", "Mm"),
     "s": ("seconds", "sec."),
     "deg": ("°", "deg", "degrees"),
     "Gal": ("gal",),
@@ -79,7 +78,9 @@ USUAL = {
     "kN": ("KN", "kn"),
     "MPa": ("MPA", "Mpa"),
     "kPa": ("KPA",),
-    "mg": ("MG",),
+    "mg": ("MG", "Mg"),
+    "mV": ("MV",),
+    "ms": ("MSEC", "Ms"),
     "": ("",),
 }
 
@@ -92,24 +93,17 @@ def test_spellings_of_recorders_are_understood(spelling, usual):
 @every(
     ("spelling", "factor", "si_unit"),
     [
-        ("Ms", 1e6, "s"),
-        ("ms", 1e-3, "s"),
         ("KN", 1e3, "kg m s-2"),
         ("MPA", 1e6, "kg m-1 s-2"),
         ("MG", 1e-3 * 9.80665, "m s-2"),
-        ("mg", 1e-3 * 9.80665, "m s-2"),
+        ("mN", 1e-3, "kg m s-2"),
+        ("MN", 1e6, "kg m s-2"),
         ("kg", 1.0, "kg"),  # not a thousand gravities
     ],
 )
-def test_letters_that_differ_by_case_stay_apart_unless_they_can_only_be_one_unit(spelling, factor, si_unit):
+def test_capitals_are_those_of_the_unit_that_a_laboratory_records(spelling, factor, si_unit):
     found = resolve(spelling)
     assert (found.factor, found.si_unit) == (pytest.approx(factor, rel=1e-14), si_unit)
-
-
-@pytest.mark.parametrize(("unit", "meant"), [("MV", "mV"), ("MA", "mA"), ("Mg", "mg"), ("NM", "N m"), ("mm/MV", "mV")])
-def test_capitals_that_may_be_two_units_are_asked_about(unit, meant):
-    with pytest.raises(UnitError, match=f'Unknown unit .* it may be two. Did you mean "{meant}"'):
-        resolve(unit)
 
 
 @pytest.mark.parametrize(
@@ -131,10 +125,10 @@ def test_gain_gives_si_per_recorded_unit(gain, recorded, dimension, factor):
 @pytest.mark.parametrize(
     ("gain", "recorded", "hint"),
     [
-        ("10 mm", "V", '"mm/V"'),
-        ("10 mm/V", "mm", '"mm/mm"'),
-        ("10 mm/V", "Volt/mm", '"mm/(V/mm)"'),
-        ("1", "V", '"mm/V"'),
+        ("10 mm", "V", '"mm per V"'),
+        ("10 mm/V", "mm", '"mm per mm"'),
+        ("10 mm/V", "Volt/mm", '"mm per V/mm"'),
+        ("1", "V", '"mm per V"'),
     ],
 )
 def test_gain_that_does_not_lead_to_the_quantity_is_refused_with_the_right_one(gain, recorded, hint):
@@ -182,13 +176,12 @@ POWERS = st.integers(-3, 3)
 @given(st.lists(st.tuples(NAMES, POWERS), min_size=1, max_size=3))
 def test_a_product_of_units_has_the_product_of_their_factors(parts):
     found = resolve("*".join(f"{name}^{power}" for name, power in parts))
-    factor, powers = 1.0, units.collected(())
+    factor, product = 1.0, resolve("")
     for name, power in parts:
-        one = resolve(name)
-        factor *= one.factor**power
-        powers = units.collected((*powers.items(), *((base, each * power) for base, each in one.dimension.items())))
+        factor *= resolve(name).factor ** power
+        product = units.product(product.symbol, f"{name}^{power}")
     assert found.factor == pytest.approx(factor, rel=1e-12)
-    assert found.dimension == powers
+    assert found.si_unit == product.si_unit
 
 
 @given(st.lists(st.tuples(NAMES, POWERS), min_size=1, max_size=3))
@@ -196,7 +189,7 @@ def test_the_usual_spelling_of_a_unit_is_the_same_unit_and_its_own(parts):
     text = "*".join(f"{name}^{power}" for name, power in parts)
     found = resolve(text)
     usual, again = found.symbol, resolve(found.symbol)
-    assert again.dimension == found.dimension
+    assert again.si_unit == found.si_unit
     assert again.factor == pytest.approx(found.factor, rel=1e-12)
     assert again.symbol == usual
     assert units.same_unit(usual, text)
@@ -217,22 +210,20 @@ def test_a_hint_is_given_for_a_longer_name_only():
 
 
 def test_powers_are_bounded():
-    assert resolve("*".join(["m"] * LARGEST_POWER)).dimension == {"m": LARGEST_POWER}
+    assert resolve("*".join(["m"] * LARGEST_POWER)).si_unit == f"m{LARGEST_POWER}"
     with pytest.raises(UnitError):
         resolve("*".join(["m"] * (LARGEST_POWER + 1)))
 
 
 @every("dimension", DIMENSIONS)
 def test_the_example_of_a_dimension_has_that_dimension(dimension):
-    si_unit, example = DIMENSIONS[dimension]
+    si_unit, example, name = DIMENSIONS[dimension]
     assert units.factor_to_si(si_unit, dimension) == 1
     assert units.factor_to_si(example, dimension) > 0
-    assert units.words(dimension) in expected(dimension).casefold() or dimension == "dimensionless"
+    assert name in expected(dimension).casefold()
 
 
 def test_an_expectation_repeats_the_number_that_was_given():
     assert expected("length") == 'A length was expected, such as "mm".'
     assert expected("length", 86) == 'A length was expected, such as "86 mm".'
     assert expected("dimensionless") == "A plain number was expected."
-    kinds = {"acceleration": "an acceleration", "inertia": "a moment of inertia", "mass": "a mass"}
-    assert {each: units.article(each) for each in kinds} == kinds

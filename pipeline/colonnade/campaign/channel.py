@@ -167,7 +167,7 @@ class Channel(Table):
         """Unit of the physical value in the notation of CF, such as "m s-2"."""
         if self.dimension is not None:
             return units.DIMENSIONS[self.dimension][0]
-        return (units.resolve(units.parse(self.gain or "1")[1]) * units.resolve(self.unit or "")).si_unit
+        return units.product(units.parse(self.gain or "1")[1], self.unit or "").si_unit
 
     @cached_property
     def factor(self) -> float:

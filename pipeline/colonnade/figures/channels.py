@@ -30,8 +30,7 @@ from colonnade.figures.stored.subject import OfTest
 from colonnade.figures.style import FAINT, LIMIT, MEASURED, SOFT, styled, width
 from colonnade.signals.metrics import Density, density
 from colonnade.signals.quality import Flag
-from colonnade.units import from_si
-from colonnade.units.text import CHANNEL_UNITS
+from colonnade.units import CHANNEL_UNITS, from_si
 
 HEIGHT, GAP = 0.62, 0.21
 """Of a channel's row, and between rows; inches."""

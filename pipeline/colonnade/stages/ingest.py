@@ -309,7 +309,8 @@ def unit_findings(recording: Recording, column: RecordedChannel, name: str, chan
     if LETTERED.fullmatch(column.heading) and column.unit in ("V", "A") and channel.gain is None:
         return []  # a label
     said = f'channel {name}: {recording.path.name} says "{column.unit}" for column "{column.heading}", '
-    if channel.gain is not None and not units.is_physical(column.unit):
+    own = units.find_unit(column.unit)
+    if channel.gain is not None and (own is None or own.si_unit in ("1", "count")):
         said += f"which is not the unit of a physical quantity. The campaign file's unit ({channel.unit}) and gain "
         return [note("unit", f"{said}({channel.gain}) were used.")]
     said += f'the campaign file says "{channel.unit}", which was used. One of them is wrong.'

@@ -8,45 +8,42 @@ here, so that rad/s and Hz are not taken for each other.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
 from functools import cache, lru_cache
 from math import isclose, isfinite, prod
+from typing import NamedTuple
 
 from colonnade.errors import UnitError, nearest, quoted
 
-DIMENSIONS: dict[str, tuple[str, str]] = {
-    "length": ("m", "mm"),
-    "mass": ("kg", "kg"),
-    "time": ("s", "s"),
-    "frequency": ("s-1", "Hz"),
-    "angle": ("rad", "deg"),
-    "angular_velocity": ("rad s-1", "deg/s"),
-    "velocity": ("m s-1", "mm/s"),
-    "acceleration": ("m s-2", "g"),
-    "force": ("kg m s-2", "kN"),
-    "inertia": ("kg m2", "kg m^2"),
-    "pressure": ("kg m-1 s-2", "GPa"),
-    "voltage": ("V", "V"),
-    "dimensionless": ("1", ""),
+DIMENSIONS = {
+    "length": ("m", "mm", "a length"),
+    "mass": ("kg", "kg", "a mass"),
+    "time": ("s", "s", "a time"),
+    "frequency": ("s-1", "Hz", "a frequency"),
+    "angle": ("rad", "deg", "an angle"),
+    "angular_velocity": ("rad s-1", "deg/s", "an angular velocity"),
+    "velocity": ("m s-1", "mm/s", "a velocity"),
+    "acceleration": ("m s-2", "g", "an acceleration"),
+    "force": ("kg m s-2", "kN", "a force"),
+    "inertia": ("kg m2", "kg m^2", "a moment of inertia"),
+    "pressure": ("kg m-1 s-2", "GPa", "a pressure"),
+    "voltage": ("V", "V", "a voltage"),
+    "dimensionless": ("1", "", "a plain number"),
 }
-"""Dimension: its SI unit, and a unit that a laboratory would write."""
+"""Dimension: its SI unit, a unit that a laboratory would write, and its name."""
 
-QUANTITY_DIMENSIONS: dict[str, str | None] = {
-    "displacement": "length",
-    "velocity": "velocity",
-    "acceleration": "acceleration",
-    "angle": "angle",
-    "angular_velocity": "angular_velocity",
-    "force": "force",
-    "other": None,
+CHANNEL_UNITS = {
+    **{"displacement": "mm", "velocity": "mm/s", "acceleration": "m/s²"},
+    **{"angle": "mrad", "angular_velocity": "rad/s", "force": "N"},
 }
+"""What a channel can record, besides `other`, and the unit in which it is written and drawn."""
+QUANTITY_DIMENSIONS = {**{name: name for name in CHANNEL_UNITS}, "displacement": "length", "other": None}
 """What a channel can record, and its dimension; `other` may have any."""
 
 # Symbol: SI units in one of it, its dimension as powers of SI units, and further names.
 _UNITS = {
     "m": (1.0, "m", "metre meter"),
-    "kg": (1.0, "kg", "kilogram Kg KG"),
+    "kg": (1.0, "kg", "kilogram"),
     "s": (1.0, "s", "second sec"),
     "rad": (1.0, "rad", "radian"),
     "V": (1.0, "V", "volt v"),
@@ -55,11 +52,11 @@ _UNITS = {
     "degC": (1.0, "degC", "celsius"),
     "%": (0.01, "", "percent"),
     "strain": (1.0, "", ""),
-    "Hz": (1.0, "s-1", "hertz hz HZ sps"),
+    "Hz": (1.0, "s-1", "hertz sps"),
     "min": (60.0, "s", "minute"),
     "h": (3600.0, "s", "hour"),
     "g": (9.80665, "m s-2", "gravity G"),
-    "Gal": (0.01, "m s-2", "gal GAL"),
+    "Gal": (0.01, "m s-2", ""),
     "N": (1.0, "kg m s-2", "newton"),
     "kgf": (9.80665, "kg m s-2", "kilogram_force"),
     "lbf": (4.4482216152605, "kg m s-2", "pound_force"),
@@ -70,52 +67,29 @@ _UNITS = {
     "in": (0.0254, "m", "inch"),
     "ft": (0.3048, "m", "foot feet"),
     "deg": (0.017453292519943295, "rad", "degree"),
-    "rev": (6.283185307179586, "rad", "revolution"),
-    "rpm": (6.283185307179586 / 60.0, "rad s-1", ""),
 }
-_PREFIXES = {
-    "n": (1e-9, "nano"),
-    "µ": (1e-6, "micro μ u"),
-    "m": (1e-3, "milli"),
-    "c": (1e-2, "centi"),
-    "k": (1e3, "kilo"),
-    "M": (1e6, "mega"),
-    "G": (1e9, "giga"),
-}
+_PREFIXES = {"": 1.0, "M": 1e6, "G": 1e9, "k": 1e3, "c": 1e-2, "m": 1e-3, "µ": 1e-6, "u": 1e-6}
+_LARGE = ("Pa", "N", "Hz")
+"""Units that are recorded in millions: of all others a capital M is a shouted m."""
 
-# Hints at what was meant.
 COMMON = ("mm", "cm", "m", "kg", "s", "ms", "Hz", "g", "Gal", "m/s^2", "mm/s", "V", "mV", "N", "kN", "rad", "deg")
-SHOUTED = {"KN": "kN", "KPA": "kPa", "MPA": "MPa", "GPA": "GPa", "MG": "mg"}
-"""Units in capitals that can only be one: nobody records 10⁶ g or 10⁻³ Pa."""
-UNCLEAR = {"MV": "mV", "MA": "mA", "Mg": "mg", "NM": "N m"}
-"""Units that may be another one, which is more likely; they are asked about."""
+"""Hints at what was meant."""
 LARGEST_POWER = 9
 """Sum of the exponents in a unit, without their signs: its factor stays finite."""
 _TOKEN = re.compile(r"([^\W\d_]+|%|1(?![0-9]))(?:(?:\^|\*\*)?([+-]?[0-9](?![0-9])))?|(\S)")
-_SPELLINGS = str.maketrans("⁰¹²³⁴⁻−·⋅×º", "01234--***°")
+_SPELLINGS = str.maketrans("⁰¹²³⁴⁻−·⋅×ºμ", "01234--***°µ")
 
 NUMBER_PATTERN = r"[+\-−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+\-−]?[0-9]+)?"
 _QUANTITY = re.compile(rf"({NUMBER_PATTERN})\s*(.*)", re.DOTALL)
 _DECIMAL_COMMA = re.compile(r"[+\-−]?[0-9]+,[0-9]+.*", re.DOTALL)
 
 
-@dataclass(frozen=True)
-class Unit:
-    """A unit: SI units in one of it, its dimension as powers of SI units, and its usual spelling."""
+class Unit(NamedTuple):
+    """A unit: SI units in one of it, its SI unit as CF writes it ("m s-2"; "1" for a number), its usual spelling."""
 
     factor: float
-    dimension: Mapping[str, int]
+    si_unit: str
     symbol: str
-
-    @property
-    def si_unit(self) -> str:
-        """Its SI unit in the notation of CF, such as "m s-2"; "1" where it has no dimension."""
-        powers = (f"{name}{'' if power == 1 else power}" for name, power in sorted(self.dimension.items()))
-        return " ".join(powers) or "1"
-
-    def __mul__(self, other: Unit) -> Unit:
-        powers = collected((*self.dimension.items(), *other.dimension.items()))
-        return Unit(self.factor * other.factor, powers, f"{self.symbol} {other.symbol}")
 
 
 def parse(text: str) -> tuple[float, str]:
@@ -198,11 +172,8 @@ def factor_to_si(unit: str, dimension: str) -> float:
     """
     found = resolve(unit, dimension)
     if found.si_unit != DIMENSIONS[dimension][0]:
-        named = next((name for name, (si_unit, _) in DIMENSIONS.items() if si_unit == found.si_unit), None)
-        kind = "of another kind" if named is None else f"a unit of {words(named)}"
-        raise UnitError(
-            f"{quoted(unit)} is {'without dimension' if not found.dimension else kind}. {expected(dimension)}"
-        )
+        kind = next((name for si_unit, _, name in DIMENSIONS.values() if si_unit == found.si_unit), "something else")
+        raise UnitError(f"{quoted(unit)} is the unit of {kind}. {expected(dimension)}")
     return found.factor
 
 
@@ -231,15 +202,25 @@ def gain_to_si(gain: str, recorded_unit: str, dimension: str | None) -> float:
     """
     value, unit = parse(gain)
     per_unit, recorded = resolve(unit), resolve(recorded_unit)
-    if dimension and (per_unit * recorded).si_unit != DIMENSIONS[dimension][0]:
-        below = f"({recorded.symbol})" if {"/", " "} & set(recorded.symbol) else recorded.symbol
-        example = f"{DIMENSIONS[dimension][1]}/{below}" if below else DIMENSIONS[dimension][1]
-        doubt = f" Is {quoted(recorded_unit)} the unit of the values in the file?" if "/" in recorded.symbol else ""
+    if dimension and product(unit, recorded_unit).si_unit != DIMENSIONS[dimension][0]:
+        _, example, wanted = DIMENSIONS[dimension]
         raise UnitError(
-            f"{quoted(gain)} times a recorded value in {quoted(recorded_unit)} is not {article(dimension)}. "
-            f'A gain in "{example}" was expected.{doubt}'
+            f"{quoted(gain)} times a recorded value in {quoted(recorded_unit)} is not {wanted}. A gain in "
+            f'"{example} per {recorded.symbol or 1}" was expected, if {quoted(recorded_unit)} is the unit in the file.'
         )
     return value * per_unit.factor * recorded.factor
+
+
+def product(first: str, second: str) -> Unit:
+    """
+    Multiply two units.
+
+    Examples
+    --------
+    >>> product("mm/V", "mV").si_unit
+    'm'
+    """
+    return resolve(f"{resolve(first).symbol or 1} {resolve(second).symbol or 1}")
 
 
 def find_unit(unit: str) -> Unit | None:
@@ -269,7 +250,7 @@ def same_unit(first: str, second: str) -> bool:
     one, other = find_unit(first), find_unit(second)
     if one is None or other is None:
         return first.strip() == second.strip()
-    return one.dimension == other.dimension and isclose(one.factor, other.factor)
+    return one.si_unit == other.si_unit and isclose(one.factor, other.factor)
 
 
 def is_of(unit: str, dimension: str) -> bool:
@@ -285,19 +266,6 @@ def is_of(unit: str, dimension: str) -> bool:
     return found is not None and found.si_unit == DIMENSIONS[dimension][0]
 
 
-def is_physical(unit: str) -> bool:
-    """
-    Whether a unit is known and that of a physical quantity, neither a recorder's counts nor a plain number.
-
-    Examples
-    --------
-    >>> is_physical("mm/V"), is_physical("counts"), is_physical("furlong")
-    (True, False, False)
-    """
-    found = find_unit(unit)
-    return found is not None and bool(found.dimension.keys() - {"count"})
-
-
 def _times(value: float, factor: float) -> float:
     """Multiply by a factor; one such as 1/1000 divides instead, so that 86 mm is 0.086 m to the last digit."""
     divisor = round(1.0 / factor) if factor < 1.0 else 1
@@ -308,15 +276,16 @@ def _times(value: float, factor: float) -> float:
 def resolve(text: str, dimension: str | None = None) -> Unit:
     """Look a unit up, as recorders and people spell it; `dimension` is the one that is wanted, for the message."""
     try:
-        powers = collected(_factors(text))
+        powers = _collected(_factors(text))
     except UnitError as error:
         raise UnitError(f"{error} {expected(dimension)}") from None
-    units = {name: _known()[name] for name in powers}
-    base = collected((unit, each * powers[name]) for name in units for unit, each in units[name].dimension.items())
-    return Unit(prod(unit.factor ** powers[name] for name, unit in units.items()), base, _spelled(powers))
+    known = [(*_known()[symbol], power) for symbol, power in powers.items()]
+    base = _collected((si_unit, each * power) for _, _, parts, power in known for si_unit, each in parts.items())
+    si_unit = " ".join(f"{name}{'' if power == 1 else power}" for name, power in sorted(base.items()))
+    return Unit(prod(factor**power for _, factor, _, power in known), si_unit or "1", _spelled(powers))
 
 
-def collected(factors: Iterable[tuple[str, int]]) -> dict[str, int]:
+def _collected(factors: Iterable[tuple[str, int]]) -> dict[str, int]:
     """Add the exponents of each symbol; what cancels is left out."""
     powers: dict[str, int] = {}
     for name, power in factors:
@@ -324,7 +293,7 @@ def collected(factors: Iterable[tuple[str, int]]) -> dict[str, int]:
     return {name: power for name, power in powers.items() if power}
 
 
-def _spelled(powers: Mapping[str, int]) -> str:
+def _spelled(powers: dict[str, int]) -> str:
     """Write a unit as usual: factors above, then each below after a slash."""
     written = {name: name if abs(power) == 1 else f"{name}^{abs(power)}" for name, power in powers.items()}
     above = " ".join(written[name] for name, power in powers.items() if power > 0)
@@ -361,29 +330,29 @@ def _factors(text: str) -> Iterator[tuple[str, int]]:
 
 
 def _symbol(name: str, text: str) -> str:
-    if name in UNCLEAR:
-        raise UnitError(f"Unknown unit {quoted(name)}: it may be two. Did you mean {quoted(UNCLEAR[name])}?")
-    known = SHOUTED.get(name, name)
-    # A spelled-out or shouted unit ("Volts", "MM", "SEC") is taken in lower case; one letter is not: M and m differ.
-    for spelling in (known, name.lower(), SHOUTED.get(name.upper(), known)) if len(name) > 1 else (name,):
-        if spelling in _known():
-            return _known()[spelling].symbol
-    raise _unknown(name, text)
+    known = _known()
+    # A name of several letters ("Volts", "MM", "KN") is taken in any case; one letter is not: M and m differ.
+    found = known.get(name) or (known.get(name.casefold()) if len(name) > 1 else None)
+    if found is None:
+        raise _unknown(name, text)
+    return found[0]
 
 
 @cache
-def _known() -> dict[str, Unit]:
-    """Give every unit, alone and behind every prefix, by each of its names."""
-    found: dict[str, Unit] = {}
-    for mark, (times, spellings) in {"": (1.0, ""), **_PREFIXES}.items():
+def _known() -> dict[str, tuple[str, float, dict[str, int]]]:
+    """Give symbol, factor and powers of every unit, alone and behind every prefix, by each of its names."""
+    found: dict[str, tuple[str, float, dict[str, int]]] = {}
+    for prefix, times in _PREFIXES.items():
         for symbol, (factor, written, names) in _UNITS.items():
+            if prefix in ("M", "G") and symbol not in _LARGE:
+                continue
             powers = {base: int(power or 1) for base, power in re.findall(r"([A-Za-z]+)(-?\d)?", written)}
-            unit = Unit(times * factor, powers, mark + symbol)
             # A name may have a plural; "Vs" is no volts.
             each = (symbol, *names.split())
             for name in (*each, *(f"{name}s" for name in each if len(name) > 1)):
-                found |= {prefix + name: unit for prefix in {mark, *spellings.split()} if prefix + name not in found}
-    return found
+                found.setdefault(prefix + name, (prefix.replace("u", "µ") + symbol, times * factor, powers))
+    in_any_case = {name.casefold(): unit for name, unit in reversed(found.items()) if len(name) > 1}
+    return in_any_case | found
 
 
 def _unknown(name: str, text: str) -> UnitError:
@@ -397,19 +366,6 @@ def expected(dimension: str | None, value: float | None = None) -> str:
     """Say that a quantity of this dimension was expected, with an example."""
     if dimension is None:
         return 'A unit such as "mm", "V" or "m/s^2" was expected.'
-    if dimension == "dimensionless":
-        return "A plain number was expected."
-    example = DIMENSIONS[dimension][1]
+    _, example, wanted = DIMENSIONS[dimension]
     shown = example if value is None else f"{value:g} {example}"
-    return f'{article(dimension).capitalize()} was expected, such as "{shown}".'
-
-
-def article(dimension: str) -> str:
-    """Name a dimension with its article."""
-    name = words(dimension)
-    return f"{'an' if name[0] in 'aei' else 'a'} {name}"
-
-
-def words(dimension: str) -> str:
-    """Name a dimension."""
-    return {"inertia": "moment of inertia", "angular_velocity": "angular velocity"}.get(dimension, dimension)
+    return f"{wanted.capitalize()} was expected{f', such as {quoted(shown)}' if example else ''}."

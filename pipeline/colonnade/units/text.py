@@ -28,16 +28,6 @@ FEW_DIGITS = 2e-4
 USUAL_LEVEL = 0.95
 """± is half of the interval of this level; another level is named."""
 
-CHANNEL_UNITS = {
-    "displacement": "mm",
-    "velocity": "mm/s",
-    "acceleration": "m/s²",
-    "angle": "mrad",
-    "angular_velocity": "rad/s",
-    "force": "N",
-}
-"""Units in which a channel is written and drawn, by its quantity."""
-
 _EXPONENT = re.compile(r"e([+-]\d+)")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 

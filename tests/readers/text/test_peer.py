@@ -87,7 +87,7 @@ def test_what_is_no_number_is_missing_and_told_with_its_line(tmp_path):
 
 
 def test_a_velocity_is_no_base_acceleration(tmp_path):
-    with pytest.raises(ReadError, match="unit of velocity"):
+    with pytest.raises(ReadError, match="unit of a velocity"):
         read_motion(record(tmp_path, "NPTS= 6, DT= .01 SEC", "VELOCITY TIME SERIES IN UNITS OF CM/S"))
 
 

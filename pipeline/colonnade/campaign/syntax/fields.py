@@ -17,7 +17,7 @@ from pydantic_core import CoreSchema, core_schema
 from colonnade import units
 from colonnade.errors import quoted
 
-UNITS = {name: units.resolve(si_unit).symbol for name, (si_unit, _) in units.DIMENSIONS.items()} | {
+UNITS = {name: units.resolve(si_unit).symbol for name, (si_unit, *_) in units.DIMENSIONS.items()} | {
     "frequency": "Hz",
     "pressure": "Pa",
 }

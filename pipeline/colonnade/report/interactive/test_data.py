@@ -21,8 +21,8 @@ from colonnade.report.interactive import panels
 from colonnade.report.interactive.panels import Samples, look_of, script, tables_of
 from colonnade.report.test_page.channels import FLAGS
 from colonnade.store.records.stored import GOOD
-from colonnade.units import from_si
-from colonnade.units.text import CHANNEL_UNITS, format_percent
+from colonnade.units import CHANNEL_UNITS, from_si
+from colonnade.units.text import format_percent
 
 TOO_MANY = "Too many samples for a page; they are in the stored results of this test."
 """Said of a group of panels that is left out."""

@@ -8,7 +8,8 @@ from typing import Any
 
 from colonnade.signals.quality import FEW_SPIKES
 from colonnade.store.records.stored import Samples, Stored
-from colonnade.units.text import CHANNEL_UNITS, NOTHING, number, percent, quantity, with_minus
+from colonnade.units import CHANNEL_UNITS
+from colonnade.units.text import NOTHING, number, percent, quantity, with_minus
 
 _NOTHING_LEFT = 1e-6
 """Residuals smaller than this, over the noise, mean that there are no more transducers than motions."""
