@@ -41,7 +41,7 @@ def test_an_array_comes_back_contiguous_and_in_double_precision():
 @pytest.mark.parametrize(
     ("values", "options", "message"),
     [
-        ([[1.0]], {}, r"shape \(1, 1\); a one-dimensional array with at least one number"),
+        ([[1.0]], {}, r"shape \(1, 1\); a 1-dimensional array with at least one number"),
         ([1.0], {"fewest": 2, "each": "sample"}, "with at least 2 samples"),
         ([1.0, math.nan], {}, "not finite at number 1; fill or cut the gap first"),
         ([1.0, math.inf], {"gaps": True}, "a finite number, or NaN for a missing one"),

@@ -13,6 +13,8 @@ from dataclasses import asdict, dataclass, replace
 from enum import StrEnum
 from typing import Any
 
+from pydantic import TypeAdapter
+
 
 class Severity(StrEnum):
     """How much a finding matters, the worst first."""
@@ -56,11 +58,6 @@ class Finding:
     follows: tuple[str, ...] = ()
     stage: str = ""
     about: str = ""
-
-    @classmethod
-    def of(cls, text: Finding | str, kind: str = "other") -> Finding:
-        """Take text without a severity as a warning, so that it is not overlooked."""
-        return text if isinstance(text, Finding) else cls(text, kind)
 
     def __str__(self) -> str:
         """Give the sentence."""
@@ -126,9 +123,9 @@ def _explained(finding: Finding, others: Sequence[Finding]) -> bool:
     )
 
 
-def at_stage(findings: Iterable[Finding | str], stage: str) -> list[Finding]:
+def at_stage(findings: Iterable[Finding], stage: str) -> list[Finding]:
     """Add the stage to findings that do not name one."""
-    return [replace(each, stage=each.stage or stage) for each in map(Finding.of, findings)]
+    return [replace(each, stage=each.stage or stage) for each in findings]
 
 
 def as_record(finding: Finding) -> dict[str, Any]:
@@ -136,9 +133,9 @@ def as_record(finding: Finding) -> dict[str, Any]:
     return {name: value for name, value in asdict(finding).items() if value}
 
 
-def to_text(findings: Iterable[Finding | str]) -> str:
+def to_text(findings: Iterable[Finding]) -> str:
     """Write findings as JSON text, as a result's file holds them."""
-    return json.dumps([as_record(Finding.of(each)) for each in findings], ensure_ascii=False)
+    return json.dumps([as_record(each) for each in findings], ensure_ascii=False)
 
 
 def from_text(text: str) -> list[Finding]:
@@ -153,10 +150,9 @@ def from_text(text: str) -> list[Finding]:
     <Severity.WARNING: 'warning'>
     """
     try:
-        records = [
-            record | {"severity": Severity(record["severity"]), "follows": tuple(record.get("follows", ()))}
-            for record in json.loads(text or "[]")
-        ]
-        return [Finding(**record) for record in records]
-    except (ValueError, TypeError, KeyError):
+        return _MANY.validate_json(text or "[]")
+    except ValueError:
         return [Finding(text)]
+
+
+_MANY = TypeAdapter(list[Finding])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import hashlib
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -71,26 +71,14 @@ def _modules() -> dict[str, Path]:
     return found
 
 
-def _statements(body: Iterable[Any], place: str = "") -> Iterator[tuple[str, Any]]:
-    """Give statements with their places, but texts alone, such as docstrings, and what is there only to check types."""
+def _statements(body: Iterable[Any]) -> Iterator[Any]:
+    """Give statements, also those within others, but what is there only to check types."""
     for node in body:
-        is_text = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and type(node.value.value) is str
         is_for_types = isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
-        if not is_text and not is_for_types:
-            yield place, node
+        if isinstance(node, ast.stmt) and not is_for_types:
+            yield node
         for part in ("orelse",) if is_for_types else ("body", "handlers", "cases", "orelse", "finalbody"):
-            yield from _statements(getattr(node, part, ()), f"{place} {part}")
-
-
-def _written(node: Any, lines: Sequence[str]) -> str:
-    """Text of a statement; of one that has others in it, what is above these, without a comment on them."""
-    first = min(each.lineno for each in (getattr(node, "pattern", node), *getattr(node, "decorator_list", ())))
-    if not hasattr(node, "body"):
-        return "\n".join(lines[first - 1 : node.end_lineno])
-    above = list(lines[first - 1 : max(first, node.body[0].lineno - 1)])
-    while above[-1].lstrip()[:1] in ("", "#"):
-        above.pop()
-    return "\n".join(above)
+            yield from _statements(getattr(node, part, ()))
 
 
 @cache
@@ -98,12 +86,20 @@ def _module(name: str) -> tuple[str, frozenset[str]]:
     """Hash of what a module does, and the modules of this package that it names, with the rooms around them."""
     path = _modules()[name]
     text = path.read_text(encoding="utf-8")
-    lines, digest, named = text.split("\n"), hashlib.sha256(), set()
-    for place, node in _statements(ast.parse(text).body):
-        digest.update(f"{place}: {_written(node, lines)}\n".encode())
+    said, within, named = set[int](), set[int](), set[str]()
+    for node in _statements(ast.parse(text).body):
+        lines = range(node.lineno, node.end_lineno + 1)
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and type(node.value.value) is str:
+            said.update(lines)
+        elif not hasattr(node, "body"):
+            within.update(lines)
         if isinstance(node, (ast.Import, ast.ImportFrom)):
             start = f"{node.module}." if isinstance(node, ast.ImportFrom) else ""
             named |= {f"{start}{alias.name}" for alias in node.names}
+    digest = hashlib.sha256()
+    for number, line in enumerate(text.split("\n"), 1):
+        if number not in said and (number in within or line.lstrip()[:1] not in ("", "#")):
+            digest.update(f"{line}\n".encode())
     if path.name == "__init__.py" and path.parent.parent == PACKAGE:
         for data in sorted(each for each in path.parent.rglob("*") if each.suffix in _DATA):
             digest.update(f"{data.name}\n".encode() + data.read_bytes())

@@ -15,9 +15,6 @@ Kind = TypeVar("Kind")
 LONGEST_SHOWN = 40
 """Characters of a value in a message."""
 
-MOST_BITS = 1024
-"""Of a whole number, from which on it is larger than any float."""
-
 
 def number(
     name: str,
@@ -29,7 +26,6 @@ def number(
     below: float = inf,
     high: float = inf,
     finite: bool = True,
-    unit: str = "",
 ) -> float:
     """
     Return an argument that is one real number in its range.
@@ -45,8 +41,6 @@ def number(
         Bounds; the number may be equal to `low` and `high`.
     finite : bool, optional
         Whether infinity is refused; NaN always is.
-    unit : str, optional
-        Of the number, for the message.
 
     Raises
     ------
@@ -59,12 +53,11 @@ def number(
     26.1
     """
     plain = _plain(value)
-    if plain is None:
-        raise ValueError(f"{name} is {described(value)}; {expected} was expected")
-    is_inside = low <= plain <= high and (above == -inf or plain > above) and (below == inf or plain < below)
-    if not is_inside or (finite and not isfinite(plain)):  # NaN is inside of nothing
-        raise ValueError(f"{name} is {f'{described(value)} {unit}'.rstrip()}; {expected} was expected")
-    return plain
+    if plain is not None and (isfinite(plain) or not finite):  # NaN is inside of nothing
+        is_above = low <= plain and (above == -inf or plain > above)
+        if is_above and plain <= high and (below == inf or plain < below):
+            return plain
+    raise ValueError(f"{name} is {described(value)}; {expected} was expected")
 
 
 def sided(name: str, value: Any, expected: str, **bounds: Any) -> tuple[float, float]:
@@ -152,8 +145,7 @@ def samples(
         found = f"holds {held}" if array.ndim else f"is {described(values)}"
         raise ValueError(f"{name} {found}; an array of real numbers was expected")
     if array.ndim not in dimensions or array.size < fewest:
-        shaped = {1: "a one-dimensional", 2: "a two-dimensional"}
-        forms = " or ".join(shaped.get(number_of, f"a {number_of}-dimensional") for number_of in dimensions)
+        forms = " or ".join(f"a {number_of}-dimensional" for number_of in dimensions)
         least = f"at least one {each}" if fewest == 1 else f"at least {fewest} {each}s"
         raise ValueError(f"{name} has shape {array.shape}; {forms} array with {least} was expected")
     plain = np.asarray(array, dtype=np.float64, order="C")
@@ -165,7 +157,7 @@ def samples(
     return plain
 
 
-def instance(name: str, value: Any, kind: type[Kind]) -> Kind:
+def instance(name: str, value: Any, kind: type[Kind], expected: str = "") -> Kind:
     """
     Return an argument that is of a class.
 
@@ -175,21 +167,7 @@ def instance(name: str, value: Any, kind: type[Kind]) -> Kind:
         If it is of another.
     """
     if not isinstance(value, kind):
-        raise ValueError(f"{name} is {described(value)}; a {kind.__name__} was expected")
-    return value
-
-
-def text(name: str, value: Any, expected: str) -> str:
-    """
-    Return an argument that is text.
-
-    Raises
-    ------
-    ValueError
-        If it is not.
-    """
-    if not isinstance(value, str):
-        raise ValueError(f"{name} is {described(value)}; {expected} was expected")
+        raise ValueError(f"{name} is {described(value)}; {expected or f'a {kind.__name__}'} was expected")
     return value
 
 
@@ -217,8 +195,6 @@ def described(value: Any) -> str:
 
 def _plain(value: Any) -> float | None:
     """One real number as float; None if it is anything else."""
-    if type(value) is int:
-        return float(value) if value.bit_length() < MOST_BITS else None
     if value is np.ma.masked or isinstance(value, (list, tuple)):
         return None
     array = np.asarray(value)

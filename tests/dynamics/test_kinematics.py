@@ -36,7 +36,7 @@ def test_distances_between_points_are_kept(angle, first, second, slide):
     ("acceleration", "dt", "words"),
     [
         ([], 0.1, "at least one sample"),
-        ([[1.0]], 0.1, "one-dimensional"),
+        ([[1.0]], 0.1, "1-dimensional"),
         ([1.0, np.nan], 0.1, "sample 1"),
         ([1.0], 0.0, "dt is"),
     ],

@@ -99,7 +99,7 @@ def test_unequal_sides_each_rock_by_their_own_angle():
     [
         ({"duration": None}, "duration is None"),
         ({"duration": 1.0, "restitution": 1.2}, "between 0 and 1"),
-        ({"duration": 1.0, "theta0": math.nan}, "theta0 is nan rad"),
+        ({"duration": 1.0, "theta0": math.nan}, "theta0 is nan; an angle"),
         ({"duration": 1.0, "model": "linaer"}, 'Did you mean "linear"'),
         ({"motion": Motion([0.0, 0.0], 0.1, transverse=[0.0, 1.0])}, "along x and z only"),
     ],

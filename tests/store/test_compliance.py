@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 from compliance_checker.suite import CheckSuite
 
+from colonnade.findings import warning
 from colonnade.store import files
 from colonnade.store.provenance import Origin, global_attributes
 from colonnade.store.results import ResultId
@@ -39,7 +40,12 @@ RESULTS = {
         | channels("elapsed_daq2", 50, "sync", "other", None)
         | channels("elapsed_daq2", 50, "gyro", "angular_velocity", "deg/s"),
         coords=CLOCK | {"elapsed_daq2": TIME[:50]},
-        attrs={"raw_files": ["raw/a.csv"], "raw_sha256": ["0" * 64], "notes": ["delimiter ';'"], "warnings": ["ö"]},
+        attrs={
+            "raw_files": ["raw/a.csv"],
+            "raw_sha256": ["0" * 64],
+            "notes": ["delimiter ';'"],
+            "warnings": [warning("other", "ö")],
+        },
     ),
     "map": xr.Dataset(
         {

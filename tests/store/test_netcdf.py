@@ -40,11 +40,6 @@ def test_a_list_of_text_comes_back(lines):
     assert restored(stored) == {"notes": lines, "refused": lines}
 
 
-def test_plain_text_among_findings_becomes_a_warning():
-    found = restored(storable({"warnings": [FINDINGS[0], "The table moved."]}))["warnings"]
-    assert found == [FINDINGS[0], warning("other", "The table moved.")]
-
-
 @every("text", ["[1, 2]", '["a", 1]', '[["a"]]', "[not json", "[", '{"a": "b"}', '"a"', " []", "null"])
 def test_text_that_is_not_a_list_of_text_passes(text):
     assert restored({"reason": text}) == {"reason": text}

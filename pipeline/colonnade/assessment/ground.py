@@ -12,7 +12,7 @@ from colonnade import units
 from colonnade.arrays import Array
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.errors import UnitError, nearest
-from colonnade.validation import text
+from colonnade.validation import instance
 
 LARGEST_DRIFT = 0.1
 """Default of the largest end velocity over PGV of a record without drift."""
@@ -123,7 +123,7 @@ def correction_of(name: str) -> Correction:
     ValueError
         If it is not known, or its corner is not a frequency.
     """
-    bare, corner = split_name(text("baseline", name, "the name of a correction"), {"highpass": "frequency"})
+    bare, corner = split_name(instance("baseline", name, str, "the name of a correction"), {"highpass": "frequency"})
     if bare not in CORRECTIONS:
         raise ValueError(f'Unknown baseline correction "{name}".{nearest(name, CORRECTIONS)}')
     if corner is None:

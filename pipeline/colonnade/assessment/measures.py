@@ -23,7 +23,7 @@ from colonnade.dynamics.block import STANDARD_GRAVITY, Block
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import nearest
 from colonnade.units.text import Digested, written
-from colonnade.validation import described, instance, number, text
+from colonnade.validation import described, instance, number
 
 PERIODS = (0.2, 0.5, 1.0, 2.0)
 """s, of the spectral accelerations that are given if no measures are asked for."""
@@ -237,7 +237,7 @@ def measure_of(name: str) -> Measure:
     >>> measure_of("pgv").unit, measure_of("sa(500 ms)").id
     ('m/s', 'sa(0.5 s)')
     """
-    bare, period = split_name(text("measure", name, "the id of a measure of intensity"), {"sa": "time"})
+    bare, period = split_name(instance("measure", name, str, "the id of a measure of intensity"), {"sa": "time"})
     if period is not None:
         of = f"({period:.6g} s)"
         return Measure(f"sa{of}", f"Sa{of}", "spectral acceleration", "acceleration", 1, partial(_spectral, period))

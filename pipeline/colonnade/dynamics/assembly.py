@@ -186,7 +186,7 @@ class Assembly(Digested):
         assembly : Assembly
             Of "left", "right" and "beam"; of columns of several blocks "left.NAME" and "right.NAME".
         """
-        span = number("span", span, "a positive number", above=0.0, unit="m")
+        span = number("span", span, "a positive length in m", above=0.0)
         return cls(_under_beams(column, {"left": -0.5 * span, "right": 0.5 * span}, beam, ["beam"]))
 
     @classmethod
@@ -210,7 +210,7 @@ class Assembly(Digested):
             Of "column1", "column2", … and "beam1", … between them; of columns of several blocks "column1.NAME".
         """
         columns = whole("columns", columns, 2, MOST_COLUMNS)
-        spacing = number("spacing", spacing, "a positive number", above=0.0, unit="m")
+        spacing = number("spacing", spacing, "a positive length in m", above=0.0)
         places = {f"column{i + 1}": (i - 0.5 * (columns - 1)) * spacing for i in range(columns)}
         return cls(_under_beams(column, places, beam, [f"beam{i}" for i in range(1, columns)]))
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import tan
 
 from colonnade.errors import nearest
-from colonnade.validation import text
+from colonnade.validation import instance
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ def model_of(name: str, known: Mapping[str, Model] = MODELS, kind: str = "model"
     ValueError
         If the name is unknown; the message gives the nearest one.
     """
-    if text("model", name, "the name of a model") not in known:
+    if instance("model", name, str, "the name of a model") not in known:
         raise ValueError(f'Unknown {kind} "{name}".{nearest(name, known)}')
     return known[name]
 

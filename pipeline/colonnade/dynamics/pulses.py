@@ -28,7 +28,7 @@ from colonnade.dynamics.search import (
     scan_over,
 )
 from colonnade.errors import nearest
-from colonnade.validation import instance, number, text
+from colonnade.validation import instance, number
 
 SAMPLE = 0.0125
 """In ω t: step of the pulses that are sampled."""
@@ -87,7 +87,7 @@ def pulse_of(name: str) -> PulseKind:
     ValueError
         If it is unknown; the message gives the nearest one.
     """
-    if text("pulse", name, "the name of a pulse") not in PULSES:
+    if instance("pulse", name, str, "the name of a pulse") not in PULSES:
         raise ValueError(f'Unknown pulse "{name}".{nearest(name, PULSES)}')
     return PULSES[name]
 

@@ -121,10 +121,10 @@ def rock(
     if motion is not None and duration is not None:
         raise ValueError(f"duration is {described(duration)}, and a motion is given; one of the two was expected")
     between = "an angle between −π/2 and π/2"
-    theta0 = number("theta0", theta0, between, above=-HALF, below=HALF, unit="rad")
+    theta0 = number("theta0", theta0, between, above=-HALF, below=HALF)
     fastest = LARGEST_VELOCITY * max(max(instance("block", one, Block).p_at([-1.0, 1.0])) for one in blocks)
-    omega0 = number("omega0", omega0, f"less than {fastest:.4g} rad/s", above=-fastest, below=fastest, unit="rad/s")
-    out_of_plane = number("out_of_plane", out_of_plane, between, above=-HALF, below=HALF, unit="rad")
+    omega0 = number("omega0", omega0, f"less than {fastest:.4g} rad/s", above=-fastest, below=fastest)
+    out_of_plane = number("out_of_plane", out_of_plane, between, above=-HALF, below=HALF)
     expected = f"a fraction of the critical angle from {LEAST_REST_ANGLE:g} to 1"
     rest_angle = number("rest_angle", rest_angle, expected, low=LEAST_REST_ANGLE, below=1.0)
     motion = at_rest(blocks[0], duration) if motion is None else instance("motion", motion, Motion)

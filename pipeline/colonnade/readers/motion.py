@@ -18,7 +18,7 @@ from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.delimited import DelimitedOptions, read_header
 from colonnade.readers.text.encoding import Text
 from colonnade.readers.text.running import HeaderClaims
-from colonnade.validation import described, number, text, whole
+from colonnade.validation import described, instance, number, whole
 
 MOST_COLUMNS = 1_000_000
 
@@ -157,12 +157,12 @@ def _checked(path: Any, unit: Any, dt: Any, column: Any, layout: Any) -> Path:
     if not isinstance(path, (str, Path)):
         raise ValueError(f"path is {described(path)}; the path of a file was expected")
     if unit is not None:
-        text("unit", unit, 'a unit of acceleration such as "g"')
+        instance("unit", unit, str, 'a unit of acceleration such as "g"')
     if dt is not None:
         number("dt", dt, "a positive sampling interval in seconds", above=0.0)
     if column is not None and not isinstance(column, str):
         whole("column", column, 1, MOST_COLUMNS)
-    if layout is not None and text("layout", layout, '"columns" or "running"') not in ("columns", "running"):
+    if layout is not None and instance("layout", layout, str, '"columns" or "running"') not in ("columns", "running"):
         raise ValueError(f'layout is {described(layout)}; "columns" or "running" was expected')
     return Path(path)
 

@@ -100,7 +100,7 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
     """
     import xarray as xr
 
-    warnings = [Finding.of(each, RAW_FILE) for recording in recordings.values() for each in recording.warnings]
+    warnings = [warning(RAW_FILE, each) for recording in recordings.values() for each in recording.warnings]
     begin = inputs.window[0] if inputs.window else 0.0
     warnings += contradictions(recordings, inputs.day, begin)
     stamps: dict[str, Array] = {}

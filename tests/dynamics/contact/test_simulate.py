@@ -129,7 +129,7 @@ def test_a_mode_rings_at_its_frequency_and_fades_as_damped():
     ("arguments", "message"),
     [
         ({"step": 1e-3}, r"step is 0\.001 s; at most 2\.62e-05 s was expected"),
-        ({"step": 0.0}, "step is 0.0 s; a positive step"),
+        ({"step": 0.0}, "step is 0.0; a positive step in s"),
         ({"motion": None}, "duration is None; without a motion"),
     ],
     ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",

@@ -214,7 +214,7 @@ def _parts(structure: Structure, motion: Motion, step: float | None) -> int:
     longest = longest_step(structure)
     if step is None:
         step = min(DEFAULT_STEP, STEP_SHARE * longest)
-    step = number("step", step, "a positive step", above=0.0, unit="s")
+    step = number("step", step, "a positive step in s", above=0.0)
     steps = motion.dt / step * motion.acceleration.size
     if steps > MOST_STEPS:
         raise ValueError(
