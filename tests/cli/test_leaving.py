@@ -79,10 +79,9 @@ def test_a_stream_that_nobody_reads_is_no_error(tmp_path, rest, said):
 
 
 def test_too_little_memory_is_a_sentence_and_a_bug_a_traceback(monkeypatch, capsys):
-    for error in (MemoryError(), ImportError("libx.so: failed to map segment from shared object")):
-        monkeypatch.setattr(app, "main", Mock(side_effect=error))
-        assert invoke(()) == 1
-        assert capsys.readouterr().err.startswith("The machine ran out of memory.")
+    monkeypatch.setattr(app, "main", Mock(side_effect=MemoryError()))
+    assert invoke(()) == 1
+    assert capsys.readouterr().err.startswith("The machine ran out of memory.")
     monkeypatch.setattr(app, "main", Mock(side_effect=ImportError("x")))
     with pytest.raises(ImportError, match="x"):
         invoke(())

@@ -5,7 +5,6 @@ import re
 
 import pytest
 
-from colonnade.cli import show
 from colonnade.store.records.wording import LEGEND
 
 
@@ -76,12 +75,3 @@ def test_a_test_is_a_row_that_fits_on_80_columns_and_its_details_have_units(colo
     assert re.fullmatch(r"1[12](\.\d+)? s", told["duration"])
     assert re.fullmatch(r"0\.9[45]\d* ± 0\.0\d+", told["restitution"])
     assert told["restitution.whole_history.nonlinear.residual"].endswith(" mrad")
-
-
-def test_what_is_told_of_a_body_has_its_units():
-    told = dict(show._flat({"bodies": {"top": {"residual_x": -0.0021, "opening_time": 3.2, "peak_ratio": 0.5}}}))
-    assert told == {
-        "bodies.top.residual_x": "-2.1 mm",
-        "bodies.top.opening_time": "3.2 s",
-        "bodies.top.peak_ratio": "0.5 α",
-    }

@@ -33,12 +33,9 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     interruption.listen()
     try:
         code = invoke(arguments)
-    except KeyboardInterrupt:  # before there was anything to say it with
-        code = INTERRUPTED
-    except Exception:
-        if not interruption.noted():
+    except (KeyboardInterrupt, Exception) as error:  # the import of a compiled module makes an ImportError of it
+        if not (interruption.noted() or isinstance(error, KeyboardInterrupt)):
             raise
-        # The import of a compiled module makes an ImportError of an interrupt.
         sys.stderr.write(f"{INTERRUPTION}\n")
         code = INTERRUPTED
     interruption.stop_listening()
@@ -74,9 +71,7 @@ def invoke(arguments: Sequence[str] | None = None) -> int:
     except ColonnadeError as error:
         complain(str(error))
         return 2 if isinstance(error, CampaignError) else 1
-    except (MemoryError, ImportError) as error:
-        if isinstance(error, ImportError) and "failed to map segment" not in str(error):
-            raise
+    except MemoryError:
         complain(SHORT_OF_MEMORY)
         return 1
     except OSError as error:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
+from colonnade.cli.common import options
 from colonnade.cli.common.console import complain, expect_places, saved, say, show_json, show_table, work_progress
-from colonnade.cli.common.options import FILE, json_option, workers_option
 from colonnade.cli.run import run_with_progress, show_result
 from colonnade.errors import count
 from colonnade.units.text import interval, listed, quantity
@@ -24,18 +24,13 @@ if TYPE_CHECKING:
 @click.option(
     "--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Seed of the instruments' errors."
 )
-@click.option(
-    "--motion",
-    type=click.Path(exists=True, dir_okay=False, path_type=Path),
-    metavar="FILE",
-    help="Earthquake record to play; El Centro 1940 NS by default.",
-)
+@click.option("--motion", type=options.FILE, metavar="FILE", help="Earthquake to play; by default El Centro 1940 NS.")
 @click.option("--short", is_flag=True, help="Ten tests of the prism instead of the whole programme.")
 @click.option(
     "--assemblies", is_flag=True, help="Drums, a portal and two blocks at once, moved by MuJoCo, in place of all that."
 )
-@workers_option
-@json_option
+@options.workers_option
+@options.json_option
 def demo(folder: Path, motion: Path | None, short: bool, assemblies: bool, as_json: bool, **choices: Any) -> int:
     """
     Write a virtual campaign with known truth, run all of it, and compare with the known truth.
@@ -118,9 +113,9 @@ MOST_SHOWN = 12
 
 
 @click.command(epilog="Example: colonnade init measurements")
-@click.argument("folder", type=FILE, default=Path(), metavar="[DIR]")
-@json_option
-def init(folder: Path, as_json: bool) -> int:
+@click.argument("folder", type=options.FILE, default=Path(), metavar="[DIR]")
+@options.json_option
+def init(folder: Path, as_json: bool) -> None:
     """
     Draft a campaign.toml from the raw files.
 
@@ -147,7 +142,6 @@ def init(folder: Path, as_json: bool) -> int:
         )
     else:
         _tell(drafted, drawing)
-    return 0
 
 
 def _tell(drafted: CampaignDraft, drawing: Path) -> None:

@@ -6,19 +6,19 @@ from pathlib import Path
 
 import rich_click as click
 
+from colonnade.cli.common import options
 from colonnade.cli.common.console import say, say_drawn, show_json, show_table
-from colonnade.cli.common.options import campaign_and_id, campaign_and_id_argument, file_option, result_options
 
 
 @click.command(
     epilog="Example: colonnade figure angle demo span-2.5 --width single --out span-2.5.pdf --data span-2.5.csv"
 )
 @click.argument("name", required=False)
-@campaign_and_id_argument
-@file_option(
+@options.campaign_and_id_argument
+@options.file_option(
     "--out", "Where to write it: .svg, .pdf, .png, or .csv for its data. By default NAME-ID.svg in the current folder."
 )
-@file_option("--data", "Also write its data, as a .csv table.")
+@options.file_option("--data", "Also write its data, as a .csv table.")
 @click.option(
     "--width",
     type=click.Choice(("single", "double")),
@@ -27,10 +27,10 @@ from colonnade.cli.common.options import campaign_and_id, campaign_and_id_argume
     help="Of a journal's column, 90 mm, or of its page, 190 mm.",
 )
 @click.option("--list", "listed", is_flag=True, help="List the figures.")
-@result_options
+@options.result_options
 def figure(
     name: str | None, arguments: tuple[str, ...], width: str, listed: bool, as_json: bool, **places: Path | None
-) -> int:
+) -> None:
     """
     Draw one figure at the size of a journal, with its data.
 
@@ -41,13 +41,14 @@ def figure(
     `colonnade figure animation TEST` writes the rocking block, measured and by each model, as a GIF.
     """
     if listed or name is None:
-        return _list(as_json=as_json)
+        _list(as_json=as_json)
+        return
     from colonnade.campaign import load
     from colonnade.figures.files.saving import MOVIE, PICTURES, TABLE, expect_places, save
     from colonnade.figures.style import journal
     from colonnade.workflow.documents import chosen, draw
 
-    path, identifier = campaign_and_id(arguments)
+    path, identifier = options.campaign_and_id(arguments)
     campaign, out, data = load(path), places["out"], places["data"]
     entry, subject = chosen(campaign, name, identifier)
     moves = name == "animation"
@@ -68,14 +69,12 @@ def figure(
         say_drawn(written)
         if note:
             say(note)
-    return 0
 
 
-def _list(*, as_json: bool) -> int:
+def _list(*, as_json: bool) -> None:
     from colonnade.report.pictures import FIGURES
 
     if as_json:
         show_json([{"name": each.name, "of": each.of, "shows": each.shows, "needs": each.needs} for each in FIGURES])
     else:
         show_table(("figure", "of a", "shows"), [(each.name, each.of, each.shows) for each in FIGURES])
-    return 0

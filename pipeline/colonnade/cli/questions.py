@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
+from colonnade.cli.common import options
 from colonnade.cli.common.console import (
     complain,
     expect_places,
@@ -20,42 +21,26 @@ from colonnade.cli.common.console import (
     show_table,
     work_progress,
 )
-from colonnade.cli.common.options import (
-    Asking,
-    campaign_argument,
-    column_keys,
-    drawing_options,
-    opened,
-    opened_if_there,
-    options_of,
-    result_options,
-    scheduler_option,
-    specimen_option,
-    workers_option,
-)
 from colonnade.errors import count
 
 if TYPE_CHECKING:
     from colonnade.store.records.advice import Advice
     from colonnade.workflow.assessing import Assessed
-    from colonnade.workflow.foresee import Forecast
+    from colonnade.workflow.foresee import AskedForecast, Forecast
+    from colonnade.workflow.map_plans import Wanted
     from colonnade.workflow.maps import MapMade
-
-
-def _foresee_keys() -> list[click.Option]:
-    from colonnade.workflow.foresee import AskedForecast
-
-    return options_of(AskedForecast, alone=True)
+    from colonnade.workflow.real_column import Given
+    from colonnade.workflow.spectrum import AskedSpectrum
 
 
 @click.command(
-    cls=Asking,
-    keys=_foresee_keys,
+    cls=options.Asking,
+    asks="colonnade.workflow.foresee:AskedForecast",
     epilog='Example: colonnade foresee demo --specimen prism --motion "El Centro 1940 NS" --level "0.3 g" --level 1.5x',
 )
-@campaign_argument
-@result_options
-def foresee(campaign: Path, given: dict[str, Any], results: Path | None, as_json: bool) -> int:
+@options.campaign_argument
+@options.result_options
+def foresee(campaign: Path, asked: AskedForecast, results: Path | None, as_json: bool) -> None:
     """
     Forecast what a specimen does on a base motion.
 
@@ -64,19 +49,16 @@ def foresee(campaign: Path, given: dict[str, Any], results: Path | None, as_json
     Writes a file for each level into forecasts/, which is never changed. After the test `run` scores the last one with
     --test that was made before the raw file of that test was there.
     """
-    from colonnade.workflow.foresee import AskedForecast
     from colonnade.workflow.foresee import foresee as make
-    from colonnade.workflow.real_column import picked
 
     with work_progress("Foreseeing") as progress:
-        made = make(*opened(campaign, results), picked(AskedForecast, given), progress)
+        made = make(*options.opened(campaign, results), asked, progress)
     if as_json:
         show_json([{"file": each.path, **each.forecast.model_dump(by_alias=True)} for each in made])
-        return 0
+        return
     for each in made:
         _show(each)
         say(f"forecast: {each.path}")
-    return 0
 
 
 def _show(made: Forecast) -> None:
@@ -94,10 +76,10 @@ def _show(made: Forecast) -> None:
     "next",
     epilog="Example: colonnade next demo --specimen prism",
 )
-@campaign_argument
-@specimen_option
-@result_options
-def next_command(campaign: Path, specimen: tuple[str, ...], results: Path | None, as_json: bool) -> int:
+@options.campaign_argument
+@options.specimen_option
+@options.result_options
+def next_command(campaign: Path, specimen: tuple[str, ...], results: Path | None, as_json: bool) -> None:
     """
     Say which test tells most: the next one, and the others of all specimens by what they tell.
 
@@ -108,17 +90,16 @@ def next_command(campaign: Path, specimen: tuple[str, ...], results: Path | None
     from colonnade.workflow.advising.next import advise
     from colonnade.workflow.product import Catalogue
 
-    loaded, layout = opened(campaign, results)
+    loaded, layout = options.opened(campaign, results)
     loaded = loaded.awaiting()
     with work_progress("Looking for the test that tells most"):
         found = advise(loaded, layout, Catalogue(layout), specimen)
     if as_json:
         show_json({"advice": found, "awaited": loaded.awaited})
-        return 0
+        return
     _show_advice(found)
     for test, file in loaded.awaited.items():
         show_paragraph(f"{test}: expected: {file}")
-    return 0
 
 
 def _show_advice(advice: Sequence[Advice]) -> None:
@@ -140,23 +121,18 @@ def _show_advice(advice: Sequence[Advice]) -> None:
         show_paragraph("; ".join((each.what(), *reasons)), bullet="- ")
 
 
-def _spectrum_keys() -> list[click.Option]:
-    from colonnade.workflow.spectrum import AskedSpectrum
-
-    return [*options_of(AskedSpectrum, alone=True), *column_keys()]
-
-
 @click.command(
-    cls=Asking,
-    keys=_spectrum_keys,
+    cls=options.Asking,
+    asks="colonnade.workflow.spectrum:AskedSpectrum",
+    others=options.column_keys,
     epilog='Example: colonnade spectrum --motion record.AT2 --shape prism --width "1 m" --height "5 m"',
 )
-@campaign_argument
-@drawing_options("Draw it: .svg, .pdf or .png.")
-@result_options
+@options.campaign_argument
+@options.drawing_options("Draw it: .svg, .pdf or .png.")
+@options.result_options
 def spectrum(
-    campaign: Path, given: dict[str, Any], results: Path | None, out: Path | None, data: Path | None, as_json: bool
-) -> int:
+    campaign: Path, asked: AskedSpectrum, given: Given, results: Path | None, as_json: bool, **places: Path | None
+) -> None:
     """
     Show what a base motion or a pulse does to a column.
 
@@ -169,23 +145,21 @@ def spectrum(
     it: by --restitution or [prototype.ID].
     {CAMPAIGN}
     """
-    from colonnade.workflow.real_column import picked
-    from colonnade.workflow.spectrum import AskedSpectrum, spectrum_of
+    from colonnade.workflow.spectrum import spectrum_of
 
-    asked = picked(AskedSpectrum, given)
+    out, data = places["out"], places["data"]
     expect_places(out, data)
-    found = spectrum_of(asked, given, *opened_if_there(campaign, results))
+    found = spectrum_of(asked, given, *options.opened_if_there(campaign, results))
     drawn = saved(found.draw, out, data)
     if as_json:
         show_json(found.record | {"figure": out, "data": data})
-        return 0
+        return
     say(found.verdict)
     show_rows(found.fields)
     for heads, rows in found.tables:
         say()
         show_table(heads, rows)
     say_drawn(drawn)
-    return 0
 
 
 def _fragility_keys() -> list[click.Option]:
@@ -193,30 +167,28 @@ def _fragility_keys() -> list[click.Option]:
 
     others = ("specimen", "scale", "measures", "displaced")
     own = [key for key in Assessment.model_fields if key not in others]
-    return [*column_keys("restitution_range", "friction"), *options_of(Assessment, own)]
+    return [*options.column_keys("restitution_range", "friction"), *options.options_of(Assessment, own)]
 
 
 @click.command(
-    cls=Asking,
-    keys=_fragility_keys,
+    cls=options.Asking,
+    others=_fragility_keys,
     epilog="Example: colonnade fragility demo --name prism",
 )
-@campaign_argument
+@options.campaign_argument
 @click.option("--name", multiple=True, metavar="NAME", help="Only this assessment of the campaign; may be repeated.")
-@drawing_options("Draw the curve: .svg, .pdf or .png.")
-@workers_option
-@scheduler_option
-@result_options
+@options.drawing_options("Draw the curve: .svg, .pdf or .png.")
+@options.workers_option
+@options.scheduler_option
+@options.result_options
 def fragility(
     campaign: Path,
     name: tuple[str, ...],
-    given: dict[str, Any],
+    given: Given,
     out: Path | None,
     data: Path | None,
-    workers: int | None,
-    scheduler: str | None,
-    results: Path | None,
     as_json: bool,
+    **choices: Any,
 ) -> int:
     """
     Say how probably a real column overturns on a set of ground motions.
@@ -234,9 +206,9 @@ def fragility(
     from colonnade.workflow.real_column import needs_specimen
 
     expect_places(out, data)
-    loaded, layout = opened(campaign, results) if name or needs_specimen(given) else (None, None)
+    loaded, layout = options.opened(campaign, choices["results"]) if name or needs_specimen(given) else (None, None)
     with work_progress("Assessing") as progress:
-        found = assess(loaded, layout, name, given, Where(workers, scheduler, progress))
+        found = assess(loaded, layout, name, given, Where(choices["workers"], choices["scheduler"], progress))
     if (out or data) and len(found) > 1:
         raise click.UsageError(f"{len(found)} assessments were found. Name one with --name to draw it.")
     first, result = found[0], found[0].result
@@ -266,26 +238,20 @@ def _show_assessed(assessed: Assessed) -> None:
         say(f"result: {assessed.path}")
 
 
-def _map_keys() -> list[click.Option]:
-    from colonnade.workflow.map_plans import Wanted
-
-    return options_of(Wanted, alone=True)
-
-
 @click.command(
     "map",
-    cls=Asking,
-    keys=_map_keys,
+    cls=options.Asking,
+    asks="colonnade.workflow.map_plans:Wanted",
     epilog="Example: colonnade map demo --specimen prism --omega 1.1 7.8 --ramp 3",
 )
-@campaign_argument
-@specimen_option
-@workers_option
-@scheduler_option
-@result_options
+@options.campaign_argument
+@options.specimen_option
+@options.workers_option
+@options.scheduler_option
+@options.result_options
 def map_command(
-    campaign: Path, specimen: tuple[str, ...], given: dict[str, Any], results: Path | None, as_json: bool, **where: Any
-) -> int:
+    campaign: Path, specimen: tuple[str, ...], asked: Wanted, results: Path | None, as_json: bool, **where: Any
+) -> None:
     """
     Compute stability maps over frequency and amplitude, with the measured points on them.
 
@@ -297,16 +263,13 @@ def map_command(
     Writes processed/maps/<SPECIMEN>-<MODEL>.nc and a picture of it; with --responses also
     <SPECIMEN>-<MODEL>-response.nc and its picture.
     """
-    from colonnade.workflow.map_plans import Wanted
     from colonnade.workflow.maps import make_maps
-    from colonnade.workflow.real_column import picked
 
-    asked = picked(Wanted, given)
     with work_progress(f"Mapping by the {' and the '.join(asked.models)} model") as progress:
         made = make_maps(campaign, asked, specimens=specimen, results=results, progress=progress, **where)
     if as_json:
         show_json(made)
-        return 0
+        return
     for each in made:
         _show_limits(each)
         say(f"map: {each.path}")
@@ -316,7 +279,6 @@ def map_command(
             say(f"figure: {each.responses_figure}")
     for together in dict.fromkeys(each.together for each in made if each.together is not None):
         say(f"together: {together}")
-    return 0
 
 
 def _show_limits(made: MapMade) -> None:
@@ -329,10 +291,10 @@ def _show_limits(made: MapMade) -> None:
 
 
 @click.command(epilog="Example: colonnade calibrate demo --specimen prism")
-@campaign_argument
-@specimen_option
-@workers_option
-@result_options
+@options.campaign_argument
+@options.specimen_option
+@options.workers_option
+@options.result_options
 def calibrate(
     campaign: Path, specimen: tuple[str, ...], workers: int | None, results: Path | None, as_json: bool
 ) -> int:

@@ -11,18 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
+from colonnade.cli.common import options
 from colonnade.cli.common.console import complain, saved, say, say_marked, show_json, show_table, work_progress
-from colonnade.cli.common.findings import STYLES, failures, records_of, show_by_kind
-from colonnade.cli.common.options import (
-    CAMPAIGN,
-    campaign_argument,
-    file_option,
-    json_option,
-    result_options,
-    strict_option,
-    work_options,
-    workers_option,
-)
+from colonnade.cli.common.findings import STYLES, records_of, show_by_kind, show_failures
 from colonnade.cli.show import show_tests
 from colonnade.errors import count
 from colonnade.findings import Severity
@@ -37,12 +28,12 @@ if TYPE_CHECKING:
 
 
 @click.command(epilog="Example: colonnade run demo --from predict --only span-2.0")
-@campaign_argument
+@options.campaign_argument
 @click.option("--until", type=click.Choice(RUN_STAGES), metavar="STAGE", help="Stop after this stage.")
 @click.option(
     "--from", "start_from", type=click.Choice(RUN_STAGES), metavar="STAGE", help="Redo this stage and all that follow."
 )
-@work_options
+@options.work_options
 def run(campaign: Path, **choices: Any) -> int:
     """
     Run all stages and the report; redo only what is out of date.
@@ -83,8 +74,10 @@ def _up_to(stage: str, name: str, what: str, writes: str) -> click.Command:
     def command(campaign: Path, **choices: Any) -> Any:
         return _run_and_show(campaign, {}, until=stage, **choices)
 
-    text, example = f"{what}\n\n{CAMPAIGN}\n\nWrites {writes}", f"Example: colonnade {name} demo --only free-01"
-    made: click.Command = click.command(name, help=text, epilog=example)(campaign_argument(work_options(command)))
+    text, example = f"{what}\n\n{options.CAMPAIGN}\n\nWrites {writes}", f"Example: colonnade {name} demo --only free-01"
+    made: click.Command = click.command(name, help=text, epilog=example)(
+        options.campaign_argument(options.work_options(command))
+    )
     return made
 
 
@@ -106,16 +99,11 @@ predict = _up_to(
 
 
 @click.command(epilog="Example: colonnade report demo --pdf --bundle demo-report.zip")
-@campaign_argument
+@options.campaign_argument
 @click.option("--pdf", "with_pdf", is_flag=True, help="Also typeset the report as report/report.pdf.")
 @click.option("--no-appendix", "appendix", flag_value=False, default=True, help="Leave the tests' own pages out of it.")
-@click.option(
-    "--bundle",
-    type=click.Path(dir_okay=False, path_type=Path),
-    metavar="FILE.zip",
-    help="Also put the whole report into one zip file, to be sent or kept.",
-)
-@work_options
+@click.option("--bundle", type=options.FILE, metavar="FILE.zip", help="Also put the whole report into one zip file.")
+@options.work_options
 def report(
     campaign: Path, *, with_pdf: bool, appendix: bool, bundle: Path | None, results: Path | None, **choices: Any
 ) -> int:
@@ -170,7 +158,7 @@ def show_result(result: RunResult, *, verbose: bool = False) -> None:
         say(sentence)
     findings = result.findings
     show_by_kind(findings)
-    show_table(("failed", "stage", "reason"), failures(result, where="above"))
+    show_failures(result, "failed in {}", where="above")
     for notice in result.notices:
         say(notice)
     actions = Counter(stage.action for stage in result.stages)
@@ -203,10 +191,10 @@ WRONG = "would give wrong results"
 
 
 @click.command(epilog="Example: colonnade check demo")
-@campaign_argument
-@file_option("--drawing", "Draw specimens and transducers to this file: .svg, .pdf or .png.")
-@strict_option
-@json_option
+@options.campaign_argument
+@options.file_option("--drawing", "Draw specimens and transducers to this file: .svg, .pdf or .png.")
+@options.strict_option
+@options.json_option
 def check(campaign: Path, drawing: Path | None, strict: bool, as_json: bool) -> int:
     """
     Check a campaign and its raw files; write nothing.
@@ -249,8 +237,7 @@ def _checked_record(campaign: Campaign, checked: RunResult) -> dict[str, Any]:
 
 def _show_checked(checked: RunResult, drawing: Path | None) -> None:
     say_marked(*_verdict(checked), f" Nothing was written{'.' if drawing is None else f' but {drawing}.'}")
-    for name, _, reason in failures(checked, where="below"):
-        say_marked("would fail", STYLES[Severity.SERIOUS], f": {name}: {reason}".replace("\n", "\n  "))
+    show_failures(checked, "would fail", where="below")
     show_by_kind(checked.findings)
 
 
@@ -277,7 +264,7 @@ def _good(checked: RunResult, stage: StageRun) -> str:
 
 
 @click.command(epilog='Example: colonnade watch --from /media/recorder --notify "notify-send colonnade"')
-@campaign_argument
+@options.campaign_argument
 @click.option(
     "--from",
     "share",
@@ -285,15 +272,11 @@ def _good(checked: RunResult, stage: StageRun) -> str:
     metavar="DIR",
     help="Copy finished files from this folder, such as a recorder's share. No file is ever overwritten.",
 )
-@click.option(
-    "--notify",
-    metavar="COMMAND",
-    help="After each test run this command, without a shell, with the line as JSON on its stdin.",
-)
+@click.option("--notify", metavar="COMMAND", help="After each test run this command, its line as JSON on stdin.")
 @click.option("--once", is_flag=True, help="Handle what is there, then end with the exit code of `run`.")
-@workers_option
-@result_options
-def watch(campaign: Path, notify: str | None, once: bool, as_json: bool, **options: Any) -> int:
+@options.workers_option
+@options.result_options
+def watch(campaign: Path, notify: str | None, once: bool, as_json: bool, **choices: Any) -> int:
     """
     Watch the raw folder: a line on each test as soon as its file is finished.
 
@@ -309,7 +292,7 @@ def watch(campaign: Path, notify: str | None, once: bool, as_json: bool, **optio
     try:
         command = command_of(notify) if notify is not None else ()
         show = partial(_show_line, as_json=as_json)
-        return watch_campaign(campaign, command=command, once=once, show=show, say=complain, **options)
+        return watch_campaign(campaign, command=command, once=once, show=show, say=complain, **choices)
     except (KeyboardInterrupt, Exception) as error:  # the import of a compiled module makes an ImportError of it
         if once or not (noted() or isinstance(error, KeyboardInterrupt)):
             raise

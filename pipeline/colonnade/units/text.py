@@ -248,3 +248,19 @@ class Digested(ABC):
             for name, text in self.digest().items()
         )
         return f"<table><caption>{escape(type(self).__name__)}</caption><tbody>{rows}</tbody></table>"
+
+
+def shown(value: object) -> str:
+    """
+    Write a value of any kind: nothing for None, four digits for a number, a list in one line.
+
+    Examples
+    --------
+    >>> shown(None), shown(0.123456), shown([1, 2.5]), shown(True)
+    ('', '0.1235', '1; 2.5', 'True')
+    """
+    if value is None:
+        return ""
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    return "; ".join(map(shown, value)) if isinstance(value, (list, tuple)) else str(value)

@@ -1,10 +1,14 @@
 """Findings on a terminal: by kind, the worst first, a few in full, what follows from others only counted."""
 
+from pathlib import Path
+
 import pytest
 
 from colonnade.cli.common import findings as shown_as
-from colonnade.cli.common.findings import IN_FULL, NAMED, alike, line_of, probable_cause, records_of
+from colonnade.cli.common.findings import IN_FULL, NAMED, probable_cause, records_of
 from colonnade.findings import in_order, note, serious, warning
+from colonnade.store.records.wording import finding
+from colonnade.workflow.chain import RunResult, StageRun
 
 GAIN = serious("gain", "The gain is wrong.")
 ARC = warning("no arc", "No arc was found.", follows=("gain",))
@@ -33,13 +37,16 @@ def test_many_of_one_kind_are_counted(capsys):
     assert lines[-1] == f"{len(names)} warnings"
 
 
-def test_many_tests_that_fail_alike_are_counted():
+def test_many_tests_that_fail_alike_are_counted(capsys):
     names = [f"t{number:04}" for number in range(2000)]
-    rows = alike([(name, "ingest", f"raw/{name}.csv: file not found") for name in names] + [("x", "rocking", "other")])
-    assert rows[:IN_FULL] == [(name, "ingest", f"raw/{name}.csv: file not found") for name in names[:IN_FULL]]
+    failed = [StageRun(name, "ingest", "failed", reason=f"raw/{name}.csv: file not found") for name in names]
+    other = StageRun("x", "rocking", "failed", reason="other")
+    shown_as.show_failures(RunResult((*failed, other), Path("summary.json"), None), "failed in {}", where="above")
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[:IN_FULL] == [f"failed in ingest: {name}: raw/{name}.csv: file not found" for name in names[:IN_FULL]]
     named, more = ", ".join(names[IN_FULL : IN_FULL + NAMED]), 2000 - IN_FULL
-    counted = (f"and {more} more", "ingest", f"like these: {named} and {more - NAMED} more")
-    assert rows[IN_FULL:] == [counted, ("x", "rocking", "other")]
+    counted = f"  and {more} more of this kind: {named} and {more - NAMED} more"
+    assert lines[IN_FULL:] == [counted, "failed in rocking: x: other"]
 
 
 @pytest.mark.parametrize(
@@ -54,4 +61,4 @@ def test_a_failure_names_the_serious_findings(findings, cause):
 def test_records_say_what_explains_what():
     records = records_of(in_order([ARC, GAIN]))
     assert [(each.kind, each.explained) for each in records] == [("gain", False), ("no arc", True)]
-    assert line_of(vars(records[1])) == "warning (follows from the above): No arc was found."
+    assert finding(vars(records[1])) == "warning (follows from the above): No arc was found."

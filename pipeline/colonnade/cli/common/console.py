@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -122,17 +121,6 @@ def show_rows(rows: Sequence[Sequence[str]]) -> None:
         say("  ".join(map(str.ljust, row, widths)).rstrip().replace("\n", " "))
 
 
-def shown(value: object) -> str:
-    """Write a value for people: nothing for None, four digits for a number, a list in one line."""
-    if value is None:
-        return ""
-    if isinstance(value, float):
-        return f"{value:.4g}"
-    if isinstance(value, (list, tuple)):
-        return "; ".join(shown(item) for item in value)
-    return str(value)
-
-
 def close_output() -> None:
     """Flush stdout, so that a closed pipe is handled here and not in a traceback at exit."""
     try:
@@ -141,8 +129,8 @@ def close_output() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-FIRST, EVERY = 3.0, 10.0
-"""Seconds to the first line of progress if the output is not a terminal, and between two."""
+EVERY = 10.0
+"""Seconds between two lines of progress if the output is not a terminal."""
 
 
 Show = Callable[..., None]
@@ -151,11 +139,10 @@ Show = Callable[..., None]
 
 @contextmanager
 def work_progress(what: str) -> Iterator[Show]:
-    """Show the progress of some work: a bar or, if the output is not a terminal, lines."""
+    """Show the progress of some work: a bar or, if the output is not a terminal, a line now and then."""
     console = messages()
     if not console.is_terminal:
-        with _lines(what) as show:
-            yield show
+        yield _lines(what)
         return
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True) as bar:
@@ -163,24 +150,13 @@ def work_progress(what: str) -> Iterator[Show]:
         yield lambda done, total, now=what: bar.update(task, description=now, completed=done, total=total)
 
 
-@contextmanager
-def _lines(what: str) -> Iterator[Show]:
-    """Write a line after `FIRST` seconds and then every `EVERY`, also while nothing ends."""
-    began, over, last = time.monotonic(), threading.Event(), [what]
-
-    def write() -> None:
-        pause = min(FIRST, EVERY)
-        while not over.wait(min(pause, threading.TIMEOUT_MAX)):
-            complain(f"{last[0]}, after {time.monotonic() - began:.0f} s")
-            pause = EVERY
+def _lines(what: str) -> Show:
+    began = last = time.monotonic()
 
     def show(done: int, total: int, now: str = what) -> None:
-        last[0] = f"{now}: {done} of {total}" if done < total else f"{done} of {total} done, finishing"
+        nonlocal last
+        if time.monotonic() - last >= EVERY:
+            last = time.monotonic()
+            complain(f"{now}: {done} of {total}, after {last - began:.0f} s")
 
-    writer = threading.Thread(target=write, daemon=True)
-    writer.start()
-    try:
-        yield show
-    finally:
-        over.set()
-        writer.join()
+    return show

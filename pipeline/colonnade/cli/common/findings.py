@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from colonnade.cli.common.console import say, say_marked
 from colonnade.errors import count
@@ -39,39 +39,22 @@ def records_of(ordered: Iterable[tuple[Finding, bool]]) -> list[Warned]:
     return [Warned.of(each, explained=explained) for each, explained in ordered]
 
 
-def line_of(record: Mapping[str, Any]) -> str:
-    """Write a finding of the summary as a line, marked if it follows from another."""
-    follows = " (follows from the above)" if record.get("explained") else ""
-    return f"{record['severity']}{follows}: {record['text']}"
-
-
-def failures(result: RunResult, *, where: str) -> list[tuple[str, ...]]:
-    """Give subject, stage and reason of what failed, with the serious findings that are probably its cause."""
-    findings, rows = result.findings, []
+def show_failures(result: RunResult, mark: str, *, where: str) -> None:
+    """Write what failed, alike reasons together, each with the serious findings that are probably its cause."""
+    findings, groups = result.findings, dict[tuple[str, str], list[tuple[str, str]]]()
     for stage in result.stages:
         if stage.action == "failed":
-            cause = probable_cause(findings.get(stage.heading, ()), where=where)
-            rows.append((stage.heading, stage.stage, cause + stage.reason))
-    return alike(rows)
+            text = probable_cause(findings.get(stage.heading, ()), where=where) + stage.reason
+            alike = re.sub(r"\d+", "", text.replace(stage.heading, ""))
+            groups.setdefault((mark.format(stage.stage), alike), []).append((stage.heading, text))
+    for (said, _), members in groups.items():
+        _show_alike(said, Severity.SERIOUS, members)
 
 
 def probable_cause(findings: Sequence[tuple[Finding, bool]], *, where: str) -> str:
     """Name the serious findings about a failed test, and where on the screen they are."""
     kinds = dict.fromkeys(each.kind for each, explained in findings if each.severity == "serious" and not explained)
     return f"probably because of the serious findings {where} ({', '.join(kinds)}): " if kinds else ""
-
-
-def alike(rows: Iterable[tuple[str, ...]]) -> list[tuple[str, ...]]:
-    """Keep the first rows of those that say the same of other subjects (their first cells), and count the rest."""
-    groups: dict[str, list[tuple[str, ...]]] = {}
-    for row in rows:
-        groups.setdefault(re.sub(r"\d+", "", " ".join(row[1:]).replace(row[0], "")), []).append(row)
-    kept = []
-    for members in groups.values():
-        kept += members[:IN_FULL]
-        if rest := [row[0] for row in members[IN_FULL:]]:
-            kept.append((f"and {len(rest)} more", *members[0][1:-1], f"like these: {_named(rest)}"))
-    return kept
 
 
 def show_by_kind(findings: Findings) -> None:
@@ -86,15 +69,22 @@ def show_by_kind(findings: Findings) -> None:
             groups.setdefault((explained, each.severity, each.kind), []).append((subject, each.text))
     for explained, severity, kind in sorted(groups, key=lambda key: (key[0], key[1].rank)):
         members = groups[explained, severity, kind]
-        in_full = 0 if explained else 1 if severity is Severity.NOTE else IN_FULL
-        for subject, text in members[:in_full]:
-            say_marked(f"{severity} ({kind})", STYLES[severity], f": {subject}: {text}")
-        if rest := [subject for subject, _ in members[in_full:]]:
-            what = f"follows from the above: {kind}" if explained else f"  and {len(rest)} more of this kind"
-            say(f"{what}: {_named(rest)}")
+        if explained:
+            say(f"follows from the above: {kind}: {_named(members)}")
+        else:
+            _show_alike(f"{severity} ({kind})", severity, members)
     counts = Counter(severity for (explained, severity, _), members in groups.items() if not explained for _ in members)
     if counts:
         say(counted(counts))
+
+
+def _show_alike(mark: str, severity: Severity, members: Sequence[tuple[str, str]]) -> None:
+    """Write the first of subjects and texts that are alike, and name the other subjects."""
+    in_full = 1 if severity is Severity.NOTE else IN_FULL
+    for subject, text in members[:in_full]:
+        say_marked(mark, STYLES[severity], f": {subject}: {text}".replace("\n", "\n  "))
+    if rest := members[in_full:]:
+        say(f"  and {len(rest)} more of this kind: {_named(rest)}")
 
 
 def counted(severities: Mapping[Severity, int]) -> str:
@@ -102,5 +92,5 @@ def counted(severities: Mapping[Severity, int]) -> str:
     return ", ".join(count(severities[each], word) for each, word in WORDS.items() if severities.get(each))
 
 
-def _named(subjects: Sequence[str]) -> str:
-    return listed(list(dict.fromkeys(subjects)), NAMED)
+def _named(members: Sequence[tuple[str, str]]) -> str:
+    return listed(list(dict.fromkeys(subject for subject, _ in members)), NAMED)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import rich_click as click
@@ -16,27 +17,35 @@ if TYPE_CHECKING:
 
 class Asking(click.RichCommand):
     """
-    A command with the options of tables, which are made only when it is used: a table loads pydantic.
+    A command whose options are the keys of tables, which are made only when it is used: a table loads pydantic.
 
-    It gets those that are given as `given`, by their keys and as in a campaign file.
+    It gets the table that `asks` names as ``module:class`` as `asked`, checked; and if it has `others`, as `given` all
+    that are given, by their keys and as in a campaign file.
     """
 
-    def __init__(self, *args: Any, keys: Callable[[], list[click.Option]], **more: Any) -> None:
+    def __init__(self, *args: Any, asks: str = "", others: Callable[[], list[click.Option]] | None = None, **more: Any):
         super().__init__(*args, **more)
-        self._make, self._keys = keys, list[click.Option]()
+        self._asks, self._others, self._keys = asks, others, list[click.Option]()
 
     def get_params(self, ctx: click.Context) -> list[click.Parameter]:
         """Give its own arguments and options, and those of the tables ahead of where results go."""
         if not self._keys:
-            self._keys = self._make()
+            own = options_of(resolve_name(self._asks), alone=True) if self._asks else []
+            self._keys = [*own, *(self._others() if self._others else ())]
             place = next(place for place, each in enumerate(self.params) if each.name in ("out", "workers", "results"))
             self.params[place:place] = self._keys
         return super().get_params(ctx)
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run it."""
+        from colonnade.workflow.real_column import picked
+
         found = {str(each.name): ctx.params.pop(each.name) for each in self._keys}
-        ctx.params["given"] = {key: value for key, value in found.items() if value not in (None, ())}
+        given = {key: value for key, value in found.items() if value not in (None, ())}
+        if self._asks:
+            ctx.params["asked"] = picked(resolve_name(self._asks), given)
+        if self._others:
+            ctx.params["given"] = given
         return super().invoke(ctx)
 
 
@@ -174,9 +183,7 @@ workers_option = click.option(
 )
 
 scheduler_option = click.option(
-    "--scheduler",
-    metavar="ADDRESS",
-    help="Compute on the Dask cluster of this scheduler, such as tcp://10.0.0.1:8786, not on this machine.",
+    "--scheduler", metavar="ADDRESS", help="Compute on the Dask cluster of this scheduler, such as tcp://10.0.0.1:8786."
 )
 
 results_option = click.option(
@@ -204,16 +211,9 @@ def work_options(command: Command) -> Command:
         click.option("--verbose", is_flag=True, help="Also list each redone stage, why it was redone, and its time."),
         strict_option,
         click.option(
-            "--verify",
-            is_flag=True,
-            help="Read raw files, results and pages even if size and time are unchanged; recompute what was altered.",
+            "--verify", is_flag=True, help="Read files even if size and time are unchanged; redo what was altered."
         ),
-        click.option(
-            "--await",
-            "awaiting",
-            is_flag=True,
-            help="Take a test without its raw file for planned: pending, not failed.",
-        ),
+        click.option("--await", "awaiting", is_flag=True, help="A test without its raw file is planned, not failed."),
         results_option,
         scheduler_option,
         workers_option,

@@ -1,8 +1,9 @@
-"""Outcomes in words: what a test gave, the verdict on a prediction, how far the models agree with all tests."""
+"""Records in words: what a test gave, the verdict on a prediction, how far the models agree, all that is known."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cache
 from math import hypot, nan
 from statistics import median
 from typing import Any
@@ -17,13 +18,19 @@ from colonnade.campaign.forms.summary import (
 from colonnade.dynamics.models import MODELS
 from colonnade.errors import count
 from colonnade.identification.response.rank import is_within
-from colonnade.units.text import LEAST_RATIO, interval, listed, quantity, ratio
+from colonnade.units.text import LEAST_RATIO, interval, listed, quantity, ratio, shown
 
 WITHIN, DIFFERS = "✓", "≠"
 """Verdicts on a prediction, see `verdict`."""
 
 LEGEND = "✓ history inside the 95 % band of the model's runs; ≠ outside or another outcome"
 """What they mean; 80 columns."""
+
+ESTIMATE = ("value", "low", "high", "level")
+"""Keys of a number with its interval."""
+
+SMALL = {"m": "mm", "rad": "mrad"}
+"""Units of values below 0.1."""
 
 LEAST_MOVED = 5e-5
 """m: below it a body counts as not moved. Markers give a body's place to some 0.01 mm."""
@@ -247,3 +254,49 @@ def _said(model: str, tests: Mapping[str, Mapping[str, Any]]) -> str:
     else:
         parts.append("Its own spread was not computed.")
     return " ".join(parts)
+
+
+def finding(record: Mapping[str, Any]) -> str:
+    """Write a finding of the summary as a line, marked if it follows from another."""
+    follows = " (follows from the above)" if record.get("explained") else ""
+    return f"{record['severity']}{follows}: {record['text']}"
+
+
+def estimated(e: Mapping[str, Any]) -> str:
+    """Write a coefficient of restitution with its interval, if it has one."""
+    return shown(e["value"]) if e["low"] is None else interval(e["value"], e["low"], e["high"], e.get("level"))
+
+
+def lines_of(record: Mapping[str, Any], prefix: str = "") -> list[tuple[str, str]]:
+    """Write a nested record as lines of `a.b` and value, leaving out what is not known."""
+    lines: list[tuple[str, str]] = []
+    for key, value in record.items():
+        name = f"{prefix}{key}"
+        if isinstance(value, Mapping):
+            is_estimate = {"value", "low", "high"} <= value.keys()
+            lines += [(name, estimated(value))] if is_estimate and value["value"] is not None else []
+            left = {each: of for each, of in value.items() if not is_estimate or each not in ESTIMATE}
+            lines += lines_of(left, f"{name}.")
+        elif key == "warnings":
+            lines += [(name, finding(each)) for each in value]
+        elif value is not None and value != []:
+            lines.append((name, _with_unit(key, value)))
+    return lines
+
+
+def _with_unit(key: str, value: object) -> str:
+    unit = _units().get(key, "")
+    if isinstance(value, float) and unit in SMALL and 0.0 < abs(value) < 0.1:
+        value, unit = round(1000 * value, 4), SMALL[unit]
+    return f"{shown(value)} {unit}".rstrip()
+
+
+@cache
+def _units() -> dict[str, str]:
+    """Give the units of keys of the summary; all other numbers have none."""
+    from colonnade.campaign.forms.schema import json_schema
+    from colonnade.campaign.specimen import OUTER_DIMENSIONS
+
+    forms = json_schema("summary")["$defs"].values()
+    said = {key: field for form in forms for key, field in form.get("properties", {}).items() if "unit" in field}
+    return {key: field["unit"] for key, field in said.items()} | dict.fromkeys(OUTER_DIMENSIONS, "m")
