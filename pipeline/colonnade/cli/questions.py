@@ -104,21 +104,19 @@ def next_command(campaign: Path, specimen: tuple[str, ...], results: Path | None
 
 def _show_advice(advice: Sequence[Advice]) -> None:
     """Write the test to do next with its reason, then the others."""
+    from colonnade.store.records.advice import HEADS
+
     if not advice:
         say("Nothing to advise: no free vibration, sine test or earthquake has been run.")
         return
-    needed = [each for each in advice if not each.is_enough and not each.beyond]
-    others = [each for each in advice if each not in needed[:1]]
-    if needed:
-        show_paragraph(f"Do this next: {needed[0].what()}")
-        show_paragraph(f"Because {needed[0].reason}.")
-    else:
+    needed = [each for each in advice if not each.is_enough and not each.beyond][:1]
+    for each in needed:
+        show_paragraph(f"Do this next: {each.what()}")
+        show_paragraph(f"Because {each.reason}.")
+    if not needed:
         say("No test that the table can do is needed.")
-    if others:
-        say("\nThen, by what they tell:" if needed else "")
-    for each in others:
-        reasons = [each.reason] if each.is_enough else each.beyond
-        show_paragraph("; ".join((each.what(), *reasons)), bullet="- ")
+    say()
+    show_table(HEADS, [each.row() for each in advice if each not in needed])
 
 
 @click.command(

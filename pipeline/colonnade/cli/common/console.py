@@ -107,11 +107,10 @@ def show_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     console.print(table, soft_wrap=False)
 
 
-def show_paragraph(text: str, bullet: str = "") -> None:
-    """Write text; on a terminal it wraps between words, under its bullet."""
+def show_paragraph(text: str) -> None:
+    """Write text; on a terminal it wraps between words."""
     console = output()
-    width = console.width if console.is_terminal else 10**6
-    say(wrap(text, width, initial_indent=bullet, subsequent_indent=" " * len(bullet)))
+    say(wrap(text, console.width if console.is_terminal else 10**6))
 
 
 def show_rows(rows: Sequence[Sequence[str]]) -> None:
