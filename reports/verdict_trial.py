@@ -27,7 +27,6 @@ from colonnade.stages import ensemble as running
 from colonnade.stages import ingest as ingesting
 from colonnade.stages import restitution as identifying
 from colonnade.stages import rocking as rocking_stage
-from colonnade.stages.parts.rank import horizons_and_ranks
 
 KINDS = ("noise", "sine", "pulse", "free-vibration")
 """Motions, in turn: bands of random noise, sines, single sine pulses, and a release without any motion."""
@@ -224,13 +223,12 @@ def run(seed: int, number: int, wrong: float, members: int) -> Trial:
     changed = {"members": members, "restitution": RESTITUTION_ERROR}
     read = read.model_copy(update={"plane": read.plane.model_copy(update=changed)})
     try:
-        bands = running.ensemble(ready, rocked, read, _specimen(e), identified=_identified(rocked, campaign, test))
+        bands = running.ensemble(rocked, read, _specimen(e), identified=_identified(rocked, campaign, test))
     except StageError:
         return Trial(drawn.kind, drawn.outcome, np.nan, np.nan)
-    compared = horizons_and_ranks(rocked, {MODEL: bands}, [MODEL], drawn.block)
     time = bands["elapsed"].to_numpy()
-    predicted = (float(compared["horizon"][1][0]) - time[0]) / (time[-1] - time[0])
-    return Trial(drawn.kind, drawn.outcome, float(compared["within_spread"][1][0]), float(predicted))
+    predicted = (float(bands["horizon"]) - time[0]) / (time[-1] - time[0])
+    return Trial(drawn.kind, drawn.outcome, float(bands.get("within_spread", np.nan)), float(predicted))
 
 
 def _identified(rocked: xr.Dataset, campaign: Campaign, test: Test) -> xr.Dataset | None:

@@ -87,25 +87,6 @@ def _wrap(folder):
     path.write_text(f'{before}id = "quake"{quake.replace("rig", "logger")}', encoding="utf-8")
 
 
-def _copy(folder):
-    (folder / "raw" / "second").mkdir()
-    for name in ("free", "quake"):
-        shutil.copy(folder / "raw" / f"{name}.csv", folder / "raw" / "second")
-    path = folder / "campaign.toml"
-    text = path.read_text(encoding="utf-8")
-    again = text[text.index("[[tests]]") :]
-    for name in ("free", "quake"):
-        again = again.replace(f'id = "{name}"', f'id = "{name}-2"').replace(f"raw/{name}.csv", f"raw/second/{name}.csv")
-    path.write_text(f"{text}\n{again}", encoding="utf-8")
-
-
-def _twice(folder):
-    path = folder / "campaign.toml"
-    text = path.read_text(encoding="utf-8")
-    entry = text[text.index("[[tests]]") : text.index("[[tests]]", text.index("[[tests]]") + 1)]
-    path.write_text(text + "\n" + entry.replace('id = "free"', 'id = "free-2"'), encoding="utf-8")
-
-
 def _saturated_at_the_top(samples):
     zero, noise = np.median(samples[:200, TOP]), np.random.default_rng(0).normal(0, 0.002, len(samples))
     limit = 0.8 * np.abs(samples[:, TOP] - zero).max()
@@ -154,14 +135,6 @@ MISTAKES = {
         r"serious \(specimen\): campaign file: .* give 7.7 kg/m³; .* one of the lengths in mm read as m",
     ),
     "wrapped rows": (_wrap, r"quake[\s\S]*quake.csv: .*runs on from row to row"),
-    "one file twice": (
-        _twice,
-        r"serious \(copied file\): campaign file: free, free-2 are one recording: all name raw/free.csv",
-    ),
-    "copied folder": (
-        _copy,
-        r"serious \(copied file\): campaign file: 2 raw files hold the same bytes .* Was a folder copied",
-    ),
     "gain of the table": (
         _in_quake(lambda time, values: 0.84 * values),
         r"\(gain\): quake: .* ± .* times the se",

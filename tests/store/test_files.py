@@ -24,7 +24,7 @@ def record(values=(0.0, 1.0, np.nan)):
 def test_no_number_gets_a_fill_value_whatever_text_is_stored_before_it(tmp_path):
     dataset = xr.Dataset(
         {
-            "predicted_outcome": ("model", np.array(["rocking"], dtype=object)),
+            "predicted_response_order": ("model", np.array(["irregular"], dtype=object)),
             "nrmse": ("model", np.array([0.1])),
             "measured_peak_ratio": ((), np.nan),
         },

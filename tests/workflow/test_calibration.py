@@ -3,7 +3,6 @@
 import pytest
 
 from colonnade.errors import CampaignError
-from colonnade.store import files
 from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import make_maps
@@ -19,12 +18,6 @@ def give(campaign):
     contact = 'contact = {step = "100 us", penetration = 1e-6, damping_fraction = 0.3}'
     campaign.edit("[setups.frame.channels]", f"[processing.predict]\n{contact}\n\n[setups.frame.channels]")
     campaign.edit(BODY, GIVEN)
-
-
-def test_the_law_of_the_settings_is_stored(in_space):
-    (own,) = calibrate(in_space.folder, workers=1)
-    assert (own["mesh"], own["path"], own["reason"]) == ("rigid", in_space.layout.stage("prism", "contact"), "")
-    assert own["restitution"] == float(files.read(own["path"])["contact_restitution"])
 
 
 def test_a_restitution_is_needed(untouched):

@@ -57,9 +57,9 @@ Unit = Annotated[str, AfterValidator(_unit), WithJsonSchema({"type": "string", "
 QuantityText = Annotated[str, AfterValidator(_quantity), WithJsonSchema(_QUANTITY_SCHEMA)]
 
 
-class Channel(Table):
+class RecordedAs(Table):
     """
-    One transducer as recorded: physical value = recorded × gain + offset.
+    What a raw file holds of a transducer, and how it becomes SI: physical value = recorded × gain + offset.
 
     In addition to its keys it has, in SI: `factor`, `offset`, `range_recorded`, `full_scale` and `si_unit`.
     """
@@ -82,11 +82,73 @@ class Channel(Table):
     """Largest magnitude: of the recorded value if it has the recorded unit, else of the physical value."""
     on: Identifier | None = None
     """What it is fixed to or looks at: "specimen", "table", "ground", or the id of one specimen among several."""
+    direction: fields.Direction | None = None
+    """Direction of a positive reading, such as [1, 0, 0]; for angles the axis, right-handed."""
+
+    @property
+    def dimension(self) -> str | None:
+        """Dimension of its quantity; None for "other"."""
+        return units.QUANTITY_DIMENSIONS[self.quantity]
+
+    @property
+    def si_unit(self) -> str:
+        """Unit of the physical value in the notation of CF, such as "m s-2"."""
+        if self.dimension is not None:
+            return units.DIMENSIONS[self.dimension][0]
+        return units.product(units.parse(self.gain or "1")[1], self.unit or "").si_unit
+
+    @cached_property
+    def factor(self) -> float:
+        """SI value of one recorded unit."""
+        recorded = self.unit or ""
+        if self.gain is not None or self.dimension is None:
+            return units.gain_to_si(self.gain or "1", recorded, self.dimension)
+        return units.factor_to_si(recorded, self.dimension)
+
+    @cached_property
+    def offset(self) -> float:
+        """Physical value of a recorded zero, SI."""
+        return 0.0 if self.written_offset is None else self._physical(self.written_offset)
+
+    @cached_property
+    def range_recorded(self) -> float | None:
+        """Largest magnitude of the recorded value, in the recorded unit; None if `range` is a physical value."""
+        if self.written_range is None:
+            return None
+        value, unit = units.parse(self.written_range)
+        recorded = self.unit or ""
+        if units.same_unit(unit, recorded):
+            return abs(value)
+        found, own = units.resolve(unit), units.resolve(recorded)
+        if found.si_unit != own.si_unit or found.si_unit == self.si_unit:
+            return None
+        return abs(value) * found.factor / own.factor
+
+    @cached_property
+    def full_scale(self) -> float | None:
+        """Largest magnitude of the physical value, SI; None if no range is given."""
+        if self.written_range is None:
+            return None
+        if self.range_recorded is not None:
+            return self.range_recorded * abs(self.factor) + abs(self.offset)
+        return abs(self._physical(self.written_range))
+
+    def _physical(self, text: str) -> float:
+        if self.dimension is not None:
+            return units.to_si(text, self.dimension)
+        value, unit = units.parse(text)
+        found = units.resolve(unit)
+        if found.si_unit != self.si_unit:
+            raise UnitError(f'"{text}" does not have the unit of the physical value, which is {self.si_unit} in SI.')
+        return value * found.factor
+
+
+class Channel(RecordedAs):
+    """One transducer as recorded, and where it is: physical value = recorded × gain + offset."""
+
     at: fields.Position | None = None
     """Its material point from the centre of the specimen's base, x along the shaking, y across, z up, such as
     ["43 mm", "0 mm", "440 mm"]."""
-    direction: fields.Direction | None = None
-    """Direction of a positive reading, such as [1, 0, 0]; for angles the axis, right-handed."""
     relative_to: Identifier | None = None
     """What a displacement of the specimen is measured against: "table" if the transducer moves with the table, else
     "ground", or another body of the assembly."""
@@ -156,60 +218,3 @@ class Channel(Table):
     def is_on_body(self) -> bool:
         """Whether it is on a specimen, that of the test or the one whose id it gives."""
         return self.on is not None and self.on not in SURROUNDINGS
-
-    @property
-    def dimension(self) -> str | None:
-        """Dimension of its quantity; None for "other"."""
-        return units.QUANTITY_DIMENSIONS[self.quantity]
-
-    @property
-    def si_unit(self) -> str:
-        """Unit of the physical value in the notation of CF, such as "m s-2"."""
-        if self.dimension is not None:
-            return units.DIMENSIONS[self.dimension][0]
-        return units.product(units.parse(self.gain or "1")[1], self.unit or "").si_unit
-
-    @cached_property
-    def factor(self) -> float:
-        """SI value of one recorded unit."""
-        recorded = self.unit or ""
-        if self.gain is not None or self.dimension is None:
-            return units.gain_to_si(self.gain or "1", recorded, self.dimension)
-        return units.factor_to_si(recorded, self.dimension)
-
-    @cached_property
-    def offset(self) -> float:
-        """Physical value of a recorded zero, SI."""
-        return 0.0 if self.written_offset is None else self._physical(self.written_offset)
-
-    @cached_property
-    def range_recorded(self) -> float | None:
-        """Largest magnitude of the recorded value, in the recorded unit; None if `range` is a physical value."""
-        if self.written_range is None:
-            return None
-        value, unit = units.parse(self.written_range)
-        recorded = self.unit or ""
-        if units.same_unit(unit, recorded):
-            return abs(value)
-        found, own = units.resolve(unit), units.resolve(recorded)
-        if found.si_unit != own.si_unit or found.si_unit == self.si_unit:
-            return None
-        return abs(value) * found.factor / own.factor
-
-    @cached_property
-    def full_scale(self) -> float | None:
-        """Largest magnitude of the physical value, SI; None if no range is given."""
-        if self.written_range is None:
-            return None
-        if self.range_recorded is not None:
-            return self.range_recorded * abs(self.factor) + abs(self.offset)
-        return abs(self._physical(self.written_range))
-
-    def _physical(self, text: str) -> float:
-        if self.dimension is not None:
-            return units.to_si(text, self.dimension)
-        value, unit = units.parse(text)
-        found = units.resolve(unit)
-        if found.si_unit != self.si_unit:
-            raise UnitError(f'"{text}" does not have the unit of the physical value, which is {self.si_unit} in SI.')
-        return value * found.factor

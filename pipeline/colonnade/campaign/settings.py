@@ -46,7 +46,9 @@ class QualitySettings(Table):
 class ConditionSettings(Table):
     """Settings of `condition`: the common clock, the low-pass filters and the zero."""
 
-    sampling_rate: AutoFrequency = setting("auto", "Hz")
+    sampling_rate: Literal["auto"] | Annotated[float, fields.Quantity("frequency", between=(1.0, 1e5))] = setting(
+        "auto", "Hz"
+    )
     """Rate of the common clock of all channels; "auto" uses that of the main recorder, at most 5000 Hz."""
     lowpass: AutoFrequency = setting("auto", "Hz")
     """Cut-off of the zero-phase low-pass of channels on the specimen; "auto" chooses it from specimen and rate."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Dataset, dataset
 from colonnade.assessment.cases import (
     AXES,
     COMPONENTS,
@@ -18,11 +18,10 @@ from colonnade.assessment.cases import (
     friction_needed,
 )
 from colonnade.assessment.criteria import CRITERIA, Demands, agreement, spectral_velocity
-from colonnade.assessment.fragility import MISFITS, Fragility
+from colonnade.assessment.fragility import Fragility
 from colonnade.assessment.ground import Ground
 from colonnade.assessment.hazard import LARGEST_SHARE
 from colonnade.assessment.intervals import Interval, Resampling
-from colonnade.assessment.measures import measure_of
 from colonnade.assessment.real_column import UNCERTAIN
 from colonnade.assessment.study import Study, counted_draws, judge
 from colonnade.campaign.forms.assessed import (
@@ -40,10 +39,7 @@ from colonnade.dynamics.spectra import response_spectrum
 from colonnade.errors import StageError
 from colonnade.findings import warning
 from colonnade.stages.assessment_plan import ASSUMED, Plan
-from colonnade.units.text import format_percent, with_minus
-
-if TYPE_CHECKING:
-    import xarray as xr
+from colonnade.units.text import format_percent
 
 CURVE = 101
 """Points at which the lognormal curve is stored, over the levels and half as far beyond either end."""
@@ -53,7 +49,7 @@ PERIODS = np.geomspace(0.05, 5.0, 41)
 """s, of the response spectra of the records."""
 
 
-def assessment(plan: Plan, outcomes: Mapping[str, CaseOutcomes]) -> xr.Dataset:
+def assessment(plan: Plan, outcomes: Mapping[str, CaseOutcomes]) -> Dataset:
     """
     Judge the histories of an assessment.
 
@@ -65,7 +61,7 @@ def assessment(plan: Plan, outcomes: Mapping[str, CaseOutcomes]) -> xr.Dataset:
 
     Returns
     -------
-    result : xr.Dataset
+    result : Dataset
         Outcomes over the axes `AXES`, the drawn columns, the friction needed, and the curves over the measure; the
         attribute `answer` is an `AssessmentSummary` as JSON.
 
@@ -75,16 +71,16 @@ def assessment(plan: Plan, outcomes: Mapping[str, CaseOutcomes]) -> xr.Dataset:
         If the outcomes allow no answer.
     """
     about = {each.name: each for each in plan.records.records}
-    known = {
-        key: np.array([getattr(about[name], key) for name in plan.studies[ASSUMED].names], dtype=np.float64)
-        for key in ("magnitude", "distance")
-    }
     asked, found = plan.inputs.asked, {}
     resampling = Resampling(asked.resamples, asked.seed)
     try:
         for name, study in plan.studies.items():
-            more: dict[str, Any] = {"hazard": plan.hazard, **known} if name == ASSUMED else {}
-            found[name] = judge(study, outcomes[name], resampling, overturned=asked.overturned, **more)
+            magnitude, distance = (
+                np.array([getattr(about[record], key) for record in study.names], dtype=np.float64)
+                for key in ("magnitude", "distance")
+            )
+            known: dict[str, Any] = {"hazard": plan.hazard, "magnitude": magnitude, "distance": distance}
+            found[name] = judge(study, outcomes[name], resampling, overturned=asked.overturned, **known)
     except ValueError as error:
         raise StageError(str(error)) from error
     needed = None if plan.inputs.several else friction_needed(plan.studies[ASSUMED].cases)
@@ -108,9 +104,7 @@ def _sliding(plan: Plan, outcomes: CaseOutcomes, needed: Array | None) -> float 
     return float((slides & run).sum() / run.sum())
 
 
-def _dataset(plan: Plan, outcomes: CaseOutcomes, needed: Array | None, fragility: Fragility) -> xr.Dataset:
-    import xarray as xr
-
+def _dataset(plan: Plan, outcomes: CaseOutcomes, needed: Array | None, fragility: Fragility) -> Dataset:
     study, isotonic = plan.studies[ASSUMED], fragility.isotonic
     reach = np.sqrt(study.levels[-1] / study.levels[0])
     over = np.geomspace(study.levels[0] / reach, study.levels[-1] * reach, CURVE)
@@ -118,19 +112,14 @@ def _dataset(plan: Plan, outcomes: CaseOutcomes, needed: Array | None, fragility
     spectra = np.full((len(study.names), len(COMPONENTS), PERIODS.size), np.nan)
     for record, place, along in components(study.cases.motions):
         spectra[record, place] = response_spectrum(along.acceleration, along.dt, PERIODS)
-    bands = {
-        "lognormal_probability": ("curve", fragility.lognormal.probability(over)),
-        "isotonic_probability": ("stripe", isotonic.probability),
-    }
-    variables: dict[str, Any] = {
-        f"{name}{end}": (dimension, values)
-        for name, (dimension, band) in bands.items()
-        for end, values in zip(("", "_low", "_high"), band, strict=True)
-    }
-    variables |= {f"drawn_{name}": (("record", "draw"), study.cases.drawn(name)) for name in UNCERTAIN}
+    lognormal = fragility.lognormal.probability(over)
+    variables: dict[str, Any] = {f"drawn_{name}": (("record", "draw"), study.cases.drawn(name)) for name in UNCERTAIN}
+    for end, of_lognormal, of_isotonic in zip(("", "_low", "_high"), lognormal, isotonic.probability, strict=True):
+        variables[f"lognormal_probability{end}"] = "curve", of_lognormal
+        variables[f"isotonic_probability{end}"] = "stripe", of_isotonic
     if needed is not None:
         variables["case_friction"] = (("record", "level", "sign", "component"), needed)
-    return xr.Dataset(
+    return dataset(
         {
             "case_outcome": (AXES, outcomes.outcome),
             "case_overturned": (AXES, outcomes.exceeds(plan.inputs.asked.overturned).astype(np.int8)),
@@ -171,10 +160,7 @@ def _answer(
     rate, asked = found.rate, plan.inputs.asked
     one = plan.inputs.several is None
     low, high = column.restitution_range or (None, None)
-    measures = tuple(JudgedMeasure(**vars(each)) for each in found.measures)
-    # Nobody asked for measures that are compared by default.
-    missing = [name for name in study.values if name not in {each.measure for each in measures}]
-    left_out = _left_out(plan)
+    left_out, misfits = _left_out(plan), f"the lognormal curve does not fit (p = {found.misfit:.2g})"
     return AssessmentSummary(
         status="done",
         warnings=tuple(_doubts(plan, outcomes, found, sliding, left_out)),
@@ -200,7 +186,7 @@ def _answer(
         five_percent=_estimate(found.reaches(0.05)),
         fifty_percent=_estimate(found.reaches(0.5)),
         curve=found.taken,
-        curve_reason=None if found.taken == "lognormal" else _why_not(found),
+        curve_reason=None if found.taken == "lognormal" else NO_CURVE.get(found.lognormal.reason, misfits),
         misfit=found.misfit,
         resurrected=found.resurrected,
         sliding=sliding,
@@ -209,15 +195,12 @@ def _answer(
         annual_rate_isotonic=None if rate is None else rate.isotonic,
         rate_outside=None if rate is None else rate.outside_hazard,
         variants=tuple(_variants(plan, fragilities)),
-        measures=measures,
+        measures=tuple(JudgedMeasure(**vars(each)) for each in found.measures),
         criteria=_judged_criteria(study, outcomes, drift=asked.drift, overturned=asked.overturned),
         deciding=_deciding(found),
         records_used=_used(plan),
         records_left_out=left_out,
-        notes=(
-            *plan.records.notes,
-            *(f"Not compared, as not all records have it: {measure_of(name).name}." for name in missing),
-        ),
+        notes=tuple(plan.records.notes),
     )
 
 
@@ -230,13 +213,6 @@ def _estimate(interval: Interval | None) -> Estimate:
     if value is None and not np.isnan(interval.value):
         beyond = "below" if interval.value == 0.0 else "above"
     return Estimate(value=value, low=low, high=high, beyond=beyond)
-
-
-def _why_not(found: Fragility) -> str:
-    """Say why the lognormal curve is not taken."""
-    if found.lognormal.reason:
-        return NO_CURVE[found.lognormal.reason]
-    return f"the lognormal curve does not fit (p = {found.misfit:.2g})"
 
 
 def _variants(plan: Plan, fragilities: Mapping[str, Fragility]) -> Iterator[Variant]:
@@ -290,13 +266,9 @@ def _doubts(
     left_out: Sequence[RecordLeftOut],
 ) -> Iterator[str]:
     """Say what is doubtful, the gravest first."""
-    column, rate = plan.studies[ASSUMED].cases.column, found.rate
+    rate = found.rate
     if plan.inputs.prototype.restitution == "identified" and plan.restitution_source == "rigid-body":
         yield "No e is identified on the model. That of a rigid body is assumed."
-    for name, value, limits in zip(("e", "α (rad)", "p (rad/s)"), column.central, column.ranges, strict=False):
-        if limits is not None and not limits[0] <= value <= limits[1]:
-            between = f"the limits {limits[0]:.4g} and {limits[1]:.4g} between which it is drawn"
-            yield f"{name} is {value:.4g}, outside {between}."
     if sliding:
         yield (
             f"In {format_percent(sliding)} of the histories the column would slide: it needs more friction than there "
@@ -317,13 +289,6 @@ def _doubts(
             f"{format_percent(rate.outside_hazard)} of the annual rate is from outside the hazard curve, and "
             f"{format_percent(rate.outside_levels)} from outside the levels."
         )
-    if rate is not None and found.misfit < MISFITS:
-        yield (
-            "The annual rate is by the lognormal curve, which does not fit. By the curve that only rises it is "
-            f"{with_minus(f'{rate.isotonic:.2g}')} a year."
-        )
-    if plan.hazard is not None and rate is None:
-        yield "There is a hazard, and no annual rate: that needs a lognormal curve."
 
 
 def _judged_criteria(

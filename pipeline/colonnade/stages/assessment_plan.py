@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
 
+from colonnade.arrays import Dataset
 from colonnade.assessment.cases import OnContact
 from colonnade.assessment.ground import NONE
 from colonnade.assessment.hazard import Hazard
@@ -33,9 +33,6 @@ from colonnade.stages.contact import assembly_law
 from colonnade.stages.specimen import restitution_spread
 from colonnade.store.provenance import Inputs
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 USUAL_MARGIN = 0.02
 """To either side of e, if neither limits nor free vibrations are known."""
 
@@ -52,14 +49,14 @@ class ColumnInputs(Inputs):
     usual_scatter: float = PlaneEnsembleSettings().restitution
 
 
-def real_column(inputs: ColumnInputs, pooled: xr.Dataset) -> tuple[RealColumn, str]:
+def real_column(inputs: ColumnInputs, pooled: Dataset) -> tuple[RealColumn, str]:
     """
     Put together the real column.
 
     Parameters
     ----------
     inputs : ColumnInputs
-    pooled : xr.Dataset
+    pooled : Dataset
         Result of `specimen`: the e of the model.
 
     Returns
@@ -69,10 +66,9 @@ def real_column(inputs: ColumnInputs, pooled: xr.Dataset) -> tuple[RealColumn, s
         Of its e: "given", "identified" or "rigid-body".
     """
     given = inputs.prototype
-    block = inputs.block if inputs.scale == 1.0 else _enlarged(inputs.block, inputs.scale)
-    if given.critical_angle is not None or given.p is not None:
-        angle, p = given.critical_angle or block.critical_angle, given.p or block.p
-        block = member_block(block, angle / block.critical_angle, p / block.p)
+    block = _enlarged(inputs.block, inputs.scale)
+    angle, p = given.critical_angle or block.critical_angle, given.p or block.p
+    block = member_block(block, angle / block.critical_angle, p / block.p)
     restitution, limits, source = _restitution(inputs, block, pooled)
     column = RealColumn(
         block,
@@ -104,7 +100,7 @@ def _enlarged(block: Block, scale: float) -> Block:
     return replace(block, mass=mass, negative=negative, positive=positive, solid=solid)
 
 
-def _restitution(inputs: ColumnInputs, block: Block, pooled: xr.Dataset) -> tuple[Sided, tuple[float, float], str]:
+def _restitution(inputs: ColumnInputs, block: Block, pooled: Dataset) -> tuple[Sided, tuple[float, float], str]:
     """Return e, its limits if none are given (an identified one is that of a new test), and where it comes from."""
     given = inputs.prototype
     if given.restitution != "identified":
@@ -129,35 +125,35 @@ ASSUMED = "as assumed"
 """The columns and records of the answer."""
 
 
-class SeveralInputs(Inputs):
-    """What is read about bodies that do not rock as one block: where they stand, as tested, and their contact."""
-
-    assembly: Assembly
-    contact: ContactSettings
-
-    def enlarged(self, scale: float, displaced: float | None) -> OnContact:
-        """Return the real bodies; one that ends farther than `displaced`, m, from its place has overturned."""
-        bodies = {
-            name: Placed(_enlarged(body.block, scale), body.on, (scale * body.position[0], scale * body.position[1]))
-            for name, body in self.assembly.bodies.items()
-        }
-        return OnContact(Assembly(bodies), assembly_law(self.contact), inf if displaced is None else displaced)
-
-
 class AssessmentInputs(ColumnInputs):
-    """What an assessment reads of the campaign."""
+    """
+    What an assessment reads of the campaign.
+
+    `several` are bodies that do not rock as one block, as tested, and `contact` is theirs.
+    """
 
     specimen: str
     asked: Assessment
-    several: SeveralInputs | None = None
+    several: Assembly | None = None
+    contact: ContactSettings | None = None
+
+    def on_contact(self) -> OnContact | None:
+        """Return the real bodies if there are several; one that ends too far from its place has overturned."""
+        if self.several is None or self.contact is None:
+            return None
+        scale, displaced = self.scale, self.asked.displaced
+        bodies = {
+            name: Placed(_enlarged(body.block, scale), body.on, (scale * body.position[0], scale * body.position[1]))
+            for name, body in self.several.bodies.items()
+        }
+        return OnContact(Assembly(bodies), assembly_law(self.contact), inf if displaced is None else displaced)
 
     @classmethod
     def of(cls, campaign: Campaign, asked: Assessment) -> AssessmentInputs:
         """Gather what an assessment reads; of its files the names: their content enters the key by itself."""
-        specimen, several = campaign.specimens[asked.specimen], None
+        specimen, predict, several = campaign.specimens[asked.specimen], campaign.processing.predict, None
         if isinstance(specimen, Whole) and not specimen.is_in_plane:
-            predict = campaign.processing.predict
-            several = SeveralInputs(assembly=specimen.assembly(campaign.gravity), contact=predict.contact)
+            several = specimen.assembly(campaign.gravity)
             friction, share = predict.contact.friction, predict.ensemble.contact.friction
             limits = friction * (1.0 - share), friction * (1.0 + share)
             prototype = written.Prototype.model_construct(
@@ -170,6 +166,7 @@ class AssessmentInputs(ColumnInputs):
             scale=asked.scale or specimen.scale or 1.0,
             prototype=prototype,
             several=several,
+            contact=None if several is None else predict.contact,
             specimen=asked.specimen,
             asked=asked.model_copy(
                 update={"records": Path(asked.records.name), "hazard": asked.hazard and Path(asked.hazard.name)}
@@ -203,13 +200,13 @@ class Plan:
     without_correction: str = ""
 
 
-def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | None, inputs: AssessmentInputs) -> Plan:
+def plan_assessment(pooled: Dataset, records: RecordSet, hazard: Hazard | None, inputs: AssessmentInputs) -> Plan:
     """
     Plan an assessment.
 
     Parameters
     ----------
-    pooled : xr.Dataset
+    pooled : Dataset
         Result of `specimen`.
     records : RecordSet
     hazard : Hazard or None
@@ -229,8 +226,6 @@ def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | Non
     _expect_enough([each.name for each in records.records], "that can be used", records.left_out)
     motions = {each.name: each.motion for each in records.records}
 
-    several = None if inputs.several is None else inputs.several.enlarged(inputs.scale, asked.displaced)
-
     def planned(baseline: str) -> Study:
         return plan_study(
             column,
@@ -243,7 +238,7 @@ def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | Non
             drift=asked.drift,
             baseline=baseline,
             seed=asked.seed,
-            several=several,
+            several=inputs.on_contact(),
         )
 
     try:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Dataset, dataset
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import NO_ROCKING_RATIO, amplitude
@@ -15,11 +14,7 @@ from colonnade.findings import MEASUREMENT, Finding, serious, warning
 from colonnade.identification.response.base_motion import FEWEST_CYCLES, Forcing, fit_forcing
 from colonnade.identification.response.order import Response, response_order
 from colonnade.signals.metrics import nrmse
-from colonnade.stages.parts.rank import horizons_and_ranks
 from colonnade.store.provenance import Inputs
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 class CompareInputs(Inputs):
@@ -27,8 +22,7 @@ class CompareInputs(Inputs):
 
     block: Block
     observed_outcome: str | None
-    free_vibration: bool = False
-    is_sine: bool = False
+    kind: str
     frequency: float | None = None
     amplitude: float | None = None
 
@@ -38,44 +32,40 @@ class CompareInputs(Inputs):
         return cls(
             block=campaign.block(test.specimen),
             observed_outcome=test.observed_outcome,
-            free_vibration=test.kind == "free-vibration",
-            is_sine=test.kind == "sine",
+            kind=test.kind,
             frequency=test.frequency,
             amplitude=test.amplitude,
         )
 
 
 def compare(
-    rocking: xr.Dataset,
-    predicted: Mapping[str, xr.Dataset],
+    rocking: Dataset,
+    predicted: Mapping[str, Dataset],
     inputs: CompareInputs,
-    ensembles: Mapping[str, xr.Dataset] | None = None,
-) -> xr.Dataset:
+    ensembles: Mapping[str, Dataset] | None = None,
+) -> Dataset:
     """
     Compare measured and predicted in numbers.
 
     Parameters
     ----------
-    rocking : xr.Dataset
+    rocking : Dataset
         Result of `rocking`.
-    predicted : mapping of str to xr.Dataset
+    predicted : mapping of str to Dataset
         Results of `predict` by model, on the same clock.
     inputs : CompareInputs
-    ensembles : mapping of str to xr.Dataset, optional
+    ensembles : mapping of str to Dataset, optional
         Results of `ensemble` by model.
 
     Returns
     -------
-    compared : xr.Dataset
+    compared : Dataset
         On the dimension `model`: `nrmse`, RMS(predicted − measured)/α until either first passes α, `compared_until`
-        (s), `predicted_peak_ratio`, `peak_ratio_error` and `predicted_outcome`. NaN if nothing was measured. The
-        measured angle counts over the time that is predicted, about its true zero and with its true gain
-        (`zero_offset`, `angle_gain`): its `measured_peak_ratio` and `measured_peak_time` (s); of a free vibration the
-        largest before that is the `release_ratio`. Of a sine test also what `_with_sine` adds; with ensembles what
-        `horizons_and_ranks` adds.
+        (s) and `peak_ratio_error`. NaN if nothing was measured. The measured angle counts over the time that is
+        predicted, about its true zero and with its true gain (`zero_offset`, `angle_gain`): its `measured_peak_ratio`
+        and `measured_peak_time` (s); of a free vibration the largest before that is the `release_ratio`. Of a sine test
+        also what `_with_sine` adds; with ensembles `RANKED`.
     """
-    import xarray as xr
-
     models, block = sorted(predicted), inputs.block
     zero = {name: float(predicted[models[0]][name]) if models else usual for name, usual in ZERO.items()}
     if "rocking_angle" in rocking:
@@ -83,37 +73,38 @@ def compare(
         rocking = rocking.assign(rocking_angle=true)
     peak, peak_time, release = _peak(rocking, predicted, inputs)
     misfits, untils = np.reshape([_misfit(rocking, predicted[model], block) for model in models], (-1, 2)).T
-    ratios = np.array([float(predicted[model]["peak_ratio"]) for model in models])
-    outcomes = np.array([predicted[model].attrs["outcome"] for model in models], dtype=object)
     warnings: list[Finding] = []
     measured, observed = rocking.attrs["outcome"], inputs.observed_outcome
     if measured and observed not in (None, measured) and (observed != "not-overturned" or measured == "overturned"):
         text = f"The transducers show {measured}, the test log says {observed}: check the record."
         warnings.append(serious("outcome", text, follows=MEASUREMENT))
-    compared = xr.Dataset(
+    compared = dataset(
         {
             "nrmse": ("model", misfits),
             "compared_until": ("model", untils),
-            "predicted_peak_ratio": ("model", ratios),
-            "peak_ratio_error": ("model", ratios - peak),
-            "predicted_outcome": ("model", outcomes),
+            "peak_ratio_error": ("model", [float(predicted[model]["peak_ratio"]) - peak for model in models]),
             "measured_peak_ratio": peak,
             "measured_peak_time": peak_time,
             "release_ratio": release,
-        }
-        | zero
-        | horizons_and_ranks(rocking, ensembles or {}, models, block),
+            **zero,
+        },
         coords={"model": ("model", np.array(models, dtype=object))},
-        attrs={"outcome_measured": measured or observed or "", "warnings": warnings},
+        attrs={"warnings": warnings},
     )
-    return _with_sine(compared, rocking, predicted, inputs) if inputs.is_sine else compared
+    for name in RANKED if ensembles else ():
+        known = {model: float(each[name]) for model, each in (ensembles or {}).items() if name in each}
+        compared[name] = "model", [known.get(model, np.nan) for model in models]
+    return _with_sine(compared, rocking, predicted, inputs) if inputs.kind == "sine" else compared
 
+
+RANKED = ("horizon", "within_spread", "peak_rank", "overturning_probability")
+"""What the ensemble of each model says of it."""
 
 ZERO = {"zero_offset": 0.0, "angle_gain": 1.0}
 """Of the measured angle, where no prediction says another."""
 
 
-def _misfit(rocking: xr.Dataset, predicted: xr.Dataset, block: Block) -> tuple[float, float]:
+def _misfit(rocking: Dataset, predicted: Dataset, block: Block) -> tuple[float, float]:
     """Return the nrmse and the end of the time that it covers."""
     if "rocking_angle" not in rocking:
         return np.nan, np.nan
@@ -131,9 +122,7 @@ SETTLED = 0.1
 """Over p: time before the release over which the held angle is averaged."""
 
 
-def _peak(
-    rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], inputs: CompareInputs
-) -> tuple[float, float, float]:
+def _peak(rocking: Dataset, predicted: Mapping[str, Dataset], inputs: CompareInputs) -> tuple[float, float, float]:
     """
     Find the largest measured |θ|/α over the time that is predicted, when it is (s), and where a free vibration began.
 
@@ -141,7 +130,7 @@ def _peak(
     """
     if "rocking_angle" not in rocking:
         return np.nan, np.nan, np.nan
-    if not inputs.free_vibration:
+    if inputs.kind != "free-vibration":
         return float(rocking["peak_ratio"]), float(rocking["peak_time"]), np.nan
     time, angle = rocking["elapsed"].to_numpy(), np.nan_to_num(rocking["rocking_angle"].to_numpy())
     ratio = amplitude(angle, inputs.block)
@@ -172,16 +161,11 @@ def _release(time: Array, ratio: Array, p: float, *, least: float) -> float:
     return float(np.median(ratio[(time >= let_go - SETTLED / p) & (time <= let_go)]))
 
 
-FREQUENCY_TOLERANCE = 0.01
-"""Largest departure of the recorded frequency from the given one, as a fraction, that is not reported."""
-
-AMPLITUDE_TOLERANCE = 0.1
-"""The same of its amplitude: a table hardly does better."""
+TOLERANCES = {"frequency": 0.01, "amplitude": 0.1}
+"""Largest departures of the recorded motion from what was asked for, as fractions, that are not reported."""
 
 
-def _with_sine(
-    compared: xr.Dataset, rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], inputs: CompareInputs
-) -> xr.Dataset:
+def _with_sine(compared: Dataset, rocking: Dataset, predicted: Mapping[str, Dataset], inputs: CompareInputs) -> Dataset:
     """
     Add frequency and amplitude ratio of a sine test, and the order of the measured and of each predicted response.
 
@@ -200,7 +184,7 @@ def _with_sine(
         return compared.assign(given).assign_attrs(response_order="", response_order_reason=reason, warnings=warnings)
     measured = _measured(rocking, forcing)
     least = NO_ROCKING_RATIO * block.critical_angle
-    orders = [_text(_response(predicted[model], forcing, least, 0.0)) for model in sorted(predicted)]
+    orders = [str(_response(predicted[model], forcing, least, 0.0).order or "") for model in sorted(predicted)]
     return compared.assign(
         {
             "forcing_frequency": forcing.frequency,
@@ -211,18 +195,17 @@ def _with_sine(
             "steady_stop": forcing.stop,
             "frequency_ratio": 2 * np.pi * forcing.frequency / block.p,
             "amplitude_ratio": forcing.amplitude / block.uplift_acceleration,
-            "response_misfit": ("order", measured.misfit),
             "impacts_per_cycle": measured.impacts_per_cycle,
             "predicted_response_order": ("model", np.array(orders, dtype=object)),
         }
     ).assign_attrs(
-        response_order=_text(measured),
+        response_order=str(measured.order or ""),
         response_order_reason=measured.reason,
         warnings=warnings + contradictions(forcing, inputs.frequency, inputs.amplitude),
     )
 
 
-def forcing_of(rocking: xr.Dataset) -> Forcing | None:
+def forcing_of(rocking: Dataset) -> Forcing | None:
     """Return the steady sine of the table's recorded motion; None if there is none."""
     return fit_forcing(rocking["elapsed"], rocking["base_acceleration"]) if "base_acceleration" in rocking else None
 
@@ -232,26 +215,22 @@ def contradictions(forcing: Forcing | None, frequency: float | None, amplitude: 
     found: list[Finding] = []
     if forcing is None:
         return found
-    if frequency is not None and abs(forcing.frequency / frequency - 1) > FREQUENCY_TOLERANCE:
-        text = (
-            f"The table moved at {forcing.frequency:.4g} Hz; the test's frequency is given as {frequency:g} Hz. The "
-            "recorded one is used: correct the test's `frequency`, or the recorder's sampling rate if that is wrong."
-        )
-        found.append(warning("frequency", text))
-    if amplitude is not None and abs(forcing.amplitude / amplitude - 1) > AMPLITUDE_TOLERANCE:
-        ratio = forcing.amplitude / amplitude
-        text = (
-            f"The table's acceleration has an amplitude of {forcing.amplitude:.3g} ± "
-            f"{2 * forcing.amplitude_spread:.1g} m/s², {ratio:.2f} times the test's `amplitude` of {amplitude:.3g} "
-            "m/s². The recorded one is used: the table did not do what was asked for, or the accelerometer's gain is "
-            f"wrong; then A is {1 / ratio:.2f} times what is given."
-        )
-        others = ("gain", "unit", "end of the range", "dead channel")
-        found.append(warning("amplitude", text, follows=others))
+    for kind, recorded, asked, unit in (
+        ("frequency", forcing.frequency, frequency, "Hz"),
+        ("amplitude", forcing.amplitude, amplitude, "m/s²"),
+    ):
+        if asked is not None and abs(recorded / asked - 1) > TOLERANCES[kind]:
+            text = (
+                f"The table moved with {recorded:.4g} {unit}, {recorded / asked:.2f} times the test's `{kind}` of "
+                f"{asked:.4g} {unit}. The recorded one is used: correct the entry if the table did something else, or "
+                "the recorder's sampling rate or the accelerometer's gain if that is wrong."
+            )
+            others = ("gain", "unit", "end of the range", "dead channel")
+            found.append(warning(kind, text, follows=others if kind == "amplitude" else ()))
     return found
 
 
-def _measured(rocking: xr.Dataset, forcing: Forcing) -> Response:
+def _measured(rocking: Dataset, forcing: Forcing) -> Response:
     if "rocking_angle" not in rocking:
         return Response(None, "No rocking angle was measured.")
     threshold = float(rocking["noise_threshold"])
@@ -263,12 +242,8 @@ def _measured(rocking: xr.Dataset, forcing: Forcing) -> Response:
 NO_RESPONSE = {"overturned": "The specimen overturned.", "no-rocking": "The specimen did not rock."}
 
 
-def _response(motion: xr.Dataset, forcing: Forcing, threshold: float, noise: float) -> Response:
+def _response(motion: Dataset, forcing: Forcing, threshold: float, noise: float) -> Response:
     if motion.attrs["outcome"] in NO_RESPONSE:
         return Response(None, NO_RESPONSE[motion.attrs["outcome"]])
     time, angle, steady = motion["elapsed"], motion["rocking_angle"], {"start": forcing.start, "stop": forcing.stop}
     return response_order(time, angle, forcing.frequency, threshold=threshold, noise=noise, **steady)
-
-
-def _text(response: Response) -> str:
-    return "" if response.order is None else str(response.order)

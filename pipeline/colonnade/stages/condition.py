@@ -3,101 +3,96 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Dataset, dataset
 from colonnade.campaign import Campaign, Channel, Test
 from colonnade.campaign.settings import ConditionSettings
-from colonnade.errors import StageError
-from colonnade.findings import Finding
-from colonnade.signals.alignment import Offset
+from colonnade.campaign.setup import Align
+from colonnade.errors import StageError, count
+from colonnade.findings import Finding, note, serious, warning
+from colonnade.identification.plausibility.scale import as_expected
+from colonnade.signals.alignment import Offset, link
 from colonnade.signals.filters import default_lowpass
-from colonnade.signals.record import on_clock, smoothed
+from colonnade.signals.record import Record, even_record, on_clock, smoothed
 from colonnade.signals.rest import RestWindow, find_rest
-from colonnade.stages.parts.clocks import (
-    TOGETHER,
-    ChannelOnClock,
-    common_clock,
-    cut_short,
-    find_links,
-    own_records,
-    recorder_offsets,
-)
-from colonnade.stages.parts.plausibility import PlausibilityInputs, doubts, zero_effects
-from colonnade.stages.parts.zeroing import find_zero_error, zeroed
+from colonnade.signals.timing import uniform_clock
+from colonnade.stages.parts.plausibility import PlausibilityInputs, doubts
+from colonnade.stages.parts.reference_motions import reference_files
+from colonnade.stages.parts.transducers import outline
 from colonnade.store.description import variable_name
-from colonnade.store.provenance import Inputs
 
-if TYPE_CHECKING:
-    import xarray as xr
+TOGETHER = Offset(0.0, np.nan, 0.0)
+"""A recorder that starts with the main one."""
+
+FEWEST_SAMPLES = 16
+"""That the channels of a test have to share."""
+
+HIGHEST_RATE = 5000.0
+"""Hz, of the one clock of a test if no other is asked for: a hundred times what rocking needs."""
+
+SENSES_GRAVITY = 7.0
+"""m/s², that gravity's part along an accelerometer has to have before its value at rest is judged."""
 
 
-class ConditionInputs(Inputs):
+class ConditionInputs(PlausibilityInputs):
     """
     What `condition` reads of the campaign.
 
     Attributes
     ----------
-    channels : dict of str to ChannelOnClock
-        By channel id.
     links : dict
-        Channels that link recorders to the main one, by recorder.
+        By recorder: a channel of the main recorder, and its own, which link it to the main one.
     settings : ConditionSettings
-    p : float
-        Of the specimen, rad/s.
     zero : str or (float, float)
         "auto", "start", "end", "none" or a stretch, s.
-    plausibility : PlausibilityInputs
-        What the conditioned channels are compared with.
     """
 
-    channels: dict[str, ChannelOnClock]
-    links: dict[str, tuple[str, str, float]]
+    links: dict[str, tuple[str, str]]
     settings: ConditionSettings
-    p: float
     free_vibration: bool
     zero: str | tuple[float, float]
-    plausibility: PlausibilityInputs
 
     @classmethod
     def of(cls, campaign: Campaign, test: Test) -> ConditionInputs:
         """Gather what `condition` reads for one test."""
-        setup, channels = campaign.setups[test.setup], campaign.channels(test)
+        specimen, channels = campaign.specimens[test.specimen], campaign.channels(test)
+        block, recorders = specimen.block(campaign.gravity), campaign.setups[test.setup].recorders
+        aligned = {name: each.clock.align for name, each in recorders.items() if isinstance(each.clock, Align)}
         return cls(
-            channels={
-                name: ChannelOnClock.model_validate(channel, from_attributes=True).model_copy(
-                    update={"resting": _resting(channel, campaign.gravity)}
-                )
-                for name, channel in channels.items()
-            },
-            links=find_links(setup.recorders, channels),
+            block=block,
+            outline=outline(specimen, block),
+            channels=channels,
+            motion=test.motion,
+            time_scale=test.time_scale,
+            references=reference_files(campaign) if test.motion else {},
+            links={name: link for name, link in aligned.items() if channels.keys() >= set(link)},
             settings=campaign.processing,
-            p=campaign.block(test.specimen).p,
             free_vibration=test.kind == "free-vibration",
             zero=test.zero,
-            plausibility=PlausibilityInputs.of(campaign, test),
         )
 
 
-def condition(recorded: xr.Dataset, inputs: ConditionInputs) -> xr.Dataset:
+def condition(recorded: Dataset, inputs: ConditionInputs) -> Dataset:
     """
     Bring all channels to one clock, filter them and set their zero.
 
     Parameters
     ----------
-    recorded : xr.Dataset
+    recorded : Dataset
         Result of `ingest`.
     inputs : ConditionInputs
 
     Returns
     -------
-    conditioned : xr.Dataset
+    conditioned : Dataset
         For each channel `<name>` (SI) and `<name>_quality` on `elapsed`. Attributes of `<name>`: `zero` (taken
         off, SI), `zero_window`, `noise` (standard deviation, SI), `cutoff_hz`, `clock_offset` (taken off, s) with its
         standard error, and `clock_rate_ppm` with its own where the clocks drift apart: the offset is then that at
-        `clock_offset_at` (s). Channels of the quantity "other" stay in `recorded`.
+        `clock_offset_at` (s). Channels of the quantity "other" stay in `recorded`. The attribute `restless_zero` gives
+        the stretch (s) where the zero was taken though something moves.
 
     Notes
     -----
@@ -109,8 +104,6 @@ def condition(recorded: xr.Dataset, inputs: ConditionInputs) -> xr.Dataset:
     StageError
         If no channel has a good sample, or the channels share no time.
     """
-    import xarray as xr
-
     warnings: list[Finding] = []
     channels = inputs.channels
     records = own_records(recorded, channels, warnings)
@@ -123,7 +116,6 @@ def condition(recorded: xr.Dataset, inputs: ConditionInputs) -> xr.Dataset:
 
     cutoffs = {name: _cutoff(name, float(clock[1] - clock[0]), records[name].interval, inputs) for name in records}
     smooth = {name: smoothed(records[name], cutoffs[name], inputs.settings.filter_order) for name in records}
-    warnings += cut_short(records, offsets, channels, smooth, clock)
     values, flags, attributes = {}, {}, {}
     for name, record in records.items():
         values[name], flags[name] = on_clock(record, smooth[name][0], clock + offsets[name].at(clock))
@@ -134,17 +126,128 @@ def condition(recorded: xr.Dataset, inputs: ConditionInputs) -> xr.Dataset:
         }
         attributes[name].pop("quality_report", None)
 
-    window = _rest_window(clock, values, {name: attributes[name]["noise"] for name in values}, inputs, warnings)
+    window = _rest_window(clock, values, {name: attributes[name]["noise"] for name in values}, inputs)
     variables: dict[str, Any] = {}
     for name in records:
-        true: Array | None = values[name]
+        told = attributes[name]
         if window is not None and channels[name].quantity != "force":
-            true = zeroed(clock, values[name], name, attributes[name], window, channels[name].resting, warnings)
-        if true is not None:
-            variables[variable_name(name)] = ("elapsed", true, attributes[name])
-            variables[f"{variable_name(name)}_quality"] = ("elapsed", flags[name])
-    conditioned = xr.Dataset(variables, coords={"elapsed": ("elapsed", clock)})
-    return conditioned.assign_attrs(warnings=warnings + doubts(conditioned, inputs.plausibility))
+            inside = (clock >= window.start) & (clock <= window.stop)
+            still = values[name][inside & np.isfinite(values[name])]
+            if not still.size:
+                text = (
+                    f"channel {name} is left out: it has no value from {window.start:.3g} to {window.stop:.3g} s, "
+                    "where the zero is taken. Give the test another `zero`."
+                )
+                warnings.append(serious("channel left out", text))
+                continue
+            shown, resting = float(still.mean()), _resting(channels[name], inputs.block.gravity)
+            warnings += _of_gravity(name, shown, resting)
+            told |= {"zero": shown - resting, "zero_window": f"{window.start:.6g} s to {window.stop:.6g} s"}
+            if window.quiet:
+                told["noise"] = max(float(still.std()), float(told["noise"]))
+            values[name] = values[name] - told["zero"]
+        variables[variable_name(name)] = ("elapsed", values[name], told)
+        variables[f"{variable_name(name)}_quality"] = ("elapsed", flags[name])
+    conditioned = dataset(variables, coords={"elapsed": ("elapsed", clock)})
+    if window is not None and not window.quiet:
+        conditioned.attrs["restless_zero"] = [window.start, window.stop]
+    return conditioned.assign_attrs(warnings=warnings + doubts(conditioned, inputs))
+
+
+def own_records(recorded: Dataset, channels: Mapping[str, Channel], warnings: list[Finding]) -> dict[str, Record]:
+    """Put each channel on an even clock of its own, without its delay; unusable ones are left out and reported."""
+    records = {}
+    for name, channel in channels.items():
+        variable = recorded[variable_name(name)]
+        stamps = recorded[str(variable.dims[0])].to_numpy() - channel.delay
+        flags = recorded[f"{variable_name(name)}_quality"].to_numpy()
+        try:
+            records[name] = even_record(stamps, variable.to_numpy(), flags)
+        except ValueError as error:
+            warnings.append(serious("channel left out", f"channel {name} is left out: it {error}."))
+    return records
+
+
+def recorder_offsets(
+    records: Mapping[str, Record],
+    channels: Mapping[str, Channel],
+    links: Mapping[str, tuple[str, str]],
+    longest: float,
+    warnings: list[Finding],
+) -> dict[str, Offset]:
+    """Find the delays of the recorders relative to the main one, if they can be found; none `longest` (s) or more."""
+    offsets = {"main": Offset(0.0, 0.0, 1.0)}
+    for recorder, (channel, own_channel) in links.items():
+        found, doubt = TOGETHER, f"{channel} or {own_channel} is not usable"
+        if channel in records and own_channel in records:
+            one, other = channels[channel], channels[own_channel]
+            against = one.direction and other.direction and np.dot(one.direction, other.direction) < 0
+            try:
+                found = link(
+                    records[channel],
+                    records[own_channel],
+                    quantities=(one.quantity, other.quantity),
+                    longest=longest,
+                    sign=-1.0 if against else 1.0,
+                )
+            except ValueError as error:
+                raise StageError(
+                    f"channels {channel} and {own_channel} {error}, but recorders are aligned on what both recorded. "
+                    "Check the times in their files."
+                ) from error
+            doubt = found.doubt
+        if found.is_determined:
+            offsets[recorder] = found
+        if doubt:
+            weight, state = (
+                (warning, "aligned") if found.is_determined else (serious, "assumed to start with the main one")
+            )
+            text = f"recorder {recorder} was {state} with {channel} and {own_channel}: {doubt}."
+            # Records that agree at a longer delay are of one motion: that they differ here follows from the delay.
+            kind, others = ("clock", ("table motion",)) if found.beyond is None else ("late recorder", ())
+            follows = ("dead channel", "channel left out", "gain", "sign", *others)
+            warnings.append(weight(kind, text, follows=follows))
+        if found.drift is not None:
+            text = (
+                f"recorder {recorder}: its clock runs {found.drift} against the main recorder's, by {channel} and "
+                f"{own_channel}; the delay changes by {1e3 * abs(found.drift.change):.2g} ms over the motion. This was "
+                "corrected. A common sampling clock or trigger line avoids this."
+            )
+            warnings.append(note("clock drift", text))
+    return offsets
+
+
+def common_clock(
+    records: Mapping[str, Record],
+    offsets: Mapping[str, Offset],
+    channels: Mapping[str, Channel],
+    rate: float | str,
+) -> Array:
+    """
+    Clock of the main recorder's fastest channel, up to `HIGHEST_RATE`, over the stretch that all channels share.
+
+    Records, delays and what is known are by channel; `rate` in Hz or "auto".
+    """
+    start = max(_on_main(record.time[0], offsets[name]) for name, record in records.items())
+    stop = min(_on_main(record.time[-1], offsets[name]) for name, record in records.items())
+    of_main = [record for name, record in records.items() if channels[name].recorder == "main"]
+    leader = min(of_main or records.values(), key=lambda record: record.interval)
+    # A rate that was recorded comes through its interval a little off.
+    is_faster = leader.interval < 0.999 / HIGHEST_RATE
+    interval = 1 / rate if not isinstance(rate, str) else 1 / HIGHEST_RATE if is_faster else leader.interval
+    steps = np.ceil((start - leader.time[0]) / interval - 1e-6)
+    clock = uniform_clock(leader.time[0] + steps * interval, stop, interval)
+    if clock.size < FEWEST_SAMPLES:
+        raise StageError(
+            f"The channels share {max(stop - start, 0.0):.3g} s, {count(clock.size, 'sample')}; at least "
+            f"{FEWEST_SAMPLES} were expected. Check the start times of the recorders and the test's `window`."
+        )
+    return clock
+
+
+def _on_main(time: float, offset: Offset) -> float:
+    """Time of the main recorder at a recorder's own time, s; the delay changes too little to be solved for."""
+    return time - float(offset.at(np.asarray(time - offset.seconds)))
 
 
 def _rest_window(
@@ -152,12 +255,11 @@ def _rest_window(
     values: Mapping[str, Array],
     noises: Mapping[str, float],
     inputs: ConditionInputs,
-    warnings: list[Finding],
 ) -> RestWindow | None:
     """
     Find where the specimen is at its true rest: of a free vibration at the end, of all others at the start.
 
-    None if no zero is wanted. How far the zero may be off is added to the warnings, where that matters.
+    None if no zero is wanted.
     """
     if inputs.zero == "none":
         return None
@@ -175,12 +277,19 @@ def _rest_window(
     ]
     moving = [name for name, channel in own.items() if channel.quantity in ("acceleration", "angular_velocity")]
     shown = {name: (values[name], float(noises[name])) for name in steady or moving}
-    window = find_rest(clock, shown, end=end, duration=inputs.settings.rest_duration)
-    if not window.quiet:
-        effects = zero_effects(inputs.plausibility)
-        known = {name: effects[variable_name(name)] for name in values if variable_name(name) in effects}
-        warnings += find_zero_error(clock, values, known, window)
-    return window
+    return find_rest(clock, shown, end=end, duration=inputs.settings.rest_duration)
+
+
+def _of_gravity(name: str, shown: float, resting: float) -> list[Finding]:
+    """Doubt an accelerometer on the specimen by what it shows of gravity at rest, m/s²."""
+    if abs(resting) < SENSES_GRAVITY or (shown / resting > 0 and as_expected(shown / resting)):
+        return []
+    text = (
+        f"Channel {name} shows {shown:.3g} m/s² at rest, but gravity's part along it is {resting:.3g} m/s², which it "
+        "is given: its sign, gain or unit is wrong, it was zeroed in the recorder, or sensor or amplifier block "
+        "constant values (AC)."
+    )
+    return [warning("gravity", text)]
 
 
 def _resting(channel: Channel, gravity: float) -> float:
@@ -207,7 +316,7 @@ def _cutoff(name: str, interval: float, own_interval: float, inputs: ConditionIn
     rate, on = 1 / max(interval, own_interval), inputs.channels[name].on
     wanted = inputs.settings.lowpass if on == "specimen" else inputs.settings.base_lowpass
     if isinstance(wanted, str):
-        return default_lowpass(inputs.p, rate) if on == "specimen" else 0.2 * rate
+        return default_lowpass(inputs.block.p, rate) if on == "specimen" else 0.2 * rate
     if wanted >= 0.5 * rate:
         key = "lowpass" if on == "specimen" else "base_lowpass"
         raise StageError(

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING, Any
 
+from colonnade.arrays import Dataset, dataset
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import ContactSettings
 from colonnade.dynamics.block import Block
@@ -19,9 +19,6 @@ from colonnade.errors import StageError
 from colonnade.findings import warning
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.store.provenance import Inputs
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 IDENTIFIED = "identified"
 """What a restitution is that was identified from a rocking angle."""
@@ -53,21 +50,22 @@ class ContactInputs(Inputs):
         )
 
 
-def contact(specimen: xr.Dataset, inputs: ContactInputs) -> xr.Dataset:
+def contact(specimen: Dataset, inputs: ContactInputs) -> Dataset:
     """
     Calibrate the contact of a specimen.
 
     Parameters
     ----------
-    specimen : xr.Dataset
+    specimen : Dataset
         Result of `specimen`: the restitution that predictions take.
     inputs : ContactInputs
 
     Returns
     -------
-    law : xr.Dataset
-        What `law_variables` gives, all that was tried, and of the free vibration with this law the
-        `contact_restitution`, identified from its rocking angle as from a record, and the `contact_velocity_ratio`. The
+    law : Dataset
+        Stiffness, damping and friction; by `node` mass, weight (N, of the standing body) and radius (m, 0 of a point);
+        of the free vibration with this law the `contact_restitution`, identified from its rocking angle as from a
+        record, and the `contact_velocity_ratio`. The
         attribute `contact_restitution_source` is `IDENTIFIED`, or `VELOCITY_RATIO` if the identification gives no e. A
         damping fraction given in the campaign is not calibrated, but its restitution is computed.
 
@@ -76,8 +74,6 @@ def contact(specimen: xr.Dataset, inputs: ContactInputs) -> xr.Dataset:
     StageError
         If the specimen cannot be meshed, or the step is too long for the contact.
     """
-    import xarray as xr
-
     settings, body = inputs.settings, _whole_body(inputs)
     given = settings.damping_fraction != "auto"
     law = ContactLaw.stiff(
@@ -97,20 +93,24 @@ def contact(specimen: xr.Dataset, inputs: ContactInputs) -> xr.Dataset:
             fractions=(law.damping_fraction,) if given else FRACTIONS,
             identify=partial(identified, lowest_amplitude=inputs.lowest_amplitude),
         )
-    return xr.Dataset(
+    history, body, law = found.history, found.history.body, found.history.law
+    return dataset(
         {
             "contact_restitution": found.restitution,
-            "contact_velocity_ratio": free_restitution(found.history),
+            "contact_velocity_ratio": free_restitution(history),
             "restitution": found.target,
-            "contact_step": found.history.step,
-            "energy_residual": found.history.energies.relative_residual,
-            "tried_damping_fraction": ("trial", found.fractions),
-            "tried_stiffness": ("trial", found.stiffnesses),
-            "tried_restitution": ("trial", found.restitutions),
-        }
-        | law_variables(found.history.body, found.history.law, inputs.block.gravity),
+            "contact_step": history.step,
+            "energy_residual": history.energies.relative_residual,
+            "contact_stiffness": law.stiffness,
+            "damping_fraction": law.damping_fraction,
+            "friction": law.friction,
+            "effective_damping": law.effective_damping(body),
+            "node_mass": ("node", body.node_mass),
+            "node_weight": ("node", law.node_weights(body, inputs.block.gravity)),
+            "ring_radius": ("node", body.ring_radii),
+        },
         attrs={
-            "body": found.history.body.description,
+            "body": body.description,
             "contact_restitution_source": found.source,
             "warnings": [] if given or found.agrees else [warning("contact law", found.reason)],
         },
@@ -130,24 +130,7 @@ def identified(history: ContactHistory, *, lowest_amplitude: float) -> tuple[flo
     return result.value, IDENTIFIED
 
 
-def law_variables(body: ContactBody, law: ContactLaw, gravity: float) -> dict[str, Any]:
-    """
-    Describe what a body touches the table with: its law, and by `node` mass, weight and radius.
-
-    `node_weight` (N) is what it bears of the standing body; `ring_radius` (m) is 0 of a point. `gravity` in m/s².
-    """
-    return {
-        "contact_stiffness": law.stiffness,
-        "damping_fraction": law.damping_fraction,
-        "friction": law.friction,
-        "effective_damping": law.effective_damping(body),
-        "node_mass": ("node", body.node_mass),
-        "node_weight": ("node", law.node_weights(body, gravity)),
-        "ring_radius": ("node", body.ring_radii),
-    }
-
-
-def law_of(calibrated: xr.Dataset) -> ContactLaw:
+def law_of(calibrated: Dataset) -> ContactLaw:
     """Return the law of contact that a result of `contact` describes."""
     stiffness, damping, friction = (
         float(calibrated[name]) for name in ("contact_stiffness", "damping_fraction", "friction")

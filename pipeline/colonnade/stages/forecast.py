@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from colonnade.arrays import Dataset, dataset
 from colonnade.campaign.forms.forecast import ForecastFile, ForecastInputs
 from colonnade.dynamics.ensemble import PlanePlan
 from colonnade.dynamics.motion import Motion
@@ -14,9 +13,6 @@ from colonnade.identification.calibration import randomised_pit
 from colonnade.identification.forecasts import Response, forecast_of, forecast_of_peaks, score
 from colonnade.stages.parts.beginning import base_acceleration
 from colonnade.store.provenance import Inputs
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 BASES = ("on_target", "on_recorded", "rigid_body")
 """As it was forecast; its frozen inputs on the recorded base motion; as forecast, with the e of the rigid body."""
@@ -30,29 +26,27 @@ class ForecastScoreInputs(Inputs):
     file: str
 
 
-def score_forecast(rocking: xr.Dataset, forecast: ForecastFile, inputs: ForecastScoreInputs) -> xr.Dataset:
+def score_forecast(rocking: Dataset, forecast: ForecastFile, inputs: ForecastScoreInputs) -> Dataset:
     """
     Score a forecast by what was measured.
 
     Parameters
     ----------
-    rocking : xr.Dataset
+    rocking : Dataset
         Result of `rocking`: outcome, peak, base motion.
     forecast : ForecastFile
     inputs : ForecastScoreInputs
 
     Returns
     -------
-    scores : xr.Dataset
+    scores : Dataset
         By `model` and by `basis` (`BASES`) the scores of `identification.verification`, and the probability integral
         transform; `observed_amplitude`. Without a measured angle there are none, without a recorded base motion
         those on it are NaN; the attribute `reason` says so.
     """
-    import xarray as xr
-
     attributes = {"file": inputs.file, "reason": "", "warnings": []}
     if "rocking_angle" not in rocking:
-        return xr.Dataset(attrs=attributes | {"reason": "its rocking angle was not measured"})
+        return dataset({}, attrs=attributes | {"reason": "its rocking angle was not measured"})
     outcome = str(rocking.attrs["outcome"])
     observed = Response.observed(outcome, float(rocking["peak_ratio"]))
     motion = None
@@ -79,7 +73,7 @@ def score_forecast(rocking: xr.Dataset, forecast: ForecastFile, inputs: Forecast
             values = [*(scores[each] for each in SCORES), pit, ensemble.overturning_probability]
             found[:, row, BASES.index(basis)] = values
     variables = [f"forecast_{name}" for name in (*SCORES, "pit", "overturning_probability")]
-    return xr.Dataset(
+    return dataset(
         {name: (("model", "basis"), values) for name, values in zip(variables, found, strict=True)}
         | {"observed_amplitude": ((), observed.amplitude)},
         coords={"model": np.array(names, dtype=object), "basis": np.array(BASES, dtype=object)},

@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date, datetime, timedelta
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from colonnade import units
-from colonnade.arrays import Array, Vector
+from colonnade.arrays import Array, Dataset, dataset
 from colonnade.campaign import Campaign, Test
+from colonnade.campaign.channel import RecordedAs
 from colonnade.campaign.review import Review
 from colonnade.campaign.settings import QualitySettings
 from colonnade.errors import StageError, count
-from colonnade.findings import Finding, note, serious, warning
+from colonnade.findings import Finding, serious, warning
 from colonnade.readers.clock import moment_after
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.heading import LETTERED
@@ -23,9 +24,6 @@ from colonnade.signals import quality, timing
 from colonnade.signals.samples import side_by_side
 from colonnade.store.description import variable_name
 from colonnade.store.provenance import Inputs
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 RAW_FILE = "raw file"
 """Kind of what a reader warns of: damage, cells without a number, what it had to guess."""
@@ -44,12 +42,12 @@ class IngestInputs(Inputs):
     day : date or None
         The day of the test.
     review : Review
-        What people decided about the test; its corrections are in the channels' factors, its trim in the window.
+        What people decided about the test; its trim is in the window.
     """
 
     files: dict[str, dict[str, Any]]
     sampling_rates: dict[str, float | None]
-    channels: dict[str, ChannelInputs]
+    channels: dict[str, RecordedAs]
     window: tuple[float, float] | None
     day: date | None = None
     review: Review = Review()
@@ -62,12 +60,7 @@ class IngestInputs(Inputs):
         return cls(
             files={name: recorder.file.model_dump() for name, recorder in setup.recorders.items()},
             sampling_rates={name: recorder.sampling_rate for name, recorder in setup.recorders.items()},
-            channels={
-                name: ChannelInputs.model_validate(channel, from_attributes=True).model_copy(
-                    update={"factor": channel.factor * review.factors.get(name, 1.0)}
-                )
-                for name, channel in campaign.channels(test).items()
-            },
+            channels=dict[str, RecordedAs](campaign.channels(test)),
             window=review.within(test.window),
             day=test.date,
             review=review,
@@ -75,7 +68,7 @@ class IngestInputs(Inputs):
         )
 
 
-def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Dataset:
+def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> Dataset:
     """
     Convert what was recorded to SI and check it.
 
@@ -87,7 +80,7 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
 
     Returns
     -------
-    recorded : xr.Dataset
+    recorded : Dataset
         For each channel `<name>` (SI), `<name>_recorded` (as in the file) and `<name>_quality` (flags), on `elapsed`
         for the main recorder's clock and `elapsed_<...>` for others.
 
@@ -98,8 +91,6 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
     ReadError
         If a column is not in its file.
     """
-    import xarray as xr
-
     warnings = [warning(RAW_FILE, each) for recording in recordings.values() for each in recording.warnings]
     begin = inputs.window[0] if inputs.window else 0.0
     warnings += contradictions(recordings, inputs.day, begin)
@@ -114,8 +105,11 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
             )
         recording = recordings[channel.recorder]
         column = find_column(recording, name, channel, inputs.sampling_rates.get(channel.recorder))
-        findings = unit_findings(recording, column, name, channel)
-        time, values = _within(column, inputs.window)
+        warnings += unit_findings(recording, column, name, channel)
+        time, values = column.time if column.time is not None else np.empty(0), column.values
+        if inputs.window is not None:
+            inside = (time >= inputs.window[0]) & (time <= inputs.window[1])
+            time, values = time[inside], values[inside]
         dimension = dimension_of(stamps, time, name, channel)
         if dimension not in stamps:
             clock = timing.read_clock(time)
@@ -126,46 +120,38 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
                     "expected. Check the file's time column and the test's `window`."
                 )
             stamps[dimension], timed[dimension] = time, _clock_verdicts(time, clock, inputs.settings)
-            if clock.resolution > inputs.settings.jitter * clock.interval:
-                text = (
-                    f"{recording.path.name}: the times are rounded to {1e3 * clock.resolution:g} ms; an even clock of "
-                    f"{1 / clock.interval:.5g} Hz matches them all and is used."
-                )
-                findings.append(note("rounded times", text))
-        tracks.append(_Track(name, channel, column, dimension, values, findings))
+        physical = values * (channel.factor * inputs.review.factors.get(name, 1.0))
+        physical += channel.offset
+        tracks.append(_Track(name, channel, column, dimension, values, physical))
     table = [track for track in tracks if track.channel.on == "table" and track.channel.quantity == "acceleration"]
     judged = side_by_side(
         lambda track: _judged(track, table, stamps[track.dimension], timed[track.dimension], inputs), tracks
     )
-    warnings += [finding for _, found in judged for finding in found] + _of_clocks(tracks, timed)
+    warnings += [finding for _, found in judged for finding in found]
+    for dimension, verdicts in timed.items():
+        names = [track.name for track in tracks if track.dimension == dimension]
+        warnings += _told(f"channel{'s' if len(names) > 1 else ''} {', '.join(names)}", verdicts)
     notes = [f"{recording.path.name}: {note}" for recording in recordings.values() for note in recording.notes]
-    dataset = xr.Dataset(
+    recorded = dataset(
         {name: variable for variables, _ in judged for name, variable in variables.items()},
         coords={dimension: (dimension, time) for dimension, time in stamps.items()},
         attrs={"notes": "; ".join(notes), "recorded_at": recorded_at(recordings, begin), "warnings": warnings},
     )
     if inputs.review.sentences:
-        dataset.attrs["review"] = list(inputs.review.sentences)
-    return dataset
+        recorded.attrs["review"] = list(inputs.review.sentences)
+    return recorded
 
 
 @dataclass(frozen=True)
 class _Track:
-    """One channel on its clock, with the findings before its quality is checked."""
+    """One channel on its clock: its values as in the file and in SI."""
 
     name: str
-    channel: ChannelInputs
+    channel: RecordedAs
     column: RecordedChannel
     dimension: str
     values: Array
-    warnings: list[Finding]
-
-    @property
-    def physical(self) -> Array:
-        """Values in SI."""
-        physical = self.values * self.channel.factor
-        physical += self.channel.offset
-        return physical
+    physical: Array
 
 
 def _judged(
@@ -194,19 +180,12 @@ def _judged(
         f"{variable}_recorded": (track.dimension, values),
         f"{variable}_quality": (track.dimension, flags),
     }
-    own = [verdict.finding for verdict in verdicts if verdict.reason]
-    return variables, [*track.warnings, *(replace(each, text=f"channel {track.name}: {each}.") for each in own)]
+    return variables, _told(f"channel {track.name}", verdicts)
 
 
-def _of_clocks(tracks: list[_Track], timed: Mapping[str, list[quality.Verdict]]) -> list[Finding]:
-    """Findings about a clock, once for all channels on it."""
-    found = []
-    for dimension, verdicts in timed.items():
-        timed_so = [track for track in tracks if track.dimension == dimension]
-        whose = f"channel{'s' if len(timed_so) > 1 else ''} {', '.join(track.name for track in timed_so)}"
-        for verdict in [each for each in verdicts if each.reason]:
-            found.append(replace(verdict.finding, text=f"{whose}: {verdict.reason}."))
-    return found
+def _told(whose: str, verdicts: Sequence[quality.Verdict]) -> list[Finding]:
+    """Findings of verdicts that are not good."""
+    return [replace(each.finding, text=f"{whose}: {each.reason}.") for each in verdicts if each.reason]
 
 
 DEAD_SHARE = 0.08
@@ -218,35 +197,16 @@ SAME_AXIS = 0.9
 """Smallest product of two directions with which they are compared."""
 
 
-class ChannelInputs(Inputs):
-    """One channel: where it is in the file, how it becomes SI, its range, what it is on and its direction."""
-
-    column: str | int
-    recorder: str
-    time: str | int | None
-    quantity: str
-    unit: str | None
-    gain: str | None
-    factor: float
-    offset: float
-    full_scale: float | None
-    range_recorded: float | None
-    on: str | None
-    direction: Vector | None
-
-
 def _clock_verdicts(stamps: Array, clock: timing.Clock, settings: QualitySettings) -> list[quality.Verdict]:
     """Check the times of a file, of shape (n,), s; `clock` is read from them."""
     if clock.is_exact and settings.jitter > 4 * timing.EXACT:
         return []
-    return [
-        timing.check_order(stamps, clock),
-        *timing.check_steps(clock, share=settings.jitter, factor=settings.gap),
-    ]
+    steps = timing.check_steps(clock, share=settings.jitter, factor=settings.gap)
+    return [timing.check_order(stamps, clock), *steps]
 
 
 def channel_verdicts(
-    stamps: Array, values: Array, physical: Array, channel: ChannelInputs, settings: QualitySettings
+    stamps: Array, values: Array, physical: Array, channel: RecordedAs, settings: QualitySettings
 ) -> list[quality.Verdict]:
     """Check one channel alone: its times (s), its values as in the file and in SI."""
     found = [
@@ -282,7 +242,7 @@ def reviewed(name: str, time: Array, review: Review) -> list[quality.Verdict]:
     return found
 
 
-def find_column(recording: Recording, name: str, channel: ChannelInputs, rate: float | None) -> RecordedChannel:
+def find_column(recording: Recording, name: str, channel: RecordedAs, rate: float | None) -> RecordedChannel:
     """Find the column of a channel, with its times; `rate` is that of the recorder, Hz, if its file has no clock."""
     if channel.time is not None:
         return recording.on_clock(channel.column, channel.time)
@@ -298,35 +258,23 @@ def find_column(recording: Recording, name: str, channel: ChannelInputs, rate: f
     return column
 
 
-def unit_findings(recording: Recording, column: RecordedChannel, name: str, channel: ChannelInputs) -> list[Finding]:
-    """
-    Report a unit of the file that is not the one of the campaign file.
-
-    A recorder's own unit, such as counts, only names what the campaign file explains by its unit and gain.
-    """
+def unit_findings(recording: Recording, column: RecordedChannel, name: str, channel: RecordedAs) -> list[Finding]:
+    """Report a unit of the file that is not the one of the campaign file."""
     if column.unit is None or channel.unit is None or units.same_unit(column.unit, channel.unit):
         return []
     if LETTERED.fullmatch(column.heading) and column.unit in ("V", "A") and channel.gain is None:
         return []  # a label
-    said = f'channel {name}: {recording.path.name} says "{column.unit}" for column "{column.heading}", '
     own = units.find_unit(column.unit)
     if channel.gain is not None and (own is None or own.si_unit in ("1", "count")):
-        said += f"which is not the unit of a physical quantity. The campaign file's unit ({channel.unit}) and gain "
-        return [note("unit", f"{said}({channel.gain}) were used.")]
-    said += f'the campaign file says "{channel.unit}", which was used. One of them is wrong.'
-    return [serious("unit", said)]
+        return []  # the recorder's own, such as counts, which only names what unit and gain explain
+    text = (
+        f'channel {name}: {recording.path.name} says "{column.unit}" for column "{column.heading}", the campaign file '
+        f'says "{channel.unit}", which was used. One of them is wrong.'
+    )
+    return [serious("unit", text)]
 
 
-def _within(column: RecordedChannel, window: tuple[float, float] | None) -> tuple[Array, Array]:
-    """Times and values of a channel that belong to the test."""
-    time = column.time if column.time is not None else np.empty(0)
-    if window is None:
-        return time, column.values
-    inside = (time >= window[0]) & (time <= window[1])
-    return time[inside], column.values[inside]
-
-
-def dimension_of(known: Mapping[str, Array], time: Array, name: str, channel: ChannelInputs) -> str:
+def dimension_of(known: Mapping[str, Array], time: Array, name: str, channel: RecordedAs) -> str:
     """Name of the channel's dimension: two channels share one only if their times are the same."""
     own = f"elapsed_{variable_name(name)}"
     wanted = "elapsed" if channel.recorder == "main" else f"elapsed_{variable_name(channel.recorder)}"

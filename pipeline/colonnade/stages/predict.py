@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from colonnade.arrays import Dataset, dataset
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.contact.body import InSpace
 from colonnade.dynamics.contact.ensemble import ContactPlan
@@ -16,14 +17,10 @@ from colonnade.dynamics.history import amplitude
 from colonnade.dynamics.models import model_of
 from colonnade.dynamics.uncertainty import Uncertainty
 from colonnade.findings import serious
-from colonnade.stages.contact import ContactInputs, assembly_law, body_of, law_of, law_variables, refusals
+from colonnade.stages.contact import ContactInputs, assembly_law, body_of, law_of, refusals
 from colonnade.stages.parts.beginning import Beginning, BeginningInputs, begin
 from colonnade.stages.parts.bodies import AssemblyInputs, predicted_variables
-from colonnade.stages.parts.transducers import along, transducers
 from colonnade.stages.specimen import centre
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 class PredictInputs(BeginningInputs):
@@ -49,14 +46,13 @@ class PredictInputs(BeginningInputs):
     @classmethod
     def of(cls, campaign: Campaign, test: Test, model: str) -> PredictInputs:
         """Gather what `predict` reads for one test and model."""
-        known, in_space = transducers(campaign.channels(test)), model_of(model).in_space
+        in_space = model_of(model).in_space
         return cls(
             block=campaign.block(test.specimen),
             model=model,
             rest_angle=campaign.processing.predict.rest_angle,
             free_vibration=test.kind == "free-vibration",
             tilt=campaign.setups[test.setup].table_tilt or 0.0,
-            has_vertical=bool(along(known.accelerations, 2)),
             is_in_space=in_space,
             space=ContactInputs.of(campaign, test.specimen) if in_space else None,
             assembly=AssemblyInputs.of(campaign, test) if in_space else None,
@@ -64,44 +60,42 @@ class PredictInputs(BeginningInputs):
 
 
 def predict(
-    rocking: xr.Dataset,
-    specimen: xr.Dataset,
+    rocking: Dataset,
+    specimen: Dataset,
     inputs: PredictInputs,
-    contact: xr.Dataset | None = None,
-    identified: xr.Dataset | None = None,
-) -> xr.Dataset:
+    contact: Dataset | None = None,
+    identified: Dataset | None = None,
+) -> Dataset:
     """
     Run a model on the base motion that was recorded.
 
     Parameters
     ----------
-    rocking : xr.Dataset
+    rocking : Dataset
         Result of `rocking`: `base_acceleration`, and that along z if it was recorded; of a free vibration, the measured
         angle that it starts from.
-    specimen : xr.Dataset
+    specimen : Dataset
         Result of `specimen`: `restitution`.
     inputs : PredictInputs
-    contact : xr.Dataset, optional
+    contact : Dataset, optional
         Result of `contact`, of the contact model: its law.
-    identified : xr.Dataset, optional
+    identified : Dataset, optional
         Result of `restitution`, of a free vibration: zero and scale of its angle.
 
     Returns
     -------
-    predicted : xr.Dataset
+    predicted : Dataset
         `rocking_angle` on the clock of the record; of the contact model also slide, uplift and rotation out of the
-        plane, its law with masses and weights of the nodes, and how well its energy balance closes. A free vibration
-        is predicted from the first peak after its first impact, where the measured angle is known and the velocity is
-        zero; before it the angle is NaN. The angle is the true one, of which the measured one shows `angle_gain` times
-        as much about its `zero_offset`; the attribute `driven_by` says which base motion was used.
+        plane, and how well its energy balance closes. A free vibration is predicted from the first peak after its first
+        impact, where the measured angle is known and the velocity is zero; before it the angle is NaN. The angle is the
+        true one, of which the measured one shows `angle_gain` times as much about its `zero_offset`; the attribute
+        `driven_by` says which base motion was used.
 
     Raises
     ------
     StageError
         If there is no base motion, or a free vibration shows no arc to start from.
     """
-    import xarray as xr
-
     beginning, plan = planned(rocking, inputs, specimen, contact, identified)
     with refusals():
         history = plan.central()
@@ -135,7 +129,6 @@ def predict(
             "yaw": history.yaw,
         }
         variables |= {name: ("elapsed", beginning.padded(values)) for name, values in over_time.items()}
-        variables |= law_variables(history.body, history.law, history.block.gravity)
         variables["energy_residual"] = history.energies.relative_residual
         warnings += [serious("energy balance", text) for text in history.warnings]
     variables |= {
@@ -151,17 +144,15 @@ def predict(
         "restitution_source": specimen.attrs["restitution_source"] if "restitution" in variables else "",
         "warnings": warnings,
     }
-    if isinstance(history, ContactHistory):
-        attributes["body"] = history.body.description
-    return xr.Dataset(variables, coords={"elapsed": ("elapsed", time)}, attrs=attributes)
+    return dataset(variables, coords={"elapsed": ("elapsed", time)}, attrs=attributes)
 
 
 def planned(
-    rocking: xr.Dataset,
+    rocking: Dataset,
     inputs: PredictInputs,
-    specimen: xr.Dataset | None,
-    contact: xr.Dataset | None,
-    identified: xr.Dataset | None,
+    specimen: Dataset | None,
+    contact: Dataset | None,
+    identified: Dataset | None,
 ) -> tuple[Beginning, PlanePlan | ContactPlan]:
     """Find where a prediction begins, and put together what moves from there on; nothing is varied."""
     space, block = inputs.space, inputs.block
@@ -196,7 +187,7 @@ def planned(
     )
 
 
-def sides(specimen: xr.Dataset) -> tuple[float, float]:
+def sides(specimen: Dataset) -> tuple[float, float]:
     """Return e that predictions take, of impacts that end an arc at θ < 0 and at θ > 0."""
     negative, positive = (float(e) for e in specimen["side_restitution"].to_numpy())
     return negative, positive

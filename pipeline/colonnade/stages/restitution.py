@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import exp
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from colonnade.arrays import Dataset, dataset
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.settings import RestitutionSettings
 from colonnade.dynamics.block import Block
@@ -19,9 +20,6 @@ from colonnade.identification.restitution.noise import ORDER
 from colonnade.identification.restitution.result import Restitution
 from colonnade.store.provenance import Inputs
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 PEAKS = {
     "peak_time": "time",
     "peak_angle": "angle",
@@ -29,13 +27,7 @@ PEAKS = {
     "fitted_angle": "fitted_angle",
     "peak_used": "used",
 }
-IMPACTS = {
-    "impact_time": "time",
-    "impact_velocity": "velocity",
-    "impact_restitution": "restitution",
-    "impact_restitution_standard_error": "restitution_standard_error",
-    "impact_used": "used",
-}
+IMPACTS = {f"impact_{name}": name for name in ("time", "velocity", "restitution", "restitution_standard_error", "used")}
 ENDS = {"": "value", "_low": "low", "_high": "high", "_standard_error": "standard_error"}
 HISTORY = {"fitted_elapsed": "time", "fitted_history": "angle", "history_residual": "residual"}
 JOINT = {"joint_mean": "mean", "joint_covariance": "covariance"}
@@ -50,17 +42,15 @@ class RestitutionInputs(Inputs):
     ----------
     block : Block
     settings : RestitutionSettings
-    critical_angle, p, angle_gain : float
-        How well α, p and the calibration of the angle are known: relative standard deviations.
+    known : Uncertainty
+        How well α, p and the calibration of the angle are known.
     filter_order : int
         Of the low-pass.
     """
 
     block: Block
     settings: RestitutionSettings
-    critical_angle: float
-    p: float
-    angle_gain: float
+    known: Uncertainty
     filter_order: int = ORDER
 
     @classmethod
@@ -70,26 +60,24 @@ class RestitutionInputs(Inputs):
         return cls(
             block=campaign.block(test.specimen),
             settings=campaign.processing.restitution,
-            critical_angle=known.critical_angle,
-            p=known.p,
-            angle_gain=known.angle_gain,
+            known=Uncertainty(critical_angle=known.critical_angle, p=known.p, angle_gain=known.angle_gain),
             filter_order=campaign.processing.filter_order,
         )
 
 
-def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
+def restitution(rocking: Dataset, inputs: RestitutionInputs) -> Dataset:
     """
     Identify e from one free vibration.
 
     Parameters
     ----------
-    rocking : xr.Dataset
+    rocking : Dataset
         Result of `rocking`.
     inputs : RestitutionInputs
 
     Returns
     -------
-    identified : xr.Dataset
+    identified : Dataset
         `restitution` with its interval, the recommended one; `estimate` by each `estimator`; peaks, impacts with e of
         each, the fitted history with its residual, and what is known of e, α and p together. The attribute
         `table_moves` says "true" or "false", whether the table's recorded motion drives the history. Where e cannot be
@@ -100,12 +88,14 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
     StageError
         If no transducer was on the specimen.
     """
-    import xarray as xr
-
-    expect_angle(rocking)
+    if "rocking_angle" not in rocking:
+        raise StageError(
+            "A free vibration without a usable displacement transducer on the specimen gives no restitution; "
+            'at least one channel with on = "specimen" and quantity = "displacement" was expected.'
+        )
     result = _identified(rocking, inputs)
     estimates, joint = result.estimates, result.joint
-    return xr.Dataset(
+    return dataset(
         {
             **{f"restitution{end}": _number(getattr(result, field)) for end, field in ENDS.items()},
             "level": _number(result.level),
@@ -136,27 +126,15 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
     )
 
 
-def expect_angle(rocking: xr.Dataset) -> None:
-    """Refuse a free vibration whose rocking angle was not measured."""
-    if "rocking_angle" not in rocking:
-        raise StageError(
-            "A free vibration without a usable displacement transducer on the specimen gives no restitution; "
-            'at least one channel with on = "specimen" and quantity = "displacement" was expected.'
-        )
-
-
 def _warnings(result: Restitution) -> list[Finding]:
     """Doubts about the value, or why it is missing."""
-    doubts = [
-        ("no restitution", f"No restitution from this test: {result.reason}" if result.reason else ""),
-        *((kind, text) for kind, text in result.doubts),
-        # Without a value its reason says all.
-        *((found.name, found.sentence) for found in result.departures if not result.reason),
-    ]
-    return [warning(kind, text, follows=MEASUREMENT) for kind, text in doubts if text]
+    doubts = [*result.doubts, *((found.name, found.sentence) for found in result.departures)]
+    if result.reason:  # which says all of the departures
+        doubts = [("no restitution", f"No restitution from this test: {result.reason}"), *result.doubts]
+    return [warning(kind, text, follows=MEASUREMENT) for kind, text in doubts]
 
 
-def _identified(rocking: xr.Dataset, inputs: RestitutionInputs) -> Restitution:
+def _identified(rocking: Dataset, inputs: RestitutionInputs) -> Restitution:
     names = {"out_of_plane": "out_of_plane_angle", "slide": "slide", "uplift": "uplift"}
     names["base_acceleration"] = "base_acceleration"
     beside: dict[str, Any] = {name: rocking[each].to_numpy() for name, each in names.items() if each in rocking}
@@ -169,7 +147,7 @@ def _identified(rocking: xr.Dataset, inputs: RestitutionInputs) -> Restitution:
         noise=float(np.nanmedian(rocking["rocking_angle_standard_error"])),
         # A filter of another order is not the one that the fit knows: it finds the nearest one itself.
         lowpass=rocking["rocking_angle"].attrs.get("cutoff_hz") if inputs.filter_order == ORDER else None,
-        uncertainty=Uncertainty(critical_angle=inputs.critical_angle, p=inputs.p, angle_gain=inputs.angle_gain),
+        uncertainty=inputs.known,
         **beside,
     )
 

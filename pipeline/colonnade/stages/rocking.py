@@ -3,43 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Dataset, dataset
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
 from colonnade.errors import StageError
-from colonnade.findings import Finding, serious, warning
+from colonnade.findings import MEASUREMENT, Finding, serious, warning
 from colonnade.identification.fusion.motion import SEEN, Circumstances, specimen_motion
 from colonnade.identification.fusion.pose import SpecimenMotion
 from colonnade.identification.fusion.sensors import UnseenRotationError
 from colonnade.identification.response.outcome import angle_features, ending
-from colonnade.signals.quality import Flag
-from colonnade.signals.samples import stretches
-from colonnade.stages.parts.bodies import AssemblyInputs, measure, measured_variables, together
+from colonnade.stages.parts.bodies import AssemblyInputs, measure, measured_variables, misplaced, together
 from colonnade.stages.parts.transducers import (
     LEAST_NOISE,
     SeenInputs,
+    along,
     axes,
     base_motion,
-    misplaced,
+    outline,
     readings,
+    transducers,
 )
 
-if TYPE_CHECKING:
-    import xarray as xr
+PARTS = 4
+"""Of the stretch where zero is taken; how far their means are from that of the stretch is the error of the zero."""
 
-
-STRONG = 0.5
-"""Of the recorded peak; missing samples next to as much may hold a larger one."""
-
-NEARBY = 0.5
-"""s, on either side of missing samples, of motion that they may go on with; as long as they last, if that is longer."""
-
-LEAST_RISE = 0.02
-"""Of the peak; what the block cannot rise by within missing samples is not worth a word."""
+SERIOUS = 10.0
+"""Times the largest error that is not reported, from which on results are wrong."""
 
 
 class RockingInputs(SeenInputs):
@@ -62,8 +55,12 @@ class RockingInputs(SeenInputs):
     @classmethod
     def of(cls, campaign: Campaign, test: Test) -> RockingInputs:
         """Gather what `rocking` reads for one test."""
+        specimen = campaign.specimens[test.specimen]
+        block = specimen.block(campaign.gravity)
         return cls(
-            **cls.seen(campaign, test),
+            block=block,
+            outline=outline(specimen, block),
+            transducers=transducers(campaign.channels(test)),
             catch=campaign.setups[test.setup].catch,
             assembly=AssemblyInputs.of(campaign, test),
             free_vibration=test.kind == "free-vibration",
@@ -71,19 +68,19 @@ class RockingInputs(SeenInputs):
         )
 
 
-def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
+def rocking(conditioned: Dataset, inputs: RockingInputs) -> Dataset:
     """
     Turn conditioned channels into the motion of the specimen and of its base.
 
     Parameters
     ----------
-    conditioned : xr.Dataset
+    conditioned : Dataset
         Result of `condition`: channels in SI on the clock `elapsed`.
     inputs : RockingInputs
 
     Returns
     -------
-    motion : xr.Dataset
+    motion : Dataset
         `rocking_angle` (rad); where separated `slide`, `uplift`, `transverse_slide` (m), `out_of_plane_angle` and `yaw`
         (rad), each with the median of its standard error; `angle_deviation` (rad) where the error is one of history;
         `base_acceleration` (m/s²), `base_displacement` (m) and their like along y and z; `impact_time` (s), scalars of
@@ -98,8 +95,6 @@ def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
         If nothing of the test is usable, or ground-relative transducers lack the table's displacement. Transducers
         that do not see the rotation give only a warning if the base motion is known, as a prediction needs no more.
     """
-    import xarray as xr
-
     warnings: list[Finding] = []
     time = conditioned["elapsed"].to_numpy()
     base = base_motion(conditioned, inputs.transducers, warnings)
@@ -109,70 +104,76 @@ def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
         motion = _motion(conditioned, inputs, used, base, warnings) if used else None
     except UnseenRotationError as error:
         separation = f"{error} (channels {', '.join(used)})."
-        if "base_acceleration" not in base:
-            raise StageError(separation) from error
         text = f"No rocking angle is measured: {separation} Predictions continue with the base motion."
         warnings.append(warning("no rocking angle", text, follows=("channel left out", "dead channel")))
     if motion is None and "base_acceleration" not in base:
         raise StageError(
             "Neither a transducer on the specimen nor a table channel along x is usable in this test; at least one of "
-            "the two is needed. See the warnings of the earlier stages, and the set-up's channels."
+            f"the two is needed ({separation}). See the warnings of the earlier stages, and the set-up's channels."
         )
 
     bodies = None
     if inputs.assembly is not None:
-        warnings += misplaced(conditioned, inputs.assembly.markers, inputs.assembly.assembly)
+        warnings += misplaced(conditioned, inputs.assembly)
         bodies = measure(conditioned, inputs.assembly, _circumstances(time, inputs, base))
         motion = together(motion, bodies, inputs.assembly)
     variables: dict[str, Any] = {name: ("elapsed", values) for name, values in base.items()}
     acceleration = base.get("base_acceleration")
-    variables["peak_ground_acceleration"] = np.nan
-    if acceleration is not None:
-        variables["peak_ground_acceleration"] = float(np.nanmax(np.abs(acceleration)))
+    table = [conditioned[name].attrs for name in along(inputs.transducers.accelerations, 0) if name in conditioned]
+    if acceleration is not None and table:
+        # Of the mean of the accelerometers.
+        noise = float(np.linalg.norm([each["noise"] for each in table])) / len(table)
+        known = {"noise": noise, "cutoff_hz": min(each["cutoff_hz"] for each in table)}
+        variables["base_acceleration"] = "elapsed", acceleration, known
+    variables["peak_ground_acceleration"] = np.nan if acceleration is None else float(np.nanmax(np.abs(acceleration)))
+    warnings += _uncertain_zeros(conditioned, None if motion is None else motion.angle, acceleration, inputs.block)
     attributes = {"outcome": "", "separation": separation, "warnings": warnings}
     if motion is not None:
         variables |= _motion_variables(time, motion, acceleration, inputs, attributes)
         variables |= _of_transducers(conditioned, motion, used)
-        warnings += [] if inputs.free_vibration else _hidden_peak(time, motion.angle, inputs.block)
     if inputs.assembly is not None and bodies is not None:
         described, outcome = measured_variables(time, bodies, inputs.assembly, warnings)
         variables |= described
         attributes["outcome"] = outcome or attributes["outcome"]
-    return xr.Dataset(variables, coords={"elapsed": ("elapsed", time)}, attrs=attributes)
+    return dataset(variables, coords={"elapsed": ("elapsed", time)}, attrs=attributes)
 
 
-def _hidden_peak(time: Array, angle: Array, block: Block) -> list[Finding]:
-    """Report missing samples next to strong motion, in which the block has time to rise above the recorded peak."""
-    interval, size = float(time[1] - time[0]), np.abs(angle)
-    peak = float(np.nanmax(size))
-    for start, stop in zip(*stretches(np.isnan(angle)), strict=True):
-        duration = (stop - start) * interval
-        reach = max(stop - start, round(NEARBY / interval))
-        near = float(np.nanmax(size[max(start - reach, 0) : stop + reach], initial=0.0))
-        # Standing up, the block turns back with p² α.
-        rise = block.critical_angle * (block.p * duration) ** 2 / 8
-        if near >= STRONG * peak and rise > LEAST_RISE * peak and peak < block.critical_angle:
+def _uncertain_zeros(
+    conditioned: Dataset, angle: Array | None, acceleration: Array | None, block: Block
+) -> list[Finding]:
+    """Say how far a zero may be off that was taken where something moves, if that matters."""
+    if "restless_zero" not in conditioned.attrs:
+        return []
+    time, (start, stop), found = conditioned["elapsed"].to_numpy(), conditioned.attrs["restless_zero"], []
+    uplift = block.uplift_acceleration
+    for what, values, scale, of, share in (
+        ("rocking angle", angle, block.critical_angle, "the critical angle", 0.01),
+        ("base acceleration", acceleration, uplift, "the acceleration that uplifts the specimen", 0.03),
+    ):
+        if values is None:
+            continue
+        stretch = values[(time >= start) & (time <= stop) & np.isfinite(values)]
+        parts = np.array([part.mean() for part in np.array_split(stretch, PARTS) if part.size])
+        error = float(np.abs(parts - parts.mean()).max()) / scale if parts.size else 0.0
+        if error > share:
+            rest = "Record until the specimen is still" if start > time[0] else "Start recording before the motion"
             text = (
-                f"The rocking angle is missing for {duration:.3g} s from {time[start]:.4g} s on, next to motion of "
-                f"{near / block.critical_angle:.3g} α: the peak of {peak / block.critical_angle:.3g} α may be too "
-                "small. Repair the raw file, or repeat the test."
+                f"The zero of the {what} is uncertain by {error:.2g} of {of}: it moves from {start:.3g} to "
+                f"{stop:.3g} s, where zero is taken. {rest}, or give the test a `zero` where it is upright."
             )
-            return [serious("missing samples", text)]
-    return []
+            weight = serious if error > SERIOUS * share else warning
+            found.append(weight("zero", text, follows=MEASUREMENT))
+    return found
 
 
 def _motion(
-    conditioned: xr.Dataset,
+    conditioned: Dataset,
     inputs: RockingInputs,
     used: list[str],
     base: Mapping[str, Array],
     warnings: list[Finding],
 ) -> SpecimenMotion:
     known = inputs.transducers
-    missing = sorted(set(known.on_specimen) - set(used))
-    if missing:
-        text = f"The angle is only from {', '.join(used)}; {', '.join(missing)} could not be used."
-        warnings.append(warning("fewer transducers", text, follows=("channel left out", "dead channel")))
     on_ground = [name for name in used if name in known.positions and known.positions[name].on_ground]
     if on_ground and "base_displacement" not in base and not inputs.free_vibration:
         raise StageError(
@@ -191,9 +192,8 @@ def _motion(
     turning = {name for name, each in known.gyroscopes.items() if abs(each.direction[1]) > SEEN}
     left_out = [name for name, enters in zip(used, motion.entered, strict=True) if name in turning and not enters]
     if left_out:
-        several = "s" if len(left_out) > 1 else ""
         text = (
-            f"The angle is not from gyroscope{several} {', '.join(left_out)}: the displacement transducers contradict. "
+            f"The angle is not from gyroscope {', '.join(left_out)}: the displacement transducers contradict. "
             "Check gain, sign and axis (`direction`)."
         )
         warnings.append(warning("fewer transducers", text))
@@ -236,23 +236,21 @@ def _motion_variables(
     }
 
 
-def _of_transducers(conditioned: xr.Dataset, motion: SpecimenMotion, used: list[str]) -> dict[str, Any]:
+def _of_transducers(conditioned: Dataset, motion: SpecimenMotion, used: list[str]) -> dict[str, Any]:
     """
-    The angle with its low-pass, its flags and the residuals.
+    The angle and the residuals of its transducers.
 
-    Flags are the worst of its transducers, suspect if one is missing but others are there. The low-pass is that of its
-    transducers, if they share one and nothing else smoothed the angle.
+    Its `cutoff_hz` is that of all transducers that it is from, if they share one and nothing else smoothed it; the
+    `lowest_cutoff_hz` is that of any on the specimen.
     """
     entered = [name for name, counts in zip(used, motion.entered, strict=True) if counts]
-    cutoffs = {float(conditioned[name].attrs.get("cutoff_hz", np.nan)) for name in entered}
-    is_shared = not motion.is_integrated and len(cutoffs) == 1 and np.isfinite(min(cutoffs))
-    flags = np.max([conditioned[f"{name}_quality"].to_numpy() for name in entered], axis=0).astype(np.int8)
-    others = np.isfinite(motion.angle) & (flags == Flag.MISSING)
+    cutoffs = {float(conditioned[name].attrs["cutoff_hz"]) for name in entered}
+    is_shared = not motion.is_integrated and len(cutoffs) == 1
+    lowpass = {"lowest_cutoff_hz": min(conditioned[name].attrs["cutoff_hz"] for name in used)}
     moved = np.array([float(np.nanstd(conditioned[name].to_numpy())) for name in used])
     noise = np.array([max(float(conditioned[name].attrs.get("noise", 0.0)), LEAST_NOISE) for name in used])
     return {
-        "rocking_angle": ("elapsed", motion.angle, {"cutoff_hz": min(cutoffs)} if is_shared else {}),
-        "rocking_angle_quality": ("elapsed", np.where(others, np.int8(Flag.SUSPECT), flags)),
+        "rocking_angle": ("elapsed", motion.angle, lowpass | ({"cutoff_hz": min(cutoffs)} if is_shared else {})),
         "transducer": ("transducer", [str(conditioned[name].attrs.get("channel", name)) for name in used]),
         "residual_to_noise": ("transducer", motion.residual_size / noise),
         "residual_to_reading": ("transducer", motion.residual_size / np.maximum(moved, 1e-300)),

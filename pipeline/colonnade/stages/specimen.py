@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from colonnade.arrays import Dataset, dataset
 from colonnade.campaign import Campaign
-from colonnade.campaign.assembly import Whole
 from colonnade.campaign.settings import PlaneEnsembleSettings
 from colonnade.dynamics.block import Block, Sided, pair
 from colonnade.dynamics.uncertainty import Uncertainty, member_block
 from colonnade.errors import count
-from colonnade.findings import Finding, note, warning
+from colonnade.findings import Finding, warning
 from colonnade.identification.restitution.pooling import Pooled, pool
 from colonnade.identification.restitution.result import Joint
 from colonnade.store.provenance import Inputs
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 class SpecimenInputs(Inputs):
@@ -41,7 +37,6 @@ class SpecimenInputs(Inputs):
     given: Sided | None
     level: float
     known: tuple[float, float] = (0.0, 0.0)
-    is_rocked: bool = True
 
     @classmethod
     def of(cls, campaign: Campaign, specimen: str) -> SpecimenInputs:
@@ -52,17 +47,7 @@ class SpecimenInputs(Inputs):
             given=campaign.specimens[specimen].restitution,
             level=campaign.processing.restitution.level,
             known=(settings.critical_angle, settings.p),
-            is_rocked=_is_rocked(campaign, specimen),
         )
-
-
-def _is_rocked(campaign: Campaign, specimen: str) -> bool:
-    """Whether a model in the plane may move it: not if it is only a part of assemblies, or several bodies that part."""
-    wholes = [each for each in campaign.specimens.values() if isinstance(each, Whole)]
-    if campaign.specimens[specimen].is_assembly:
-        return campaign.specimens[specimen].is_in_plane
-    is_part = any(body.specimen == specimen for whole in wholes for body in whole.placed.values())
-    return not is_part or any(test.specimen == specimen for test in campaign.tests.values())
 
 
 OF_TESTS: dict[str, tuple[int, ...]] = {
@@ -77,51 +62,49 @@ JOINT = ("joint", "joint_column")
 """Their dimensions."""
 
 
-def specimen(identified: Mapping[str, xr.Dataset], inputs: SpecimenInputs) -> xr.Dataset:
+def specimen(identified: Mapping[str, Dataset], inputs: SpecimenInputs) -> Dataset:
     """
     Pool the restitution of a specimen's free vibrations.
 
     Parameters
     ----------
-    identified : mapping of str to xr.Dataset
+    identified : mapping of str to Dataset
         Results of `restitution` by test id; those that were refused carry NaN.
     inputs : SpecimenInputs
 
     Returns
     -------
-    pooled : xr.Dataset
+    pooled : Dataset
         `side_restitution` (θ < 0, θ > 0) that predictions take and `restitution`, their mean: the one given in the
         campaign file, else the identified one, else the rigid-body value; `restitution_source` says which.
     """
     return _taken(_gathered(identified), inputs)
 
 
-def taken(stored: xr.Dataset | None, inputs: SpecimenInputs) -> xr.Dataset:
+def taken(stored: Dataset | None, inputs: SpecimenInputs) -> Dataset:
     """
     Give e by the same rule for the current campaign, even if a stored result was made from an earlier one.
 
     Parameters
     ----------
-    stored : xr.Dataset or None
+    stored : Dataset or None
         An earlier result of `specimen`; what it holds of the free vibrations counts if it is of the same block.
     inputs : SpecimenInputs
 
     Returns
     -------
-    pooled : xr.Dataset
+    pooled : Dataset
         As of `specimen`.
     """
     properties = _properties(inputs.block)
-    is_complete = stored is not None and "test_method" in stored.attrs and "known" in stored
+    is_complete = stored is not None and "known" in stored
     if stored is not None and is_complete and all(float(stored[name]) == properties[name] for name in properties):
         return _taken(stored[[f"test_{name}" for name in OF_TESTS]], inputs)
     return _taken(_gathered({}).assign_attrs(refused=["the free vibrations have not been identified"]), inputs)
 
 
-def _gathered(identified: Mapping[str, xr.Dataset]) -> xr.Dataset:
+def _gathered(identified: Mapping[str, Dataset]) -> Dataset:
     """What the free vibrations that have an e say of e, α and p, and why others have none."""
-    import xarray as xr
-
     tests, refused = {}, []
     for name, result in sorted(identified.items()):
         if np.isfinite(result["restitution"]):
@@ -132,21 +115,21 @@ def _gathered(identified: Mapping[str, xr.Dataset]) -> xr.Dataset:
         name: np.array([result[name].to_numpy() for result in tests.values()]).reshape(len(tests), *shape)
         for name, shape in OF_TESTS.items()
     }
-    return xr.Dataset(
+    return dataset(
         {f"test_{name}": (("test", *JOINT)[: each.ndim], each) for name, each in values.items()},
         coords={"test_id": ("test", np.array(list(tests), dtype=object))},
         attrs={"test_method": next((each.attrs["method"] for each in tests.values()), ""), "refused": refused},
     )
 
 
-def restitution_spread(pooled: xr.Dataset, usual: float) -> tuple[float, int | None]:
+def restitution_spread(pooled: Dataset, usual: float) -> tuple[float, int | None]:
     """Give the standard deviation of e in a new test and its degrees of freedom, as of `Pooled.of_new_test`."""
     if pooled.attrs["restitution_source"] != "identified":
         return usual, None
     return pooled_of(pooled).of_new_test(usual)
 
 
-def centre(pooled: xr.Dataset, block: Block) -> Block:
+def centre(pooled: Dataset, block: Block) -> Block:
     """Return the block with the α and p that the free vibrations show; as it is where e is not identified from them."""
     if pooled.attrs["restitution_source"] != "identified":
         return block
@@ -154,13 +137,13 @@ def centre(pooled: xr.Dataset, block: Block) -> Block:
     return member_block(block, float(critical_angle), float(p))
 
 
-def spread_of(pooled: xr.Dataset, usual: PlaneEnsembleSettings) -> Uncertainty:
+def spread_of(pooled: Dataset, usual: PlaneEnsembleSettings) -> Uncertainty:
     """
     Say how well e of a new test, α and p are known together.
 
     Parameters
     ----------
-    pooled : xr.Dataset
+    pooled : Dataset
         Result of `specimen`.
     usual : PlaneEnsembleSettings
         What counts where e is not identified; then the three vary by themselves.
@@ -184,7 +167,7 @@ def spread_of(pooled: xr.Dataset, usual: PlaneEnsembleSettings) -> Uncertainty:
     )
 
 
-def pooled_of(pooled: xr.Dataset) -> Pooled:
+def pooled_of(pooled: Dataset) -> Pooled:
     """Give what the free vibrations in a result of `specimen` say of e, α and p together."""
     values, errors, means, covariances = (pooled[f"test_{name}"].to_numpy() for name in OF_TESTS)
     joints = [Joint(mean, covariance) for mean, covariance in zip(means, covariances, strict=True)]
@@ -197,13 +180,12 @@ def _properties(block: Block) -> dict[str, float]:
     return {name: getattr(block, name) for name in names} | {"rigid_restitution": block.restitution}
 
 
-def _taken(found: xr.Dataset, inputs: SpecimenInputs) -> xr.Dataset:
+def _taken(found: Dataset, inputs: SpecimenInputs) -> Dataset:
     """The rule: e as given, else as identified, else of the rigid body."""
     block, refused = inputs.block, list(found.attrs["refused"])
     found = found.assign(level=inputs.level, known=("property", np.array(inputs.known)))
     low = high = between = np.nan
-    method = reason = ""
-    warnings: list[Finding] = []
+    reason, warnings = "", list[Finding]()
     if inputs.given is not None:
         value, source, method = pair(inputs.given), "given", "given in the campaign file"
     elif tests := found.sizes["test"]:
@@ -216,34 +198,19 @@ def _taken(found: xr.Dataset, inputs: SpecimenInputs) -> xr.Dataset:
         reason = "; ".join(refused) or "no free vibration of this specimen was identified"
         beam = ", the beam counts four times in m" if block.beam_ratio else ""
         method = f"rigid body without bounce, 1 − (2 m R b/I₀) sin α (Housner 1963){beam}"
-        warnings = [_rigid(value[0], refused)] if inputs.is_rocked else []
-    described = found.assign(
-        {
-            "side_restitution": ("side", np.array(value)),
-            "restitution": float(np.mean(value)),
-            "restitution_low": low,
-            "restitution_high": high,
-            "between_test_scatter": between,
-            **_properties(block),
-        }
-    )
-    described.attrs = {
-        "restitution_source": source,
-        "method": method,
-        "reason": reason,
-        "test_method": found.attrs["test_method"],
-        "refused": refused,
-        "warnings": warnings,
+        if refused:
+            text = (
+                f"Predictions use the rigid body's e, {value[0]:.4g}, because none of its free vibrations gives one. "
+                "Give `restitution` in the campaign file if it is known."
+            )
+            warnings.append(warning("rigid-body e", text))
+    variables = {
+        "side_restitution": ("side", np.array(value)),
+        "restitution": float(np.mean(value)),
+        "restitution_low": low,
+        "restitution_high": high,
+        "between_test_scatter": between,
+        **_properties(block),
     }
-    return described
-
-
-def _rigid(restitution: float, refused: list[str]) -> Finding:
-    """Note that predictions use the e of a rigid body; a warning if free vibrations should have given it."""
-    weight = warning if refused else note
-    why = "none of its free vibrations gives one" if refused else "it has no free vibration"
-    return weight(
-        "rigid-body e",
-        f"Predictions use the rigid body's e, {restitution:.4g}, because {why}. Give `restitution` in the campaign "
-        "file if it is known.",
-    )
+    told = {"restitution_source": source, "method": method, "reason": reason, "warnings": warnings}
+    return found.assign(variables).assign_attrs(told)

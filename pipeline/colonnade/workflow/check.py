@@ -177,7 +177,7 @@ def _measure(campaign: Campaign, test: Test, recordings: dict[str, Recording], f
     ReadError, StageError
         As the stages do.
     """
-    from colonnade.stages import compare, condition, ingest, predict, restitution, rocking
+    from colonnade.stages import compare, condition, ingest, predict, rocking
     from colonnade.stages.parts.beginning import begin
 
     recorded = ingest.ingest(recordings, ingest.IngestInputs.of(campaign, test))
@@ -186,9 +186,7 @@ def _measure(campaign: Campaign, test: Test, recordings: dict[str, Recording], f
     findings += at_stage(conditioned.attrs["warnings"], "condition")
     measured = rocking.rocking(conditioned, rocking.RockingInputs.of(campaign, test))
     findings += at_stage(measured.attrs["warnings"], "rocking")
-    if test.kind == "free-vibration":
-        restitution.expect_angle(measured)
-    elif test.kind == "sine":
+    if test.kind == "sine":
         forcing = compare.forcing_of(measured)
         findings += at_stage(compare.contradictions(forcing, test.frequency, test.amplitude), "compare")
     for model in models_of(campaign, test)[:1]:  # the base motion and the start are the same for all

@@ -99,7 +99,7 @@ class Graph:
                 return self.product(result, inputs, upstream, predict.predict)
             case "ensemble":
                 inputs = ensemble.EnsembleInputs.of(campaign, test, model)
-                upstream = read("condition", "rocking", "restitution", "contact" if is_in_space else "specimen")
+                upstream = read("rocking", "restitution", "contact" if is_in_space else "specimen")
                 if is_in_space:
                     return self.product(result, inputs, upstream, _in_blocks, where=where)
                 return self.product(result, inputs, upstream, ensemble.ensemble)

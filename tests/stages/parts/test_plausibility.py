@@ -106,20 +106,14 @@ def test_a_changed_reference_makes_another_result(small_campaign):
     assert str(small_campaign.folder) not in keys[0]
 
 
-@pytest.mark.parametrize(
-    ("at_rest", "said"),
-    [(1.02, ""), (-1.0, "its sign is wrong"), (9.81, "g read as m/s²"), (0.001, "blocks constant values")],
-    ids=["right", "sign", "unit", "AC"],
-)
-def test_an_accelerometer_on_the_specimen_shows_gravity_at_rest(at_rest, said, small_campaign, free_vibration):
+@pytest.mark.parametrize("at_rest", [1.02, -1.0, 9.81, 0.001], ids=["right", "sign", "unit", "AC"])
+def test_an_accelerometer_on_the_specimen_shows_gravity_at_rest(at_rest, small_campaign, free_vibration):
     recordings, time, _, _ = free_vibration
     head = at_rest + np.random.default_rng(0).normal(0, 1e-3, time.size)
     channel = RecordedChannel("HEAD", "g", head, time)
     campaign = _with_channel(small_campaign, recordings, f'quantity = "acceleration", {ON_TOP}', channel)
     ready = conditioned(campaign, "free-01", recordings)
-    told = " ".join(map(str, ready.attrs["warnings"]))
-    assert said in told
-    assert bool(told) == bool(said)
+    assert [each.kind for each in ready.attrs["warnings"]] == ["gravity"] * (at_rest != 1.02)
     assert float(ready["further"][-200:].mean()) == pytest.approx(9.81, abs=1e-3)
     assert ready["further"].attrs["zero"] == pytest.approx(at_rest * 9.80665 - 9.81, abs=5e-3)
 

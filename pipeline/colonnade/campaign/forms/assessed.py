@@ -194,4 +194,4 @@ class AssessmentSummary(Record):
     records_left_out: tuple[RecordLeftOut, ...] = ()
     """Ground motions that could not be used."""
     notes: tuple[str, ...] = ()
-    """What else is to know of the files of the ground motions, and of the measures that are not compared."""
+    """What else is to know of the files of the ground motions."""

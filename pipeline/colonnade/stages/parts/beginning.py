@@ -3,34 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Dataset
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import StageError
-from colonnade.findings import MEASUREMENT, Finding, serious, warning
+from colonnade.findings import MEASUREMENT, Finding, warning
 from colonnade.identification.response.base_motion import LEAST_MOTION, table_moves
 from colonnade.identification.restitution.arcs import arcs_between, find_impacts
 from colonnade.store.provenance import Inputs
-from colonnade.units.text import format_percent
 
-if TYPE_CHECKING:
-    import xarray as xr
-
-LARGEST_TRANSVERSE = 0.1
-"""Of the peak along x: what the base may move across without a word, though a plane model leaves it out."""
-
-VERTICAL = "vertical motion"
-"""Kind of the findings about the motion along z."""
-
-LEAST_VERTICAL = 1e-6
-"""m/s², from lowest to highest: an accelerometer that reads less is dead."""
+LARGEST_LEFT_OUT = 0.1
+"""Of the peak along x: what a prediction may leave out of the motion along y and z without a word."""
 
 
-def base_acceleration(rocking: xr.Dataset) -> Array:
+def base_acceleration(rocking: Dataset) -> Array:
     """
     Return the acceleration of the base along x, m/s².
 
@@ -45,66 +34,40 @@ def base_acceleration(rocking: xr.Dataset) -> Array:
             'Add a channel with on = "table" and quantity = "acceleration" (or "displacement") to its set-up.'
         )
     base = rocking["base_acceleration"].to_numpy()
-    if missing := _missing(base, rocking):
+    missing = np.flatnonzero(~np.isfinite(base))
+    if missing.size:
         raise StageError(
-            f"The base acceleration is missing {missing}; all of them were expected. Give the test a `window` without "
-            "them, or repair the channel."
+            f"The base acceleration is missing {missing.size} of {base.size} samples, the first at "
+            f"{float(rocking['elapsed'][missing[0]]):.3f} s; all of them were expected. Give the test a `window` "
+            "without them, or repair the channel."
         )
     return base
 
 
-def _missing(values: Array, rocking: xr.Dataset) -> str:
-    """Say how many samples miss, and the first; empty if none does."""
-    finite = np.isfinite(values)
-    if finite.all():
-        return ""
-    where = float(rocking["elapsed"][int(np.argmin(finite))])
-    return f"{int((~finite).sum())} of {values.size} samples, the first at {where:.3f} s"
-
-
-def vertical_acceleration(rocking: xr.Dataset, *, gravity: float, expected: bool) -> tuple[Array | None, list[Finding]]:
+def other_axes(
+    rocking: Dataset, base: Array, *, gravity: float, is_in_space: bool
+) -> tuple[Array | None, Array | None, list[Finding]]:
     """
-    Return the acceleration of the base along z, m/s² upwards, as far as a prediction can take it, and why it is None.
+    Return what a prediction takes of the base's acceleration along y and z, m/s², and say what it leaves out.
 
-    It is None if it is not known throughout, or lets go of the specimen; without a channel there is nothing to say
-    unless the set-up has one, so that it was `expected`.
+    Only a model in space takes that along y; one that misses samples, or along z lets go of the specimen, is left out.
     """
-    weight = warning
-    if "vertical_base_acceleration" not in rocking:
-        reason = "No channel of the table's vertical acceleration is usable" if expected else ""
-    else:
-        vertical = rocking["vertical_base_acceleration"].to_numpy()
-        if missing := _missing(vertical, rocking):
-            reason = f"The vertical acceleration of the base is missing {missing}"
-        elif np.ptp(vertical) < LEAST_VERTICAL:
-            reason = "The table's vertical accelerometer is dead (no noise at all)"
-        elif vertical.min() <= -gravity:
-            weight, where = serious, float(rocking["elapsed"][int(vertical.argmin())])
-            reason = (
-                f"The vertical acceleration of the base reaches {vertical.min():.4g} m/s² at {where:.3f} s, so the "
-                "specimen would leave the table (check its gain, direction and zero)"
+    taken: dict[str, Array] = {}
+    warnings: list[Finding] = []
+    for axis, name in (("y", "transverse_base_acceleration"), ("z", "vertical_base_acceleration")):
+        values = rocking[name].to_numpy() if name in rocking else np.zeros(1)
+        peak, along = float(np.nanmax(np.abs(values), initial=0.0)), float(np.abs(base).max())
+        if name in rocking and np.isfinite(values).all() and (is_in_space if axis == "y" else values.min() > -gravity):
+            taken[axis] = values
+        elif peak > LARGEST_LEFT_OUT * along:
+            text = (
+                f"The base also moved along {axis}, by up to {peak:.3g} m/s² ({along:.3g} m/s² along x). That is left "
+                "out: models in the plane take none along y, and no model one that misses samples or would lift the "
+                "specimen off the table (check gain, direction and zero)."
             )
-        else:
-            return vertical, []
-    follows = (*MEASUREMENT, "lost samples", "missing samples")
-    return None, [weight(VERTICAL, f"{reason}: predicted without it.", follows=follows)] if reason else []
-
-
-def transverse_acceleration(rocking: xr.Dataset) -> Array | None:
-    """Return the acceleration of the base along y, m/s², for a model in space; None if samples miss."""
-    across = rocking.get("transverse_base_acceleration")
-    return None if across is None or not np.isfinite(across).all() else across.to_numpy()
-
-
-def left_out(rocking: xr.Dataset, base: Array) -> list[Finding]:
-    """Say that the motion along y is left out of the plane models, if it is not small compared with that along x."""
-    across = rocking.get("transverse_base_acceleration", np.zeros(1))
-    peak, along = float(np.nanmax(np.abs(across), initial=0.0)), float(np.abs(base).max(initial=0.0))
-    if peak <= LARGEST_TRANSVERSE * along:
-        return []
-    share = f"{format_percent(peak / along)} of that along x" if along > 0.0 else "and none along x"
-    text = f"The base also moved along y, by up to {peak:.3g} m/s², {share}: the plane models ignore it."
-    return [warning("motion across", text, follows=MEASUREMENT)]
+            follows = (*MEASUREMENT, "lost samples", "missing samples")
+            warnings.append(warning("motion left out", text, follows=follows))
+    return taken.get("y"), taken.get("z"), warnings
 
 
 RECORDED = "the recorded motion of the base"
@@ -125,8 +88,6 @@ class BeginningInputs(Inputs):
     free_vibration : bool
     tilt : float
         The table's rotation about +y, rad: with it gravity pulls towards +x.
-    has_vertical : bool
-        The set-up has an accelerometer of the table along z.
     is_in_space : bool
         Whether the model also moves across the plane.
     """
@@ -134,7 +95,6 @@ class BeginningInputs(Inputs):
     block: Block
     free_vibration: bool
     tilt: float = 0.0
-    has_vertical: bool = False
     is_in_space: bool = False
 
 
@@ -176,17 +136,17 @@ class Beginning:
 
 
 def begin(
-    rocking: xr.Dataset, inputs: BeginningInputs, identified: xr.Dataset | None = None, block: Block | None = None
+    rocking: Dataset, inputs: BeginningInputs, identified: Dataset | None = None, block: Block | None = None
 ) -> Beginning:
     """
     Find where a prediction begins and what it is driven by.
 
     Parameters
     ----------
-    rocking : xr.Dataset
+    rocking : Dataset
         Result of `rocking`.
     inputs : BeginningInputs
-    identified : xr.Dataset, optional
+    identified : Dataset, optional
         Result of `restitution`, of a free vibration: zero and scale of its angle.
     block : Block, optional
         That predictions move, with the α of all free vibrations; default: that of the inputs.
@@ -212,11 +172,8 @@ def begin(
         first, peak, since = _start(rocking, block, **zero)
         driven_by = _drives_free_vibration(rocking, block, identified)
     if driven_by == RECORDED:
-        base = base_acceleration(rocking)
-        vertical, warnings = vertical_acceleration(rocking, gravity=block.gravity, expected=inputs.has_vertical)
-        transverse = transverse_acceleration(rocking) if inputs.is_in_space else None
-        if transverse is None:
-            warnings += left_out(rocking, base)
+        base, in_space = base_acceleration(rocking), inputs.is_in_space
+        transverse, vertical, warnings = other_axes(rocking, base, gravity=block.gravity, is_in_space=in_space)
     else:
         base, vertical, transverse, warnings = np.zeros_like(time), None, None, []
     # On a tilted table a part of gravity acts along x, as a base acceleration the other way would.
@@ -227,7 +184,7 @@ def begin(
     return Beginning(first, theta0, omega0, base, motion, driven_by, **zero, warnings=warnings)
 
 
-def _drives_free_vibration(rocking: xr.Dataset, block: Block, identified: xr.Dataset | None) -> str:
+def _drives_free_vibration(rocking: Dataset, block: Block, identified: Dataset | None) -> str:
     if "base_acceleration" not in rocking:
         return NOT_RECORDED
     if decided := "" if identified is None else identified.attrs.get("table_moves", ""):
@@ -247,7 +204,7 @@ def _fallen(peak: float, since: float, base: float, block: Block) -> tuple[float
     return float(peak + acceleration * since**2 / 2), float(acceleration * since)
 
 
-def _start(rocking: xr.Dataset, block: Block, zero_offset: float, angle_gain: float) -> tuple[int, float, float]:
+def _start(rocking: Dataset, block: Block, zero_offset: float, angle_gain: float) -> tuple[int, float, float]:
     """Find the first peak between two impacts: next sample, angle (rad), time to the sample (s)."""
     if "rocking_angle" not in rocking:
         raise StageError("A free vibration without a measured angle has no release to start a prediction from.")

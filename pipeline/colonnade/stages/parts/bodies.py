@@ -3,43 +3,36 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Dataset
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.assembly import Whole
 from colonnade.dynamics.assembly import Assembly, as_one, is_frame, standing_on
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import rotation_matrices
+from colonnade.dynamics.contact.history import AssemblyHistory
 from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.kinematics import pole_displacement, pole_position, rotation_matrix
 from colonnade.errors import count
-from colonnade.findings import Finding, warning
+from colonnade.findings import Finding, serious, warning
 from colonnade.identification.fusion.motion import Circumstances, specimen_motion
 from colonnade.identification.fusion.pose import SpecimenMotion
 from colonnade.identification.fusion.sensors import Readings, Transducer, UnseenRotationError
 from colonnade.identification.response.outcome import angle_features
 from colonnade.stages.parts.beginning import Beginning
-from colonnade.stages.parts.transducers import MarkerInputs, SeenInputs, markers_of, outline, readings, transducers
+from colonnade.stages.parts.transducers import SeenInputs, outline, readings, transducers
 from colonnade.store.description import variable_name
 from colonnade.store.provenance import Inputs
+from colonnade.units.text import with_minus
 
-if TYPE_CHECKING:
-    import xarray as xr
+MOTIONS = ("slide", "transverse_slide", "uplift", "out_of_plane_angle", "yaw")
+"""What is known of a body over time beside its angle, as `body_…`."""
 
-    from colonnade.dynamics.contact.history import AssemblyHistory
-
-MOTIONS = {
-    "angle": "rocking_angle",
-    "slide": "slide",
-    "transverse_slide": "transverse_slide",
-    "uplift": "uplift",
-    "out_of_plane_angle": "out_of_plane_angle",
-    "yaw": "yaw",
-}
-"""What is known of a body over time, as `body_…`, and its name in a fitted motion."""
+AXES = ("x", "y", "z")
+"""Of a marker `ID`, in the names of its channels `ID_x`, `ID_y` and `ID_z`."""
 
 OUTCOMES = ("overturned", "rocking", "no-rocking")
 """The worst first."""
@@ -70,7 +63,6 @@ class AssemblyInputs(Inputs):
 
     assembly: Assembly
     bodies: dict[str, BodyInputs]
-    markers: dict[str, MarkerInputs]
     rest_duration: float
 
     @classmethod
@@ -98,9 +90,51 @@ class AssemblyInputs(Inputs):
                     if each.relative_to is not None and each.relative_to in assembly.bodies
                 },
             )
-        markers = markers_of(setup.markers, setup.tracking, test.files)
-        rest = campaign.processing.rest_duration
-        return cls(assembly=assembly, bodies=bodies, markers=markers, rest_duration=rest)
+        return cls(assembly=assembly, bodies=bodies, rest_duration=campaign.processing.rest_duration)
+
+
+FEWEST = 4
+"""Markers with which the places of all are compared."""
+
+MISPLACED = 0.01
+"""m, by which a marker may be off its place at rest, relative to the others."""
+
+MOST_SAID = 9
+"""Markers that one finding names."""
+
+
+def misplaced(conditioned: Dataset, inputs: AssemblyInputs) -> list[Finding]:
+    """
+    Find markers that are not, at rest, where their `on` and `at` put them relative to each other.
+
+    Where the cameras have their origin is not known: the median over all markers is taken for it.
+    """
+    names, off = [], []
+    for body, known in inputs.bodies.items():
+        placed, seen = inputs.assembly.bodies[body], dict[str, list[tuple[Transducer, float]]]()
+        for variable, sensor in known.transducers.positions.items():
+            marker, _, axis = variable.rpartition("_")
+            if axis in AXES and variable in conditioned and "zero" in conditioned[variable].attrs:
+                seen.setdefault(marker, []).append((sensor, float(conditioned[variable].attrs["zero"])))
+        for marker, coordinates in seen.items():
+            if len(coordinates) == len(AXES):
+                # What was taken off each channel at rest, along the axes of the table.
+                where = sum(zero * np.array(sensor.direction) for sensor, zero in coordinates)
+                names.append(f"{marker} on body {body}")
+                off.append(where - np.append(placed.position, inputs.assembly.levels[body]) - coordinates[0][0].at)
+    if len(names) < FEWEST:
+        return []
+    away = np.array(off) - np.median(off, axis=0)
+    wrong = np.flatnonzero(np.linalg.norm(away, axis=1) > MISPLACED)
+    said = []
+    for each in wrong[:MOST_SAID]:
+        x, y, z = (with_minus(str(round(1e3 * value))) for value in away[each].tolist())
+        said.append(f"{names[each]} by {x}, {y} and {z} mm along x, y and z")
+    text = (
+        f"At rest {wrong.size} of {len(names)} markers are off the places that `on` and `at` give: {'; '.join(said)}. "
+        "Check their columns, `on` and `at`, the heights of the bodies, and the axes and the unit of the tracking."
+    )
+    return [serious("geometry", text)] if said else []
 
 
 @dataclass(frozen=True)
@@ -121,7 +155,7 @@ class Measured:
     reasons: dict[str, str]
 
 
-def measure(conditioned: xr.Dataset, inputs: AssemblyInputs, test: Circumstances) -> Measured:
+def measure(conditioned: Dataset, inputs: AssemblyInputs, test: Circumstances) -> Measured:
     """Fuse what is on each body into its motion relative to the table."""
     found = Measured({}, {}, {})
     for name, body in inputs.bodies.items():
@@ -179,7 +213,7 @@ def together(motion: SpecimenMotion | None, found: Measured, inputs: AssemblyInp
 def _from_the_table(
     positions: Readings[Transducer],
     name: str,
-    conditioned: xr.Dataset,
+    conditioned: Dataset,
     inputs: AssemblyInputs,
     found: Measured,
 ) -> Readings[Transducer]:
@@ -230,32 +264,23 @@ def measured_variables(
 
 
 def _measured_row(name: str, time: Array, found: Measured, inputs: AssemblyInputs) -> dict[str, Any]:
-    """What was measured of one body; NaN where nothing was."""
-    unknown = np.full(time.size, np.nan)
+    """What was measured of one body."""
     motion, body = found.motions.get(name), inputs.bodies[name]
-    values, errors = ({}, {}) if motion is None else (motion.values, motion.standard_error)
-    row: dict[str, Any] = {key: values.get(each, unknown) for key, each in MOTIONS.items()}
-    row |= {f"{key}_standard_error": _median(errors.get(each)) for key, each in MOTIONS.items()}
-    row |= dict.fromkeys(("joint_angle", "joint_slide", "joint_yaw"), unknown)
-    row |= dict.fromkeys(("peak_ratio", "opening", "opening_time", "residual_x", "residual_y", "residual_yaw"), np.nan)
-    row |= {"outcome": "", "separation": f"not measured: {found.reasons.get(name, '')}"}
     if motion is None:
-        return row
-    row["separation"] = motion.separation
+        return {"outcome": "", "separation": f"not measured: {found.reasons[name]}"}
+    values, error = motion.values, float(np.nanmedian(motion.standard_error["rocking_angle"]))
+    row: dict[str, Any] = {key: values[key] for key in MOTIONS if key in values}
+    row |= {"angle": values["rocking_angle"], "outcome": "", "separation": motion.separation}
     turned, centre = found.placed[name]
-    joint_turned, joint_moved, error = turned, centre, row["angle_standard_error"]
+    joint_turned = turned
     for below in inputs.assembly.bodies[name].on[:1]:
         if below not in found.motions:
             row["separation"] += f"; not relative to {below}: {found.reasons[below]}"
             return row
-        support, moved = found.placed[below]
-        arm = _apart(inputs.assembly, name, below)[:, None]
-        joint_turned = np.einsum("jin,jkn->ikn", support, turned)
-        joint_moved = np.einsum("jin,jn->in", support, arm + centre - moved) - arm
-        error = float(np.hypot(error, _median(found.motions[below].standard_error["rocking_angle"])))
+        joint_turned = np.einsum("jin,jkn->ikn", found.placed[below][0], turned)
+        error = float(np.hypot(error, np.nanmedian(found.motions[below].standard_error["rocking_angle"])))
     angle = np.arctan2(-joint_turned[2, 0], joint_turned[2, 2])
     half_width = body.block.governing.half_width
-    swung = np.copysign(half_width, angle) * (joint_turned[0, 0] - 1.0)
     # The base, or the top below where that is narrower.
     tops = [inputs.bodies[below].block.solid for below in inputs.assembly.bodies[name].on]
     narrower = min([half_width, *(solid.top[0] for solid in tops if solid is not None)])
@@ -269,17 +294,11 @@ def _measured_row(name: str, time: Array, found: Measured, inputs: AssemblyInput
             row[f"residual_{axis}"] = float(np.nanmean(moved[at_end]))
     return row | {
         "joint_angle": angle,
-        "joint_slide": joint_moved[0] + swung if "slide" in values else unknown,
-        "joint_yaw": np.arctan2(-joint_turned[0, 1], joint_turned[1, 1]) if "yaw" in values else unknown,
         "outcome": seen.verdict.outcome,
         "peak_ratio": seen.peak_ratio,
         "opening": 2 * narrower * float(np.nanmax(np.abs(angle))),
         "opening_time": float(time[opened[0]]) if opened.size else np.nan,
     }
-
-
-def _median(errors: Array | None) -> float:
-    return float(np.nanmedian(errors)) if errors is not None and np.isfinite(errors).any() else np.nan
 
 
 def predicted_variables(history: AssemblyHistory, beginning: Beginning, inputs: AssemblyInputs) -> dict[str, Any]:
@@ -296,13 +315,10 @@ def predicted_variables(history: AssemblyHistory, beginning: Beginning, inputs: 
         over_time = {
             "angle": body.angle,
             "slide": body.slide[:, 0],
-            "transverse_slide": centre[1],
             "uplift": body.uplift,
             "out_of_plane_angle": body.out_of_plane_angle,
             "yaw": body.yaw,
             "joint_angle": joint.angle,
-            "joint_slide": joint.slide[:, 0],
-            "joint_yaw": joint.yaw,
         }
         rows.append(
             {key: beginning.padded(each) for key, each in over_time.items()}
@@ -318,12 +334,11 @@ def predicted_variables(history: AssemblyHistory, beginning: Beginning, inputs: 
 
 
 def _table(names: list[str], rows: list[dict[str, Any]]) -> dict[str, Any]:
-    """Variables on the dimension of bodies, from what is known of each."""
+    """Variables on the dimension of bodies, from what is known of each; NaN or empty where another is not known."""
     variables: dict[str, Any] = {"body": ("body", np.array(names, dtype=object))}
-    for key, first in rows[0].items():
-        values = [row[key] for row in rows]
-        if isinstance(first, str):
-            variables[f"body_{key}"] = ("body", np.array(values, dtype=object))
-        else:
-            variables[f"body_{key}"] = (("body", "elapsed") if np.ndim(first) else "body", np.array(values))
+    for key in dict.fromkeys(key for row in rows for key in row):
+        known = next(row[key] for row in rows if key in row)
+        missing = "" if isinstance(known, str) else np.full(np.shape(known), np.nan)
+        values = np.array([row.get(key, missing) for row in rows], dtype=object if isinstance(known, str) else float)
+        variables[f"body_{key}"] = ("body", "elapsed")[: values.ndim], values
     return variables

@@ -4,52 +4,46 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colonnade.arrays import Array, Vector
-from colonnade.campaign import Campaign, Test
-from colonnade.dynamics.kinematics import Pose
+from colonnade.arrays import Array, Dataset, Vector
+from colonnade.campaign import Channel
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.kinematics import Outline, Pose
 from colonnade.findings import Finding
-from colonnade.identification.fusion.sensors import predict
+from colonnade.identification.fusion.sensors import Transducer, predict
 from colonnade.identification.plausibility import table_motion
 from colonnade.identification.plausibility.table_motion import TableChannel
 from colonnade.identification.plausibility.transducers import (
     ANGLES,
     Gauge,
     Rotation,
-    lever,
     suspicions,
 )
 from colonnade.signals.named_motion import Series, check_motion
 from colonnade.signals.quality import Flag
-from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load, reference_files
-from colonnade.stages.parts.transducers import SeenInputs, along
-from colonnade.stages.parts.zeroing import Effect
-from colonnade.store.description import variable_name
-
-if TYPE_CHECKING:
-    import xarray as xr
+from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load
+from colonnade.stages.parts.transducers import along, transducers
+from colonnade.store.provenance import Inputs
 
 LEAST_LEVER = 0.02
 """Of the longest lever of a set-up; a transducer of a shorter one hardly sees the rotation."""
-
-HALF_LEVER = 0.5
-"""Of the longest lever of a set-up; transducers with shorter ones hardly affect its zero, as the others weigh more."""
 
 PEAKS = 0.8
 """Of the largest value, above which samples are its peaks."""
 
 
-class PlausibilityInputs(SeenInputs):
+class PlausibilityInputs(Inputs):
     """
     What is known of a test's channels and of the motion that its table was to make.
 
     Attributes
     ----------
-    gains : dict of str to float
-        SI value of one recorded unit, of the displacement transducers and inclinometers on the specimen.
+    block : Block
+    outline : Outline
+    channels : dict of str to Channel
+        By channel id.
     motion : str or None
         The motion's name.
     time_scale : float or None
@@ -57,36 +51,25 @@ class PlausibilityInputs(SeenInputs):
         Reference motions by name; empty if the test names no motion.
     """
 
-    gains: dict[str, float]
+    block: Block
+    outline: Outline
+    channels: dict[str, Channel]
     motion: str | None
     time_scale: float | None
     references: dict[str, ReferenceMotionFile]
 
-    @classmethod
-    def of(cls, campaign: Campaign, test: Test) -> PlausibilityInputs:
-        """Gather what the channels of one test are compared with."""
-        seen = cls.seen(campaign, test)
-        gains = {variable_name(name): channel.factor for name, channel in campaign.channels(test).items()}
-        return cls(
-            **seen,
-            gains={name: gains[name] for name in seen["transducers"].positions},
-            motion=test.motion,
-            time_scale=test.time_scale,
-            references=reference_files(campaign) if test.motion else {},
-        )
 
-
-def doubts(conditioned: xr.Dataset, inputs: PlausibilityInputs) -> list[Finding]:
+def doubts(conditioned: Dataset, inputs: PlausibilityInputs) -> list[Finding]:
     """Say which of a test's channels, zeroed on the clock `elapsed`, cannot be right, with the probable cause."""
     time = conditioned["elapsed"].to_numpy()
     interval = float(time[1] - time[0])
-    displacements = _along_x(conditioned, inputs.transducers.displacements)
+    known = transducers(inputs.channels)
+    accelerations, displacements = (_along_x(conditioned, each) for each in (known.accelerations, known.displacements))
     moved = displacements[0].values if displacements else None
-    accelerations = _along_x(conditioned, inputs.transducers.accelerations)
     shaken = accelerations or [
         each._replace(values=table_motion.derived(interval, each.values)) for each in displacements
     ]
-    rotation = _rotation(conditioned, inputs, moved, shaken[0].values if shaken else None)
+    rotation = _rotation(conditioned, known.positions, inputs, moved, shaken[0].values if shaken else None)
     beside = displacements if accelerations else []
     found = table_motion.table_doubts(shaken, beside, rotation, interval) if shaken else []
     if rotation is not None and not any(each.kind in table_motion.MISPLACED for each in found):
@@ -96,32 +79,7 @@ def doubts(conditioned: xr.Dataset, inputs: PlausibilityInputs) -> list[Finding]
     return [replace(each, text=f"{each.text[0].upper()}{each.text[1:]}.") for each in found]
 
 
-def zero_effects(inputs: PlausibilityInputs) -> dict[str, Effect]:
-    """What an error of a channel's zero does to the rocking angle or the base acceleration, by variable."""
-    block = inputs.block
-    levers = {name: abs(lever(response)) for name, response in _responses(inputs).items()}
-    longest = np.nanmax([*levers.values()], initial=0.0)
-    effects = {
-        name: Effect("rocking angle", 1 / length, "rad", block.critical_angle, "the critical angle", 0.01)
-        for name, length in levers.items()
-        if length >= HALF_LEVER * longest > 0
-    }
-    uplift = block.uplift_acceleration, "the acceleration that uplifts the specimen", 0.03
-    for name, part in along(inputs.transducers.accelerations, 0).items():
-        effects[name] = Effect("base acceleration", 1 / abs(part), "m/s²", *uplift)
-    return effects
-
-
-def _responses(inputs: PlausibilityInputs) -> dict[str, Array]:
-    """What each displacement transducer and inclinometer on the specimen reads at `ANGLES`, by variable."""
-    sides, positions = [], inputs.transducers.positions
-    for side, angles in ((-1.0, ANGLES[ANGLES < 0]), (1.0, ANGLES[ANGLES >= 0])):
-        pose = Pose(angles, *[np.zeros_like(angles)] * 5)
-        sides.append(predict([*positions.values()], pose, side, inputs.block, inputs.outline)[0])
-    return dict(zip(positions, np.concatenate(sides, axis=-1), strict=True))
-
-
-def _along_x(conditioned: xr.Dataset, channels: Mapping[str, Vector]) -> list[TableChannel]:
+def _along_x(conditioned: Dataset, channels: Mapping[str, Vector]) -> list[TableChannel]:
     found = []
     for name, part in along(channels, 0).items():
         if name in conditioned:
@@ -135,18 +93,24 @@ def _along_x(conditioned: xr.Dataset, channels: Mapping[str, Vector]) -> list[Ta
 
 
 def _rotation(
-    conditioned: xr.Dataset, inputs: PlausibilityInputs, moved: Array | None, acceleration: Array | None
+    conditioned: Dataset,
+    positions: Mapping[str, Transducer],
+    inputs: PlausibilityInputs,
+    moved: Array | None,
+    acceleration: Array | None,
 ) -> Rotation | None:
     """
     Readings of the transducers that see the rotation, relative to the table; None if no transducer does.
 
     `moved` is the displacement of the table along x, m.
     """
-    gauges, cutoffs = [], []
-    for name, response in _responses(inputs).items():
-        if name not in conditioned:
-            continue
-        known, given = inputs.transducers.positions[name], conditioned[name].attrs
+    sides, gauges, cutoffs = [], [], []
+    used = {name: each for name, each in positions.items() if name in conditioned}
+    for side, angles in ((-1.0, ANGLES[ANGLES < 0]), (1.0, ANGLES[ANGLES >= 0])):
+        pose = Pose(angles, *[np.zeros_like(angles)] * 5)
+        sides.append(predict([*used.values()], pose, side, inputs.block, inputs.outline)[0])
+    for (name, known), response in zip(used.items(), np.concatenate(sides, axis=-1), strict=True):
+        given = conditioned[name].attrs
         cutoffs.append(float(given.get("cutoff_hz", np.inf)))
         reading = conditioned[name].to_numpy()
         if known.on_ground and moved is not None:
@@ -154,7 +118,8 @@ def _rotation(
         if np.isfinite(response).all():
             quantity = "angle" if known.sensing == "angle" else "displacement"
             noise = float(given.get("noise", 0.0))
-            gauges.append(Gauge(given["channel"], reading, response, noise, inputs.gains[name], quantity))
+            factor = inputs.channels[given["channel"]].factor
+            gauges.append(Gauge(given["channel"], reading, response, noise, factor, quantity))
     # Inclinometers have levers of one, displacements those in m.
     longest = max((abs(each.lever) for each in gauges if each.quantity == "displacement"), default=0.0)
     useful = [each for each in gauges if abs(each.lever) > LEAST_LEVER * (1.0 if each.quantity == "angle" else longest)]

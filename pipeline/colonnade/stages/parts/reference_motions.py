@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import functools
-import hashlib
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
-from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from colonnade.campaign import Campaign
+from colonnade.campaign.test import ReferenceMotion
 from colonnade.errors import ReadError
 from colonnade.findings import Finding, warning
 from colonnade.readers.files import sha256_of
 from colonnade.readers.motion import EL_CENTRO, el_centro, is_installed
-from colonnade.readers.registry import companions
 from colonnade.signals.named_motion import Series
 
 
@@ -25,34 +23,27 @@ class ReferenceMotionFile(BaseModel):
 
     Attributes
     ----------
-    path : Path or None
-        Its file; None for El Centro of the installed package. No part of what a result is made from: the digest is.
-    digest : str
-        SHA-256 of the file; empty if it cannot be read.
-    interval : float or None
-        s.
-    column : str, int or None
-    layout : str or None
-        Whether columns are channels or numbers run on, if given.
+    given : ReferenceMotion or None
+        As the campaign file gives it, None for El Centro of the installed package. No part of what a result is made
+        from: the content is.
+    content : str
+        SHA-256 of the file, empty if it cannot be read, and how it is read.
     """
 
     model_config = ConfigDict(frozen=True)
 
-    path: Path | None = Field(exclude=True)
-    digest: str
-    interval: float | None = None
-    column: str | int | None = None
-    layout: Literal["columns", "running"] | None = None
+    given: ReferenceMotion | None = Field(exclude=True)
+    content: str
 
 
 def reference_files(campaign: Campaign) -> dict[str, ReferenceMotionFile]:
     """Reference motions of a campaign, by name."""
     found = {
-        name: ReferenceMotionFile(path=each.file, digest=_digest(each.file), **each.model_dump(exclude={"file"}))
+        name: ReferenceMotionFile(given=each, content=f"{_digest(each.file)} {each.model_dump_json(exclude={'file'})}")
         for name, each in campaign.motions.items()
     }
     if EL_CENTRO not in found and is_installed():
-        found[EL_CENTRO] = ReferenceMotionFile(path=None, digest="")
+        found[EL_CENTRO] = ReferenceMotionFile(given=None, content=EL_CENTRO)
     return found
 
 
@@ -63,12 +54,12 @@ def load(known: Mapping[str, ReferenceMotionFile], warnings: list[Finding]) -> d
     loaded = {}
     for name, source in known.items():
         try:
-            if source.path is None:
+            given = source.given
+            if given is None:
                 motion = el_centro()
             else:
-                motion = read_motion(
-                    source.path, unit="m/s^2", dt=source.interval, column=source.column, layout=source.layout
-                )
+                how = given.model_dump(include={"column", "layout"})
+                motion = read_motion(given.file, unit="m/s^2", dt=given.interval, **how)
         except ReadError as error:
             warnings.append(warning("reference motion", f'The reference motion "{name}" cannot be used: {error}'))
             continue
@@ -77,24 +68,14 @@ def load(known: Mapping[str, ReferenceMotionFile], warnings: list[Finding]) -> d
 
 
 def _digest(path: Path) -> str:
-    """SHA-256 of a file, or of all its companion files together; empty if it cannot be read."""
-    own, others = _now(path)
-    digests = [own, *(_now(each)[0] for each in others)]
-    return own if len(digests) == 1 else hashlib.sha256(" ".join(digests).encode()).hexdigest()
-
-
-def _now(path: Path) -> tuple[str, tuple[Path, ...]]:
+    """SHA-256 of a file; empty if it cannot be read."""
     try:
         status = path.stat()
     except OSError:
-        return "", ()
+        return ""
     return _known(path, status.st_size, status.st_mtime_ns)
 
 
-@functools.lru_cache(maxsize=64)
-def _known(path: Path, size: int, changed: int) -> tuple[str, tuple[Path, ...]]:
-    """SHA-256 of a file, and the other files that it is in; none if they cannot be found, as reading it then says."""
-    try:
-        return sha256_of(path) or "", companions(path)
-    except ReadError:
-        return sha256_of(path) or "", ()
+@lru_cache(maxsize=64)
+def _known(path: Path, size: int, changed: int) -> str:
+    return sha256_of(path) or ""
