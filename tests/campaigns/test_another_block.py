@@ -6,6 +6,7 @@ offset, decimal commas, a free vibration that starts tilted, and a test in which
 import json
 from functools import partial
 
+import numpy as np
 import pytest
 
 from colonnade.campaign.channel import MAIN
@@ -98,9 +99,10 @@ def test_the_angle_is_the_true_one_within_half_a_percent(stone, name):
     assert stone.angle_error(name, STONE.critical_angle) < 5e-3
 
 
-def test_the_overturning_is_timed(truth, stone):
-    found = float(stone.result("falls", "rocking")["overturning_time"])
-    assert found == pytest.approx(truth["falls"]["overturning_time"], abs=0.02)
+def test_the_overturning_is_timed(stone):
+    time, angle = np.loadtxt(stone.folder / "truth" / "falls.csv", delimiter=",", skiprows=1).T
+    passed = float(time[np.flatnonzero(np.abs(angle) <= STONE.critical_angle)[-1]])
+    assert float(stone.result("falls", "rocking")["overturning_time"]) == pytest.approx(passed, abs=0.02)
     assert stone.test("falls")["peak_ratio"] is None
 
 

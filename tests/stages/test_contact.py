@@ -14,7 +14,7 @@ from colonnade.dynamics.contact.calibration import TOLERANCE, VELOCITY_RATIO, fr
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.errors import StageError
 from colonnade.identification.restitution.identify import identify_restitution
-from colonnade.report.specimens_page import _contact
+from colonnade.report.specimens_page import law_facts
 from colonnade.stages import contact as calibrating
 from colonnade.stages import ensemble as running
 from colonnade.store.records.stored import Stored
@@ -87,7 +87,7 @@ def test_mass_weight_and_radius_of_each_ring_are_stored_and_shown():
     np.testing.assert_allclose(stored["ring_radius"], 0.0485 * np.arange(1, 5) / 4)
     assert float(stored["node_mass"].sum()) == pytest.approx(26.30)
     assert float(stored["node_weight"].sum()) == pytest.approx(26.30 * CYLINDER.gravity)
-    shown = dict(_contact(Stored({("contact", None): stored})))
+    shown = dict(law_facts(Stored({("contact", None): stored})))
     assert shown["body"] == "rigid, round base, 4 whole rings"
     assert shown["base nodes"].startswith("4 rings of radius 12.1 to 48.5 mm, ")
 
