@@ -15,10 +15,8 @@ from colonnade.identification.calibration import coverage
 from colonnade.identification.forecasts import Forecast, Response, base_rates, forecast_of_peaks, score, skill
 from colonnade.units.text import format_percent, number, quantity
 
-FORESEEN = (
-    *("no rocking", "rocking", "overturned"),
-    *("50 % of max |θ|/α", "80 % of max |θ|/α", "95 % of max |θ|/α", "friction needed"),
-)
+BANDS = [f"{share} % of max |θ|/α" for share in (50, 80, 95)]
+FORESEEN = ("no rocking", "rocking", "overturned", *BANDS, "friction needed")
 """What `shown_model` writes."""
 
 

@@ -197,9 +197,7 @@ def _peak_band(stored: Stored, model: str) -> tuple[float, float]:
 
 
 def _order(text: str) -> Order:
-    if not text:
-        return None
-    return "irregular" if text == "irregular" else int(text)
+    return int(text) if text.isdigit() else "irregular" if text else None
 
 
 def _identified(stored: Stored) -> IdentifiedSummary:
@@ -262,8 +260,7 @@ def of_block(block: Block) -> dict[str, float]:
 def specimen_prototype(campaign: Campaign, name: str) -> SpecimenPrototype | None:
     """Return a specimen at prototype scale, None if its scale is not given."""
     specimen, block = campaign.specimens[name], campaign.block(name)
-    scale = specimen.scale
-    if scale is None:
+    if (scale := specimen.scale) is None:
         return None
     return SpecimenPrototype(
         scale=scale,

@@ -248,11 +248,9 @@ def _said(model: str, tests: Mapping[str, Mapping[str, Any]]) -> str:
         )
     ranks = (each["within_spread"] for each in predicted.values())
     judged = [within for rank in ranks if (within := is_within(nan if rank is None else rank)) is not None]
-    if judged:
-        verb = "is" if judged.count(True) == 1 else "are"
-        parts.append(f"{judged.count(True)} of {count(len(judged), 'misfit')} {verb} within its own spread.")
-    else:
-        parts.append("Its own spread was not computed.")
+    verb = "is" if judged.count(True) == 1 else "are"
+    within = f"{judged.count(True)} of {count(len(judged), 'misfit')} {verb} within its own spread."
+    parts.append(within if judged else "Its own spread was not computed.")
     return " ".join(parts)
 
 
