@@ -134,7 +134,7 @@ def test_every_missing_file_and_column_is_told_with_the_nearest_name(colonnade, 
     assert told.returncode == 1
     assert "free-01.csv: there is no such file" in told.stdout
     assert 'Did you mean "free_01.csv"?' in told.stdout
-    assert 'channel top: free-02.csv: no column is called "top"' in told.stdout
+    assert 'free-02.csv: no column is called "top"' in told.stdout
     assert 'Did you mean "tops"?' in told.stdout
     assert told.stdout.startswith("2 tests: 2 would fail. Nothing")
 

@@ -181,8 +181,7 @@ def test_a_real_column_of_several_bodies_is_assessed_by_the_contact_model(in_spa
         head = "time [s],acceleration [m/s^2]"
         np.savetxt(in_space.folder / "records" / f"{frequency}.csv", rows, delimiter=",", header=head, comments="")
     campaign = load(in_space.folder)
-    ((said, _),) = check(campaign).findings["assessment site"]
-    assert "moves two 8 times" in said.text
+    assert not check(campaign).failed
     [found] = assess_campaign(campaign, in_space.layout, (), Where(workers=1))
     record = found.record
     assert (record.displaced, record.restitution.value, record.friction) == (0.05, None, 0.6)

@@ -48,10 +48,12 @@ def test_a_file_that_is_not_there_has_no_hash(untouched, seen):
 
 @pytest.fixture
 def told(small):
-    """Give the findings for some digests of two tests."""
-    campaign = load(small.folder)
+    """Give the findings for some digests of two tests, with lines added to both entries."""
 
-    def give(*digests):
+    def give(*digests, lines=("", "")):
+        for name, line in zip(("free-01", "free-02"), lines, strict=True):
+            small.edit(f'file = "raw/{name}.csv"', f'file = "raw/{name}.csv"{line}')
+        campaign = load(small.folder)
         tests = zip(campaign.tests, digests, strict=False)
         raw = {test: {path: RawFile(each, (1, 1, 1)) for path, each in files.items()} for test, files in tests}
         return [found.text for found in copies(campaign, raw)]
@@ -63,55 +65,29 @@ def told(small):
     "digests",
     [
         [{"raw/a.csv": "1"}, {"raw/b.csv": "2"}],
-        [{"raw/a.csv": "1"}, {"raw/a.csv": "1"}],
         [{"raw/a.csv": "1", "raw/b.csv": "1"}],
         [{"raw/a.csv": None}, {"raw/b.csv": None}],
     ],
 )
-def test_files_that_differ_or_are_shared_or_of_one_test_or_empty_are_no_copies(told, digests):
+def test_files_that_differ_or_are_of_one_test_or_empty_are_no_copies(told, digests):
     assert told(*digests) == []
 
 
-@pytest.fixture
-def shared(small):
-    """Give the findings with free-02 naming the file of free-01, with lines added to both entries."""
-
-    def give(first="", second=""):
-        small.edit('file = "raw/free-01.csv"', f'file = "raw/free-01.csv"{first}')
-        small.edit('file = "raw/free-02.csv"', f'file = "raw/free-01.csv"{second}')
-        return [found.text for found in copies(load(small.folder), {})]
-
-    return give
-
-
-def test_two_tests_of_one_file_are_one_recording(shared):
-    (text,) = shared()
-    assert text.startswith("free-01, free-02 are one recording: all name raw/free-01.csv, and no `window` keeps them")
-
-
-@pytest.mark.parametrize(
-    ("first", "second", "is_told"),
+@every(
+    ("digests", "named"),
     [
-        (("0 s", "10 s"), ("10 s", "20 s"), False),
-        (("0 s", "11 s"), ("9 s", "20 s"), False),
-        (("0 s", "10 s"), ("4 s", "14 s"), True),
-        (None, ("4 s", "14 s"), True),
+        ([{"raw/a.csv": "1"}, {"raw/a.csv": "1"}], "raw/a.csv"),
+        ([{"raw/a.csv": "1", "raw/a.tdx": "2"}, {"raw/b.csv": "1", "raw/b.tdx": "2"}], "raw/a.tdx, raw/b.tdx"),
     ],
-    ids=["apart", "rest in both", "mostly the same", "one has no window"],
 )
-def test_windows_keep_two_tests_of_one_file_apart(first, second, is_told, shared):
-    first, second = ("" if each is None else f'\nwindow = ["{each[0]}", "{each[1]}"]' for each in (first, second))
-    assert bool(shared(first, second)) == is_told
+def test_two_tests_of_one_file_or_of_its_copy_are_one_recording(told, digests, named):
+    (text,) = told(*digests)
+    assert text.startswith(f"free-01, free-02 are one recording: {named}. ")
 
 
-def test_a_copy_names_both_files_and_the_test_to_look_at_and_of_many_three_are_named(told):
-    (text,) = told({"raw/a.csv": "1"}, {"raw/b.csv": "1"})
-    assert text.startswith("A raw file holds the same bytes as that of another test: raw/b.csv is a copy of raw/a.csv")
-    assert text.endswith("or delete the entries of free-02.")
-    (text,) = told({"raw/0.csv": "1"}, {f"raw/{number}.csv": "1" for number in range(1, 6)})
-    assert text.startswith("5 raw files hold")
-    assert text.count("is a copy of") == 3
-    assert "; and 2 more. " in text
+def test_windows_keep_two_tests_of_one_file_apart(told):
+    windows = ('\nwindow = ["0 s", "11 s"]', '\nwindow = ["9 s", "20 s"]')
+    assert told({"raw/a.csv": "1"}, {"raw/a.csv": "1"}, lines=windows) == []
 
 
 @pytest.fixture

@@ -1,70 +1,18 @@
-"""What the free vibrations of a specimen tell its other tests: their e, and that sizes or gains are wrong."""
+"""What several questions ask of a campaign: that an id is in it, its one specimen, and the e of a specimen."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import replace
-from math import isclose
+from collections.abc import Collection, Iterable
 from typing import TYPE_CHECKING
 
-from colonnade.campaign import Campaign, Test
+from colonnade.campaign import Campaign
 from colonnade.campaign.assembly import APART
 from colonnade.errors import CampaignError, nearest
-from colonnade.findings import Finding, Severity
 from colonnade.store.layout import Layout
 from colonnade.workflow.product import read_done
-from colonnade.workflow.raw_files import listed
 
 if TYPE_CHECKING:
     import xarray as xr
-
-CALIBRATED = 0.05
-"""Relative difference of two gains up to which they are those of one transducer."""
-
-
-def contradictions(campaign: Campaign, found: Mapping[str, Iterable[Finding]]) -> Iterator[Finding]:
-    """
-    Say where free vibrations contradict sizes or gains of shaken tests that are silent.
-
-    Parameters
-    ----------
-    campaign : Campaign
-    found : mapping of str to iterable of Finding
-        What the stage `condition` found, by test.
-    """
-    said = {name: next(filter(_is_of_scale, findings), None) for name, findings in found.items()}
-    free = [name for name in said if campaign.tests[name].kind == "free-vibration"]
-    silent: dict[str, list[str]] = {}
-    for name in [each for each in said if each not in free]:
-        test = campaign.tests[name]
-        like = [each for each in free if _shares(campaign, test, campaign.tests[each])]
-        against = [each for each in like if said[each]]
-        if said[name] is None and 2 * len(against) > len(like):
-            silent.setdefault(against[0], []).append(name)
-    for witness, tests in silent.items():
-        finding = said[witness]
-        assert finding is not None
-        yield replace(
-            finding,
-            text=f"{witness} contradicts sizes or gains that it shares with {listed(sorted(tests))}, whose θ/α is off "
-            f"for the same cause. {finding.text}",
-            about=f"specimens.{campaign.tests[witness].specimen}",
-        )
-
-
-def _is_of_scale(finding: Finding) -> bool:
-    return finding.kind in ("gain", "specimen") and finding.severity is not Severity.NOTE
-
-
-def _shares(campaign: Campaign, test: Test, other: Test) -> bool:
-    """Whether two tests are of one specimen, and of transducers with the same places and gains."""
-    here, there = (campaign.channels(one) for one in (test, other))
-    both = [name for name in here.keys() & there.keys() if here[name].on == there[name].on == "specimen"]
-    same = (
-        here[name].at == there[name].at and isclose(here[name].factor, there[name].factor, rel_tol=CALIBRATED)
-        for name in both
-    )
-    return test.specimen == other.specimen and bool(both) and all(same)
 
 
 def expect_known(campaign: Campaign, what: str, names: Iterable[str], more: str = "") -> None:
@@ -91,14 +39,7 @@ def one_specimen(campaign: Campaign, name: str | None) -> str:
 
 
 def restitution_taken(campaign: Campaign, layout: Layout, specimen: str) -> xr.Dataset:
-    """
-    Give the e that predictions of a specimen use, by the campaign as it is now and the free vibrations that are stored.
-
-    Returns
-    -------
-    pooled : xr.Dataset
-        As of `stages.specimen`; nothing is written.
-    """
+    """Give the e that predictions use (see `stages.specimen`), by the campaign as it is and what is stored."""
     from colonnade.stages.specimen import SpecimenInputs, taken
 
     return taken(read_done(layout.stage(specimen, "specimen")), SpecimenInputs.of(campaign, specimen))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from math import inf
 from pathlib import Path
 
 from colonnade.campaign import Campaign, Test
@@ -13,7 +12,7 @@ from colonnade.errors import ReadError, StoreError
 from colonnade.findings import Finding, serious
 from colonnade.readers.files import sha256_of
 from colonnade.readers.registry import companions
-from colonnade.units import text
+from colonnade.units.text import listed
 from colonnade.workflow.product import Catalogue, Mark, marks_of
 
 
@@ -27,9 +26,6 @@ class RawFile:
 
 RawFiles = Mapping[str, RawFile]
 """Raw files by path within the campaign's folder."""
-
-NAMED = 3
-"""Number of copies that the warning names."""
 
 
 def raw_files(campaign: Campaign, test: Test, catalogue: Catalogue) -> RawFiles:
@@ -85,64 +81,21 @@ def _looked_at(folder: Path, path: Path, how: FileOptions | None, catalogue: Cat
     return RawFile(digest, tuple(mark)), companion_names
 
 
-def copies(campaign: Campaign, raw: Mapping[str, RawFiles]) -> list[Finding]:
-    """Say which tests, that are not left out, are of one recording or of copies of it."""
-    run = {name: files for name, files in raw.items() if not campaign.left_out(name)}
-    return [*_copies(run), *_shared(campaign)]
-
-
-def _shared(campaign: Campaign) -> Iterator[Finding]:
-    """Name the tests of one specimen that are of the same part of one raw file."""
-    named: dict[tuple[str, str], list[str]] = {}
-    for name, test in campaign.tests.items():
-        for path in () if campaign.left_out(name) else test.files.values():
-            named.setdefault((_name(campaign, path), test.specimen), []).append(name)
-    again: dict[str, list[str]] = {}
-    for (shared, _), tests in named.items():
-        same = [each for each in tests if any(_overlap(campaign, each, other) for other in tests if other != each)]
-        if same:
-            again.setdefault(listed(same), []).append(shared)
-    for tests_of, paths in again.items():
-        yield serious(
-            "copied file",
-            f"{tests_of} are one recording: all name {', '.join(paths)}, and no `window` keeps them apart. What it "
-            "shows, e too, counts several times. Correct `file`, or give each its `window`; of two bodies on the "
-            "table, each is a specimen.",
-        )
-
-
-def _overlap(campaign: Campaign, test: str, other: str) -> bool:
-    """Whether two tests share more than half of the shorter one's window."""
-    windows = [campaign.review(each).within(campaign.tests[each].window) for each in (test, other)]
-    given = [window or (-inf, inf) for window in windows]
-    shared = min(stop for _, stop in given) - max(start for start, _ in given)
-    return shared == inf or shared > 0.5 * min(stop - start for start, stop in given)
-
-
-def _copies(raw: Mapping[str, RawFiles]) -> Iterator[Finding]:
-    first: dict[str, tuple[str, str]] = {}
-    copied: dict[str, str] = {}
-    tests: dict[str, None] = {}
-    every = ((test, path, file) for test, files in raw.items() for path, file in files.items())
-    for test, path, file in every:
-        size, *_ = file.mark
-        if file.sha256 is None or not size:
-            continue
-        original, other = first.setdefault(file.sha256, (path, test))
-        if other != test and original != path and path not in copied:
-            copied[path] = f"{path} is a copy of {original} of {other}"
-            tests |= {test: None}
-    if copied:
-        named = "; ".join(list(copied.values())[:NAMED])
-        more = f"; and {len(copied) - NAMED} more" if len(copied) > NAMED else ""
-        are = f"{len(copied)} raw files hold" if len(copied) > 1 else "A raw file holds"
-        yield serious(
-            "copied file",
-            f"{are} the same bytes as that of another test: {named}{more}. Was a folder copied and not yet filled with "
-            f"its own recordings? Put them in their place, or delete the entries of {listed(list(tests))}.",
-        )
-
-
-def listed(tests: list[str]) -> str:
-    """Name the first of some tests, and count the others."""
-    return text.listed(tests, NAMED, "tests")
+def copies(campaign: Campaign, raw: Mapping[str, RawFiles]) -> Iterator[Finding]:
+    """Say which tests are of one recording: of a file and its copy, or of one specimen and the same part of a file."""
+    found: dict[object, dict[str, str]] = {}
+    for test, files in raw.items():
+        window = campaign.review(test).within(campaign.tests[test].window)
+        for path, file in {} if campaign.left_out(test) else files.items():
+            if file.sha256 is not None and file.mark[0]:
+                found.setdefault((file.sha256, window), {})[test] = path
+    for tests in {tuple(tests): tests for tests in found.values()}.values():
+        paths = dict.fromkeys(tests.values())
+        if len(paths) > 1 or len({campaign.tests[test].specimen for test in tests}) < len(tests):
+            yield serious(
+                "copied file",
+                f"{listed(list(tests))} are one recording: {listed(list(paths))}. What "
+                "it shows, e too, counts several times. Was a folder copied and not yet filled with its own "
+                "recordings? Correct `file`, or give each test its `window` of the file; of two bodies on the table, "
+                "each is a specimen.",
+            )

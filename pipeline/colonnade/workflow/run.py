@@ -18,7 +18,7 @@ from colonnade.validation import described, whole
 from colonnade.workflow.chain import RunResult, remove_later
 from colonnade.workflow.executors import Where
 from colonnade.workflow.pages import Report, photos_shown
-from colonnade.workflow.pooling import contradictions, expect_known
+from colonnade.workflow.pooling import expect_known
 from colonnade.workflow.raw_files import RawFiles, copies
 from colonnade.workflow.summary import choose, finding_of, foreseen_of, write_summary
 from colonnade.workflow.walk import Progress, Walk, unseen, walking
@@ -113,14 +113,13 @@ def _summed_up(
     """
     Write the summary; before it, if the run goes to the report, score forecasts and assess real columns.
 
-    Return the campaign with what is wrong with forecasts and shaken tests, and why which tests are out of date.
+    Return the campaign with what is wrong with forecasts, and why which tests are out of date.
     """
     layout = walk.graph.layout
     stale = {name: why for name, why in walk.stale().items() if name not in walk.failed["test"]}
     outdated = stale | dict.fromkeys(campaign.tests.keys() - set(walk.included), "")
     forecasts = read_forecasts(layout)
-    conditioned = {stage.subject: stage.findings for stage in walk.stages if stage.stage == "condition"}
-    campaign = campaign.warned([*map(finding_of, forecasts.refused), *contradictions(campaign, conditioned)])
+    campaign = campaign.warned(map(finding_of, forecasts.refused))
     chosen = choose(campaign, forecasts, raw)
     if walk.until == "report":
         walk.score(chosen.scored, outdated)
