@@ -6,6 +6,7 @@ from html.parser import HTMLParser
 from posixpath import dirname, join, normpath
 
 from colonnade.store.layout import Layout
+from colonnade.workflow.graph import Graph
 from colonnade.workflow.pages import Report
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.summary import write_summary
@@ -59,10 +60,9 @@ class Page(HTMLParser):
 
 def built(campaign, layout, outdated=frozenset(), **options):
     """Write the summary and the report, as a run does."""
-    catalogue = Catalogue(layout)
-    summary = write_summary(campaign, layout, catalogue, outdated=dict.fromkeys(outdated, ""))
-    options = {"forecasts": summary.forecasts} | options
-    return Report(campaign, layout, catalogue, outdated, **options).bring_up_to_date()
+    graph = Graph(campaign, layout, Catalogue(layout))
+    options = {"forecasts": write_summary(graph, outdated=outdated).forecasts} | options
+    return Report(graph, outdated, **options).bring_up_to_date()
 
 
 def written(layout):

@@ -13,6 +13,7 @@ from colonnade.report.paper import document_of
 from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import read_summary
+from colonnade.workflow.graph import Graph
 from colonnade.workflow.pages import Report
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.summary import choose, foreseen_of
@@ -70,7 +71,7 @@ def test_each_forecast_is_listed_with_what_happened(foreseen_copy):
     assert [entry.file for entry in page["refused"]] == ["<b>.json"]
     assert page["calibration"] is None
     forecasts = read_summary(layout).forecasts
-    Report(campaign, layout, Catalogue(layout), forecasts=forecasts).bring_up_to_date()
+    Report(Graph(campaign, layout, Catalogue(layout)), forecasts=forecasts).bring_up_to_date()
     folder = layout.report.parent
     text = (folder / "forecasts.html").read_text(encoding="utf-8")
     assert "0.01 g" in text

@@ -63,7 +63,7 @@ def fails(error):
 def test_a_specimen_that_fails_is_no_fault_of_its_tests(untouched, monkeypatch):
     monkeypatch.setattr(specimen, "specimen", fails(StageError("No two free vibrations agree.")))
     assert "prism" in failures(untouched.run())
-    assert untouched.summary()["tests"]["pulse-01"]["reason"] == "specimen prism: No two free vibrations agree."
+    assert untouched.summary()["tests"]["pulse-01"]["reason"].endswith("specimen prism: No two free vibrations agree.")
 
 
 def test_a_share_that_drops_while_a_file_is_read_is_not_kept_against_it(untouched, monkeypatch):

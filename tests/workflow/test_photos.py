@@ -6,6 +6,7 @@ from PIL import Image
 from colonnade.campaign import load
 from colonnade.store.layout import Layout
 from colonnade.workflow import pages
+from colonnade.workflow.graph import Graph
 from colonnade.workflow.pages import photos_shown, unshown_photos
 from colonnade.workflow.product import Catalogue
 
@@ -23,18 +24,18 @@ def folder(untouched):
     return folder
 
 
-def campaign_with(folder, *written):
+def graph_of(folder, *written):
     campaign = load(folder)
     test = campaign.tests["free-01"].model_copy(update={"photos": written})
-    return campaign.but(tests=campaign.tests | {"free-01": test})
+    layout = Layout(folder)
+    return Graph(campaign.but(tests=campaign.tests | {"free-01": test}), layout, Catalogue(layout))
 
 
 def brought(folder, *written):
     """Bring the photos of a campaign up to date as one run does; give the names of the copies, and the warnings."""
-    layout = Layout(folder)
-    catalogue = Catalogue(layout)
-    _, unshown = photos_shown(campaign_with(folder, *written), layout, catalogue)
-    catalogue.save()
+    graph = graph_of(folder, *written)
+    _, unshown = photos_shown(graph)
+    graph.catalogue.save()
     copies = sorted((folder / "report" / "photos").glob("*"))
     return {path.name: path for path in copies}, unshown
 
@@ -99,11 +100,10 @@ def test_a_photo_that_cannot_be_shown_is_a_warning_about_its_test(folder, tmp_pa
         assert list(copies) == ["free-01-2.jpg"]
         assert (found.kind, found.severity, found.about) == ("photo", "warning", "tests.free-01")
         assert told in found.text
-    assert unshown_photos(campaign_with(folder, written, "photos/b.png")) == [found]
+    assert list(unshown_photos(graph_of(folder, written, "photos/b.png").campaign)) == [found]
 
 
 def test_a_campaign_without_photos_is_as_it_was(folder):
-    campaign = campaign_with(folder)
-    layout = Layout(folder)
-    assert photos_shown(campaign, layout, Catalogue(layout)) == ({}, [])
-    assert not layout.report.parent.exists()
+    graph = graph_of(folder)
+    assert photos_shown(graph) == ({}, [])
+    assert not graph.layout.report.parent.exists()

@@ -10,7 +10,6 @@ from colonnade.errors import ReadError
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId
-from colonnade.workflow import product as module
 from colonnade.workflow.product import Catalogue, Product, brought_up_to_date, known
 
 ROCKING = Product(ResultId("a", "rocking"), '{"peak": 1}', {"up": "aa", "gone": None}, "c0de", None, (Path("a.nc"),))
@@ -114,7 +113,7 @@ def test_data_that_cannot_be_read_are_a_reason_that_lasts_but_not_those_that_the
 def opened(monkeypatch):
     """Results whose files were opened, by name."""
     names = []
-    for place, name in ((module, "stored_attributes"), (files, "read")):
+    for place, name in ((files, "read_attributes"), (files, "read")):
         ask = getattr(place, name)
         monkeypatch.setattr(place, name, lambda path, ask=ask: names.append(path.name) or ask(path))
     return names

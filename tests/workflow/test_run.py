@@ -57,16 +57,7 @@ def test_a_test_whose_results_are_out_of_date_is_pending(small, options):
     small.run(**options)
     told = small.summary()["tests"]["pulse-02"]
     assert told["status"] == "pending"
-    assert told["reason"] == "its results are out of date (settings changed); run again"
-
-
-def test_a_test_that_was_not_run_to_the_end_says_how_far(untouched):
-    untouched.run(until="ingest", only="pulse-02")
-    untouched.run(until="restitution", only="free-01")
-    tests = untouched.summary()["tests"]
-    partly = "run only as far as {}; `colonnade run` does the rest"
-    expected = [partly.format("restitution"), None, None, partly.format("ingest")]
-    assert [test["reason"] for test in tests.values()] == expected
+    assert told["reason"] == "its results are missing or out of date; `colonnade run` makes them"
 
 
 @every(

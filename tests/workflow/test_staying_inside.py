@@ -25,7 +25,7 @@ def inside(folder, *places):
 FOLDERS = inside("processed", "", "tests", "tests/pulse-01", "specimens", "contact", "maps", "maps/.prism-linear")
 FOLDERS += inside("report", "", "tests", "specimens")
 FILES = inside("processed", "summary.json", "summary.csv", "catalogue.json", ".lock", ".lock-holder.json")
-FILES += inside("processed/tests/pulse-01", "rocking.nc", ".rocking.nc.4711.partial", "error.log")
+FILES += inside("processed/tests/pulse-01", "rocking.nc", ".rocking.nc.4711.partial")
 FILES += inside("processed/specimens", "prism.nc")
 FILES += inside("report", "index.html", "tests/pulse-01.html", "tests/gone.html")
 needs_links = pytest.mark.skipif(os.name == "nt", reason="links need a right of their own on Windows")
@@ -35,7 +35,7 @@ needs_links = pytest.mark.skipif(os.name == "nt", reason="links need a right of 
 def elsewhere(tmp_path):
     """A folder of somebody else, with files that are called like results."""
     folder = tmp_path / "elsewhere"
-    for name in ("summary.json", "recorded.nc", "error.log", "index.html", "tests/gone.html", "key/000001.npz"):
+    for name in ("summary.json", "recorded.nc", "index.html", "tests/gone.html", "key/000001.npz"):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text("of somebody else", encoding="utf-8")
     return folder

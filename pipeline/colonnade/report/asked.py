@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from colonnade.campaign import Campaign
@@ -24,17 +24,6 @@ class Photo:
     written: str
 
 
-@dataclass(frozen=True)
-class Photos:
-    """Those of a test that are shown, and why others are not."""
-
-    shown: tuple[Photo, ...] = ()
-    problems: tuple[str, ...] = ()
-
-
-NO_PHOTOS = Photos()
-
-
 def address_of(test: str, number: int) -> str:
     """Address of a test's photo within the report; photos are numbered from 1."""
     return f"photos/{test}-{number}.jpg"
@@ -54,12 +43,15 @@ class Asked:
     after: str | None
     record: TestSummary
     is_outdated: bool
-    photos: Photos
+    photos: Sequence[Photo]
     shows: str
 
 
 def asked_of(
-    campaign: Campaign, layout: Layout, outdated: Collection[str] = (), photos: Mapping[str, Photos] | None = None
+    campaign: Campaign,
+    layout: Layout,
+    outdated: Collection[str] = (),
+    photos: Mapping[str, Sequence[Photo]] | None = None,
 ) -> Iterator[Asked]:
     """Ask for the page of each test: with its record and its neighbours."""
     ids = [None, *campaign.tests, None]
@@ -73,5 +65,5 @@ def asked_of(
         # Forecasts have a page of their own: one that is added redoes no other.
         record = records[name].model_copy(update={"forecast": None})
         own = (test, specimens[test.specimen], setups[test.setup], campaign.review(name))
-        given = (before, after, record, name in outdated, (photos or {}).get(name, NO_PHOTOS))
+        given = (before, after, record, name in outdated, (photos or {}).get(name, ()))
         yield Asked(alone, name, *given, campaign.told((place, models_shown(alone), own, given)))

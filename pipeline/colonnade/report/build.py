@@ -211,7 +211,7 @@ def seldom_collected() -> Iterator[None]:
 def drawn(layout: Layout, asked: Asked) -> tuple[list[str], str]:
     """Read a test and draw its page: the page, the script with its samples, and its part as text."""
     campaign, test = asked.campaign, asked.campaign.tests[asked.test]
-    stored = read_test(campaign, layout, test, outdated="" if asked.is_outdated else None, with_samples=True)
+    stored = read_test(campaign, layout, test, is_outdated=asked.is_outdated, with_samples=True)
     one, used = OfTest(campaign, test, asked.record, stored), Used()
     used.gather(test.id, stored)
     span = span_of(one)

@@ -101,12 +101,6 @@ class Layout:
         """Folder of a test's results."""
         return self.tests / test_id
 
-    def error_log(self, result: ResultId) -> Path:
-        """Traceback of an internal error in a test, or in what is made of a specimen or an assessment."""
-        if result.of == "test":
-            return self.test(result.subject) / "error.log"
-        return self.processed / f"{result.of}s" / f"{result.subject}.error.log"
-
     def path(self, result: ResultId) -> Path:
         """File of a result."""
         return _path(self.processed, result)

@@ -6,13 +6,14 @@ import platform
 import shutil
 import time
 import traceback
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from colonnade.errors import SHORT_OF_MEMORY, ColonnadeError, RunEndedError, StoreError
+from colonnade.errors import SHORT_OF_MEMORY, ColonnadeError, RunEndedError, StageError, StoreError
 from colonnade.findings import Finding, Severity, at_stage, in_order
 from colonnade.interruption import expect_none
 from colonnade.store import files
@@ -63,10 +64,16 @@ class StageRun:
     seconds: float = 0.0
     findings: tuple[Finding, ...] = ()
 
+    @classmethod
+    def of_result(cls, result: ResultId, action: Action, findings: Iterable[Finding] = (), **more: Any) -> StageRun:
+        """Say what became of a result."""
+        found = tuple(at_stage(findings, result.stage))
+        return cls(result.subject, result.stage, action, result.model, findings=found, **more)
+
     @property
     def of(self) -> Subject:
         """What its subject is."""
-        return ResultId(self.subject, self.stage, self.model).of
+        return STAGES[self.stage].of
 
     @property
     def heading(self) -> str:
@@ -116,17 +123,13 @@ class RunResult:
         found: dict[str, list[Finding]] = {"campaign file": list(self.of_campaign)}
         for stage in self.stages:
             found.setdefault(stage.heading, []).extend(stage.findings)
-        return {
-            subject: in_order(findings, self.concerning.get(subject, ()))
-            for subject, findings in found.items()
-            if findings
-        }
+        ordered = {subject: in_order(each, self.concerning.get(subject, ())) for subject, each in found.items()}
+        return {subject: each for subject, each in ordered.items() if each}
 
     @property
     def has_warnings(self) -> bool:
         """Whether any finding is more serious than a note."""
-        every = [*self.of_campaign, *(finding for stage in self.stages for finding in stage.findings)]
-        return any(finding.severity is not Severity.NOTE for finding in every)
+        return any(each.severity is not Severity.NOTE for found in self.findings.values() for each, _ in found)
 
 
 WORKER_LOST = (
@@ -160,27 +163,22 @@ class Chain:
     run_id: str
     start_from: str | None = None
 
-    @property
-    def subject(self) -> str:
-        """Id of the test or specimen."""
-        return self.products[0].result.subject
-
     def why(self, product: Product, look: Look) -> str:
         """Say why a result has to be made; empty if it does not."""
         if self.start_from is not None and product.result.order >= RUN_STAGES.index(self.start_from):
             return "asked for"
         return product.why(look)
 
-    def standing(self, look: Look) -> tuple[list[StageRun], Product | None, str]:
-        """Give what became of its results so far; and the first that has to be made, if any has to, and why."""
+    def standing(self, look: Look) -> tuple[list[StageRun], Product | None]:
+        """Give what became of its results so far, and the first that has to be made, if any has to."""
         runs: list[StageRun] = []
         for product in self.products:
-            if why := self.why(product, look):
-                return runs, product, why
+            if self.why(product, look):
+                return runs, product
             runs.append(_unchanged(product, look(product.paths[0])))
             if runs[-1].action == "failed":
                 break
-        return runs, None, ""
+        return runs, None
 
 
 def bring_up_to_date(chain: Chain) -> list[StageRun]:
@@ -195,47 +193,53 @@ def bring_up_to_date(chain: Chain) -> list[StageRun]:
     made: dict[Path, xr.Dataset] = {}
     runs, expect = list[StageRun](), partial(expect_run, chain.layout, chain.run_id)
     with files.only_while(expect):
-        for number, product in enumerate(chain.products):
+        for number, product in enumerate(chain.products, 1):
             expect()
             runs.append(_run(chain, product, made))
             if runs[-1].action == "failed":
-                remove_later(chain.layout, product.result)
-                return runs
-            wanted = {path for later in chain.products[number + 1 :] for path in later.upstream.values()}
+                _remove_following(chain, product)
+                break
+            wanted = {path for later in chain.products[number:] for path in later.upstream.values()}
             for path in made.keys() - wanted:
                 del made[path]
-        files.remove(chain.layout.error_log(chain.products[0].result))
     return runs
 
 
 def on_a_cluster(chain: Chain) -> list[StageRun]:
     """Bring a chain up to date on a worker of a cluster, which has to see the campaign's folder."""
-    layout = chain.layout
-    seen = {layout.folder / layout.file: "put the campaign there", layout.processed: "give another one with --results"}
-    for path, advice in seen.items():
+    for path in (chain.layout.folder / chain.layout.file, chain.layout.processed):
         if not path.exists():
             raise ColonnadeError(
-                f"{path}: a worker on {platform.node()} does not see this {'file' if path.suffix else 'folder'}. A "
-                f"folder that all of the cluster's workers share under the same path was expected; {advice}."
+                f"{path}: a worker on {platform.node()} does not see this. Folders that all of the cluster's workers "
+                "share under the same paths were expected, for the campaign and for its results (--results)."
             )
     return bring_up_to_date(chain)
 
 
 def worker_lost(chain: Chain) -> list[StageRun]:
     """Report a chain whose process was stopped; no failure is stored, so that the next run tries again."""
-    _, late, _ = chain.standing(stored_attributes)
-    stopped = (late or chain.products[-1]).result
-    remove_later(chain.layout, stopped, itself=True)
-    return [StageRun(stopped.subject, stopped.stage, "failed", stopped.model, WORKER_LOST)]
+    _, late = chain.standing(stored_attributes)
+    stopped = late or chain.products[-1]
+    files.remove(stopped.paths[0])
+    _remove_following(chain, stopped)
+    return [StageRun.of_result(stopped.result, "failed", reason=WORKER_LOST)]
 
 
-def remove_later(layout: Layout, result: ResultId, *, itself: bool = False) -> None:
-    """Remove the results of a test of later stages, or of its own stage too: nothing may follow from a failure."""
-    for stage, each in STAGES.items() if result.of == "test" else ():
-        of_stage = ResultId(result.subject, stage, model="*")
-        if each.of == "test" and of_stage.order >= result.order + (not itself):
+def remove_results(layout: Layout, test: str, after: int = -1) -> None:
+    """Remove the results of a test of stages after one, by default all: nothing may follow from a failure."""
+    for stage, each in STAGES.items():
+        of_stage = ResultId(test, stage, model="*")
+        if each.of == "test" and of_stage.order > after:
             for path in layout.processed.glob(of_stage.file):
                 files.remove(path)
+
+
+def _remove_following(chain: Chain, product: Product) -> None:
+    """Remove what follows from a failed result, in the chain and of later stages."""
+    for later in chain.products[chain.products.index(product) + 1 :]:
+        files.remove(later.paths[0])
+    if product.result.of == "test":
+        remove_results(chain.layout, product.result.subject, product.result.order)
 
 
 def _run(chain: Chain, product: Product, made: dict[Path, xr.Dataset]) -> StageRun:
@@ -254,57 +258,61 @@ def _run(chain: Chain, product: Product, made: dict[Path, xr.Dataset]) -> StageR
     if result.stage == "ingest":
         hashes = [digest or "" for digest in product.upstream.values()]
         attributes |= {"raw_files": list(product.upstream), "raw_sha256": hashes}
+    told = partial(StageRun.of_result, result, because=because)
     try:
-        read = {name: each for name, each in product.upstream.items() if isinstance(each, Path)}
-        for each in read.values():
-            made[each] = made[each] if each in made else files.read(each)
-        work = product.make
-        if product.where is not None:
-            run = partial(in_blocks, folder=chain.layout.blocks(result), key=attributes["key"], where=product.where)
-            work = partial(work, run=run)
-        dataset = work({name: made[each] for name, each in read.items()})
-        made[path] = files.write(dataset, path, attributes=attributes)
+        made[path] = files.write(_made(chain, product, made, attributes["key"]), path, attributes=attributes)
         shutil.rmtree(chain.layout.blocks(result), ignore_errors=True)
     except RunEndedError:
         raise
     except Exception as error:
         expect_none()  # an interrupt in the import of a compiled module comes as an ImportError
-        reason, action, findings = _stored_failure(chain, product, error, attributes), "failed", []
-    else:
-        reason, action, findings = "", "done", made[path].attrs.get("warnings", [])
-    seconds = time.perf_counter() - started
-    return _stage_run(result, action, reason, because, seconds, findings)
+        reason = _reason(result, error)
+        if _is_machine_failure(error):  # it is not stored: the next run tries again
+            files.remove(path)
+        else:
+            with suppress(StoreError):
+                files.write_failed(path, reason, attributes=attributes)
+        return told("failed", reason=reason, seconds=time.perf_counter() - started)
+    return told("done", made[path].attrs["warnings"], seconds=time.perf_counter() - started)
+
+
+def _made(chain: Chain, product: Product, made: dict[Path, xr.Dataset], key: str) -> xr.Dataset:
+    """Make a result from those that it reads, which stay in `made`."""
+    read = {name: each for name, each in product.upstream.items() if isinstance(each, Path)}
+    for each in read.values():
+        made[each] = made[each] if each in made else files.read(each)
+        if made[each].attrs["status"] == "failed":
+            raise StageError("specimen {specimen}: {reason}".format_map(made[each].attrs))
+    work = product.make
+    if product.where is not None:
+        folder = chain.layout.blocks(product.result)
+        work = partial(work, run=partial(in_blocks, folder=folder, key=key, where=product.where))
+    dataset: xr.Dataset = work({name: made[each] for name, each in read.items()})
+    return dataset
 
 
 def _unchanged(product: Product, stored: Mapping[str, Any]) -> StageRun:
     if stored.get("status") == "failed":
-        return _stage_run(product.result, "failed", str(stored.get("reason", "")))
-    return _stage_run(product.result, "up-to-date", findings=stored.get("warnings", ()))
+        return StageRun.of_result(product.result, "failed", reason=str(stored.get("reason", "")))
+    return StageRun.of_result(product.result, "up-to-date", stored.get("warnings", ()))
 
 
-def _stage_run(
-    result: ResultId, action: Any, reason: str = "", because: str = "", seconds: float = 0.0, findings: Any = ()
-) -> StageRun:
-    found = tuple(at_stage(findings, result.stage))
-    return StageRun(result.subject, result.stage, action, result.model, reason, because, seconds, found)
-
-
-def _stored_failure(chain: Chain, product: Product, error: Exception, attributes: Mapping[str, Any]) -> str:
-    """Return why a result failed, and store it; a failure of the machine is not stored: the next run tries again."""
+def _reason(result: ResultId, error: Exception) -> str:
+    """Say why a result failed; a bug in colonnade is reported as such, and the other tests go on."""
     if isinstance(error, ColonnadeError):
-        reason = str(error)
-    elif isinstance(error, MemoryError):
-        reason = SHORT_OF_MEMORY
-    else:  # a bug in colonnade: reported as such, the other tests go on
-        reason = _internal_error(chain.layout, product.result, error)
-    if _is_machine_failure(error):
-        files.remove(product.paths[0])
-        return reason
-    try:
-        files.write_failed(product.paths[0], reason, attributes=attributes)
-    except StoreError as unwritable:
-        return f"{reason} This failure could not be stored either: {unwritable}"
-    return reason
+        return str(error)
+    if isinstance(error, MemoryError):
+        return SHORT_OF_MEMORY
+    frames = traceback.extract_tb(error.__traceback__)[-LAST:]
+    way = " > ".join(f"{Path(frame.filename).name}:{frame.lineno}" for frame in frames)
+    return (
+        f"Internal error in {result.stage}, {type(error).__name__} at {way}: {error}. This is a bug in colonnade, not "
+        "an error in your campaign. Please report it with this sentence."
+    )
+
+
+LAST = 6
+"""Calls that the report of a bug names."""
 
 
 def _is_machine_failure(error: Exception) -> bool:
@@ -313,19 +321,3 @@ def _is_machine_failure(error: Exception) -> bool:
         return True
     cause = error.__cause__
     return isinstance(cause, OSError) and cause.errno is not None and not isinstance(cause, FileNotFoundError)
-
-
-def _internal_error(layout: Layout, result: ResultId, error: Exception) -> str:
-    """Write the traceback to the error.log of the test or specimen; return the message."""
-    frames = traceback.extract_tb(error.__traceback__)
-    place = f"{frames[-1].filename.rpartition('colonnade')[2].lstrip('/')}:{frames[-1].lineno}" if frames else "?"
-    log = layout.error_log(result)
-    where = f"its traceback is in {log.relative_to(layout.home).as_posix()}"
-    try:
-        files.write_text(log, "".join(traceback.format_exception(error)))
-    except StoreError:
-        where = "its traceback could not be written"
-    return (
-        f"Internal error in {result.stage}, {type(error).__name__} at {place}: {error}. This is a bug in "
-        f"colonnade, not an error in your campaign; {where}. Please report it with that file."
-    )

@@ -12,7 +12,7 @@ from typing import Any
 
 from colonnade.errors import ColonnadeError
 from colonnade.sources import package_hash
-from colonnade.workflow.executors import LOOK, Tell, Workers, WorkersEndedError
+from colonnade.workflow.executors import LOOK, Workers, WorkersEndedError
 
 _PATIENCE = 10
 """Seconds until a scheduler answers, and until it has a worker."""
@@ -21,7 +21,7 @@ _ADDRESS = re.compile(r"([a-z]+://)?[^\s/]+:\d{1,5}")
 
 
 @contextmanager
-def on_cluster(scheduler: str, tell: Tell) -> Iterator[Workers]:
+def on_cluster(scheduler: str) -> Iterator[Workers]:
     """
     Give the workers of a cluster, see `executors.spread`.
 
@@ -36,33 +36,36 @@ def on_cluster(scheduler: str, tell: Tell) -> Iterator[Workers]:
         raise ColonnadeError(
             "`--scheduler` needs the package `distributed`, which is not installed here: pip install colonnade[cluster]"
         ) from error
-    if not _ADDRESS.fullmatch(scheduler):
-        raise ColonnadeError(_no_scheduler(scheduler, "that is not an address"))
     try:
+        if not _ADDRESS.fullmatch(scheduler):
+            raise ValueError("that is not an address")
         client = distributed.Client(scheduler, timeout=_PATIENCE, set_as_default=False)
-    except OSError as error:
-        raise ColonnadeError(_no_scheduler(scheduler, str(error))) from error
+    except (OSError, ValueError) as error:
+        raise ColonnadeError(
+            f"{scheduler}: no Dask scheduler answers there ({error}). The address that `dask scheduler` shows when it "
+            'starts was expected, such as "tcp://10.0.0.1:8786".'
+        ) from error
     with client:
-        yield _Cluster(client, scheduler, _expect_workers(client, scheduler, distributed), tell, distributed)
+        _expect_workers(client, scheduler)
+        yield _Cluster(client, scheduler, distributed)
 
 
 class _Cluster(Workers):
-    """The workers that a cluster has, `known` by their addresses."""
+    """The workers that a cluster has."""
 
-    def __init__(self, client: Any, scheduler: str, known: set[str], tell: Tell, distributed: Any) -> None:
-        super().__init__(client.get_executor(pure=False), len(known))
+    def __init__(self, client: Any, scheduler: str, distributed: Any) -> None:
+        super().__init__(client.get_executor(pure=False), len(client.ncores()))
         self._client, self._scheduler, self._distributed = client, scheduler, distributed
-        self._known, self._tell = known, tell
         self._looked = self._seen = time.monotonic()
 
     def look(self) -> None:
         """
-        Report workers that have gone since the last look.
+        Look who is there.
 
         Raises
         ------
         ColonnadeError
-            If there have been none for some time, a new one has several threads, or the scheduler has gone.
+            If there have been no workers for some time, one has several threads, or the scheduler has gone.
         """
         now = time.monotonic()
         if now - self._looked < LOOK:
@@ -72,33 +75,20 @@ class _Cluster(Workers):
             there = self._client.ncores()
         except Exception as error:  # closed, cut off or late: whatever it is, nobody answers
             raise self._gone() from error
-        for address in self._known - there.keys():
-            self._tell(
-                f"{address}: this worker left the cluster before the work was done: it was stopped, most often "
-                "because memory ran out. Its work is given to another worker."
-            )
         _expect_one_thread(there)
-        self._known = set(there)
         self.count = len(there) or self.count
         self._seen = now if there else self._seen
         if now - self._seen > _PATIENCE:
-            raise WorkersEndedError(
-                f"{self._scheduler}: all its workers ended before the work was done. Finished results are kept. "
-                "Start workers and run again."
-            )
+            raise self._ended("all its workers ended before the work was done", "Start workers and run again.")
 
     def failed(self, error: BaseException) -> BaseException:
         """Say of an error of the cluster what to do; give one of the work as it is."""
         if isinstance(error, self._distributed.KilledWorker):
-            last = getattr(error.last_worker, "address", error.last_worker)
-            return WorkersEndedError(
-                f"{self._scheduler}: its workers were stopped several times over the same work, most often because "
-                f"memory ran out; the last one was {last}. What was finished is kept. Give each worker more memory "
-                "and run again."
+            return self._ended(
+                "its workers were stopped several times over the same work, most often because memory ran out",
+                "Give each worker more memory and run again.",
             )
-        if isinstance(error, (CancelledError, self._distributed.CancelledError)):
-            return self._gone()
-        return error
+        return self._gone() if isinstance(error, (CancelledError, self._distributed.CancelledError)) else error
 
     def stop(self, pending: Sequence[Future[Any]]) -> None:
         """Cancel what is not done; the scheduler may be gone."""
@@ -106,43 +96,36 @@ class _Cluster(Workers):
             super().stop(pending)
 
     def _gone(self) -> ColonnadeError:
-        return WorkersEndedError(
-            f"{self._scheduler}: the scheduler of the Dask cluster ended before the work was done. Finished results "
-            "are kept, and its workers write nothing more. Start the cluster again and run again, or run without "
-            "--scheduler."
+        return self._ended(
+            "the scheduler of the Dask cluster ended before the work was done",
+            "Its workers write nothing more. Start the cluster again and run again, or run without --scheduler.",
         )
 
-
-def _no_scheduler(scheduler: str, found: str) -> str:
-    return (
-        f"{scheduler}: no Dask scheduler answers there ({found}). The address that `dask scheduler` shows when it "
-        'starts was expected, such as "tcp://10.0.0.1:8786".'
-    )
+    def _ended(self, what: str, remedy: str) -> ColonnadeError:
+        return WorkersEndedError(f"{self._scheduler}: {what}. Finished results are kept. {remedy}")
 
 
-def _expect_workers(client: Any, scheduler: str, distributed: Any) -> set[str]:
-    """Give the addresses of the workers; refuse those with other sources than this process: results would differ."""
+def _expect_workers(client: Any, scheduler: str) -> None:
+    """Refuse workers with other sources than this process: results would differ."""
     try:
         client.wait_for_workers(1, timeout=_PATIENCE)
-    except (TimeoutError, distributed.TimeoutError) as error:
+    except TimeoutError as error:
         raise ColonnadeError(
             f"{scheduler}: this scheduler has no workers. Start some: dask worker {scheduler} --nthreads 1"
         ) from error
     _expect_one_thread(client.ncores())
     try:
-        theirs = client.run(package_hash)
+        others = sorted(worker for worker, code in client.run(package_hash).items() if code != package_hash())
     except Exception as error:
         raise ColonnadeError(
             f"{scheduler}: its workers cannot import colonnade ({type(error).__name__}: {error}). Install this version "
             "of colonnade, with the same packages, where they run."
         ) from error
-    others = sorted(worker for worker, code in theirs.items() if code != package_hash())
     if others:
         raise ColonnadeError(
-            f"{scheduler}: {len(others)} of {len(theirs)} workers run another version of colonnade, the first of them "
+            f"{scheduler}: {len(others)} of its workers run another version of colonnade, the first of them "
             f"{others[0]}. Install the same one everywhere and restart the workers."
         )
-    return set(theirs)
 
 
 def _expect_one_thread(threads: dict[str, int]) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import os
-import re
 import shutil
 import signal
 import threading
@@ -35,14 +34,13 @@ Result = TypeVar("Result")
 Tell = Callable[[str], None]
 """Takes a sentence about the run itself, such as that the system stopped a worker."""
 
+STOPPED = "A worker process was stopped by the system, most often because memory ran out"
+
 AHEAD = 2
 """Items handed out to each worker, of which it works on the first; so few are lost if it is stopped."""
 
 LOOK = 1.0
 """Seconds between two looks at the workers."""
-
-_EXIT_CODES = re.compile(r"The exit codes of the workers are \{(.+)\}")
-"""How loky reports processes that ended by themselves, such as "SIGKILL(-9)"."""
 
 _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
 """Environment of a worker: there are as many as cores."""
@@ -79,7 +77,6 @@ def spread(
     scheduler: str | None = None,
     tell: Tell = lambda sentence: None,
     lost: Callable[[Item], Result] | None = None,
-    names: Callable[[Item], str] | None = None,
 ) -> Iterator[tuple[int, Result]]:
     """
     Call a function once for each item.
@@ -98,8 +95,6 @@ def spread(
         Called with a sentence if a worker was stopped.
     lost : callable, optional
         Gives the result of an item that lost its worker twice, the second time alone; without it that is an error.
-    names : callable, optional
-        Names an item that is tried again, for `tell`.
 
     Yields
     ------
@@ -119,7 +114,7 @@ def spread(
         from colonnade.workflow.cluster import on_cluster
 
         if items:
-            with on_cluster(scheduler, tell) as there:
+            with on_cluster(scheduler) as there:
                 yield from _handed_out(there, work, dict(enumerate(items)))
         return
     import joblib
@@ -140,25 +135,15 @@ def spread(
         except BrokenProcessPool as error:
             if not alone:
                 alone = list(waiting)[: AHEAD * count]
-                named = "" if names is None else f": {', '.join(names(waiting[number]) for number in alone)}"
-                tell(
-                    f"{stopped(error)} by the system, most often because memory ran out. What it may have worked on "
-                    f"was tried again alone{named}."
-                )
+                tell(f"{STOPPED}. What it may have worked on was tried again alone.")
                 continue
             if lost is None:
                 raise WorkersEndedError(
-                    f"{stopped(error)} twice, most often because memory ran out. Finished results are kept. "
-                    "Run again with fewer workers (`--workers 1` uses the least memory)."
+                    f"{STOPPED}, twice. Finished results are kept. Run again with fewer workers (`--workers 1` uses "
+                    "the least memory)."
                 ) from error
             yield alone[0], lost(waiting.pop(alone[0]))
         del alone[:1]
-
-
-def stopped(error: BaseException) -> str:
-    """Say that a worker process ended by itself and, if loky's exception gives it, how."""
-    found = _EXIT_CODES.search(str(error))
-    return f"A worker process was stopped{f' ({found[1]})' if found else ''}"
 
 
 def _handed_out(

@@ -17,15 +17,16 @@ from colonnade.errors import ReadError
 from colonnade.findings import Finding, warning
 from colonnade.interruption import expect_none
 from colonnade.readers.files import sha256_of
-from colonnade.readers.photo import read_photo
+from colonnade.readers.photo import Pixels, read_photo
 from colonnade.report import addresses
 from colonnade.report.addresses import UNWATCHED
-from colonnade.report.asked import KIND, Asked, Photo, Photos, address_of, asked_of
+from colonnade.report.asked import KIND, Asked, Photo, address_of, asked_of
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.store.results import ResultId, models_shown, results_of
-from colonnade.workflow.product import Catalogue, Contents, Made, Product, brought_up_to_date
+from colonnade.workflow.graph import Graph
+from colonnade.workflow.product import Contents, Made, Product, brought_up_to_date
 
 MADE_BY = ("colonnade.report", "colonnade.store")
 """Packages whose code makes the pages; what they import counts too."""
@@ -45,28 +46,24 @@ class Report:
 
     Attributes
     ----------
-    campaign : Campaign
-    layout : Layout
-    catalogue : Catalogue
+    graph : Graph
     outdated : collection of str
         Tests whose stored results are out of date: they are pending, and not shown.
     forecasts : ForecastsSummary or None
         As in the summary: the hash of each forecast is in it.
     advice : sequence of Advice
         On the next tests.
-    photos : mapping of str to Photos
+    photos : mapping of str to sequence of Photo
         Of each test, as they are in the report.
     workers : int or None
         Processes in which pages are drawn; None for one a core.
     """
 
-    campaign: Campaign
-    layout: Layout
-    catalogue: Catalogue
+    graph: Graph
     outdated: Collection[str] = ()
     forecasts: ForecastsSummary | None = None
     advice: Sequence[Advice] = ()
-    photos: Mapping[str, Photos] = field(default_factory=dict)
+    photos: Mapping[str, Sequence[Photo]] = field(default_factory=dict)
     workers: int | None = 1
     _made: dict[str, Made] = field(default_factory=dict)
 
@@ -85,37 +82,37 @@ class Report:
         StoreError
             If a page cannot be written.
         """
-        layout, there = self.layout, set[Path]()
+        layout, there = self.graph.layout, set[Path]()
         if not layout.state.is_file():
             files.write_text(layout.state, UNWATCHED)
         # The overview is written last: its change tells open pages that all are there.
-        for asked in (chain(self.drawings(), self.tests()), self.specimens(), self.whole()):
+        for asked in (chain(self._drawings(), self._tests()), self._specimens(), self._whole()):
             products = list(asked)
-            self._made |= brought_up_to_date(products, self.catalogue, workers=self.workers)
+            self._made |= brought_up_to_date(products, self.graph.catalogue, workers=self.workers)
             there |= {path for product in products for path in product.paths}
         for stale in {path for pattern in OWN for path in layout.report.parent.glob(pattern)} - there:
             files.remove(stale)
         return layout.report
 
-    def drawings(self) -> Iterator[Product]:
+    def _drawings(self) -> Iterator[Product]:
         """Each specimen in each of its set-ups."""
-        campaign = self.campaign
+        campaign = self.graph.campaign
         for specimen, setup in campaign.combinations:
             shows = repr((specimen, campaign.specimens[specimen], campaign.gravity, setup, campaign.setups[setup]))
             make, place = partial(_drawing, campaign, specimen, setup), addresses.of_setup(specimen, setup)
             yield self._product(f"drawing {specimen}+{setup}", shows, {}, make, [place])
 
-    def tests(self) -> Iterator[Product]:
+    def _tests(self) -> Iterator[Product]:
         """The page of each test, with its part of the pages of all tests."""
         for name, asked in self._asked.items():
-            page, results = addresses.of_test(name), results_of(self.campaign, self.campaign.tests[name])
-            make, places = partial(_page, self.layout, asked), [page, addresses.of_data(page)]
+            page, results = addresses.of_test(name), results_of(self.graph.campaign, self.graph.campaign.tests[name])
+            make, places = partial(_page, self.graph.layout, asked), [page, addresses.of_data(page)]
             product = self._product(f"page {name}", asked.shows, self._contents(results), make, places)
             yield replace(product, keeps=True)
 
-    def specimens(self) -> Iterator[Product]:
+    def _specimens(self) -> Iterator[Product]:
         """The page of each specimen."""
-        campaign, models = self.campaign, models_shown(self.campaign)
+        campaign, models = self.graph.campaign, models_shown(self.graph.campaign)
         around = (campaign.title, campaign.gravity, campaign.of_interest, models)
         for name in campaign.of_interest:
             results = [ResultId(name, "specimen"), ResultId(name, "contact")]
@@ -123,20 +120,21 @@ class Report:
             tests = {test: key for test, key in self._keys.items() if campaign.tests[test].specimen == name}
             setups = {pair: tests for pair, tests in campaign.combinations.items() if pair[0] == name}
             shows = repr((around, campaign.specimens[name], setups, [campaign.setups[setup] for _, setup in setups]))
-            page, own = addresses.of_specimen(name), self._parts(tests)
-            places, make = [addresses.of_data(page), page], partial(_specimen, campaign, self.layout, name, own)
+            page = addresses.of_specimen(name)
+            places = [addresses.of_data(page), page]
+            make = partial(_pages, campaign, self.graph.layout, self._parts(tests), places, specimen=name)
             yield self._product(f"specimen-page {name}", shows, self._contents(results) | tests, make, places)
 
-    def whole(self) -> Iterator[Product]:
+    def _whole(self) -> Iterator[Product]:
         """The pages of the whole campaign, the overview last of them."""
-        forecasts = self.forecasts
-        optional = {addresses.ASSESSMENTS: bool(self.campaign.assessments), addresses.FORECASTS: forecasts is not None}
+        campaign, layout, forecasts = self.graph.campaign, self.graph.layout, self.forecasts
+        optional = {addresses.ASSESSMENTS: bool(campaign.assessments), addresses.FORECASTS: forecasts is not None}
         places = addresses.of_campaign([page for page, is_there in optional.items() if is_there])
         foreseen = [] if forecasts is None else [forecasts.model_dump_json()]
-        shows = [self.campaign.told(self.campaign), sorted(self.outdated), *foreseen, *map(repr, self.advice)]
-        there = {str(path.relative_to(self.layout.processed)): path for path in self.layout.results_there()}
-        contents = {name: self.catalogue.content(path) for name, path in there.items()}
-        make = partial(_whole, self.campaign, self.layout, self._parts(self._asked), self.advice, places)
+        shows = [campaign.told(campaign), sorted(self.outdated), *foreseen, *map(repr, self.advice)]
+        there = {str(path.relative_to(layout.processed)): path for path in layout.results_there()}
+        contents = {name: self.graph.catalogue.content(path) for name, path in there.items()}
+        make = partial(_pages, campaign, layout, self._parts(self._asked), places, advice=self.advice)
         yield self._product("pages", json.dumps(shows), contents | self._keys, make, places)
 
     def _product(
@@ -147,19 +145,20 @@ class Report:
         make: Callable[[], Contents],
         places: Iterable[str],
     ) -> Product:
-        paths = tuple(self.layout.report.parent / place for place in places)
-        return Product(name, shows, upstream, self.catalogue.code(MADE_BY), make, paths)
+        paths = tuple(self.graph.layout.report.parent / place for place in places)
+        return Product(name, shows, upstream, self.graph.catalogue.code(MADE_BY), make, paths)
 
     def _contents(self, results: Iterable[ResultId]) -> dict[str, str | None]:
-        return {str(result): self.catalogue.content(self.layout.path(result)) for result in results}
+        return {str(result): self.graph.catalogue.content(self.graph.layout.path(result)) for result in results}
 
     @cached_property
     def _asked(self) -> dict[str, Asked]:
-        return {each.test: each for each in asked_of(self.campaign, self.layout, self.outdated, self.photos)}
+        asked = asked_of(self.graph.campaign, self.graph.layout, self.outdated, self.photos)
+        return {each.test: each for each in asked}
 
     @property
     def _keys(self) -> dict[str, str]:
-        return {name: self._made[f"page {name}"].key for name in self.campaign.tests}
+        return {name: self._made[f"page {name}"].key for name in self._asked}
 
     def _parts(self, tests: Iterable[str]) -> list[Drawn]:
         return [(self._asked[name], self._made[f"page {name}"].text) for name in tests]
@@ -177,20 +176,25 @@ def _page(layout: Layout, asked: Asked) -> Contents:
     return drawn(layout, asked)
 
 
-def _specimen(campaign: Campaign, layout: Layout, name: str, parts: Sequence[Drawn]) -> Contents:
-    from colonnade.report.build import Part, seldom_collected, specimen_page
-
-    with seldom_collected():
-        return [text for _, text in specimen_page(campaign, layout, name, [Part.of(*each) for each in parts])], ""
-
-
-def _whole(
-    campaign: Campaign, layout: Layout, parts: Sequence[Drawn], advice: Sequence[Advice], places: Sequence[str]
+def _pages(
+    campaign: Campaign,
+    layout: Layout,
+    parts: Sequence[Drawn],
+    places: Sequence[str],
+    *,
+    specimen: str = "",
+    advice: Sequence[Advice] = (),
 ) -> Contents:
-    from colonnade.report.build import Part, seldom_collected, whole_pages
+    """Give the page of a specimen, or those of the whole campaign."""
+    from colonnade.report.build import Part, seldom_collected, specimen_page, whole_pages
 
     with seldom_collected():
-        texts = dict(whole_pages(campaign, layout, [Part.of(*each) for each in parts], advice))
+        own = [Part.of(*each) for each in parts]
+        is_whole = not specimen
+        pages = (
+            whole_pages(campaign, layout, own, advice) if is_whole else specimen_page(campaign, layout, specimen, own)
+        )
+        texts = dict(pages)
     return [texts[place] for place in places], ""
 
 
@@ -201,21 +205,19 @@ PHOTOS_BY = ("colonnade.readers.photo", __name__)
 """What the photos of the report are made by."""
 
 
-def photos_shown(campaign: Campaign, layout: Layout, catalogue: Catalogue) -> tuple[dict[str, Photos], list[Finding]]:
+def photos_shown(graph: Graph) -> tuple[dict[str, list[Photo]], list[Finding]]:
     """
     Write the photos of all tests into the report, where they are not there already, and remove others.
 
     Parameters
     ----------
-    campaign : Campaign
-    layout : Layout
-    catalogue : Catalogue
-        Spares decoding photos that are as they were.
+    graph : Graph
+        Its catalogue spares decoding photos that are as they were.
 
     Returns
     -------
-    photos : dict of str to Photos
-        Those of each test that has any.
+    photos : dict of str to list of Photo
+        Those of each test that can be shown.
     unshown : list of Finding
         A warning of each photo that cannot be shown.
 
@@ -224,65 +226,51 @@ def photos_shown(campaign: Campaign, layout: Layout, catalogue: Catalogue) -> tu
     StoreError
         If a photo cannot be written.
     """
-    folder, code = layout.report.parent, catalogue.code(PHOTOS_BY)
-    products = [
-        Product(address, "", _upstream(campaign, written, catalogue), code, make, (folder / address,))
-        for test, number, written in _photos(campaign)
-        for address, make in [(address_of(test, number), partial(_copied, campaign.folder, written))]
-    ]
-    made = brought_up_to_date(products, catalogue)
-    for stale in set(folder.glob("photos/*.jpg")) - {path for each in products for path in each.paths}:
+    source, folder, code = graph.campaign.folder, graph.layout.report.parent, graph.catalogue.code(PHOTOS_BY)
+    asked, products = list(_photos(graph.campaign)), []
+    for _, photo in asked:
+        is_inside = (source / photo.written).resolve().is_relative_to(source)  # else it is refused when it is read
+        found = graph.catalogue.entry("raw", source / photo.written, sha256_of) if is_inside else None
+        upstream, make = {photo.written: found[1] if found else None}, partial(_copied, source, photo.written)
+        products.append(Product(photo.address, "", upstream, code, make, (folder / photo.address,)))
+    made = brought_up_to_date(products, graph.catalogue)
+    photos: dict[str, list[Photo]] = {}
+    for test, photo in asked:
+        if not made[photo.address].reason:
+            photos.setdefault(test, []).append(photo)
+    shown = {folder / photo.address for each in photos.values() for photo in each}
+    for stale in set(folder.glob("photos/*.jpg")) - shown:
         files.remove(stale)
-    found, photos = [], dict[str, Photos]()
-    for test, number, written in _photos(campaign):
-        before, address = photos.get(test, Photos()), address_of(test, number)
-        if reason := made[address].reason:
-            files.remove(folder / address)
-            found.append(finding_of(test, reason))
-            photos[test] = replace(before, problems=(*before.problems, found[-1].text))
-        else:
-            shown = Photo(address, f"Photo {number} of test {test}", written)
-            photos[test] = replace(before, shown=(*before.shown, shown))
-    return photos, found
+    reasons = ((test, made[photo.address].reason) for test, photo in asked)
+    return photos, [_unshown(test, reason) for test, reason in reasons if reason]
 
 
-def unshown_photos(campaign: Campaign) -> list[Finding]:
+def unshown_photos(campaign: Campaign) -> Iterator[Finding]:
     """Look at the photos of all tests, and give a warning of each that cannot be shown; nothing is written."""
-    found = []
-    for test, _, written in _photos(campaign):
+    for test, photo in _photos(campaign):
         expect_none()
         try:
-            read_photo(_source(campaign.folder, written), within=campaign.folder)
+            _pixels(campaign.folder, photo.written)
         except ReadError as error:
-            found.append(finding_of(test, str(error)))
-    return found
+            yield _unshown(test, str(error))
 
 
-def finding_of(test: str, reason: str) -> Finding:
-    """Make a finding of a photo's refusal."""
+def _photos(campaign: Campaign) -> Iterator[tuple[str, Photo]]:
+    for name, test in campaign.tests.items():
+        for number, written in enumerate(test.photos, start=1):
+            yield name, Photo(address_of(name, number), f"Photo {number} of test {name}", written)
+
+
+def _unshown(test: str, reason: str) -> Finding:
     return replace(warning(KIND, f"tests[{test}].photos: {reason}"), about=f"tests.{test}")
 
 
-def _photos(campaign: Campaign) -> Iterator[tuple[str, int, str]]:
-    for name, test in campaign.tests.items():
-        for number, written in enumerate(test.photos, start=1):
-            yield name, number, written
-
-
-def _source(folder: Path, written: str) -> Path:
+def _pixels(folder: Path, written: str) -> Pixels:
     try:
         inside(folder, written)
     except ValueError as error:
         raise ReadError(str(error)) from None
-    return folder / written
-
-
-def _upstream(campaign: Campaign, written: str, catalogue: Catalogue) -> dict[str, str | None]:
-    """Hash a photo; one that is not there or lies outside is not opened, and refused when it is read."""
-    path = campaign.folder / written
-    is_inside = path.resolve().is_relative_to(campaign.folder)
-    found = catalogue.entry("raw", path, sha256_of) if is_inside else None
-    return {written: found[1] if found else None}
+    return read_photo(folder / written, within=folder)
 
 
 def _copied(folder: Path, written: str) -> Contents:
@@ -290,6 +278,5 @@ def _copied(folder: Path, written: str) -> Contents:
     from PIL import Image
 
     copy = BytesIO()
-    pixels = read_photo(_source(folder, written), within=folder)
-    Image.fromarray(pixels).save(copy, "JPEG", quality=QUALITY, optimize=True)
+    Image.fromarray(_pixels(folder, written)).save(copy, "JPEG", quality=QUALITY, optimize=True)
     return [copy.getvalue()], ""

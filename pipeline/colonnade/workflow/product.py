@@ -62,13 +62,7 @@ class Catalogue:
     What the files of a campaign held when they were last opened, kept from run to run.
 
     A file of the same size, time and inode holds the same. The catalogue only saves time: if it is missing or was
-    altered, the files are opened.
-
-    Parameters
-    ----------
-    layout : Layout
-    verify : bool, optional
-        Open every file again, and read all of it.
+    altered, the files are opened; to `verify`, all of them are, and read to their end.
     """
 
     def __init__(self, layout: Layout, *, verify: bool = False) -> None:
@@ -115,11 +109,19 @@ class Catalogue:
         self._seen[name] = known
         return known
 
+    def _result(self, path: Path) -> dict[str, str]:
+        entry = self.entry("results", path, lambda path: _kept(stored_attributes(path)))
+        return entry[1] if entry else {}
+
     def attributes(self, path: Path) -> Mapping[str, Any]:
         """Attributes `KEPT` of a result and its findings; empty if it is missing or damaged."""
-        entry = self.entry("results", path, _kept)
-        kept = entry[1] if entry else {}
-        return {**kept, "warnings": from_text(kept["warnings"])} if "warnings" in kept else kept
+        kept = self._result(path)
+        return kept and {**kept, "warnings": from_text(kept["warnings"])}
+
+    def content(self, path: Path) -> str | None:
+        """What a result says and was made from, as hashes; None if it is missing or damaged."""
+        kept = self._result(path)
+        return f"{kept['key']} {kept['content']}" if kept else None
 
     def stamp(self, page: Path) -> str:
         """Key of what a page shows; empty if it is missing or was altered."""
@@ -151,17 +153,12 @@ class Catalogue:
         notices = []
         for path in self._layout.results_there():
             expect_none()
-            entry = self.entry("results", path, _whole)
+            entry = self.entry("results", path, lambda path: _kept(_read(path)))
             if entry is not None and not entry[1]:
                 files.remove(path)
                 name = path.relative_to(self._layout.home).as_posix()
                 notices.append(f"{name}: it was altered or damaged, so it is recomputed.")
         return notices
-
-    def content(self, path: Path) -> str | None:
-        """Hash of the attributes `KEPT` of a result and its findings; None if it is missing or damaged."""
-        entry = self.entry("results", path, _kept)
-        return entry[1].get("hash") if entry else None
 
     def kept(self, product: str, key: str) -> tuple[str, str] | None:
         """Return the text that is kept of a product under this key, and why it could not be made; None without one."""
@@ -200,21 +197,17 @@ def read_done(path: Path) -> xr.Dataset | None:
     return result if result.attrs["status"] == "done" else None
 
 
-def _whole(path: Path) -> dict[str, str]:
-    """Read all of a result; give what is kept of it, nothing if it was altered."""
+def _read(path: Path) -> dict[str, Any]:
+    """Attributes of a result that is read to its end; empty if it was altered."""
     try:
-        return _kept(path, files.read(path).attrs)
+        return files.read(path).attrs
     except StoreError:
         return {}
 
 
-def _kept(path: Path, attributes: Mapping[str, Any] | None = None) -> dict[str, str]:
-    stored = stored_attributes(path) if attributes is None else attributes
-    if not stored:
-        return {}
-    kept = {part: str(stored[part]) for part in KEPT if part in stored}
-    kept |= {"warnings": to_text(stored.get("warnings", []))}
-    return kept | {"hash": hash_of(kept)}
+def _kept(stored: Mapping[str, Any]) -> dict[str, str]:
+    kept = {part: str(stored.get(part, "")) for part in KEPT}
+    return kept | {"warnings": to_text(stored.get("warnings", []))} if stored else {}
 
 
 NEVER_RUN = "never run"
@@ -277,7 +270,7 @@ class Product:
         upstream = {
             name: look(each).get("content") if isinstance(each, Path) else each for name, each in self.upstream.items()
         }
-        return {"code": self.code, "settings": hash_of(self.inputs), "upstream": upstream}
+        return {"upstream": upstream, "settings": hash_of(self.inputs), "code": self.code}
 
     def _key(self, ingredients: Mapping[str, Any]) -> str:
         kind = self.id.stage if isinstance(self.id, ResultId) else self.id.partition(" ")[0]
@@ -316,9 +309,8 @@ class Product:
             before = json.loads(stored.get("ingredients", ""))
         except ValueError:
             return NEVER_RUN
-        if before.get("upstream") != now["upstream"]:
-            return "raw file changed" if self.result.stage == "ingest" else "upstream changed"
-        return "settings changed" if before.get("settings") != now["settings"] else "code changed"
+        changed = next((part for part in now if before.get(part) != now[part]), "code")
+        return f"{'raw file' if changed == 'upstream' and self.result.stage == 'ingest' else changed} changed"
 
 
 class Made(NamedTuple):

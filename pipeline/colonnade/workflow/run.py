@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
 from types import NoneType
 from typing import Any
@@ -13,13 +13,13 @@ from colonnade.errors import CampaignError, nearest
 from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
-from colonnade.store.results import RUN_STAGES, ResultId
+from colonnade.store.results import RUN_STAGES
 from colonnade.validation import described, whole
-from colonnade.workflow.chain import RunResult, remove_later
+from colonnade.workflow.chain import RunResult, remove_results
 from colonnade.workflow.executors import Where
 from colonnade.workflow.pages import Report, photos_shown
 from colonnade.workflow.pooling import expect_known
-from colonnade.workflow.raw_files import RawFiles, copies
+from colonnade.workflow.raw_files import copies
 from colonnade.workflow.summary import choose, finding_of, foreseen_of, write_summary
 from colonnade.workflow.walk import Progress, Walk, unseen, walking
 
@@ -95,62 +95,60 @@ def run(
         walk.start_from, walk.until = start_from, last
         walk.progress, walk.tell = progress or unseen, notices.append
         notices += walk.graph.catalogue.remove_altered()
-        raw = {name: walk.graph.raw(test) for name, test in loaded.tests.items()}
-        for name in loaded.tests.keys() - set(walk.included):
-            remove_later(layout, ResultId(name, "ingest"), itself=True)
+        for name in loaded.tests.keys() - walk.included:
+            remove_results(layout, name)
         walk.through(tests)
-        loaded, outdated, summary = _summed_up(loaded.warned(copies(loaded, raw)), walk, raw, awaiting=awaiting)
+        outdated, summary = _summed_up(walk, awaiting=awaiting)
         if last == "report":
-            loaded, report = _reported(walk, loaded, outdated, summary)
+            report = _reported(walk, outdated, summary)
             walk.is_whole = True
+    loaded = walk.graph.campaign
     concerning = {name: loaded.concerning(name) for name in loaded.tests}
     return RunResult(tuple(walk.stages), layout.summary_json, report, loaded.warnings, concerning, tuple(notices))
 
 
-def _summed_up(
-    campaign: Campaign, walk: Walk, raw: Mapping[str, RawFiles], *, awaiting: bool
-) -> tuple[Campaign, dict[str, str], Summary]:
+def _summed_up(walk: Walk, *, awaiting: bool) -> tuple[set[str], Summary]:
     """
     Write the summary; before it, if the run goes to the report, score forecasts and assess real columns.
 
-    Return the campaign with what is wrong with forecasts, and why which tests are out of date.
+    Return the tests that are out of date, too.
     """
-    layout = walk.graph.layout
-    stale = {name: why for name, why in walk.stale().items() if name not in walk.failed["test"]}
-    outdated = stale | dict.fromkeys(campaign.tests.keys() - set(walk.included), "")
+    graph, layout = walk.graph, walk.graph.layout
+    raw = {name: graph.raw(test) for name, test in graph.campaign.tests.items()}
     forecasts = read_forecasts(layout)
-    campaign = campaign.warned(map(finding_of, forecasts.refused))
-    chosen = choose(campaign, forecasts, raw)
+    walk.warn([*copies(graph.campaign, raw), *map(finding_of, forecasts.refused)])
+    outdated = walk.stale() | (graph.campaign.tests.keys() - walk.included)
+    chosen = choose(graph.campaign, forecasts, raw)
     if walk.until == "report":
         walk.score(chosen.scored, outdated)
         if not awaiting:  # while tests arrive, the answers about real columns wait for the last of them
-            walk.assess(campaign.assessments)
+            walk.assess(graph.campaign.assessments)
     summary = write_summary(
-        campaign,
-        layout,
-        walk.graph.catalogue,
+        walk.graph,
         outdated=outdated,
-        failed=walk.failed,
-        outdated_assessments=walk.stale_assessments(),
-        foreseen=foreseen_of(layout, forecasts, chosen, outdated.keys() | walk.failed["test"].keys()),
+        failed=walk.failed["test"],
+        unassessed=walk.stale_assessments(),
+        foreseen=foreseen_of(layout, forecasts, chosen, outdated | walk.failed["test"].keys()),
         workers=walk.where.workers,
     )
-    return campaign, outdated, summary
+    return outdated, summary
 
 
-def _reported(walk: Walk, campaign: Campaign, outdated: Mapping[str, str], summary: Summary) -> tuple[Campaign, Path]:
-    """Bring maps, photos, advice and pages up to date; return the campaign with what is wrong with photos."""
-    layout, catalogue = walk.graph.layout, walk.graph.catalogue
-    walk.map(summary)
-    photos, unshown = photos_shown(campaign, layout, catalogue)
-    campaign = campaign.warned(unshown)
+def _reported(walk: Walk, outdated: Collection[str], summary: Summary) -> Path:
+    """Bring maps, photos, advice and pages up to date."""
+    from colonnade.workflow.maps import kept_maps
+
+    known = [name for name in walk.graph.campaign.specimens if name not in walk.failed["specimen"]]
+    walk.follow([product] for product in kept_maps(walk.graph, summary, known))
+    photos, unshown = photos_shown(walk.graph)
+    walk.warn(unshown)
+    graph, campaign, workers = walk.graph, walk.graph.campaign, walk.where.workers
     advice: list[Advice] = []
     if campaign.awaited or campaign.next.model_fields_set or campaign.table.model_fields_set:
         from colonnade.workflow.advising.next import advise
 
-        advice = advise(campaign, layout, catalogue, workers=walk.where.workers)
-    report = Report(campaign, layout, catalogue, outdated, summary.forecasts, advice, photos, walk.where.workers)
-    return campaign, report.bring_up_to_date()
+        advice = advise(campaign, graph.layout, graph.catalogue, workers=workers)
+    return Report(graph, outdated, summary.forecasts, advice, photos, workers).bring_up_to_date()
 
 
 def _last_stage(start_from: str | None, until: str | None) -> str:

@@ -28,9 +28,10 @@ from colonnade.store.layout import Layout
 from colonnade.store.records.stored import read_test
 from colonnade.store.records.summary import as_csv
 from colonnade.store.records.test import record_of_specimen, record_of_test
-from colonnade.store.results import Subject, results_of
+from colonnade.store.results import results_of
+from colonnade.workflow.graph import Graph
 from colonnade.workflow.pooling import restitution_taken
-from colonnade.workflow.product import Catalogue, Contents, Product, brought_up_to_date, read_done, stored_attributes
+from colonnade.workflow.product import Contents, Product, brought_up_to_date, read_done, stored_attributes
 from colonnade.workflow.raw_files import RawFiles
 
 if TYPE_CHECKING:
@@ -44,13 +45,11 @@ Foreseen = tuple[Mapping[str, TestForecast], ForecastsSummary | None]
 
 
 def write_summary(
-    campaign: Campaign,
-    layout: Layout,
-    catalogue: Catalogue,
+    graph: Graph,
     *,
-    outdated: Mapping[str, str] | None = None,
-    failed: Mapping[Subject, Mapping[str, str]] | None = None,
-    outdated_assessments: Collection[str] = (),
+    outdated: Collection[str] = (),
+    failed: Mapping[str, str] | None = None,
+    unassessed: Collection[str] = (),
     foreseen: Foreseen = ({}, None),
     workers: int | None = 1,
 ) -> Summary:
@@ -59,16 +58,13 @@ def write_summary(
 
     Parameters
     ----------
-    campaign : Campaign
-    layout : Layout
-    catalogue : Catalogue
-        Spares reading the results of unchanged tests.
-    outdated : mapping of str to str, optional
-        Tests whose stored results are out of date, and why; they are reported as pending.
-    failed : mapping of str to mapping of str to str, optional
-        Why tests and assessments failed in this run, whether stored or not.
-    outdated_assessments : collection of str, optional
-        Assessments whose stored results are out of date; they are left out, as those that were never made.
+    graph : Graph
+    outdated : collection of str, optional
+        Tests whose stored results are out of date; they are reported as pending.
+    failed : mapping of str to str, optional
+        Why tests failed in this run, whether stored or not.
+    unassessed : collection of str, optional
+        Assessments whose stored results are out of date; they are left out.
     foreseen : Foreseen, optional
         What was forecast.
     workers : int, optional
@@ -83,67 +79,62 @@ def write_summary(
     StoreError
         If a file cannot be written.
     """
-    failures, late = failed or {}, outdated or {}
-    of_tests = failures.get("test", {})
-    tests = (
-        _of_test(campaign, layout, catalogue, test, late.get(name), of_tests.get(name))
-        for name, test in campaign.tests.items()
-    )
-    assessed = {
-        name: record_of_assessment(layout, name, asked, failures.get("assessment", {}).get(name, ""))
-        for name, asked in campaign.assessments.items()
-    }
-    specimens = (_of_specimen(campaign, layout, catalogue, name) for name in campaign.specimens)
-    records = brought_up_to_date(specimens, catalogue) | brought_up_to_date(tests, catalogue, workers=workers)
+    campaign, layout, failures = graph.campaign, graph.layout, failed or {}
+    tests = (_of_test(graph, test, name in outdated, failures.get(name)) for name, test in campaign.tests.items())
+    made = brought_up_to_date((_of_specimen(graph, name) for name in campaign.specimens), graph.catalogue)
+    made |= brought_up_to_date(tests, graph.catalogue, workers=workers)
     summary = Summary(
         campaign=campaign.campaign,
         colonnade=colonnade.__version__,
         specimens={
-            name: SpecimenSummary.model_validate_json(records[f"specimen-record {name}"].text)
+            name: SpecimenSummary.model_validate_json(made[f"specimen-record {name}"].text)
             for name in campaign.specimens
         },
         tests={
-            name: TestSummary.model_validate_json(records[f"record {name}"].text).model_copy(
+            name: TestSummary.model_validate_json(made[f"record {name}"].text).model_copy(
                 update={"forecast": foreseen[0].get(name)}
             )
             for name in campaign.tests
         },
         forecasts=foreseen[1],
-        assessments={name: each for name, each in assessed.items() if each and name not in outdated_assessments},
+        assessments={
+            name: record
+            for name, asked in campaign.assessments.items()
+            if name not in unassessed and (record := record_of_assessment(layout, name, asked)) is not None
+        },
     )
     files.write_text(layout.summary_json, summary.text())
     files.write_text(layout.summary_csv, as_csv(summary))
     return summary
 
 
-def _of_specimen(campaign: Campaign, layout: Layout, catalogue: Catalogue, name: str) -> Product:
+def _of_specimen(graph: Graph, name: str) -> Product:
     from colonnade.stages.specimen import SpecimenInputs
 
+    campaign, layout = graph.campaign, graph.layout
     inputs = SpecimenInputs.of(campaign, name).model_dump_json()
     entry = json.dumps([inputs, repr(campaign.specimens[name]), campaign.gravity])
-    upstream = {"specimen": catalogue.content(layout.stage(name, "specimen"))}
+    upstream = {"specimen": graph.catalogue.content(layout.stage(name, "specimen"))}
     make = partial(_specimen, campaign, layout, name)
-    return Product(f"specimen-record {name}", entry, upstream, catalogue.code(MADE_BY), make, keeps=True)
+    return Product(f"specimen-record {name}", entry, upstream, graph.catalogue.code(MADE_BY), make, keeps=True)
 
 
 def _specimen(campaign: Campaign, layout: Layout, name: str) -> Contents:
     return [], record_of_specimen(campaign, name, restitution_taken(campaign, layout, name)).model_dump_json()
 
 
-def _of_test(
-    campaign: Campaign, layout: Layout, catalogue: Catalogue, test: Test, outdated: str | None, failure: str | None
-) -> Product:
+def _of_test(graph: Graph, test: Test, is_outdated: bool, failure: str | None) -> Product:
     """Give the record of a test, made by a campaign that holds this test alone."""
-    campaign = campaign.but(tests={test.id: test})
+    campaign, layout = graph.campaign.but(tests={test.id: test}), graph.layout
     entry = [campaign.told(test), repr(campaign.specimens[test.specimen]), campaign.gravity, campaign.left_out(test.id)]
-    entry += [repr(campaign.concerning(test.id)), outdated, failure]
-    upstream = {str(result): catalogue.content(layout.path(result)) for result in results_of(campaign, test)}
-    make = partial(_test, campaign, layout, test, outdated, failure)
-    return Product(f"record {test.id}", json.dumps(entry), upstream, catalogue.code(MADE_BY), make, keeps=True)
+    entry += [repr(campaign.concerning(test.id)), is_outdated, failure]
+    upstream = {str(each): graph.catalogue.content(layout.path(each)) for each in results_of(campaign, test)}
+    make = partial(_test, campaign, layout, test, is_outdated, failure)
+    return Product(f"record {test.id}", json.dumps(entry), upstream, graph.catalogue.code(MADE_BY), make, keeps=True)
 
 
-def _test(campaign: Campaign, layout: Layout, test: Test, outdated: str | None, failure: str | None) -> Contents:
-    stored = read_test(campaign, layout, test, outdated=outdated, failure=failure)
+def _test(campaign: Campaign, layout: Layout, test: Test, is_outdated: bool, failure: str | None) -> Contents:
+    stored = read_test(campaign, layout, test, is_outdated=is_outdated, failure=failure)
     return [], record_of_test(campaign, test, stored).model_dump_json()
 
 

@@ -9,22 +9,22 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import groupby, zip_longest
 
-from colonnade.campaign import Campaign, Test
+from colonnade.campaign import Campaign
 from colonnade.campaign.assessment import Assessment
-from colonnade.campaign.forms.summary import Summary
 from colonnade.dynamics.models import MODELS
 from colonnade.errors import StoreError
+from colonnade.findings import Finding
 from colonnade.interruption import expect_none
 from colonnade.store import files
 from colonnade.store.forecasts import Known
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin
 from colonnade.store.results import RUN_STAGES, ResultId, Subject, models_of
-from colonnade.workflow.chain import Chain, StageRun, bring_up_to_date, on_a_cluster, remove_later, worker_lost
+from colonnade.workflow.chain import Chain, StageRun, bring_up_to_date, on_a_cluster, worker_lost
 from colonnade.workflow.executors import HERE, Tell, Where, spread
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
-from colonnade.workflow.product import NEVER_RUN, Catalogue, Product
+from colonnade.workflow.product import Catalogue, Product
 
 Progress = Callable[[StageRun, int, int], None]
 
@@ -58,7 +58,7 @@ class Walk:
     stages : list of StageRun
         What became of each stage so far.
     failed : dict of dict of str to str
-        Why tests, specimens and assessments failed; tests of a specimen that failed cannot be predicted.
+        Why tests, specimens and assessments failed.
     """
 
     graph: Graph
@@ -75,93 +75,76 @@ class Walk:
 
     def through(self, tests: Sequence[str]) -> None:
         """Bring tests up to date, and the specimens that they need."""
-        needed = {self._test(name).specimen for name in tests} if self._asks_for("predict") else ()
+        campaign = self.graph.campaign
+        needed = {campaign.tests[name].specimen for name in tests} if self._asks_for("predict") else ()
         measured = dict.fromkeys([*tests, *self._free_vibrations(needed)])
-        self.follow(self._products(name, until="restitution") for name in measured)
+        self.follow(self._results(name, until=self._at_most("restitution")) for name in measured)
         if self._asks_for("restitution"):
             self.pool()
         if self._asks_for("predict"):
-            models = {name: models_of(self._campaign, self._test(name)) for name in tests}
+            models = {name: models_of(campaign, campaign.tests[name]) for name in tests}
             in_space = [name for name in tests if any(MODELS[model].in_space for model in models[name])]
-            self.calibrate({self._test(name).specimen for name in in_space})
-            for name in tests:
-                if self._is_blocked("test", name, self._test(name).specimen):
-                    remove_later(self.graph.layout, ResultId(name, "restitution"))
-            self.follow(self._products(name, since="predict") for name in tests)
+            self.calibrate({campaign.tests[name].specimen for name in in_space})
+            self.follow(self._results(name, "predict", self._at_most("compare")) for name in tests)
+
+    def warn(self, findings: Iterable[Finding]) -> None:
+        """Add findings to those of the campaign."""
+        self.graph = replace(self.graph, campaign=self.graph.campaign.warned(findings))
 
     def at_once(self, name: str) -> list[ResultId]:
         """
         Bring one test up to date as far as it takes seconds: to the predictions by the models in the plane, with the e
         that is known so far. Return the results that are there then.
         """
-        products = self._products(name, until="restitution")
+        products = self._results(name, until="restitution")
         self.follow([products])
-        self.pool([self._test(name).specimen])
-        if self._test(name).specimen not in self.failed["specimen"]:
-            predicted = self._products(name, since="predict", until="predict")
-            fast = [each for each in predicted if not MODELS[str(each.result.model)].in_space]
-            self.follow([fast])
-            products = [*products, *fast]
-        return [product.result for product in products if product.paths[0].exists()]
+        self.pool([self.graph.campaign.tests[name].specimen])
+        predicted = self._results(name, "predict", "predict")
+        fast = [each for each in predicted if not MODELS[str(each.result.model)].in_space]
+        self.follow([fast])
+        return [product.result for product in (*products, *fast) if product.paths[0].exists()]
 
     def pool(self, specimens: Collection[str] | None = None) -> None:
         """Bring specimens, by default all, up to date with the free vibrations that have been identified."""
         look, layout = self.graph.catalogue.attributes, self.graph.layout
-        for specimen in self._campaign.specimens if specimens is None else specimens:
+        for specimen in self.graph.campaign.specimens if specimens is None else specimens:
             free = self._free_vibrations({specimen})
             done = [name for name in free if look(layout.stage(name, "restitution")).get("status") == "done"]
             self.follow([[self.graph.pooling(specimen, done)]])
 
     def calibrate(self, specimens: Collection[str]) -> None:
         """Bring the laws of contact of specimens up to date."""
-        blocks = [name for name, each in self._campaign.specimens.items() if not each.is_assembly]
+        blocks = [name for name, each in self.graph.campaign.specimens.items() if not each.is_assembly]
         self.follow([self.graph.calibrating(name)] for name in blocks if name in specimens)
 
-    def map(self, summary: Summary) -> None:
-        """Bring the maps up to date of specimens with sine tests at several frequencies, by their records."""
-        from colonnade.workflow.maps import kept_maps
-
-        known = [name for name in self._campaign.specimens if name not in self.failed["specimen"]]
-        self.follow([product] for product in kept_maps(self.graph, summary, known))
-
     def assess(self, assessments: Mapping[str, Assessment]) -> None:
-        """Bring assessments up to date, their histories in blocks on all processes."""
-        for name, asked in assessments.items():
-            product = self._assessing(name, asked)
-            if self._is_blocked("assessment", name, asked.specimen):
-                files.remove(product.paths[0])
-            self.follow([[product]])
-
-    def stale_assessments(self) -> set[str]:
-        """Names of the assessments whose result is missing or outdated."""
-        asked = self._campaign.assessments.items()
-        return {name for name, each in asked if self._why_pending([self._assessing(name, each)]) is not None}
+        """Bring assessments up to date one after the other, their histories in blocks on all processes."""
+        for asked in assessments.items():
+            self.follow([[self._assessing(*asked)]])
 
     def score(self, forecasts: Mapping[str, Known], outdated: Collection[str]) -> None:
         """
         Bring the scores of forecasts up to date, given the one that counts of each test; tests without one have none.
         """
         measured = [name for name in forecasts if name not in outdated and name not in self.failed["test"]]
-        for name in self._campaign.tests.keys() - measured:
+        for name in self.graph.campaign.tests.keys() - measured:
             files.remove(self.graph.layout.stage(name, "forecast"))
-        self.follow([self.graph.scoring(self._test(name), forecasts[name])] for name in measured)
+        self.follow([self.graph.scoring(self.graph.campaign.tests[name], forecasts[name])] for name in measured)
 
-    def stale(self, *, until: str = "compare") -> dict[str, str]:
-        """Ids of the tests that have a missing or outdated result up to a stage, and what to say of it."""
-        last, compared = RUN_STAGES.index(until), {stage.subject for stage in self.stages if stage.stage == "compare"}
-        whys = {
-            name: self._why_pending([product for product in self._all(name) if product.result.order <= last])
-            for name in self.included
-            if name not in compared
-        }
-        return {name: why for name, why in whys.items() if why is not None}
+    def stale(self, *, until: str = "compare") -> set[str]:
+        """Ids of the tests that have a missing or outdated result up to a stage, and have not failed."""
+        compared = {stage.subject for stage in self.stages if stage.stage == "compare"}
+        unknown = self.included - compared - self.failed["test"].keys()
+        return {name for name in unknown if self._is_late(self._results(name, until=until))}
 
-    def _why_pending(self, products: Sequence[Product]) -> str | None:
-        """Say why results cannot be shown: empty if they were never made, None if they are up to date."""
-        runs, _, why = replace(self.chain(products), start_from=None).standing(self.graph.catalogue.attributes)
-        if why != NEVER_RUN:
-            return f"its results are out of date ({why}); run again" if why else None
-        return f"run only as far as {runs[-1].stage}; `colonnade run` does the rest" if runs else ""
+    def stale_assessments(self) -> set[str]:
+        """Names of the assessments whose result is missing or outdated."""
+        asked = self.graph.campaign.assessments.items()
+        return {name for name, each in asked if self._is_late([self._assessing(name, each)])}
+
+    def _is_late(self, products: Sequence[Product]) -> bool:
+        _, late = replace(self._chain(products), start_from=None).standing(self.graph.catalogue.attributes)
+        return late is not None
 
     def follow(self, chains: Iterable[Sequence[Product]]) -> None:
         """
@@ -172,15 +155,14 @@ class Walk:
         """
         parts = ([list(part) for _, part in groupby(chain, lambda each: each.where is None)] for chain in chains)
         for side_by_side in zip_longest(*parts, fillvalue=list[Product]()):
-            standing = [part for part in side_by_side if self._is_standing(part)]
+            standing = [part for part in side_by_side if not all(map(self._has_failed, part))]
             self._bring([part for part in standing if part[0].where is None], self.where)
             for part in standing:
                 if part[0].where is not None:
                     self._bring([part], Where(workers=1))
 
-    def _is_standing(self, products: Sequence[Product]) -> bool:
-        """Whether there are any, and what they are of has not failed."""
-        return any(each.result.subject not in self.failed[each.result.of] for each in products)
+    def _has_failed(self, product: Product) -> bool:
+        return product.result.subject in self.failed[product.result.of]
 
     def _bring(self, chains: Sequence[Sequence[Product]], where: Where) -> None:
         for done, runs in enumerate(self._ended(chains, where), 1):
@@ -193,65 +175,50 @@ class Walk:
 
     def _ended(self, chains: Sequence[Sequence[Product]], where: Where) -> Iterator[list[StageRun]]:
         waiting = []
-        for chain in map(self.chain, chains):
+        for chain in map(self._chain, chains):
             expect_none()
-            runs, late, _ = chain.standing(self.graph.catalogue.attributes)
+            runs, late = chain.standing(self.graph.catalogue.attributes)
             if late is None:
                 yield runs
             else:
                 waiting.append(chain)
         work = bring_up_to_date if where.scheduler is None else on_a_cluster
-        told = partial(spread, tell=self.tell, lost=worker_lost, names=lambda chain: chain.subject)
+        told = partial(spread, tell=self.tell, lost=worker_lost)
         yield from (runs for _, runs in told(work, waiting, workers=where.workers, scheduler=where.scheduler))
 
-    def chain(self, products: Sequence[Product]) -> Chain:
-        """Return the chain of some results of one test or specimen."""
-        return Chain(products, self.graph.layout, Origin.of(self._campaign), self.run_id, self.start_from)
+    def _chain(self, products: Sequence[Product]) -> Chain:
+        return Chain(products, self.graph.layout, Origin.of(self.graph.campaign), self.run_id, self.start_from)
 
     @property
-    def included(self) -> list[str]:
+    def included(self) -> set[str]:
         """Ids of the tests that are run: not excluded, and not planned and still without a raw file."""
-        return [name for name in self._campaign.tests if not self._campaign.left_out(name)]
+        return {name for name in self.graph.campaign.tests if not self.graph.campaign.left_out(name)}
+
+    def _at_most(self, stage: str) -> str:
+        return min(stage, self.until, key=RUN_STAGES.index)
 
     def _asks_for(self, stage: str) -> bool:
-        return RUN_STAGES.index(self.until) >= RUN_STAGES.index(stage)
+        return self._at_most(stage) == stage
 
-    def _products(self, name: str, since: str = "ingest", until: str = "compare") -> list[Product]:
-        """Return the results of a test from one stage to another, as far as the run goes."""
-        first, *last = (RUN_STAGES.index(stage) for stage in (since, until, self.until))
-        return [product for product in self._all(name) if first <= product.result.order <= min(last)]
-
-    def _all(self, name: str) -> list[Product]:
-        """Return the results of a test, made once: gathering what they read of the campaign takes time."""
+    def _results(self, name: str, since: str = "ingest", until: str = "compare") -> list[Product]:
+        """Return the results of a test from one stage to another; gathering what they read of the campaign is slow."""
         if name not in self._known:
             where = self.where._replace(progress=partial(self._tell_members, name))
-            self._known[name] = self.graph.of_test(self._test(name), where)
-        return self._known[name]
+            self._known[name] = self.graph.of_test(self.graph.campaign.tests[name], where)
+        first, last = RUN_STAGES.index(since), RUN_STAGES.index(until)
+        return [product for product in self._known[name] if first <= product.result.order <= last]
 
     def _tell_members(self, name: str, done: int, total: int) -> None:
         self.progress(StageRun(name, "ensemble", "done"), done, total)
 
     def _free_vibrations(self, specimens: Collection[str]) -> list[str]:
-        tests = {name: self._test(name) for name in self.included}
-        return [name for name, test in tests.items() if test.kind == "free-vibration" and test.specimen in specimens]
-
-    def _is_blocked(self, of: Subject, name: str, specimen: str) -> bool:
-        """Whether a specimen failed, and a test or an assessment with it: nothing may follow from it."""
-        if reason := self.failed["specimen"].get(specimen):
-            self.failed[of].setdefault(name, f"specimen {specimen}: {reason}")
-        return bool(reason)
+        tests = [test for name, test in self.graph.campaign.tests.items() if name in self.included]
+        return [test.id for test in tests if test.kind == "free-vibration" and test.specimen in specimens]
 
     def _assessing(self, name: str, asked: Assessment) -> Product:
         from colonnade.workflow.assessing import assessing
 
         return assessing(self.graph, name, asked, self.where)
-
-    @property
-    def _campaign(self) -> Campaign:
-        return self.graph.campaign
-
-    def _test(self, name: str) -> Test:
-        return self._campaign.tests[name]
 
 
 @contextmanager

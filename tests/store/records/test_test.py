@@ -92,7 +92,7 @@ def test_a_record_is_done_failed_or_pending_with_the_reason(campaign):
         return test.status, test.reason
 
     assert status(Stored()) == ("pending", None)
-    assert status(Stored(outdated="run only as far as predict")) == ("pending", "run only as far as predict")
+    assert status(Stored(outdated="out of date")) == ("pending", "out of date")
     assert status(Stored({("compare", None): compared()})) == ("done", None)
     failures = [Failure("ingest", "No file."), Failure("", "Specimen prism failed.")]
     assert status(Stored(failures=failures)) == ("failed", "ingest: No file. Specimen prism failed.")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from math import hypot, isnan, nan
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -15,7 +16,7 @@ from colonnade.figures.stored.record import MOTIONS
 from colonnade.figures.stored.subject import OfTest
 from colonnade.identification.response.rank import FEWEST, is_within
 from colonnade.report import specimens_page
-from colonnade.report.asked import Photos
+from colonnade.report.asked import Photo
 from colonnade.report.overview import TestRow
 from colonnade.report.pictures import value_of
 from colonnade.report.test_page import base, channels, facts
@@ -35,7 +36,7 @@ from colonnade.units.text import (
 )
 
 
-def of_test(one: OfTest, photos: Photos) -> dict[str, Any]:
+def of_test(one: OfTest, photos: Sequence[Photo]) -> dict[str, Any]:
     """Put all that is stored of a test into words and figures, by the names that its template uses."""
     campaign, test, stored = one.campaign, one.test, one.stored
     return {

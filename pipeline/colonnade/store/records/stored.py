@@ -31,6 +31,9 @@ Made = tuple[str, str | None]
 GOOD = 1
 """Quality flag of a sample without fault."""
 
+OUTDATED = "its results are missing or out of date; `colonnade run` makes them"
+"""Why a test is pending that was not run to its end with the campaign as it is."""
+
 WITHOUT_SAMPLES = ("ingest", "condition")
 """Stages whose samples are not kept in memory: a report of hundreds of tests has to fit."""
 
@@ -76,7 +79,7 @@ class Stored:
     settings : dict of (str, str or None) to mapping
         What each stage read of the campaign, as stored with its result.
     outdated : str
-        Why the stored results are out of date or not complete, and so not read; empty if nothing is known of that.
+        That the stored results are out of date or not complete, and so not read; empty if they are.
     with_samples : bool
         Whether the samples of `ingest` and `condition` are kept.
     """
@@ -183,7 +186,7 @@ def read_test(
     layout: Layout,
     test: Test,
     *,
-    outdated: str | None = None,
+    is_outdated: bool = False,
     failure: str | None = None,
     with_samples: bool = False,
 ) -> Stored:
@@ -195,15 +198,15 @@ def read_test(
     campaign : Campaign
     layout : Layout
     test : Test
-    outdated : str, optional
-        Why the stored results are out of date: they are then not read.
+    is_outdated : bool, optional
+        Whether the stored results are out of date or not complete: they are then not read.
     failure : str, optional
         Why it failed, if no result says so.
     with_samples : bool, optional
         Whether to keep the samples of all channels, as recorded and as conditioned.
     """
-    stored = Stored(outdated=outdated or "", with_samples=with_samples)
-    return _read(stored, layout, results_of(campaign, test) if outdated is None else [], failure)
+    stored = Stored(outdated=OUTDATED if is_outdated else "", with_samples=with_samples)
+    return _read(stored, layout, [] if is_outdated else results_of(campaign, test), failure)
 
 
 def read_specimen(campaign: Campaign, layout: Layout, specimen: str) -> Stored:

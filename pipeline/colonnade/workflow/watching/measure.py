@@ -119,7 +119,7 @@ def measure(campaign: Campaign, layout: Layout, name: str, finished: float) -> L
 def measured(campaign: Campaign, layout: Layout) -> set[str]:
     """Give the tests that nothing has to be measured of: their results are up to date, or they are left out."""
     walk = Walk(Graph(campaign, layout, Catalogue(layout)), "")
-    return set(campaign.tests) - walk.stale(until="restitution").keys()
+    return set(campaign.tests) - walk.stale(until="restitution")
 
 
 def _compare(campaign: Campaign, test: Test, stored: Stored) -> None:
