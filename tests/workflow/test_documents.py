@@ -115,5 +115,5 @@ def test_what_a_failed_test_cannot_show_is_said_with_the_reason(campaign):
 def test_before_any_run_it_says_to_run_first(empty_campaign, tmp_path):
     fresh = tmp_path / "fresh"
     shutil.copytree(empty_campaign[1].folder, fresh, ignore=shutil.ignore_patterns("processed", "report"))
-    with pytest.raises(CampaignError, match="nothing has been run yet; run `colonnade run` first"):
+    with pytest.raises(CampaignError, match="Nothing has been run yet; run `colonnade run` first"):
         draw(load(fresh), *chosen(load(fresh), "angle", "span-2.0"), None)

@@ -13,7 +13,6 @@ from colonnade.store.layout import Layout
 from colonnade.units.text import listed
 from colonnade.workflow.executors import Where
 from colonnade.workflow.pooling import expect_known
-from colonnade.workflow.product import stored_attributes
 from colonnade.workflow.walk import walking
 
 NUMBERS = {
@@ -65,34 +64,29 @@ def calibrate(
     """
     loaded = load(Path(campaign))
     expect_known(loaded, "specimen", specimens)
-    blocks = [name for name in loaded.of_interest if not loaded.specimens[name].is_assembly]
-    layout, chosen = Layout.of(loaded.path, results), list(specimens or blocks)
+    layout, blocks = Layout.of(loaded.path, results), {name: loaded.specimens[name] for name in loaded.of_interest}
+    chosen = list(specimens) or [name for name, each in blocks.items() if not each.is_assembly]
     several = [name for name in chosen if loaded.specimens[name].is_assembly]
     if several or not chosen:
         raise CampaignError(
-            f"{listed(several or loaded.of_interest)}: the contact of several bodies is not calibrated. They have the "
-            "law of the settings under processing.predict.contact."
+            f"{listed(several or list(blocks))}: the contact of several bodies is not calibrated. They have the law of "
+            "the settings under processing.predict.contact."
         )
-    mesh = loaded.processing.predict.contact.mesh
     with walking(loaded, layout, Where(workers)) as walk:
         for name in chosen:
-            is_given = loaded.specimens[name].restitution is not None
-            if not is_given and stored_attributes(layout.stage(name, "specimen")).get("status") != "done":
+            if loaded.specimens[name].restitution is None and not layout.stage(name, "specimen").is_file():
                 raise CampaignError(f"{name}: its restitution is not known yet. Run `colonnade identify` first.")
         walk.pool()
-        failed = walk.failed["specimen"]
-        for name in chosen:
-            if name in failed:
-                raise CampaignError(f"{name}: {failed[name]}")
         walk.calibrate(chosen)
-        return [_law(name, mesh, layout.stage(name, "contact"), failed.get(name)) for name in chosen]
+    mesh, failed = loaded.processing.predict.contact.mesh, walk.failed["specimen"]
+    return [_law(name, mesh, layout.stage(name, "contact"), failed.get(name)) for name in chosen]
 
 
 def _law(specimen: str, mesh: object, path: Path, failure: str | None) -> dict[str, Any]:
-    found: dict[str, Any] = {"specimen": specimen, "mesh": mesh, "reason": failure, "body": "", "source": ""}
+    found = {"specimen": specimen, "mesh": mesh, "reason": failure, "body": "", "source": "", "path": None}
     if failure is not None:
-        return found | dict.fromkeys(NUMBERS) | {"path": None}
+        return found | dict.fromkeys(NUMBERS)
     law = files.read(path)
+    said = {"reason": " ".join(map(str, law.attrs["warnings"])), "body": str(law.attrs["body"]), "path": path}
     numbers = {name: float(law[variable]) for name, variable in NUMBERS.items()}
-    said = {"reason": " ".join(map(str, law.attrs["warnings"])), "body": str(law.attrs["body"])}
-    return found | said | {"source": str(law.attrs["contact_restitution_source"]), **numbers, "path": path}
+    return found | said | numbers | {"source": str(law.attrs["contact_restitution_source"])}

@@ -141,24 +141,19 @@ def chosen(campaign: Campaign, name: str, subject: str | None) -> tuple[Entry, s
 
     of = {entry.of: entry for entry in FIGURES if entry.name == name}
     if not of:
-        known = dict.fromkeys(entry.name for entry in FIGURES)
-        raise CampaignError(
-            f'Unknown figure "{name}".{nearest(name, known)} All are listed by `colonnade figure --list`.'
-        )
+        hint = nearest(name, dict.fromkeys(entry.name for entry in FIGURES))
+        raise CampaignError(f'Unknown figure "{name}".{hint} All are listed by `colonnade figure --list`.')
     ids = {"campaign": [""], "test": list(campaign.tests), "specimen": list(campaign.specimens)}
-    of_one = [each for each in of if each != "campaign"]
-    if subject is None:
-        fitting = [(each, own[0]) for each, own in ids.items() if each in of and len(own) == 1]
-    else:
-        fitting = [(each, subject) for each in of_one if subject in ids[each]]
-    for each, found in fitting:
-        return of[each], found
-    if not of_one:
+    for each, entry in of.items():
+        if subject in ids[each] or (subject is None and len(ids[each]) == 1):
+            return entry, subject or ids[each][0]
+    kinds = [each for each in of if each != "campaign"]
+    hint = nearest(subject or "", [known for each in kinds for known in ids[each]])
+    if not kinds:
         raise CampaignError(f'"{name}" is a figure of the whole campaign. Leave out "{subject}".')
-    hint = nearest(subject or "", [known for each in of_one for known in ids[each]])
     if subject is None:
-        raise CampaignError(f'"{name}" is a figure of a {" or a ".join(of_one)}. Name one.{hint}')
-    raise CampaignError(f'The campaign has no {" or ".join(of_one)} "{subject}" that "{name}" could show.{hint}')
+        raise CampaignError(f'"{name}" is a figure of a {" or a ".join(kinds)}. Name one.{hint}')
+    raise CampaignError(f'The campaign has no {" or ".join(kinds)} "{subject}" that "{name}" could show.{hint}')
 
 
 def draw(campaign: Campaign, entry: Entry, subject: str, results: Path | None) -> Picture | Movie:
@@ -184,10 +179,11 @@ def draw(campaign: Campaign, entry: Entry, subject: str, results: Path | None) -
         found = pictures.read_of_campaign(campaign, layout)
     picture = entry.draw(found)
     if picture is None:
-        why = "; ".join(f"{failure.stage}: {failure.text}".removeprefix(": ") for failure in found.failures)
+        failures = "; ".join(f"{failure.stage}: {failure.text}".removeprefix(": ") for failure in found.failures)
+        why = f" The results say: {failures}." if failures else ""
         if not layout.summary_json.is_file():
-            why = "nothing has been run yet; run `colonnade run` first"
-        about = subject or campaign.campaign
-        reason = f" The results say: {why}." if why else ""
-        raise CampaignError(f'{about}: there is nothing to draw for "{entry.name}". {entry.needs}{reason}')
+            why = " Nothing has been run yet; run `colonnade run` first."
+        raise CampaignError(
+            f'{subject or campaign.campaign}: there is nothing to draw for "{entry.name}". {entry.needs}{why}'
+        )
     return picture

@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from colonnade.campaign.forms import summary
 from colonnade.campaign.forms.summary import IdentifiedSummary, PredictionSummary, RestitutionSummary, Warned
 from colonnade.findings import Severity
-from colonnade.workflow.product import marks_of
-from colonnade.workflow.watching.arrivals import Arrivals, last_change
+from colonnade.workflow.watching.arrivals import Arrivals
 from colonnade.workflow.watching.measure import Line
 
 FILE = Path("raw/free-01.csv")
@@ -52,27 +51,19 @@ def test_each_content_is_given_once_and_only_after_it_settled(steps):
         assert given_out or now - changed < 1.0
 
 
-def test_the_last_change_is_that_of_the_newest_file(tmp_path):
-    (tmp_path / "a").write_text("a")
-    (tmp_path / "b").write_text("b")
-    paths = [tmp_path / name for name in "abc"]
-    assert last_change(paths) == max(mark[1] for mark in marks_of(paths).values())
-    assert last_change([tmp_path / "c"]) == 0
-
-
 KNOWN = RestitutionSummary(value=0.976, low=0.974, high=0.978, level=0.95, source="identified", tests=("a", "b"))
 
 
 def line(**given):
     rocked = {"status": "done", "kind": "sine", "specimen": "prism", "outcome": "rocking"}
-    return Line("sine-07", summary.TestSummary(**rocked | given), KNOWN, 2.34)
+    return Line("sine-07", summary.TestSummary(**rocked | given), KNOWN)
 
 
 def test_a_sine_says_its_place_on_the_map():
     predicted = {"linear": PredictionSummary(outcome="rocking", peak_ratio=0.44), "contact": PredictionSummary()}
     sine = {"peak_ratio": 0.412, "frequency_ratio": 4.463, "amplitude_ratio": 2.1, "predicted": predicted}
     peaks = "sine-07: rocking 0.412 α; linear 0.440; Ω 4.46, A 2.1"
-    assert line(**sine).text() == f"{peaks} (2.3 s)"
+    assert line(**sine).text() == peaks
 
 
 def test_a_free_vibration_says_its_e_and_that_of_all_or_why_there_is_none():
@@ -82,7 +73,7 @@ def test_a_free_vibration_says_its_e_and_that_of_all_or_why_there_is_none():
     refused = IdentifiedSummary(reason="too few peaks")
     assert "rocking, no e: too few peaks; prism e" in line(kind="free-vibration", restitution=refused).text()
     failed = line(status="failed", reason="ingest: cut off", outcome=None)
-    assert failed.text() == "sine-07: failed: ingest: cut off (2.3 s)"
+    assert failed.text() == "sine-07: failed: ingest: cut off"
 
 
 def test_two_findings_are_said_and_others_named_and_notes_are_left_out():
@@ -91,7 +82,7 @@ def test_two_findings_are_said_and_others_named_and_notes_are_left_out():
         for severity, *kinds in ((Severity.WARNING, "clipped", "drift", "spikes", "follows"), (Severity.NOTE, "note"))
         for kind in kinds
     ]
-    assert "warning: clipped; warning: drift; and spikes (" in line(warnings=tuple(warnings)).text()
+    assert "warning: clipped; warning: drift; and spikes" in line(warnings=tuple(warnings)).text()
 
 
 def test_programs_get_the_record_and_what_is_added():

@@ -85,7 +85,7 @@ class Crashing:
 def crashing(monkeypatch):
     """What stands in for the run behind every watch of a test."""
     said = "OSError: y\nTraceback (most recent call last):\n  x\nOSError: y"
-    behind = Crashing([Ended(-11, (), said)])
+    behind = Crashing([Ended((), said)])
     monkeypatch.setattr(module, "Behind", lambda *_: behind)
     return behind
 
@@ -105,7 +105,7 @@ def test_a_run_behind_that_is_refused_is_tried_again_and_a_share_that_is_gone_is
     small, crashing, monkeypatch
 ):
     monkeypatch.setattr(module, "AGAIN", 0.1)
-    crashing.ends = [Ended(1, (), "small: this campaign is already being run"), Ended(0, (), "")]
+    crashing.ends = [Ended((), "small: this campaign is already being run"), Ended()]
     code, said = watched(small, share=small.folder / "gone")
     assert (code, crashing.starts, len(said)) == (0, 2, 2)
     assert "this folder cannot be seen" in said[0]
@@ -125,7 +125,7 @@ def test_a_watch_for_once_ends_if_results_cannot_be_written(small, crashing, mon
     "change", [lambda small: small.raw("pulse-02").unlink(), lambda small: small.edit("A small", "B")]
 )
 def test_a_deleted_file_or_another_word_in_the_campaign_starts_the_run_behind(small, crashing, monkeypatch, change):
-    crashing.ends = [Ended(0, (), "")]
+    crashing.ends = [Ended()]
     starts = []
 
     def wait(longest):

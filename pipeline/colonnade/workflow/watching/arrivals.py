@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import shutil
 import threading
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -22,11 +22,6 @@ from colonnade.workflow.product import Mark, marks_of
 
 POLL = 2.0
 """Seconds between two looks where no event came: a folder of another machine gives none, and one may be lost."""
-
-
-def last_change(paths: Iterable[Path]) -> int:
-    """Return when the last of some files was changed, ns since 1970; 0 if none is there."""
-    return max((nanoseconds for _, nanoseconds, _ in marks_of(paths).values()), default=0)
 
 
 @dataclass
@@ -105,26 +100,20 @@ class Share:
 
 def _copy(source: Path, target: Path) -> str:
     """Copy a file unless one of that name is there; return what is wrong."""
-    digest = sha256_of(source)
-    if digest is None:
-        return f"{source}: it cannot be read; it was not copied."
-    if target.exists():
-        same = sha256_of(target) == digest
-        return "" if same else f"{source}: {target.name} is there already and differs. It was kept; rename one of them."
-    partial = target.with_name(target.name + PARTIAL)
+    digest, partial = sha256_of(source), target.with_name(target.name + PARTIAL)
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(source, partial)
-        if sha256_of(partial) != digest:
-            return f"{source}: the copy differs from it; it was not kept. Is the file still being written?"
-        os.link(partial, target)  # unlike a rename it never replaces a file
-    except FileExistsError:
-        return f"{source}: {target.name} appeared meanwhile; it was kept."
+        if not target.exists():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(source, partial)
+            if sha256_of(partial) != digest:
+                return f"{source}: the copy differs from it; it was not kept. Is the file still being written?"
+            os.link(partial, target)  # unlike a rename it never replaces a file
     except OSError as error:
         return f"{source}: it could not be copied ({error.strerror or error})."
     finally:
         partial.unlink(missing_ok=True)
-    return ""
+    same = sha256_of(target) == digest
+    return "" if same else f"{source}: {target.name} is there already and differs. It was kept; rename one of them."
 
 
 @contextmanager

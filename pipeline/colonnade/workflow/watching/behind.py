@@ -5,16 +5,14 @@ from __future__ import annotations
 import multiprocessing
 import os
 import traceback
-from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 from colonnade import interruption
-from colonnade.errors import CampaignError, ColonnadeError
+from colonnade.errors import ColonnadeError
 from colonnade.workflow.executors import end_with
-from colonnade.workflow.lock import is_refusal
 
 NICENESS = 10
 """How far its priority is below that of the watch."""
@@ -30,37 +28,19 @@ class Ended:
 
     Attributes
     ----------
-    code : int
-        Its exit code.
     failures : tuple of str
         A sentence on each test or specimen that failed.
     problem : str
         Why it gave no result, first in one line: it was refused, it crashed, or the disk is full.
     """
 
-    code: int
     failures: tuple[str, ...] = ()
     problem: str = ""
-
-    @property
-    def was_refused(self) -> bool:
-        """Whether another run held the campaign."""
-        return is_refusal(self.problem)
 
 
 @dataclass
 class Behind:
-    """
-    A run of the campaign behind the watch.
-
-    Attributes
-    ----------
-    campaign_file : Path
-    results : Path or None
-        As for `run`.
-    workers : int or None
-        As for `run`.
-    """
+    """A run of the campaign of this file behind the watch; results and workers are as for `run`."""
 
     campaign_file: Path
     results: Path | None
@@ -87,28 +67,28 @@ class Behind:
         if self._running is None or not self._running[1].poll():
             return None
         process, told = self._running
-        self._running, ended = None, None
-        with suppress(EOFError), told:
-            ended = told.recv()
-        _wait(process)  # it has nothing left to do, but must not hold the watch
-        return ended or Ended(process.exitcode or 1, problem=f"It ended with exit code {process.exitcode}.")
+        try:
+            ended: Ended | None = told.recv()
+        except EOFError:
+            ended = None
+        self._end()  # it has nothing left to do, but must not hold the watch
+        return ended or Ended(problem=f"It ended with exit code {process.exitcode}.")
 
     def give_way(self) -> None:
         """Stop it: what it finished is kept, the rest is done by the next."""
-        if self._running is None:
-            return
+        if self._running is not None:
+            self._running[0].terminate()
+            self._end()
+
+    def _end(self) -> None:
+        """Wait for its end, and bring it about if it takes long; its workers end with it."""
+        assert self._running is not None
         process, told = self._running
         self._running = None
-        process.terminate()
-        _wait(process)
+        process.join(PATIENCE)
+        process.kill()
+        process.join()
         told.close()
-
-
-def _wait(process: BaseProcess) -> None:
-    """Wait for the end of a process, and bring it about if it takes long; its workers end with it."""
-    process.join(PATIENCE)
-    process.kill()
-    process.join()
 
 
 def _run(tell: Connection, watch: int, campaign_file: Path, results: Path | None, workers: int | None) -> None:
@@ -121,12 +101,11 @@ def _run(tell: Connection, watch: int, campaign_file: Path, results: Path | None
         from colonnade.workflow.run import run
 
         stages = run(campaign_file, results=results, workers=workers, awaiting=True).stages
-        failed = tuple(f"{stage.subject}: {stage.reason}" for stage in stages if stage.action == "failed")
-        tell.send(Ended(int(bool(failed)), failed))
+        tell.send(Ended(tuple(f"{stage.subject}: {stage.reason}" for stage in stages if stage.action == "failed")))
     except KeyboardInterrupt:
         pass
     except ColonnadeError as error:
-        tell.send(Ended(2 if isinstance(error, CampaignError) else 1, problem=str(error)))
+        tell.send(Ended(problem=str(error)))
     except Exception as error:
-        tell.send(Ended(1, problem=f"{type(error).__name__}: {error}\n{traceback.format_exc()}"))
+        tell.send(Ended(problem=f"{type(error).__name__}: {error}\n{traceback.format_exc()}"))
     interruption.stop_listening()

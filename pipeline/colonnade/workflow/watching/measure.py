@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import shlex
 import subprocess
-import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -42,14 +41,11 @@ class Line:
         As it will be in the summary, without what takes longer.
     restitution : RestitutionSummary
         The e of its specimen that is known so far.
-    seconds : float
-        From the last change of its files to this line.
     """
 
     test: str
     record: TestSummary
     restitution: RestitutionSummary
-    seconds: float
 
     def text(self) -> str:
         """Write it for people."""
@@ -57,63 +53,42 @@ class Line:
         why = record.reason or (record.restitution.reason if record.restitution else None)
         parts = [wording.measured(record, level) + (f": {why}" if why else "")]
         parts += [f"{model} {said}" for model, said in wording.predicted(record).items()]
-        so_far = [] if record.restitution is None else [f"{record.specimen} {wording.pooled(self.restitution)}"]
-        parts += [self._place(), *so_far, *self._warnings()]
-        return f"{self.test}: {'; '.join(filter(None, parts))} ({number(self.seconds, 2)} s)"
+        if record.frequency_ratio is not None and record.amplitude_ratio is not None:
+            parts.append(f"Ω {number(record.frequency_ratio)}, A {number(record.amplitude_ratio)}")
+        if record.restitution is not None:
+            parts.append(f"{record.specimen} {wording.pooled(self.restitution)}")
+        worst = [each for each in record.warnings if each.severity is not Severity.NOTE and not each.explained]
+        parts += [f"{each.severity}: {each.text.rstrip('.')}" for each in worst[:2]]
+        parts += [f"and {listed([each.kind for each in worst[2:]])}"] if worst[2:] else []
+        return f"{self.test}: {'; '.join(parts)}"
 
     def as_json(self) -> dict[str, Any]:
         """Give it for programs."""
-        return {
-            "test": self.test,
-            "seconds": round(self.seconds, 2),
-            **self.record.model_dump(mode="json"),
-            "specimen_restitution": self.restitution.model_dump(mode="json"),
-        }
-
-    def _place(self) -> str:
-        ratio = self.record.amplitude_ratio
-        if ratio is None or self.record.frequency_ratio is None:
-            return ""
-        return f"Ω {number(self.record.frequency_ratio)}, A {number(ratio)}"
-
-    def _warnings(self) -> list[str]:
-        worst = [each for each in self.record.warnings if each.severity is not Severity.NOTE and not each.explained]
-        shown = [f"{each.severity}: {each.text.rstrip('.')}" for each in worst[:2]]
-        return [*shown, f"and {listed([each.kind for each in worst[2:]])}"] if len(worst) > 2 else shown
+        known = self.restitution.model_dump(mode="json")
+        return {"test": self.test, **self.record.model_dump(mode="json"), "specimen_restitution": known}
 
 
-def measure(campaign: Campaign, layout: Layout, name: str, finished: float) -> Line:
+def measure(campaign: Campaign, layout: Layout, name: str) -> Line:
     """
     Bring one test up to date as far as it takes seconds, and say what is known of it then.
-
-    Parameters
-    ----------
-    campaign : Campaign
-    layout : Layout
-    name : str
-        Id of the test.
-    finished : float
-        When its files were last changed, s since 1970.
 
     Raises
     ------
     StoreError
         If a run holds the campaign, or results cannot be written.
     """
-    test = campaign.tests[name]
+    test, stored = campaign.tests[name], Stored()
     with walking(campaign, layout, Where(workers=1)) as walk:
         made = walk.at_once(name)
-    stored = Stored()
     for result in made:
         stored.add(result, layout.path(result))
     if reason := walk.failed["test"].get(name, ""):
         stored.failures = stored.failures or [Failure("", reason)]
     else:
         _compare(campaign, test, stored)
-    record = record_of_test(campaign, test, stored)
     pooled = restitution_taken(campaign, layout, test.specimen)
     known = record_of_specimen(campaign, test.specimen, pooled).restitution
-    return Line(name, record, known, time.time() - finished)
+    return Line(name, record_of_test(campaign, test, stored), known)
 
 
 def measured(campaign: Campaign, layout: Layout) -> set[str]:
@@ -127,7 +102,7 @@ def _compare(campaign: Campaign, test: Test, stored: Stored) -> None:
     from colonnade.stages.compare import CompareInputs, compare
 
     predicted: dict[str, xr.Dataset] = {model: stored.datasets["predict", model] for model in stored.models("predict")}
-    if ("rocking", None) in stored.datasets:
+    if stored.has("rocking"):
         measured = stored.datasets["rocking", None]
         stored.datasets["compare", None] = compare(measured, predicted, CompareInputs.of(campaign, test))
 
@@ -161,22 +136,9 @@ def command_of(text: str) -> list[str]:
 
 def notify(command: Sequence[str], line: Mapping[str, Any]) -> str:
     """Give a line to a command, and wait for it; return what went wrong, empty if nothing did."""
+    text = json.dumps(line, ensure_ascii=False).encode()
     try:
-        done = subprocess.run(
-            command,
-            input=json.dumps(line, ensure_ascii=False),
-            encoding="utf-8",
-            errors="replace",
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            timeout=PATIENCE,
-            check=False,
-        )
-    except subprocess.TimeoutExpired:
-        return f"{command[0]} was ended: it took longer than {PATIENCE:g} s."
-    except OSError as error:
-        return f"{command[0]} could not be started ({error.strerror or error})."
-    if done.returncode:
-        said = (done.stderr or "").strip().splitlines()
-        return f"{command[0]} ended with {done.returncode}{f': {said[-1][:200]}' if said else ''}."
+        subprocess.run(command, input=text, stdout=subprocess.DEVNULL, timeout=PATIENCE, check=True)
+    except (OSError, subprocess.SubprocessError) as error:
+        return f"--notify: {error}"
     return ""

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import logging
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
-from logging.handlers import RotatingFileHandler
+from datetime import datetime
 from pathlib import Path
 
 from colonnade.campaign import Campaign, load
@@ -23,7 +22,7 @@ from colonnade.store.records.advice import Advice
 from colonnade.workflow.advising.next import advise_after
 from colonnade.workflow.lock import is_refusal, only_watch
 from colonnade.workflow.product import marks_of
-from colonnade.workflow.watching.arrivals import POLL, Arrivals, Share, last_change, listening
+from colonnade.workflow.watching.arrivals import POLL, Arrivals, Share, listening
 from colonnade.workflow.watching.behind import Behind
 from colonnade.workflow.watching.measure import Line, measure, measured, notify
 
@@ -38,12 +37,6 @@ GRACE = 10.0
 
 BUSY = 0.2
 """Seconds between two looks while something goes on."""
-
-WRONG_CAMPAIGN = 2
-"""Exit code of a run that cannot use the campaign file; the watch says so itself when the file is changed."""
-
-LARGEST_LOG = 2_000_000
-"""Bytes of the log; then a new one is begun, and one old one is kept."""
 
 Say = Callable[[str], None]
 Show = Callable[[Line | Advice], None]
@@ -96,27 +89,14 @@ def watch(
     layout = Layout.of(loaded.path, results)
     folder = loaded.folder / loaded.watch.folder
     shared = None if share is None else Share(share, folder, Arrivals(loaded.watch.settle))
-    with only_watch(layout), _logged(layout) as log, listening(folder) as wait:
+    with only_watch(layout), listening(folder) as wait:
         behind = Behind(loaded.path, layout.results, workers)
-        watching = _Watching(loaded, layout, wait, behind, command, show, say, log, once, shared)
+        watching = _Watching(loaded, layout, wait, behind, command, show, say, once, shared)
         try:
             return watching.until_done()
         finally:
             behind.give_way()
             watching.tell_pages(is_watched=False)
-
-
-@contextmanager
-def _logged(layout: Layout) -> Iterator[logging.Logger]:
-    """Give a logger into the campaign's log file."""
-    log = logging.Logger("colonnade.watch", logging.INFO)
-    file = RotatingFileHandler(layout.watch_log, maxBytes=LARGEST_LOG, backupCount=1, encoding="utf-8", delay=True)
-    file.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
-    log.addHandler(file)
-    try:
-        yield log
-    finally:
-        file.close()
 
 
 @dataclass
@@ -130,25 +110,23 @@ class _Watching:
     command: Sequence[str]
     show: Show
     say: Say
-    log: logging.Logger
     is_once: bool
     share: Share | None
     _arrivals: Arrivals = field(init=False)
     _due: dict[str, float] = field(default_factory=dict)
     _is_outdated: bool = True
+    _behind_from: float = 0.0
     _code: int = 0
     _said: set[str] = field(default_factory=set)
     _measured: dict[str, TestSummary] = field(default_factory=dict)
     _alive: float = 0.0
-    _behind_from: float = 0.0
     _line: str = ""
     _line_written: float = 0.0
 
     def __post_init__(self) -> None:
         """Take the files of tests that are measured already for known, and what people change as it is."""
         self._arrivals = Arrivals(self.campaign.watch.settle)
-        known = [path for name in measured(self.campaign, self.layout) for path in self._files(name)]
-        self._arrivals.know(marks_of([*known, *self._texts]))
+        self._arrivals.know(marks_of([*self._files(measured(self.campaign, self.layout)), *self._texts]))
 
     def until_done(self) -> int:
         """Watch until a signal ends it or, if it is only asked for once, until nothing is left to do."""
@@ -183,58 +161,57 @@ class _Watching:
         now = time.monotonic()
         for problem in () if self.share is None else self.share.copy_finished(now):
             self._say_once(problem)
-        finished = self._arrivals.look(marks_of(self._watched()), now)
-        if finished:
+        folder = self.campaign.folder / self.campaign.watch.folder
+        watched = {*(folder / name for name in files_in(folder)), *self._files(self.campaign.tests), *self._texts}
+        if finished := self._arrivals.look(marks_of(watched), now):
             self._is_outdated |= not finished.isdisjoint(self._texts)
             self._reload()
-            self._due |= {name: now for name in self.campaign.tests if finished & {*self._files(name)}}
+            self._due |= {name: now for name in self.campaign.tests if not finished.isdisjoint(self._files([name]))}
         for name in [name for name, due in self._due.items() if due <= now]:
+            del self._due[name]
+            self._is_outdated = True
             self._measure(name, now)
         self._go_on(now)
 
     def _measure(self, name: str, now: float) -> None:
         """Bring a test up to its line, unless it is left out or a file of it is still to come."""
-        del self._due[name]
-        self._is_outdated = True
         test = self.campaign.tests.get(name)
         if test is None or self.campaign.left_out(name) or missing_files([test], self.campaign.folder):
             return
         self.behind.give_way()
-        finished = last_change(test.files.values()) / 1e9
         try:
-            line = measure(self.campaign, self.layout, name, finished)
+            line = measure(self.campaign, self.layout, name)
         except StoreError as error:
             self._say_once(str(error))
             if not self.is_once or is_refusal(str(error)):
                 self._due[name] = now + AGAIN
             return
-        if line.record.status == "failed" and line.seconds < GRACE:
+        changed = max((since for _, since, _ in marks_of(test.files.values()).values()), default=0) / 1e9
+        if line.record.status == "failed" and time.time() - changed < GRACE:
             # Its writer may only pause: it is called a failure when nothing more comes.
             self._due[name] = now + GRACE
             return
         self._line, self._line_written = line.text(), time.time()
-        self.log.info(self._line)
-        self.show(line)
+        self._show(line)
         self.tell_pages()
         if self.command and (problem := notify(self.command, line.as_json())):
-            self._say_once(f"--notify: {problem}")
+            self._say_once(problem)
         if line.record.status == "done":
             self._measured[name] = line.record
             for advice in advise_after(self.campaign, self.layout, name, self._measured):
-                self.log.info(advice.text())
-                self.show(advice)
+                self._show(advice)
 
     def _go_on(self, now: float) -> None:
         """Start, or take note of, the run behind; give a sign of life to open pages."""
         ended = self.behind.ended()
         if ended is not None:
-            self._code = max(ended.code, int(ended.code != 0))
+            self._code = int(bool(ended.failures or ended.problem))
             for failure in ended.failures:
                 self._say_once(failure)
-            if ended.was_refused:
+            if is_refusal(ended.problem):
                 self._is_outdated, self._behind_from = True, now + AGAIN
-            elif ended.problem and ended.code != WRONG_CAMPAIGN:
-                self.log.info(ended.problem)
+            elif ended.problem:
+                self._log(ended.problem)
                 self._say_once(
                     f"The run behind the watch failed: {ended.problem.splitlines()[0]}\n"
                     f"All that it said is in {self.layout.watch_log}. It starts again after the next file."
@@ -257,20 +234,23 @@ class _Watching:
             if found.kind == WITHOUT_TEST:
                 self._say_once(str(found))
 
+    def _show(self, line: Line | Advice) -> None:
+        self._log(line.text())
+        self.show(line)
+
     def _say_once(self, sentence: str) -> None:
         if sentence not in self._said:
             self._said.add(sentence)
             self.say(sentence)
-            self.log.warning(sentence)
+            self._log(sentence)
 
-    def _files(self, name: str) -> list[Path]:
-        return [*self.campaign.tests[name].files.values()]
+    def _log(self, text: str) -> None:
+        with suppress(OSError), self.layout.watch_log.open("a", encoding="utf-8") as log:
+            log.write(f"{datetime.now():%Y-%m-%d %H:%M:%S} {text}\n")
+
+    def _files(self, tests: Iterable[str]) -> list[Path]:
+        return [path for name in tests for path in self.campaign.tests[name].files.values()]
 
     @property
     def _texts(self) -> list[Path]:
         return [self.campaign.path, *(self.campaign.folder / name for name in TEXTS)]
-
-    def _watched(self) -> list[Path]:
-        folder = self.campaign.folder / self.campaign.watch.folder
-        listed = (path for name in self.campaign.tests for path in self._files(name))
-        return [*{*(folder / name for name in files_in(folder)), *listed}, *self._texts]
