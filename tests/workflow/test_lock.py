@@ -50,7 +50,6 @@ def test_half_a_file_of_a_killed_run_is_swept(small, place):
 
 
 def test_half_a_file_that_a_killed_runs_worker_left_after_the_next_run_began_is_swept_at_its_end(small):
-    small.layout.lock_holder.write_text("{}")
     half = small.layout.test("pulse-01") / ".rocking.nc.4711.partial"
     with only_run(small.layout):
         half.write_bytes(b"half")

@@ -61,19 +61,19 @@ def test_a_test_whose_results_are_out_of_date_is_pending(small, options):
 
 
 @every(
-    ("given", "message"),
+    "given",
     [
-        ({"campaign": None}, "campaign is None; a path was expected"),
-        ({"results": 3}, "results is 3; a path was expected"),
-        ({"until": 3}, "until is 3; the name of a stage was expected"),
-        ({"scheduler": 8786}, "scheduler is 8786; an address was expected"),
-        ({"only": [1]}, "only is an array of shape .*; the id of a test, or a list of ids"),
-        ({"workers": 0}, "workers is 0; a whole number from 1 to 10000"),
-        ({"verify": 1}, "verify is 1; True or False"),
-        ({"awaiting": "yes"}, "awaiting is the text 'yes'; True or False"),
-        ({"progress": "bar"}, "progress is the text 'bar'; a function"),
+        {"campaign": None},
+        {"results": 3},
+        {"until": 3},
+        {"scheduler": 8786},
+        {"only": [1]},
+        {"workers": 0},
+        {"verify": "maybe"},
+        {"awaiting": 3},
+        {"progress": "bar"},
     ],
 )
-def test_what_it_does_not_take_is_named(given, message):
-    with pytest.raises(ValueError, match=message):
+def test_what_it_does_not_take_is_named(given):
+    with pytest.raises(ValueError, match=f"for run\n{next(iter(given))}"):
         run(**{"campaign": "no-such-folder"} | given)

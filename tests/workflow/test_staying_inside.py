@@ -24,7 +24,7 @@ def inside(folder, *places):
 
 FOLDERS = inside("processed", "", "tests", "tests/pulse-01", "specimens", "contact", "maps", "maps/.prism-linear")
 FOLDERS += inside("report", "", "tests", "specimens")
-FILES = inside("processed", "summary.json", "summary.csv", "catalogue.json", ".lock", ".lock-holder.json")
+FILES = inside("processed", "summary.json", "summary.csv", "catalogue.json", ".lock", ".lock-holder")
 FILES += inside("processed/tests/pulse-01", "rocking.nc", ".rocking.nc.4711.partial")
 FILES += inside("processed/specimens", "prism.nc")
 FILES += inside("report", "index.html", "tests/pulse-01.html", "tests/gone.html")

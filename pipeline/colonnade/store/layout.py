@@ -78,13 +78,13 @@ class Layout:
     """What raw files, results and pages say of themselves, as last seen."""
     lock = _in("processed", ".lock")
     """Locked while a run writes."""
-    lock_holder = _in("processed", ".lock-holder.json")
+    lock_holder = _in("processed", ".lock-holder")
     """Who holds the lock."""
     owner = _in("processed", ".campaign")
     """The campaign file whose results these are: its name if they are in its own folder, else its path."""
     watch_lock = _in("processed", ".watch-lock")
     """Locked while somebody watches the raw folder."""
-    watcher = _in("processed", ".watcher.json")
+    watcher = _in("processed", ".watcher")
     """Who watches."""
     watch_log = _in("processed", "watch.log")
     """What `watch` said and did."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import os
 import shutil
 import signal
@@ -17,7 +16,7 @@ from functools import partial
 from math import ceil
 from pathlib import Path
 from queue import Empty, SimpleQueue
-from typing import Any, NamedTuple, TypeVar
+from typing import IO, Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -311,12 +310,14 @@ def in_blocks(
     where.progress(len(found), len(blocks))
     asked = [blocks[number] for number in missing]
     for place, arrays in spread(work, asked, workers=where.workers, scheduler=where.scheduler):
-        stream = io.BytesIO()
-        np.savez(stream, allow_pickle=False, **arrays)
-        files.write_bytes(paths[missing[place]], stream.getbuffer())
+        files.write_stream(paths[missing[place]], partial(_write, arrays))
         found[missing[place]] = dict(arrays)
         where.progress(len(found), len(blocks))
     return [found[number] for number in range(len(blocks))]
+
+
+def _write(arrays: Mapping[str, NDArray[Any]], stream: IO[bytes]) -> None:
+    np.savez(stream, allow_pickle=False, **arrays)
 
 
 def _kept(path: Path) -> Arrays | None:

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import json
 import os
 import platform
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
 from datetime import datetime
 from pathlib import Path
-from typing import Any
 from uuid import uuid4
 
 from filelock import FileLock, Timeout
 
-from colonnade.campaign import FILE_NAME
 from colonnade.errors import RunEndedError, StoreError
 from colonnade.store.files import half_written, remove, write_text
 from colonnade.store.layout import Layout
@@ -41,10 +38,7 @@ def only_run(layout: Layout) -> AbstractContextManager[str]:
     StoreError
         If another run holds it, or the folders of results cannot be written or lead elsewhere through a link.
     """
-    refusal = (
-        f"{layout.folder}: {_RUNNING}, by {{holder}}. Wait for that run to end, or stop it: "
-        "only one run at a time may write results."
-    )
+    refusal = f"{_RUNNING}, by {{}}. Wait for that run to end, or stop it: only one run at a time may write results."
     return _held(layout, layout.lock, layout.lock_holder, refusal, sweeps=True)
 
 
@@ -57,7 +51,7 @@ def only_watch(layout: Layout) -> AbstractContextManager[str]:
     StoreError
         If another process watches it, which is named, or the folders of results cannot be written.
     """
-    refusal = f"{layout.folder}: this campaign is already being watched, by {{holder}}. One watch is enough."
+    refusal = "this campaign is already being watched, by {}. One watch is enough."
     return _held(layout, layout.watch_lock, layout.watcher, refusal)
 
 
@@ -66,7 +60,8 @@ def _held(layout: Layout, path: Path, holder: Path, refusal: str, *, sweeps: boo
     """
     Hold a lock and say by whom; give the name of this holding.
 
-    If it `sweeps`, it removes what is half-written; once more at the end, if the last holder was killed.
+    If it `sweeps`, it removes what is half-written; once more at the end, as workers of a killed run live on for a
+    moment.
     """
     left = _half_written(layout)
     try:
@@ -76,30 +71,27 @@ def _held(layout: Layout, path: Path, holder: Path, refusal: str, *, sweeps: boo
         lock = FileLock(path)
         lock.acquire(timeout=0)
     except Timeout:
-        raise StoreError(refusal.format(holder=_named(_who(holder)))) from None
+        _, _, who = _said_by(holder).partition(" ")
+        raise StoreError(f"{layout.folder}: {refusal.format(who or 'another process')}") from None
     except OSError as error:
         raise StoreError(
             f"{layout.processed}: results cannot be written here ({error.strerror or error}). A writable folder with "
             "free space was expected; free some space, or give another folder with --results."
         ) from error
     run_id = uuid4().hex
-    was_killed = holder.exists()
     try:
         _expect_own(layout)
-        who = {
-            "run": run_id,
-            "process": os.getpid(),
-            "host": platform.node(),
-            "since": datetime.now().astimezone().isoformat("T", "seconds"),
-        }
-        write_text(holder, json.dumps(who) + "\n")
-        _remove(left if sweeps else ())
+        since = datetime.now().astimezone().isoformat("T", "seconds")
+        write_text(holder, f"{run_id} process {os.getpid()} on {platform.node()}, since {since}\n")
+        if sweeps:
+            for each in left:
+                remove(each)
         yield run_id
     finally:
         try:
             remove(holder)
-            if was_killed and sweeps:  # its workers may have lived on for a moment
-                _remove(_half_written(layout))
+            for each in _half_written(layout) if sweeps else ():
+                remove(each)
         finally:
             lock.release()
 
@@ -111,17 +103,12 @@ def _expect_own(layout: Layout) -> None:
     A campaign in whose own folder they are is noted by the name of its file: a copy of the folder is a campaign too.
     """
     own = layout.folder / layout.file
-    try:
-        noted = layout.home / layout.owner.read_text(encoding="utf-8").strip()
-    except (FileNotFoundError, ValueError):
-        noted = own
-    there = own if layout.results is None else layout.home / FILE_NAME
-    for other in {noted, there} - {own}:
-        if other.is_file():
-            raise StoreError(
-                f"{layout.home}: the results of another campaign, {other}, are in this folder and would be "
-                "overwritten. Give each campaign a folder of its own with --results."
-            )
+    noted = layout.home / (_said_by(layout.owner) or own)
+    if noted != own and noted.is_file():
+        raise StoreError(
+            f"{layout.home}: the results of another campaign, {noted}, are in this folder and would be overwritten. "
+            "Give each campaign a folder of its own with --results."
+        )
     write_text(layout.owner, f"{own if layout.results else own.name}\n")
 
 
@@ -134,7 +121,7 @@ def expect_run(layout: Layout, run_id: str) -> None:
     RunEndedError
         If it has ended, or another has begun.
     """
-    if _who(layout.lock_holder).get("run") != run_id:
+    if not _said_by(layout.lock_holder).startswith(run_id):
         raise RunEndedError(f"{layout.home}: the run that asked for this has ended; nothing more is written for it.")
 
 
@@ -142,20 +129,9 @@ def _half_written(layout: Layout) -> list[Path]:
     return [*half_written(layout.processed), *half_written(layout.report.parent)]
 
 
-def _remove(paths: Iterable[Path]) -> None:
-    for path in paths:
-        remove(path)
-
-
-def _who(holder: Path) -> dict[str, Any]:
-    """Read who holds a lock; empty if that is not known."""
+def _said_by(note: Path) -> str:
+    """Read a line of text; empty if it is not there."""
     try:
-        who = json.loads(holder.read_text(encoding="utf-8"))
+        return note.read_text(encoding="utf-8").strip()
     except (OSError, ValueError):
-        return {}
-    return who if isinstance(who, dict) else {}
-
-
-def _named(who: Mapping[str, Any]) -> str:
-    is_known = {"process", "host", "since"} <= who.keys()
-    return "process {process} on {host}, since {since}".format_map(who) if is_known else "another process"
+        return ""

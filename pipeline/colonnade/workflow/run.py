@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
-from types import NoneType
-from typing import Any
+from typing import Annotated
+
+from pydantic import Field, validate_call
 
 from colonnade.campaign import Campaign, load
 from colonnade.campaign.forms.summary import Summary
@@ -14,7 +15,6 @@ from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.store.results import RUN_STAGES
-from colonnade.validation import described, whole
 from colonnade.workflow.chain import RunResult, remove_results
 from colonnade.workflow.executors import Where
 from colonnade.workflow.pages import Report, photos_shown
@@ -27,13 +27,14 @@ MOST_WORKERS = 10_000
 """Processes; no machine has as many cores."""
 
 
+@validate_call
 def run(
     campaign: Path | str,
     *,
     until: str | None = None,
     start_from: str | None = None,
     only: Sequence[str] | str = (),
-    workers: int | None = None,
+    workers: Annotated[int, Field(ge=1, le=MOST_WORKERS)] | None = None,
     scheduler: str | None = None,
     verify: bool = False,
     awaiting: bool = False,
@@ -86,7 +87,6 @@ def run(
     ...     print(str(error)[:25])
     no-such-folder: not found
     """
-    _check(locals())
     loaded = load(Path(campaign)).awaiting() if awaiting else load(Path(campaign))
     last = _last_stage(start_from, until)
     tests = _chosen(loaded, (only,) if isinstance(only, str) else only)
@@ -169,29 +169,3 @@ def _chosen(campaign: Campaign, only: Sequence[str]) -> list[str]:
         if awaited := campaign.left_out(name):
             raise CampaignError(f"{name} is planned and has no raw file yet; {awaited}.")
     return [name for name in campaign.tests if (not only or name in only) and not campaign.left_out(name)]
-
-
-_PATH, _STAGE, _FLAG = ("a path", str, Path), ("the name of a stage", str, NoneType), ("True or False", bool)
-
-_TAKEN: Mapping[str, Any] = {
-    "campaign": _PATH,
-    "results": (*_PATH, NoneType),
-    "until": _STAGE,
-    "start_from": _STAGE,
-    "scheduler": ("an address", str, NoneType),
-    "verify": _FLAG,
-    "awaiting": _FLAG,
-    "only": ("the id of a test, or a list of ids", str, list, tuple, set, frozenset),
-    "progress": ("a function", Callable, NoneType),
-}
-"""What each argument of `run` may be, in words and as types; the number of workers apart."""
-
-
-def _check(given: Mapping[str, Any]) -> None:
-    """Check the type of each argument of `run`, as it comes from a notebook."""
-    for name, (expected, *kinds) in _TAKEN.items():
-        is_taken = isinstance(given[name], tuple(kinds))
-        if not is_taken or (name == "only" and not all(isinstance(each, str) for each in given[name])):
-            raise ValueError(f"{name} is {described(given[name])}; {expected} was expected")
-    if given["workers"] is not None:
-        whole("workers", given["workers"], 1, MOST_WORKERS)
