@@ -15,7 +15,7 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin
 from colonnade.store.results import ResultId
-from colonnade.workflow.chain import Chain, bring_up_to_date, on_a_cluster, worker_lost
+from colonnade.workflow.chain import Chain, bring_up_to_date, worker_lost
 from colonnade.workflow.executors import WorkersEndedError
 from colonnade.workflow.lock import expect_run, only_run
 from colonnade.workflow.product import Product, stored_attributes
@@ -159,7 +159,7 @@ def test_a_worker_that_does_not_see_the_campaign_is_told(layout):
     with only_run(layout) as run_id:
         elsewhere = chain(replace(layout, file="elsewhere.toml"), run_id, toys(layout))
         with pytest.raises(ColonnadeError, match="does not see this"):
-            on_a_cluster(elsewhere)
+            bring_up_to_date(elsewhere)
 
 
 @pytest.mark.whole

@@ -77,7 +77,7 @@ def test_what_a_stopped_worker_did_is_done_again(tmp_path):
     found = spread(die_once, [str(tmp_path / name) for name in ("first", "second")], workers=2, tell=told.append)
     assert sorted(found) == [(0, "first"), (1, "second")]
     assert len(told) == 1
-    assert "tried again alone" in told[0]
+    assert "tried again with half as many" in told[0]
 
 
 @pytest.mark.whole

@@ -169,14 +169,3 @@ def test_a_catalogue_that_is_no_good_or_was_altered_only_costs_time(small, opene
         assert looked_at.kept("record pulse-01", key) is None, text[:80]
     assert small.redone() == {}
     assert small.summary() == summary
-
-
-@pytest.mark.whole
-def test_what_is_gone_from_the_campaign_is_forgotten(small):
-    text = (small.folder / "campaign.toml").read_text(encoding="utf-8")
-    (small.folder / "campaign.toml").write_text(text[: text.rindex("[[tests]]")], encoding="utf-8")
-    small.run(until="report")
-    known = json.loads(small.layout.catalogue.read_text(encoding="utf-8"))
-    tests = small.summary()["tests"]
-    expected = {f"kept {kind} {name}" for kind in ("record", "page") for name in tests}
-    assert {name for name in known if name.startswith("kept")} == expected | {"kept specimen-record prism"}

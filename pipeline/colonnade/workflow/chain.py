@@ -133,8 +133,8 @@ class RunResult:
 
 
 WORKER_LOST = (
-    "The system stopped the process that worked on this test, twice: the second time nothing else was running. Either "
-    "memory ran out, or a damaged raw file crashed the library that reads it. Close other programs and run again. If "
+    "The system stopped the process that worked on this test, at last when nothing else was running. Either memory "
+    "ran out, or a damaged raw file crashed the library that reads it. Close other programs and run again. If "
     "the test still fails, copy the raw file from the recorder again, or export it as text."
 )
 
@@ -189,7 +189,15 @@ def bring_up_to_date(chain: Chain) -> list[StageRun]:
     ------
     RunEndedError
         If the run that it belongs to has ended.
+    ColonnadeError
+        If this is a worker of a cluster that does not see the campaign's folder.
     """
+    for path in (chain.layout.folder / chain.layout.file, chain.layout.processed):
+        if not path.exists():
+            raise ColonnadeError(
+                f"{path}: the worker on {platform.node()} does not see this. Folders that all of the cluster's workers "
+                "share under the same paths were expected, for the campaign and for its results (--results)."
+            )
     made: dict[Path, xr.Dataset] = {}
     runs, expect = list[StageRun](), partial(expect_run, chain.layout, chain.run_id)
     with files.only_while(expect):
@@ -203,17 +211,6 @@ def bring_up_to_date(chain: Chain) -> list[StageRun]:
             for path in made.keys() - wanted:
                 del made[path]
     return runs
-
-
-def on_a_cluster(chain: Chain) -> list[StageRun]:
-    """Bring a chain up to date on a worker of a cluster, which has to see the campaign's folder."""
-    for path in (chain.layout.folder / chain.layout.file, chain.layout.processed):
-        if not path.exists():
-            raise ColonnadeError(
-                f"{path}: a worker on {platform.node()} does not see this. Folders that all of the cluster's workers "
-                "share under the same paths were expected, for the campaign and for its results (--results)."
-            )
-    return bring_up_to_date(chain)
 
 
 def worker_lost(chain: Chain) -> list[StageRun]:

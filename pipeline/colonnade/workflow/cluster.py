@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from concurrent.futures import CancelledError, Future
 from contextlib import contextmanager, suppress
 from importlib import import_module
@@ -47,62 +47,61 @@ def on_cluster(scheduler: str) -> Iterator[Workers]:
         ) from error
     with client:
         _expect_workers(client, scheduler)
-        yield _Cluster(client, scheduler, distributed)
+        try:
+            yield Workers(client.get_executor(pure=False), _Count(client, scheduler), _cancel)
+        except distributed.KilledWorker as error:
+            raise _ended(
+                scheduler,
+                "its workers were stopped several times over the same work, most often because memory ran out",
+                "Give each worker more memory and run again.",
+            ) from error
+        except (CancelledError, distributed.CancelledError) as error:
+            raise _gone(scheduler) from error
 
 
-class _Cluster(Workers):
-    """The workers that a cluster has."""
+class _Count:
+    """Looks, once a second, how many workers a cluster has."""
 
-    def __init__(self, client: Any, scheduler: str, distributed: Any) -> None:
-        super().__init__(client.get_executor(pure=False), len(client.ncores()))
-        self._client, self._scheduler, self._distributed = client, scheduler, distributed
-        self._looked = self._seen = time.monotonic()
+    def __init__(self, client: Any, scheduler: str) -> None:
+        self._client, self._scheduler = client, scheduler
+        self._count, self._looked, self._seen = 1, 0.0, time.monotonic()
 
-    def look(self) -> None:
-        """
-        Look who is there.
-
-        Raises
-        ------
-        ColonnadeError
-            If there have been no workers for some time, one has several threads, or the scheduler has gone.
-        """
+    def __call__(self) -> int:
+        """Refuse one with several threads; none may be there for a while, as workers come and go."""
         now = time.monotonic()
         if now - self._looked < LOOK:
-            return
+            return self._count
         self._looked = now
         try:
             there = self._client.ncores()
         except Exception as error:  # closed, cut off or late: whatever it is, nobody answers
-            raise self._gone() from error
+            raise _gone(self._scheduler) from error
         _expect_one_thread(there)
-        self.count = len(there) or self.count
-        self._seen = now if there else self._seen
-        if now - self._seen > _PATIENCE:
-            raise self._ended("all its workers ended before the work was done", "Start workers and run again.")
+        if there:
+            self._count, self._seen = len(there), now
+        elif now - self._seen > _PATIENCE:
+            what = "all its workers ended before the work was done"
+            raise _ended(self._scheduler, what, "Start workers and run again.")
+        return self._count
 
-    def failed(self, error: BaseException) -> BaseException:
-        """Say of an error of the cluster what to do; give one of the work as it is."""
-        if isinstance(error, self._distributed.KilledWorker):
-            return self._ended(
-                "its workers were stopped several times over the same work, most often because memory ran out",
-                "Give each worker more memory and run again.",
-            )
-        return self._gone() if isinstance(error, (CancelledError, self._distributed.CancelledError)) else error
 
-    def stop(self, pending: Sequence[Future[Any]]) -> None:
-        """Cancel what is not done; the scheduler may be gone."""
-        with suppress(Exception):
-            super().stop(pending)
+def _cancel(pending: Iterable[Future[Any]]) -> None:
+    """Cancel what is not done; the scheduler may be gone."""
+    with suppress(Exception):
+        for future in pending:
+            future.cancel()
 
-    def _gone(self) -> ColonnadeError:
-        return self._ended(
-            "the scheduler of the Dask cluster ended before the work was done",
-            "Its workers write nothing more. Start the cluster again and run again, or run without --scheduler.",
-        )
 
-    def _ended(self, what: str, remedy: str) -> ColonnadeError:
-        return WorkersEndedError(f"{self._scheduler}: {what}. Finished results are kept. {remedy}")
+def _gone(scheduler: str) -> ColonnadeError:
+    return _ended(
+        scheduler,
+        "the scheduler of the Dask cluster ended before the work was done",
+        "Its workers write nothing more. Start the cluster again and run again, or run without --scheduler.",
+    )
+
+
+def _ended(scheduler: str, what: str, remedy: str) -> ColonnadeError:
+    return WorkersEndedError(f"{scheduler}: {what}. Finished results are kept. {remedy}")
 
 
 def _expect_workers(client: Any, scheduler: str) -> None:

@@ -9,7 +9,7 @@ import threading
 import time
 import warnings
 import zipfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
@@ -49,23 +49,22 @@ class WorkersEndedError(ColonnadeError):
     """Workers were stopped, or their scheduler ended, before the work was done: it may succeed later."""
 
 
-class Workers:
-    """Workers to hand items to: an executor, and how many there are now."""
+class Workers(NamedTuple):
+    """
+    Workers to hand items to.
 
-    def __init__(self, pool: Executor, count: int) -> None:
-        self.pool, self.count = pool, count
+    Attributes
+    ----------
+    pool : Executor
+    number : callable
+        Gives how many there are now; raises WorkersEndedError if nobody works any more.
+    stop : callable
+        Ends calls that have not ended.
+    """
 
-    def look(self) -> None:
-        """Look about once a second whether anybody works; raises ColonnadeError if nobody does any more."""
-
-    def failed(self, error: BaseException) -> BaseException:
-        """Give the error to raise in place of one that a call ended with."""
-        return error
-
-    def stop(self, pending: Sequence[Future[Any]]) -> None:
-        """End calls that have not ended."""
-        for future in pending:
-            future.cancel()
+    pool: Executor
+    number: Callable[[], int]
+    stop: Callable[[Iterable[Future[Any]]], object]
 
 
 def spread(
@@ -93,7 +92,7 @@ def spread(
     tell : callable, optional
         Called with a sentence if a worker was stopped.
     lost : callable, optional
-        Gives the result of an item that lost its worker twice, the second time alone; without it that is an error.
+        Gives the result of an item that lost its worker even when it was alone; without it that is an error.
 
     Yields
     ------
@@ -105,7 +104,7 @@ def spread(
     Raises
     ------
     WorkersEndedError
-        If workers were stopped twice, or the cluster ends before the work does.
+        If a worker was stopped even alone, or the cluster ends before the work does.
     ColonnadeError
         If the cluster is not there or runs other code.
     """
@@ -124,25 +123,25 @@ def spread(
             expect_none()
             yield number, work(item)
         return
-    waiting, alone = dict(enumerate(items)), list[int]()
+    waiting, now = dict(enumerate(items)), count
     while waiting:
-        now = {number: waiting[number] for number in alone[:1] or waiting}
         try:
-            for number, result in _handed_out(_Processes(count), work, now):
+            for number, result in _handed_out(_processes(now), work, waiting):
                 del waiting[number]
                 yield number, result
         except BrokenProcessPool as error:
-            if not alone:
-                alone = list(waiting)[: AHEAD * count]
-                tell(f"{STOPPED}. What it may have worked on was tried again alone.")
+            if now > 1:
+                now //= 2
+                tell(f"{STOPPED}. What was not done is tried again with half as many.")
                 continue
             if lost is None:
                 raise WorkersEndedError(
-                    f"{STOPPED}, twice. Finished results are kept. Run again with fewer workers (`--workers 1` uses "
-                    "the least memory)."
+                    f"{STOPPED}, even of one alone. Finished results are kept. Run again with fewer workers "
+                    "(`--workers 1` uses the least memory)."
                 ) from error
-            yield alone[0], lost(waiting.pop(alone[0]))
-        del alone[:1]
+            stopped = next(iter(waiting))
+            now = count
+            yield stopped, lost(waiting.pop(stopped))
 
 
 def _handed_out(
@@ -155,8 +154,9 @@ def _handed_out(
     try:
         while True:
             expect_none()
+            most = AHEAD * workers.number()
             with held_back():
-                while len(pending) < AHEAD * workers.count and (given := next(waiting, None)) is not None:
+                while len(pending) < most and (given := next(waiting, None)) is not None:
                     handed = workers.pool.submit(work, given[1])
                     pending[handed] = given[0]
                     handed.add_done_callback(ended.put)
@@ -164,53 +164,44 @@ def _handed_out(
                 return
             # `concurrent.futures.wait` would keep locks that the pool needs if Ctrl-C came as it takes them.
             try:
-                future: Future[Result] | None = ended.get(timeout=LOOK)
+                future = ended.get(timeout=LOOK)
             except Empty:
-                future = None
-            workers.look()
-            if future is None:
                 continue
-            number = pending.pop(future)
-            try:
-                result = future.result()
-            except BaseException as error:
-                raise workers.failed(error) from error.__cause__
-            yield number, result
+            yield pending.pop(future), future.result()
     finally:
         if pending:
             with held_back():
-                workers.stop(list(pending))
+                workers.stop(pending)
 
 
-class _Processes(Workers):
-    """Processes of this machine, started or those of the last call; none outlives this process."""
+def _processes(count: int) -> Workers:
+    """Give processes of this machine, started or those of the last call; none outlives this process."""
+    from joblib.executor import get_memmapping_executor
 
-    def __init__(self, count: int) -> None:
-        from joblib.executor import get_memmapping_executor
+    # Joblib's own kind, which a later `joblib.Parallel` of the caller can follow. Each settles in as it starts, not
+    # with its first item: one that never gets any has to notice its parent's end too.
+    with held_back():
+        settled = {"initializer": _settle_in, "initargs": (os.getpid(),), "env": _ONE_THREAD}
+        pool: Any = get_memmapping_executor(count, max_nbytes=None, **settled)
+    return Workers(pool, lambda: count, lambda pending: _stop(pool))
 
-        # Joblib's own kind, which a later `joblib.Parallel` of the caller can follow. Each settles in as it starts, not
-        # with its first item: one that never gets any has to notice its parent's end too.
-        with held_back():
-            settled = {"initializer": _settle_in, "initargs": (os.getpid(),), "env": _ONE_THREAD}
-            super().__init__(get_memmapping_executor(count, max_nbytes=None, **settled), count)
 
-    def stop(self, pending: Sequence[Future[Any]]) -> None:
-        """Stop them, on Ctrl-C before the lock is given back. Loky's thread breaks at a call that is cancelled."""
-        original = threading.excepthook
+def _stop(pool: Any) -> None:
+    """Stop processes, on Ctrl-C before the lock is given back. Loky's thread breaks at a call that is cancelled."""
+    original = threading.excepthook
 
-        def tell(failure: threading.ExceptHookArgs) -> None:
-            # Stopped before its first items were sent, loky looks for them in vain once its workers are gone.
-            if failure.exc_type is not KeyError:
-                original(failure)
+    def tell(failure: threading.ExceptHookArgs) -> None:
+        # Stopped before its first items were sent, loky looks for them in vain once its workers are gone.
+        if failure.exc_type is not KeyError:
+            original(failure)
 
-        threading.excepthook = tell
-        pool: Any = self.pool
-        try:
-            pool.shutdown(wait=True, kill_workers=True)
-            for feeder in [each for each in threading.enumerate() if each.name == "QueueFeederThread"]:
-                feeder.join(LOOK)  # frozen at the end of the interpreter, it would leave a semaphore half removed
-        finally:
-            threading.excepthook = original
+    threading.excepthook = tell
+    try:
+        pool.shutdown(wait=True, kill_workers=True)
+        for feeder in [each for each in threading.enumerate() if each.name == "QueueFeederThread"]:
+            feeder.join(LOOK)  # frozen at the end of the interpreter, it would leave a semaphore half removed
+    finally:
+        threading.excepthook = original
 
 
 def _settle_in(parent: int) -> None:

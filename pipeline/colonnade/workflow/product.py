@@ -173,9 +173,9 @@ class Catalogue:
         """Keep the text of a product for the next run, or why it could not be made."""
         self._seen[f"kept {product}"] = [key, text, reason]
 
-    def save(self, *, is_whole: bool = True) -> None:
-        """Write what was looked at; other entries belong to files that are gone, unless the run was not whole."""
-        known = self._seen if is_whole else self._known | self._seen
+    def save(self) -> None:
+        """Write what was looked at, and what is known from earlier runs."""
+        known = self._known | self._seen
         text = json.dumps(known | {"sha256": hash_of(known)}, separators=(",", ":"), sort_keys=True)
         files.write_text(self._layout.catalogue, f"{text}\n")
 

@@ -21,7 +21,7 @@ from colonnade.workflow.pages import Report, photos_shown
 from colonnade.workflow.pooling import expect_known
 from colonnade.workflow.raw_files import copies
 from colonnade.workflow.summary import choose, finding_of, foreseen_of, write_summary
-from colonnade.workflow.walk import Progress, Walk, unseen, walking
+from colonnade.workflow.walk import Progress, Walk, walking
 
 MOST_WORKERS = 10_000
 """Processes; no machine has as many cores."""
@@ -93,7 +93,7 @@ def run(
     layout, report, notices = Layout.of(loaded.path, results), None, list[str]()
     with walking(loaded, layout, Where(workers, scheduler), verify=verify) as walk:
         walk.start_from, walk.until = start_from, last
-        walk.progress, walk.tell = progress or unseen, notices.append
+        walk.progress, walk.tell = progress, notices.append
         notices += walk.graph.catalogue.remove_altered()
         for name in loaded.tests.keys() - walk.included:
             remove_results(layout, name)
@@ -101,7 +101,6 @@ def run(
         outdated, summary = _summed_up(walk, awaiting=awaiting)
         if last == "report":
             report = _reported(walk, outdated, summary)
-            walk.is_whole = True
     loaded = walk.graph.campaign
     concerning = {name: loaded.concerning(name) for name in loaded.tests}
     return RunResult(tuple(walk.stages), layout.summary_json, report, loaded.warnings, concerning, tuple(notices))

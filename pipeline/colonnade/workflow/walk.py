@@ -20,17 +20,13 @@ from colonnade.store.forecasts import Known
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin
 from colonnade.store.results import RUN_STAGES, ResultId, Subject, models_of
-from colonnade.workflow.chain import Chain, StageRun, bring_up_to_date, on_a_cluster, worker_lost
+from colonnade.workflow.chain import Chain, StageRun, bring_up_to_date, worker_lost
 from colonnade.workflow.executors import HERE, Tell, Where, spread
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.product import Catalogue, Product
 
 Progress = Callable[[StageRun, int, int], None]
-
-
-def unseen(stage: StageRun, done: int, total: int) -> None:
-    """Show no progress."""
 
 
 @dataclass
@@ -49,12 +45,10 @@ class Walk:
         Last stage.
     where : Where
         Where the work is done, and who is told of the blocks of assessments and maps.
-    progress : callable
+    progress : callable or None
         Called with each stage of a test that ended, the number of tests done, and their total.
     tell : callable
         Called with a sentence if a worker was stopped.
-    is_whole : bool
-        Whether everything of the campaign was looked at: what is known of other files is then forgotten.
     stages : list of StageRun
         What became of each stage so far.
     failed : dict of dict of str to str
@@ -66,9 +60,8 @@ class Walk:
     start_from: str | None = None
     until: str = "report"
     where: Where = HERE
-    progress: Progress = unseen
+    progress: Progress | None = None
     tell: Tell = lambda sentence: None
-    is_whole: bool = False
     stages: list[StageRun] = field(default_factory=list)
     failed: dict[Subject, dict[str, str]] = field(default_factory=lambda: defaultdict(dict))
     _known: dict[str, list[Product]] = field(default_factory=dict)
@@ -170,7 +163,7 @@ class Walk:
                 self.stages.append(stage)
                 if stage.action == "failed":
                     self.failed[stage.of][stage.subject] = stage.reason
-                if stage.of == "test":
+                if stage.of == "test" and self.progress is not None:
                     self.progress(stage, done, len(chains))
 
     def _ended(self, chains: Sequence[Sequence[Product]], where: Where) -> Iterator[list[StageRun]]:
@@ -182,9 +175,8 @@ class Walk:
                 yield runs
             else:
                 waiting.append(chain)
-        work = bring_up_to_date if where.scheduler is None else on_a_cluster
-        told = partial(spread, tell=self.tell, lost=worker_lost)
-        yield from (runs for _, runs in told(work, waiting, workers=where.workers, scheduler=where.scheduler))
+        bring = partial(spread, bring_up_to_date, workers=where.workers, scheduler=where.scheduler)
+        yield from (runs for _, runs in bring(waiting, tell=self.tell, lost=worker_lost))
 
     def _chain(self, products: Sequence[Product]) -> Chain:
         return Chain(products, self.graph.layout, Origin.of(self.graph.campaign), self.run_id, self.start_from)
@@ -203,13 +195,9 @@ class Walk:
     def _results(self, name: str, since: str = "ingest", until: str = "compare") -> list[Product]:
         """Return the results of a test from one stage to another; gathering what they read of the campaign is slow."""
         if name not in self._known:
-            where = self.where._replace(progress=partial(self._tell_members, name))
-            self._known[name] = self.graph.of_test(self.graph.campaign.tests[name], where)
+            self._known[name] = self.graph.of_test(self.graph.campaign.tests[name], self.where)
         first, last = RUN_STAGES.index(since), RUN_STAGES.index(until)
         return [product for product in self._known[name] if first <= product.result.order <= last]
-
-    def _tell_members(self, name: str, done: int, total: int) -> None:
-        self.progress(StageRun(name, "ensemble", "done"), done, total)
 
     def _free_vibrations(self, specimens: Collection[str]) -> list[str]:
         tests = [test for name, test in self.graph.campaign.tests.items() if name in self.included]
@@ -243,8 +231,6 @@ def walking(campaign: Campaign, layout: Layout, where: Where = HERE, *, verify: 
         walk = Walk(Graph(campaign, layout, Catalogue(layout, verify=verify)), run_id, where=where)
         try:
             yield walk
-        except BaseException:
-            with suppress(StoreError):
-                walk.graph.catalogue.save(is_whole=False)
-            raise
-        walk.graph.catalogue.save(is_whole=walk.is_whole)
+        finally:
+            with suppress(StoreError):  # without it the next walk takes longer, no more
+                walk.graph.catalogue.save()

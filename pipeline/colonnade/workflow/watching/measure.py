@@ -139,6 +139,8 @@ def notify(command: Sequence[str], line: Mapping[str, Any]) -> str:
     text = json.dumps(line, ensure_ascii=False).encode()
     try:
         subprocess.run(command, input=text, stdout=subprocess.DEVNULL, timeout=PATIENCE, check=True)
-    except (OSError, subprocess.SubprocessError) as error:
+    except subprocess.TimeoutExpired:
+        return f"--notify: {command[0]} was ended: it took longer than {PATIENCE:g} s."
+    except (OSError, subprocess.CalledProcessError) as error:
         return f"--notify: {error}"
     return ""
