@@ -88,9 +88,8 @@ def cluster(scheduler):
 @pytest.fixture
 def soon(monkeypatch):
     """Look at the workers more often."""
-    monkeypatch.setattr("colonnade.workflow.cluster.LOOK", 0.1)
     monkeypatch.setattr("colonnade.workflow.executors.LOOK", 0.1)
-    monkeypatch.setattr("colonnade.workflow.cluster._PATIENCE", 1.0)
+    monkeypatch.setattr("colonnade.workflow.executors._PATIENCE", 1.0)
 
 
 def whose(number):
@@ -103,7 +102,7 @@ def refuse(number):
 
 
 def test_a_scheduler_without_workers_is_told_with_what_to_do(scheduler, monkeypatch):
-    monkeypatch.setattr("colonnade.workflow.cluster._PATIENCE", 1)
+    monkeypatch.setattr("colonnade.workflow.executors._PATIENCE", 1)
     with pytest.raises(ColonnadeError, match=r"has no workers\. Start some: dask worker tcp://"):
         list(spread(whose, [1], scheduler=scheduler))
 
@@ -118,7 +117,7 @@ def test_a_scheduler_without_workers_is_told_with_what_to_do(scheduler, monkeypa
     ids=["nobody", "no-address", "no-port"],
 )
 def test_what_is_no_scheduler_is_told(monkeypatch, address, said):
-    monkeypatch.setattr("colonnade.workflow.cluster._PATIENCE", 1)
+    monkeypatch.setattr("colonnade.workflow.executors._PATIENCE", 1)
     with pytest.raises(ColonnadeError, match=said):
         list(spread(whose, [1], scheduler=address))
 
@@ -142,7 +141,7 @@ def test_a_worker_with_several_threads_is_refused_by_name(another_scheduler):
 
 
 def test_workers_with_other_code_are_refused(cluster, monkeypatch):
-    monkeypatch.setattr("colonnade.workflow.cluster.package_hash", lambda: str(os.getpid()))
+    monkeypatch.setattr("colonnade.workflow.executors.package_hash", lambda: str(os.getpid()))
     with pytest.raises(ColonnadeError, match="another version of colonnade"):
         list(spread(whose, [1], scheduler=cluster))
 

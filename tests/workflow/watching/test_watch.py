@@ -1,19 +1,20 @@
 """A watch handles what arrives, gives a line on each test, and leaves what a run would."""
 
+import os
 import shutil
+import signal
 import time
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 
 import pytest
 
 from colonnade.errors import StoreError
 from colonnade.store.records.advice import Advice
-from colonnade.workflow.lock import only_watch
+from colonnade.workflow.lock import is_refusal, only_run, only_watch
 from colonnade.workflow.watching import watch as module
-from colonnade.workflow.watching.behind import Ended
 from colonnade.workflow.watching.measure import Line
-from colonnade.workflow.watching.watch import watch
+from colonnade.workflow.watching.watch import Behind, Ended, watch
 from prism import entry
 
 pytestmark = pytest.mark.whole
@@ -157,3 +158,66 @@ def test_advice_after_a_free_vibration_knows_those_just_before_it(small, crashin
 def test_a_second_watch_names_the_first(small):
     with only_watch(small.layout), pytest.raises(StoreError, match=r"already being watched, by process \d+"):
         watch(small.folder, once=True, show=lambda line: None, say=lambda sentence: None)
+
+
+def wait_until(condition):
+    until = time.monotonic() + 600
+    while not (found := condition()):
+        assert time.monotonic() < until
+        time.sleep(0.05)
+    return found
+
+
+def test_it_gives_way_and_then_says_what_failed_and_when_it_was_refused(small):
+    small.raw("pulse-02").write_text("nothing\n")
+    behind = Behind(small.folder / "campaign.toml", None, 1)
+    behind.start()
+    assert behind.is_running
+    behind.give_way()
+    assert not behind.is_running
+    assert behind.ended() is None
+    behind.start()
+    found = wait_until(behind.ended)
+    assert found.problem == ""
+    assert [failure.partition(":")[0] for failure in found.failures] == ["pulse-02"]
+    with only_run(small.layout):
+        behind.start()
+        assert is_refusal(wait_until(behind.ended).problem)
+
+
+def test_a_run_that_is_killed_says_so(small):
+    behind = Behind(small.folder / "campaign.toml", None, 1)
+    behind.start()
+    behind._running[0].kill()
+    found = wait_until(behind.ended)
+    assert found.problem == "It ended with exit code -9."
+
+
+WATCH = """
+import sys, time
+from pathlib import Path
+from colonnade.workflow.watching.watch import Behind
+
+Behind(Path(sys.argv[1]), None, 1).start()
+print("watching", flush=True)
+time.sleep(600)
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a process is killed as only POSIX does")
+def test_it_ends_in_order_when_the_watch_is_killed(start, small):
+    small.edit("members = 20", "members = 10000")  # a run of minutes
+    holder = small.layout.lock_holder
+    watch, run = start(WATCH, small.folder / "campaign.toml", said="watching"), 0
+    try:
+        wait_until(holder.exists)
+        run = int(holder.read_text(encoding="utf-8").split()[2])
+        time.sleep(1.0)
+        assert holder.exists()
+        watch.kill()
+        watch.wait()
+        wait_until(lambda: not holder.exists())  # a run that was killed itself would leave it
+    finally:
+        if run:
+            with suppress(ProcessLookupError):
+                os.killpg(run, signal.SIGKILL)
