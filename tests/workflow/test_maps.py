@@ -197,7 +197,7 @@ def kept(small, summary, **options):
     campaign = load(small.folder)
     with only_run(small.layout) as run_id:
         walk = Walk(Graph(campaign, small.layout, Catalogue(small.layout)), run_id, where=Where(workers=1), **options)
-        walk.map(summary)
+        walk.follow([product] for product in kept_maps(walk.graph, summary, campaign.specimens))
     return [(stage.model, stage.action, stage.because) for stage in walk.stages]
 
 
