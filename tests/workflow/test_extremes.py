@@ -13,8 +13,8 @@ def bounds(kind, unit):
 MASS = 'mass = "26.10 kg"}'
 SETTINGS = dict.fromkeys(("sampling_rate", "lowpass", "base_lowpass"), bounds("frequency", "Hz"))
 SETTINGS |= dict.fromkeys(("flat_duration", "rest_duration", "longest_offset"), bounds("time", "s"))
-SETTINGS |= dict.fromkeys(("spike_threshold", "gap"), [1.0000001, 999.9])
-SETTINGS |= dict.fromkeys(("predict.ensemble.critical_angle", "predict.ensemble.p"), [5e-324, 0.5])
+SETTINGS |= dict.fromkeys(("spike_threshold", "gap"), (1.0000001, 999.9))
+SETTINGS |= dict.fromkeys(("predict.ensemble.critical_angle", "predict.ensemble.p"), (5e-324, 0.5))
 SETTINGS |= {
     "jitter": [5e-324, 0.9999999999999999],
     "restitution.lowest_amplitude": [1.0000001e-6, 0.9999999999999999],
