@@ -91,24 +91,19 @@ def test_a_forecast_is_blind_if_no_raw_file_was_there_by_name_or_content():
         assert not is_blind(forecast("f", there), RAW), there
 
 
-def test_the_last_blind_forecast_counts():
-    known = (forecast("1"), forecast("2"), forecast("3", SEEN))
+@pytest.mark.parametrize(
+    ("known", "counts", "scored"),
+    [
+        ((forecast("1"), forecast("2"), forecast("3", SEEN)), ["2"], ["2"]),
+        ((forecast("1", SEEN), forecast("2", SEEN)), ["2"], []),
+        ((forecast("1", test=None), forecast("2", test="gone"), forecast("3", specimen="cone")), [], []),
+    ],
+    ids=["the last that is blind", "without one the last, not scored", "of no test or another specimen none"],
+)
+def test_of_several_forecasts_one_counts(known, counts, scored):
     chosen = choose(CAMPAIGN, Forecasts(known), {"span": RAW})
-    assert chosen.counts["span"].name == "2"
-    assert chosen.blind == {"1": True, "2": True, "3": False}
-    assert list(chosen.scored) == ["span"]
-
-
-def test_without_a_blind_one_the_last_is_shown_and_not_scored():
-    chosen = choose(CAMPAIGN, Forecasts((forecast("1", SEEN), forecast("2", SEEN))), {"span": RAW})
-    assert chosen.counts["span"].name == "2"
-    assert chosen.scored == {}
-
-
-def test_forecasts_for_no_test_or_another_specimen_count_for_none():
-    others = (forecast("1", test=None), forecast("2", test="gone"), forecast("3", specimen="cone"))
-    chosen = choose(CAMPAIGN, Forecasts(others), {"span": RAW})
-    assert (chosen.blind, chosen.counts) == ({}, {})
+    for found, expected in ((chosen.counts, counts), (chosen.scored, scored)):
+        assert [each.name for each in found.values()] == expected
 
 
 def summary_of(folder):
