@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -28,13 +27,8 @@ MANY = 16
 """Tests from which starting other processes is sooner done than reading them one after the other."""
 
 
-@dataclass(frozen=True)
-class _Unchecked:
-    """A test, the campaign with this test alone, and its results up to the measured angle."""
-
-    test: Test
-    campaign: Campaign
-    measured: Sequence[Product]
+_Unchecked = tuple[Campaign, Test, Sequence[Product]]
+"""The campaign with one test alone, this test, and its results up to the measured angle."""
 
 
 def check(campaign: Campaign, progress: Counted = lambda done, total: None) -> RunResult:
@@ -63,10 +57,10 @@ def check(campaign: Campaign, progress: Counted = lambda done, total: None) -> R
             found[name] = _found(name, [note(kind, f"{reason}. This test is not run.")])
         else:
             products = [each for each in graph.of_test(test) if each.result.order <= RUN_STAGES.index("rocking")]
-            waiting.append(_Unchecked(test, campaign.but(tests={name: test}), products))
+            waiting.append((campaign.but(tests={name: test}), test, products))
     progress(len(found), total)
     for number, stages in spread(_checked, waiting, workers=None if len(waiting) >= MANY else 1, lost=_lost):
-        found[waiting[number].test.id] = stages
+        found[waiting[number][1].id] = stages
         progress(len(found), total)
     runs = [stage for name in campaign.tests for stage in found[name]]
     for asked in campaign.assessments.items():
@@ -81,21 +75,22 @@ def _found(subject: str, findings: Iterable[Finding], problem: str = "", stage: 
     return [*failed, StageRun(subject, stage, "done", findings=tuple(findings))]
 
 
-def _lost(waiting: _Unchecked) -> list[StageRun]:
-    return _found(waiting.test.id, [], WORKER_LOST)
+def _lost(unchecked: _Unchecked) -> list[StageRun]:
+    return _found(unchecked[1].id, [], WORKER_LOST)
 
 
-def _checked(waiting: _Unchecked) -> list[StageRun]:
+def _checked(unchecked: _Unchecked) -> list[StageRun]:
+    campaign, test, products = unchecked
     made, findings = dict[Path, "xr.Dataset"](), list[Finding]()
     try:
-        for product in waiting.measured:
+        for product in products:
             read = {name: made[path] for name, path in product.upstream.items() if isinstance(path, Path)}
             result = made[product.paths[0]] = product.make(read)
             findings += at_stage(result.attrs["warnings"], product.result.stage)
-        findings.extend(_begun(waiting.campaign, waiting.test, result))
+        findings.extend(_begun(campaign, test, result))
     except (ReadError, StageError) as error:
-        return _found(waiting.test.id, findings, str(error))
-    return _found(waiting.test.id, findings)
+        return _found(test.id, findings, str(error))
+    return _found(test.id, findings)
 
 
 def _begun(campaign: Campaign, test: Test, measured: xr.Dataset) -> Iterator[Finding]:

@@ -219,13 +219,13 @@ PATROL = 0.1
 
 def end_with(parent: int, end: Callable[[], object]) -> None:
     """Call a function, in a thread, once the parent of this process is not this one any more, however it ended."""
-    threading.Thread(target=_wait_for_end, args=(parent, end), daemon=True).start()
 
+    def wait() -> None:
+        while os.getppid() == parent:
+            time.sleep(PATROL)
+        end()
 
-def _wait_for_end(parent: int, end: Callable[[], object]) -> None:
-    while os.getppid() == parent:
-        time.sleep(PATROL)
-    end()
+    threading.Thread(target=wait, daemon=True).start()
 
 
 _PATIENCE = 10
