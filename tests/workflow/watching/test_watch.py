@@ -66,16 +66,12 @@ class Crashing:
 
     ends: list[Ended]
     starts: int = 0
-    is_running: bool = False
 
-    def start(self):
+    def start(self, *given):
         self.starts += 1
-        self.is_running = True
+        return self
 
     def ended(self):
-        if not self.is_running:
-            return None
-        self.is_running = False
         return self.ends.pop(0) if len(self.ends) > 1 else self.ends[0]
 
     def give_way(self):
@@ -87,7 +83,7 @@ def crashing(monkeypatch):
     """What stands in for the run behind every watch of a test."""
     said = "OSError: y\nTraceback (most recent call last):\n  x\nOSError: y"
     behind = Crashing([Ended((), said)])
-    monkeypatch.setattr(module, "Behind", lambda *_: behind)
+    monkeypatch.setattr(module, "Behind", behind.start)
     return behind
 
 
@@ -170,25 +166,20 @@ def wait_until(condition):
 
 def test_it_gives_way_and_then_says_what_failed_and_when_it_was_refused(small):
     small.raw("pulse-02").write_text("nothing\n")
-    behind = Behind(small.folder / "campaign.toml", None, 1)
-    behind.start()
-    assert behind.is_running
-    behind.give_way()
-    assert not behind.is_running
+    given = (small.folder / "campaign.toml", None, 1)
+    behind = Behind(*given)
     assert behind.ended() is None
-    behind.start()
-    found = wait_until(behind.ended)
+    behind.give_way()
+    found = wait_until(Behind(*given).ended)
     assert found.problem == ""
     assert [failure.partition(":")[0] for failure in found.failures] == ["pulse-02"]
     with only_run(small.layout):
-        behind.start()
-        assert is_refusal(wait_until(behind.ended).problem)
+        assert is_refusal(wait_until(Behind(*given).ended).problem)
 
 
 def test_a_run_that_is_killed_says_so(small):
     behind = Behind(small.folder / "campaign.toml", None, 1)
-    behind.start()
-    behind._running[0].kill()
+    behind._process.kill()
     found = wait_until(behind.ended)
     assert found.problem == "It ended with exit code -9."
 
@@ -198,7 +189,7 @@ import sys, time
 from pathlib import Path
 from colonnade.workflow.watching.watch import Behind
 
-Behind(Path(sys.argv[1]), None, 1).start()
+behind = Behind(Path(sys.argv[1]), None, 1)
 print("watching", flush=True)
 time.sleep(600)
 """

@@ -11,7 +11,6 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from datetime import datetime
 from multiprocessing.connection import Connection
-from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 from colonnade import interruption
@@ -95,12 +94,11 @@ def watch(
     folder = loaded.folder / loaded.watch.folder
     shared = None if share is None else Share(share, folder, Arrivals(loaded.watch.settle))
     with only_watch(layout), listening(folder) as wait:
-        behind = Behind(loaded.path, layout.results, workers)
-        watching = _Watching(loaded, layout, wait, behind, command, show, say, once, shared)
+        watching = _Watching(loaded, layout, wait, workers, command, show, say, once, shared)
         try:
             return watching.until_done()
         finally:
-            behind.give_way()
+            watching.give_way()
             watching.tell_pages(is_watched=False)
 
 
@@ -111,13 +109,14 @@ class _Watching:
     campaign: Campaign
     layout: Layout
     wait: Callable[[float], None]
-    behind: Behind
+    workers: int | None
     command: Sequence[str]
     show: Show
     say: Say
     is_once: bool
     share: Share | None
     _arrivals: Arrivals = field(init=False)
+    _behind: Behind | None = None
     _due: dict[str, float] = field(default_factory=dict)
     _is_outdated: bool = True
     _behind_from: float = 0.0
@@ -139,11 +138,17 @@ class _Watching:
         if self.is_once and not (self._arrivals.is_waiting or self._due):
             self._say_once("No new file. Results and report are brought up to date.")
         while True:
-            is_busy = self._arrivals.is_waiting or self._due or self.behind.is_running
+            is_busy = self._arrivals.is_waiting or self._due or self._behind
             if self.is_once and not (is_busy or self._is_outdated):
                 return self._code
             self.wait(BUSY if is_busy or self.is_once else POLL)
             self._look()
+
+    def give_way(self) -> None:
+        """Stop the run behind, if there is one."""
+        if self._behind is not None:
+            self._behind.give_way()
+            self._behind = None
 
     def tell_pages(self, *, is_watched: bool = True) -> None:
         """Give a sign of life to open pages."""
@@ -183,7 +188,7 @@ class _Watching:
         test = self.campaign.tests.get(name)
         if test is None or self.campaign.left_out(name) or missing_files([test], self.campaign.folder):
             return
-        self.behind.give_way()
+        self.give_way()
         try:
             line = measure(self.campaign, self.layout, name)
         except StoreError as error:
@@ -208,8 +213,9 @@ class _Watching:
 
     def _go_on(self, now: float) -> None:
         """Start, or take note of, the run behind; give a sign of life to open pages."""
-        ended = self.behind.ended()
+        ended = None if self._behind is None else self._behind.ended()
         if ended is not None:
+            self._behind = None
             self._code = int(bool(ended.failures or ended.problem))
             for failure in ended.failures:
                 self._say_once(failure)
@@ -221,10 +227,10 @@ class _Watching:
                     f"The run behind the watch failed: {ended.problem.splitlines()[0]}\n"
                     f"All that it said is in {self.layout.watch_log}. It starts again after the next file."
                 )
-        is_free = not (self._due or self._arrivals.is_waiting or self.behind.is_running)
+        is_free = not (self._due or self._arrivals.is_waiting or self._behind)
         if self._is_outdated and is_free and now >= self._behind_from:
             self._is_outdated = False
-            self.behind.start()
+            self._behind = Behind(self.campaign.path, self.layout.results, self.workers)
         if ended is not None or now - self._alive >= EVERY:
             self.tell_pages()
 
@@ -285,57 +291,38 @@ class Ended:
     problem: str = ""
 
 
-@dataclass
 class Behind:
     """A run of the campaign of this file behind the watch; results and workers are as for `run`."""
 
-    campaign_file: Path
-    results: Path | None
-    workers: int | None
-    _running: tuple[BaseProcess, Connection] | None = None
-
-    def start(self) -> None:
-        """Begin a run."""
+    def __init__(self, campaign_file: Path, results: Path | None, workers: int | None) -> None:
         context = multiprocessing.get_context("spawn")
-        told, tell = context.Pipe(duplex=False)
-        given = (tell, os.getpid(), self.campaign_file, self.results, self.workers)
-        process = context.Process(target=_run, args=given)
+        self._told, tell = context.Pipe(duplex=False)
+        self._process = context.Process(target=_run, args=(tell, os.getpid(), campaign_file, results, workers))
         with interruption.held_back(), tell:  # Ctrl-C is for the watch, which ends it
-            process.start()
-        self._running = process, told
-
-    @property
-    def is_running(self) -> bool:
-        """Whether it was started and its end is not taken note of yet."""
-        return self._running is not None
+            self._process.start()
 
     def ended(self) -> Ended | None:
-        """Return how a run has ended by itself, once; else None."""
-        if self._running is None or not self._running[1].poll():
+        """Return how it has ended by itself; None while it goes on."""
+        if not self._told.poll():
             return None
-        process, told = self._running
         try:
-            ended: Ended | None = told.recv()
+            ended: Ended | None = self._told.recv()
         except EOFError:
             ended = None
         self._end()  # it has nothing left to do, but must not hold the watch
-        return ended or Ended(problem=f"It ended with exit code {process.exitcode}.")
+        return ended or Ended(problem=f"It ended with exit code {self._process.exitcode}.")
 
     def give_way(self) -> None:
         """Stop it: what it finished is kept, the rest is done by the next."""
-        if self._running is not None:
-            self._running[0].terminate()
-            self._end()
+        self._process.terminate()
+        self._end()
 
     def _end(self) -> None:
         """Wait for its end, and bring it about if it takes long; its workers end with it."""
-        assert self._running is not None
-        process, told = self._running
-        self._running = None
-        process.join(GIVES_WAY)
-        process.kill()
-        process.join()
-        told.close()
+        self._process.join(GIVES_WAY)
+        self._process.kill()
+        self._process.join()
+        self._told.close()
 
 
 def _run(tell: Connection, watch: int, campaign_file: Path, results: Path | None, workers: int | None) -> None:
