@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.setup import FileOptions
 from colonnade.errors import ReadError, StoreError
 from colonnade.findings import Finding, serious
 from colonnade.readers.files import sha256_of
@@ -32,11 +32,27 @@ def raw_files(campaign: Campaign, test: Test, catalogue: Catalogue) -> RawFiles:
     """Hash the raw files of a test, and their companion files."""
     found: dict[str, RawFile] = {}
     for recorder, path in test.files.items():
-        how = campaign.setups[test.setup].recorders[recorder].file
-        found[_name(campaign, path)], further = _looked_at(campaign.folder, path, how, catalogue)
-        for other in (path.with_name(name or path.name) for name in further):
-            found.setdefault(_name(campaign, other), _looked_at(campaign.folder, other, None, catalogue)[0])
+        known_as = campaign.setups[test.setup].recorders[recorder].file.format
+        own = found[_name(campaign, path)] = _hashed(campaign, path, catalogue)
+        is_there = own.sha256 is not None
+        named = catalogue.entry("raw", path, partial(_companions, known_as), known_as) if is_there else None
+        for other in (path.with_name(name) for name in (named[1] if named else ())):
+            found.setdefault(_name(campaign, other), _hashed(campaign, other, catalogue))
     return found
+
+
+def _hashed(campaign: Campaign, path: Path, catalogue: Catalogue) -> RawFile:
+    """Hash a file, unless it is outside the campaign's folder: reading refuses it."""
+    is_inside = path.resolve().is_relative_to(campaign.folder)
+    entry = catalogue.entry("raw", path, sha256_of) if is_inside else None
+    return RawFile(entry[1], tuple(entry[0])) if entry else RawFile(None)
+
+
+def _companions(known_as: str | None, path: Path) -> list[str]:
+    try:
+        return [other.name for other in companions(path, known_as) if other.name]
+    except ReadError:  # reported when the file is read
+        return []
 
 
 def expect_unchanged(folder: Path, raw: RawFiles) -> None:
@@ -58,27 +74,6 @@ def expect_unchanged(folder: Path, raw: RawFiles) -> None:
 
 def _name(campaign: Campaign, path: Path) -> str:
     return path.relative_to(campaign.folder).as_posix()
-
-
-def _looked_at(folder: Path, path: Path, how: FileOptions | None, catalogue: Catalogue) -> tuple[RawFile, list[str]]:
-    """Return a raw file and, read by the options `how`, the names of its companion files."""
-
-    def ask(path: Path) -> tuple[str | None, list[str]]:
-        digest = sha256_of(path)
-        if digest is None or how is None:
-            return digest, []
-        try:
-            return digest, [other.name for other in companions(path, how.format)]
-        except ReadError:  # reported when the file is read
-            return digest, []
-
-    if not path.resolve().is_relative_to(folder):  # reading refuses it
-        return RawFile(None), []
-    entry = catalogue.entry("raw", path, ask, *([] if how is None else [how.model_dump()]))
-    if entry is None or entry[1][0] is None:
-        return RawFile(None), []
-    mark, (digest, companion_names) = entry
-    return RawFile(digest, tuple(mark)), companion_names
 
 
 def copies(campaign: Campaign, raw: Mapping[str, RawFiles]) -> Iterator[Finding]:
