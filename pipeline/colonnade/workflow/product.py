@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -50,10 +51,8 @@ def marks_of(paths: Iterable[Path]) -> dict[Path, Mark]:
     """Return the present mark of each file that is there."""
     marks = {}
     for path in paths:
-        try:
+        with suppress(OSError):
             marks[path] = mark_of(path)
-        except OSError:
-            continue
     return marks
 
 
@@ -144,21 +143,19 @@ class Catalogue:
     def _package(self) -> str:
         return package_hash()
 
-    def remove_altered(self) -> list[str]:
+    def remove_altered(self) -> Iterator[str]:
         """
-        Remove results that were altered since they were written; return a sentence on each.
+        Remove results that were altered since they were written; give a sentence on each.
 
         What has not changed since the last run is not read, unless everything is verified.
         """
-        notices = []
         for path in self._layout.results_there():
             expect_none()
-            entry = self.entry("results", path, lambda path: _kept(_read(path)))
+            entry = self.entry("results", path, lambda path: _kept(stored_attributes(path, whole=True)))
             if entry is not None and not entry[1]:
                 files.remove(path)
                 name = path.relative_to(self._layout.home).as_posix()
-                notices.append(f"{name}: it was altered or damaged, so it is recomputed.")
-        return notices
+                yield f"{name}: it was altered or damaged, so it is recomputed."
 
     def kept(self, product: str, key: str) -> tuple[str, str] | None:
         """Return the text that is kept of a product under this key, and why it could not be made; None without one."""
@@ -180,10 +177,10 @@ class Catalogue:
         files.write_text(self._layout.catalogue, f"{text}\n")
 
 
-def stored_attributes(path: Path) -> dict[str, Any]:
-    """Attributes of a result; empty if it is missing or damaged, and so has to be recomputed."""
+def stored_attributes(path: Path, *, whole: bool = False) -> dict[str, Any]:
+    """Attributes of a result, read to its end if `whole`; empty if it is missing or damaged, and has to be made."""
     try:
-        return files.read_attributes(path)
+        return files.read(path).attrs if whole else files.read_attributes(path)
     except StoreError:
         return {}
 
@@ -195,14 +192,6 @@ def read_done(path: Path) -> xr.Dataset | None:
     except StoreError:
         return None
     return result if result.attrs["status"] == "done" else None
-
-
-def _read(path: Path) -> dict[str, Any]:
-    """Attributes of a result that is read to its end; empty if it was altered."""
-    try:
-        return files.read(path).attrs
-    except StoreError:
-        return {}
 
 
 def _kept(stored: Mapping[str, Any]) -> dict[str, str]:
