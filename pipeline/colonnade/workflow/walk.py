@@ -200,8 +200,8 @@ class Walk:
         return [product for product in self._known[name] if first <= product.result.order <= last]
 
     def _free_vibrations(self, specimens: Collection[str]) -> list[str]:
-        tests = [test for name, test in self.graph.campaign.tests.items() if name in self.included]
-        return [test.id for test in tests if test.kind == "free-vibration" and test.specimen in specimens]
+        free = (test for test in self.graph.campaign.tests.values() if test.kind == "free-vibration")
+        return [test.id for test in free if test.specimen in specimens and not self.graph.campaign.left_out(test.id)]
 
     def _assessing(self, name: str, asked: Assessment) -> Product:
         from colonnade.workflow.assessing import assessing
