@@ -247,7 +247,7 @@ def _said(model: str, tests: Mapping[str, Mapping[str, Any]]) -> str:
             f"Its misfit (nrmse) is {ratio(middle, 2)} at the median and {ratio(largest, 2)} at most, in {test}."
         )
     ranks = (each["within_spread"] for each in predicted.values())
-    judged = [within for rank in ranks if (within := is_within(nan if rank is None else rank)) is not None]
+    judged = [inside for rank in ranks if (inside := is_within(nan if rank is None else rank)) is not None]
     verb = "is" if judged.count(True) == 1 else "are"
     within = f"{judged.count(True)} of {count(len(judged), 'misfit')} {verb} within its own spread."
     parts.append(within if judged else "Its own spread was not computed.")
