@@ -58,11 +58,10 @@ def test_what_is_no_such_array_is_told(values, options, message):
 @pytest.mark.parametrize(
     ("value", "words"),
     [
-        (np.ma.masked, "masked"),
         (b"ab", "the text b'ab'"),
         ("a" * 99, "the text '" + "a" * 40 + "'"),
         (np.datetime64("2024-01-01"), "2024-01-01"),
-        ([[1], [1, 2]], "a ragged list"),
+        ([[1], [1, 2]], "an array of shape (2,)"),
         (10**50, "a int"),
         (None, "None"),
     ],

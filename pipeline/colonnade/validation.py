@@ -180,15 +180,10 @@ def described(value: Any) -> str:
     >>> described(-1.5), described("x"), described([1.0, 2.0]), described(1j)
     ('-1.5', "the text 'x'", 'an array of shape (2,)', '1j')
     """
-    if value is np.ma.masked:
-        return "masked"
     if isinstance(value, (str, bytes)):
         return f"the text {value[:LONGEST_SHOWN]!r}"
     if isinstance(value, (np.ndarray, list, tuple)):
-        try:
-            return f"an array of shape {np.shape(value)}"
-        except ValueError:
-            return "a ragged list"
+        return f"an array of shape {np.asarray(value, dtype=object).shape}"
     written = str(value)
     return written if len(written) <= LONGEST_SHOWN and "\n" not in written else f"a {type(value).__name__}"
 

@@ -27,7 +27,6 @@ DIMENSIONS = {
     "force": ("kg m s-2", "kN", "a force"),
     "inertia": ("kg m2", "kg m^2", "a moment of inertia"),
     "pressure": ("kg m-1 s-2", "GPa", "a pressure"),
-    "voltage": ("V", "V", "a voltage"),
     "dimensionless": ("1", "", "a plain number"),
 }
 """Dimension: its SI unit, a unit that a laboratory would write, and its name."""
@@ -54,14 +53,10 @@ _UNITS = {
     "strain": (1.0, "", ""),
     "Hz": (1.0, "s-1", "hertz sps"),
     "min": (60.0, "s", "minute"),
-    "h": (3600.0, "s", "hour"),
     "g": (9.80665, "m s-2", "gravity G"),
     "Gal": (0.01, "m s-2", ""),
     "N": (1.0, "kg m s-2", "newton"),
-    "kgf": (9.80665, "kg m s-2", "kilogram_force"),
-    "lbf": (4.4482216152605, "kg m s-2", "pound_force"),
     "Pa": (1.0, "kg m-1 s-2", "pascal"),
-    "bar": (1e5, "kg m-1 s-2", ""),
     "t": (1000.0, "kg", "tonne"),
     "lb": (0.45359237, "kg", "pound"),
     "in": (0.0254, "m", "inch"),

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times
 from colonnade.readers.format import Format, Options, Recognition
@@ -49,47 +48,39 @@ def read(path: Path, options: Options) -> Recording:
         )
     file = c3d(str(path))
     points, analogs = (np.asarray(file["data"][kind], dtype=np.float64) for kind in ("points", "analogs"))
-    of_points, of_analogs = file["parameters"].get("POINT", {}), file["parameters"].get("ANALOG", {})
-    markers = [
-        (f"{name} {axis}", unit, points[row, place])
-        for place, (name, unit) in enumerate(_labels(of_points, points.shape[1], "marker"))
-        for row, axis in enumerate("XYZ")
-    ]
-    named = _labels(of_analogs, analogs.shape[1], "analog")
-    recorded = [(name, unit, analogs[0, place]) for place, (name, unit) in enumerate(named)]
-    channels, notes = [], []
-    for columns, given, what in ((markers, of_points, "markers"), (recorded, of_analogs, "analog channels")):
-        rate = _number(given, "RATE")
-        if columns and rate > 0.0:
-            notes.append(f"clock of the {what}: {rate:.9g} Hz, by the rate in the file")
-        times = even_times(columns[0][2].size, 1.0 / rate) if columns and rate > 0.0 else None
-        channels += [
-            RecordedChannel(name, unit, np.where(np.isfinite(each), each, np.nan), times)
-            for name, unit, each in columns
-        ]
+    channels: list[RecordedChannel] = []
+    notes = []
+    for group, what, axes, values in (
+        ("POINT", "marker", (" X", " Y", " Z"), points),
+        ("ANALOG", "analog", ("",), analogs),
+    ):
+        given = file["parameters"].get(group, {})
+        rate = next((each for each in _values(given, "RATE") if isinstance(each, float) and each > 0.0), np.nan)
+        if values.shape[1] and np.isfinite(rate):
+            notes.append(f"clock of the {what} channels: {rate:.9g} Hz, by the rate in the file")
+            times = even_times(values.shape[2], 1.0 / rate)
+        else:
+            times = None
+        labels, units = ([str(each).strip() for each in _values(given, name)] for name in ("LABELS", "UNITS"))
+        count = values.shape[1]
+        labels += [""] * count
+        units = units * count if len(units) == 1 else units + [""] * count  # one unit is that of all
+        for number in range(count):
+            label, unit = labels[number] or f"{what} {number + 1}", units[number] or None
+            for row, axis in enumerate(axes):
+                column = values[row, number]
+                channels.append(
+                    RecordedChannel(label + axis, unit, np.where(np.isfinite(column), column, np.nan), times)
+                )
     warnings = []
     if announced > points.shape[2]:
         warnings.append(f"it ends after {points.shape[2]} of {announced} frames: a recording or a copy was interrupted")
     return Recording(path, "c3d", tuple(channels), notes=tuple(notes), warnings=tuple(warnings))
 
 
-def _labels(given: Mapping[str, Any], count: int, otherwise: str) -> Iterator[tuple[str, str | None]]:
-    """Give name and unit of each of `count` channels; labels beyond the 255th are in LABELS2, LABELS3 …."""
-    more = (f"{number}" for number in range(2, 2 + count // 255))
-    labels = [str(label).strip() for part in ("", *more) for label in given.get(f"LABELS{part}", {}).get("value", ())]
-    units = [str(unit).strip() for unit in given.get("UNITS", {}).get("value", ())]
-    for number in range(count):
-        name = labels[number] if number < len(labels) else ""
-        # One unit is that of all.
-        unit = units[0] if len(units) == 1 else units[number] if number < len(units) else ""
-        yield name or f"{otherwise} {number + 1}", unit or None
-
-
-def _number(given: Mapping[str, Any], name: str) -> float:
-    """Give a parameter that is one number; 0 where it is missing or damaged."""
-    values: Array = np.asarray(given.get(name, {}).get("value", ()))
-    found = float(values.flat[0]) if values.size and values.dtype.kind in "iuf" else 0.0
-    return found if np.isfinite(found) else 0.0
+def _values(given: Mapping[str, Any], name: str) -> list[Any]:
+    """Give the values of a parameter; none where it is missing."""
+    return np.ravel(given.get(name, {}).get("value", ())).tolist()
 
 
 FORMAT = Format(
