@@ -13,7 +13,6 @@ from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times
 from colonnade.readers.registry import read
 from every import every
-from raw_files import tdm
 from workbooks import xls
 
 TIME = np.arange(60) * 0.01
@@ -98,12 +97,6 @@ def test_a_stray_cell_of_an_old_workbook_leaves_the_others_as_they_are(tmp_path,
     path = xls_with(tmp_path / "a.xls", LAST_CELL, struct.pack("<2H2H", 0x203, 14, row, column))
     times = read(path).channels[0].values
     np.testing.assert_allclose(times[:29], 0.01 * np.arange(29))
-
-
-def test_a_name_that_is_too_long_for_a_file_is_a_file_that_is_not_there(tmp_path):
-    with pytest.raises(ReadError, match="they were expected next to it") as refused:
-        read(tdm(tmp_path / "a.tdm", url="a" * 5000))
-    assert len(str(refused.value)) < 300
 
 
 def test_a_header_in_an_encoding_that_there_is_not_is_refused(path):

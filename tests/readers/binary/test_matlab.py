@@ -207,34 +207,6 @@ def test_a_variable_that_is_larger_than_its_bytes_is_damage(tmp_path, damaged):
     assert any(each.startswith("x is damaged and not read: ") for each in recording.warnings)
 
 
-def test_a_wrong_check_sum_is_damage(path):
-    scipy.io.savemat(path, {"x": np.arange(50.0)}, do_compression=True)
-    content = bytearray(path.read_bytes())
-    content[-1] ^= 1
-    path.write_bytes(content)
-    with pytest.raises(ReadError, match=r"incorrect data check"):
-        read(path)
-
-
-@every("compressed", [False, True])
-def test_a_file_that_was_cut_off_says_so_and_gives_the_variables_before(path, compressed):
-    chance = np.random.default_rng(7)
-    scipy.io.savemat(path, {"first": chance.random(50), "second": chance.random(50)}, do_compression=compressed)
-    whole = path.read_bytes()
-    path.write_bytes(whole[:-60])
-    recording = read(path)
-    assert [channel.name for channel in recording.channels] == ["first"]
-    assert any(warning.startswith("second is damaged and not read: ") for warning in recording.warnings)
-
-
-def test_numbers_of_the_other_byte_order_are_read(path):
-    values = np.arange(3.0)
-    start = struct.pack(">II", 6, 8) + struct.pack(">II", 6, 0) + struct.pack(">II", 5, 8) + struct.pack(">ii", 1, 3)
-    content = start + struct.pack(">HH", 1, 1) + b"x\0\0\0" + struct.pack(">II", 9, 24) + values.astype(">f8").tobytes()
-    path.write_bytes(HEADER[:124] + b"\x01\x00MI" + struct.pack(">II", 14, len(content)) + content)
-    assert read(path).channel("x").values.tolist() == [0.0, 1.0, 2.0]
-
-
 def v73(path, fill):
     with h5py.File(path, "w", userblock_size=512) as file:
         of_class(file, "double", "good", data=np.arange(5.0)[:, None])

@@ -104,19 +104,6 @@ def test_a_step_of_one_second_that_nobody_gave_yields_to_a_channel_of_times(path
     assert read(written(path, columns[1:])).channel("top").time.tolist() == [0, 1, 2, 3, 4]
 
 
-def test_linear_scaling_is_applied(path):
-    scaling = {
-        "NI_Number_Of_Scales": 1,
-        "NI_Scale[0]_Scale_Type": "Linear",
-        "NI_Scale[0]_Linear_Slope": 0.5,
-        "NI_Scale[0]_Linear_Y_Intercept": -3.0,
-        "NI_Scale[0]_Linear_Input_Source": 0xFFFFFFFF,
-        "NI_Scaling_Status": "unscaled",
-    }
-    written(path, [sampled("a", np.array([0, 2, 10, -4], dtype=np.int16), **scaling)])
-    assert read(path).channel("a").values.tolist() == [-3.0, -2.0, 2.0, -5.0]
-
-
 def test_text_is_left_out_and_infinities_are_missing(path):
     remarks = ChannelObject("g", "remarks", ["a", "b", "c"])
     recording = read(written(path, [remarks, sampled("a", np.array([1.0, np.inf, 2.0]))]))
