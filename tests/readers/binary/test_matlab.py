@@ -239,7 +239,7 @@ def virtual_numbers(file):
     [
         (object_of_a_class, "a function or an object of one of MATLAB's classes"),
         (lambda file: of_class(file, "function_handle"), "nothing in a recording is executed"),
-        (external_link, "it is a link to another place or file"),
+        (external_link, "its numbers are in another file"),
         (
             lambda file: file.create_dataset("x", (5, 1), "f8", external=[("/etc/hostname", 0, 40)]),
             "its numbers are in another file",

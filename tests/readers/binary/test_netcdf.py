@@ -92,6 +92,9 @@ def test_a_rate_among_the_attributes_is_the_clock_and_a_table_is_left_out(tmp_pa
     assert "table is left out: it holds no numbers; of a table, save each column as a variable" in recording.notes
 
 
+ELSEWHERE = "it holds nothing, or is a link, or its numbers are in another file; only this one is read"
+
+
 def test_what_is_not_read_is_left_out_with_its_reason(tmp_path):
     path = tmp_path / "a.h5"
     with h5py.File(path, "w") as file:
@@ -108,10 +111,10 @@ def test_what_is_not_read_is_left_out_with_its_reason(tmp_path):
     assert [each.heading for each in recording.channels] == ["again", "run/top"]
     assert {note for note in recording.notes if "left out" in note} == {
         "text is left out: it holds no numbers; of a table, save each column as a variable",
-        "soft is left out: it is a link to another place or file; only this file is read",
-        "elsewhere is left out: it is a link to another place or file; only this file is read",
-        "external is left out: its numbers are in another file; only this file is read",
-        "empty is left out: it holds nothing",
+        f"soft is left out: {ELSEWHERE}",
+        f"elsewhere is left out: {ELSEWHERE}",
+        f"external is left out: {ELSEWHERE}",
+        f"empty is left out: {ELSEWHERE}",
     }
 
 

@@ -55,7 +55,7 @@ def read(path: Path, options: Options) -> Recording:
         ("ANALOG", "analog", ("",), analogs),
     ):
         given = file["parameters"].get(group, {})
-        rate = next((each for each in _values(given, "RATE") if isinstance(each, float) and each > 0.0), np.nan)
+        rate = next((each for each in _values(given, "RATE") if isinstance(each, (int, float)) and each > 0.0), np.nan)
         if values.shape[1] and np.isfinite(rate):
             notes.append(f"clock of the {what} channels: {rate:.9g} Hz, by the rate in the file")
             times = even_times(values.shape[2], 1.0 / rate)
@@ -80,7 +80,7 @@ def read(path: Path, options: Options) -> Recording:
 
 def _values(given: Mapping[str, Any], name: str) -> list[Any]:
     """Give the values of a parameter; none where it is missing."""
-    return np.ravel(given.get(name, {}).get("value", ())).tolist()
+    return [*np.ravel(given.get(name, {}).get("value", ())).tolist()]
 
 
 FORMAT = Format(

@@ -72,13 +72,12 @@ def member(group: h5py.Group, name: str) -> h5py.Group | h5py.Dataset:
     """Open a member of a group; UnreadableError for what netCDF4 and h5py would follow into other files."""
     import h5py
 
-    if not isinstance(group.get(name, getlink=True), h5py.HardLink):
-        raise UnreadableError("it is a link to another place or file; only this file is read")
-    item = group[name]
-    if isinstance(item, h5py.Dataset) and (item.external or item.is_virtual):
-        raise UnreadableError("its numbers are in another file; only this file is read")
-    if not isinstance(item, h5py.Group) and getattr(item, "shape", None) is None:
-        raise UnreadableError("it holds nothing")
+    item = group[name] if isinstance(group.get(name, getlink=True), h5py.HardLink) else None
+    is_own = isinstance(item, h5py.Dataset) and not (item.external or item.is_virtual or item.shape is None)
+    if not (is_own or isinstance(item, h5py.Group)):
+        raise UnreadableError(
+            "it holds nothing, or is a link, or its numbers are in another file; only this one is read"
+        )
     return item
 
 
