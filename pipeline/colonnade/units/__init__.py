@@ -57,6 +57,7 @@ _UNITS = {
     "Gal": (0.01, "m s-2", ""),
     "N": (1.0, "kg m s-2", "newton"),
     "Pa": (1.0, "kg m-1 s-2", "pascal"),
+    "bar": (1e5, "kg m-1 s-2", ""),
     "t": (1000.0, "kg", "tonne"),
     "lb": (0.45359237, "kg", "pound"),
     "in": (0.0254, "m", "inch"),
