@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import isfinite, pi, radians, sqrt
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -171,15 +172,8 @@ def _rocking(column: FoundColumn, asked: AskedSpectrum, motion: Motion, source: 
     drift = f"the velocity drifts by {measures.drift:.2g} of its peak; {measures.largest_drift:g} is allowed"
     sizes = [_size(spectrum, *place) for place in np.ndindex(spectrum.overturned.shape)]
 
-    def draw() -> Picture:
-        from colonnade.figures.files.output import Picture
-        from colonnade.figures.maps import stability_map as spectra
-
-        figure = spectra.rocking_spectrum(spectrum, period=own, title=source)
-        angles = ", ".join(f"{angle:.4g}" for angle in spectrum.critical_angle)
-        seen = f"Largest angle over the size of blocks with α = {angles} rad."
-        return Picture(figure, "rocking-spectrum", f"Rocking spectrum: {source}", seen)
-
+    angles = ", ".join(f"{angle:.4g}" for angle in spectrum.critical_angle)
+    seen = f"Largest angle over the size of blocks with α = {angles} rad."
     return Answer(
         f"The column {'overturns' if history.outcome == 'overturned' else rocks} ({history.model} model).",
         [
@@ -199,8 +193,15 @@ def _rocking(column: FoundColumn, asked: AskedSpectrum, motion: Motion, source: 
             "spectrum": spectrum,
             "measures": measures,
         },
-        draw,
+        partial(_picture, "rocking_spectrum", spectrum, f"Rocking spectrum: {source}", seen, period=own, title=source),
     )
+
+
+def _picture(name: str, spectrum: object, heading: str, seen: str, **how: Any) -> Picture:
+    from colonnade.figures.files.output import Picture
+    from colonnade.figures.maps import stability_map
+
+    return Picture(getattr(stability_map, name)(spectrum, **how), name.replace("_", "-"), heading, seen)
 
 
 def _measured(measures: IntensityMeasures, name: str) -> Row:
@@ -248,13 +249,7 @@ def _overturning(column: FoundColumn, asked: AskedSpectrum) -> Answer:
         )
     heads = ("Ω", "frequency", "lower limit A", "acceleration", "upper limit A", "acceleration", "islands")
 
-    def draw() -> Picture:
-        from colonnade.figures.files.output import Picture
-        from colonnade.figures.maps import stability_map as spectra
-
-        title, seen = f"Overturning spectrum: {kind.name}", f"{column.name}: lower and upper limit over frequency."
-        return Picture(spectra.overturning_spectrum(spectrum), "overturning-spectrum", title, seen)
-
+    seen = f"{column.name}: lower and upper limit over frequency."
     return Answer(
         verdict,
         [
@@ -264,7 +259,7 @@ def _overturning(column: FoundColumn, asked: AskedSpectrum) -> Answer:
         ],
         [(heads, [_limits(spectrum, block, place) for place in range(spectrum.lower.size)])],
         {"column": column.record(), "spectrum": spectrum},
-        draw,
+        partial(_picture, "overturning_spectrum", spectrum, f"Overturning spectrum: {kind.name}", seen),
     )
 
 

@@ -1,6 +1,7 @@
 """How results are written, and progress where there is no terminal."""
 
 import json
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -39,10 +40,17 @@ def test_a_row_is_one_line_whatever_its_length_and_a_table_without_rows_is_nothi
     assert lines[1] == "a     " + ("word " * 60).rstrip()
 
 
-def test_a_line_comes_now_and_then_and_names_what_is_done(monkeypatch, capsys):
+def test_a_line_comes_now_and_then_also_while_nothing_ends_and_not_after_the_end(monkeypatch, capsys):
+    monkeypatch.setattr(console, "EVERY", 0.05)
     with console.work_progress("Looking") as show:
-        show(1, 20)
-        monkeypatch.setattr(console, "EVERY", 0.0)
-        show(4, 20, "free-01 rocking")
-        show(5, 20)
-    assert capsys.readouterr().err == "free-01 rocking: 4 of 20, after 0 s\nLooking: 5 of 20, after 0 s\n"
+        written, end = "", time.monotonic() + 20.0
+        while time.monotonic() < end and "free-01 rocking: 4 of 20, after 0 s" not in written:
+            time.sleep(0.01)
+            written += capsys.readouterr().err
+            if "Looking, after 0 s" in written:
+                show(4, 20, "free-01 rocking")
+    time.sleep(0.1)
+    capsys.readouterr()
+    time.sleep(0.1)
+    assert "Looking, after 0 s\nfree-01 rocking: 4 of 20, after 0 s\n" in written
+    assert capsys.readouterr() == ("", "")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -138,10 +139,11 @@ Show = Callable[..., None]
 
 @contextmanager
 def work_progress(what: str) -> Iterator[Show]:
-    """Show the progress of some work: a bar or, if the output is not a terminal, a line now and then."""
+    """Show the progress of some work: a bar or, if the output is not a terminal, lines."""
     console = messages()
     if not console.is_terminal:
-        yield _lines(what)
+        with _lines(what) as show:
+            yield show
         return
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True) as bar:
@@ -149,13 +151,20 @@ def work_progress(what: str) -> Iterator[Show]:
         yield lambda done, total, now=what: bar.update(task, description=now, completed=done, total=total)
 
 
-def _lines(what: str) -> Show:
-    began = last = time.monotonic()
+@contextmanager
+def _lines(what: str) -> Iterator[Show]:
+    """Write a line every `EVERY` seconds, also while nothing ends."""
+    began, over, last = time.monotonic(), threading.Event(), [what]
+
+    def write() -> None:
+        while not over.wait(min(EVERY, threading.TIMEOUT_MAX)):
+            complain(f"{last[0]}, after {time.monotonic() - began:.0f} s")
 
     def show(done: int, total: int, now: str = what) -> None:
-        nonlocal last
-        if time.monotonic() - last >= EVERY:
-            last = time.monotonic()
-            complain(f"{now}: {done} of {total}, after {last - began:.0f} s")
+        last[0] = f"{now}: {done} of {total}" if done < total else f"{done} of {total} done, finishing"
 
-    return show
+    threading.Thread(target=write, daemon=True).start()
+    try:
+        yield show
+    finally:
+        over.set()

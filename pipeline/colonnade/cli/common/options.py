@@ -187,10 +187,7 @@ scheduler_option = click.option(
 )
 
 results_option = click.option(
-    "--results",
-    type=click.Path(file_okay=False, path_type=Path),
-    metavar="DIR",
-    help="Folder for processed/ and report/, such as one on another disk; by default that of campaign.toml.",
+    "--results", type=FILE, metavar="DIR", help="Folder for processed/ and report/; by default that of campaign.toml."
 )
 
 
@@ -199,9 +196,7 @@ def result_options(command: Command) -> Command:
     return results_option(json_option(command))
 
 
-strict_option = click.option(
-    "--strict", is_flag=True, help="Exit with 1 also for a serious finding or a warning, but not for a note."
-)
+strict_option = click.option("--strict", is_flag=True, help="Exit with 1 also for a serious finding or a warning.")
 
 
 def work_options(command: Command) -> Command:
