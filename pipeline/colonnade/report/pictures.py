@@ -233,7 +233,7 @@ def _peaks(one: OfTest | OfSpecimen) -> Picture | None:
     Energy of successive peaks and its line.
 
     Energy of each peak over the energy that overturns the block, against the number of the preceding impact: a constant
-    e is a straight line. Band: 95 % confidence band of the line. Bars: ± two standard errors.
+    e is a straight line. Bars: ± two standard errors.
     """
     name, decays, _ = _decays(one)
     series, note = some_of([each.peaks for each in decays if each.peaks is not None], "free vibrations")
