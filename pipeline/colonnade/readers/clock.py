@@ -247,11 +247,19 @@ def even_times(count: int, step: float, begin: float = 0.0) -> Array:
     return times
 
 
-def moment_of(text: str, forms: tuple[str, ...]) -> datetime | None:
-    """Read a date and time in the first of some forms that it has; None if it has none of them."""
-    for form in forms:
-        with suppress(ValueError):
-            return datetime.strptime(text, form)
+def moment_of(text: str) -> datetime | None:
+    """
+    Read a date with time, the year in front or behind; None if it is none.
+
+    Examples
+    --------
+    >>> {moment_of(text) for text in ("26.04.2013 10:15:00,5", "04/26/2013 10:15:00.5", "2013-04-26T10:15:00.5")}
+    {datetime.datetime(2013, 4, 26, 10, 15, 0, 500000)}
+    """
+    iso = re.sub(r"^(\d\d)/(\d\d)/(\d{4})", r"\3-\1-\2", re.sub(r"^(\d\d)\.(\d\d)\.(\d{4})", r"\3-\2-\1", text))
+    iso = re.sub(r"\s+(?=[-+]\d\d)", "", iso.replace("/", "-").replace(",", "."))
+    with suppress(ValueError):
+        return datetime.fromisoformat(iso)
     return None
 
 

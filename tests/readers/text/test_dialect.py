@@ -5,7 +5,6 @@ import math
 from colonnade.readers.text.dialect import (
     WHITESPACE,
     Dialect,
-    column_kinds,
     find_first_sample,
     is_sample,
     kind_of,
@@ -22,8 +21,8 @@ POINT, COMMA = Dialect(";", "."), Dialect(";", ",")
     [
         ("1.5", POINT, 1.5),
         ("-.5e3", POINT, -500.0),
-        ("1,234.5", POINT, 1234.5),
-        ("1.234,5", COMMA, 1234.5),
+        ("1,234.5", Dialect(";", ".", ","), 1234.5),
+        ("1\N{NO-BREAK SPACE}234", Dialect(";", ".", " "), 1234.0),
         ("1.5D-2", POINT, 0.015),
         ("\N{MINUS SIGN}2", POINT, -2.0),
     ],
@@ -33,7 +32,7 @@ def test_a_number_is_read(text, dialect, value):
     assert kind_of(text, dialect) == "number"
 
 
-@every(("text", "dialect"), [("1.234", COMMA), ("1,5", POINT), ("1_000", POINT), ("0x1F", POINT)])
+@every(("text", "dialect"), [("1.234", COMMA), ("1.234,5", COMMA), ("1,5", POINT), ("1_000", POINT), ("0x1F", POINT)])
 def test_what_is_not_a_number_or_could_be_read_in_two_ways_is_missing(text, dialect):
     assert math.isnan(dialect.number(text))
 
@@ -73,29 +72,30 @@ def sniffed(*lines, delimiter=None, decimal=None):
     ],
 )
 def test_delimiter_and_decimal_sign_are_found(lines, delimiter, decimal, columns):
-    dialect, width, notes, _ = sniffed(*lines)
-    assert (dialect.decimal, width) == (decimal, columns)
-    assert columns == 1 or dialect.delimiter == delimiter
-    assert notes
+    found = sniffed(*lines)
+    assert (found.dialect.decimal, len(found.kinds)) == (decimal, columns)
+    assert columns == 1 or found.dialect.delimiter == delimiter
+    assert found.notes
 
 
 def test_what_is_given_is_not_sniffed():
-    assert sniffed("1,5", "2,6", "3,7", delimiter=";", decimal=",")[1:] == (1, [], [])
+    found = sniffed("1,5", "2,6", "3,7", delimiter=";", decimal=",")
+    assert (found.kinds, found.notes) == (("number",), ())
 
 
 def test_text_has_no_columns_of_numbers():
-    assert sniffed("one", "two")[1] == 0
+    assert sniffed("one", "two").kinds == ()
 
 
 LINES = ["Test 7; 3", "Time;x;state", "10:15:00;1;on", "10:15:01;OVL;on", "10:15:02;3;off"]
 
 
 def test_columns_are_named_by_what_most_of_their_cells_hold():
-    assert column_kinds(LINES, POINT, 3) == ("time", "number", "text")
+    assert sniffed(*LINES).kinds == ("time", "number", "text")
 
 
 def test_the_first_line_with_a_value_for_each_column_is_found():
-    kinds = column_kinds(LINES, POINT, 3)
+    kinds = sniffed(*LINES).kinds
     assert find_first_sample(LINES, 0, POINT, kinds) == 2
     assert find_first_sample(LINES[:2], 0, POINT, kinds) is None
     assert is_sample(LINES[4], POINT, kinds)

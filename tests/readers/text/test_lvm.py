@@ -9,55 +9,7 @@ from hypothesis import strategies as some
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
-from colonnade.readers.text.lvm import read_preamble, read_segments
 from every import every
-
-PREAMBLE = "LabVIEW Measurement\nSeparator\tTab\nDecimal_Separator\t,\nX_Columns\tMulti\n***End_of_Header***\n\n"
-HEAD = "Channels\t1\nSamples\t2\nY_Unit_Label\tmm\n***End_of_Header***\nX_Value\ttop\tComment\n"
-
-
-def segments(path, text):
-    lines = text.split("\n")
-    return read_segments(path, lines, read_preamble(path, lines))
-
-
-def test_each_header_begins_a_segment_and_rows_below_a_blank_line_go_on(tmp_path):
-    rows = "0\t1,5\n1\t2,5\n"
-    found, warnings = segments(tmp_path / "a.lvm", PREAMBLE + HEAD + rows + "\n" + rows + "\n" + HEAD + rows)
-    assert warnings == []
-    assert [segment.names for segment in found] == [["X_Value", "top"]] * 2
-    assert [segment.columns[1].tolist() for segment in found] == [[1.5, 2.5, 1.5, 2.5], [1.5, 2.5]]
-    said = [found[0].entry(key, column) for key, column in (("Y_Unit_Label", 1), ("Y_Unit_Label", 9), ("x", 0))]
-    assert said == ["mm", "", ""]
-
-
-@every(
-    ("text", "told"),
-    [
-        ("LabVIEW Measurement\n", 'the line ".*End_of_Header.*" is missing'),
-        (PREAMBLE.replace("\t,", "\t;"), 'Decimal_Separator is ";"'),
-        (PREAMBLE + "0\t1\n", '"Channels" was expected, the start of a segment'),
-        (PREAMBLE + "Channels\t1\n", "ends within its header"),
-        (PREAMBLE + HEAD.partition("X_Value")[0], "ends within its header"),
-    ],
-)
-def test_a_file_that_ends_too_early_says_where(tmp_path, text, told):
-    with pytest.raises(ReadError, match=told):
-        segments(tmp_path / "a.lvm", text)
-
-
-def test_a_later_header_that_is_not_whole_is_a_warning(tmp_path):
-    found, warnings = segments(tmp_path / "a.lvm", PREAMBLE + HEAD + "0\t1\n1\t2\n\nChannels\t1\n")
-    assert len(found) == 1
-    assert warnings == ["the segment that starts on line 15 ends within its header: the file was cut off"]
-
-
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=50, deadline=None)
-@given(some.text("0123456789,\t\n*abC", max_size=60))
-def test_any_text_below_a_sound_segment_leaves_that_as_it_is(tmp_path, below):
-    found, _ = segments(tmp_path / "a.lvm", PREAMBLE + HEAD + "0\t1\n1\t2\n\n" + below)
-    assert found[0].columns[1][:2].tolist() == [1, 2]
-
 
 FILE_HEADER = """LabVIEW Measurement
 Writer_Version\t2
@@ -95,6 +47,39 @@ def recorded(folder, *segments, clocks="No", decimal="."):
     return read(path)
 
 
+WHOLE = FILE_HEADER.format(clocks="No", decimal=".")
+
+
+@every(
+    ("text", "told"),
+    [
+        ("LabVIEW Measurement\n", 'the line ".*End_of_Header.*" is missing'),
+        (WHOLE.replace("\t.", "\t;"), 'Decimal_Separator is ";"'),
+        (WHOLE + "0\t1\n", "line 9: the header of a segment is not whole"),
+        (WHOLE + "Channels\t1\n", "line 9: the header of a segment is not whole"),
+        (WHOLE + SEGMENT.partition("X_Value")[0], "line 10: the header of a segment is not whole"),
+        (WHOLE + segment([]), "no channel holds numbers"),
+    ],
+)
+def test_a_file_that_ends_too_early_says_where(path, text, told):
+    path.write_text(text)
+    with pytest.raises(ReadError, match=told):
+        read(path)
+
+
+def test_a_later_header_that_is_not_whole_is_a_warning(tmp_path):
+    recording = recorded(tmp_path, segment(ONE), "\nChannels\t1\n")
+    told = "line 24: the header of a segment is not whole: the file was cut off or is damaged"
+    assert recording.warnings == (told,)
+    assert recording.channel("top").values.tolist() == [0, 1, 2]
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=50, deadline=None)
+@given(some.text("0123456789,\t\n*abC", max_size=60))
+def test_any_text_below_a_sound_segment_leaves_that_as_it_is(tmp_path, below):
+    assert recorded(tmp_path, segment(ONE), "\n" + below).channel("top").values[:3].tolist() == [0, 1, 2]
+
+
 def test_without_x_columns_time_comes_from_the_header(tmp_path):
     rows = [f"\t{row}.5\t-{row}.25" for row in range(4)]
     recording = recorded(tmp_path, segment(rows, x0="1.0"))
@@ -119,7 +104,6 @@ def test_segments_are_joined_by_their_dates_and_times(tmp_path):
     top = recording.channel("top")
     assert top.values.tolist() == [0, 1, 2, 10, 11, 12]
     np.testing.assert_allclose(top.time, [0, 0.005, 0.01, 1.75, 1.755, 1.76], atol=1e-9)
-    assert any("2 segments" in note for note in recording.notes)
 
 
 def test_x_values_that_go_on_are_not_shifted_by_their_segments_time(tmp_path):
@@ -166,8 +150,3 @@ def test_notes_in_a_segments_header_are_no_damage(tmp_path, place):
     assert recording.warnings == ()
     assert recording.channel("top").values.tolist() == [0, 1, 2, 10, 11, 12]
     np.testing.assert_allclose(recording.channel("top").time, [0, 0.005, 0.01, 2, 2.005, 2.01], atol=1e-9)
-
-
-def test_a_file_that_ends_before_its_first_row_is_refused(tmp_path):
-    with pytest.raises(ReadError, match="no channel holds numbers"):
-        recorded(tmp_path, segment([]))

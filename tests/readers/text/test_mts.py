@@ -61,6 +61,7 @@ def test_blocks_of_the_same_columns_go_on_and_others_are_kept_apart(tmp_path):
     assert displacement.values.tolist() == [10.5, 11.5, 12.5] * 2
     assert displacement.time.tolist() == [0, 0.5, 1, 100, 100.5, 101]
     assert recording.channel("block 2: Axial Force").values.tolist() == [7.5]
+    assert ['called "block 2: …"' in told for told in recording.warnings] == [True]
     assert recording.channel("block 2: Axial Force").time is None
 
 
@@ -78,18 +79,3 @@ def test_notes_of_the_operator_are_no_block(tmp_path):
 def test_a_first_line_that_declares_nothing_is_refused(tmp_path):
     with pytest.raises(ReadError, match=r'line 1 is "MTS793\|MPT\|ENU"; .* was expected'):
         read(written(tmp_path, "MTS793|MPT|ENU", "1\t2"))
-
-
-def test_the_longest_block_is_the_default_and_the_reader_says_so(tmp_path):
-    title = "Data Acquisition\tTime:\t{}\tSec\t4/26/2013 1:54:{} PM"
-    lines = [title.format("10.0", 32), "Running Time\tAxial Force", "s\tkN", "2.0\t7.5", "3.0\t8.5", ""]
-    lines += block(4.0, title.format("20.0", 42))
-    recording = read(written(tmp_path, HEAD, "", *lines))
-    assert recording.channel("Axial Force").values.tolist() == [0, -1, -2]
-    assert recording.channel(2).name == "Axial Displacement"
-    assert recording.channel("block 1: Axial Force").values.tolist() == [7.5, 8.5]
-    assert recording.start == datetime(2013, 4, 26, 13, 54, 26)  # 4.0 s after the running time's zero
-    assert recording.warnings == (
-        "2 blocks with different columns: block 2, the longest with 3 rows, is used; columns of "
-        'the others are called "block 1: …"',
-    )

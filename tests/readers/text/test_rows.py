@@ -1,7 +1,5 @@
 """Rows become columns of numbers; rows unlike the others come with their lines and faults."""
 
-from datetime import datetime, timedelta, timezone
-
 import numpy as np
 import pytest
 
@@ -13,44 +11,89 @@ from every import every
 FORM = RowForm(Dialect(";", "."), ("number", "number"))
 
 
-INSTRUMENT = RowForm(Dialect("\t", "."), ("number", "number"), by_instrument=True)
+TABS = RowForm(Dialect("\t", "."), ("number", "number"))
 
 
 @pytest.mark.parametrize("size", [1, 2, 5], ids="in pieces of {}".format)
 def test_columns_and_lines_come_out_whatever_the_size_of_the_pieces(size):
     texts = [f"{row}.5\t{-row}" if row % 2 else "" for row in range(6)]
     pieces = [Piece(11 + at, "\n".join([*texts[at : at + size], ""])) for at in range(0, 6, size)]
-    rows = read_rows([*pieces, Piece(17, "x\t4")], INSTRUMENT)
+    rows = read_rows([*pieces, Piece(17, "x\t4")], TABS)
     np.testing.assert_array_equal(np.array(rows.columns)[:, ~rows.blank], [[1.5, 3.5, 5.5, np.nan], [-1, -3, -5, 4]])
     assert [row.line for row in rows.odd] == [17]
-    assert rows.is_cut
-
-
-def times(*stamps):
-    """What a column of timestamps gives: seconds from the first, and the first."""
-    text = "".join(f"{stamp};1\n" for stamp in stamps)
-    rows = read_rows([Piece(1, text)], RowForm(FORM.dialect, ("time", "number")))
-    return rows.columns[0], rows.start
 
 
 def test_timestamps_are_seconds_from_the_first_in_later_pieces_too():
-    pieces = [Piece(1, "2013-04-26 10:15:00.5;1\n2013-04-26 10:15:01;2\n"), Piece(3, "2013-04-26 10:16:00.5;3\n")]
+    pieces = [
+        Piece(1, "2013-04-26 10:15:00.5;1\nbroken;2\n2013-04-26 10:15:01;2\n"),
+        Piece(4, "2013-04-26 10:16:00.5;3\n"),
+    ]
     rows = read_rows(pieces, RowForm(FORM.dialect, ("time", "number")))
-    assert rows.columns[0].tolist() == [0, 0.5, 60]
-    assert rows.start == datetime(2013, 4, 26, 10, 15, 0, 500000)
+    np.testing.assert_array_equal(rows.columns[0], [0, np.nan, 0.5, 60])
 
 
-def test_what_is_not_a_timestamp_is_missing():
-    np.testing.assert_array_equal(times("10:15:00", "broken", "10:15:02")[0], [0, np.nan, 2])
+THREE = RowForm(Dialect(";", "."), ("number", "number", "number"))
 
 
-@every(("zone", "hours"), [("Z", 0), ("+02:00", 2), ("-0330", -3.5), (" +05:45", 5.75), ("+00:00", 0)])
-def test_the_first_timestamp_keeps_its_zone(zone, hours):
-    seconds, start = times(*(f"2013-04-26T23:15:{second}{zone}" for second in ("00.5", "01.0")))
-    assert seconds.tolist() == [0, 0.5]
-    assert start == datetime(2013, 4, 26, 23, 15, 0, 500000, timezone(timedelta(hours=hours)))
-    assert start.utcoffset() == timedelta(hours=hours)
+def mended(*texts, form=THREE):
+    pieces = [Piece(1, "\n".join([*texts, ""]))] if texts else []
+    columns, notes, warnings = read_rows(pieces, form).mended(["a", "b", "c"][: len(form.kinds)])
+    return [column.tolist() for column in columns], notes, warnings
 
 
-def test_a_timestamp_without_a_zone_has_none():
-    assert times("26.04.2013 10:15:00")[1].tzinfo is None
+def test_lines_that_are_not_samples_are_left_out_and_listed():
+    columns, notes, warnings = mended("1;2;3", "a;b;c", "4;5;6", "# event", "7;8;9")
+    assert columns == [[1, 4, 7], [2, 5, 8], [3, 6, 9]]
+    assert warnings == ['line 2: left out: text without a number ("a;b;c")']
+    assert notes == ['line 4: left out as a comment ("# event")']
+
+
+def test_at_most_five_lines_are_listed():
+    columns, _, warnings = mended(*["1;2;3", "1;2;3;4"] * 7, "1;2;3")
+    assert warnings[0].startswith("lines 2, 4, 6, 8, 10 and 2 more: counted as missing: not 3 cells")
+    assert np.isnan(columns[0]).sum() == 7
+
+
+def test_a_last_line_with_too_few_cells_is_left_out():
+    columns, _, warnings = mended("1;2;3", "4;5", "7;8")
+    np.testing.assert_array_equal(columns[0], [1, np.nan])
+    assert warnings[0] == 'line 2: counted as missing: not 3 cells ("4;5")'
+    assert warnings[1] == 'line 3: left out: the file ends here, before all 3 cells ("7;8")'
+
+
+def test_columns_that_lack_numbers_in_the_same_rows_share_a_message():
+    _, _, warnings = mended("1;2;3", "4;x;x", "5;x;x")
+    assert warnings == ['"b", "c": 2 cells hold no number (first on line 2: "x"); missing']
+
+
+def test_ragged_columns_end_where_their_last_number_is():
+    columns, _, warnings = mended("1;2;3", "4;;6", "7;8", form=RowForm(THREE.dialect, THREE.kinds, is_ragged=True))
+    assert warnings == ['"b": 1 cell holds no number (on line 2: nothing); missing']
+    np.testing.assert_array_equal(columns[1:], [[2, np.nan, 8], [3, 6, np.nan]])
+
+
+@every(
+    ("odd", "told"),
+    [
+        ("7", 'line 2: counted as missing: not 2 cells ("7")'),
+        ("7\t8\t9\t10", 'line 2: counted as missing: not 2 cells ("7 8 9 10")'),
+        ("7\tOVL", '"b": 1 cell holds no number (on line 2: "OVL"); missing'),
+        ("1.2.3\t8", '"a": 1 cell holds no number (on line 2: "1.2.3"); missing'),
+        ("7\tinf", '"b": 1 cell holds no number (on line 2: "inf"); missing'),
+    ],
+)
+def test_a_row_that_is_not_as_the_others_is_told_with_its_line(odd, told):
+    columns, _, warnings = mended("1\t2", odd, "3\t4", form=TABS)
+    assert warnings == [told]
+    assert [[column[0], column[2]] for column in columns] == [[1, 3], [2, 4]]
+    assert np.isnan([column[1] for column in columns]).any()
+
+
+@every("remarks", [0, 1])
+def test_remarks_and_empty_cells_beyond_the_columns_are_not_looked_at(remarks):
+    form = RowForm(TABS.dialect, TABS.kinds, remarks=remarks)
+    assert mended("1\t2" + "\tOK" * remarks, "3\t4\t\t\t", "5\t6", form=form) == ([[1, 3, 5], [2, 4, 6]], [], [])
+
+
+def test_no_rows_are_empty_columns():
+    assert mended(form=TABS) == ([[], []], [], [])

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from colonnade.errors import ReadError
-from colonnade.readers.clock import even_times, moment_after, moment_of, on_one_zero
+from colonnade.readers.clock import even_times, moment_of, on_one_zero
 from colonnade.readers.format import Format, Options
 from colonnade.readers.head import by_first_line
 from colonnade.readers.recording import RecordedChannel, Recording
@@ -34,7 +34,7 @@ DATA = re.compile(
 )
 STEP = 61
 """Place, from 0, of the time step in ms among the real header values (COSMOS 1.20, Table 9, value 62)."""
-START = re.compile(r"start time\s*:\s*([\d/]+),?\s+([\d:]+)(\.\d*)?\s*(\w*)", re.IGNORECASE)
+START = re.compile(r"start time\s*:\s*([\d/]+),?\s+([\d:.]+)\s*(\w*)", re.IGNORECASE)
 COMPONENT = re.compile(r"^Sta\s+Cha\w*[\s:]*(?P<name>.*?)\s*(?:\(Rcrdr|Location|$)", re.IGNORECASE)
 
 
@@ -98,10 +98,8 @@ def _start(texts: list[str]) -> datetime | None:
     found = next((match for text in texts if (match := START.search(text))), None)
     if found is None:
         return None
-    whole = moment_of(f"{found[1]} {found[2]}", ("%m/%d/%Y %H:%M:%S", "%Y/%m/%d %H:%M:%S"))
-    if whole is not None and found[4].upper() in ("UTC", "GMT"):
-        whole = whole.replace(tzinfo=UTC)
-    return moment_after(whole, float(f"0{found[3] or ''}"))
+    start = moment_of(f"{found[1]} {found[2]}")
+    return start.replace(tzinfo=UTC) if start is not None and found[3].upper() in ("UTC", "GMT") else start
 
 
 FORMAT = Format(

@@ -2,29 +2,40 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from datetime import datetime
 from pathlib import Path
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal, NamedTuple, Self
 
 import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
 from colonnade.errors import ReadError
-from colonnade.readers.clock import ClockOptions, with_clocks
+from colonnade.readers.clock import ClockOptions, moment_of, with_clocks
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import Head, from_head, head_of
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.refused import foreign_format
-from colonnade.readers.text.damage import mend
-from colonnade.readers.text.dialect import COMMENT_SIGNS, WHITESPACE, Dialect, column_kinds, find_first_sample, sniff
+from colonnade.readers.text.dialect import (
+    COMMENT_SIGNS,
+    MISSING,
+    SAMPLE_LINES,
+    WHITESPACE,
+    Dialect,
+    find_first_sample,
+    sniff,
+)
 from colonnade.readers.text.encoding import Text, TextOptions, looks_binary
-from colonnade.readers.text.heading import Heading, Lines, find_heading, read_heading, unread_numbers
-from colonnade.readers.text.rows import RowForm, Rows, read_rows
-from colonnade.readers.text.running import HeaderClaims, header_claims, read_series, series_of, why_running
+from colonnade.readers.text.heading import Heading, Lines, find_heading, read_heading
+from colonnade.readers.text.rows import RowForm, read_rows
+from colonnade.readers.text.running import HeaderClaims, header_claims, read_series, why_running
 
 NEAR_THOUSAND = 900
 """From here on a whole number may be the last one without a mark between thousands."""
+
+SIGNED = re.compile(r"[-+]?(?:\d+(?:[.,]\d+)?|\d{1,3}(?:[.,]\d{3})+(?:[.,]\d*)?)")
+"""A number, whatever its decimal sign and its mark between thousands."""
 
 DELIMITER_WORDS = {"comma": ",", "semicolon": ";", "tab": "\t", "\\t": "\t", "pipe": "|", "space": " ", "spaces": " "}
 
@@ -57,14 +68,13 @@ class TableOptions(ClockOptions):
 
     def heading_lines(self, found: Lines) -> Lines:
         """Lines of names and units: as given, else as found; a line that is given as one is not found as the other."""
-        names, units = found
-        if self.names_row is not None:
-            names = self.names_row - 1 if self.names_row else None
-            units = None if units == self.names_row - 1 else units
-        if self.units_row is not None:
-            units = self.units_row - 1 if self.units_row else None
-            names = None if self.names_row is None and names == self.units_row - 1 else names
-        return names, units
+        given = tuple(None if row is None else row - 1 for row in (self.names_row, self.units_row))
+        names, units = (
+            each if line is None else line if line >= 0 else None for line, each in zip(given, found, strict=True)
+        )
+        if names != units:
+            return names, units
+        return (names, None) if given[1] is None else (None, units)
 
 
 class DelimitedOptions(TextOptions, TableOptions):
@@ -88,31 +98,18 @@ class DelimitedOptions(TextOptions, TableOptions):
         return self
 
 
-@dataclass(frozen=True)
-class Header:
-    """
-    All that is known of a file before its samples are read.
+class Header(NamedTuple):
+    """All that is known of a file before its samples are read."""
 
-    Attributes
-    ----------
-    text : Text
-    form : RowForm
-        How its rows are written.
-    first : int
-        Index of the line of the first sample, from 0.
-    heading : Heading
-    claims : HeaderClaims
-        What the lines above the first sample say of the numbers.
-    notes, warnings : tuple of str
-    """
-
-    text: Text
     form: RowForm
     first: int
+    """Index of the line of the first sample."""
     heading: Heading
     claims: HeaderClaims
+    """What the lines above the first sample say of the numbers."""
+    start: datetime | None
+    """Date and time of the first sample."""
     notes: tuple[str, ...]
-    warnings: tuple[str, ...]
 
 
 def read_header(text: Text, options: DelimitedOptions) -> Header:
@@ -128,36 +125,44 @@ def read_header(text: Text, options: DelimitedOptions) -> Header:
         options.decimal or ".",
         options.thousands,
         comments=COMMENT_SIGNS if options.comment is None else (options.comment,),
-        missing=frozenset(map(str.casefold, options.missing)),
+        missing=MISSING.union(map(str.casefold, options.missing)),
     )
-    dialect, columns, notes, warnings = sniff(
-        lines[start:], given, delimiter=options.delimiter, decimal=options.decimal
-    )
-    kinds = column_kinds(lines[start:], dialect, columns)
-    first = find_first_sample(lines, start, dialect, kinds) if columns else None
+    sniffed = sniff(lines[start:], given, delimiter=options.delimiter, decimal=options.decimal)
+    dialect, kinds = sniffed.dialect, sniffed.kinds
+    first = find_first_sample(lines, start, dialect, kinds)
     if first is None:
         told = [f"{key} = {value!r}" for key, value in options.model_dump(exclude_defaults=True).items()]
         raise ReadError(
             f"{text.path.name}: no rows of numbers were found in the first {len(lines)} lines"
             f"{' with ' if told else ''}{', '.join(told)}; the first is {lines[0][:60]!r}."
         )
+    signed = _signed(lines[first : first + SAMPLE_LINES], dialect, kinds)
+    if signed and options.decimal is None and options.thousands is None:
+        raise ReadError(
+            f'{text.path.name}: "{signed}" is no number where "{dialect.decimal}" is the decimal sign, as in other '
+            'columns. Say in `file` which sign is which: decimal = "," and thousands = ".", or the reverse.'
+        )
     where = options.heading_lines(find_heading(lines, options.skip_rows, first, dialect, kinds))
-    heading = read_heading(lines, where, dialect, kinds, is_given=options.names_row is not None)
-    texts = ", ".join(f'"{head}"' for head, kind in zip(heading.headings, kinds, strict=False) if kind == "text")
-    encoding = text.encoding
-    return Header(
-        text,
-        RowForm(dialect, kinds[: len(heading.names)], len(kinds) - len(heading.names), exact=text.made is not None),
-        first,
-        heading,
-        header_claims("\n".join(lines[:first])),
-        (
-            *((f"encoding {encoding.name} ({encoding.evidence})",) if encoding.evidence else ()),
-            *((f"text, not numbers, in {texts}",) if texts else ()),
-            *notes,
-        ),
-        (*warnings, *unread_numbers(lines, where, start, first, dialect)),
-    )
+    heading = read_heading(lines, where, dialect, kinds)
+    texts = [head for head, kind in zip(heading.headings, kinds, strict=False) if kind == "text"]
+    notes = [*sniffed.notes, *heading.notes, f"first sample on line {first + 1}"]
+    if text.encoding.evidence:
+        notes.insert(0, f"encoding {text.encoding.name} ({text.encoding.evidence})")
+    if texts:
+        notes.append("text, not numbers, in " + ", ".join(f'"{head}"' for head in texts))
+    stamp = next((cell for cell, kind in zip(dialect.split(lines[first]), kinds, strict=True) if kind == "time"), "")
+    form = RowForm(dialect, kinds, exact=text.made is not None)
+    return Header(form, first, heading, header_claims("\n".join(lines[:first])), moment_of(stamp), tuple(notes))
+
+
+def _signed(lines: list[str], dialect: Dialect, kinds: tuple[str, ...]) -> str:
+    """A cell of a column that would hold numbers if its signs were read otherwise; empty without one."""
+    rows = [cells for line in lines if len(cells := dialect.split(line)) == len(kinds)]
+    for column, kind in enumerate(kinds):
+        found = [cells[column] for cells in rows]
+        if kind == "text" and all(map(SIGNED.fullmatch, found)):
+            return next(cell for cell in found if not dialect.is_number(cell))
+    return ""
 
 
 @from_head
@@ -192,52 +197,45 @@ def read(path: Path, options: DelimitedOptions) -> Recording:
 def read_text(text: Text, options: DelimitedOptions) -> Recording:
     """Read delimited text, whatever it was made of; see `read`."""
     header = read_header(text, options)
-    rows = read_rows(text.pieces(header.first), header.form)
-    is_open = options.layout is None and options.time is None and not header.heading.is_named
+    form, heading, claims = header.form, header.heading, header.claims
+    rows = read_rows(text.pieces(header.first), form)
     reason = "as given" if options.layout == "running" else ""
-    if is_open and set(header.form.kinds) == {"number"}:
-        is_free = header.form.dialect.delimiter == WHITESPACE
-        reason = why_running(text.path, rows.columns, header.claims, is_free=is_free)
-    if not reason:
-        return _recording(header, rows, options)
-    series = read_series(text, header.form.dialect, header.first)
-    recording = Recording(text.path, "delimited", (), notes=header.notes)
-    return series_of(recording, series, len(header.heading.names), header.claims, reason)
-
-
-def _recording(header: Header, rows: Rows, options: DelimitedOptions) -> Recording:
-    """Say what the rows mean."""
-    path, heading, kinds = header.text.path, header.heading, header.form.kinds
-    mended = mend(rows, heading.headings)
-    channels = []
-    for head, name, unit, kind, values in zip(*heading[:3], kinds, mended.columns, strict=True):
-        is_clock = kind == "time"
-        channels.append(RecordedChannel(name, unit, values, values if is_clock else None, head, is_clock))
-    recording = Recording(path, "delimited", tuple(channels), rows.start)
-    found = with_clocks(recording, options.time, options.time_unit)
-    if len(channels) == 1 and not found.channels[0].is_clock:  # a lone column has unit and interval of the header
-        claimed = header.claims.channel(channels[0].values)
-        lone = replace(channels[0], unit=channels[0].unit or claimed.unit, time=claimed.time, is_clock=False)
-        found = replace(recording, channels=(lone,), notes=(header.claims.clock_note,))
-    return replace(
-        found,
-        notes=(
-            *(*header.notes, *heading.notes, f"first sample on line {header.first + 1}"),
-            *(*found.notes, *mended.notes),
-        ),
-        warnings=(*header.warnings, *found.warnings, *mended.warnings, *_divided(recording, header, options)),
+    is_open = options.layout is None and options.time is None and options.names_row is None and not heading.is_named
+    if is_open and {*form.kinds} <= {"number", "empty"}:
+        is_free = form.dialect.delimiter == WHITESPACE
+        reason = why_running(text.path, rows.columns[: len(heading.names)], claims, is_free=is_free)
+    hint = ""
+    if reason:
+        series = read_series(text, form.dialect, header.first)
+        channels = [RecordedChannel("column 1", claims.unit, series)]
+        notes, warnings = [f"numbers run on from row to row: {reason}"], list[str]()
+        hint = (
+            f"Its numbers, {len(heading.names)} in a row, run on from row to row and are read as one series of "
+            f'{series.size} ({reason}). If each column is a channel, say so: layout = "columns" in `file`.'
+        )
+    else:
+        columns, notes, warnings = rows.mended(heading.headings)
+        own = None if any(heading.units) else claims.unit
+        parts = zip(*heading[:3], form.kinds, columns, strict=False)
+        channels = [
+            RecordedChannel(name, unit or own, values, values if kind == "time" else None, head, kind == "time")
+            for head, name, unit, kind, values in parts
+        ]
+        if options.decimal is None and options.thousands is None:
+            warnings += _divided(channels, form.dialect.decimal)
+    recording = Recording(
+        text.path, "delimited", tuple(channels), header.start, (*header.notes, *notes), tuple(warnings), hint
     )
+    step = {"header.dt": claims.step} if claims.step else {}
+    return with_clocks(recording, options.time, options.time_unit, step)
 
 
-def _divided(recording: Recording, header: Header, options: DelimitedOptions) -> Iterator[str]:
+def _divided(channels: list[RecordedChannel], sign: str) -> Iterator[str]:
     """Doubt columns that go from whole numbers just below 1000 to just above 1: as with a mark between thousands."""
-    if options.decimal is not None or options.thousands is not None:
-        return
-    for channel in recording.channels:
+    for channel in channels:
         size = np.abs(channel.values)
         high, low = (size >= NEAR_THOUSAND) & (size < 1000), (size >= 1) & (size < 1.1)
         if high.any() and ((high[1:] & low[:-1]) | (low[1:] & high[:-1])).any() and not (size[high] % 1).any():
-            sign = header.form.dialect.decimal
             yield (
                 f'"{channel.heading}" goes from just below 1000 to just above 1: "{sign}" was read as a decimal sign; '
                 f'if it stands between thousands, set thousands = "{sign}"'

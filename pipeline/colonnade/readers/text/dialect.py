@@ -19,8 +19,7 @@ DELIMITER_NAMES = {"\t": "tab", WHITESPACE: "spaces"}
 SAMPLE_LINES = 120
 """Lines at the end of the head of a file from which it is found out how samples are written."""
 LOOK_AHEAD = 10
-"""Lines after a candidate that have to look like samples too, at least in this share:"""
-ALIKE = 0.7
+"""Lines from the first sample on of which half at least have to be samples."""
 
 COMMENT_SIGNS = ("#", "%", "//", "!")
 
@@ -35,9 +34,8 @@ MISSING = frozenset(
 )
 """What recorders write in place of a number."""
 
-BLANKS = " '\N{RIGHT SINGLE QUOTATION MARK}\N{NO-BREAK SPACE}\N{NARROW NO-BREAK SPACE}"
-"""Between thousands; none of them can be a decimal sign."""
-_WITHOUT_BLANKS = str.maketrans("dD\N{MINUS SIGN}", "ee-", BLANKS)
+MARKS = {" ": " \N{NO-BREAK SPACE}\N{NARROW NO-BREAK SPACE}", "'": "'\N{RIGHT SINGLE QUOTATION MARK}"}
+"""How else a mark between thousands is written."""
 
 TIMESTAMP = re.compile(
     r"(?:(?:\d{4}([-/])\d{1,2}\1\d{1,2}|\d{1,2}\.\d{1,2}\.\d{4})[T ]+)?"  # a date, year first or dotted, may be absent
@@ -63,7 +61,7 @@ class Dialect:
     comments : tuple of str
         What starts a line that is not a sample.
     missing : frozenset of str
-        Casefolded texts that stand for a missing value in this file, besides `MISSING`.
+        Casefolded texts that stand for a missing value.
     """
 
     delimiter: str
@@ -71,12 +69,7 @@ class Dialect:
     thousands: str | None = None
     quoted: bool = False
     comments: tuple[str, ...] = COMMENT_SIGNS
-    missing: frozenset[str] = frozenset()
-
-    @property
-    def other_sign(self) -> str:
-        """The comma where points are decimal signs, the point where commas are."""
-        return "," if self.decimal == "." else "."
+    missing: frozenset[str] = MISSING
 
     def split(self, line: str) -> list[str]:
         """Cut a line into its cells, without the spaces around them."""
@@ -94,34 +87,33 @@ class Dialect:
         """Whether a line starts with a comment sign."""
         return line.lstrip().startswith(self.comments)
 
-    def is_missing(self, cell: str) -> bool:
-        """Whether a cell says that there is no value."""
-        return cell.casefold() in MISSING or cell.casefold() in self.missing
-
     def is_number(self, cell: str) -> bool:
-        """Whether a cell is a number, read in one way only: `1'234` is one, `1.234` with decimal commas is not."""
+        """Whether a cell is a number, with a mark between thousands only if that is known."""
         return self._number.fullmatch(cell) is not None
 
     def number(self, cell: object) -> float:
-        """Read a cell; NaN if it is not a number, or could be read in two ways."""
+        """Read a cell; NaN if it is not a number."""
         if not isinstance(cell, str):
             return float(cell) if isinstance(cell, (int, float)) else float("nan")
         text = cell.strip().strip('"').strip()
-        if self.is_missing(text):
-            return float("nan")
-        if self.is_number(text):
-            return float(text.replace(self.other_sign, "").replace(self.decimal, ".").translate(_WITHOUT_BLANKS))
-        return {"true": 1.0, "false": 0.0}.get(text.casefold(), float("nan"))
+        if text.casefold() in self.missing or not self.is_number(text):
+            return {"true": 1.0, "false": 0.0}.get(text.casefold(), float("nan"))
+        return float(text.translate(self._plain).replace(self.decimal, "."))
+
+    @cached_property
+    def _marks(self) -> str:
+        return MARKS.get(self.thousands, self.thousands) if self.thousands else ""
+
+    @cached_property
+    def _plain(self) -> dict[int, int | None]:
+        return str.maketrans("dD\N{MINUS SIGN}", "ee-", self._marks)
 
     @cached_property
     def _number(self) -> re.Pattern[str]:
-        decimal, other = re.escape(self.decimal), re.escape(self.other_sign)
-        plain = rf"(?:\d+(?:{decimal}\d*)?|{decimal}\d+)(?:[eEdD][+-]?\d+)?"
-        # Groups of three cannot be decimals only if a decimal sign or another group follows, or their sign was given.
-        grouped = rf"\d{{1,3}}(?:{other}\d{{3}})+{decimal}\d*|\d{{1,3}}(?:{other}\d{{3}}){{2,}}"
-        grouped += rf"|\d{{1,3}}(?:[{BLANKS}]\d{{3}})+(?:{decimal}\d*)?"
-        grouped += rf"|\d{{1,3}}(?:{re.escape(self.thousands)}\d{{3}})+(?:{decimal}\d*)?" if self.thousands else ""
-        return re.compile(rf"[+\-\N{{MINUS SIGN}}]?(?:{plain}|{grouped})", re.ASCII)
+        decimal = re.escape(self.decimal)
+        whole = rf"(?:\d{{1,3}}(?:[{self._marks}]\d{{3}})+|\d+)" if self._marks else r"\d+"
+        number = rf"[+\-\N{{MINUS SIGN}}]?(?:{whole}(?:{decimal}\d*)?|{decimal}\d+)(?:[eEdD][+-]?\d+)?"
+        return re.compile(number, re.ASCII)
 
 
 def quoted_cells(line: str, delimiter: str) -> list[str]:
@@ -145,75 +137,45 @@ def looks_like_numbers(line: str) -> bool:
 
 def kind_of(cell: str, dialect: Dialect) -> str:
     """Name what a cell holds: `missing`, `number`, `time` or `text`."""
-    if dialect.is_missing(cell):
+    if cell.casefold() in dialect.missing:
         return "missing"
     if dialect.is_number(cell):
         return "number"
     return "time" if is_timestamp(cell) else "text"
 
 
-def is_sample(line: str, dialect: Dialect, kinds: tuple[str, ...]) -> bool:
-    """Whether a line holds something for each column, at least one number, and no text in a column of numbers."""
-    cells = dialect.split(line)
-    if dialect.is_comment(line) or len(cells) != len(kinds):
-        return False
-    found = [kind_of(cell, dialect) for cell in cells]
-    return "number" in found and all(
-        have == want or have == "missing" or want in ("text", "empty") for have, want in zip(found, kinds, strict=True)
-    )
-
-
-class _Fit(NamedTuple):
-    """How well a dialect explains the sample: the rows of numbers, their cells, the share of sure numbers."""
+class Sniffed(NamedTuple):
+    """A dialect, and how well it explains some lines."""
 
     dialect: Dialect
-    columns: int = 0
+    kinds: tuple[str, ...] = ()
+    """What each column holds on most rows of numbers: `number`, `time` (date or time of day), `text` or `empty`."""
     rows: int = 0
     score: float = 0.0
+    """Share of lines with so many cells, each as sure as its numbers."""
+    notes: tuple[str, ...] = ()
 
 
-def sniff(
-    lines: list[str], given: Dialect, *, delimiter: str | None, decimal: str | None
-) -> tuple[Dialect, int, list[str], list[str]]:
+def sniff(lines: list[str], given: Dialect, *, delimiter: str | None, decimal: str | None) -> Sniffed:
     """
     Find the dialect that makes most cells numbers and gives most lines the same number of cells.
 
-    With it come the cells on most rows of numbers (0 without such a row), notes and warnings.
-
-    The later lines of a head are looked at, as there the samples are surest. Comment signs, missing values and perhaps
-    the sign between thousands are `given`; so may be the delimiter and the decimal sign.
+    The later lines of a head are looked at, as there the samples are surest. What is neither delimiter nor decimal
+    sign is `given`; so may be these.
     """
-    filled = [line for line in lines if line.strip() and not given.is_comment(line)]
-    sample = filled[-SAMPLE_LINES:]
+    sample = [line for line in lines if line.strip() and not given.is_comment(line)][-SAMPLE_LINES:]
     fits = [_fit(sample, dialect) for dialect in _candidates(sample, given, delimiter, decimal)]
-    best = max(fits, key=lambda fit: (fit.score, fit.columns > 1))
-    dialect = best.dialect
-    if best.rows == 0:
-        return dialect, 0, [], []
-    numbers = filter(dialect.is_number, chain.from_iterable(map(dialect.split, sample)))
-    signed = next((number for number in numbers if dialect.decimal in number), None)
-    notes, warnings = [], []
-    if delimiter is None and best.columns == 1:
-        notes.append("one column: no delimiter gives more numbers in the lines examined")
-    elif delimiter is None:
-        sign = DELIMITER_NAMES.get(dialect.delimiter, f'"{dialect.delimiter}"')
-        notes.append(f"delimiter {sign} ({best.columns} cells on {best.rows} of the {len(sample)} lines examined)")
+    best = max(fits, key=lambda fit: (fit.score, len(fit.kinds) > 1), default=Sniffed(given))
+    dialect, notes = best.dialect, []
+    if delimiter is None:
+        sign = DELIMITER_NAMES.get(dialect.delimiter, f'"{dialect.delimiter}"') if len(best.kinds) > 1 else "none"
+        notes.append(f"delimiter {sign} ({len(best.kinds)} cells on {best.rows} of the {len(sample)} lines examined)")
     if decimal is None:
+        numbers = filter(dialect.is_number, chain.from_iterable(map(dialect.split, sample)))
+        signed = next((number for number in numbers if dialect.decimal in number), None)
         why = " assumed: the numbers examined have none" if signed is None else f' (as in "{signed}")'
         notes.append(f'decimal sign "{dialect.decimal}"{why}')
-    if dialect.thousands != given.thousands:
-        warnings.append(
-            f'the decimal sign is "{dialect.decimal}", so that "{dialect.thousands}" is taken as a mark between '
-            f"thousands, as in 1{dialect.thousands}234: if it is none, write the file with one decimal sign; "
-            f'thousands = "{dialect.thousands}" says that it is one'
-        )
-    is_open = not delimiter and not decimal and signed is None and (dialect.delimiter, best.columns) == (",", 2)
-    if is_open and any(fit.columns == 1 and fit.score == best.score for fit in fits):
-        warnings.append(
-            f'rows such as "{sample[-1].strip()}" are read as two columns of whole numbers; they could also be '
-            'one column with decimal commas: then set decimal = ","'
-        )
-    return dialect, best.columns, notes, warnings
+    return best._replace(notes=tuple(notes))
 
 
 def _candidates(sample: list[str], given: Dialect, delimiter: str | None, decimal: str | None) -> Iterator[Dialect]:
@@ -223,82 +185,56 @@ def _candidates(sample: list[str], given: Dialect, delimiter: str | None, decima
         if quoted and candidate == WHITESPACE and delimiter is None:
             continue
         for sign in (".", ",") if decimal is None else (decimal,):
-            if sign != candidate or quoted:
-                plain = replace(given, delimiter=candidate, decimal=sign, quoted=quoted)
-                yield plain
-                if given.thousands is None and _is_marked(sample, plain):
-                    yield replace(plain, thousands=plain.other_sign)
+            if (sign != candidate or quoted) and sign != given.thousands:
+                yield replace(given, delimiter=candidate, decimal=sign, quoted=quoted)
 
 
-def _is_marked(sample: list[str], dialect: Dialect) -> bool:
-    """Whether a column has whole numbers alone, some with the other sign between their groups of three digits."""
-    columns: defaultdict[int, list[str]] = defaultdict(list)
-    for line in filter(looks_like_numbers, sample):
-        for place, cell in enumerate(dialect.split(line)):
-            columns[place].append(cell.lstrip("+-"))
-    sign = dialect.other_sign
-    whole = re.compile(rf"\d*|[1-9]\d{{0,2}}({re.escape(sign)}\d{{3}})+")
-    return any(sign in "".join(cells) and all(map(whole.fullmatch, cells)) for cells in columns.values())
-
-
-def _fit(sample: list[str], dialect: Dialect) -> _Fit:
-    counts: Counter[int] = Counter()
-    numbers: defaultdict[int, float] = defaultdict(float)
+def _fit(sample: list[str], dialect: Dialect) -> Sniffed:
+    """Look at the rows of numbers: at least half of what a row says is a number or a time."""
+    rows: defaultdict[int, list[list[str]]] = defaultdict(list)
+    sure: Counter[int] = Counter()
     for line in sample:
         cells = dialect.split(line)
-        weights = [_weight(cell, dialect) for cell in cells if not dialect.is_missing(cell)]
-        if sum(weights) > 0 and sum(weights) >= len(weights) / 2:
-            counts[len(cells)] += 1
-            numbers[len(cells)] += sum(weights) / len(weights)
-    if not counts:
-        return _Fit(dialect)
-    columns, rows = max(counts.items(), key=lambda item: (item[1], item[0]))
-    return _Fit(dialect, columns, rows, round(numbers[columns] / len(sample), 3))
-
-
-def _weight(cell: str, dialect: Dialect) -> float:
-    """How surely a cell is a number or a time, 0 to 1."""
-    if kind_of(cell, dialect) == "text":
-        return 0.0
-    # "05" is hardly a whole number; rather the decimals of "1,05" cut at the comma.
-    digits = cell.lstrip("+-")
-    return 0.5 if len(digits) > 1 and digits[0] == "0" and digits.isdigit() else 1.0
-
-
-def column_kinds(lines: list[str], dialect: Dialect, columns: int) -> tuple[str, ...]:
-    """
-    Find what each column holds in the later lines of a head: `number`, `time` (date or time of day), `text` or `empty`.
-
-    A nameless empty last column, made by a delimiter at the end of each line, is among the columns.
-    """
-    counts: list[Counter[str]] = [Counter() for _ in range(columns)]
-    for line in [line for line in lines if line.strip()][-SAMPLE_LINES:]:
-        cells = dialect.split(line)
         kinds = [kind_of(cell, dialect) for cell in cells]
-        if len(cells) == columns and "number" in kinds:
-            for count, kind in zip(counts, kinds, strict=True):
-                count[kind] += 1
-    return tuple(
-        max(("number", "time", "text"), key=count.__getitem__) if count.total() > count["missing"] else "empty"
-        for count in counts
-    )
+        weights = [_weight(cell, kind) for cell, kind in zip(cells, kinds, strict=True) if kind != "missing"]
+        if sum(weights) > 0 and sum(weights) >= 100 * len(weights) / 2:
+            rows[len(cells)].append(kinds)
+            sure[len(cells)] += sum(weights) // len(weights)
+    if not rows:
+        return Sniffed(dialect)
+    width = max(rows, key=lambda width: (len(rows[width]), width))
+    columns = zip(*rows[width], strict=True)
+    kinds = [
+        max(("number", "time", "text"), key=column.count) if {*column} != {"missing"} else "empty" for column in columns
+    ]
+    return Sniffed(dialect, tuple(kinds), len(rows[width]), sure[width] / len(sample))
+
+
+def _weight(cell: str, kind: str) -> int:
+    """How surely a cell is a number or a time, %."""
+    # "05" is hardly a whole number; rather the decimals of "1,05" cut at the comma.
+    is_cut = re.fullmatch(r"[+-]?0\d+", cell) is not None
+    return 0 if kind == "text" else 50 if is_cut else 100
 
 
 def find_first_sample(lines: list[str], start: int, dialect: Dialect, kinds: tuple[str, ...]) -> int | None:
-    """Find the index of the first line, from `start` on, with a value for each column, after which most have one."""
-    filled = [index for index in range(start, len(lines)) if not dialect.is_blank(lines[index])]
+    """Find the index of the first line, from `start` on, with a value for each column, after which many have one."""
+    filled = [
+        n for n in range(start, len(lines)) if not dialect.is_blank(lines[n]) and not dialect.is_comment(lines[n])
+    ]
     for place, index in enumerate(filled):
         if is_sample(lines[index], dialect, kinds):
-            following = [lines[other] for other in filled[place : place + LOOK_AHEAD + 1]]
-            following = [line for line in following if not dialect.is_comment(line)]
-            alike = sum(_resembles_sample(line, dialect, kinds) for line in following)
-            if alike >= ALIKE * len(following):
+            following = filled[place : place + LOOK_AHEAD]
+            if 2 * sum(is_sample(lines[other], dialect, kinds) for other in following) >= len(following):
                 return index
     return None
 
 
-def _resembles_sample(line: str, dialect: Dialect, kinds: tuple[str, ...]) -> bool:
-    """Whether a line could be a sample that is not quite as it should be."""
+def is_sample(line: str, dialect: Dialect, kinds: tuple[str, ...]) -> bool:
+    """Whether a line holds something for each column, at least one number, and no text in a column of numbers."""
     found = [kind_of(cell, dialect) for cell in dialect.split(line)]
-    is_alike = len(found) == len(kinds) and 2 * found.count("text") <= len(found) - found.count("missing")
-    return is_alike or looks_like_numbers(line)
+    return (
+        "number" in found
+        and len(found) == len(kinds)
+        and all(have in (want, "missing") or want in ("text", "empty") for have, want in zip(found, kinds, strict=True))
+    )

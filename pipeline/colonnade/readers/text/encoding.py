@@ -24,14 +24,6 @@ ROWS_AT_ONCE = 20_000
 """Lines that are cut into cells at once, if they are there already."""
 UNREADABLE = "\ufffd"
 
-# UTF-32 before UTF-16: the little-endian mark of the former starts with that of the latter.
-BYTE_ORDER_MARKS = (
-    (codecs.BOM_UTF8, "utf-8-sig"),
-    (codecs.BOM_UTF32_LE, "utf-32"),
-    (codecs.BOM_UTF32_BE, "utf-32"),
-    (codecs.BOM_UTF16_LE, "utf-16"),
-    (codecs.BOM_UTF16_BE, "utf-16"),
-)
 PRINTED_CONTROLS = frozenset("\t\n\r\f\v\x1a")
 
 
@@ -43,19 +35,9 @@ class Encoding(NamedTuple):
 
 
 def encoding_of(head: bytes) -> Encoding:
-    """Find a text's encoding: by its mark, by zeros at every second byte, UTF-8 if that is valid, else Windows-1252."""
-    # A block of zeros at the end is what a power failure leaves; it says nothing of the encoding.
-    head = head.rstrip(b"\0") or head
-    for mark, name in BYTE_ORDER_MARKS:
-        if head.startswith(mark):
-            return Encoding(name, "by its byte order mark")
-    zeros_even, zeros_odd = (head[offset::2].count(0) / max(len(head) // 2, 1) for offset in (0, 1))
-    if zeros_odd > 0.3 > 0.05 > zeros_even:
-        return Encoding("utf-16-le", "every second byte is zero, without a byte order mark")
-    if zeros_even > 0.3 > 0.05 > zeros_odd:
-        return Encoding("utf-16-be", "every first byte of two is zero, without a byte order mark")
-    if head.isascii():
-        return Encoding("utf-8", "plain ASCII in the part examined")
+    """Find a text's encoding: UTF-16 by its byte order mark, UTF-8 if that is valid, else Windows-1252."""
+    if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return Encoding("utf-16", "by its byte order mark")
     try:
         codecs.getincrementaldecoder("utf-8")().decode(head, final=False)
     except UnicodeDecodeError as error:
@@ -92,18 +74,10 @@ class Piece(NamedTuple):
 @dataclass(frozen=True)
 class Text:
     """
-    A text.
+    A text in a file, or `made` of a file that is none, such as a workbook.
 
     NUL characters, which recorders leave when their power fails and which C takes for the end of a cell, come out as
     U+FFFD, as do bytes that are not characters.
-
-    Attributes
-    ----------
-    path : Path
-        The file that it is in.
-    encoding : Encoding
-    made : str or None
-        The text itself where it was made of a file that is none, such as a workbook.
     """
 
     path: Path
@@ -144,6 +118,11 @@ class Text:
             )
         return lines
 
+    def whole_lines(self) -> tuple[list[str], list[str]]:
+        """All lines that end, as an instrument's own program ends each, and a warning of one that does not."""
+        *lines, last = self.lines()
+        return lines, [f"the file ends within line {len(lines) + 1}, which is left out"] if last.strip() else []
+
     def pieces(self, first: int) -> Iterator[Piece]:
         """Cut it into pieces, from the line with index `first` on."""
         number, rest = first + 1, ""
@@ -162,10 +141,9 @@ class Text:
 
 
 def pieces_of(lines: Sequence[str], first: int, stop: int) -> Iterator[Piece]:
-    """Join lines, from the index `first` to before `stop`, into pieces; the last line of the text has no line end."""
+    """Join lines, from the index `first` to before `stop`, into pieces."""
     for start in range(first, stop, ROWS_AT_ONCE):
-        end = min(start + ROWS_AT_ONCE, stop)
-        yield Piece(start + 1, "\n".join(lines[start:end]) + ("\n" if end < len(lines) else ""))
+        yield Piece(start + 1, "".join(f"{line}\n" for line in lines[start : min(start + ROWS_AT_ONCE, stop)]))
 
 
 def looks_binary(lines: list[str]) -> str:

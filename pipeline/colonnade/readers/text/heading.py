@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from itertools import islice
 from typing import NamedTuple
 
-from colonnade.readers.text.dialect import DELIMITERS, WHITESPACE, Dialect, kind_of, looks_like_numbers, quoted_cells
+from colonnade.readers.text.dialect import DELIMITERS, WHITESPACE, Dialect, kind_of, quoted_cells
 
 _BASE = (
     r"(?:[kKMGmµμun]|c|d)?(?:m|s|g|N|V|A|W|J|Hz|Pa|rad|bar|strain|eps|ε|m/m)|g's|gal|Gal|in|inch(?:es)?|ft|lbf?|kip|psi|ksi"
@@ -40,37 +39,28 @@ Lines = tuple[int | None, int | None]
 """Indices of the lines of names and of units, if there are any."""
 
 
-def read_heading(
-    lines: list[str], where: Lines, dialect: Dialect, kinds: tuple[str, ...], *, is_given: bool = False
-) -> Heading:
+def read_heading(lines: list[str], where: Lines, dialect: Dialect, kinds: tuple[str, ...]) -> Heading:
     """
     Take names and units from the lines `where` they are; columns without a name are called by their number.
 
-    An empty column at the end without a name is left out. A line of names that was given is one whatever it looks like.
+    An empty column at the end without a name is left out.
     """
     names_row, units_row = (_row(lines, index, dialect, len(kinds)) for index in where)
     width = len(kinds)
     while width > 1 and kinds[width - 1] == "empty" and not names_row[width - 1]:
         width -= 1
-    names_row, units_row = names_row[:width], units_row[:width]
-    parts = [take_apart(cell) for cell in names_row]
-    bare = [re.sub(r"^[\[(](.*)[\])]$", r"\1", cell).strip() for cell in units_row]
+    parts = [take_apart(cell) for cell in names_row[:width]]
+    bare = [re.sub(r"^[\[(](.*)[\])]$", r"\1", cell).strip() for cell in units_row[:width]]
     units = tuple(own or unit for own, (_, unit) in zip(bare, parts, strict=True))
-    headings = tuple(cell or f"column {number}" for number, cell in enumerate(names_row, 1))
+    headings = tuple(cell or f"column {number}" for number, cell in enumerate(names_row[:width], 1))
     names = tuple(name or f"column {number}" for number, (name, _) in enumerate(parts, 1))
-    notes = []
-    if where[0] is None:
-        notes.append(f'no names above the samples: columns are called "column 1" to "column {width}"')
-    else:
-        line = where[0] + 1
-        notes.append(f'names on line {line} ("{headings[0]}", …)' if width > 1 else f"name on line {line}")
-    if where[1] is not None:
-        notes.append(f"units on line {where[1] + 1}")
-    elif united := next((head for head, unit in zip(headings, units, strict=True) if unit), ""):
-        notes.append(f'units in the names (as in "{united}")')
+    notes = [
+        f'{what} on line {index + 1} ("{row[0]}", …)' if index is not None else f"no line of {what} above the samples"
+        for what, index, row in zip(("names", "units"), where, (names_row, units_row), strict=True)
+    ]
     # A title above a table fills a cell only; words between single blanks may be a sentence.
-    is_named = 2 * sum(bool(name or unit) for name, unit in zip(names_row, units, strict=True)) > width
-    if is_named and where[0] is not None and where[1] is None and not is_given and dialect.delimiter == WHITESPACE:
+    is_named = 2 * sum(bool(name or unit) for name, unit in zip(names_row, units, strict=False)) > width
+    if is_named and where[0] is not None and where[1] is None and dialect.delimiter == WHITESPACE:
         words = lines[where[0]].split()
         is_named = len(words) <= 2 or lines[where[0]].strip() != " ".join(words)
     return Heading(headings, names, units, is_named, tuple(notes))
@@ -78,9 +68,7 @@ def read_heading(
 
 def find_heading(lines: list[str], start: int, first: int, dialect: Dialect, kinds: tuple[str, ...]) -> Lines:
     """Find the lines of names and units between the index `start` and that of the first sample."""
-    above = (
-        n for n in range(first - 1, start - 1, -1) if not dialect.is_blank(lines[n]) and not RULE.fullmatch(lines[n])
-    )
+    above = (n for n in range(first - 1, start - 1, -1) if not RULE.fullmatch(lines[n]))
     fitting: list[tuple[int, list[str]]] = []
     for index in islice(above, 2):
         cells = heading_cells(lines[index], dialect, len(kinds))
@@ -143,59 +131,27 @@ def heading_cells(line: str, dialect: Dialect, columns: int) -> list[str] | None
     A line above the samples may use another delimiter than these, a comment sign before it, or one delimiter more.
     """
     bare = line.strip("\r\n ")
-    for sign in sorted(dialect.comments, key=len, reverse=True):
-        if bare.startswith(sign) and dialect.delimiter != sign:
-            bare = bare.lstrip(sign).strip(" ")
-            break
-    if RULE.fullmatch(bare) or bare == "":
-        return None
+    sign = next((sign for sign in dialect.comments if bare.startswith(sign) and sign != dialect.delimiter), "")
+    bare = bare.lstrip(sign).strip(" ") if sign else bare
     if columns == 1:
-        return [bare.strip().strip('";,\t').strip()]
-    for cells in _ways_to_cut(bare, dialect):
+        return None if RULE.fullmatch(bare) else [bare.strip(' ";,\t')]
+    ways = [re.split(r"\s{2,}|\t", bare.strip())]
+    if dialect.delimiter.isspace() or dialect.delimiter not in bare:
+        ways += [quoted_cells(bare, delimiter) for delimiter in DELIMITERS if delimiter != WHITESPACE]
+    # Else it uses the samples' delimiter, only not as often: a line of the preamble, or a damaged one.
+    if dialect.delimiter != WHITESPACE:
+        ways.insert(0, quoted_cells(bare, dialect.delimiter))
+    elif not re.search(r"[,:;](?:\s|$)", bare):  # else a sentence, or names between commas
+        ways.insert(0, bare.split())
+    for cells in ways:
         while len(cells) > columns and cells[-1] == "":
-            cells = cells[:-1]
+            cells.pop()
         if len(cells) == columns:
             return [cell.strip().strip('"').strip() for cell in cells]
     return None
 
 
-def _ways_to_cut(line: str, dialect: Dialect) -> Iterator[list[str]]:
-    """Cut a line at the samples' delimiter, at wide gaps, then at other delimiters."""
-    if dialect.delimiter == WHITESPACE:
-        words = dialect.split(line)
-        if not any(word.endswith((",", ":", ";")) for word in words):  # else a sentence, or names between commas
-            yield words
-    elif dialect.delimiter.isspace():
-        yield dialect.split(line)
-    else:
-        yield quoted_cells(line, dialect.delimiter)
-    yield re.split(r"\s{2,}|\t", line.strip())
-    if dialect.delimiter.isspace() or dialect.delimiter not in line:
-        yield from (quoted_cells(line, delimiter) for delimiter in DELIMITERS if delimiter != WHITESPACE)
-    # Else it uses the samples' delimiter, only not as often: a line of the preamble, or a damaged one.
-
-
-def unread_numbers(lines: list[str], where: Lines, start: int, first: int, dialect: Dialect) -> list[str]:
-    """Tell of lines right above the first sample that hold numbers too, but not one for each column."""
-    skipped = []
-    for index in range(first - 1, start - 1, -1):
-        line = lines[index]
-        if index in where or dialect.is_comment(line) or not looks_like_numbers(line):
-            break
-        skipped.append(index + 1)
-    if not skipped:
-        return []
-    places = f"lines {skipped[-1]} to {skipped[0]}" if len(skipped) > 1 else f"line {skipped[0]}"
-    return [
-        f"{places} above the first sample: numbers, but not one for each column; not read "
-        f'("{lines[skipped[0] - 1].strip()[:50]}")'
-    ]
-
-
 def _row(lines: list[str], index: int | None, dialect: Dialect, columns: int) -> list[str]:
-    if index is None:
-        return [""] * columns
-    cells = heading_cells(lines[index], dialect, columns)
-    if cells is None:  # a line that was given, not found: whatever its number of cells
-        cells = dialect.split(lines[index])
+    """Cells of a line of names or units; one that was given, not found, may have any number."""
+    cells = [] if index is None else heading_cells(lines[index], dialect, columns) or dialect.split(lines[index])
     return (cells + [""] * columns)[:columns]

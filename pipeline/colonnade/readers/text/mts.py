@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from datetime import datetime
 from itertools import pairwise
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
@@ -18,32 +18,13 @@ from colonnade.readers.clock import moment_after, moment_of, with_clocks
 from colonnade.readers.format import Format
 from colonnade.readers.head import by_first_line
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.text.damage import mend
 from colonnade.readers.text.dialect import WHITESPACE, Dialect, is_timestamp
 from colonnade.readers.text.encoding import Text, TextOptions, pieces_of
-from colonnade.readers.text.heading import looks_like_unit
-from colonnade.readers.text.rows import RowForm, read_rows
+from colonnade.readers.text.rows import RowForm, Rows, read_rows
 
 SIGNATURE = "MTS793|"
 DELIMITERS = {"0": WHITESPACE, "1": ",", "2": "\t"}
 """Of the fifth field of the first line: plain, Lotus, Excel (MPT manual, "How to parse the MPT specimen data file")."""
-DATES = {
-    ".": ("%d.%m.%Y %H:%M:%S",),
-    "/": ("%m/%d/%Y %I:%M:%S %p", "%m/%d/%Y %H:%M:%S"),
-    "-": ("%Y-%m-%d %H:%M:%S",),
-}
-"""Forms of a date with time, by the sign within dates; that with / only in the language ENU is read in one way only."""
-
-
-class Block(NamedTuple):
-    """Rows of one acquisition process, with the line of their names and the date of the running time's zero."""
-
-    line: int
-    names: tuple[str, ...]
-    units: tuple[str, ...]
-    columns: list[Array]
-    origin: datetime | None
-
 
 recognise = by_first_line(re.compile(r'^"*MTS793\|'), f'"{SIGNATURE}"')
 
@@ -52,54 +33,46 @@ def read(path: Path, options: TextOptions) -> Recording:
     """
     Read an MTS 793 text.
 
-    Blocks of the same names and units go on from one another. Of others the longest gives the channels as they are
-    called, and the recording's start; the rest follow with the number of their block before the name.
+    Blocks of the same names and units go on from one another. The first gives the channels as they are called, and the
+    recording's start; others follow with the number of their block before the name.
 
     Raises
     ------
     ReadError
         If the first line does not say how numbers are written, or no block of numbers follows.
     """
-    warnings: list[str] = []
     text = Text.of(path, options.encoding)
-    lines = text.lines()
-    dialect, dates = _declared(path, lines[0])
-    alike: dict[object, list[Block]] = {}
-    for block in _blocks(lines, dialect, dates, warnings):
-        alike.setdefault((block.names, block.units), []).append(block)
-    if not alike:
+    lines, warnings = text.whole_lines()
+    dialect, language = _declared(path, lines[0] if lines else "")
+    blocks: dict[tuple[tuple[str, ...], tuple[str, ...]], list[list[Array]]] = {}
+    origin = None
+    for title, names, units, rows in _blocks(lines, dialect):
+        columns, _, told = rows.mended(names)
+        warnings += told
+        if not blocks:
+            origin = moment_after(_moment(title[-1], language), -(_seconds(title, dialect) or 0.0))
+        blocks.setdefault((tuple(names), tuple(units)), []).append(columns)
+    if not blocks:
         raise ReadError(
             f"{path.name}: no block of numbers was found: a line of names, one of units, then rows of numbers were "
             "expected. The file was cut off, or holds the operator's notes only."
         )
-    notes = [f"encoding {text.encoding.name}"]
-    groups: list[list[RecordedChannel]] = []
-    for number, same in enumerate(alike.values(), 1):
-        columns = [np.concatenate(pieces) for pieces in zip(*(block.columns for block in same), strict=True)]
-        parts = zip(same[0].names, same[0].units, columns, strict=True)
-        groups.append(
-            [RecordedChannel(name, unit or None, each, scope=(f"block {number}",)) for name, unit, each in parts]
-        )
-        notes.append(f"block {number}: {columns[0].size} rows below line {same[0].line + 1}")
-    sizes = [group[0].values.size for group in groups]
-    longest = sizes.index(max(sizes))
-    channels = groups[longest]
-    for group in groups[:longest] + groups[longest + 1 :]:
-        names = [f"{channel.scope[0]}: {channel.name}" for channel in group]
-        channels += [replace(channel, name=name, heading=name) for channel, name in zip(group, names, strict=True)]
-    if len(groups) > 1:
-        warnings.append(
-            f"{len(groups)} blocks with different columns: block {longest + 1}, the longest with "
-            f'{max(sizes)} rows, is used; columns of the others are called "block '
-            f'{2 if longest == 0 else 1}: …"'
-        )
-    found = with_clocks(Recording(path, "mts", tuple(channels), notes=tuple(notes), warnings=tuple(warnings)))
-    clock, origin = found.channels[0].time, [*alike.values()][longest][0].origin
+    channels: list[RecordedChannel] = []
+    for number, (heads, same) in enumerate(blocks.items(), 1):
+        before = f"block {number}: " if number > 1 else ""
+        for name, unit, *pieces in zip(*heads, *same, strict=True):
+            values = np.concatenate(pieces)
+            channels.append(RecordedChannel(before + name, unit or None, values, scope=(f"block {number}",)))
+    if len(blocks) > 1:
+        warnings.append(f'{len(blocks)} blocks with different columns: those of later ones are called "block 2: …"')
+    notes = (f"encoding {text.encoding.name}",)
+    found = with_clocks(Recording(path, "mts", tuple(channels), notes=notes, warnings=tuple(warnings)))
+    clock = found.channels[0].time
     return found if clock is None else replace(found, start=moment_after(origin, float(clock[0])))
 
 
-def _declared(path: Path, line: str) -> tuple[Dialect, tuple[str, ...]]:
-    """Take the first line apart: how numbers are written, and the forms that a date may have."""
+def _declared(path: Path, line: str) -> tuple[Dialect, str]:
+    """Take the first line apart: how numbers are written, and the language."""
     fields = line.strip().strip('"').split("|")
     if len(fields) < 8 or fields[4] not in DELIMITERS or fields[5] not in (".", ","):
         raise ReadError(
@@ -107,31 +80,28 @@ def _declared(path: Path, line: str) -> tuple[Dialect, tuple[str, ...]]:
             "expected, with a delimiter 0, 1 or 2. Export the file from the machine again."
         )
     delimiter = DELIMITERS[fields[4]]
-    dates = DATES.get(fields[6], ()) if fields[6] != "/" or fields[2] == "ENU" else ()
-    return Dialect(delimiter, fields[5], quoted=delimiter == ","), dates
+    return Dialect(delimiter, fields[5], quoted=delimiter == ","), fields[2]
 
 
-def _blocks(lines: list[str], dialect: Dialect, dates: tuple[str, ...], warnings: list[str]) -> Iterator[Block]:
+def _blocks(lines: list[str], dialect: Dialect) -> Iterator[tuple[list[str], list[str], list[str], Rows]]:
     """Find each line above a block, `… Time: 10.0 Sec …`, that has names, units and numbers below it."""
     at = 0
     while (at := at + 1) < len(lines) - 2:
         title, names, units = (_cells(line, dialect) for line in lines[at : at + 3])
-        seconds = _seconds(title, dialect)
-        if seconds is None or not names or len(units) > len(names) or any(map(dialect.is_number, units)):
-            continue
-        units += [""] * (len(names) - len(units))
         first = stop = at + 3
+        if (
+            _seconds(title, dialect) is None
+            or not names
+            or len(units) > len(names)
+            or any(map(dialect.is_number, units))
+        ):
+            continue
         while stop < len(lines) and _is_row(lines[stop], dialect):
             stop += 1
         if stop > first:
-            form = RowForm(dialect, ("number",) * len(names), by_instrument=True)
-            mended = mend(read_rows(pieces_of(lines, first, stop), form), names)
-            warnings += mended.warnings
-            origin = moment_after(moment_of(title[-1], dates), -seconds)
-            yield Block(at + 2, tuple(names), tuple(units), mended.columns, origin)
+            rows = read_rows(pieces_of(lines, first, stop), RowForm(dialect, ("number",) * len(names)))
+            yield title, names, units + [""] * (len(names) - len(units)), rows
             at = stop - 1
-        elif all(map(looks_like_unit, units)):
-            warnings.append(f'the block below line {first} ("{names[0]}", …) has no rows: cut off')
 
 
 def _is_row(line: str, dialect: Dialect) -> bool:
@@ -153,6 +123,15 @@ def _seconds(title: list[str], dialect: Dialect) -> float | None:
     for cell, following in pairwise(title):
         if cell.endswith(":") and dialect.is_number(following):
             return dialect.number(following)
+    return None
+
+
+def _moment(text: str, language: str) -> datetime | None:
+    """Date and time; one with slashes, `4/26/2013 1:54:32 PM`, only in the language in which the month is in front."""
+    if "/" not in text:
+        return moment_of(text)
+    with suppress(ValueError):
+        return datetime.strptime(text, "%m/%d/%Y %I:%M:%S %p") if language == "ENU" else None
     return None
 
 

@@ -1,28 +1,36 @@
-"""Rows of a text become columns of numbers, in one pass of pandas, a row a line; odd ones come with their lines."""
+"""Rows of a text become columns of numbers, in one pass of pandas, a row a line; damage is told with its line."""
 
 from __future__ import annotations
 
 import csv
 import warnings
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
-from datetime import datetime
 from io import BytesIO
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
 from colonnade.arrays import Array, Mask
-from colonnade.readers.text.dialect import WHITESPACE, Dialect, kind_of, looks_like_numbers
+from colonnade.readers.text.dialect import MISSING, WHITESPACE, Dialect, kind_of, looks_like_numbers
 from colonnade.readers.text.encoding import UNREADABLE, Piece
 from colonnade.signals.samples import side_by_side, threads
 
 if TYPE_CHECKING:
     import pandas as pd
 
-Fault = Literal["comment", "text", "cut", "long", "short"]
+SHOWN = 50
+"""Characters of a line that a message quotes."""
+
+Fault = Literal["comment", "text", "cells", "cut"]
+SENTENCES: dict[Fault, str] = {
+    "comment": "left out as a comment",
+    "text": "left out: text without a number",
+    "cells": "counted as missing: not {} cells",
+    "cut": "left out: the file ends here, before all {} cells",
+}
 
 
 class Row(NamedTuple):
@@ -43,44 +51,35 @@ class RowForm:
     ----------
     dialect : Dialect
     kinds : tuple of str
-        What each column holds, by `dialect.kind_of`, or "empty".
-    trailing : int
-        Nameless cells after these columns: empty ones on every line, made by delimiters at its end.
-    by_instrument : bool
-        Whether an instrument's own program wrote them: each row is a sample in its place, whatever it holds, and may
-        end in empty cells. A trailing cell is then a remark, which is not looked at.
-    ragged : bool
-        Whether columns may end before the last row, as those of channels with fewer samples.
+        What each column holds, as of `dialect.Sniffed`.
+    remarks : int
+        Cells behind these columns that are not looked at, on any row.
+    is_ragged : bool
+        Whether columns may end before the last row, and rows before the last cell.
     exact : bool
         Whether numbers are read to their last digit, which takes three times as long.
     """
 
     dialect: Dialect
     kinds: tuple[str, ...]
-    trailing: int = 0
-    by_instrument: bool = False
-    ragged: bool = False
+    remarks: int = 0
+    is_ragged: bool = False
     exact: bool = False
 
     @property
     def most_cells(self) -> int:
         """Cells that a row has at most."""
-        return len(self.kinds) + self.trailing
+        return len(self.kinds) + self.remarks
 
     def fault_of(self, row: Row, *, has_number: bool) -> Fault | None:
         """Name what is wrong with a row; None if it is a sample, though perhaps without some of its numbers."""
-        dialect, cells, width = self.dialect, row.cells, len(self.kinds)
-        if self.by_instrument:
-            is_short = len(cells) < width and not self.ragged
-            return "long" if any(cells[self.most_cells :]) else "short" if is_short else None
-        if dialect.is_comment(row.text):
+        if self.dialect.is_comment(row.text):
             return "comment"
         if not has_number and not looks_like_numbers(row.text):
             # Cells that are empty or say "missing", without any other text, are a sample nevertheless.
-            return "text" if any(kind_of(cell, dialect) == "text" for cell in cells) else None
-        if len(cells) > self.most_cells or any(cells[width:]):
-            return "long"
-        return "short" if len(cells) < self.most_cells else None
+            return "text" if any(kind_of(cell, self.dialect) == "text" for cell in row.cells) else None
+        is_short = len(row.cells) < len(self.kinds) and not self.is_ragged
+        return "cells" if is_short or any(row.cells[self.most_cells :]) else None
 
 
 class Rows(NamedTuple):
@@ -99,10 +98,6 @@ class Rows(NamedTuple):
         Lines that hold nothing.
     odd : list of Row
         Rows with a fault; others so that of each column the first without a number is among them.
-    start : datetime or None
-        The first timestamp, if it has a date; in its own zone if it has one.
-    is_cut : bool
-        Whether the file ends within a line.
     """
 
     form: RowForm
@@ -110,8 +105,61 @@ class Rows(NamedTuple):
     columns: list[Array]
     blank: Mask
     odd: list[Row]
-    start: datetime | None
-    is_cut: bool
+
+    def mended(self, headings: Sequence[str]) -> tuple[list[Array], list[str], list[str]]:
+        """
+        Give columns that can be trusted to be their columns', with notes and warnings; its own ones are changed.
+
+        A line without any number, with text, is left out, as is a last line with too few cells. Another row with too
+        many or too few counts as missing, because a value may be in its neighbour's column.
+        """
+        faulty = [row for row in self.odd if row.fault is not None]
+        last = self.line + self.blank.size - 1
+        if faulty and (faulty[-1].line, faulty[-1].fault) == (last, "cells"):
+            faulty[-1] = faulty[-1]._replace(fault="cut")
+        at = np.array([row.line - self.line for row in faulty], dtype=np.intp)
+        is_missing = np.array([row.fault == "cells" for row in faulty], dtype=bool)
+        left_out = self.blank.copy()
+        left_out[at[~is_missing]] = True
+        sound = ~left_out
+        sound[at[is_missing]] = False
+        notes: list[str] = []
+        told: list[str] = []
+        for fault, sentence in SENTENCES.items():
+            if found := [row for row in faulty if row.fault == fault]:
+                (notes if fault == "comment" else told).append(_listed(found, sentence.format(len(self.form.kinds))))
+        told += self._gaps(sound, headings)
+        for column in self.columns:
+            column[at[is_missing]] = np.nan
+        return [column[~left_out] if left_out.any() else column for column in self.columns], notes, told
+
+    def _gaps(self, sound: Mask, headings: Sequence[str]) -> Iterator[str]:
+        """Say for the columns of numbers that lack the same number of them where the first is lacking."""
+        known = {row.line: row.cells for row in self.odd}
+        groups: dict[tuple[int, int], list[int]] = {}
+        for number, (column, kind, _) in enumerate(zip(self.columns, self.form.kinds, headings, strict=False)):
+            absent = np.flatnonzero(np.isnan(column) & sound)
+            if self.form.is_ragged:
+                absent = absent[absent < filled_length(column)]
+            if absent.size and (kind == "number" or absent.size < sound.sum()):
+                groups.setdefault((self.line + int(absent[0]), absent.size), []).append(number)
+        for (line, count), numbers in sorted(groups.items()):
+            cell = "".join(known[line][numbers[0] : numbers[0] + 1])
+            names = ", ".join(f'"{headings[number]}"' for number in numbers[:3])
+            more = f" and {len(numbers) - 3} more columns" if len(numbers) > 3 else ""
+            cells = "1 cell holds no number (on" if count == 1 else f"{count} cells hold no number (first on"
+            yield f"{names}{more}: {cells} line {line}: {_shown(cell) or 'nothing'}); missing"
+
+
+def _listed(rows: list[Row], what: str) -> str:
+    lines = ", ".join(str(row.line) for row in rows[:5])
+    more = f" and {len(rows) - 5} more" if len(rows) > 5 else ""
+    return f"line{'s' if len(rows) > 1 else ''} {lines}{more}: {what} ({_shown(rows[0].text)})"
+
+
+def _shown(text: str) -> str:
+    plain = "".join(character if character.isprintable() else " " for character in text.strip())
+    return f'"{plain[:SHOWN]}{"…" * (len(plain) > SHOWN)}"' if plain else ""
 
 
 def read_rows(pieces: Iterable[Piece], form: RowForm) -> Rows:
@@ -129,11 +177,9 @@ def read_rows(pieces: Iterable[Piece], form: RowForm) -> Rows:
     for column in [column for column, kind in enumerate(form.kinds) if kind == "time"]:
         known = joined[column][~np.isnan(joined[column])]
         joined[column] = (joined[column] - known[:1].sum()) / 1e6
-    if not parts:
-        return Rows(form, 1, joined, np.empty(0, dtype=bool), [], None, is_cut=False)
-    blank = np.concatenate([part.blank for part in parts])
-    odd = [row for part in parts for row in part.odd]
-    return Rows(form, parts[0].line, joined, blank, odd, parts[0].start, parts[-1].is_cut)
+    line = parts[0].line if parts else 1
+    blank = np.concatenate([np.empty(0, dtype=bool), *(part.blank for part in parts)])
+    return Rows(form, line, joined, blank, [row for part in parts for row in part.odd])
 
 
 def _parts(pieces: Iterable[Piece], form: RowForm) -> Iterator[Rows]:
@@ -170,10 +216,7 @@ def _part(piece: Piece, form: RowForm) -> Rows:
             odd.append(row._replace(fault=fault))
     firsts = {int(np.argmax(gaps)) for missing in absent if (gaps := missing & sound).any()}
     odd += [Row(piece.line + number, texts[number], form.dialect.split(texts[number])) for number in firsts]
-    start = next((_first_date(frame[column]) for column, kind in enumerate(form.kinds) if kind == "time"), None)
-    ending = piece.text.rstrip(UNREADABLE + "\x1a")
-    is_cut = ending != "" and not ending.endswith("\n")
-    return Rows(form, piece.line, columns, blank, odd, start, is_cut)
+    return Rows(form, piece.line, columns, blank, odd)
 
 
 def _frame(text: str, form: RowForm) -> pd.DataFrame:
@@ -196,7 +239,7 @@ def _frame(text: str, form: RowForm) -> pd.DataFrame:
         "index_col": False,
         "quoting": csv.QUOTE_NONE,
         "skip_blank_lines": False,
-        "na_values": list(dialect.missing),
+        "na_values": list(dialect.missing - MISSING),
         "low_memory": False,
         "float_precision": "round_trip" if form.exact else None,
     }
@@ -214,12 +257,8 @@ def _narrowed(line: str, form: RowForm, separator: str) -> str:
     """Write a line without its quotation marks; one with too many cells as so many unreadable ones."""
     if form.dialect.is_blank(line):
         return line
-    cells = form.dialect.split(line)
-    while form.by_instrument and len(cells) > form.most_cells and not cells[-1]:
-        cells.pop()
-    if len(cells) > form.most_cells + 1:
-        cells = [UNREADABLE] * (form.most_cells + 1)
-    return separator.join(cells)
+    cells, most = form.dialect.split(line), form.most_cells + 1
+    return separator.join([UNREADABLE] * most if any(cells[most:]) else cells[:most])
 
 
 def _doubtful(frame: pd.DataFrame, absent: list[Mask], form: RowForm) -> Mask:
@@ -229,9 +268,7 @@ def _doubtful(frame: pd.DataFrame, absent: list[Mask], form: RowForm) -> Mask:
     doubtful: Mask = np.logical_and.reduce(absent)
     for column in (filled[0], filled[-1]):
         doubtful |= frame[column].isna().to_numpy() if form.kinds[column] == "text" else absent[column]
-    for beyond in range(form.most_cells if form.by_instrument else len(form.kinds), frame.shape[1]):
-        doubtful |= frame[beyond].notna().to_numpy()
-    return doubtful
+    return doubtful | frame[form.most_cells].notna().to_numpy()
 
 
 def _joined(pieces: list[Array]) -> Array:
@@ -250,7 +287,7 @@ def filled_length(values: Array) -> int:
 def _values(cells: pd.Series, kind: str, dialect: Dialect) -> Array:
     """Values of a column: what pandas has read as numbers, else each cell by itself; µs of timestamps."""
     if kind == "time":
-        return _ticks(_stamps(cells))
+        return _ticks(cells)
     if cells.dtype.kind in "biuf":
         values = cells.to_numpy(dtype=np.float64, copy=True)  # a view would keep all columns of its piece
     else:
@@ -262,29 +299,15 @@ DATED = r"\d+-\d+-\d+[T ]"
 DOTTED = r"^(\d{1,2})\.(\d{1,2})\.(\d{4})"
 
 
-def _stamps(cells: pd.Series) -> pd.Series:
-    """Write timestamps, `26.04.2013 10:15:00,125` (day first) among them, as ISO 8601 does."""
-    cells = cells.astype("str").str.strip().str.strip('"').str.replace(",", ".", regex=False)
-    return cells.str.replace(DOTTED, r"\3-\2-\1", regex=True).str.replace("/", "-", regex=False)
-
-
-def _ticks(stamps: pd.Series) -> Array:
-    """Microseconds of dates since 1970, or of times of day since midnight; NaN without a timestamp."""
+def _ticks(cells: pd.Series) -> Array:
+    """Microseconds of dates, `26.04.2013 10:15:00,125` among them, or of times of day; NaN without a timestamp."""
     import pandas as pd
 
-    filled = stamps.dropna()
-    if len(filled) and filled.str.match(DATED).mean() > 0.5:
+    stamps = cells.astype("str").str.strip().str.strip('"').str.replace(",", ".", regex=False)
+    stamps = stamps.str.replace(DOTTED, r"\3-\2-\1", regex=True).str.replace("/", "-", regex=False)
+    if stamps.dropna().str.match(DATED).mean() > 0.5:
         moments = pd.to_datetime(stamps, format="ISO8601", errors="coerce", utc=True).dt.tz_localize(None)
         ticks = moments.to_numpy().astype("datetime64[us]")
     else:
         ticks = pd.to_timedelta(stamps, errors="coerce").to_numpy().astype("timedelta64[us]")
     return np.where(np.isnat(ticks), np.nan, ticks.astype(np.int64))
-
-
-def _first_date(cells: pd.Series) -> datetime | None:
-    """Find the first date with time of a column."""
-    import pandas as pd
-
-    stamps = _stamps(cells)
-    dated = stamps[stamps.str.match(DATED) & ~np.isnan(_ticks(stamps))]
-    return pd.Timestamp(dated.iloc[0]).to_pydatetime(warn=False) if len(dated) else None

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from math import isfinite
 from pathlib import Path
 from typing import NamedTuple
@@ -13,8 +12,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.clock import RISING_SHARE, even_times, rising_share
-from colonnade.readers.recording import RecordedChannel, Recording
+from colonnade.readers.clock import RISING_SHARE, rising_share
 from colonnade.readers.text.dialect import Dialect, looks_like_numbers
 from colonnade.readers.text.encoding import Text
 
@@ -59,16 +57,6 @@ class HeaderClaims(NamedTuple):
     """s."""
     unit: str | None = None
 
-    def channel(self, values: Array) -> RecordedChannel:
-        """Give a single series at the interval and in the unit that the text gives."""
-        times = None if self.step is None else even_times(values.size, self.step)
-        return RecordedChannel("column 1", self.unit, values, times)
-
-    @property
-    def clock_note(self) -> str:
-        """What its times come from."""
-        return "no clock" if self.step is None else f"clock: {self.step:g} s, as the header says"
-
 
 def header_claims(text: str) -> HeaderClaims:
     """
@@ -110,16 +98,6 @@ def why_running(path: Path, columns: Sequence[Array], claims: HeaderClaims, *, i
         "or one series that runs on from row to row: no names are above them, the first column does not rise as times "
         'do, and no count of points fits. Say which in `file`: layout = "columns" or layout = "running".'
     )
-
-
-def series_of(recording: Recording, values: Array, width: int, claims: HeaderClaims, reason: str) -> Recording:
-    """Give numbers, `width` in a row, as one series that runs on, for a reason."""
-    hint = (
-        f"Its numbers, {width} in a row, run on from row to row and are read as one series of {values.size} "
-        f'({reason}). If each column is a channel, say so: layout = "columns" in `file`.'
-    )
-    notes = (*recording.notes, f"numbers run on from row to row: {reason}", claims.clock_note)
-    return replace(recording, channels=(claims.channel(values),), notes=notes, hint=hint)
 
 
 def read_series(text: Text, dialect: Dialect, first: int) -> Array:
