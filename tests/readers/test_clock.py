@@ -142,7 +142,7 @@ def test_the_clock_of_another_struct_is_not_used():
 def test_a_clock_that_goes_back_is_not_used_and_that_is_said():
     recording = clocked(vectors(t=SIGNAL, top=SIGNAL))
     assert [channel.is_clock for channel in recording.channels] == [False, False]
-    assert recording.warnings[0].startswith('"t" looks like a clock, but only')
+    assert recording.warnings[0].startswith('"t" looks like a clock, but too few of its steps')
     assert [channel.time for channel in recording.channels] == [None, None]
 
 

@@ -14,7 +14,6 @@ from pydantic import Field
 from colonnade.arrays import Array
 from colonnade.readers.format import Options
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording, TimeUnit
-from colonnade.units.text import format_percent
 
 TIME_NAME = re.compile(
     r"(?:t|(?:running\W?)?time|zeit|messzeit|laufzeit|time\W?stamp|date\W?time|elapsed(?:\W?time)?|temps|tiempo|tempo|tid|χρόνοσ|χρονοσ"
@@ -123,42 +122,31 @@ def with_clocks(
 
 def _by_name(channels: Sequence[RecordedChannel], warnings: list[str]) -> list[int]:
     """Numbers of the channels that are clocks by name or unit and rise; that a plain one does not is warned of."""
-    firsts: dict[tuple[str, ...], int] = {}
     bundles: dict[tuple[tuple[str, ...], int], list[int]] = {}
     for number, channel in enumerate(channels):
-        firsts.setdefault(channel.scope, number)
         bundles.setdefault((channel.scope, channel.values.size), []).append(number)
     found: list[int] = []
-    for (scope, _), members in bundles.items():
-        likeness = {number: _likeness(channels[number], is_first=number == firsts[scope]) for number in members}
-        plain = [number for number in members if likeness[number] == PLAIN and _rises(channels[number], warnings)]
-        alike = [number for number in members if likeness[number] == ALIKE and _rises(channels[number])]
-        found += plain or alike[:1]
+    for members in bundles.values():
+        rising = {number for number in members if rising_share(channels[number].values) >= RISING_SHARE}
+        plain = [number for number in members if _is_time(channels[number], is_first=number == members[0])]
+        for number in plain:
+            if number not in rising and np.isfinite(channels[number].values).any():
+                heading = channels[number].heading
+                warnings.append(f'"{heading}" looks like a clock, but too few of its steps go forward: it is not used')
+        alike = [n for n in members if channels[n].unit is None and any(map(LIKE_TIME.fullmatch, _names(channels[n])))]
+        found += [n for n in plain if n in rising] or [n for n in alike if n in rising][:1]
     return sorted(found)
 
 
-PLAIN, ALIKE = 2, 1
+def _names(channel: RecordedChannel) -> set[str]:
+    return {channel.name, re.split(r"[./]", channel.heading)[-1]} if channel.scope else {channel.name}
 
 
-def _likeness(channel: RecordedChannel, *, is_first: bool) -> int:
-    """How much a channel's name and unit are those of times; a unit alone says it of the first in a table or group."""
-    names = {channel.name, re.split(r"[./]", channel.heading)[-1]} if channel.scope else {channel.name}
+def _is_time(channel: RecordedChannel, *, is_first: bool) -> bool:
+    """Whether name and unit are those of times; a unit alone says it of the first in a table or group."""
     by_unit = channel.unit is not None and channel.unit.casefold() in TIME_UNITS
-    by_name = any(TIME_NAME.fullmatch(name.casefold()) for name in names)
-    if channel.is_clock or (by_name and channel.unit is None) or (by_unit and (by_name or is_first)):
-        return PLAIN
-    return ALIKE if channel.unit is None and any(map(LIKE_TIME.fullmatch, names)) else 0
-
-
-def _rises(channel: RecordedChannel, warnings: list[str] | None = None) -> bool:
-    """Whether values rise as times do."""
-    rising = rising_share(channel.values)
-    if rising < RISING_SHARE and warnings is not None and np.isfinite(channel.values).any():
-        warnings.append(
-            f'"{channel.heading}" looks like a clock, but only {format_percent(rising)} of its steps go forward: '
-            "it is not used as one"
-        )
-    return rising >= RISING_SHARE
+    by_name = any(TIME_NAME.fullmatch(name.casefold()) for name in _names(channel))
+    return channel.is_clock or (by_name and (by_unit or channel.unit is None)) or (by_unit and is_first)
 
 
 def _by_steps(channels: Sequence[RecordedChannel]) -> list[int]:
@@ -168,15 +156,14 @@ def _by_steps(channels: Sequence[RecordedChannel]) -> list[int]:
     Whole steps may be numbers of samples, and steps of half a second or more times in another unit.
     """
     first = channels[0] if channels else None
-    if first is None or first.name != "column 1" or first.unit is not None or not np.isfinite(first.values).all():
+    if first is None or first.name != "column 1" or first.unit is not None or first.values.size <= FEWEST_STEPS:
         return []
-    steps = np.diff(first.values)
-    if steps.size < FEWEST_STEPS or not (steps > 0).all():
-        return []
-    step = float(steps.mean())
+    begin, step = float(first.values[0]), float(first.values[-1] - first.values[0]) / (first.values.size - 1)
     # Rounded times are off by less than a step.
-    off = np.abs(first.values - even_times(first.values.size, step, first.values[0])).max()
-    return [0] if step < LONGEST_STEP and off < step else []
+    is_even = (np.diff(first.values) > 0).all() and np.abs(
+        first.values - even_times(first.values.size, step, begin)
+    ) < step
+    return [0] if step < LONGEST_STEP and np.all(is_even) else []
 
 
 def _nearest(number: int, channels: Sequence[RecordedChannel], clocks: Mapping[int, Array]) -> Array | None:

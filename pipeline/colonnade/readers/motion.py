@@ -15,9 +15,6 @@ from colonnade.errors import ReadError, UnitError
 from colonnade.readers import registry
 from colonnade.readers.clock import equal_step, rising_share
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.text.delimited import DelimitedOptions, read_header
-from colonnade.readers.text.encoding import Text
-from colonnade.readers.text.running import HeaderClaims
 from colonnade.validation import described, instance, number, whole
 
 MOST_COLUMNS = 1_000_000
@@ -119,16 +116,12 @@ def read_motions(
 def _motions(recording: Recording, columns: list[RecordedChannel], unit: str | None, dt: float | None) -> list[Motion]:
     """Make motions of columns; what is not given is as the columns or the head of the file say."""
     name = recording.path.name
-    claims = HeaderClaims()
-    if recording.format == "delimited":
-        claims = read_header(Text.of(recording.path), DelimitedOptions()).claims
-    else:
-        for told in recording.warnings:
-            warnings.warn(f"{name}: {told}", stacklevel=3)
+    for told in recording.warnings if recording.format != "delimited" else ():
+        warnings.warn(f"{name}: {told}", stacklevel=3)
     motions = []
     for channel in columns:
-        own = unit or channel.unit or claims.unit
-        step = _step(recording, channel) or claims.step
+        own = unit or channel.unit
+        step = _step(recording, channel)
         step = dt or step
         if own is None:
             raise ReadError(

@@ -16,8 +16,6 @@ from colonnade.readers.files import irregular, unreachable
 from colonnade.readers.text.encoding import Text, looks_binary
 
 LARGEST_BYTES = 10_000_000
-MOST_ROWS = 10_000
-MOST_COLUMNS = 1000
 WORKBOOKS = (".xlsx", ".xlsm", ".xlsb", ".xls", ".ods")
 
 
@@ -142,11 +140,6 @@ def read_table(path: Path, what: str) -> SmallTable:
         expected = f"{what.capitalize()} with a row of column heads was expected."
         raise ReadError(f"{path.name}: the file is empty{said}. {expected}")
     heads = tuple(map(_head, rows[0][1]))
-    if len(rows) > MOST_ROWS or len(heads) > MOST_COLUMNS:
-        raise ReadError(
-            f"{path.name}: {len(rows)} rows of {len(heads)} columns are too many for {what}; at most {MOST_ROWS} of "
-            f"{MOST_COLUMNS} were expected. Delete stray cells."
-        )
     fitting = []
     for number, cells in rows[1:]:
         if any(cells[len(heads) :]):
