@@ -18,9 +18,9 @@ TABS = RowForm(Dialect("\t", "."), ("number", "number"))
 def test_columns_and_lines_come_out_whatever_the_size_of_the_pieces(size):
     texts = [f"{row}.5\t{-row}" if row % 2 else "" for row in range(6)]
     pieces = [Piece(11 + at, "\n".join([*texts[at : at + size], ""])) for at in range(0, 6, size)]
-    rows = read_rows([*pieces, Piece(17, "x\t4")], TABS)
-    np.testing.assert_array_equal(np.array(rows.columns)[:, ~rows.blank], [[1.5, 3.5, 5.5, np.nan], [-1, -3, -5, 4]])
-    assert [row.line for row in rows.odd] == [17]
+    columns, _, warnings = read_rows([*pieces, Piece(17, "x\t4")], TABS, "ab")
+    np.testing.assert_array_equal(columns, [[1.5, 3.5, 5.5, np.nan], [-1, -3, -5, 4]])
+    assert warnings == ['"a": 1 cell holds no number (on line 17: "x"); missing']
 
 
 def test_timestamps_are_seconds_from_the_first_in_later_pieces_too():
@@ -28,8 +28,8 @@ def test_timestamps_are_seconds_from_the_first_in_later_pieces_too():
         Piece(1, "2013-04-26 10:15:00.5;1\nbroken;2\n2013-04-26 10:15:01;2\n"),
         Piece(4, "2013-04-26 10:16:00.5;3\n"),
     ]
-    rows = read_rows(pieces, RowForm(FORM.dialect, ("time", "number")))
-    np.testing.assert_array_equal(rows.columns[0], [0, np.nan, 0.5, 60])
+    columns, _, _ = read_rows(pieces, RowForm(FORM.dialect, ("time", "number")), "ab")
+    np.testing.assert_array_equal(columns[0], [0, np.nan, 0.5, 60])
 
 
 THREE = RowForm(Dialect(";", "."), ("number", "number", "number"))
@@ -37,7 +37,7 @@ THREE = RowForm(Dialect(";", "."), ("number", "number", "number"))
 
 def mended(*texts, form=THREE):
     pieces = [Piece(1, "\n".join([*texts, ""]))] if texts else []
-    columns, notes, warnings = read_rows(pieces, form).mended(["a", "b", "c"][: len(form.kinds)])
+    columns, notes, warnings = read_rows(pieces, form, "abc"[: len(form.kinds)])
     return [column.tolist() for column in columns], notes, warnings
 
 
@@ -61,14 +61,14 @@ def test_a_last_line_with_too_few_cells_is_left_out():
     assert warnings[1] == 'line 3: left out: the file ends here, before all 3 cells ("7;8")'
 
 
-def test_columns_that_lack_numbers_in_the_same_rows_share_a_message():
+def test_columns_that_lack_numbers_share_a_message():
     _, _, warnings = mended("1;2;3", "4;x;x", "5;x;x")
-    assert warnings == ['"b", "c": 2 cells hold no number (first on line 2: "x"); missing']
+    assert warnings == ['"b", "c": 4 cells hold no number (first on line 2: "x"); missing']
 
 
-def test_ragged_columns_end_where_their_last_number_is():
+def test_rows_of_ragged_columns_may_end_early():
     columns, _, warnings = mended("1;2;3", "4;;6", "7;8", form=RowForm(THREE.dialect, THREE.kinds, is_ragged=True))
-    assert warnings == ['"b": 1 cell holds no number (on line 2: nothing); missing']
+    assert warnings == []
     np.testing.assert_array_equal(columns[1:], [[2, np.nan, 8], [3, 6, np.nan]])
 
 

@@ -93,15 +93,6 @@ def test_what_the_file_does_not_declare_has_to_be_said(tmp_path, head):
     assert read_motion(path, unit="g", dt=0.02, layout="running").acceleration.size == table.size
 
 
-def test_a_column_that_ends_earlier_is_no_series_that_runs_on(tmp_path):
-    table = components()
-    text = "".join(
-        " ".join(f"{number:.4f}" for number in row[: 3 if line < 390 else 2]) + "\n" for line, row in enumerate(table)
-    )
-    (tmp_path / "record.txt").write_text("NPTS = 400\n" + text)
-    assert len(read(tmp_path / "record.txt").channels) == 3
-
-
 def test_a_single_series_takes_unit_and_interval_from_the_lines_above(tmp_path):
     series = shaking(300)
     path = written(tmp_path, series[:, None], head="Acceleration, units: cm/s^2\ntime step 0.005 s\n")

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
-from typing import Annotated, Literal, NamedTuple, Self
+from typing import Annotated, Literal, NamedTuple
 
-import numpy as np
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field
 
 from colonnade.errors import ReadError
 from colonnade.readers.clock import ClockOptions, moment_of, with_clocks
@@ -31,9 +29,8 @@ from colonnade.readers.text.heading import Heading, Lines, find_heading, read_he
 from colonnade.readers.text.rows import RowForm, read_rows
 from colonnade.readers.text.running import HeaderClaims, header_claims, read_series, why_running
 
-NEAR_THOUSAND = 900
-"""From here on a whole number may be the last one without a mark between thousands."""
-
+GROUPED = re.compile(r"[-+]?[1-9]\d{0,2}(?:[.,]\d{3})+")
+"""A number whose signs may be decimal signs or stand between thousands."""
 SIGNED = re.compile(r"[-+]?(?:\d+(?:[.,]\d+)?|\d{1,3}(?:[.,]\d{3})+(?:[.,]\d*)?)")
 """A number, whatever its decimal sign and its mark between thousands."""
 
@@ -91,12 +88,6 @@ class DelimitedOptions(TextOptions, TableOptions):
     comment: str | None = Field(default=None, min_length=1, description="What starts a line that is not a sample.")
     missing: tuple[str, ...] = Field(default=(), description='Texts that stand for a missing value, such as "-999".')
 
-    @model_validator(mode="after")
-    def _signs_differ(self) -> Self:
-        if self.decimal is not None and self.decimal == self.thousands:
-            raise ValueError(f'decimal and thousands are both "{self.decimal}"')
-        return self
-
 
 class Header(NamedTuple):
     """All that is known of a file before its samples are read."""
@@ -139,8 +130,8 @@ def read_header(text: Text, options: DelimitedOptions) -> Header:
     signed = _signed(lines[first : first + SAMPLE_LINES], dialect, kinds)
     if signed and options.decimal is None and options.thousands is None:
         raise ReadError(
-            f'{text.path.name}: "{signed}" is no number where "{dialect.decimal}" is the decimal sign, as in other '
-            'columns. Say in `file` which sign is which: decimal = "," and thousands = ".", or the reverse.'
+            f'{text.path.name}: a sign in "{signed}" may be the decimal sign or stand between thousands. Say in `file` '
+            'which is which: decimal = "." alone, or decimal = "," and thousands = ".", or the reverse.'
         )
     where = options.heading_lines(find_heading(lines, options.skip_rows, first, dialect, kinds))
     heading = read_heading(lines, where, dialect, kinds)
@@ -156,12 +147,15 @@ def read_header(text: Text, options: DelimitedOptions) -> Header:
 
 
 def _signed(lines: list[str], dialect: Dialect, kinds: tuple[str, ...]) -> str:
-    """A cell of a column that would hold numbers if its signs were read otherwise; empty without one."""
+    """A cell of a column that would hold other numbers if its signs were read otherwise; empty without one."""
     rows = [cells for line in lines if len(cells := dialect.split(line)) == len(kinds)]
+    is_open = all(GROUPED.fullmatch(cell) for cells in rows for cell in cells if dialect.decimal in cell)
     for column, kind in enumerate(kinds):
         found = [cells[column] for cells in rows]
-        if kind == "text" and all(map(SIGNED.fullmatch, found)):
-            return next(cell for cell in found if not dialect.is_number(cell))
+        signed = [cell for cell in found if "." in cell or "," in cell]
+        is_doubtful = kind == "text" or (is_open and len(signed) < len(found))
+        if signed and is_doubtful and all(map(SIGNED.fullmatch, found)):
+            return signed[0]
     return ""
 
 
@@ -198,12 +192,12 @@ def read_text(text: Text, options: DelimitedOptions) -> Recording:
     """Read delimited text, whatever it was made of; see `read`."""
     header = read_header(text, options)
     form, heading, claims = header.form, header.heading, header.claims
-    rows = read_rows(text.pieces(header.first), form)
+    rows = read_rows(text.pieces(header.first), form, heading.headings)
     reason = "as given" if options.layout == "running" else ""
     is_open = options.layout is None and options.time is None and options.names_row is None and not heading.is_named
     if is_open and {*form.kinds} <= {"number", "empty"}:
         is_free = form.dialect.delimiter == WHITESPACE
-        reason = why_running(text.path, rows.columns[: len(heading.names)], claims, is_free=is_free)
+        reason = why_running(text.path, rows.columns, claims, is_free=is_free)
     hint = ""
     if reason:
         series = read_series(text, form.dialect, header.first)
@@ -214,32 +208,18 @@ def read_text(text: Text, options: DelimitedOptions) -> Recording:
             f'{series.size} ({reason}). If each column is a channel, say so: layout = "columns" in `file`.'
         )
     else:
-        columns, notes, warnings = rows.mended(heading.headings)
+        columns, notes, warnings = rows
         own = None if any(heading.units) else claims.unit
         parts = zip(*heading[:3], form.kinds, columns, strict=False)
         channels = [
             RecordedChannel(name, unit or own, values, values if kind == "time" else None, head, kind == "time")
             for head, name, unit, kind, values in parts
         ]
-        if options.decimal is None and options.thousands is None:
-            warnings += _divided(channels, form.dialect.decimal)
     recording = Recording(
         text.path, "delimited", tuple(channels), header.start, (*header.notes, *notes), tuple(warnings), hint
     )
     step = {"header.dt": claims.step} if claims.step else {}
     return with_clocks(recording, options.time, options.time_unit, step)
-
-
-def _divided(channels: list[RecordedChannel], sign: str) -> Iterator[str]:
-    """Doubt columns that go from whole numbers just below 1000 to just above 1: as with a mark between thousands."""
-    for channel in channels:
-        size = np.abs(channel.values)
-        high, low = (size >= NEAR_THOUSAND) & (size < 1000), (size >= 1) & (size < 1.1)
-        if high.any() and ((high[1:] & low[:-1]) | (low[1:] & high[:-1])).any() and not (size[high] % 1).any():
-            yield (
-                f'"{channel.heading}" goes from just below 1000 to just above 1: "{sign}" was read as a decimal sign; '
-                f'if it stands between thousands, set thousands = "{sign}"'
-            )
 
 
 FORMAT = Format(

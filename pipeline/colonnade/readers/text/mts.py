@@ -20,7 +20,7 @@ from colonnade.readers.head import by_first_line
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.dialect import WHITESPACE, Dialect, is_timestamp
 from colonnade.readers.text.encoding import Text, TextOptions, pieces_of
-from colonnade.readers.text.rows import RowForm, Rows, read_rows
+from colonnade.readers.text.rows import RowForm, Table, read_rows
 
 SIGNATURE = "MTS793|"
 DELIMITERS = {"0": WHITESPACE, "1": ",", "2": "\t"}
@@ -46,8 +46,7 @@ def read(path: Path, options: TextOptions) -> Recording:
     dialect, language = _declared(path, lines[0] if lines else "")
     blocks: dict[tuple[tuple[str, ...], tuple[str, ...]], list[list[Array]]] = {}
     origin = None
-    for title, names, units, rows in _blocks(lines, dialect):
-        columns, _, told = rows.mended(names)
+    for title, names, units, (columns, _, told) in _blocks(lines, dialect):
         warnings += told
         if not blocks:
             origin = moment_after(_moment(title[-1], language), -(_seconds(title, dialect) or 0.0))
@@ -83,7 +82,7 @@ def _declared(path: Path, line: str) -> tuple[Dialect, str]:
     return Dialect(delimiter, fields[5], quoted=delimiter == ","), fields[2]
 
 
-def _blocks(lines: list[str], dialect: Dialect) -> Iterator[tuple[list[str], list[str], list[str], Rows]]:
+def _blocks(lines: list[str], dialect: Dialect) -> Iterator[tuple[list[str], list[str], list[str], Table]]:
     """Find each line above a block, `… Time: 10.0 Sec …`, that has names, units and numbers below it."""
     at = 0
     while (at := at + 1) < len(lines) - 2:
@@ -99,7 +98,7 @@ def _blocks(lines: list[str], dialect: Dialect) -> Iterator[tuple[list[str], lis
         while stop < len(lines) and _is_row(lines[stop], dialect):
             stop += 1
         if stop > first:
-            rows = read_rows(pieces_of(lines, first, stop), RowForm(dialect, ("number",) * len(names)))
+            rows = read_rows(pieces_of(lines, first, stop), RowForm(dialect, ("number",) * len(names)), names)
             yield title, names, units + [""] * (len(names) - len(units)), rows
             at = stop - 1
 

@@ -12,6 +12,7 @@ from io import BytesIO
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Mask
 from colonnade.readers.text.dialect import MISSING, WHITESPACE, Dialect, kind_of, looks_like_numbers
@@ -21,25 +22,18 @@ from colonnade.signals.samples import side_by_side, threads
 if TYPE_CHECKING:
     import pandas as pd
 
+NUMERIC = ("number", "time")
+"""Kinds of columns of which each cell should hold a number."""
 SHOWN = 50
 """Characters of a line that a message quotes."""
 
-Fault = Literal["comment", "text", "cells", "cut"]
+Fault = Literal["blank", "comment", "text", "cells", "cut"]
 SENTENCES: dict[Fault, str] = {
     "comment": "left out as a comment",
     "text": "left out: text without a number",
     "cells": "counted as missing: not {} cells",
     "cut": "left out: the file ends here, before all {} cells",
 }
-
-
-class Row(NamedTuple):
-    """A line, by its number in the file from 1, with what is wrong with it."""
-
-    line: int
-    text: str
-    cells: list[str]
-    fault: Fault | None = None
 
 
 @dataclass(frozen=True)
@@ -71,90 +65,101 @@ class RowForm:
         """Cells that a row has at most."""
         return len(self.kinds) + self.remarks
 
-    def fault_of(self, row: Row, *, has_number: bool) -> Fault | None:
+    def fault_of(self, line: str, *, has_number: bool) -> Fault | None:
         """Name what is wrong with a row; None if it is a sample, though perhaps without some of its numbers."""
-        if self.dialect.is_comment(row.text):
+        if self.dialect.is_blank(line):
+            return "blank"
+        if self.dialect.is_comment(line):
             return "comment"
-        if not has_number and not looks_like_numbers(row.text):
+        cells = self.dialect.split(line)
+        if not has_number and not looks_like_numbers(line):
             # Cells that are empty or say "missing", without any other text, are a sample nevertheless.
-            return "text" if any(kind_of(cell, self.dialect) == "text" for cell in row.cells) else None
-        is_short = len(row.cells) < len(self.kinds) and not self.is_ragged
-        return "cells" if is_short or any(row.cells[self.most_cells :]) else None
+            return "text" if any(kind_of(cell, self.dialect) == "text" for cell in cells) else None
+        is_short = len(cells) < len(self.kinds) and not self.is_ragged
+        return "cells" if is_short or any(cells[self.most_cells :]) else None
 
 
-class Rows(NamedTuple):
-    """
-    Columns of numbers, with the lines that deserve a look.
+class Faulty(NamedTuple):
+    """A line, by its number in the file from 1, with what is wrong with it."""
 
-    Attributes
-    ----------
-    form : RowForm
-        How they are written.
-    line : int
-        Number of the first line.
-    columns : list of ndarray, shape (n,)
-        A value a line: NaN without a number; seconds from the first for columns of timestamps.
-    blank : ndarray of bool, shape (n,)
-        Lines that hold nothing.
-    odd : list of Row
-        Rows with a fault; others so that of each column the first without a number is among them.
-    """
-
-    form: RowForm
     line: int
+    text: str
+    fault: Fault
+
+
+class Table(NamedTuple):
+    """
+    Columns that can be trusted to be their columns': NaN without a number, seconds from the first of timestamps.
+
+    A line without any number, with text, is left out, as is a last line with too few cells. Another row with too many
+    or too few counts as missing, because a value may be in its neighbour's column.
+    """
+
     columns: list[Array]
-    blank: Mask
-    odd: list[Row]
-
-    def mended(self, headings: Sequence[str]) -> tuple[list[Array], list[str], list[str]]:
-        """
-        Give columns that can be trusted to be their columns', with notes and warnings; its own ones are changed.
-
-        A line without any number, with text, is left out, as is a last line with too few cells. Another row with too
-        many or too few counts as missing, because a value may be in its neighbour's column.
-        """
-        faulty = [row for row in self.odd if row.fault is not None]
-        last = self.line + self.blank.size - 1
-        if faulty and (faulty[-1].line, faulty[-1].fault) == (last, "cells"):
-            faulty[-1] = faulty[-1]._replace(fault="cut")
-        at = np.array([row.line - self.line for row in faulty], dtype=np.intp)
-        is_missing = np.array([row.fault == "cells" for row in faulty], dtype=bool)
-        left_out = self.blank.copy()
-        left_out[at[~is_missing]] = True
-        sound = ~left_out
-        sound[at[is_missing]] = False
-        notes: list[str] = []
-        told: list[str] = []
-        for fault, sentence in SENTENCES.items():
-            if found := [row for row in faulty if row.fault == fault]:
-                (notes if fault == "comment" else told).append(_listed(found, sentence.format(len(self.form.kinds))))
-        told += self._gaps(sound, headings)
-        for column in self.columns:
-            column[at[is_missing]] = np.nan
-        return [column[~left_out] if left_out.any() else column for column in self.columns], notes, told
-
-    def _gaps(self, sound: Mask, headings: Sequence[str]) -> Iterator[str]:
-        """Say for the columns of numbers that lack the same number of them where the first is lacking."""
-        known = {row.line: row.cells for row in self.odd}
-        groups: dict[tuple[int, int], list[int]] = {}
-        for number, (column, kind, _) in enumerate(zip(self.columns, self.form.kinds, headings, strict=False)):
-            absent = np.flatnonzero(np.isnan(column) & sound)
-            if self.form.is_ragged:
-                absent = absent[absent < filled_length(column)]
-            if absent.size and (kind == "number" or absent.size < sound.sum()):
-                groups.setdefault((self.line + int(absent[0]), absent.size), []).append(number)
-        for (line, count), numbers in sorted(groups.items()):
-            cell = "".join(known[line][numbers[0] : numbers[0] + 1])
-            names = ", ".join(f'"{headings[number]}"' for number in numbers[:3])
-            more = f" and {len(numbers) - 3} more columns" if len(numbers) > 3 else ""
-            cells = "1 cell holds no number (on" if count == 1 else f"{count} cells hold no number (first on"
-            yield f"{names}{more}: {cells} line {line}: {_shown(cell) or 'nothing'}); missing"
+    notes: list[str]
+    warnings: list[str]
 
 
-def _listed(rows: list[Row], what: str) -> str:
+class Part(NamedTuple):
+    """The rows of a piece of a text; microseconds of timestamps."""
+
+    columns: list[Array]
+    faulty: list[Faulty]
+    last: int
+    """Number of the last line."""
+    gap: tuple[int, str] | None
+    """The first line with a cell without a number, and that cell."""
+
+
+def read_rows(pieces: Iterable[Piece], form: RowForm, headings: Sequence[str]) -> Table:
+    """Read rows of numbers; columns without a heading are left out."""
+    from pandas.errors import ParserWarning
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", ParserWarning)  # pandas only warns when it drops cells
+        parts = [*_parts(pieces, form)]
+    faulty = [row for part in parts for row in part.faulty]
+    if faulty and (faulty[-1].line, faulty[-1].fault) == (parts[-1].last, "cells"):
+        faulty[-1] = faulty[-1]._replace(fault="cut")
+        parts[-1].columns[:] = [column[:-1] for column in parts[-1].columns]
+    pieces_of_columns = [[part.columns[number] for part in parts] for number in range(len(headings))]
+    for part in parts:
+        part.columns.clear()
+    # A column's pieces are joined one column at a time, so that little is held twice.
+    columns = side_by_side(_joined, pieces_of_columns)
+    for number in [number for number in range(len(headings)) if form.kinds[number] == "time"]:
+        known = columns[number][~np.isnan(columns[number])]
+        columns[number] = (columns[number] - known[:1].sum()) / 1e6
+    notes: list[str] = []
+    told: list[str] = []
+    for fault, sentence in SENTENCES.items():
+        if found := [row for row in faulty if row.fault == fault]:
+            (notes if fault == "comment" else told).append(_listed(found, sentence.format(len(form.kinds))))
+    gap = next((part.gap for part in parts if part.gap is not None), None)
+    if gap is not None and not form.is_ragged:
+        missing = sum(row.fault == "cells" for row in faulty)
+        lacking = {
+            heading: int(np.isnan(column).sum()) - missing
+            for heading, column, kind in zip(headings, columns, form.kinds, strict=False)
+            if kind in NUMERIC
+        }
+        told += _lacking({heading: count for heading, count in lacking.items() if count}, *gap)
+    return Table(columns, notes, told)
+
+
+def _listed(rows: list[Faulty], what: str) -> str:
     lines = ", ".join(str(row.line) for row in rows[:5])
     more = f" and {len(rows) - 5} more" if len(rows) > 5 else ""
     return f"line{'s' if len(rows) > 1 else ''} {lines}{more}: {what} ({_shown(rows[0].text)})"
+
+
+def _lacking(counts: dict[str, int], line: int, cell: str) -> Iterator[str]:
+    """Say how many cells of which columns hold no number, and where the first is."""
+    names = ", ".join(f'"{heading}"' for heading in [*counts][:3])
+    more = f" and {len(counts) - 3} more columns" if len(counts) > 3 else ""
+    total = sum(counts.values())
+    cells = "1 cell holds no number (on" if total == 1 else f"{total} cells hold no number (first on"
+    yield f"{names}{more}: {cells} line {line}: {_shown(cell) or 'nothing'}); missing"
 
 
 def _shown(text: str) -> str:
@@ -162,29 +167,9 @@ def _shown(text: str) -> str:
     return f'"{plain[:SHOWN]}{"…" * (len(plain) > SHOWN)}"' if plain else ""
 
 
-def read_rows(pieces: Iterable[Piece], form: RowForm) -> Rows:
-    """Read rows of numbers."""
-    from pandas.errors import ParserWarning
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", ParserWarning)  # pandas only warns when it drops cells
-        parts = [*_parts(pieces, form)]
-    columns = [[part.columns[number] for part in parts] for number in range(len(form.kinds))]
-    for part in parts:
-        part.columns.clear()
-    # A column's pieces are joined one column at a time, so that little is held twice.
-    joined = side_by_side(_joined, columns)
-    for column in [column for column, kind in enumerate(form.kinds) if kind == "time"]:
-        known = joined[column][~np.isnan(joined[column])]
-        joined[column] = (joined[column] - known[:1].sum()) / 1e6
-    line = parts[0].line if parts else 1
-    blank = np.concatenate([np.empty(0, dtype=bool), *(part.blank for part in parts)])
-    return Rows(form, line, joined, blank, [row for part in parts for row in part.odd])
-
-
-def _parts(pieces: Iterable[Piece], form: RowForm) -> Iterator[Rows]:
+def _parts(pieces: Iterable[Piece], form: RowForm) -> Iterator[Part]:
     """Read pieces, several at the same time; they come in their order."""
-    waiting: deque[Future[Rows]] = deque()
+    waiting: deque[Future[Part]] = deque()
     with ThreadPoolExecutor(threads()) as pool:
         for piece in pieces:
             waiting.append(pool.submit(_part, piece, form))
@@ -194,29 +179,35 @@ def _parts(pieces: Iterable[Piece], form: RowForm) -> Iterator[Rows]:
             yield part.result()
 
 
-def _part(piece: Piece, form: RowForm) -> Rows:
-    """Read a piece: one row a line, the blank ones too; microseconds of timestamps."""
+def _part(piece: Piece, form: RowForm) -> Part:
+    """Read a piece: one row a line, the blank ones too, before those that are no samples are left out."""
     frame = _frame(piece.text, form)
     columns = [_values(frame[column], kind, form.dialect) for column, kind in enumerate(form.kinds)]
-    absent = [np.isnan(values) for values in columns]
+    absent = np.array([np.isnan(values) for values in columns])
     doubtful = _doubtful(frame, absent, form)
-    blank = np.zeros(len(frame), dtype=bool)
-    odd: list[Row] = []
-    sound = ~doubtful
-    texts = piece.text.split("\n") if doubtful.any() or any(missing.any() for missing in absent) else []
+    numeric = [column for column, kind in enumerate(form.kinds) if kind in NUMERIC]
+    lacking: Mask = np.logical_or.reduce(absent[numeric])
+    lines = piece.text.split("\n") if (doubtful | lacking).any() else []
+    left_out = np.zeros(len(frame), dtype=bool)
+    faulty: list[Faulty] = []
     for number in np.flatnonzero(doubtful).tolist():
-        if form.dialect.is_blank(texts[number]):
-            blank[number] = True
-            continue
-        row = Row(piece.line + number, texts[number], form.dialect.split(texts[number]))
-        fault = form.fault_of(row, has_number=not all(missing[number] for missing in absent))
+        fault = form.fault_of(lines[number], has_number=not absent[:, number].all())
         if fault is None:
-            sound[number] = True
-        else:
-            odd.append(row._replace(fault=fault))
-    firsts = {int(np.argmax(gaps)) for missing in absent if (gaps := missing & sound).any()}
-    odd += [Row(piece.line + number, texts[number], form.dialect.split(texts[number])) for number in firsts]
-    return Rows(form, piece.line, columns, blank, odd)
+            continue
+        lacking[number] = False
+        left_out[number] = fault != "cells"
+        for values in columns:
+            values[number] = np.nan
+        if fault != "blank":
+            faulty.append(Faulty(piece.line + number, lines[number], fault))
+    gap = None
+    if lacking.any():
+        number = int(np.argmax(lacking))
+        column = numeric[int(np.argmax(absent[numeric, number]))]
+        gap = (piece.line + number, "".join(form.dialect.split(lines[number])[column : column + 1]))
+    if left_out.any():
+        columns = [values[~left_out] for values in columns]
+    return Part(columns, faulty, piece.line + len(frame) - 1, gap)
 
 
 def _frame(text: str, form: RowForm) -> pd.DataFrame:
@@ -261,11 +252,11 @@ def _narrowed(line: str, form: RowForm, separator: str) -> str:
     return separator.join([UNREADABLE] * most if any(cells[most:]) else cells[:most])
 
 
-def _doubtful(frame: pd.DataFrame, absent: list[Mask], form: RowForm) -> Mask:
+def _doubtful(frame: pd.DataFrame, absent: NDArray[np.bool_], form: RowForm) -> Mask:
     """Rows that may have the wrong number of cells or be no samples at all."""
     # A row without any number lacks the first; text there says nothing of the others. A short row lacks the last.
     filled = [column for column, kind in enumerate(form.kinds) if kind != "empty"] or [0]
-    doubtful: Mask = np.logical_and.reduce(absent)
+    doubtful = absent.all(axis=0)
     for column in (filled[0], filled[-1]):
         doubtful |= frame[column].isna().to_numpy() if form.kinds[column] == "text" else absent[column]
     return doubtful | frame[form.most_cells].notna().to_numpy()
