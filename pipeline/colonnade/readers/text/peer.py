@@ -14,7 +14,7 @@ from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.encoding import Text
-from colonnade.readers.text.running import read_running, shortage
+from colonnade.readers.text.running import header_claims, read_running, shortage
 
 
 def spelled(unit: str) -> str:
@@ -39,10 +39,6 @@ SIZES = (
     re.compile(rf"^\s*{_POINTS}\s+{_STEP}\s+NPTS\s*,\s*DT\b", re.IGNORECASE | re.MULTILINE),
 )
 """`NPTS=  2999, DT= .01000 SEC` of NGA and NGA-West2, `4096    0.0100    NPTS, DT` of the first database."""
-UNITS = re.compile(
-    r"\bUNITS?\s+(?:OF|ARE|IN|:)?\s*:?\s*(CM/S(?:EC)?/S(?:EC)?|CM/S(?:EC)?\^?2|CM/S(?:EC)?|CM|M/S\^?2|G)\b",
-    re.IGNORECASE,
-)
 QUANTITIES = (("ACCEL", "acceleration"), ("VELOCITY", "velocity"), ("DISPL", "displacement"))
 
 
@@ -75,9 +71,9 @@ def read(path: Path, options: Options) -> Recording:
     if values.size > points:
         warnings.append(f"the header gives {points} points, but the file has {values.size}: all of them are read")
     quantity = next((name for word, name in QUANTITIES if word in " ".join(above).upper()), "values")
-    unit = next((spelled(found[1]) for each in above if (found := UNITS.search(each))), None)
+    unit = header_claims("\n".join(above)).unit
     notes = (f"{points} points, step {step:g} s (line {line})",)
-    channel = RecordedChannel(quantity, unit, values, even_times(values.size, step))
+    channel = RecordedChannel(quantity, spelled(unit) if unit else None, values, even_times(values.size, step))
     return Recording(path, "peer", (channel,), notes=notes, warnings=tuple(warnings))
 
 

@@ -25,8 +25,8 @@ STEP = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 UNIT = re.compile(
-    r"\bunits?\b[^\n\w]{0,5}(?:are|is|of|:|=)?\s*[(\[]?\s*(cm/s(?:ec)?/s(?:ec)?|cm/s(?:ec)?(?:\^|\*\*)?2|mm/s(?:ec)?(?:\^|\*\*)?2"
-    r"|m/s(?:ec)?/s(?:ec)?|m/s(?:ec)?(?:\^|\*\*)?2|gals?|g's|g)(?![\w/])",
+    r"\bunits?\b[^\n\w]{0,5}(?:are|is|of|in|:|=)?\s*[(\[]?\s*"
+    r"([cm]?m/s(?:ec)?(?:/s(?:ec)?|\^?2|\*\*2)?|cm|gals?|g's|g)(?![\w/])",
     re.IGNORECASE,
 )
 _COUNTED = r"(?:points?|samples?|pts\.?|values|ordinates|readings)"
