@@ -48,7 +48,7 @@ def test_intensity_comes_in_si(tmp_path, text, measure, factor):
         ("pgv [m/s],rate\n1,2\n2,0\n", 'line 3: "0" is not a positive number'),
         ("pgv [m/s],rate\n1,2\n2,\n", 'line 3: "" is not a positive number'),
         ("pgv [m/s],rate\n1,2\n2,nan\n", 'line 3: "nan" is not a positive number'),
-        ("pgv [m/s],rate\n1,2\n2,1,0\n", "line 3: 3 cells are below 2 heads"),
+        ("pgv [m/s],rate\n1,2\n2,1,0\n", "row 3: 3 cells are below 2 heads"),
         ("", "the file is empty"),
     ],
 )

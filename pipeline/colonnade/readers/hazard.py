@@ -51,9 +51,6 @@ def read_hazard(path: Path, measure: str) -> Hazard:
     is_rate = rate.name.casefold() == "rate" and rate.unit in (None, "1/year")
     if not is_rate or found.si_unit != units.resolve(known.unit).si_unit:
         raise ReadError(wrong)
-    if table.faults:
-        line, fault = table.faults[0]
-        raise ReadError(f"{table.name}, line {line}: {fault}")
     values = np.array([_number(table, line, cell) for line, cells in table.rows for cell in cells]).reshape(-1, 2)
     try:
         return hazard_curve(values[:, 0] * found.factor, values[:, 1])

@@ -125,8 +125,6 @@ class Recording:
         What was sniffed, each with its evidence.
     warnings : tuple of str
         What was not as it should be: cells without a number, damaged lines; each with its line in the file.
-    hint : str
-        Said of a column that is missing, if the reader knows why it may be looked for.
     """
 
     path: Path
@@ -135,7 +133,6 @@ class Recording:
     start: datetime | None = None
     notes: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
-    hint: str = ""
 
     def channel(self, column: str | int) -> RecordedChannel:
         """
@@ -152,13 +149,12 @@ class Recording:
             If no channel, or more than one, has this name; the message gives the nearest.
         """
         there = len(self.channels)
-        hint = f" {self.hint}" if self.hint else ""
         if isinstance(column, int):
             if 1 <= column <= there:
                 return self.channels[column - 1]
             numbers = "1 column" if there == 1 else f"columns 1 to {there}"
             raise ReadError(
-                f"{self.path.name}: column {column} is missing; it has {numbers}. Columns are counted from 1.{hint}"
+                f"{self.path.name}: column {column} is missing; it has {numbers}. Columns are counted from 1."
             )
         headings = [channel.heading for channel in self.channels]
         names = [channel.name for channel in self.channels]
@@ -175,7 +171,7 @@ class Recording:
                     )
         raise ReadError(
             f'{self.path.name}: no column is called "{column}"; it has {there} column{"s" * (there > 1)}.'
-            f"{nearest(column, names)}{hint}"
+            f"{nearest(column, names)}"
         )
 
     def clock(self, column: str | int, unit: str | None = None) -> tuple[int, Array, str]:

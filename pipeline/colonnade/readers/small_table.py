@@ -38,8 +38,6 @@ class SmallTable:
     heads : tuple of Head
     rows : tuple of (int, tuple of str)
         Number of each row in the file, and its cells, as many as there are heads.
-    faults : tuple of (int, str)
-        Number of each row that cannot be used, and why.
     has_decimal_comma : bool
         Whether a comma in a number is its decimal sign: it does not divide the cells.
     """
@@ -47,7 +45,6 @@ class SmallTable:
     name: str
     heads: tuple[Head, ...]
     rows: tuple[tuple[int, tuple[str, ...]], ...]
-    faults: tuple[tuple[int, str], ...]
     has_decimal_comma: bool
 
     def places(self, known: Collection[str], ignored: str) -> tuple[dict[str, int], list[str]]:
@@ -109,14 +106,13 @@ def read_table(path: Path, what: str) -> SmallTable:
     Raises
     ------
     ReadError
-        If it cannot be opened, is no such table, or is too large for one.
+        If it cannot be opened, is no such table, is too large for one, or has rows that cannot be used.
     """
     try:
         if kind := irregular(path):
             raise ReadError(f"{path.name}: this is {kind}; {what} was expected.")
         if (size := path.stat().st_size) > LARGEST_BYTES:
             raise ReadError(f"{path.name}: {size} bytes are too many for {what}; is it a recording?")
-        faults: list[tuple[int, str]] = []
         if path.suffix.lower() in WORKBOOKS:
             from colonnade.readers.binary.excel import cells_of_first_sheet
 
@@ -128,7 +124,7 @@ def read_table(path: Path, what: str) -> SmallTable:
                 raise ReadError(f"{path.name}: it is no text ({said}). {what.capitalize()} as CSV was expected.")
             first = next((line for line in text.splitlines() if line.strip() and line[0] != "#"), "")
             delimiter = max(",;\t", key=first.count)
-            rows = list(_rows(text, delimiter, faults))
+            rows = list(_rows(path, text, delimiter))
     except OSError as error:
         raise ReadError(unreachable(path, error)) from None
     except ValueError as error:
@@ -136,31 +132,30 @@ def read_table(path: Path, what: str) -> SmallTable:
     stripped = ((number, [cell.strip() for cell in cells]) for number, cells in rows)
     rows = [(number, cells) for number, cells in stripped if any(cells) and not cells[0].startswith("#")]
     if not rows:
-        said = f" ({faults[0][1]})" if faults else ""
-        expected = f"{what.capitalize()} with a row of column heads was expected."
-        raise ReadError(f"{path.name}: the file is empty{said}. {expected}")
+        raise ReadError(f"{path.name}: the file is empty. {what.capitalize()} with a row of column heads was expected.")
     heads = tuple(map(_head, rows[0][1]))
-    fitting = []
-    for number, cells in rows[1:]:
-        if any(cells[len(heads) :]):
-            fault = f"{len(cells)} cells are below {len(heads)} heads, the last {quoted(cells[-1])}. "
-            faults.append((number, f"{fault}Put a cell that holds the separator in quotes."))
-        else:
-            fitting.append((number, (*cells[: len(heads)], *("",) * (len(heads) - len(cells)))))
-    return SmallTable(path.name, heads, tuple(fitting), tuple(sorted(faults)), delimiter != ",")
+    width = len(heads)
+    if wrong := [
+        f"{path.name}, row {number}: {len(cells)} cells are below {width} heads, the last {quoted(cells[-1])}. Put a "
+        "cell that holds the separator in quotes."
+        for number, cells in rows[1:]
+        if any(cells[width:])
+    ]:
+        raise ReadError("\n".join(wrong))
+    filled = tuple((number, (*cells[:width], *("",) * (width - len(cells)))) for number, cells in rows[1:])
+    return SmallTable(path.name, heads, filled, delimiter != ",")
 
 
-def _rows(text: str, delimiter: str, faults: list[tuple[int, str]]) -> Iterator[tuple[int, list[str]]]:
-    """Give the rows of CSV by number; those that are none go into the faults."""
+def _rows(path: Path, text: str, delimiter: str) -> Iterator[tuple[int, list[str]]]:
+    """Give the rows of CSV by number; ReadError at the first that is none."""
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True)
-    while True:
-        number = reader.line_num + 1
-        try:
-            yield number, next(reader)
-        except StopIteration:
-            return
-        except csv.Error as error:
-            faults.append((number, f"this is no row of a table ({error})."))
+    number = 1
+    try:
+        for cells in reader:
+            yield number, cells
+            number = reader.line_num + 1
+    except csv.Error as error:
+        raise ReadError(f"{path.name}, row {number}: this is no row of a table ({error}).") from None
 
 
 def _head(cell: str) -> Head:

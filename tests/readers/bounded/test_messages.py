@@ -34,7 +34,7 @@ def test_an_answer_that_is_none_is_refused(path, answer):
         messages.receive(stream, 1000)
 
 
-HEADER = {"format": "odd", "start": None, "notes": [], "warnings": [], "hint": "", "left_out": []}
+HEADER = {"format": "odd", "start": None, "notes": [], "warnings": [], "left_out": []}
 COLUMN = ["a", None, "a", False, 0, 1]
 
 
@@ -64,7 +64,7 @@ def test_all_that_a_recording_holds_comes_through():
         RecordedChannel("\udcff", "µm", values, time),
     )
     start = datetime(2013, 4, 26, 10, 15, 0, 250000, UTC)
-    whole = Recording(Path("r"), "odd", channels, start, ("a",), ("b",), hint="c")
+    whole = Recording(Path("r"), "odd", channels, start, ("a",), ("b",))
     with TemporaryFile() as stream:
         header, arrays = messages.told(whole)
         messages.send(stream, arrays, header=header)

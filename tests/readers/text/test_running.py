@@ -49,13 +49,6 @@ def test_numbers_that_run_on_are_one_channel_with_the_headers_clock_and_unit(tmp
     np.testing.assert_allclose(channel.time, 0.02 * np.arange(1600))
 
 
-def test_a_column_of_numbers_that_run_on_is_refused_with_the_cause(tmp_path):
-    recording = read(written(tmp_path, shaking(1600).reshape(-1, 8), head=HEAD))
-    for column in (8, "column 8"):
-        with pytest.raises(ReadError, match=r"Its numbers, 8 in a row, run on.*1600 points.*layout = \"columns\""):
-            recording.channel(column)
-
-
 @every(("head", "size"), [("NPTS = 1600\n", 1600), ("NPTS = 1603\n", 1603), ("8 values per line\n", 1603)])
 def test_numbers_run_on_where_the_header_counts_them_or_those_of_a_row(tmp_path, head, size):
     series = shaking(1603)[:size]

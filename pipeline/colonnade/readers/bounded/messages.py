@@ -126,7 +126,7 @@ def receive(stream: IO[bytes], largest: int) -> tuple[Answer, Arrays]:
     return answer, arrays
 
 
-SAME = ("format", "notes", "warnings", "hint")
+SAME = ("format", "notes", "warnings")
 """What a header and a recording both have, in the same form."""
 
 
@@ -144,7 +144,6 @@ class Header(BaseModel):
     start: datetime | None
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
-    hint: str
     columns: tuple[tuple[str, str | None, str, bool, NonNegativeInt, NonNegativeInt | None], ...]
 
 

@@ -25,7 +25,7 @@ from colonnade.readers.text.dialect import (
     sniff,
 )
 from colonnade.readers.text.encoding import Text, TextOptions, looks_binary
-from colonnade.readers.text.heading import Heading, Lines, find_heading, read_heading
+from colonnade.readers.text.heading import Heading, find_heading, read_heading
 from colonnade.readers.text.rows import RowForm, read_rows
 from colonnade.readers.text.running import HeaderClaims, header_claims, read_series, why_running
 
@@ -57,21 +57,6 @@ class TableOptions(ClockOptions):
         default=None,
         description='"columns" if each column is a channel, "running" if numbers run on from row to row.',
     )
-
-    @property
-    def lines_to_pass(self) -> int:
-        """Lines at the top of the file that cannot be samples."""
-        return max(self.names_row or 0, self.units_row or 0)
-
-    def heading_lines(self, found: Lines) -> Lines:
-        """Lines of names and units: as given, else as found; a line that is given as one is not found as the other."""
-        given = tuple(None if row is None else row - 1 for row in (self.names_row, self.units_row))
-        names, units = (
-            each if line is None else line if line >= 0 else None for line, each in zip(given, found, strict=True)
-        )
-        if names != units:
-            return names, units
-        return (names, None) if given[1] is None else (None, units)
 
 
 class DelimitedOptions(TextOptions, TableOptions):
@@ -106,11 +91,9 @@ class Header(NamedTuple):
 def read_header(text: Text, options: DelimitedOptions) -> Header:
     """Find out from a text's head how it is written and what its columns are; ReadError without rows of numbers."""
     lines = text.head()
-    if not any(line.strip() for line in lines):
-        raise ReadError(f"{text.path.name}: the file is empty; rows of numbers were expected.")
     if reason := looks_binary(lines):
         raise ReadError(f"{text.path.name}: {reason}; text with rows of numbers was expected.")
-    start = max(options.skip_rows, options.lines_to_pass)
+    start = max(options.skip_rows, options.names_row or 0, options.units_row or 0)
     given = Dialect(
         options.delimiter or ",",
         options.decimal or ".",
@@ -125,7 +108,7 @@ def read_header(text: Text, options: DelimitedOptions) -> Header:
         told = [f"{key} = {value!r}" for key, value in options.model_dump(exclude_defaults=True).items()]
         raise ReadError(
             f"{text.path.name}: no rows of numbers were found in the first {len(lines)} lines"
-            f"{' with ' if told else ''}{', '.join(told)}; the first is {lines[0][:60]!r}."
+            f"{' with ' if told else ''}{', '.join(told)}; the first is {''.join(lines[:1])[:60]!r}."
         )
     signed = _signed(lines[first : first + SAMPLE_LINES], dialect, kinds)
     if signed and options.decimal is None and options.thousands is None:
@@ -133,8 +116,12 @@ def read_header(text: Text, options: DelimitedOptions) -> Header:
             f'{text.path.name}: a sign in "{signed}" may be the decimal sign or stand between thousands. Say in `file` '
             'which is which: decimal = "." alone, or decimal = "," and thousands = ".", or the reverse.'
         )
-    where = options.heading_lines(find_heading(lines, options.skip_rows, first, dialect, kinds))
-    heading = read_heading(lines, where, dialect, kinds)
+    given_rows = (options.names_row, options.units_row)
+    found = find_heading(lines, options.skip_rows, first, dialect, kinds)
+    names, units = (line if row is None else row - 1 for row, line in zip(given_rows, found, strict=True))
+    if names == units:  # a line that is given as one is not found as the other
+        names, units = (names, -1) if options.units_row is None else (-1, units)
+    heading = read_heading(lines, (names, units), dialect, kinds)
     texts = [head for head, kind in zip(heading.headings, kinds, strict=False) if kind == "text"]
     notes = [*sniffed.notes, *heading.notes, f"first sample on line {first + 1}"]
     if text.encoding.evidence:
@@ -198,15 +185,10 @@ def read_text(text: Text, options: DelimitedOptions) -> Recording:
     if is_open and {*form.kinds} <= {"number", "empty"}:
         is_free = form.dialect.delimiter == WHITESPACE
         reason = why_running(text.path, rows.columns, claims, is_free=is_free)
-    hint = ""
     if reason:
         series = read_series(text, form.dialect, header.first)
         channels = [RecordedChannel("column 1", claims.unit, series)]
         notes, warnings = [f"numbers run on from row to row: {reason}"], list[str]()
-        hint = (
-            f"Its numbers, {len(heading.names)} in a row, run on from row to row and are read as one series of "
-            f'{series.size} ({reason}). If each column is a channel, say so: layout = "columns" in `file`.'
-        )
     else:
         columns, notes, warnings = rows
         own = None if any(heading.units) else claims.unit
@@ -216,7 +198,7 @@ def read_text(text: Text, options: DelimitedOptions) -> Recording:
             for head, name, unit, kind, values in parts
         ]
     recording = Recording(
-        text.path, "delimited", tuple(channels), header.start, (*header.notes, *notes), tuple(warnings), hint
+        text.path, "delimited", tuple(channels), header.start, (*header.notes, *notes), tuple(warnings)
     )
     step = {"header.dt": claims.step} if claims.step else {}
     return with_clocks(recording, options.time, options.time_unit, step)

@@ -5,10 +5,9 @@ from __future__ import annotations
 import csv
 import re
 from collections import Counter, defaultdict
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import chain
+from itertools import chain, product
 from typing import NamedTuple
 
 WHITESPACE = " "
@@ -125,11 +124,6 @@ def quoted_cells(line: str, delimiter: str) -> list[str]:
     return [cell.strip() for row in rows for cell in row]
 
 
-def is_timestamp(cell: str) -> bool:
-    """Whether a cell is a date with time, or a time of day."""
-    return ":" in cell and TIMESTAMP.fullmatch(cell) is not None
-
-
 def looks_like_numbers(line: str) -> bool:
     """Whether a line has digits and no letters but those of exponents, however damaged it is."""
     return re.search(r"\d", line) is not None and re.search(r"[^\W\d_eEdD]", line) is None
@@ -141,7 +135,7 @@ def kind_of(cell: str, dialect: Dialect) -> str:
         return "missing"
     if dialect.is_number(cell):
         return "number"
-    return "time" if is_timestamp(cell) else "text"
+    return "time" if ":" in cell and TIMESTAMP.fullmatch(cell) else "text"
 
 
 class Sniffed(NamedTuple):
@@ -164,7 +158,12 @@ def sniff(lines: list[str], given: Dialect, *, delimiter: str | None, decimal: s
     sign is `given`; so may be these.
     """
     sample = [line for line in lines if line.strip() and not given.is_comment(line)][-SAMPLE_LINES:]
-    fits = [_fit(sample, dialect) for dialect in _candidates(sample, given, delimiter, decimal)]
+    quoted = sum('"' in line for line in sample) > len(sample) / 2
+    fits = [
+        _fit(sample, replace(given, delimiter=between, decimal=sign, quoted=quoted))
+        for between, sign in product(delimiter or DELIMITERS, decimal or ".,")
+        if (sign != between or quoted) and sign != given.thousands
+    ]
     best = max(fits, key=lambda fit: (fit.score, len(fit.kinds) > 1), default=Sniffed(given))
     dialect, notes = best.dialect, []
     if delimiter is None:
@@ -176,17 +175,6 @@ def sniff(lines: list[str], given: Dialect, *, delimiter: str | None, decimal: s
         why = " assumed: the numbers examined have none" if signed is None else f' (as in "{signed}")'
         notes.append(f'decimal sign "{dialect.decimal}"{why}')
     return best._replace(notes=tuple(notes))
-
-
-def _candidates(sample: list[str], given: Dialect, delimiter: str | None, decimal: str | None) -> Iterator[Dialect]:
-    """Dialects that the sample may be written in."""
-    quoted = sum('"' in line for line in sample) > len(sample) / 2
-    for candidate in DELIMITERS if delimiter is None else (delimiter,):
-        if quoted and candidate == WHITESPACE and delimiter is None:
-            continue
-        for sign in (".", ",") if decimal is None else (decimal,):
-            if (sign != candidate or quoted) and sign != given.thousands:
-                yield replace(given, delimiter=candidate, decimal=sign, quoted=quoted)
 
 
 def _fit(sample: list[str], dialect: Dialect) -> Sniffed:

@@ -35,8 +35,8 @@ class Heading(NamedTuple):
     notes: tuple[str, ...]
 
 
-Lines = tuple[int | None, int | None]
-"""Indices of the lines of names and of units, if there are any."""
+Lines = tuple[int, int]
+"""Indices of the lines of names and of units; -1 if there is none."""
 
 
 def read_heading(lines: list[str], where: Lines, dialect: Dialect, kinds: tuple[str, ...]) -> Heading:
@@ -55,12 +55,12 @@ def read_heading(lines: list[str], where: Lines, dialect: Dialect, kinds: tuple[
     headings = tuple(cell or f"column {number}" for number, cell in enumerate(names_row[:width], 1))
     names = tuple(name or f"column {number}" for number, (name, _) in enumerate(parts, 1))
     notes = [
-        f'{what} on line {index + 1} ("{row[0]}", …)' if index is not None else f"no line of {what} above the samples"
+        f'{what} on line {index + 1} ("{row[0]}", …)' if index >= 0 else f"no line of {what} above the samples"
         for what, index, row in zip(("names", "units"), where, (names_row, units_row), strict=True)
     ]
     # A title above a table fills a cell only; words between single blanks may be a sentence.
     is_named = 2 * sum(bool(name or unit) for name, unit in zip(names_row, units, strict=False)) > width
-    if is_named and where[0] is not None and where[1] is None and dialect.delimiter == WHITESPACE:
+    if is_named and where[0] >= 0 > where[1] and dialect.delimiter == WHITESPACE:
         words = lines[where[0]].split()
         is_named = len(words) <= 2 or lines[where[0]].strip() != " ".join(words)
     return Heading(headings, names, units, is_named, tuple(notes))
@@ -79,14 +79,14 @@ def find_heading(lines: list[str], start: int, first: int, dialect: Dialect, kin
             break
         fitting.append((index, [cell for cell in cells if cell]))
     if not fitting:
-        return None, None
+        return -1, -1
     index, filled = fitting[0]
     units = [cell for cell in filled if looks_like_unit(cell)]
     if len(fitting) == 2 and len(units) >= 0.6 * len(filled):
         return fitting[1][0], index
     # A single line of units: nobody calls two channels "mm", but two channels are in mm.
     repeated_or_bracketed = len(set(units)) < len(units) or all(cell.startswith(("[", "(")) for cell in units)
-    return (None, index) if len(units) == len(filled) and repeated_or_bracketed else (index, None)
+    return (-1, index) if len(units) == len(filled) and repeated_or_bracketed else (index, -1)
 
 
 def looks_like_unit(text: str) -> bool:
@@ -151,7 +151,7 @@ def heading_cells(line: str, dialect: Dialect, columns: int) -> list[str] | None
     return None
 
 
-def _row(lines: list[str], index: int | None, dialect: Dialect, columns: int) -> list[str]:
+def _row(lines: list[str], index: int, dialect: Dialect, columns: int) -> list[str]:
     """Cells of a line of names or units; one that was given, not found, may have any number."""
-    cells = [] if index is None else heading_cells(lines[index], dialect, columns) or dialect.split(lines[index])
+    cells = [] if index < 0 else heading_cells(lines[index], dialect, columns) or dialect.split(lines[index])
     return (cells + [""] * columns)[:columns]

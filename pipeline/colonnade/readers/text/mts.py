@@ -18,7 +18,7 @@ from colonnade.readers.clock import moment_after, moment_of, with_clocks
 from colonnade.readers.format import Format
 from colonnade.readers.head import by_first_line
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.text.dialect import WHITESPACE, Dialect, is_timestamp
+from colonnade.readers.text.dialect import WHITESPACE, Dialect
 from colonnade.readers.text.encoding import Text, TextOptions, pieces_of
 from colonnade.readers.text.rows import RowForm, Table, read_rows
 
@@ -83,30 +83,18 @@ def _declared(path: Path, line: str) -> tuple[Dialect, str]:
 
 
 def _blocks(lines: list[str], dialect: Dialect) -> Iterator[tuple[list[str], list[str], list[str], Table]]:
-    """Find each line above a block, `… Time: 10.0 Sec …`, that has names, units and numbers below it."""
-    at = 0
-    while (at := at + 1) < len(lines) - 2:
-        title, names, units = (_cells(line, dialect) for line in lines[at : at + 3])
-        first = stop = at + 3
-        if (
-            _seconds(title, dialect) is None
-            or not names
-            or len(units) > len(names)
-            or any(map(dialect.is_number, units))
-        ):
+    """Find each paragraph of a title, `… Time: 10.0 Sec …`, names, units and numbers."""
+    blank = [number for number, line in enumerate(lines) if dialect.is_blank(line)]
+    for above, stop in pairwise([-1, *blank, len(lines)]):
+        first = above + 4
+        if stop <= first:
             continue
-        while stop < len(lines) and _is_row(lines[stop], dialect):
-            stop += 1
-        if stop > first:
+        title, names, units, row = (_cells(line, dialect) for line in lines[above + 1 : first + 1])
+        if _seconds(title, dialect) is None or len(units) > len(names) or not any(map(dialect.is_number, row[:2])):
+            continue
+        if not any(map(dialect.is_number, units)):
             rows = read_rows(pieces_of(lines, first, stop), RowForm(dialect, ("number",) * len(names)), names)
             yield title, names, units + [""] * (len(names) - len(units)), rows
-            at = stop - 1
-
-
-def _is_row(line: str, dialect: Dialect) -> bool:
-    """Whether a line is a row: not blank, and not without any number."""
-    cells = dialect.split(line)
-    return any(dialect.is_number(cell) for cell in cells[:2]) and not any(is_timestamp(cell) for cell in cells)
 
 
 def _cells(line: str, dialect: Dialect) -> list[str]:

@@ -68,8 +68,6 @@ def read(path: Path, options: Options) -> Recording:
         raise ReadError(f"{path.name}: line {line} gives a time step of {step:g} s.")
     values, warnings = read_running(enumerate(Text.of(path).lines()[line:], line + 1))
     warnings += shortage("the header", points, values.size)
-    if values.size > points:
-        warnings.append(f"the header gives {points} points, but the file has {values.size}: all of them are read")
     quantity = next((name for word, name in QUANTITIES if word in " ".join(above).upper()), "values")
     unit = header_claims("\n".join(above)).unit
     notes = (f"{points} points, step {step:g} s (line {line})",)
