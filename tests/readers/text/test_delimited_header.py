@@ -38,8 +38,8 @@ def test_words_between_single_blanks_may_be_a_sentence(tmp_path):
 @every(
     ("text", "options", "told"),
     [
-        ("", {}, "the file is empty"),
-        ("\n \n", {}, "the file is empty"),
+        ("", {}, "no rows of numbers were found in the first 0 lines"),
+        ("\n \n", {}, "no rows of numbers were found in the first 2 lines"),
         ("\x01\x02\x03" * 100, {}, "not printable"),
         ("only words\n" * 5, {}, "no rows of numbers were found in the first 5 lines"),
         ("a b\n1 2\n", {"delimiter": ";", "decimal": ","}, "with delimiter = ';', decimal = ','"),

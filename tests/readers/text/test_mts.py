@@ -46,7 +46,8 @@ def test_the_first_line_declares_delimiter_and_decimal_sign(tmp_path, declared, 
     force = recording.channel("Axial Force")
     assert force.values.tolist() == [0, -1, -2]
     assert force.time.tolist() == [2.0, 2.5, 3.0]
-    assert recording.start == datetime(2013, 4, 26, 13, 54, 24)  # 2 s after the zero of the time, 10 s before the date
+    # 2 s after the zero of the time, 10 s before the date; between slashes the day or the month may be in front.
+    assert recording.start == (None if "/" in title else datetime(2013, 4, 26, 13, 54, 24))
     assert recording.warnings == ()
 
 
@@ -63,11 +64,6 @@ def test_blocks_of_the_same_columns_go_on_and_others_are_kept_apart(tmp_path):
     assert recording.channel("block 2: Axial Force").values.tolist() == [7.5]
     assert ['called "block 2: …"' in told for told in recording.warnings] == [True]
     assert recording.channel("block 2: Axial Force").time is None
-
-
-def test_a_date_that_could_be_read_in_two_ways_is_not(tmp_path):
-    lines = block(0.0, "Acquisition\tTime:\t10.0\tSec\t04/05/2013 13:54:32")
-    assert read(written(tmp_path, "MTS793|MPT|FRA|1|2|.|/|:|33|1|1|A", "", *lines)).start is None
 
 
 def test_notes_of_the_operator_are_no_block(tmp_path):

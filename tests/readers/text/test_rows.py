@@ -18,7 +18,7 @@ TABS = RowForm(Dialect("\t", "."), ("number", "number"))
 def test_columns_and_lines_come_out_whatever_the_size_of_the_pieces(size):
     texts = [f"{row}.5\t{-row}" if row % 2 else "" for row in range(6)]
     pieces = [Piece(11 + at, "\n".join([*texts[at : at + size], ""])) for at in range(0, 6, size)]
-    columns, _, warnings = read_rows([*pieces, Piece(17, "x\t4")], TABS, "ab")
+    columns, warnings = read_rows([*pieces, Piece(17, "x\t4")], TABS, "ab")
     np.testing.assert_array_equal(columns, [[1.5, 3.5, 5.5, np.nan], [-1, -3, -5, 4]])
     assert warnings == ['"a": 1 cell holds no number (on line 17: "x"); missing']
 
@@ -28,7 +28,7 @@ def test_timestamps_are_seconds_from_the_first_in_later_pieces_too():
         Piece(1, "2013-04-26 10:15:00.5;1\nbroken;2\n2013-04-26 10:15:01;2\n"),
         Piece(4, "2013-04-26 10:16:00.5;3\n"),
     ]
-    columns, _, _ = read_rows(pieces, RowForm(FORM.dialect, ("time", "number")), "ab")
+    columns, _ = read_rows(pieces, RowForm(FORM.dialect, ("time", "number")), "ab")
     np.testing.assert_array_equal(columns[0], [0, np.nan, 0.5, 60])
 
 
@@ -37,37 +37,36 @@ THREE = RowForm(Dialect(";", "."), ("number", "number", "number"))
 
 def mended(*texts, form=THREE):
     pieces = [Piece(1, "\n".join([*texts, ""]))] if texts else []
-    columns, notes, warnings = read_rows(pieces, form, "abc"[: len(form.kinds)])
-    return [column.tolist() for column in columns], notes, warnings
+    columns, warnings = read_rows(pieces, form, "abc"[: len(form.kinds)])
+    return [column.tolist() for column in columns], warnings
 
 
 def test_lines_that_are_not_samples_are_left_out_and_listed():
-    columns, notes, warnings = mended("1;2;3", "a;b;c", "4;5;6", "# event", "7;8;9")
+    columns, warnings = mended("1;2;3", "a;b;c", "4;5;6", "# event", "7;8;9")
     assert columns == [[1, 4, 7], [2, 5, 8], [3, 6, 9]]
     assert warnings == ['line 2: left out: text without a number ("a;b;c")']
-    assert notes == ['line 4: left out as a comment ("# event")']
 
 
 def test_at_most_five_lines_are_listed():
-    columns, _, warnings = mended(*["1;2;3", "1;2;3;4"] * 7, "1;2;3")
+    columns, warnings = mended(*["1;2;3", "1;2;3;4"] * 7, "1;2;3")
     assert warnings[0].startswith("lines 2, 4, 6, 8, 10 and 2 more: counted as missing: not 3 cells")
     assert np.isnan(columns[0]).sum() == 7
 
 
 def test_a_last_line_with_too_few_cells_is_left_out():
-    columns, _, warnings = mended("1;2;3", "4;5", "7;8")
+    columns, warnings = mended("1;2;3", "4;5", "7;8")
     np.testing.assert_array_equal(columns[0], [1, np.nan])
     assert warnings[0] == 'line 2: counted as missing: not 3 cells ("4;5")'
     assert warnings[1] == 'line 3: left out: the file ends here, before all 3 cells ("7;8")'
 
 
 def test_columns_that_lack_numbers_share_a_message():
-    _, _, warnings = mended("1;2;3", "4;x;x", "5;x;x")
+    _, warnings = mended("1;2;3", "4;x;x", "5;x;x")
     assert warnings == ['"b", "c": 4 cells hold no number (first on line 2: "x"); missing']
 
 
 def test_rows_of_ragged_columns_may_end_early():
-    columns, _, warnings = mended("1;2;3", "4;;6", "7;8", form=RowForm(THREE.dialect, THREE.kinds, is_ragged=True))
+    columns, warnings = mended("1;2;3", "4;;6", "7;8", form=RowForm(THREE.dialect, THREE.kinds, is_ragged=True))
     assert warnings == []
     np.testing.assert_array_equal(columns[1:], [[2, np.nan, 8], [3, 6, np.nan]])
 
@@ -83,7 +82,7 @@ def test_rows_of_ragged_columns_may_end_early():
     ],
 )
 def test_a_row_that_is_not_as_the_others_is_told_with_its_line(odd, told):
-    columns, _, warnings = mended("1\t2", odd, "3\t4", form=TABS)
+    columns, warnings = mended("1\t2", odd, "3\t4", form=TABS)
     assert warnings == [told]
     assert [[column[0], column[2]] for column in columns] == [[1, 3], [2, 4]]
     assert np.isnan([column[1] for column in columns]).any()
@@ -92,8 +91,8 @@ def test_a_row_that_is_not_as_the_others_is_told_with_its_line(odd, told):
 @every("remarks", [0, 1])
 def test_remarks_and_empty_cells_beyond_the_columns_are_not_looked_at(remarks):
     form = RowForm(TABS.dialect, TABS.kinds, remarks=remarks)
-    assert mended("1\t2" + "\tOK" * remarks, "3\t4\t\t\t", "5\t6", form=form) == ([[1, 3, 5], [2, 4, 6]], [], [])
+    assert mended("1\t2" + "\tOK" * remarks, "3\t4\t\t\t", "5\t6", form=form) == ([[1, 3, 5], [2, 4, 6]], [])
 
 
 def test_no_rows_are_empty_columns():
-    assert mended(form=TABS) == ([[], []], [], [])
+    assert mended(form=TABS) == ([[], []], [])

@@ -122,12 +122,9 @@ def read_header(text: Text, options: DelimitedOptions) -> Header:
     if names == units:  # a line that is given as one is not found as the other
         names, units = (names, -1) if options.units_row is None else (-1, units)
     heading = read_heading(lines, (names, units), dialect, kinds)
-    texts = [head for head, kind in zip(heading.headings, kinds, strict=False) if kind == "text"]
     notes = [*sniffed.notes, *heading.notes, f"first sample on line {first + 1}"]
     if text.encoding.evidence:
         notes.insert(0, f"encoding {text.encoding.name} ({text.encoding.evidence})")
-    if texts:
-        notes.append("text, not numbers, in " + ", ".join(f'"{head}"' for head in texts))
     stamp = next((cell for cell, kind in zip(dialect.split(lines[first]), kinds, strict=True) if kind == "time"), "")
     form = RowForm(dialect, kinds, exact=text.made is not None)
     return Header(form, first, heading, header_claims("\n".join(lines[:first])), moment_of(stamp), tuple(notes))
@@ -178,28 +175,21 @@ def read(path: Path, options: DelimitedOptions) -> Recording:
 def read_text(text: Text, options: DelimitedOptions) -> Recording:
     """Read delimited text, whatever it was made of; see `read`."""
     header = read_header(text, options)
-    form, heading, claims = header.form, header.heading, header.claims
-    rows = read_rows(text.pieces(header.first), form, heading.headings)
+    form, heading, claims, notes = header.form, header.heading, header.claims, header.notes
+    columns, warnings = read_rows(text.pieces(header.first), form, heading.headings)
+    own = None if any(heading.units) else claims.unit
+    channels = [
+        RecordedChannel(name, unit or own, values, values if kind == "time" else None, head, kind == "time")
+        for head, name, unit, kind, values in zip(*heading[:3], form.kinds, columns, strict=False)
+    ]
     reason = "as given" if options.layout == "running" else ""
     is_open = options.layout is None and options.time is None and options.names_row is None and not heading.is_named
     if is_open and {*form.kinds} <= {"number", "empty"}:
-        is_free = form.dialect.delimiter == WHITESPACE
-        reason = why_running(text.path, rows.columns, claims, is_free=is_free)
+        reason = why_running(text.path, columns, claims, is_free=form.dialect.delimiter == WHITESPACE)
     if reason:
-        series = read_series(text, form.dialect, header.first)
-        channels = [RecordedChannel("column 1", claims.unit, series)]
-        notes, warnings = [f"numbers run on from row to row: {reason}"], list[str]()
-    else:
-        columns, notes, warnings = rows
-        own = None if any(heading.units) else claims.unit
-        parts = zip(*heading[:3], form.kinds, columns, strict=False)
-        channels = [
-            RecordedChannel(name, unit or own, values, values if kind == "time" else None, head, kind == "time")
-            for head, name, unit, kind, values in parts
-        ]
-    recording = Recording(
-        text.path, "delimited", tuple(channels), header.start, (*header.notes, *notes), tuple(warnings)
-    )
+        channels = [RecordedChannel("column 1", claims.unit, read_series(text, form.dialect, header.first))]
+        notes, warnings = (*notes, f"numbers run on from row to row: {reason}"), []
+    recording = Recording(text.path, "delimited", tuple(channels), header.start, notes, tuple(warnings))
     step = {"header.dt": claims.step} if claims.step else {}
     return with_clocks(recording, options.time, options.time_unit, step)
 

@@ -88,7 +88,7 @@ def read(path: Path, options: TextOptions) -> Recording:
             samples = segment.entries.get("Samples", [])
             kinds = ("empty" if header.clocks == "no" else "number", *["number"] * (len(names) - 1))
             form = RowForm(dialect, kinds, remarks=1, is_ragged=len({*filter(None, samples[1:])}) > 1)
-            columns, _, told = read_rows(pieces_of(lines, first, stop), form, names)
+            columns, told = read_rows(pieces_of(lines, first, stop), form, names)
             warnings += told
             for name, said, column in zip(names, samples, columns, strict=False):
                 if said.isdecimal() and int(said) > (size := filled_length(column)):

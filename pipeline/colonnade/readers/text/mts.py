@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import replace
-from datetime import datetime
 from itertools import pairwise
 from pathlib import Path
 
@@ -20,7 +18,7 @@ from colonnade.readers.head import by_first_line
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.dialect import WHITESPACE, Dialect
 from colonnade.readers.text.encoding import Text, TextOptions, pieces_of
-from colonnade.readers.text.rows import RowForm, Table, read_rows
+from colonnade.readers.text.rows import RowForm, read_rows
 
 SIGNATURE = "MTS793|"
 DELIMITERS = {"0": WHITESPACE, "1": ",", "2": "\t"}
@@ -43,13 +41,15 @@ def read(path: Path, options: TextOptions) -> Recording:
     """
     text = Text.of(path, options.encoding)
     lines, warnings = text.whole_lines()
-    dialect, language = _declared(path, lines[0] if lines else "")
+    dialect = _declared(path, lines[0] if lines else "")
     blocks: dict[tuple[tuple[str, ...], tuple[str, ...]], list[list[Array]]] = {}
     origin = None
-    for title, names, units, (columns, _, told) in _blocks(lines, dialect):
+    for title, names, units, columns, told in _blocks(lines, dialect):
         warnings += told
-        if not blocks:
-            origin = moment_after(_moment(title[-1], language), -(_seconds(title, dialect) or 0.0))
+        if not blocks:  # between slashes the day or the month may be in front
+            origin = moment_after(
+                moment_of(title[-1]) if "/" not in title[-1] else None, -(_seconds(title, dialect) or 0.0)
+            )
         blocks.setdefault((tuple(names), tuple(units)), []).append(columns)
     if not blocks:
         raise ReadError(
@@ -70,8 +70,8 @@ def read(path: Path, options: TextOptions) -> Recording:
     return found if clock is None else replace(found, start=moment_after(origin, float(clock[0])))
 
 
-def _declared(path: Path, line: str) -> tuple[Dialect, str]:
-    """Take the first line apart: how numbers are written, and the language."""
+def _declared(path: Path, line: str) -> Dialect:
+    """Take the first line apart: how numbers are written."""
     fields = line.strip().strip('"').split("|")
     if len(fields) < 8 or fields[4] not in DELIMITERS or fields[5] not in (".", ","):
         raise ReadError(
@@ -79,10 +79,12 @@ def _declared(path: Path, line: str) -> tuple[Dialect, str]:
             "expected, with a delimiter 0, 1 or 2. Export the file from the machine again."
         )
     delimiter = DELIMITERS[fields[4]]
-    return Dialect(delimiter, fields[5], quoted=delimiter == ","), fields[2]
+    return Dialect(delimiter, fields[5], quoted=delimiter == ",")
 
 
-def _blocks(lines: list[str], dialect: Dialect) -> Iterator[tuple[list[str], list[str], list[str], Table]]:
+def _blocks(
+    lines: list[str], dialect: Dialect
+) -> Iterator[tuple[list[str], list[str], list[str], list[Array], list[str]]]:
     """Find each paragraph of a title, `… Time: 10.0 Sec …`, names, units and numbers."""
     blank = [number for number, line in enumerate(lines) if dialect.is_blank(line)]
     for above, stop in pairwise([-1, *blank, len(lines)]):
@@ -93,8 +95,13 @@ def _blocks(lines: list[str], dialect: Dialect) -> Iterator[tuple[list[str], lis
         if _seconds(title, dialect) is None or len(units) > len(names) or not any(map(dialect.is_number, row[:2])):
             continue
         if not any(map(dialect.is_number, units)):
-            rows = read_rows(pieces_of(lines, first, stop), RowForm(dialect, ("number",) * len(names)), names)
-            yield title, names, units + [""] * (len(names) - len(units)), rows
+            form = RowForm(dialect, ("number",) * len(names))
+            yield (
+                title,
+                names,
+                units + [""] * (len(names) - len(units)),
+                *read_rows(pieces_of(lines, first, stop), form, names),
+            )
 
 
 def _cells(line: str, dialect: Dialect) -> list[str]:
@@ -110,15 +117,6 @@ def _seconds(title: list[str], dialect: Dialect) -> float | None:
     for cell, following in pairwise(title):
         if cell.endswith(":") and dialect.is_number(following):
             return dialect.number(following)
-    return None
-
-
-def _moment(text: str, language: str) -> datetime | None:
-    """Date and time; one with slashes, `4/26/2013 1:54:32 PM`, only in the language in which the month is in front."""
-    if "/" not in text:
-        return moment_of(text)
-    with suppress(ValueError):
-        return datetime.strptime(text, "%m/%d/%Y %I:%M:%S %p") if language == "ENU" else None
     return None
 
 

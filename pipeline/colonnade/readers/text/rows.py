@@ -27,9 +27,8 @@ NUMERIC = ("number", "time")
 SHOWN = 50
 """Characters of a line that a message quotes."""
 
-Fault = Literal["blank", "comment", "text", "cells", "cut"]
+Fault = Literal["blank", "text", "cells", "cut"]
 SENTENCES: dict[Fault, str] = {
-    "comment": "left out as a comment",
     "text": "left out: text without a number",
     "cells": "counted as missing: not {} cells",
     "cut": "left out: the file ends here, before all {} cells",
@@ -67,10 +66,8 @@ class RowForm:
 
     def fault_of(self, line: str, *, has_number: bool) -> Fault | None:
         """Name what is wrong with a row; None if it is a sample, though perhaps without some of its numbers."""
-        if self.dialect.is_blank(line):
+        if self.dialect.is_blank(line) or self.dialect.is_comment(line):
             return "blank"
-        if self.dialect.is_comment(line):
-            return "comment"
         cells = self.dialect.split(line)
         if not has_number and not looks_like_numbers(line):
             # Cells that are empty or say "missing", without any other text, are a sample nevertheless.
@@ -87,19 +84,6 @@ class Faulty(NamedTuple):
     fault: Fault
 
 
-class Table(NamedTuple):
-    """
-    Columns that can be trusted to be their columns': NaN without a number, seconds from the first of timestamps.
-
-    A line without any number, with text, is left out, as is a last line with too few cells. Another row with too many
-    or too few counts as missing, because a value may be in its neighbour's column.
-    """
-
-    columns: list[Array]
-    notes: list[str]
-    warnings: list[str]
-
-
 class Part(NamedTuple):
     """The rows of a piece of a text; microseconds of timestamps."""
 
@@ -111,8 +95,14 @@ class Part(NamedTuple):
     """The first line with a cell without a number, and that cell."""
 
 
-def read_rows(pieces: Iterable[Piece], form: RowForm, headings: Sequence[str]) -> Table:
-    """Read rows of numbers; columns without a heading are left out."""
+def read_rows(pieces: Iterable[Piece], form: RowForm, headings: Sequence[str]) -> tuple[list[Array], list[str]]:
+    """
+    Read a column of numbers for each heading, and give warnings of what is damaged.
+
+    NaN is where no number is; columns of timestamps are seconds from the first. A line without any number, with text,
+    is left out, as is a last line with too few cells, and blank lines and comments in silence. Another row with too
+    many or too few counts as missing, because a value may be in its neighbour's column.
+    """
     from pandas.errors import ParserWarning
 
     with warnings.catch_warnings():
@@ -122,29 +112,26 @@ def read_rows(pieces: Iterable[Piece], form: RowForm, headings: Sequence[str]) -
     if faulty and (faulty[-1].line, faulty[-1].fault) == (parts[-1].last, "cells"):
         faulty[-1] = faulty[-1]._replace(fault="cut")
         parts[-1].columns[:] = [column[:-1] for column in parts[-1].columns]
-    pieces_of_columns = [[part.columns[number] for part in parts] for number in range(len(headings))]
+    by_column = [[part.columns[number] for part in parts] for number in range(len(headings))]
     for part in parts:
         part.columns.clear()
     # A column's pieces are joined one column at a time, so that little is held twice.
-    columns = side_by_side(_joined, pieces_of_columns)
-    for number in [number for number in range(len(headings)) if form.kinds[number] == "time"]:
-        known = columns[number][~np.isnan(columns[number])]
-        columns[number] = (columns[number] - known[:1].sum()) / 1e6
-    notes: list[str] = []
-    told: list[str] = []
-    for fault, sentence in SENTENCES.items():
-        if found := [row for row in faulty if row.fault == fault]:
-            (notes if fault == "comment" else told).append(_listed(found, sentence.format(len(form.kinds))))
+    columns = side_by_side(_joined, by_column)
+    for number, kind in zip(range(len(headings)), form.kinds, strict=False):
+        if kind == "time":
+            known = columns[number][~np.isnan(columns[number])]
+            columns[number] = (columns[number] - known[:1].sum()) / 1e6
+    damaged = {fault: [row for row in faulty if row.fault == fault] for fault in SENTENCES}
+    told = [_listed(rows, SENTENCES[fault].format(len(form.kinds))) for fault, rows in damaged.items() if rows]
     gap = next((part.gap for part in parts if part.gap is not None), None)
     if gap is not None and not form.is_ragged:
-        missing = sum(row.fault == "cells" for row in faulty)
-        lacking = {
-            heading: int(np.isnan(column).sum()) - missing
+        counts = [
+            (heading, int(np.isnan(column).sum()) - len(damaged["cells"]))
             for heading, column, kind in zip(headings, columns, form.kinds, strict=False)
             if kind in NUMERIC
-        }
-        told += _lacking({heading: count for heading, count in lacking.items() if count}, *gap)
-    return Table(columns, notes, told)
+        ]
+        told.append(_lacking([each for each in counts if each[1]], *gap))
+    return columns, told
 
 
 def _listed(rows: list[Faulty], what: str) -> str:
@@ -153,13 +140,13 @@ def _listed(rows: list[Faulty], what: str) -> str:
     return f"line{'s' if len(rows) > 1 else ''} {lines}{more}: {what} ({_shown(rows[0].text)})"
 
 
-def _lacking(counts: dict[str, int], line: int, cell: str) -> Iterator[str]:
+def _lacking(counts: list[tuple[str, int]], line: int, cell: str) -> str:
     """Say how many cells of which columns hold no number, and where the first is."""
-    names = ", ".join(f'"{heading}"' for heading in [*counts][:3])
+    names = ", ".join(f'"{heading}"' for heading, _ in counts[:3])
     more = f" and {len(counts) - 3} more columns" if len(counts) > 3 else ""
-    total = sum(counts.values())
+    total = sum(count for _, count in counts)
     cells = "1 cell holds no number (on" if total == 1 else f"{total} cells hold no number (first on"
-    yield f"{names}{more}: {cells} line {line}: {_shown(cell) or 'nothing'}); missing"
+    return f"{names}{more}: {cells} line {line}: {_shown(cell) or 'nothing'}); missing"
 
 
 def _shown(text: str) -> str:
