@@ -197,7 +197,6 @@ def read_list(path: Path, left_out: dict[str, str], notes: list[str]) -> list[En
         )
     if "component" in places and "record" not in places:
         raise ReadError(f'{table.name}: "component" without "record", the name that the components of a record share.')
-    left_out |= {f"{path.name}, line {line}": fault for line, fault in table.faults}
     entries = []
     for line, cells in table.rows:
         try:
