@@ -7,19 +7,10 @@ from colonnade.errors import ReadError
 from colonnade.readers.registry import read
 
 
-def test_channels_of_one_file_are_told_apart_and_dated(written):
+def test_channels_of_one_file_are_told_apart(written):
     recording = read(written("cosmos"))
     assert [channel.name for channel in recording.channels] == ["acceleration", "acceleration 2: 0 deg"]
     assert all(channel.unit == "cm/s^2" for channel in recording.channels)
-    assert recording.start.isoformat(timespec="milliseconds") == "2013-04-26T10:15:00.250+00:00"
-
-
-def test_a_channel_that_starts_later_keeps_its_own_clock(written):
-    path = written("cosmos")
-    first, second = path.read_text().split("/&", 1)
-    path.write_text(first + "/&" + second.replace("10:15:00.250", "10:15:00.750"), encoding="ascii")
-    one, two = read(path).channels
-    assert (one.time[0], two.time[0]) == (0.0, 0.5)
 
 
 def test_a_record_that_was_cut_off_says_how_many_points_are_there(written):

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from datetime import UTC, datetime
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
 from colonnade.errors import ReadError
-from colonnade.readers.clock import even_times, moment_of, on_one_zero
+from colonnade.readers.clock import even_times
 from colonnade.readers.format import Format, Options
 from colonnade.readers.head import by_first_line
 from colonnade.readers.recording import RecordedChannel, Recording
@@ -32,7 +31,6 @@ DATA = re.compile(
 )
 STEP = 61
 """Place, from 0, of the time step in ms among the real header values (COSMOS 1.20, Table 9, value 62)."""
-START = re.compile(r"start time\s*:\s*([\d/]+),?\s+([\d:.]+)\s*(\w*)", re.IGNORECASE)
 COMPONENT = re.compile(r"^Sta\s+Cha\w*[\s:]*(?P<name>.*?)\s*(?:\(Rcrdr|Location|$)", re.IGNORECASE)
 
 
@@ -50,8 +48,7 @@ def read(path: Path, options: Options) -> Recording:
         if channel.name in [other.name for other in channels]:
             channel = replace(channel, name=(name := f"{channel.name} {component or number}"), heading=name)
         channels.append(channel)
-    timed, start = on_one_zero(channels)  # a damaged header may lack its zone
-    return Recording(path, "cosmos", timed, start, warnings=tuple(warnings))
+    return Recording(path, "cosmos", tuple(channels), warnings=tuple(warnings))
 
 
 def _channel(path: Path, lines: list[str], first: int, end: int, warnings: list[str]) -> tuple[RecordedChannel, str]:
@@ -84,17 +81,8 @@ def _channel(path: Path, lines: list[str], first: int, end: int, warnings: list[
     warnings += [*told_of, *shortage(f"line {at + 1}", points, values.size)]
     above = lines[first:at]
     component = next((" ".join(found["name"].split()) for text in above if (found := COMPONENT.match(text))), "")
-    times, unit, start = even_times(values.size, step), spelled(data["unit"]), _start(above)
-    return RecordedChannel(data["quantity"].casefold(), unit, values, times, start=start), component
-
-
-def _start(texts: list[str]) -> datetime | None:
-    """Date and time of the first sample, `06/16/2005, 20:53:04.400 UTC` or `2018/11/30 17:29:39.137 UTC`."""
-    found = next((match for text in texts if (match := START.search(text))), None)
-    if found is None:
-        return None
-    start = moment_of(f"{found[1]} {found[2]}")
-    return start.replace(tzinfo=UTC) if start is not None and found[3].upper() in ("UTC", "GMT") else start
+    times = even_times(values.size, step)
+    return RecordedChannel(data["quantity"].casefold(), spelled(data["unit"]), values, times), component
 
 
 FORMAT = Format(

@@ -22,16 +22,13 @@ LOOK_AHEAD = 10
 
 COMMENT_SIGNS = ("#", "%", "//", "!")
 
-MISSING = frozenset(
-    text.casefold()
-    for text in (
-        *("", "-", "--", "---", "?", "NaN", "-NaN", "NA", "N/A", "n.a.", "#N/A", "null", "none", "nil", "void", "k.A."),
-        *("OVERFLOW", "OVERLOAD", "OVL", "OVLD", "OVR", "OVRNG", "OL", "OVER", "UNDER", "UNDERFLOW", "UNDERRANGE"),
-        *("OVERRANGE", "INF", "-INF", "+INF", "1.#INF", "-1.#INF", "1.#QNAN", "-1.#IND", "#NUM!", "#DIV/0!", "#VALUE!"),
-        *("invalid", "bad", "error", "err", "fault", "open", "no data", "missing"),
-    )
+_WORDS = (
+    "- -- --- ? nan -nan na n/a n.a. #n/a null none nil void k.a. missing invalid bad error err fault open overflow "
+    "overload ovl ovld ovr ovrng ol over overrange under underflow underrange inf -inf +inf 1.#inf -1.#inf 1.#qnan "
+    "-1.#ind #num! #div/0! #value!"
 )
-"""What recorders write in place of a number."""
+MISSING = frozenset(("", "no data", *_WORDS.split()))
+"""What recorders write in place of a number, casefolded."""
 
 MARKS = {" ": " \N{NO-BREAK SPACE}\N{NARROW NO-BREAK SPACE}", "'": "'\N{RIGHT SINGLE QUOTATION MARK}"}
 """How else a mark between thousands is written."""

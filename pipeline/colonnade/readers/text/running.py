@@ -31,14 +31,9 @@ UNIT = re.compile(
 )
 _COUNTED = r"(?:points?|samples?|pts\.?|values|ordinates|readings)"
 COUNTS = re.compile(
-    rf"\b(\d{{2,9}})\s+(?:\w+\s+)?{_COUNTED}\b"
-    rf"|\b(?:npts|(?:no\.?|number)\s+of\s+(?:\w+\s+)?{_COUNTED}|{_COUNTED})\s*[:=]?\s*(\d{{2,9}})\b",
-    re.IGNORECASE,
+    rf"\b(\d{{2,9}})\s+(?:\w+\s+)?{_COUNTED}\b|\b(?:npts|{_COUNTED})\s*[:=]?\s*(\d{{2,9}})\b", re.IGNORECASE
 )
-PER_ROW = re.compile(
-    rf"\b(\d{{1,3}})\s+(?:\w+\s+)?{_COUNTED}?\s*(?:across|(?:per|a|each|in a|in each|to a|on each)\s+(?:row|line))\b",
-    re.IGNORECASE,
-)
+PER_ROW = re.compile(r"\b(\d{1,3})\s+(?:\w+\s+){1,4}(?:row|line)\b", re.IGNORECASE)
 FEWEST_TIMES = 5
 """Rows from which on a first column that rises is one of times."""
 TOUCHING = re.compile(r"(?<=[\d.])(?=[-+])")
