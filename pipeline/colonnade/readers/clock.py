@@ -235,17 +235,16 @@ def even_times(count: int, step: float, begin: float = 0.0) -> Array:
 
 def moment_of(text: str) -> datetime | None:
     """
-    Read a date with time, the year in front or behind; None if it is none.
+    Read a date with time, the year in front or, between points, behind; None if it is none.
 
     Examples
     --------
-    >>> {moment_of(text) for text in ("26.04.2013 10:15:00,5", "04/26/2013 10:15:00.5", "2013-04-26T10:15:00.5")}
+    >>> {moment_of(text) for text in ("26.04.2013 10:15:00,5", "2013/04/26 10:15:00.5", "2013-04-26T10:15:00.5")}
     {datetime.datetime(2013, 4, 26, 10, 15, 0, 500000)}
     """
-    iso = re.sub(r"^(\d\d)/(\d\d)/(\d{4})", r"\3-\1-\2", re.sub(r"^(\d\d)\.(\d\d)\.(\d{4})", r"\3-\2-\1", text))
-    iso = re.sub(r"\s+(?=[-+]\d\d)", "", iso.replace("/", "-").replace(",", "."))
+    iso = re.sub(r"^(\d\d)\.(\d\d)\.(\d{4})", r"\3-\2-\1", text).replace("/", "-").replace(",", ".")
     with suppress(ValueError):
-        return datetime.fromisoformat(iso)
+        return datetime.fromisoformat(re.sub(r"\s+(?=[-+]\d\d)", "", iso))
     return None
 
 

@@ -34,6 +34,10 @@ _KNOWN: dict[bytes | tuple[bytes, ...], str] = {
     HDF5: "it is HDF5",
     OLE: "it is a document of an old Office program",
     ZIP: "it is a zip archive or an Office document",
+    b"\x93NUMPY": "it is a NumPy file, which is not read because it may contain a program: save the numbers as text",
+    (b"\x80\x02", b"\x80\x03", b"\x80\x04", b"\x80\x05"): (
+        "it is a Python pickle, a program that runs when it is opened: never read"
+    ),
     b"\x1f\x8b": "it is compressed with gzip: unpack it first",
 }
 _WEB_PAGE = (b"<!doctype html", b"<html", b"<head")
@@ -57,7 +61,7 @@ class Head:
     @cached_property
     def lines(self) -> list[str]:
         """The first lines, as text; none if the first is longer than the head."""
-        text = self.content.decode(encoding_of(self.content).name, errors="replace").removeprefix("\ufeff")
+        text = self.content.decode(encoding_of(self.content), errors="replace").removeprefix("\ufeff")
         if len(self.content) == BYTES and not {"\n", "\r"} & {*text}:
             return []
         return [line.rstrip("\r\n").replace("\0", "\ufffd") for line in islice(StringIO(text, newline=""), LINES)]
@@ -65,10 +69,8 @@ class Head:
     def look(self) -> str:
         """Say what the file is, in a clause such as "it is a web page …"; empty if nothing is known."""
         first = self.content
-        if not first:
-            return "the file is empty"
         if not first[:640].strip(b"\0"):
-            return "its first bytes are all zero, as an interrupted copy or recorder leaves them"
+            return "the file is empty, or its first bytes are all zero, as an interrupted copy or recorder leaves them"
         if first.lstrip(b"\xef\xbb\xbf \t\r\n").lower().startswith(_WEB_PAGE):
             return "it is a web page, not a recording: download it again, by the link to the file itself"
         return next((what for mark, what in _KNOWN.items() if first.startswith(mark)), "")

@@ -14,6 +14,7 @@ from typing import NamedTuple
 from colonnade.errors import ReadError, nearest, quoted
 from colonnade.readers.files import irregular, unreachable
 from colonnade.readers.text.encoding import Text, looks_binary
+from colonnade.readers.text.heading import take_apart
 
 LARGEST_BYTES = 10_000_000
 WORKBOOKS = (".xlsx", ".xlsm", ".xlsb", ".xls", ".ods")
@@ -133,7 +134,7 @@ def read_table(path: Path, what: str) -> SmallTable:
     rows = [(number, cells) for number, cells in stripped if any(cells) and not cells[0].startswith("#")]
     if not rows:
         raise ReadError(f"{path.name}: the file is empty. {what.capitalize()} with a row of column heads was expected.")
-    heads = tuple(map(_head, rows[0][1]))
+    heads = tuple(Head(*take_apart(cell)) for cell in rows[0][1])
     width = len(heads)
     if wrong := [
         f"{path.name}, row {number}: {len(cells)} cells are below {width} heads, the last {quoted(cells[-1])}. Put a "
@@ -156,8 +157,3 @@ def _rows(path: Path, text: str, delimiter: str) -> Iterator[tuple[int, list[str
             number = reader.line_num + 1
     except csv.Error as error:
         raise ReadError(f"{path.name}, row {number}: this is no row of a table ({error}).") from None
-
-
-def _head(cell: str) -> Head:
-    name, bracket, unit = cell.partition("[")
-    return Head(name.strip(), unit.strip().removesuffix("]").strip() if bracket else None)

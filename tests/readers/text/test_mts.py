@@ -62,7 +62,7 @@ def test_blocks_of_the_same_columns_go_on_and_others_are_kept_apart(tmp_path):
     assert displacement.values.tolist() == [10.5, 11.5, 12.5] * 2
     assert displacement.time.tolist() == [0, 0.5, 1, 100, 100.5, 101]
     assert recording.channel("block 2: Axial Force").values.tolist() == [7.5]
-    assert ['called "block 2: …"' in told for told in recording.warnings] == [True]
+    assert recording.warnings == ()
     assert recording.channel("block 2: Axial Force").time is None
 
 

@@ -81,7 +81,7 @@ def test_what_is_no_number_is_missing_and_told_with_its_line(tmp_path):
     path.write_text(path.read_text().replace("7.8900000E-02", "7.89####E-02"), encoding="ascii")
     recording = read(path)
     assert np.isnan(recording.channels[0].values).sum() == 1
-    assert "on line 5" in recording.warnings[0]
+    assert "line 5" in recording.warnings[0]
     with pytest.raises(ReadError, match="accelerations are missing"), pytest.warns(UserWarning, match="line 5"):
         read_motion(path)
 

@@ -18,7 +18,7 @@ from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import OLE, ZIP, Head, from_head
 from colonnade.readers.recording import Recording
 from colonnade.readers.text.delimited import DelimitedOptions, TableOptions, read_text
-from colonnade.readers.text.encoding import Encoding, Text
+from colonnade.readers.text.encoding import Text
 
 NUMBER_AS_TEXT = re.compile(r"\s*[+-]?\d+(?:[.,]\d*)?(?:[eE][+-]?\d+)?\s*")
 """A cell of text that is a number, with a decimal point or comma."""
@@ -50,7 +50,7 @@ def read(path: Path, options: ExcelOptions) -> Recording:
     """Read a sheet of a workbook, as the text that its rows would be."""
     recognise.expected(path)
     rows, note = _sheet(path, options.sheet)
-    text = Text(path, Encoding("utf-8", ""), "".join(f"{line}\n" for line in _lines(rows)))
+    text = Text(path, "utf-8", "".join(f"{line}\n" for line in _lines(rows)))
     given = options.model_dump(exclude={"sheet"}, exclude_unset=True)
     recording = read_text(text, DelimitedOptions(delimiter="\t", decimal=".", **given))
     notes, warnings = (tuple(map(_of_rows, said)) for said in (recording.notes, recording.warnings))

@@ -78,7 +78,7 @@ def _data_sets(stream: BinaryIO) -> Iterator[tuple[int, list[str]]]:
 def _function(stream: BinaryIO, fields: list[str], warnings: list[str], notes: list[str]) -> Iterator[RecordedChannel]:
     """Read a data set 58, its eleven lines by their columns; ValueError or IndexError if it is incomplete."""
     lines = [stream.readline() for _ in range(HEADER_LINES)]
-    texts = (line.decode(encoding_of(line).name, errors="replace").rstrip("\r\n") for line in lines)
+    texts = (line.decode(encoding_of(line), errors="replace").rstrip("\r\n") for line in lines)
     title, *_, kinds, form, abscissa, ordinate, _, _ = texts
     name = _label(title) or f"node {kinds[41:51].strip()} direction {kinds[51:55].strip()}"
     number, points, spacing, start, interval = (*form.split(), *[""] * 5)[:5]

@@ -29,6 +29,8 @@ DATA = re.compile(
     r".*?units?\s*=\s*(?P<unit>[^(,\s]*).*?\((?P<count>\d{0,4})[EFI](?P<width>[1-9]\d{0,3})",
     re.IGNORECASE,
 )
+LONGEST_LINE = 1000
+"""Characters that are looked at; a line has 80 or 132."""
 STEP = 61
 """Place, from 0, of the time step in ms among the real header values (COSMOS 1.20, Table 9, value 62)."""
 COMPONENT = re.compile(r"^Sta\s+Cha\w*[\s:]*(?P<name>.*?)\s*(?:\(Rcrdr|Location|$)", re.IGNORECASE)
@@ -39,7 +41,7 @@ recognise = by_first_line(FIRST_LINE, '"(Format v… with … text lines)"')
 
 def read(path: Path, options: Options) -> Recording:
     """Read a COSMOS record of one or more channels; ReadError if a header is not whole or gives no time step."""
-    lines = Text.of(path).lines()
+    lines = [line[:LONGEST_LINE] for line in Text.of(path).lines()]
     starts = [number for number, line in enumerate(lines) if FIRST_LINE.search(line)]
     channels: list[RecordedChannel] = []
     warnings: list[str] = []

@@ -24,7 +24,7 @@ from colonnade.readers.text.dialect import (
     find_first_sample,
     sniff,
 )
-from colonnade.readers.text.encoding import Text, TextOptions, looks_binary
+from colonnade.readers.text.encoding import ASSUMED, Text, TextOptions, looks_binary
 from colonnade.readers.text.heading import Heading, find_heading, read_heading
 from colonnade.readers.text.rows import RowForm, read_rows
 from colonnade.readers.text.running import HeaderClaims, header_claims, read_series, why_running
@@ -123,8 +123,9 @@ def read_header(text: Text, options: DelimitedOptions) -> Header:
         names, units = (names, -1) if options.units_row is None else (-1, units)
     heading = read_heading(lines, (names, units), dialect, kinds)
     notes = [*sniffed.notes, *heading.notes, f"first sample on line {first + 1}"]
-    if text.encoding.evidence:
-        notes.insert(0, f"encoding {text.encoding.name} ({text.encoding.evidence})")
+    if text.made is None:
+        why = " assumed: it is not UTF-8" if text.encoding == ASSUMED else ""
+        notes.insert(0, f"encoding {text.encoding}{why}")
     stamp = next((cell for cell, kind in zip(dialect.split(lines[first]), kinds, strict=True) if kind == "time"), "")
     form = RowForm(dialect, kinds, exact=text.made is not None)
     return Header(form, first, heading, header_claims("\n".join(lines[:first])), moment_of(stamp), tuple(notes))

@@ -30,8 +30,9 @@ _WORDS = (
 MISSING = frozenset(("", "no data", *_WORDS.split()))
 """What recorders write in place of a number, casefolded."""
 
-MARKS = {" ": " \N{NO-BREAK SPACE}\N{NARROW NO-BREAK SPACE}", "'": "'\N{RIGHT SINGLE QUOTATION MARK}"}
-"""How else a mark between thousands is written."""
+MARKS = " '\N{RIGHT SINGLE QUOTATION MARK}\N{NO-BREAK SPACE}\N{NARROW NO-BREAK SPACE}"
+"""Between thousands, besides points and commas, where there are such marks."""
+_PLAIN = str.maketrans("dD\N{MINUS SIGN}", "ee-", MARKS)
 
 TIMESTAMP = re.compile(
     r"(?:(?:\d{4}([-/])\d{1,2}\1\d{1,2}|\d{1,2}\.\d{1,2}\.\d{4})[T ]+)?"  # a date, year first or dotted, may be absent
@@ -94,20 +95,12 @@ class Dialect:
         text = cell.strip().strip('"').strip()
         if text.casefold() in self.missing or not self.is_number(text):
             return {"true": 1.0, "false": 0.0}.get(text.casefold(), float("nan"))
-        return float(text.translate(self._plain).replace(self.decimal, "."))
-
-    @cached_property
-    def _marks(self) -> str:
-        return MARKS.get(self.thousands, self.thousands) if self.thousands else ""
-
-    @cached_property
-    def _plain(self) -> dict[int, int | None]:
-        return str.maketrans("dD\N{MINUS SIGN}", "ee-", self._marks)
+        return float(text.replace(self.thousands or "", "").translate(_PLAIN).replace(self.decimal, "."))
 
     @cached_property
     def _number(self) -> re.Pattern[str]:
         decimal = re.escape(self.decimal)
-        whole = rf"(?:\d{{1,3}}(?:[{self._marks}]\d{{3}})+|\d+)" if self._marks else r"\d+"
+        whole = rf"(?:\d{{1,3}}(?:[{self.thousands}{MARKS}]\d{{3}})+|\d+)" if self.thousands else r"\d+"
         number = rf"[+\-\N{{MINUS SIGN}}]?(?:{whole}(?:{decimal}\d*)?|{decimal}\d+)(?:[eEdD][+-]?\d+)?"
         return re.compile(number, re.ASCII)
 

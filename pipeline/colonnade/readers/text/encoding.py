@@ -11,13 +11,10 @@ from typing import Annotated, NamedTuple, TextIO
 
 from pydantic import AfterValidator, Field
 
-from colonnade.errors import ReadError
 from colonnade.readers.format import Options
 
 HEAD_BYTES = 1 << 18
 """As much of a file as is looked at to find out how it is written."""
-LONGEST_LINE = 1 << 20
-"""Characters of a line; no recorder writes longer ones."""
 PIECE = 1 << 21
 """Characters that are cut into cells at once."""
 ROWS_AT_ONCE = 20_000
@@ -27,25 +24,19 @@ UNREADABLE = "\ufffd"
 PRINTED_CONTROLS = frozenset("\t\n\r\f\v\x1a")
 
 
-class Encoding(NamedTuple):
-    """A text encoding and how it was found."""
-
-    name: str
-    evidence: str
+ASSUMED = "cp1252"
+"""The encoding of bytes that are not UTF-8: Windows-1252, which holds Latin-1."""
 
 
-def encoding_of(head: bytes) -> Encoding:
-    """Find a text's encoding: UTF-16 by its byte order mark, UTF-8 if that is valid, else Windows-1252."""
+def encoding_of(head: bytes) -> str:
+    """Find a text's encoding: UTF-16 by its byte order mark, UTF-8 if that is valid, else what is assumed."""
     if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        return Encoding("utf-16", "by its byte order mark")
+        return "utf-16"
     try:
         codecs.getincrementaldecoder("utf-8")().decode(head, final=False)
-    except UnicodeDecodeError as error:
-        place = head.count(b"\n", 0, error.start) + 1
-        return Encoding(
-            "cp1252", f"byte 0x{head[error.start]:02x} on line {place} is not UTF-8; Windows-1252 is assumed"
-        )
-    return Encoding("utf-8", "valid in the part examined")
+    except UnicodeDecodeError:
+        return ASSUMED
+    return "utf-8"
 
 
 def known_encoding(name: str) -> str:
@@ -81,22 +72,20 @@ class Text:
     """
 
     path: Path
-    encoding: Encoding
+    encoding: str
     made: str | None = None
 
     @classmethod
     def of(cls, path: Path, encoding: str | None = None) -> Text:
         """Take a file, in an encoding that is given or found; OSError if it cannot be opened."""
-        if encoding is not None:
-            return cls(path, Encoding(encoding, ""))
         with path.open("rb") as stream:
-            return cls(path, encoding_of(stream.read(HEAD_BYTES)))
+            return cls(path, encoding or encoding_of(stream.read(HEAD_BYTES)))
 
     def open(self) -> TextIO:
         """Open it for reading; whatever its line ends are, they come out as line feeds."""
         if self.made is not None:
             return StringIO(self.made)
-        name = "utf-8-sig" if self.encoding.name == "utf-8" else self.encoding.name
+        name = "utf-8-sig" if self.encoding == "utf-8" else self.encoding
         return self.path.open(encoding=name, errors="replace")
 
     def head(self) -> list[str]:
@@ -108,15 +97,9 @@ class Text:
         return lines[:-1] if lines[-1] == "" or (not is_whole and len(lines) > 1) else lines
 
     def lines(self) -> list[str]:
-        """All lines; the last one is empty if it has a line end. ReadError if one is too long for a recorder's."""
+        """All lines; the last one is empty if it has a line end."""
         with self.open() as stream:
-            lines = stream.read().replace("\0", UNREADABLE).split("\n")
-        if long := next((number for number, line in enumerate(lines, 1) if len(line) > LONGEST_LINE), None):
-            raise ReadError(
-                f"{self.path.name}: line {long} has more than {LONGEST_LINE} characters; rows of numbers were "
-                "expected. The file is damaged or of another kind."
-            )
-        return lines
+            return stream.read().replace("\0", UNREADABLE).split("\n")
 
     def whole_lines(self) -> tuple[list[str], list[str]]:
         """All lines that end, as an instrument's own program ends each, and a warning of one that does not."""

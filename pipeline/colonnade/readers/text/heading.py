@@ -19,6 +19,8 @@ UNIT = re.compile(
 BRACKETED = re.compile(r"(?P<name>.*?)(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))\s*(?P<plot>-\s.*)?")
 """`LVDT 1 [mm]`, `Accel (g)`, and `Time [s] - Plot 0`, as LabVIEW exports its graphs."""
 SOLIDUS = re.compile(r"(?P<name>.*\w{2}.*?)(?:\s*/\s*|\s+in\s+)(?P<unit>\S+)")
+LONGEST_HEADING = 200
+"""Characters of a heading; a line of a damaged file may have far more."""
 LETTERED = re.compile(r"(.+?)\s*\([A-Z]\)\s*")
 """`LVDT (A)`, `Acc (V)`: the letter is a unit or a label."""
 RULE = re.compile(r"[\s\-=_*+|;,.]*")
@@ -54,16 +56,14 @@ def read_heading(lines: list[str], where: Lines, dialect: Dialect, kinds: tuple[
     units = tuple(own or unit for own, (_, unit) in zip(bare, parts, strict=True))
     headings = tuple(cell or f"column {number}" for number, cell in enumerate(names_row[:width], 1))
     names = tuple(name or f"column {number}" for number, (name, _) in enumerate(parts, 1))
-    notes = [
-        f'{what} on line {index + 1} ("{row[0]}", …)' if index >= 0 else f"no line of {what} above the samples"
-        for what, index, row in zip(("names", "units"), where, (names_row, units_row), strict=True)
-    ]
+    found = zip(("names", "units"), where, (names_row, units_row), strict=True)
+    notes = tuple(f'{what} on line {index + 1} ("{row[0]}", …)' for what, index, row in found if index >= 0)
     # A title above a table fills a cell only; words between single blanks may be a sentence.
     is_named = 2 * sum(bool(name or unit) for name, unit in zip(names_row, units, strict=False)) > width
     if is_named and where[0] >= 0 > where[1] and dialect.delimiter == WHITESPACE:
         words = lines[where[0]].split()
         is_named = len(words) <= 2 or lines[where[0]].strip() != " ".join(words)
-    return Heading(headings, names, units, is_named, tuple(notes))
+    return Heading(headings, names, units, is_named, notes)
 
 
 def find_heading(lines: list[str], start: int, first: int, dialect: Dialect, kinds: tuple[str, ...]) -> Lines:
@@ -84,9 +84,8 @@ def find_heading(lines: list[str], start: int, first: int, dialect: Dialect, kin
     units = [cell for cell in filled if looks_like_unit(cell)]
     if len(fitting) == 2 and len(units) >= 0.6 * len(filled):
         return fitting[1][0], index
-    # A single line of units: nobody calls two channels "mm", but two channels are in mm.
-    repeated_or_bracketed = len(set(units)) < len(units) or all(cell.startswith(("[", "(")) for cell in units)
-    return (-1, index) if len(units) == len(filled) and repeated_or_bracketed else (index, -1)
+    # Nobody calls two channels "mm", but two channels are in mm.
+    return (-1, index) if len(units) == len(filled) > len(set(units)) else (index, -1)
 
 
 def looks_like_unit(text: str) -> bool:
@@ -112,6 +111,8 @@ def take_apart(heading: str) -> tuple[str, str | None]:
     >>> take_apart("Time [s] - Plot 0")
     ('Time - Plot 0', 's')
     """
+    if len(heading) > LONGEST_HEADING:
+        return heading, None
     match = BRACKETED.fullmatch(heading)
     if match and (name := match["name"].rstrip()):
         square, plot = match["square"], match["plot"]

@@ -104,7 +104,7 @@ def read(path: Path, options: TextOptions) -> Recording:
             warnings.append(wrong)
         at = stop
     timed, start = on_one_zero([_joined(same) for same in pieces.values()])
-    notes = (f"encoding {text.encoding.name}", f"clock: X_Columns is {header.clocks}")
+    notes = (f"encoding {text.encoding}", f"clock: X_Columns is {header.clocks}")
     return Recording(path, "lvm", timed, start, notes, tuple(dict.fromkeys(warnings)))
 
 

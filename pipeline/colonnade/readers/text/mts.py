@@ -62,9 +62,7 @@ def read(path: Path, options: TextOptions) -> Recording:
         for name, unit, *pieces in zip(*heads, *same, strict=True):
             values = np.concatenate(pieces)
             channels.append(RecordedChannel(before + name, unit or None, values, scope=(f"block {number}",)))
-    if len(blocks) > 1:
-        warnings.append(f'{len(blocks)} blocks with different columns: those of later ones are called "block 2: …"')
-    notes = (f"encoding {text.encoding.name}",)
+    notes = (f"encoding {text.encoding}",)
     found = with_clocks(Recording(path, "mts", tuple(channels), notes=notes, warnings=tuple(warnings)))
     clock = found.channels[0].time
     return found if clock is None else replace(found, start=moment_after(origin, float(clock[0])))

@@ -125,12 +125,9 @@ def read_running(lines: Iterable[tuple[int, str]], *, width: int | None = None) 
         found = [_number(field) for field in fields]
         numbers += found
         if not all(map(isfinite, found)):
-            faults.append(f'{number}: "{line.strip()[:SHOWN]}"')
-    warnings = []
-    if faults:
-        what = "1 line holds" if len(faults) == 1 else f"{len(faults)} lines hold"
-        first = "first " if len(faults) > 1 else ""
-        warnings.append(f"{what} something that is not a number ({first}on line {faults[0]}); missing")
+            faults.append(f'line {number} ("{line.strip()[:SHOWN]}")')
+    more = f" and {len(faults) - 1} more" if len(faults) > 1 else ""
+    warnings = [f"{faults[0]}{more}: something that is not a number; missing"] if faults else []
     values = np.array(numbers, dtype=np.float64)
     return np.where(np.isinf(values), np.nan, values), warnings
 
