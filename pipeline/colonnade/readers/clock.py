@@ -101,10 +101,9 @@ def with_clocks(
     without = [number for number, each in enumerate(times) if each is None]
     if without:
         step, note = _constant_step(scalars or {})
-        hints = (may_be_clock(channels[number].heading, channels[number].values) for number in without)
         others = f" and {len(without) - 1} more" if len(without) > 1 else ""
         missing = f'no clock for "{channels[without[0]].heading}"{others}: no rising column has a name or unit of time'
-        notes.append(note or missing + next(filter(None, hints), ""))
+        notes.append(note or missing)
         if step is not None:
             for number in without:
                 times[number] = even_times(channels[number].values.size, step)
@@ -133,19 +132,15 @@ def _by_name(channels: Sequence[RecordedChannel], warnings: list[str]) -> list[i
             if number not in rising and np.isfinite(channels[number].values).any():
                 heading = channels[number].heading
                 warnings.append(f'"{heading}" looks like a clock, but too few of its steps go forward: it is not used')
-        alike = [n for n in members if channels[n].unit is None and any(map(LIKE_TIME.fullmatch, _names(channels[n])))]
+        alike = [n for n in members if channels[n].unit is None and LIKE_TIME.fullmatch(channels[n].name)]
         found += [n for n in plain if n in rising] or [n for n in alike if n in rising][:1]
     return sorted(found)
-
-
-def _names(channel: RecordedChannel) -> set[str]:
-    return {channel.name, re.split(r"[./]", channel.heading)[-1]} if channel.scope else {channel.name}
 
 
 def _is_time(channel: RecordedChannel, *, is_first: bool) -> bool:
     """Whether name and unit are those of times; a unit alone says it of the first in a table or group."""
     by_unit = channel.unit is not None and channel.unit.casefold() in TIME_UNITS
-    by_name = any(TIME_NAME.fullmatch(name.casefold()) for name in _names(channel))
+    by_name = TIME_NAME.fullmatch(channel.name.casefold()) is not None
     return channel.is_clock or (by_name and (by_unit or channel.unit is None)) or (by_unit and is_first)
 
 

@@ -9,7 +9,7 @@ from colonnade.readers.registry import read
 
 def test_channels_of_one_file_are_told_apart(written):
     recording = read(written("cosmos"))
-    assert [channel.name for channel in recording.channels] == ["acceleration", "acceleration 2: 0 deg"]
+    assert [channel.name for channel in recording.channels] == ["acceleration", "acceleration 2"]
     assert all(channel.unit == "cm/s^2" for channel in recording.channels)
 
 

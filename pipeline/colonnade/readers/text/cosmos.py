@@ -33,8 +33,6 @@ LONGEST_LINE = 1000
 """Characters that are looked at; a line has 80 or 132."""
 STEP = 61
 """Place, from 0, of the time step in ms among the real header values (COSMOS 1.20, Table 9, value 62)."""
-COMPONENT = re.compile(r"^Sta\s+Cha\w*[\s:]*(?P<name>.*?)\s*(?:\(Rcrdr|Location|$)", re.IGNORECASE)
-
 
 recognise = by_first_line(FIRST_LINE, '"(Format v… with … text lines)"')
 
@@ -46,15 +44,15 @@ def read(path: Path, options: Options) -> Recording:
     channels: list[RecordedChannel] = []
     warnings: list[str] = []
     for number, (first, end) in enumerate(pairwise([*starts, len(lines)]), 1):
-        channel, component = _channel(path, lines, first, end, warnings)
-        if channel.name in [other.name for other in channels]:
-            channel = replace(channel, name=(name := f"{channel.name} {component or number}"), heading=name)
-        channels.append(channel)
+        channel = _channel(path, lines, first, end, warnings)
+        is_known = channel.name in [other.name for other in channels]
+        name = f"{channel.name} {number}" if is_known else channel.name
+        channels.append(replace(channel, name=name, heading=name))
     return Recording(path, "cosmos", tuple(channels), warnings=tuple(warnings))
 
 
-def _channel(path: Path, lines: list[str], first: int, end: int, warnings: list[str]) -> tuple[RecordedChannel, str]:
-    """Read the channel between two lines, and name its component."""
+def _channel(path: Path, lines: list[str], first: int, end: int, warnings: list[str]) -> RecordedChannel:
+    """Read the channel between two lines."""
     matches = ((number, match) for number in range(first, end) if (match := DATA.match(lines[number])))
     at, data = next(matches, (end, None))
     if data is None:
@@ -81,10 +79,8 @@ def _channel(path: Path, lines: list[str], first: int, end: int, warnings: list[
     values, told_of = read_running(enumerate(lines[at + 1 : stop], at + 2), width=int(data["width"]))
     values = values[:points]
     warnings += [*told_of, *shortage(f"line {at + 1}", points, values.size)]
-    above = lines[first:at]
-    component = next((" ".join(found["name"].split()) for text in above if (found := COMPONENT.match(text))), "")
     times = even_times(values.size, step)
-    return RecordedChannel(data["quantity"].casefold(), spelled(data["unit"]), values, times), component
+    return RecordedChannel(data["quantity"].casefold(), spelled(data["unit"]), values, times)
 
 
 FORMAT = Format(

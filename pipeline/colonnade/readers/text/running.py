@@ -38,7 +38,6 @@ FEWEST_TIMES = 5
 """Rows from which on a first column that rises is one of times."""
 TOUCHING = re.compile(r"(?<=[\d.])(?=[-+])")
 """Without a blank between, a new number starts with its sign."""
-SHOWN = 50
 
 
 class HeaderClaims(NamedTuple):
@@ -125,7 +124,7 @@ def read_running(lines: Iterable[tuple[int, str]], *, width: int | None = None) 
         found = [_number(field) for field in fields]
         numbers += found
         if not all(map(isfinite, found)):
-            faults.append(f'line {number} ("{line.strip()[:SHOWN]}")')
+            faults.append(f'line {number} ("{line.strip()[:50]}")')
     more = f" and {len(faults) - 1} more" if len(faults) > 1 else ""
     warnings = [f"{faults[0]}{more}: something that is not a number; missing"] if faults else []
     values = np.array(numbers, dtype=np.float64)
