@@ -126,15 +126,20 @@ def _by_name(channels: Sequence[RecordedChannel], warnings: list[str]) -> list[i
         bundles.setdefault((channel.scope, channel.values.size), []).append(number)
     found: list[int] = []
     for members in bundles.values():
-        rising = {number for number in members if rising_share(channels[number].values) >= RISING_SHARE}
         plain = [number for number in members if _is_time(channels[number], is_first=number == members[0])]
-        for number in plain:
-            if number not in rising and np.isfinite(channels[number].values).any():
-                heading = channels[number].heading
-                warnings.append(f'"{heading}" looks like a clock, but too few of its steps go forward: it is not used')
-        alike = [n for n in members if channels[n].unit is None and LIKE_TIME.fullmatch(channels[n].name)]
-        found += [n for n in plain if n in rising] or [n for n in alike if n in rising][:1]
+        rising = [number for number in plain if _rises(channels[number])]
+        for channel in [channels[number] for number in plain if number not in rising]:
+            if np.isfinite(channel.values).any():
+                looks = f'"{channel.heading}" looks like a clock'
+                warnings.append(f"{looks}, but too few of its steps go forward: it is not used as one")
+        unnamed = (number for number in members if channels[number].unit is None)
+        alike = (number for number in unnamed if LIKE_TIME.fullmatch(channels[number].name))
+        found += rising or [number for number in alike if _rises(channels[number])][:1]
     return sorted(found)
+
+
+def _rises(channel: RecordedChannel) -> bool:
+    return rising_share(channel.values) >= RISING_SHARE
 
 
 def _is_time(channel: RecordedChannel, *, is_first: bool) -> bool:
@@ -153,12 +158,11 @@ def _by_steps(channels: Sequence[RecordedChannel]) -> list[int]:
     first = channels[0] if channels else None
     if first is None or first.name != "column 1" or first.unit is not None or first.values.size <= FEWEST_STEPS:
         return []
-    begin, step = float(first.values[0]), float(first.values[-1] - first.values[0]) / (first.values.size - 1)
+    count, begin = first.values.size, float(first.values[0])
+    step = float(first.values[-1] - begin) / (count - 1)
     # Rounded times are off by less than a step.
-    is_even = (np.diff(first.values) > 0).all() and np.abs(
-        first.values - even_times(first.values.size, step, begin)
-    ) < step
-    return [0] if step < LONGEST_STEP and np.all(is_even) else []
+    is_even = np.all(np.diff(first.values) > 0) and np.all(np.abs(first.values - even_times(count, step, begin)) < step)
+    return [0] if is_even and step < LONGEST_STEP else []
 
 
 def _nearest(number: int, channels: Sequence[RecordedChannel], clocks: Mapping[int, Array]) -> Array | None:

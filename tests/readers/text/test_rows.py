@@ -1,7 +1,6 @@
 """Rows become columns of numbers; rows unlike the others come with their lines and faults."""
 
 import numpy as np
-import pytest
 
 from colonnade.readers.text.dialect import Dialect
 from colonnade.readers.text.encoding import Piece
@@ -12,15 +11,6 @@ FORM = RowForm(Dialect(";", "."), ("number", "number"))
 
 
 TABS = RowForm(Dialect("\t", "."), ("number", "number"))
-
-
-@pytest.mark.parametrize("size", [1, 2, 5], ids="in pieces of {}".format)
-def test_columns_and_lines_come_out_whatever_the_size_of_the_pieces(size):
-    texts = [f"{row}.5\t{-row}" if row % 2 else "" for row in range(6)]
-    pieces = [Piece(11 + at, "\n".join([*texts[at : at + size], ""])) for at in range(0, 6, size)]
-    columns, warnings = read_rows([*pieces, Piece(17, "x\t4")], TABS, "ab")
-    np.testing.assert_array_equal(columns, [[1.5, 3.5, 5.5, np.nan], [-1, -3, -5, 4]])
-    assert warnings == ['"a": 1 cell holds no number (on line 17: "x"); missing']
 
 
 def test_timestamps_are_seconds_from_the_first_in_later_pieces_too():

@@ -26,9 +26,8 @@ SIGNATURE = "LabVIEW Measurement"
 END_OF_HEADER = "***End_of_Header***"
 HEADER_STARTS = ("Channels", "Notes")
 """With what a segment's header starts; notes are written in front of all else."""
-SEPARATOR = re.compile(r"^Separator\W*(\w+)", re.MULTILINE)
-"""It may itself be written with the separator that it names."""
-SEPARATORS = {"comma": ",", "semicolon": ";", "space": " "}
+COMMAS = re.compile(r"^Separator\W*comma", re.IGNORECASE | re.MULTILINE)
+"""LabVIEW writes tabs or commas; this line may itself be written with the separator that it names."""
 SINCE_EPOCH = 1e9
 """Seconds: larger x-values count from 1904, not from the start of the recording."""
 
@@ -67,8 +66,7 @@ def read(path: Path, options: TextOptions) -> Recording:
     """Read a LabVIEW file; channels of one name are joined over its segments by each segment's own date and time."""
     text = Text.of(path, options.encoding)
     lines, warnings = text.whole_lines()
-    named = SEPARATOR.search("\n".join(lines[:12]))
-    separator = SEPARATORS.get(named[1].casefold(), "\t") if named else "\t"
+    separator = "," if COMMAS.search("\n".join(lines[:12])) else "\t"
     header = Header.of(lines, 0, separator)
     if header.below > len(lines):
         raise ReadError(f'{path.name}: the line "{END_OF_HEADER}" is missing: the file was cut off in its header.')
