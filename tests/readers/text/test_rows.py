@@ -39,14 +39,14 @@ def test_lines_that_are_not_samples_are_left_out_and_listed():
 
 def test_at_most_five_lines_are_listed():
     columns, warnings = mended(*["1;2;3", "1;2;3;4"] * 7, "1;2;3")
-    assert warnings[0].startswith("lines 2, 4, 6, 8, 10 and 2 more: counted as missing: not 3 cells")
+    assert warnings[0].startswith("lines 2, 4, 6, 8, 10 and 2 more: counted as missing: more than 3 cells")
     assert np.isnan(columns[0]).sum() == 7
 
 
 def test_a_last_line_with_too_few_cells_is_left_out():
     columns, warnings = mended("1;2;3", "4;5", "7;8")
     np.testing.assert_array_equal(columns[0], [1, np.nan])
-    assert warnings[0] == 'line 2: counted as missing: not 3 cells ("4;5")'
+    assert warnings[0] == 'line 2: counted as missing: fewer than 3 cells ("4;5")'
     assert warnings[1] == 'line 3: left out: the file ends here, before all 3 cells ("7;8")'
 
 
@@ -64,8 +64,8 @@ def test_rows_of_ragged_columns_may_end_early():
 @every(
     ("odd", "told"),
     [
-        ("7", 'line 2: counted as missing: not 2 cells ("7")'),
-        ("7\t8\t9\t10", 'line 2: counted as missing: not 2 cells ("7 8 9 10")'),
+        ("7", 'line 2: counted as missing: fewer than 2 cells ("7")'),
+        ("7\t8\t9\t10", 'line 2: counted as missing: more than 2 cells ("7 8 9 10")'),
         ("7\tOVL", '"b": 1 cell holds no number (on line 2: "OVL"); missing'),
         ("1.2.3\t8", '"a": 1 cell holds no number (on line 2: "1.2.3"); missing'),
         ("7\tinf", '"b": 1 cell holds no number (on line 2: "inf"); missing'),
@@ -78,10 +78,18 @@ def test_a_row_that_is_not_as_the_others_is_told_with_its_line(odd, told):
     assert np.isnan([column[1] for column in columns]).any()
 
 
-@every("remarks", [0, 1])
+@every("remarks", [False, True])
 def test_remarks_and_empty_cells_beyond_the_columns_are_not_looked_at(remarks):
-    form = RowForm(TABS.dialect, TABS.kinds, remarks=remarks)
+    form = RowForm(TABS.dialect, TABS.kinds, has_remarks=remarks)
     assert mended("1\t2" + "\tOK" * remarks, "3\t4\t\t\t", "5\t6", form=form) == ([[1, 3, 5], [2, 4, 6]], [])
+
+
+@every("row", ["4;7;5;", "4;5", "4;5;", "4;;;5"])
+def test_a_row_with_another_number_of_cells_moves_no_value_where_lines_end_with_a_delimiter(row):
+    form = RowForm(THREE.dialect, THREE.kinds[:2], trailing=1)
+    columns, warnings = mended("1;2;", row, "7;8;", form=form)
+    assert [column[2] for column in columns] == [7, 8]
+    assert row == "4;5;" or (np.isnan([column[1] for column in columns]).all() and "line 2" in warnings[0])
 
 
 def test_no_rows_are_empty_columns():

@@ -126,8 +126,9 @@ def read_header(text: Text, options: DelimitedOptions) -> Header:
     if text.made is None:
         why = " assumed: it is not UTF-8" if text.encoding == ASSUMED else ""
         notes.insert(0, f"encoding {text.encoding}{why}")
+    width = len(heading.names)
     stamp = next((cell for cell, kind in zip(dialect.split(lines[first]), kinds, strict=True) if kind == "time"), "")
-    form = RowForm(dialect, kinds, exact=text.made is not None)
+    form = RowForm(dialect, kinds[:width], len(kinds) - width, exact=text.made is not None)
     return Header(form, first, heading, header_claims("\n".join(lines[:first])), moment_of(stamp), tuple(notes))
 
 

@@ -85,7 +85,7 @@ def read(path: Path, options: TextOptions) -> Recording:
         if names and lines[at].startswith(HEADER_STARTS):
             samples = segment.entries.get("Samples", [])
             kinds = ("empty" if header.clocks == "no" else "number", *["number"] * (len(names) - 1))
-            form = RowForm(dialect, kinds, remarks=1, is_ragged=len({*filter(None, samples[1:])}) > 1)
+            form = RowForm(dialect, kinds, has_remarks=True, is_ragged=len({*filter(None, samples[1:])}) > 1)
             columns, told = read_rows(pieces_of(lines, first, stop), form, names)
             warnings += told
             for name, said, column in zip(names, samples, columns, strict=False):

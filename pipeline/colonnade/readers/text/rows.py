@@ -27,10 +27,11 @@ NUMERIC = ("number", "time")
 SHOWN = 50
 """Characters of a line that a message quotes."""
 
-Fault = Literal["blank", "text", "cells", "cut"]
+Fault = Literal["blank", "text", "short", "long", "cut"]
 SENTENCES: dict[Fault, str] = {
     "text": "left out: text without a number",
-    "cells": "counted as missing: not {} cells",
+    "short": "counted as missing: fewer than {} cells",
+    "long": "counted as missing: more than {} cells",
     "cut": "left out: the file ends here, before all {} cells",
 }
 
@@ -45,8 +46,10 @@ class RowForm:
     dialect : Dialect
     kinds : tuple of str
         What each column holds, as of `dialect.Sniffed`.
-    remarks : int
-        Cells behind these columns that are not looked at, on any row.
+    trailing : int
+        Cells behind these columns: empty ones on every row, made by delimiters at its end.
+    has_remarks : bool
+        Whether a cell behind these columns may be on any row, and is not looked at.
     is_ragged : bool
         Whether columns may end before the last row, and rows before the last cell.
     exact : bool
@@ -55,14 +58,15 @@ class RowForm:
 
     dialect: Dialect
     kinds: tuple[str, ...]
-    remarks: int = 0
+    trailing: int = 0
+    has_remarks: bool = False
     is_ragged: bool = False
     exact: bool = False
 
     @property
-    def most_cells(self) -> int:
-        """Cells that a row has at most."""
-        return len(self.kinds) + self.remarks
+    def width(self) -> int:
+        """Columns, and what is behind them and not looked at."""
+        return len(self.kinds) + self.has_remarks
 
     def fault_of(self, line: str, *, has_number: bool) -> Fault | None:
         """Name what is wrong with a row; None if it is a sample, though perhaps without some of its numbers."""
@@ -72,8 +76,9 @@ class RowForm:
         if not has_number and not looks_like_numbers(line):
             # Cells that are empty or say "missing", without any other text, are a sample nevertheless.
             return "text" if any(kind_of(cell, self.dialect) == "text" for cell in cells) else None
-        is_short = len(cells) < len(self.kinds) and not self.is_ragged
-        return "cells" if is_short or any(cells[self.most_cells :]) else None
+        if len(cells) < len(self.kinds) + self.trailing and not self.is_ragged:
+            return "short"
+        return "long" if any(cells[self.width :]) else None
 
 
 class Faulty(NamedTuple):
@@ -109,7 +114,7 @@ def read_rows(pieces: Iterable[Piece], form: RowForm, headings: Sequence[str]) -
         warnings.simplefilter("error", ParserWarning)  # pandas only warns when it drops cells
         parts = [*_parts(pieces, form)]
     faulty = [row for part in parts for row in part.faulty]
-    if faulty and (faulty[-1].line, faulty[-1].fault) == (parts[-1].last, "cells"):
+    if faulty and (faulty[-1].line, faulty[-1].fault) == (parts[-1].last, "short"):
         faulty[-1] = faulty[-1]._replace(fault="cut")
         parts[-1].columns[:] = [column[:-1] for column in parts[-1].columns]
     by_column = [[part.columns[number] for part in parts] for number in range(len(headings))]
@@ -126,7 +131,7 @@ def read_rows(pieces: Iterable[Piece], form: RowForm, headings: Sequence[str]) -
     gap = next((part.gap for part in parts if part.gap is not None), None)
     if gap is not None and not form.is_ragged:
         counts = [
-            (heading, int(np.isnan(column).sum()) - len(damaged["cells"]))
+            (heading, int(np.isnan(column).sum()) - len(damaged["short"] + damaged["long"]))
             for heading, column, kind in zip(headings, columns, form.kinds, strict=False)
             if kind in NUMERIC
         ]
@@ -182,7 +187,7 @@ def _part(piece: Piece, form: RowForm) -> Part:
         if fault is None:
             continue
         lacking[number] = False
-        left_out[number] = fault != "cells"
+        left_out[number] = fault in ("blank", "text")
         for values in columns:
             values[number] = np.nan
         if fault != "blank":
@@ -213,7 +218,7 @@ def _frame(text: str, form: RowForm) -> pd.DataFrame:
         "sep": r"\s+" if separator == WHITESPACE else separator,
         "decimal": dialect.decimal,
         "header": None,
-        "names": range(form.most_cells + 1),
+        "names": range(form.width + form.trailing + 1),
         "index_col": False,
         "quoting": csv.QUOTE_NONE,
         "skip_blank_lines": False,
@@ -235,7 +240,7 @@ def _narrowed(line: str, form: RowForm, separator: str) -> str:
     """Write a line without its quotation marks; one with too many cells as so many unreadable ones."""
     if form.dialect.is_blank(line):
         return line
-    cells, most = form.dialect.split(line), form.most_cells + 1
+    cells, most = form.dialect.split(line), form.width + form.trailing + 1
     return separator.join([UNREADABLE] * most if any(cells[most:]) else cells[:most])
 
 
@@ -243,10 +248,12 @@ def _doubtful(frame: pd.DataFrame, absent: NDArray[np.bool_], form: RowForm) -> 
     """Rows that may have the wrong number of cells or be no samples at all."""
     # A row without any number lacks the first; text there says nothing of the others. A short row lacks the last.
     filled = [column for column, kind in enumerate(form.kinds) if kind != "empty"] or [0]
-    doubtful = absent.all(axis=0)
+    doubtful: Mask = np.logical_and.reduce(absent)
     for column in (filled[0], filled[-1]):
         doubtful |= frame[column].isna().to_numpy() if form.kinds[column] == "text" else absent[column]
-    return doubtful | frame[form.most_cells].notna().to_numpy()
+    for beyond in range(form.width, frame.shape[1]):
+        doubtful |= frame[beyond].notna().to_numpy()
+    return doubtful
 
 
 def _joined(pieces: list[Array]) -> Array:
