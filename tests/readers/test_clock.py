@@ -36,7 +36,7 @@ def test_a_first_column_without_a_name_that_rises_in_equal_steps_is_the_clock(tm
     recording = recorded(tmp_path, head + rows(times, form))
     assert recording.channels[0].is_clock
     np.testing.assert_allclose(recording.channels[1].time, times, atol=6e-4)
-    assert any("no name and rises in equal steps" in note for note in recording.notes)
+    assert any("rising in equal steps, without a name" in note for note in recording.notes)
 
 
 @every(

@@ -32,7 +32,6 @@ EQUAL = 1e-3
 FEWEST_STEPS = 4
 LONGEST_STEP = 0.5
 """Longest step, s, of a column without a name that counts as times in seconds."""
-NAMELESS = "which has no name and rises in equal steps, taken as seconds"
 
 
 class ClockOptions(Options):
@@ -87,8 +86,8 @@ def with_clocks(
     named = _by_name(channels, warnings)
     for number in named or _by_steps(channels):
         clocks[number], how = channels[number].in_seconds(unit if time is None else None)
-        what = f'"{channels[number].heading}" ({how}; rising)' if named else NAMELESS
-        notes.append(f"clock: column {number + 1}, {what}")
+        what = "rising" if named else "rising in equal steps, without a name"
+        notes.append(f'clock: column {number + 1}, "{channels[number].heading}" ({how}; {what})')
     times = [clocks.get(number, _nearest(number, channels, clocks)) for number in range(len(channels))]
     times = [timed[number].time if each is None else each for number, each in enumerate(times)]
     if time is not None:

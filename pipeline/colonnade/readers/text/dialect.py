@@ -134,7 +134,6 @@ class Sniffed(NamedTuple):
     dialect: Dialect
     kinds: tuple[str, ...] = ()
     """What each column holds on most rows of numbers: `number`, `time` (date or time of day), `text` or `empty`."""
-    rows: int = 0
     score: float = 0.0
     """Share of lines with so many cells, each as sure as its numbers."""
     notes: tuple[str, ...] = ()
@@ -158,7 +157,7 @@ def sniff(lines: list[str], given: Dialect, *, delimiter: str | None, decimal: s
     dialect, notes = best.dialect, []
     if delimiter is None:
         sign = DELIMITER_NAMES.get(dialect.delimiter, f'"{dialect.delimiter}"') if len(best.kinds) > 1 else "none"
-        notes.append(f"delimiter {sign} ({len(best.kinds)} cells on {best.rows} of the {len(sample)} lines examined)")
+        notes.append(f"delimiter {sign} ({len(best.kinds)} cells on most of the {len(sample)} lines examined)")
     if decimal is None:
         numbers = filter(dialect.is_number, chain.from_iterable(map(dialect.split, sample)))
         signed = next((number for number in numbers if dialect.decimal in number), None)
@@ -185,7 +184,7 @@ def _fit(sample: list[str], dialect: Dialect) -> Sniffed:
     kinds = [
         max(("number", "time", "text"), key=column.count) if {*column} != {"missing"} else "empty" for column in columns
     ]
-    return Sniffed(dialect, tuple(kinds), len(rows[width]), sure[width] / len(sample))
+    return Sniffed(dialect, tuple(kinds), sure[width] / len(sample))
 
 
 def _weight(cell: str, kind: str) -> int:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -12,7 +11,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.clock import moment_after, moment_of, with_clocks
+from colonnade.readers.clock import with_clocks
 from colonnade.readers.format import Format
 from colonnade.readers.head import by_first_line
 from colonnade.readers.recording import RecordedChannel, Recording
@@ -31,8 +30,8 @@ def read(path: Path, options: TextOptions) -> Recording:
     """
     Read an MTS 793 text.
 
-    Blocks of the same names and units go on from one another. The first gives the channels as they are called, and the
-    recording's start; others follow with the number of their block before the name.
+    Blocks of the same names and units go on from one another. The first gives the channels as they are called; others
+    follow with the number of their block before the name.
 
     Raises
     ------
@@ -43,13 +42,8 @@ def read(path: Path, options: TextOptions) -> Recording:
     lines, warnings = text.whole_lines()
     dialect = _declared(path, lines[0] if lines else "")
     blocks: dict[tuple[tuple[str, ...], tuple[str, ...]], list[list[Array]]] = {}
-    origin = None
-    for title, names, units, columns, told in _blocks(lines, dialect):
+    for names, units, columns, told in _blocks(lines, dialect):
         warnings += told
-        if not blocks:  # between slashes the day or the month may be in front
-            origin = moment_after(
-                moment_of(title[-1]) if "/" not in title[-1] else None, -(_seconds(title, dialect) or 0.0)
-            )
         blocks.setdefault((tuple(names), tuple(units)), []).append(columns)
     if not blocks:
         raise ReadError(
@@ -63,9 +57,7 @@ def read(path: Path, options: TextOptions) -> Recording:
             values = np.concatenate(pieces)
             channels.append(RecordedChannel(before + name, unit or None, values, scope=(f"block {number}",)))
     notes = (f"encoding {text.encoding}",)
-    found = with_clocks(Recording(path, "mts", tuple(channels), notes=notes, warnings=tuple(warnings)))
-    clock = found.channels[0].time
-    return found if clock is None else replace(found, start=moment_after(origin, float(clock[0])))
+    return with_clocks(Recording(path, "mts", tuple(channels), notes=notes, warnings=tuple(warnings)))
 
 
 def _declared(path: Path, line: str) -> Dialect:
@@ -80,9 +72,7 @@ def _declared(path: Path, line: str) -> Dialect:
     return Dialect(delimiter, fields[5], quoted=delimiter == ",")
 
 
-def _blocks(
-    lines: list[str], dialect: Dialect
-) -> Iterator[tuple[list[str], list[str], list[str], list[Array], list[str]]]:
+def _blocks(lines: list[str], dialect: Dialect) -> Iterator[tuple[list[str], list[str], list[Array], list[str]]]:
     """Find each paragraph of a title, `… Time: 10.0 Sec …`, names, units and numbers."""
     blank = [number for number, line in enumerate(lines) if dialect.is_blank(line)]
     for above, stop in pairwise([-1, *blank, len(lines)]):
@@ -90,16 +80,12 @@ def _blocks(
         if stop <= first:
             continue
         title, names, units, row = (_cells(line, dialect) for line in lines[above + 1 : first + 1])
-        if _seconds(title, dialect) is None or len(units) > len(names) or not any(map(dialect.is_number, row[:2])):
-            continue
-        if not any(map(dialect.is_number, units)):
+        is_timed = any(cell.endswith(":") and dialect.is_number(behind) for cell, behind in pairwise(title))
+        has_numbers = any(map(dialect.is_number, row[:2])) and not any(map(dialect.is_number, units))
+        if is_timed and has_numbers and len(units) <= len(names):
             form = RowForm(dialect, ("number",) * len(names))
-            yield (
-                title,
-                names,
-                units + [""] * (len(names) - len(units)),
-                *read_rows(pieces_of(lines, first, stop), form, names),
-            )
+            columns, told = read_rows(pieces_of(lines, first, stop), form, names)
+            yield names, units + [""] * (len(names) - len(units)), columns, told
 
 
 def _cells(line: str, dialect: Dialect) -> list[str]:
@@ -108,14 +94,6 @@ def _cells(line: str, dialect: Dialect) -> list[str]:
     while cells and not cells[-1]:
         cells.pop()
     return cells
-
-
-def _seconds(title: list[str], dialect: Dialect) -> float | None:
-    """Running time in the line above a block, `… Zeit: 320,02344 s 01.09.2014 13:30:25`."""
-    for cell, following in pairwise(title):
-        if cell.endswith(":") and dialect.is_number(following):
-            return dialect.number(following)
-    return None
 
 
 FORMAT = Format(

@@ -70,9 +70,8 @@ def read(path: Path, options: Options) -> Recording:
     warnings += shortage("the header", points, values.size)
     quantity = next((name for word, name in QUANTITIES if word in " ".join(above).upper()), "values")
     unit = header_claims("\n".join(above)).unit
-    notes = (f"{points} points, step {step:g} s (line {line})",)
     channel = RecordedChannel(quantity, spelled(unit) if unit else None, values, even_times(values.size, step))
-    return Recording(path, "peer", (channel,), notes=notes, warnings=tuple(warnings))
+    return Recording(path, "peer", (channel,), warnings=tuple(warnings))
 
 
 FORMAT = Format(
