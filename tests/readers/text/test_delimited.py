@@ -183,6 +183,11 @@ def test_decimals_are_not_taken_for_thousands(tmp_path, written):
     assert values(recorded(tmp_path, "time;pressure\n" + text), "pressure") == numbers
 
 
+def test_commas_before_three_digits_alone_are_decimal_signs(tmp_path):
+    rows = "".join(f"0,{5 * row:03d}  {23 + row},866\n" for row in range(9))
+    assert values(recorded(tmp_path, "Time  top\n" + rows), "top") == [23.866 + row for row in range(9)]
+
+
 @every(
     ("heading", "factor"),
     [

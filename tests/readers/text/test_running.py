@@ -96,6 +96,13 @@ def test_a_single_series_takes_unit_and_interval_from_the_lines_above(tmp_path):
     assert (motion.dt, motion.peak) == (pytest.approx(0.005), pytest.approx(np.abs(series).max() / 100))
 
 
+def test_an_interval_above_a_table_is_the_clock_of_columns_without_one(tmp_path):
+    path = written(tmp_path, components(), head="time step 0.005 s, units: g\n  NS  EW  UD\n", form="%10.4f")
+    recording = read(path)
+    assert [(channel.name, channel.unit) for channel in recording.channels] == [("NS", "g"), ("EW", "g"), ("UD", "g")]
+    np.testing.assert_allclose(recording.channel("UD").time, 0.005 * np.arange(400))
+
+
 BLANKS = Dialect(WHITESPACE, ".")
 
 
