@@ -132,7 +132,7 @@ def _by_name(channels: Sequence[RecordedChannel], warnings: list[str]) -> list[i
                 looks = f'"{channel.heading}" looks like a clock'
                 warnings.append(f"{looks}, but too few of its steps go forward: it is not used as one")
         unnamed = (number for number in members if channels[number].unit is None)
-        alike = (number for number in unnamed if LIKE_TIME.fullmatch(channels[number].name))
+        alike = (number for number in unnamed if any(map(LIKE_TIME.fullmatch, _names(channels[number]))))
         found += rising or [number for number in alike if _rises(channels[number])][:1]
     return sorted(found)
 
@@ -141,10 +141,14 @@ def _rises(channel: RecordedChannel) -> bool:
     return rising_share(channel.values) >= RISING_SHARE
 
 
+def _names(channel: RecordedChannel) -> set[str]:
+    return {channel.name, re.split(r"[./]", channel.heading)[-1]} if channel.scope else {channel.name}
+
+
 def _is_time(channel: RecordedChannel, *, is_first: bool) -> bool:
     """Whether name and unit are those of times; a unit alone says it of the first in a table or group."""
     by_unit = channel.unit is not None and channel.unit.casefold() in TIME_UNITS
-    by_name = TIME_NAME.fullmatch(channel.name.casefold()) is not None
+    by_name = any(TIME_NAME.fullmatch(name.casefold()) for name in _names(channel))
     return channel.is_clock or (by_name and (by_unit or channel.unit is None)) or (by_unit and is_first)
 
 
