@@ -89,12 +89,12 @@ def problems(**keys):
         ({"unit": "mm", "delay": "2 mm"}, "delay", "A time was expected"),
         ({"unit": "mm", "column": ""}, "column", "its column in the raw file, or its number from 1"),
         ({"unit": "mm", "sensing": "surface"}, "sensing", "is for a displacement of the specimen"),
-        ({"unit": "mm", "sensing": "wire"}, "anchor", "needs its fixed end"),
+        (SPECIMEN | WIRE, "anchor", "needs its fixed end"),
         ({"unit": "mm", "normal": [1, 0, 0]}, "normal", 'needs sensing = "surface"'),
         ({"unit": "mm", "anchor": ["1 m", "0 m", "0 m"]}, "anchor", 'needs sensing = "wire"'),
-        (SPECIMEN | {"sensing": "surface", "normal": [0, 0, 1]}, "normal", "is parallel to this face"),
+        (SPECIMEN | {"sensing": "surface", "normal": [0, 0, 1]}, "normal", "is at right angles to `direction`"),
         (SPECIMEN | WIRE | {"anchor": ["43 mm", "0 mm", "1 m"]}, "anchor", "is at right angles to `direction`"),
-        (SPECIMEN | WIRE | {"anchor": ["43 mm", "0 mm", "440 mm"]}, "anchor", "has no length"),
+        (SPECIMEN | WIRE | {"anchor": ["43 mm", "0 mm", "440 mm"]}, "anchor", "is at right angles"),
     ],
 )
 def test_a_channel_that_does_not_fit_together_is_told_at_its_key(keys, key, words):

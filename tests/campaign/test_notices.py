@@ -1,14 +1,12 @@
-"""What is accepted but not yet used is told once a key; what looks odd is told too."""
+"""What looks odd in a valid campaign is told."""
 
 import re
 
 import pytest
 
 
-def test_keys_without_a_stage_are_told_once_with_the_first_place(contract, load_text):
-    assert tuple(map(str, load_text(contract).warnings)) == (
-        'tests[span-2.0] has no file of recorder "daq2"; its channels are missing in this test.',
-    )
+def test_the_contracts_example_is_without_a_warning(contract, load_text):
+    assert load_text(contract).warnings == ()
 
 
 CHANNEL = {
@@ -29,7 +27,6 @@ def with_extra(contract, keys):
         ({"quantity": '"velocity"', "unit": '"m/s"'}, 'quantity = "velocity" on the specimen is valid but not'),
         ({"quantity": '"acceleration"', "unit": '"g"'}, 'quantity = "acceleration" on the specimen is valid but not'),
         ({"on": '"ground"'}, 'quantity = "displacement" on the ground is valid but not'),
-        ({"on": '"table"', "direction": "[1, 0, 1]"}, "a motion of the table that is not along x, y or z"),
     ],
 )
 def test_a_channel_without_a_stage_is_told(keys, told, contract, load_text):
@@ -39,12 +36,10 @@ def test_a_channel_without_a_stage_is_told(keys, told, contract, load_text):
 def test_a_deviating_measured_value_is_told_with_its_place(contract, load_text):
     text = contract.replace('height = "456 mm"', 'height = "456 mm", critical_angle = "0.1886 rad"')
     (told,) = [each.text for each in load_text(text).warnings if "critical_angle is given" in each.text]
-    assert re.match(r"specimens\.prism\.critical_angle is given .*the tangent of the angle", told)
+    assert re.match(r"specimens\.prism\.critical_angle is given as 0.1886 rad, \+1.2\s% from the 0.1864 rad", told)
 
 
-def test_a_sine_without_frequency_and_a_campaign_without_tests_are_told(contract, load_text):
-    sine = contract.replace('kind = "earthquake"', 'kind = "sine"')
-    assert any("sine test without `frequency`" in warning.text for warning in load_text(sine).warnings)
+def test_a_campaign_without_tests_is_told(contract, load_text):
     assert "The campaign has no tests yet." in map(str, load_text(contract[: contract.index("[[tests]]")]).warnings)
 
 
@@ -62,13 +57,6 @@ def test_a_sine_without_frequency_and_a_campaign_without_tests_are_told(contract
 )
 def test_transducers_of_all_kinds_are_used_without_a_word(keys, contract, load_text):
     assert not any("extra" in warning.text for warning in load_text(with_extra(contract, keys)).warnings)
-
-
-@pytest.mark.parametrize(("at", "told"), [('["48.5 mm", "0 mm", "400 mm"]', 0), ('["0 mm", "0 mm", "400 mm"]', 1)])
-def test_a_line_of_sight_that_starts_off_a_round_side_is_told(at, told, contract, load_text):
-    text = with_extra(contract, {"sensing": '"surface"', "at": at})
-    text = text.replace('specimen = "prism"', 'specimen = "cylinder"')
-    assert sum("from the axis of cylinder" in warning.text for warning in load_text(text).warnings) == told
 
 
 def _told(text, load_text, kind):
@@ -107,18 +95,3 @@ def test_a_specimen_of_no_material_is_told_with_its_density(changed, severity, s
 def test_a_point_off_the_specimen_is_told(at, severity, contract, load_text):
     found = [each for each in _told(with_extra(contract, {"at": at}), load_text, "geometry") if "extra.at" in each.text]
     assert [each.severity for each in found] == ([severity] if severity else [])
-
-
-@pytest.mark.parametrize(
-    ("gain", "said"),
-    [
-        ("10 mm/V", ""),
-        ("1 m/V", "it reads up to 10000 mm, 16 times the 625 mm that this point of prism moves until it lies"),
-        ("10 um/V", "it reads up to 0.1 mm, 0.1\u00a0% of the 82.4 mm that this point of prism moves until"),
-    ],
-)
-def test_a_range_that_is_not_of_the_size_of_the_travel_is_told(gain, said, contract, load_text):
-    keys = {"unit": '"V"', "gain": f'"{gain}"', "range": '"10 V"', "at": '["43 mm", "0 mm", "440 mm"]'}
-    found = [each for each in _told(with_extra(contract, keys), load_text, "gain") if "extra" in each.text]
-    assert len(found) == bool(said)
-    assert all(re.search(said, each.text) for each in found)

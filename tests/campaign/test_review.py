@@ -88,7 +88,6 @@ def test_several_corrections_multiply_and_several_trims_leave_what_they_share(re
         ('[[exlude]]\ntest = "free-01"', r'exlude: Unknown key\. Did you mean "exclude"'),
         ('[[exclude]]\ntest = "free-01"\nchanel = "top"', 'Did you mean "channel"'),
         ("[[exclude]]\ntest = 3", "the test it is about, or a list of them"),
-        (TRIM.format('["1 s", "2 s"]') + SIGNED + TRIM.format('["3 s", "4 s"]'), "leave no samples of free-01"),
     ],
 )
 def test_what_is_wrong_is_told_with_its_place(reviewed, entry, told):

@@ -62,9 +62,7 @@ def test_table_1_as_written_in_the_paper_is_warned_of():
     cone = Cone.model_validate(CONE | printed("cone"))
     assert [told.split()[0] for told in prism.deviations(GRAVITY)] == ["critical_angle"]
     for specimen in (cylinder, cone):
-        angle, distance = specimen.deviations(GRAVITY)
-        assert "It agrees with the tangent of the angle" in angle
-        assert "It agrees with the height of the centre of mass" in distance
+        assert [told.split()[0] for told in specimen.deviations(GRAVITY)] == ["critical_angle", "pole_distance"]
 
 
 def test_a_measured_value_overrides_the_one_of_the_dimensions():

@@ -22,6 +22,7 @@ SHEET = {
     "lvdt_2.gain": '"15 mm/V"',
     "tischweg.gain": '"5 mm/V"',
     "acc.gain": '"0.2 g/V"',
+    "daq2.clock": '{align = ["tischweg", "acc"]}',
     "lvdt_1.at": '["50 mm", "0 mm", "440 mm"]',
     "lvdt_2.at": '["50 mm", "0 mm", "40 mm"]',
 }

@@ -6,6 +6,7 @@ from functools import cached_property
 from math import hypot
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import AfterValidator, Field, WithJsonSchema
 
 from colonnade import units
@@ -23,15 +24,8 @@ SURROUNDINGS = ("table", "ground")
 _NEEDS_DIRECTION = {"displacement", "velocity", "acceleration", "angle", "angular_velocity"}
 
 
-ALONG = 0.9
-"""Smallest part of a channel's direction along an axis with which it counts as a record of the motion along it."""
-
 LEAST_COSINE = 0.1
 """Of a line of sight to the normal of its face, and of a wire to its direction: below it, next to nothing is seen."""
-
-
-def _cosine(one: tuple[float, ...], other: tuple[float, ...]) -> float:
-    return sum(here * there for here, there in zip(one, other, strict=True)) / (hypot(*one) * hypot(*other))
 
 
 def _unit(text: str) -> str:
@@ -194,25 +188,21 @@ class Channel(RecordedAs):
 
     def _wrong_sight(self) -> dict[str, str]:
         """Say what is wrong with the line of sight or the wire, which may see hardly anything in its direction."""
-        wrong: dict[str, str] = {}
         if self.sensing != "point" and not (self.quantity == "displacement" and self.is_on_body):
-            wrong["sensing"] = f'"{self.sensing}" is for a displacement of the specimen. Leave it out here.'
+            return {"sensing": f'"{self.sensing}" is for a displacement of the specimen. Leave it out here.'}
+        if self.sensing == "wire" and self.anchor is None:
+            return {"anchor": 'It is missing. A "wire" needs its fixed end, such as ["500 mm", "0 mm", "440 mm"].'}
+        sees: tuple[float, ...] | None = self.normal
         for key, sensing in (("normal", "surface"), ("anchor", "wire")):
             if getattr(self, key) is not None and self.sensing != sensing:
-                wrong[key] = f'It needs sensing = "{sensing}", but sensing is "{self.sensing}". Correct one of them.'
-        if self.sensing == "wire" and self.anchor is None:
-            wrong["anchor"] = 'It is missing. A "wire" needs its fixed end, such as ["500 mm", "0 mm", "440 mm"].'
-        if wrong or self.direction is None:
-            return wrong
-        if self.normal is not None and abs(_cosine(self.normal, self.direction)) < LEAST_COSINE:
-            wrong["normal"] = "The line of sight is parallel to this face. Give the normal of the face that it hits."
+                return {key: f'It needs sensing = "{sensing}", but sensing is "{self.sensing}". Correct one of them.'}
         if self.anchor is not None and self.at is not None:
-            wire = tuple(there - here for here, there in zip(self.at, self.anchor, strict=True))
-            if not any(wire):
-                wrong["anchor"] = "It is the same point as `at`, so the wire has no length. Give its fixed end."
-            elif abs(_cosine(wire, self.direction)) < LEAST_COSINE:
-                wrong["anchor"] = "The wire is at right angles to `direction`. Give an anchor ahead of or behind `at`."
-        return wrong
+            sees = tuple(there - here for here, there in zip(self.at, self.anchor, strict=True))
+        if sees is None or self.direction is None or abs(np.dot(sees, self.direction)) > LEAST_COSINE * hypot(*sees):
+            return {}
+        seen = "The wire from `at` to it" if self.anchor is not None else "It"
+        told = f"{seen} is at right angles to `direction`, so that next to nothing is seen. Correct one of them."
+        return {"anchor" if self.anchor is not None else "normal": told}
 
     @property
     def is_on_body(self) -> bool:

@@ -218,8 +218,7 @@ def read_review(folder: Path, tests: Mapping[str, Test], setups: Mapping[str, Se
 def _problems(
     review: ReviewFile, tests: Mapping[str, Test], setups: Mapping[str, Setup]
 ) -> Iterator[tuple[Place, str]]:
-    """Find names that refer to nothing, and trims of one test that have no instant in common."""
-    kept: dict[str, tuple[float, float] | None] = {}
+    """Find names that refer to nothing."""
     for place, entry in review.entries():
         for test in entry.tests:
             yield from unknown((*place, "test"), "test", test, tests)
@@ -228,7 +227,3 @@ def _problems(
                 setup = tests[test].setup
                 where = f' in set-up "{setup}" of {test}'
                 yield from unknown((*place, "channel"), "channel", channel, setups[setup].channels, where)
-            if isinstance(entry, Trim):
-                kept[test] = low, high = Review(window=kept.get(test)).within(entry.window) or entry.window
-                if low >= high:
-                    yield (*place, "window"), f"This and an earlier [[trim]] leave no samples of {test}."

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
-from math import cos, tan
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
@@ -18,9 +17,6 @@ from colonnade.units.text import format_percent, quantity
 LARGEST_DEVIATION = 0.01
 """A measured value further than this from the one of the dimensions is reported, as a fraction of the latter."""
 
-SLIP_TOLERANCE = 0.003
-"""A value this near to a known slip is reported as one; tables print three digits."""
-
 OUTER_DIMENSIONS = ("width", "depth", "diameter", "base_diameter", "top_diameter", "height")
 """Keys of lengths that shapes have."""
 
@@ -31,9 +27,6 @@ _VOLUMES: dict[str, Callable[..., float]] = {
     "cylinder": lambda diameter, height: cone_volume(diameter, diameter, height),
     "cone": cone_volume,
 }
-
-_TANGENT = "the tangent of the angle, half width over height of the centre of mass"
-_HEIGHT = "the height of the centre of mass, not its distance from the pole"
 
 _MEASURED = {"critical_angle": "rad", "pole_distance": "mm", "inertia": "kg m²"}
 
@@ -103,46 +96,23 @@ class Specimen(Table):
         volume = _VOLUMES.get(self.shape)
         return volume(**self.sizes()) if volume else None
 
-    def radius(self, z: float) -> float | None:
-        """Radius at a height above the base, m; None if the specimen is not round."""
-        sizes = self.sizes()
-        base = sizes.get("diameter", sizes.get("base_diameter"))
-        top = sizes.get("top_diameter", base)
-        return None if base is None or top is None else (base + (top - base) * z / sizes["height"]) / 2
-
     def block(self, gravity: float) -> Block:
         """Build the block that predictions use: of the dimensions, with measured values in their place where given."""
         return _block_of(self, gravity)
 
     def deviations(self, gravity: float) -> list[str]:
-        """
-        Report measured values that differ by more than 1 % from those of the dimensions.
-
-        A critical angle that is the tangent, and a pole distance that is the height of the centre of mass, are slips
-        often met in tables; they are named if the value agrees with them.
-        """
-        block = self.dimensions(gravity)
-        if block is None:
-            return []
-        side = block.governing
-        slips = {
-            "critical_angle": (tan(side.critical_angle), _TANGENT),
-            "pole_distance": (side.pole_distance * cos(side.critical_angle), _HEIGHT),
-        }
-        sentences = []
-        for name, unit in _MEASURED.items():
+        """Report measured values that differ by more than 1 % from those of the dimensions."""
+        block, sentences = self.dimensions(gravity), []
+        for name, unit in _MEASURED.items() if block else ():
             given: fields.Sided[float] | None = getattr(self, name)
-            expected = float(getattr(side, name))
+            expected = float(getattr(block.governing, name))
             for value in dict.fromkeys(pair(given) if given is not None else ()):
-                if abs(value - expected) <= LARGEST_DEVIATION * expected:
-                    continue
-                slip, meaning = slips.get(name, (0.0, ""))
-                hint = f" It agrees with {meaning}." if abs(value - slip) < SLIP_TOLERANCE * expected else ""
-                sentences.append(
-                    f"{name} is given as {quantity(value, unit, 4)}, "
-                    f"{format_percent(value / expected - 1, 1, signed=True)} from the {quantity(expected, unit, 4)} "
-                    f"that the dimensions give; the given value is used.{hint}"
-                )
+                if abs(value - expected) > LARGEST_DEVIATION * expected:
+                    sentences.append(
+                        f"{name} is given as {quantity(value, unit, 4)}, "
+                        f"{format_percent(value / expected - 1, 1, signed=True)} from the "
+                        f"{quantity(expected, unit, 4)} that the dimensions give; the given value is used."
+                    )
         return sentences
 
 
@@ -207,5 +177,8 @@ class Measured(Specimen):
 
 
 AnySpecimen = Annotated[Prism | Cylinder | Cone | Measured, Field(discriminator="shape")]
+ROUND = ("cylinder", "cone")
+"""Shapes whose base is round."""
+
 SIZED: dict[str, type[Specimen]] = {"prism": Prism, "cylinder": Cylinder, "cone": Cone}
 """Shapes that have outer dimensions."""

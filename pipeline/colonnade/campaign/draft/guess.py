@@ -15,40 +15,30 @@ from colonnade.campaign.setup import Marker
 from colonnade.campaign.syntax.table import purpose
 from colonnade.campaign.test import Test
 
-MOST_UNKNOWN = 12
-"""Unknown columns are asked about one by one up to this many."""
-
 # What readers say themselves: a column that has no name, a block of a file.
 _NUMBERED = re.compile(r"^(?:column \d+$|block \d+: )")
 # A separate word: "usp000hzq8" is not a frequency.
 _FREQUENCY = re.compile(r"(?<![\d.,])(\d{1,6}(?:[.,p]\d{1,6})?)[ _-]?hz(?![a-z0-9])")
 _MARKER = re.compile(r"(.+?)[ _.:-]*([xyz])", re.IGNORECASE)
-_SPAN = re.compile(r"(?<![a-z])span[ _=-]?(\d{1,6}(?:[.,p]\d{1,6})?)(?![\d.,])")
 
 _USUAL_PLACE = {None: "?", "acceleration": "table", "velocity": "table"}
 
 
 @dataclass(frozen=True)
 class Meaning:
-    """What a column measures, None where nothing shows it, and on what; what shows each, and what contradicts it."""
+    """What a column measures, None where nothing shows it, and on what; and what shows each."""
 
     column: Column
     recorder: str
     quantity: str | None
     because: str
-    conflict: str
     place: str
     place_word: str
     axis: str | None
 
-    @property
-    def is_of_table(self) -> bool:
-        """Whether it shows how the table moves."""
-        return self.place == "table" and self.quantity in ("acceleration", "displacement")
-
 
 def meaning(column: Column, recorder: str = MAIN) -> Meaning | str:
-    """Find out what a column is from its unit and its name; or why it is not a channel."""
+    """Find out what a column is, from its unit, else from its name; or why it is not a channel."""
     name, unit = _NUMBERED.sub("", column.name), column.unit or ""
     by_unit = next((each for each, dim in units.QUANTITY_DIMENSIONS.items() if dim and units.is_of(unit, dim)), None)
     by_name, word = find(name, "quantities") or (None, "")
@@ -59,12 +49,10 @@ def meaning(column: Column, recorder: str = MAIN) -> Meaning | str:
         return f"{'it never changes' if column.spread == 0.0 else 'it holds no number'} in any of these files"
     if by_unit is None and by_name is None and other:
         return f"{other[0]}, {_from(other[1])}"
-    because = f'from its unit "{unit}"' if by_unit else _from(word)
-    contradict = by_unit and by_name and by_unit != by_name
-    conflict = f'its unit "{unit}" says {by_unit}, its name "{word}" {by_name}' if contradict else ""
     quantity = by_unit or by_name
+    because = f'from its unit "{unit}"' if by_unit else _from(word)
     place, place_word = find(name, "places") or (_USUAL_PLACE.get(quantity, "specimen"), "")
-    return Meaning(column, recorder, quantity, because, conflict, place, _from(place_word), axis(column.name))
+    return Meaning(column, recorder, quantity, because, place, _from(place_word), axis(column.name))
 
 
 def _from(word: str) -> str:
@@ -80,9 +68,8 @@ def draft_channels(recorders: Mapping[str, Sequence[Column]]) -> tuple[dict[str,
     for column, each in found:
         if isinstance(each, str):
             left_out[each].append(column.heading)
-        elif each.quantity is None and (known or len(taken) >= MOST_UNKNOWN):
-            unit = f'its unit is "{column.unit}" and its name' if column.unit else "its name"
-            left_out[f"{unit} does not show what it measures"].append(column.heading)
+        elif each.quantity is None and known:
+            left_out["neither its unit nor its name shows what it measures"].append(column.heading)
         else:
             taken.append(each)
     ids = unique((each.column.name for each in taken), "channel", as_variables=True)
@@ -117,33 +104,20 @@ def _named(column: Column, others: Sequence[Column]) -> str | int:
 
 def channel_lines(each: Meaning, others: Sequence[Column]) -> Iterator[str]:
     """Give the lines of a channel's keys; `others` are the columns of its recorder."""
-    quantity, name = each.quantity, each.column.name
+    quantity = each.quantity
     yield line("column", _named(each.column, others))
-    if quantity is None:
-        yield asked(Channel, "quantity", "?")
-    else:
-        yield line("quantity", quantity, each.because, each.conflict)
+    yield line("quantity", quantity, each.because) if quantity else asked(Channel, "quantity", "?")
     yield from _recorder_and_unit(each)
     if quantity == "force":
         return
     yield line("on", each.place, each.place_word) if each.place_word else asked(Channel, "on", each.place)
-    follows = quantity == "displacement" and each.place == "specimen"
-    if follows:
+    if each.place == "specimen" and quantity in ("displacement", "acceleration"):
         yield asked(Channel, "at", ["? mm", "0 mm", "? mm"])
+    if each.place == "specimen" and quantity == "displacement":
         yield asked(Channel, "relative_to", "?")
-    if quantity == "acceleration" and each.place == "specimen":
-        where = "where it is fixed; two or more along x at different heights improve the angle"
-        yield comment(f'at = ["43 mm", "0 mm", "440 mm"]      {where}')
     direction = AXES[each.axis or ("y" if quantity in ("angle", "angular_velocity") else "x")]
     question = f"of a positive reading; {[-part or 0 for part in direction]} if it is reversed"
     yield line("direction", direction, "from its name" if each.axis else "", question)
-    sensing, word = (find(name, "sensing") if follows else None) or ("point", "")
-    if sensing != "point":
-        yield line("sensing", sensing, _from(word))
-    if sensing == "surface":
-        yield asked(Channel, "normal", "?")
-    elif sensing == "wire":
-        yield asked(Channel, "anchor", ["? mm", "0 mm", "? mm"])
 
 
 def _recorder_and_unit(each: Meaning) -> Iterator[str]:
@@ -164,8 +138,9 @@ def _recorder_and_unit(each: Meaning) -> Iterator[str]:
 
 
 def kind_lines(name: str) -> Iterator[str]:
-    """Guess the kind of a test, and its frequency, motion or span, from the name of its file."""
-    frequency, span = _number(_FREQUENCY, name), _number(_SPAN, name)
+    """Guess the kind of a test, and its frequency, from the name of its file."""
+    found = _FREQUENCY.search(plain(name))
+    frequency = float(re.sub("[,p]", ".", found[1])) if found else 0.0
     kind, word = find(name, "kinds") or (("sine", f"{frequency:g} Hz") if frequency else ("other", ""))
     doubt = f'its name does not show {purpose(Test, "kind").rstrip(".")}; "other" has no prediction'
     yield line("kind", kind, _from(word), "" if word else doubt)
@@ -174,15 +149,6 @@ def kind_lines(name: str) -> Iterator[str]:
     elif kind in ("sine", "pulse"):
         yield comment('frequency = "3 Hz"      if it is known')
     elif kind == "earthquake":
-        if motion := find(name, "motions"):
-            yield line("motion", motion[0], "from its name", "with component and year")
-        else:
-            yield comment('motion = "El Centro 1940 NS"      the motion that the table was given')
-        if span:
-            yield line("span", span, "from its name")
-
-
-def _number(pattern: re.Pattern[str], name: str) -> float | None:
-    """Read a number above zero from a name; None if it has none."""
-    found = pattern.search(plain(name))
-    return (float(re.sub("[,p]", ".", found[1])) or None) if found else None
+        yield comment(
+            'motion = "El Centro 1940 NS", span = 2.0      the motion that the table was given, and how strongly'
+        )

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from datetime import date
 from pathlib import Path, PurePosixPath
 
 import numpy as np
@@ -15,7 +14,6 @@ from colonnade.campaign.draft.words import unique
 from colonnade.campaign.syntax.document import natural
 from colonnade.campaign.syntax.names import inside
 from colonnade.errors import ColonnadeError
-from colonnade.readers.clock import may_be_clock
 from colonnade.readers.recording import RecordedChannel
 from colonnade.readers.registry import MOST_GENERAL, read
 
@@ -32,12 +30,7 @@ NO_RECORDINGS = (
 
 @dataclass(frozen=True)
 class Column:
-    """
-    One column of a raw file, by its number from 1.
-
-    `spread` is the largest value less the smallest, −1 without a number; `hint`: it may be the clock of a file in
-    which none was found.
-    """
+    """One column of a raw file, by its number from 1; `spread`: largest less smallest value, −1 without a number."""
 
     number: int
     name: str
@@ -46,17 +39,15 @@ class Column:
     is_clock: bool
     has_clock: bool
     spread: float
-    hint: str = ""
 
 
 @dataclass(frozen=True)
 class RawFile:
-    """A raw file: its path from the folder, with /; and the day of its first sample, if it tells it."""
+    """A raw file: its path from the folder, with /, and its columns."""
 
     relative: str
     format: str
     columns: tuple[Column, ...]
-    day: date | None = None
 
     @property
     def layout(self) -> tuple[str, ...]:
@@ -88,8 +79,7 @@ def survey(
             path = inside(folder, relative)
             recording = read(path, within=folder)
             columns = tuple(look_at(number, channel) for number, channel in enumerate(recording.channels, start=1))
-            day = recording.start and recording.start.date()
-            found.append(RawFile(relative, recording.format, columns, day))
+            found.append(RawFile(relative, recording.format, columns))
         except UnicodeEncodeError:
             refused.append((ascii(relative)[1:-1], "its name is not UTF-8; rename it"))
         except (ColonnadeError, ValueError, OSError) as error:
@@ -117,11 +107,11 @@ def _first_reason(refusal: str, name: str) -> str:
 
 def look_at(number: int, channel: RecordedChannel) -> Column:
     """Look at a column: what it is called, and whether it moves."""
-    known, has_clock = channel.values[np.isfinite(channel.values)], channel.time is not None
+    known = channel.values[np.isfinite(channel.values)]
     with np.errstate(over="ignore"):
         spread = float(np.ptp(known)) if known.size else -1.0
-    hint = "" if has_clock else may_be_clock(channel.heading, channel.values)
-    return Column(number, channel.name, channel.heading, channel.unit, channel.is_clock, has_clock, spread, hint)
+    has_clock = channel.time is not None
+    return Column(number, channel.name, channel.heading, channel.unit, channel.is_clock, has_clock, spread)
 
 
 Files = dict[str, RawFile]

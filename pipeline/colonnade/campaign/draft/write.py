@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import tomllib
-from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from operator import attrgetter
@@ -17,7 +16,7 @@ from colonnade.campaign.draft.guess import channel_lines, draft_channels, kind_l
 from colonnade.campaign.draft.survey import Files, arrange, survey
 from colonnade.campaign.draft.words import AXES, asked, comment, line, unique
 from colonnade.campaign.loading import FILE_NAME
-from colonnade.campaign.setup import Tracking
+from colonnade.campaign.setup import Recorder, Tracking
 from colonnade.campaign.specimen import Prism, Specimen
 from colonnade.campaign.syntax.document import Source, key_lines, toml_key
 from colonnade.errors import CampaignError, count, quoted
@@ -49,7 +48,7 @@ _SPECIMEN = (
     asked(Prism, "mass", "? kg"),
 )
 _TRACKING = (asked(Tracking, "axes", list(AXES.values())), asked(Tracking, "relative_to", "?"))
-_QUESTION = re.compile(r"([a-z_]+ = (.*)    # \? )(.*)")
+_QUESTION = re.compile(r"[a-z_]+ = (.*)    # \? (.*)")
 
 
 @dataclass(frozen=True)
@@ -123,10 +122,11 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     if not setups:
         raise CampaignError("\n".join([f"{folder}: no readable recording found.", *_told(refused)]))
     home = folder.parent if folder.name.casefold() in RAW_FOLDERS else folder
-    text, asked = _asked(written(unique([home.name], "campaign")[0], setups, refused))
+    lines = written(unique([home.name], "campaign")[0], setups, refused)
+    asked = _asked(lines)
     return CampaignDraft(
         folder / FILE_NAME,
-        text,
+        "\n".join([*lines, ""]),
         sum(len(each.tests) for each in setups),
         len(setups),
         tuple(each for each in asked if "?" in each.value),
@@ -157,30 +157,18 @@ def _told(refused: Sequence[tuple[str, str]]) -> list[str]:
     return lines or ["  It contains only documents. Name the folder with the raw files."]
 
 
-def _asked(lines: Sequence[str]) -> tuple[str, list[Question]]:
-    """Write the lines, each question in full once only in a set-up; and give all questions."""
+def _asked(lines: Sequence[str]) -> list[Question]:
+    """Give all questions in the lines of a draft."""
     text = "\n".join(lines)
     source = Source(FILE_NAME, tomllib.loads(text), key_lines(text))
     places = {number: place for place, number in source.lines.items()}
-    texts, asked = [], []
-    before: set[str] = set()
-    for number, written in enumerate(lines, start=1):
-        if written.startswith("[") and written.count(".") == 1:  # another specimen or set-up
-            before.clear()
-        if found := _QUESTION.fullmatch(written):
-            said = "as above" if found[3] in before else found[3]
-            before.add(found[3])
-            asked.append(Question(number, source.path(places[number]), found[2], said))
-            written = found[1] + said
-        texts.append(written)
-    return "\n".join([*texts, ""]), asked
+    found = ((number, _QUESTION.fullmatch(written)) for number, written in enumerate(lines, start=1))
+    return [Question(number, source.path(places[number]), each[1], each[2]) for number, each in found if each]
 
 
 def written(name: str, setups: Sequence[DraftSetup], refused: Sequence[tuple[str, str]]) -> list[str]:
     """Write out what was found, and the files that are left out with the reason."""
-    stems = [PurePosixPath(test[MAIN].stem) for each in setups for test in each.tests]
-    often = Counter(stem.name for stem in stems)
-    ids = iter(unique((stem.name if often[stem.name] == 1 else "-".join(stem.parts[-2:]) for stem in stems), "test"))
+    ids = iter(unique((PurePosixPath(test[MAIN].stem).name for each in setups for test in each.tests), "test"))
     lines = [
         *_FIRST_LINES,
         line("schema", SCHEMA),
@@ -220,17 +208,9 @@ class DraftSetup:
         place = f"setups.{toml_key(self.name)}"
         lines = [f"[{place}]", *self._recorder(MAIN)]
         lines.append(comment('catch = "0.3 rad"      the rotation at which a safety frame catches the specimen'))
-        of_table = {name: each for name, each in self.channels.items() if each.is_of_table and each.axis in (None, "x")}
-        table = {each.recorder: name for name, each in reversed(of_table.items())}
         for recorder in list(self.tests[0])[1:]:
             lines += ["", f"[{place}.recorders.{toml_key(recorder)}]", *self._recorder(recorder)]
-            if {MAIN, recorder} <= table.keys():
-                reason = "both record the table's motion, which shows how late it started"
-                align = {"align": [table[MAIN], table[recorder]]}
-                lines.append(line("clock", align, reason, '"trigger" if both start together'))
-            else:
-                either = 'or {align = ["a channel of main", "a channel of this one that measures the same"]}'
-                lines.append(line("clock", "trigger", "", either))
+            lines.append(asked(Recorder, "clock", "?"))
         tracked = [each for marker in self.markers.values() for each in marker]
         for name, channel in self.channels.items():
             if channel not in tracked:
@@ -251,15 +231,13 @@ class DraftSetup:
         file = self.tests[0][recorder]
         lines = [line("file", {"format": file.format}, "recognised; the rest is detected")]
         if not any(column.has_clock for column in file.columns):
-            hint = next((column.hint for column in file.columns if column.hint), "")
-            asked = f"no time column found: give the samples per second{hint}"
-            lines.append(line("sampling_rate", "? Hz", question=asked))
+            lines.append(line("sampling_rate", "? Hz", question="no time column found: give the samples per second"))
         return lines
 
     def test(self, test: Files, name: str) -> list[str]:
         """Give the entry of a test."""
         paths = {recorder: file.relative for recorder, file in test.items()}
-        lines = [
+        return [
             *("", "[[tests]]"),
             line("id", name),
             *kind_lines(PurePosixPath(test[MAIN].stem).name),
@@ -267,6 +245,3 @@ class DraftSetup:
             line("setup", self.name),
             line("file", paths if len(paths) > 1 else paths[MAIN]),
         ]
-        if day := test[MAIN].day:
-            lines.append(line("date", day, "from the file's own time"))
-        return lines

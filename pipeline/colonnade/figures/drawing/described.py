@@ -10,7 +10,7 @@ from colonnade import units
 from colonnade.campaign import Campaign
 from colonnade.campaign.assembly import Whole
 from colonnade.campaign.channel import Channel
-from colonnade.campaign.specimen import Specimen
+from colonnade.campaign.specimen import ROUND, Specimen
 from colonnade.dynamics.block import Block
 from colonnade.errors import CampaignError, UnitError, count
 from colonnade.figures.drawing.body import words_of_angle
@@ -98,7 +98,7 @@ def body_of(specimen: Specimen, block: Block) -> Body:
     ]
     if not sizes:
         words += ["outline not known: drawn from pole to pole, twice as high as ⊕, as deep as wide"]
-    shape: Literal["rectangle", "circle"] = "rectangle" if specimen.radius(0.0) is None else "circle"
+    shape: Literal["rectangle", "circle"] = "circle" if specimen.shape in ROUND else "rectangle"
     return Body(shape, (base, top), (depth or base, depth or top), height, bool(sizes), rocking, words)
 
 

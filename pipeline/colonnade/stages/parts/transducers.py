@@ -10,7 +10,6 @@ from pydantic import BaseModel, ConfigDict
 
 from colonnade.arrays import Array, Dataset, Vector
 from colonnade.campaign import Channel
-from colonnade.campaign.channel import ALONG
 from colonnade.campaign.specimen import Cone, Cylinder, Prism, Specimen
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, pole_position
@@ -20,6 +19,10 @@ from colonnade.signals.filters import second_derivative
 from colonnade.store.description import variable_name
 from colonnade.store.provenance import Inputs
 from colonnade.units.text import format_percent
+
+
+ALONG = 0.9
+"""Least part of a direction along an axis with which a channel of the table records the motion along it."""
 
 
 class Transducers(BaseModel):
