@@ -8,18 +8,9 @@ import pytest
 from colonnade.campaign import load
 from colonnade.campaign.draft.write import draft
 from colonnade.workflow import run
+from filling_in import filled_in
 
 PRISM = {"width": '"86 mm"', "depth": '"86 mm"', "height": '"456 mm"', "mass": '"26.10 kg"', "relative_to": '"table"'}
-
-
-def filled_in(drafted, answer):
-    """Write the draft, each open question answered on its line."""
-    lines = drafted.text.splitlines()
-    for question in drafted.open:
-        owner, _, key = question.key.rpartition(".")
-        lines[question.line - 1] = f"{key} = {answer(owner.rpartition('.')[2], key)}"
-    drafted.path.write_text("\n".join(lines), encoding="utf-8")
-    return drafted.path
 
 
 @pytest.mark.whole

@@ -1,7 +1,6 @@
 """`colonnade init` as a newcomer meets it: draft, fill in, check, run."""
 
 import json
-import re
 
 import pytest
 
@@ -42,8 +41,7 @@ def test_what_is_asked_is_listed_with_its_line(colonnade, raw):
     told = colonnade("init", "--json")
     found = json.loads(told.stdout)
     lines = (raw / "campaign.toml").read_text(encoding="utf-8").splitlines()
-    for question in found["open"]:
-        assert re.match(rf"{question['key'].rpartition('.')[2]} = .*\?", lines[question["line"] - 1])
+    assert all('"?' in lines[number - 1] for number in found["open"])
     assert found["tests"] == 2
 
 

@@ -6,6 +6,7 @@ import pytest
 
 from colonnade.campaign import load
 from colonnade.campaign.draft.write import draft
+from filling_in import filled_in
 from page_blocks import PROJECT, Block, Reader, blocks_of
 
 TUTORIAL = PROJECT / "docs" / "tutorial"
@@ -35,11 +36,12 @@ def test_the_draft_with_its_answers_is_the_campaign_of_the_page(tmp_path):
     reader = Reader(tmp_path)
     reader.do(next(block for block in blocks if block.remark == "with"))
     drafted = draft(tmp_path / "morning")
-    lines = drafted.text.splitlines()
-    for question in drafted.open:
-        [answer] = [value for key, value in SHEET.items() if question.key.endswith(key)]
-        lines[question.line - 1] = f"{question.key.rpartition('.')[2]} = {answer}"
-    drafted.path.write_text("\n".join(lines), encoding="utf-8")
+
+    def answer(table, key):
+        [found] = [value for asked, value in SHEET.items() if f"{table}.{key}".endswith(asked)]
+        return found
+
+    filled_in(drafted, answer)
     by_draft = load(drafted.path)
 
     [written] = [block for block in blocks if block.remark == "file"]

@@ -9,6 +9,7 @@ from colonnade.campaign.assessment import Assessment
 from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.channel import MAIN, SURROUNDINGS
 from colonnade.campaign.setup import Setup
+from colonnade.campaign.specimen import ROUND
 from colonnade.campaign.syntax.document import Place, unknown
 from colonnade.campaign.syntax.fields import shown
 from colonnade.campaign.syntax.names import clashes
@@ -45,25 +46,15 @@ def dangling(campaign: CampaignFile) -> Problems:
 def _assessed(campaign: CampaignFile, name: str, assessment: Assessment) -> Problems:
     """Find what an assessment of one block needs, and one of several bodies."""
     specimen, place = assessment.specimen, ("assessments", name)
-    if campaign.specimens[specimen].is_in_plane:
-        if specimen not in campaign.prototype:
-            yield (
-                (*place, "specimen"),
-                f"[prototype.{specimen}] is missing. It says what is assumed of the real column; its `restitution` at "
-                'least was expected: a number, "rigid-body", or "identified" to take that of the model.',
-            )
-        if assessment.displaced is not None:
-            yield (*place, "displaced"), f"It is for several bodies, and {specimen} rocks as one block. Leave it out."
-        return
-    if specimen in campaign.prototype:
-        yield (
-            ("prototype", specimen),
-            f"The bodies of {specimen} do not rock as one block, so that it has no e, α and p. Leave this table out; "
-            "friction and damping are those of [processing.predict.contact].",
-        )
-    if assessment.levels is None:
+    if not campaign.specimens[specimen].is_in_plane and assessment.levels is None:
         message = f"It is missing. A history of the bodies of {specimen} takes minutes, so that none is run to find it."
         yield (*place, "levels"), message
+    if campaign.specimens[specimen].is_in_plane and specimen not in campaign.prototype:
+        yield (
+            (*place, "specimen"),
+            f"[prototype.{specimen}] is missing. It says what is assumed of the real column; its `restitution` at "
+            'least was expected: a number, "rigid-body", or "identified" to take that of the model.',
+        )
 
 
 def _clashing(place: Place, names: Iterable[str], *, as_variables: bool = False) -> Problems:
@@ -99,23 +90,22 @@ def _assemblies(campaign: CampaignFile) -> Problems:
     specimens = [name for name, each in campaign.specimens.items() if not isinstance(each, Whole)]
     for name, table in campaign.assemblies.items():
         place = ("assemblies", name)
-        if name in RESERVED or name in specimens:
-            said = "a specimen has it" if name in specimens else "it has a meaning of its own"
-            yield place, f"{shown(name)} cannot be the id of an assembly: {said}. Choose another."
         if bool(table.stack) == bool(table.bodies):
             yield place, "Either `stack`, a list of specimens from bottom to top, or `bodies` was expected."
+        for taken, where in ((name, place), *((body, (*place, "bodies", body)) for body in table.placed)):
+            if taken in RESERVED or (taken == name and taken in specimens):
+                said = "it has a meaning of its own" if taken in RESERVED else "a specimen has it"
+                yield where, f"{shown(taken)} cannot be the id of an assembly or a body: {said}. Choose another."
         for body, each in table.placed.items():
-            where = (*place, "bodies", body) if table.bodies else (*place, "stack")
-            if body in RESERVED:
-                yield where, f"{shown(body)} cannot be the id of a body: it has a meaning of its own. Choose another."
-            yield from unknown((*where, "specimen") if table.bodies else where, "specimen", each.specimen, specimens)
+            where = (*place, "bodies", body, "specimen") if table.bodies else (*place, "stack")
+            yield from unknown(where, "specimen", each.specimen, specimens)
 
 
 def _faces(campaign: CampaignFile) -> Problems:
     """Find transducers that look at the face of a specimen that is not round, without its normal."""
     for where, what in dict.fromkeys((test.setup, test.specimen) for test in campaign.tests):
         specimen, setup = campaign.specimens.get(what), campaign.setups.get(where)
-        if specimen is None or setup is None or specimen.shape not in ("prism", "measured"):
+        if specimen is None or setup is None or specimen.shape in ROUND or specimen.is_assembly:
             continue
         for name, channel in setup.channels.items():
             if channel.sensing == "surface" and channel.normal is None:

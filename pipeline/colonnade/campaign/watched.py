@@ -25,7 +25,6 @@ COUNTER = "number"
 """The part that only tells repeated tests apart."""
 
 _NUMBER = r"\d{1,9}(?:[.,p]\d{1,9})?"
-_LONGEST = 200
 
 
 def parts() -> tuple[str, ...]:
@@ -57,9 +56,6 @@ class Pattern:
 
     def problems(self) -> Iterator[str]:
         """Say what is wrong with the pattern, in finished sentences."""
-        if len(self.text) > _LONGEST:
-            yield f"A pattern of {len(self.text)} characters was found. At most {_LONGEST} were expected."
-            return
         try:
             found = [(name, unit) for _, name, unit in self.parts if name is not None]
         except ValueError:
@@ -74,11 +70,10 @@ class Pattern:
                 yield f"Unknown part {{{name}}}.{nearest(name, parts())}"
             elif names.count(name) > 1:
                 yield f"{{{name}}} is there {names.count(name)} times. Each part may be there once."
-            elif dimension and not units.is_of(unit, dimension):
-                example = f"{{{name}:{units.DIMENSIONS[dimension][1]}}}"
-                yield f"{{{name}{f':{unit}' if unit else ''}}} needs the unit of its number, such as {example}."
-            elif unit and not dimension:
-                yield f"{{{name}:{unit}}}: this part has no unit. Write {{{name}}}."
+            elif not units.is_of(unit, dimension) if dimension else unit:
+                example = f"{name}:{units.DIMENSIONS[dimension][1]}" if dimension else name
+                written = f"{name}:{unit}" if unit else name
+                yield f"{{{written}}} was found. The unit of its number was expected: {{{example}}}."
 
     def match(self, path: str, names: Mapping[str, Mapping[str, str]]) -> dict[str, str | float] | None:
         """

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import rich_click as click
 
 from colonnade.cli.common import options
-from colonnade.cli.common.console import complain, expect_places, saved, say, show_json, show_table, work_progress
+from colonnade.cli.common.console import complain, expect_places, saved, say, show_json, work_progress
 from colonnade.cli.run import run_with_progress, show_result
 from colonnade.errors import count
 from colonnade.units.text import interval, listed, quantity
@@ -108,9 +108,6 @@ def _show_farthest(tests: dict[str, dict[str, Any]], key: str, what: str, unit: 
 DRAWING = "drawing.svg"
 """Name of the drawing next to the draft."""
 
-MOST_SHOWN = 12
-"""Questions that are listed; the file has all of them."""
-
 
 @click.command(epilog="Example: colonnade init measurements")
 @click.argument("folder", type=options.FILE, default=Path(), metavar="[DIR]")
@@ -150,13 +147,7 @@ def _tell(drafted: CampaignDraft, drawing: Path) -> None:
     say(f"{count(drafted.tests, 'test')}, {count(drafted.setups, 'set-up')}")
     for name, reason in drafted.refused:
         say(f"  not used: {name}: {reason}")
-    show_table(
-        ("line", "to fill in", "", "what is asked"),
-        [(str(each.line), each.key, each.value, each.asked) for each in drafted.open[:MOST_SHOWN]],
-    )
-    if len(drafted.open) > MOST_SHOWN:
-        say(f"… and {len(drafted.open) - MOST_SHOWN} more")
     if drafted.open:
-        say(f'To fill in: {count(len(drafted.open), "value")} marked "?".')
-    say(f'To look at: {count(len(drafted.doubts), "guess", "guesses")} marked "# ?".')
+        say(f'To fill in: {count(len(drafted.open), "value")} marked "?", the first in line {drafted.open[0]}.')
+    say(f'To look at: {count(drafted.doubts, "guess", "guesses")} marked "# ?".')
     say(f"Then: colonnade check {shlex.quote(str(drafted.path.parent))}")

@@ -79,7 +79,7 @@ def test_check_refuses_nothing_that_the_draft_does_not_ask(files):
             assert "no readable recording" in str(error)  # noqa: PT017
             return
         drafted.path.write_text(drafted.text, encoding="utf-8")
-        asked = {question.line for question in drafted.open}
+        asked = set(drafted.open)
         try:
             load(drafted.path)
         except CampaignError as error:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from operator import attrgetter
@@ -18,7 +17,7 @@ from colonnade.campaign.draft.words import AXES, asked, comment, line, unique
 from colonnade.campaign.loading import FILE_NAME
 from colonnade.campaign.setup import Recorder, Tracking
 from colonnade.campaign.specimen import Prism, Specimen
-from colonnade.campaign.syntax.document import Source, key_lines, toml_key
+from colonnade.campaign.syntax.document import toml_key
 from colonnade.errors import CampaignError, count, quoted
 from colonnade.readers.files import irregular
 from colonnade.units.text import listed
@@ -48,17 +47,7 @@ _SPECIMEN = (
     asked(Prism, "mass", "? kg"),
 )
 _TRACKING = (asked(Tracking, "axes", list(AXES.values())), asked(Tracking, "relative_to", "?"))
-_QUESTION = re.compile(r"[a-z_]+ = (.*)    # \? (.*)")
-
-
-@dataclass(frozen=True)
-class Question:
-    """A value that a person has to fill in or check: its line in the file, key, value and what is asked."""
-
-    line: int
-    key: str
-    value: str
-    asked: str
+_QUESTION = re.compile(r"[a-z_]+ = (.*)    # \? .*")
 
 
 @dataclass(frozen=True)
@@ -73,8 +62,10 @@ class CampaignDraft:
     text : str
     tests, setups : int
         How many.
-    open, doubts : tuple of Question
-        What has to be filled in, and guesses to check.
+    open : tuple of int
+        Lines, from 1, with a value that has to be filled in.
+    doubts : int
+        How many guesses have to be checked.
     refused : tuple of (str, str)
         Files that are not used, with the reason.
     """
@@ -83,8 +74,8 @@ class CampaignDraft:
     text: str
     tests: int
     setups: int
-    open: tuple[Question, ...]
-    doubts: tuple[Question, ...]
+    open: tuple[int, ...]
+    doubts: int
     refused: tuple[tuple[str, str], ...]
 
 
@@ -109,13 +100,9 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     arranged, copies = arrange(files)
     refused += copies
     setups = [DraftSetup(tests) for tests in arranged]
-    refused += [
-        (file.relative, f"none of its columns measures anything: {'; '.join(each.left_out)}")
-        for each in setups
-        if not each.channels
-        for test in each.tests
-        for file in test.values()
-    ]
+    for each in setups:
+        files = [] if each.channels else [file for test in each.tests for file in test.values()]
+        refused += [(file.relative, f"no column measures anything: {'; '.join(each.left_out)}") for file in files]
     setups = [each for each in setups if each.channels]
     for number, each in enumerate(setups, start=1):
         each.name = "setup" if len(setups) == 1 else f"setup-{number}"
@@ -123,14 +110,15 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
         raise CampaignError("\n".join([f"{folder}: no readable recording found.", *_told(refused)]))
     home = folder.parent if folder.name.casefold() in RAW_FOLDERS else folder
     lines = written(unique([home.name], "campaign")[0], setups, refused)
-    asked = _asked(lines)
+    asked = [(number, each[1]) for number, each in enumerate(map(_QUESTION.fullmatch, lines), start=1) if each]
+    open_lines = tuple(number for number, value in asked if "?" in value)
     return CampaignDraft(
         folder / FILE_NAME,
         "\n".join([*lines, ""]),
         sum(len(each.tests) for each in setups),
         len(setups),
-        tuple(each for each in asked if "?" in each.value),
-        tuple(each for each in asked if "?" not in each.value),
+        open_lines,
+        len(asked) - len(open_lines),
         tuple(refused),
     )
 
@@ -155,15 +143,6 @@ def _told(refused: Sequence[tuple[str, str]]) -> list[str]:
     if len(refused) > MOST_TOLD:
         lines.append(f"  and {len(refused) - MOST_TOLD} more")
     return lines or ["  It contains only documents. Name the folder with the raw files."]
-
-
-def _asked(lines: Sequence[str]) -> list[Question]:
-    """Give all questions in the lines of a draft."""
-    text = "\n".join(lines)
-    source = Source(FILE_NAME, tomllib.loads(text), key_lines(text))
-    places = {number: place for place, number in source.lines.items()}
-    found = ((number, _QUESTION.fullmatch(written)) for number, written in enumerate(lines, start=1))
-    return [Question(number, source.path(places[number]), each[1], each[2]) for number, each in found if each]
 
 
 def written(name: str, setups: Sequence[DraftSetup], refused: Sequence[tuple[str, str]]) -> list[str]:

@@ -70,9 +70,6 @@ _LONGEST_INTEGER = 256
 
 _QUANTITY_PATTERN = rf"^\s*{units.NUMBER_PATTERN}\s*[^\s0-9.,].*$"
 
-FIRST_YEAR, LAST_YEAR = 1900, 2100
-"""Years between which a test was done; another is a slip of the pen."""
-
 _DAYS = (
     *("%Y-%m-%d", "%Y/%m/%d", "%Y.%m.%d", "%d.%m.%Y"),
     *("%d/%m/%Y", "%m/%d/%Y", "%d-%m-%Y", "%m-%d-%Y"),
@@ -203,7 +200,7 @@ def day(value: object) -> date:
     """
     Take a date, or text: ``2013-04-26``, ``26.04.2013`` (day first), or with slashes where one order is possible.
 
-    A time of day after it is ignored. ValueError if it is not between 1900 and 2100, or not clear: ``04/05/2013``.
+    A time of day after it is ignored. ValueError if it is not clear: ``04/05/2013``.
 
     Examples
     --------
@@ -215,8 +212,6 @@ def day(value: object) -> date:
     found = value if isinstance(value, date) else _written(value.strip()) if isinstance(value, str) else None
     if found is None:
         raise ValueError(f"{shown(value)} was found. A date was expected, such as 2013-04-26.")
-    if not FIRST_YEAR <= found.year <= LAST_YEAR:
-        raise ValueError(f"{found} was found. A date between {FIRST_YEAR} and {LAST_YEAR} was expected.")
     return found
 
 

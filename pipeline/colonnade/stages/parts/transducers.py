@@ -20,7 +20,6 @@ from colonnade.store.description import variable_name
 from colonnade.store.provenance import Inputs
 from colonnade.units.text import format_percent
 
-
 ALONG = 0.9
 """Least part of a direction along an axis with which a channel of the table records the motion along it."""
 
