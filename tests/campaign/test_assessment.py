@@ -64,7 +64,6 @@ def test_values_and_limits_become_si():
         ({"restitution": 0.9, "restitution_range": [0.93, 0.97]}, "restitution_range", "do not hold restitution = 0.9"),
         ({"restitution": 0.9, "critical_angle": 0.18}, "critical_angle", "has no unit"),
         ({"restitution": 0.9, "p": "1.26 Hz"}, "p", "angular velocity was expected"),
-        ({"restitution": 0.9, "friction_range": [0.5, 0.7]}, "friction", "though its limits are given"),
     ],
 )
 def test_what_is_wrong_is_said_at_its_key(written, place, words):

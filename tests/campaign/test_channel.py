@@ -39,7 +39,6 @@ def test_physical_value_is_recorded_times_factor_plus_offset(keys, factor, offse
     [
         ({"unit": "V", "gain": "10 mm/V"}, None, None),
         ({"unit": "V", "gain": "10 mm/V", "range": "10 V"}, 10.0, 0.1),
-        ({"unit": "mV", "gain": "10 mm/V", "range": "10 V"}, 10000.0, 0.1),
         ({"unit": "V", "gain": "10 mm/V", "range": "50 mm"}, None, 0.05),
         ({"unit": "V", "gain": "10 mm/V", "offset": "5 mm", "range": "10 V"}, 10.0, 0.105),
         ({"unit": "mm", "range": "50 mm"}, 50.0, 0.05),

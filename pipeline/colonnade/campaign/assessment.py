@@ -58,14 +58,12 @@ class Prototype(Table):
     """Limits of the coefficient; without them it counts as known."""
 
     def contradictions(self) -> Problems:
-        """Say which limits do not hold their value, or have none."""
+        """Say which limits do not hold their value."""
         for name in ("restitution", "critical_angle", "p", "friction"):
             value, limits = getattr(self, name), getattr(self, f"{name}_range")
             if isinstance(value, float) and limits is not None and not limits[0] <= value <= limits[1]:
                 message = f"The limits {limits[0]:g} and {limits[1]:g} (SI) do not hold {name} = {value:g}."
                 yield (f"{name}_range",), message
-        if self.friction is None and self.friction_range is not None:
-            yield ("friction",), "It is missing, though its limits are given."
 
 
 class Assessment(Table):

@@ -110,13 +110,7 @@ class RecordedAs(Table):
         if self.written_range is None:
             return None
         value, unit = units.parse(self.written_range)
-        recorded = self.unit or ""
-        if units.same_unit(unit, recorded):
-            return abs(value)
-        found, own = units.resolve(unit), units.resolve(recorded)
-        if found.si_unit != own.si_unit or found.si_unit == self.si_unit:
-            return None
-        return abs(value) * found.factor / own.factor
+        return abs(value) if units.same_unit(unit, self.unit or "") else None
 
     @cached_property
     def full_scale(self) -> float | None:
@@ -131,10 +125,7 @@ class RecordedAs(Table):
         if self.dimension is not None:
             return units.to_si(text, self.dimension)
         value, unit = units.parse(text)
-        found = units.resolve(unit)
-        if found.si_unit != self.si_unit:
-            raise UnitError(f'"{text}" does not have the unit of the physical value, which is {self.si_unit} in SI.')
-        return value * found.factor
+        return value * units.resolve(unit).factor
 
 
 class Channel(RecordedAs):

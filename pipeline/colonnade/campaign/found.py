@@ -22,9 +22,6 @@ from colonnade.units.text import listed
 WITHOUT_TEST = "raw file without a test"
 """Kind of the findings about files of which no test was made."""
 
-MOST_FILES = 100_000
-"""Files of a folder that are looked at."""
-
 UNFINISHED = (".partial", ".part", ".tmp", ".crdownload")
 """Endings of files that a program has not finished."""
 
@@ -80,14 +77,12 @@ def find_tests(campaign: CampaignFile, folder: Path) -> tuple[tuple[Test, ...], 
 
 def files_in(folder: Path) -> Iterator[str]:
     """Give the paths of the regular files in a folder and below it; links, hidden and unfinished files are left out."""
-    found = 0
     for root, folders, names in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith((".", "~")))
         for name in sorted(names):
             path = Path(root, name)
             left_out = name.startswith((".", "~")) or name.casefold().endswith(UNFINISHED) or path.is_symlink()
-            if not left_out and found < MOST_FILES and path.is_file():
-                found += 1
+            if not left_out and path.is_file():
                 yield path.relative_to(folder).as_posix()
 
 

@@ -66,9 +66,7 @@ def _value(key: str, index: int, text: str, table: SmallTable) -> Any:
     if "number" in kinds:
         with suppress(ValueError):
             return float(text)
-    if "interval" in kinds:
-        parts = [part.strip() for part in re.split(r"[;,…]|\.\.\.|\bto\b", text.strip("[]")) if part.strip()]
-        return [part.strip("\"'") for part in parts] if len(parts) > 1 else text
-    if "list" in kinds:
-        return [part.strip() for part in re.split("[;,]", text) if part.strip()]
-    return text
+    if not kinds & {"interval", "list"}:
+        return text
+    parts = [part.strip(" \"'") for part in re.split("[;,]", text.strip("[]")) if part.strip()]
+    return parts if len(parts) > 1 or "list" in kinds else text

@@ -83,13 +83,13 @@ def test_an_acceleration_is_taken_to_be_the_tables():
 @pytest.mark.parametrize(
     ("unit", "question"),
     [
-        (None, 'the file gives no unit: write one such as "mm", or "V" with a line gain = "10 mm/V" below it'),
-        ("furlong", 'the file says "furlong", which is not a known unit'),
+        (None, "the file gives no unit: "),
+        ("furlong", 'the file gives "furlong", which is not a known unit: '),
     ],
 )
 def test_a_unit_that_is_missing_or_unknown_is_asked_for(unit, question):
     (lines,) = lines_of(("LVDT 1", unit))
-    assert lines["unit"] == f'"?"    # ? {question}'
+    assert lines["unit"] == f'"?"    # ? {question}write one such as "mm", or "V" with a line gain = "10 mm/V"'
 
 
 def test_columns_called_the_same_are_named_by_their_number():

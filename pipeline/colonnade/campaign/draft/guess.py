@@ -123,18 +123,17 @@ def channel_lines(each: Meaning, others: Sequence[Column]) -> Iterator[str]:
 def _recorder_and_unit(each: Meaning) -> Iterator[str]:
     if each.recorder != MAIN:
         yield line("recorder", each.recorder)
-    unit, dimension = each.column.unit, units.QUANTITY_DIMENSIONS[each.quantity or "other"]
-    usual = units.DIMENSIONS[dimension or "length"][1]
-    if not unit:
-        wanted = f'write one such as "{usual}", or "V" with a line gain = "10 {usual}/V" below it'
-        yield line("unit", "?", question=f"the file gives no unit: {wanted}")
-    elif (found := units.find_unit(unit)) is None:
-        yield line("unit", "?", question=f'the file says "{unit}", which is not a known unit')
-    else:
-        yield line("unit", unit, "as in the file")
-        if dimension is not None and not units.is_of(unit, dimension):
-            below = f"({found.symbol})" if {"/", " "} & set(found.symbol) else found.symbol
-            yield line("gain", f"? {usual}/{below}", question="from its calibration sheet")
+    unit, dimension = each.column.unit or "", units.QUANTITY_DIMENSIONS[each.quantity or "other"]
+    usual, found = units.DIMENSIONS[dimension or "length"][1], units.find_unit(unit) if unit else None
+    if found is None:
+        given = f'"{unit}", which is not a known unit' if unit else "no unit"
+        question = f'the file gives {given}: write one such as "{usual}", or "V" with a line gain = "10 {usual}/V"'
+        yield line("unit", "?", question=question)
+        return
+    yield line("unit", unit, "as in the file")
+    if dimension is not None and not units.is_of(unit, dimension):
+        below = f"({found.symbol})" if {"/", " "} & set(found.symbol) else found.symbol
+        yield line("gain", f"? {usual}/{below}", question="from its calibration sheet")
 
 
 def kind_lines(name: str) -> Iterator[str]:

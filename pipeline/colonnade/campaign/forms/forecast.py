@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from datetime import datetime
 from typing import Annotated, Literal
 
-from pydantic import Field, NonNegativeFloat, PositiveFloat, model_validator
+from pydantic import AwareDatetime, Field, NonNegativeFloat, PositiveFloat, model_validator
 
 from colonnade.campaign.syntax.table import Record
 from colonnade.dynamics.block import Block, Side
@@ -188,7 +187,7 @@ class ForecastFile(Record):
 
     version: Literal[1] = Field(default=1, alias="schema")
     """Version of this form: 1."""
-    made: datetime
+    made: AwareDatetime
     """When, UTC."""
     colonnade: str
     """Version of colonnade that made it."""
@@ -213,8 +212,6 @@ class ForecastFile(Record):
 
     @model_validator(mode="after")
     def _belongs_together(self) -> ForecastFile:
-        if self.made.tzinfo is None:
-            raise ValueError("`made` has no time zone")
         for name, model in self.models.items():
             if name not in MODELS or MODELS[name].in_space:
                 raise ValueError(f'"{name}" is no model in the plane')

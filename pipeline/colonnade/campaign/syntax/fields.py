@@ -152,10 +152,6 @@ class Quantity:
             raise ValueError(
                 f'{shown(value)} has no unit. A quantity in quotes was expected, such as "{self.such_as}".'
             )
-        if "?" in value:
-            raise ValueError(
-                f'{shown(value)} still has to be filled in. A quantity such as "{self.such_as}" was expected.'
-            )
         number, unit = units.to_si(value, self.dimension), UNITS[self.dimension]
         low, high = self.bounds
         if self.signed:

@@ -29,11 +29,10 @@ def identifier(value: object) -> str:
             f"{shown(value)} cannot be an id. Letters and digits without accents, '.', '_' and '-' were expected, "
             "the first a letter or digit."
         )
-    if value.split(".")[0].casefold() in _DEVICES:
-        raise ValueError(f"{shown(value)} is the name of a device on Windows. Choose another id.")
-    if len(value) > _LONGEST:
+    if value.split(".")[0].casefold() in _DEVICES or len(value) > _LONGEST:
         raise ValueError(
-            f"An id of {len(value)} characters is too long for a file name. At most {_LONGEST} were expected."
+            f"{shown(value)} cannot be a file name everywhere: it is longer than {_LONGEST} characters, or the name of a "
+            "device on Windows. Choose another id."
         )
     return value
 
