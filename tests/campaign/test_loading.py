@@ -85,7 +85,7 @@ WRONG = [
     ('width = "86 mm"', 'width = "86"', 'line 8: specimens.prism.width: "86" has no unit. A length was expected'),
     ('width = "86 mm"', 'widht = "86 mm"', 'specimens.prism.widht: Unknown key. Did you mean "width"?'),
     ('quantity = "acceleration"', 'quantity = "acceleraton"', '"acceleraton" was found. Did you mean "acceleration"?'),
-    ('shape = "cone"', 'shape = "kone"', 'specimens.cone: Unknown shape "kone". Did you mean "cone"?'),
+    ('shape = "cone"', 'shape = "kone"', 'specimens.cone: "kone" was found. Did you mean "cone"?'),
     ('shape = "cone", ', "", 'specimens.cone: "shape" is missing.'),
     (', relative_to = "table"', "", "channels.top.relative_to: It is missing. Expected: what a displacement"),
     ('lowpass = "25 Hz"', 'lowpas = "25 Hz"', 'processing.lowpas: Unknown key. Did you mean "lowpass"?'),
@@ -115,9 +115,8 @@ def test_all_problems_are_told_at_once_in_the_order_of_the_file(load_text):
     assert lines == sorted(lines)
 
 
-def test_a_missing_campaign_file_names_what_is_there(tmp_path):
-    (tmp_path / "test.toml").touch()
-    with pytest.raises(CampaignError, match=r"not found in .* has: test\.toml"):
+def test_a_missing_campaign_file_is_told_with_its_folder(tmp_path):
+    with pytest.raises(CampaignError, match=r"campaign\.toml: not found in .*\. Name a campaign\.toml or its folder"):
         load(tmp_path)
 
 

@@ -79,8 +79,6 @@ def _found(path: Path) -> Path:
             return path
         if kind := irregular(path):
             raise CampaignError(f"{path}: this is {kind}; a campaign file, or its folder, was expected.")
-        others = sorted(other.name for other in path.parent.glob("*.toml"))
     except (OSError, RuntimeError, ValueError) as error:
         raise CampaignError(f"{path}: invalid path ({error}).") from None
-    hint = f" That folder has: {', '.join(others)}." if others else ""
-    raise CampaignError(f"{path.name}: not found in {path.parent}.{hint} Name a {FILE_NAME} or its folder.")
+    raise CampaignError(f"{path.name}: not found in {path.parent}. Name a {FILE_NAME} or its folder.")

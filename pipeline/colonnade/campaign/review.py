@@ -6,13 +6,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
+from pydantic import AfterValidator, Field, WithJsonSchema
 
 from colonnade.campaign.setup import Setup
 from colonnade.campaign.syntax.document import Place, read, refusal, unknown, validated
 from colonnade.campaign.syntax.fields import FACTOR, Day, Interval, Number, Several, Text, outside, shown
 from colonnade.campaign.syntax.names import inside
-from colonnade.campaign.syntax.table import Table
+from colonnade.campaign.syntax.table import Record, Table
 from colonnade.campaign.test import Test
 from colonnade.errors import CampaignError
 
@@ -122,10 +122,8 @@ class ReviewFile(Table):
             yield from (((kind, index), entry) for index, entry in enumerate(getattr(self, kind)))
 
 
-class Flagged(BaseModel):
+class Flagged(Record):
     """A stretch of a channel that people flagged; the whole channel if the window is None."""
-
-    model_config = ConfigDict(frozen=True)
 
     channel: str
     window: tuple[float, float] | None
@@ -133,7 +131,7 @@ class Flagged(BaseModel):
     reason: str
 
 
-class Review(BaseModel):
+class Review(Record):
     """
     The decisions about one test.
 
@@ -150,12 +148,10 @@ class Review(BaseModel):
         One sentence for each entry: when, who, what, why.
     """
 
-    model_config = ConfigDict(frozen=True)
-
     excluded: str = ""
     window: tuple[float, float] | None = None
     flags: tuple[Flagged, ...] = ()
-    factors: dict[str, float] = {}
+    factors: dict[str, float] = Field(default={})
     sentences: tuple[str, ...] = ()
 
     def within(self, window: tuple[float, float] | None) -> tuple[float, float] | None:

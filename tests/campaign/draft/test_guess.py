@@ -161,8 +161,8 @@ def test_files_with_the_same_columns_are_of_one_setup():
     [
         ("span-2.csv", "span-2-daq2.csv", "daq2"),
         ("x_box1.csv", "x_box2.csv", "box2"),
-        ("daq1/x.csv", "daq2/x.csv", "daq2"),
-        ("x.csv", "x-top.csv", "top"),
+        ("x/daq1.csv", "x/daq2.csv", "daq2"),
+        ("x.csv", "x.tdms", "tdms"),
     ],
 )
 def test_files_of_two_recorders_are_one_test(first, second, recorder):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 import numpy as np
 
@@ -117,44 +117,31 @@ def look_at(number: int, channel: RecordedChannel) -> Column:
 Files = dict[str, RawFile]
 """Files of a test by recorder, the main one first."""
 
-_RECORDER = re.compile(r"(?:daq|das|rec|recorder|logger|box|unit|device|scope|system)[ _-]?[0-9]*", re.IGNORECASE)
-_TAGGED = re.compile(r"(.*[^ _.\-/])[ _.\-]+([A-Za-z]+[ _\-]?[0-9]*)", re.DOTALL)
+_RECORDER = re.compile(
+    r"(.+?)[ _.\-/]+((?:daq|das|rec|recorder|logger|box|unit|device|scope|system)[ _-]?[0-9]*)",
+    re.IGNORECASE | re.DOTALL,
+)
 
 
 def arrange(files: Sequence[RawFile]) -> tuple[list[list[Files]], list[tuple[str, str]]]:
     """
     Arrange raw files into setups and tests.
 
-    Files of the same format and columns are of one recorder. `span-2.csv` and `span-2-daq2.csv`, `x_box1.csv` and
-    `x_box2.csv`, or `daq1/x.csv` and `daq2/x.csv` are of two recorders of one test; so are `x.csv` and `x-top.csv`
-    if they have no column in common. Second copies of a recording are left out, with the reason.
+    Files of the same format and columns are of one recorder. `span-2.csv` and `span-2-daq2.csv`, or `x_box1.csv` and
+    `x_box2.csv`, are of two recorders of one test. Second copies of a recording are left out, with the reason.
     """
     copies: list[tuple[str, str]] = []
-    first: dict[tuple[str, frozenset[str]], str] = {}
-    tests: list[Files] = []
-    named: dict[str, Files] = {}
+    tests: dict[str, Files] = {}
     for file in files:
-        if (used := first.setdefault((file.stem, file.names), file.relative)) != file.relative:
-            copies.append((file.relative, f"the same columns as {used}, so it is treated as a copy"))
-            continue
-        for name, tag in _names(file):
-            test = named.get(name)
-            if test and tag and (_RECORDER.fullmatch(tag) or not test[MAIN].names & file.names):
-                test[unique([*test, tag], "recorder")[-1]] = file
-                break
+        tagged = _RECORDER.fullmatch(file.stem)
+        name, tag = tagged.groups() if tagged else (file.stem, Path(file.relative).suffix.lstrip("."))
+        test = tests.setdefault(name, {})
+        alike = [each.relative for each in test.values() if (each.stem, each.names) == (file.stem, file.names)]
+        if alike:
+            copies.append((file.relative, f"the same columns as {alike[0]}, so it is treated as a copy"))
         else:
-            tests.append({MAIN: file})
-            named = {name: tests[-1] for name, _ in _names(file, as_main=True)} | named
+            test[unique([*test, tag], "recorder")[-1] if test else MAIN] = file
     setups: dict[tuple[object, ...], list[Files]] = {}
-    for test in tests:
+    for test in tests.values():
         setups.setdefault(tuple((name, file.layout) for name, file in test.items()), []).append(test)
     return list(setups.values()), copies
-
-
-def _names(file: RawFile, *, as_main: bool = False) -> Iterator[tuple[str, str]]:
-    """Give the names of the tests that a file may belong to, each with the recorder that it is then of."""
-    path, tagged = PurePosixPath(file.stem), _TAGGED.fullmatch(file.stem)
-    if tagged and (not as_main or _RECORDER.fullmatch(tagged[2])):
-        yield tagged[1], tagged[2]
-    yield file.stem, PurePosixPath(file.relative).suffix.lstrip(".")
-    yield str(path.parent.parent / path.name), path.parent.name

@@ -107,7 +107,9 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     for number, each in enumerate(setups, start=1):
         each.name = "setup" if len(setups) == 1 else f"setup-{number}"
     if not setups:
-        raise CampaignError("\n".join([f"{folder}: no readable recording found.", *_told(refused)]))
+        told = [f"  {name}: {reason}" for name, reason in refused[:MOST_TOLD]]
+        told = told or ["  It contains only documents. Name the folder with the raw files."]
+        raise CampaignError("\n".join([f"{folder}: no readable recording found.", *told]))
     home = folder.parent if folder.name.casefold() in RAW_FOLDERS else folder
     lines = written(unique([home.name], "campaign")[0], setups, refused)
     asked = [(number, each[1]) for number, each in enumerate(map(_QUESTION.fullmatch, lines), start=1) if each]
@@ -136,13 +138,6 @@ def _expected(folder: Path) -> Path:
             "continue with it, run `colonnade check`."
         )
     return folder
-
-
-def _told(refused: Sequence[tuple[str, str]]) -> list[str]:
-    lines = [f"  {name}: {reason}" for name, reason in refused[:MOST_TOLD]]
-    if len(refused) > MOST_TOLD:
-        lines.append(f"  and {len(refused) - MOST_TOLD} more")
-    return lines or ["  It contains only documents. Name the folder with the raw files."]
 
 
 def written(name: str, setups: Sequence[DraftSetup], refused: Sequence[tuple[str, str]]) -> list[str]:

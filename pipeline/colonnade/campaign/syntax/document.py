@@ -112,11 +112,11 @@ class Source:
         path = ""
         for index, part in enumerate(place):
             if not isinstance(part, int):
-                path += f"{'.' if path else ''}{_short(part)}"
+                path += f"{'.' if path else ''}{quoted(part)[1:-1]}"
                 continue
             tests = self.document.get("tests") if place[:index] == ("tests",) else None
             name = tests[part].get("id") if isinstance(tests, list) and isinstance(tests[part], dict) else None
-            path += f"[{_short(name) if isinstance(name, str) and name else part + 1}]"
+            path += f"[{quoted(name)[1:-1] if isinstance(name, str) and name else part + 1}]"
         return path
 
     def where(self, place: Place) -> tuple[tuple[int, int], str]:
@@ -136,10 +136,6 @@ class Source:
     def paragraphs(self, problems: Iterable[tuple[Place, str]]) -> list[str]:
         """Write all problems in the order of the files."""
         return [self.paragraph(*each) for each in sorted(problems, key=lambda each: self.where(each[0])[0])]
-
-
-def _short(part: str) -> str:
-    return quoted(part)[1:-1]
 
 
 def unknown(place: Place, what: str, name: str, known: Collection[str], where: str = "") -> Iterator[tuple[Place, str]]:

@@ -149,13 +149,11 @@ def _sentence(table: type[Table], place: Place, error: ErrorDetails) -> str:
         return missing(table, str(place[0]))
     if kind == "literal_error" and place == ("schema",):
         return f"{found} This colonnade reads schema {error['ctx']['expected']}."
-    if kind == "literal_error":
-        return found + nearest(str(error["input"]), _words(error))
+    if kind in ("literal_error", "union_tag_invalid"):
+        given = error["ctx"].get("tag", error["input"])
+        return f"{shown(given)} was found.{nearest(str(given), _words(error))}"
     if kind == "union_tag_not_found":
         return '"shape" is missing. Choose one of: "prism", "cylinder", "cone", "measured".'
-    if kind == "union_tag_invalid":
-        shape = error["ctx"]["tag"]
-        return f"Unknown shape {shown(shape)}.{nearest(str(shape), _words(error))}"
     either = table.alternatives().get(str(place[0]), []) if place else []
     if kind in _OF_LISTS or kind in _TEXT:
         said = _list(either) if kind in _OF_LISTS else "Text in quotes"
