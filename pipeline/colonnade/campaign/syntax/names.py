@@ -31,8 +31,8 @@ def identifier(value: object) -> str:
         )
     if value.split(".")[0].casefold() in _DEVICES or len(value) > _LONGEST:
         raise ValueError(
-            f"{shown(value)} cannot be a file name everywhere: it has more than {_LONGEST} characters, or is a device on "
-            "Windows. Choose another id."
+            f"{shown(value)} cannot be a file name everywhere: it has more than {_LONGEST} characters, or is a device "
+            "on Windows. Choose another id."
         )
     return value
 
