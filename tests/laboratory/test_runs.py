@@ -172,12 +172,6 @@ def statue_plan():
     return Plan(STATUE, {"statue.a": 0.93}, {"frame": {MAIN: Recorder(250.0, GERMAN)}}, trials)
 
 
-def physical(written, name, channel):
-    """Time and SI value of a channel, as campaign and readers give it."""
-    chain, column = columns(campaign.load(written.path), name)[channel]
-    return column.time, column.values * chain.factor + chain.offset
-
-
 def test_the_prisms_outcomes_are_those_of_the_programme(prism):
     outcomes = {name: test["outcome"] for name, test in prism.truth["tests"].items()}
     assert len(outcomes) == 10
@@ -218,24 +212,6 @@ def test_a_second_writing_leaves_the_files_alone(tmp_path):
     assert times == [path.stat().st_mtime_ns for path in paths]
 
 
-def test_a_campaign_of_ones_own_reads_back_in_si(tmp_path):
-    written = write(statue_plan(), tmp_path)
-    loaded = campaign.load(written.path)
-    assert loaded.gravity == 9.8
-    assert loaded.title == 'A "statue", shaken'
-    assert written.truth["tests"]["fallen"]["outcome"] == "overturned"
-    assert written.truth["tests"]["tilted"]["outcome"] == "rocking"
-    table = statue_plan().trials[1].table
-    angle = np.loadtxt(tmp_path / "truth" / "fallen.csv", delimiter=",", skiprows=1)[:, 1]
-    for channel, height in (("upper", 0.48), ("lower", 0.1)):
-        time, value = physical(written, "fallen", channel)
-        of_block = height * np.sin(angle) + (-0.06 - np.sign(angle) * 0.06) * (np.cos(angle) - 1)
-        expected = of_block + table.displacement(time)
-        zero = np.median((value - expected)[time < 1.0])
-        assert np.abs(value - zero - expected).max() < 0.3 * (5 * 0.0005 + 0.001)
-    assert np.abs(angle[-1]) == pytest.approx(0.4)
-
-
 @pytest.mark.parametrize(
     ("there", "error", "said"),
     [
@@ -273,33 +249,22 @@ def test_a_relative_folder_is_the_callers_whatever_processes_are_waiting(tmp_pat
 RUNGS = [(name, frequency) for name, steps in LADDERS.items() for frequency in steps]
 
 
-def outcomes(name, frequency, looks, samples_per_cycle):
-    """Outcomes around each step, by the nonlinear model: not the integrator that makes the truth."""
+@pytest.mark.parametrize(("name", "frequency"), RUNGS)
+def test_the_outcome_is_the_same_at_the_ends_of_every_steps_neighbourhood(name, frequency):
+    """By the nonlinear model: not the integrator that makes the truth."""
     block, steps = campaign.load(COLUMNS).block(name), LADDERS[name]
     cycles, ramp = CYCLES.get(frequency, LASTING), RAMPS.get(frequency, RAMP)
     table = sine(block, "sine", frequency, 1.0, cycles=cycles, ramp=ramp).table
-    dt = 1 / (frequency * samples_per_cycle)
+    dt = 1 / (frequency * 300)
     unit = table.acceleration(np.arange(0.0, table.stop + 1.0, dt))
 
     def outcome(amplitude):
         motion = Motion(amplitude * unit, dt)
         return rock(block, motion, restitution=RESTITUTION[name], model="nonlinear").outcome
 
-    around = np.linspace(1 - MARGIN, 1 + MARGIN, looks)
-    return [set(map(outcome, step * around)) for step in steps[frequency]]
-
-
-@pytest.mark.parametrize(("name", "frequency"), RUNGS)
-def test_the_outcome_is_the_same_at_the_ends_of_every_steps_neighbourhood(name, frequency):
-    found = outcomes(name, frequency, looks=3, samples_per_cycle=300)
+    found = [set(map(outcome, step * np.linspace(1 - MARGIN, 1 + MARGIN, 3))) for step in steps[frequency]]
     assert {len(around) for around in found} == {1}
     in_order = [next(iter(around)) for around in found]
     assert in_order[0] == "no-rocking"
     assert in_order[-1] == "overturned"
     assert ("rocking" in in_order) == (frequency >= 3.0)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("name", "frequency"), RUNGS)
-def test_no_boundary_lies_within_one_percent_of_a_step(name, frequency):
-    assert {len(around) for around in outcomes(name, frequency, looks=21, samples_per_cycle=1000)} == {1}

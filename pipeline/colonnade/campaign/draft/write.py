@@ -22,9 +22,6 @@ from colonnade.errors import CampaignError, count, quoted
 from colonnade.readers.files import irregular
 from colonnade.units.text import listed
 
-RAW_FOLDERS = ("raw", "data", "rohdaten", "dati", "daten")
-"""Names of folders that say nothing about the campaign in them."""
-
 MOST_TOLD = 5
 
 _FIRST_LINES = (
@@ -110,8 +107,7 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
         told = [f"  {name}: {reason}" for name, reason in refused[:MOST_TOLD]]
         told = told or ["  It contains only documents. Name the folder with the raw files."]
         raise CampaignError("\n".join([f"{folder}: no readable recording found.", *told]))
-    home = folder.parent if folder.name.casefold() in RAW_FOLDERS else folder
-    lines = written(unique([home.name], "campaign")[0], setups, refused)
+    lines = written(unique([folder.name], "campaign")[0], setups, refused)
     asked = [(number, each[1]) for number, each in enumerate(map(_QUESTION.fullmatch, lines), start=1) if each]
     open_lines = tuple(number for number, value in asked if "?" in value)
     return CampaignDraft(

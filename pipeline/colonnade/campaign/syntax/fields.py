@@ -48,9 +48,6 @@ CONVERSION = (1e-15, 1e15)
 FACTOR = (1e-9, 1e9)
 """Of what a review multiplies a gain by."""
 
-SCALE = (1e-3, 1e5)
-"""Of a model: 1e5 means 1:100 000."""
-
 EXACT = 1e-9
 """A relative standard deviation up to this is none: its square would be lost in the rounding."""
 
@@ -255,8 +252,6 @@ Sided: TypeAlias = Value | Annotated[tuple[Value, Value], Field(description="[fo
 Limits: TypeAlias = Annotated[tuple[Value, Value], AfterValidator(_rising)]
 """Two values, the second larger than the first."""
 
-MOST_TEXTS = 100
-
 SOME_TEXT = {"type": "string", "minLength": 1}
 """JSON Schema of text that is not empty."""
 _DAY = {"type": "string", "format": "date", "description": "a date of TOML, or text", "examples": ["2013-04-26"]}
@@ -265,7 +260,7 @@ Number = Annotated[float, Strict(), AllowInfNan(False)]
 Whole = Annotated[int, Strict()]
 Text = Annotated[str, Field(pattern=r"\S")]
 Several = Annotated[
-    tuple[Text, ...], Field(min_length=1, max_length=MOST_TEXTS), BeforeValidator(listed), AfterValidator(once)
+    tuple[Text, ...], Field(min_length=1, max_length=100), BeforeValidator(listed), AfterValidator(once)
 ]
 """A list of texts, or one of them; each once."""
 Column = Text | Annotated[Whole, Field(ge=1)]
@@ -288,7 +283,8 @@ Restitution = Annotated[Number, Field(gt=0.0, le=1.0)]
 Deviation = Annotated[Number, Field(ge=0.0, le=0.5), AfterValidator(lambda width: width if width > EXACT else 0.0)]
 """A relative standard deviation."""
 PositiveNumber = Annotated[Number, Field(ge=PLAIN[0], le=PLAIN[1])]
-Scale = Annotated[Number, Field(ge=SCALE[0], le=SCALE[1])]
+Scale = Annotated[Number, Field(ge=1e-3, le=1e5)]
+"""Of a model: 1e5 means 1:100 000."""
 MapRatio = Annotated[Number, Field(ge=1e-3, le=1e3)]
 """A frequency or amplitude ratio of a map or spectrum."""
 MapPoints = Annotated[Whole, Field(ge=2, le=10_000)]
