@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
+from math import nan
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
@@ -103,9 +104,9 @@ class Specimen(Table):
     def deviations(self, gravity: float) -> list[str]:
         """Report measured values that differ by more than 1 % from those of the dimensions."""
         block, sentences = self.dimensions(gravity), []
-        for name, unit in _MEASURED.items() if block else ():
+        for name, unit in _MEASURED.items():
             given: fields.Sided[float] | None = getattr(self, name)
-            expected = float(getattr(block.governing, name))
+            expected = float(getattr(block.governing, name)) if block else nan
             for value in dict.fromkeys(pair(given) if given is not None else ()):
                 if abs(value - expected) > LARGEST_DEVIATION * expected:
                     sentences.append(
