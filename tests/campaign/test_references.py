@@ -90,8 +90,11 @@ def test_equal_ids_of_tests_clash():
     (test,) = document()["tests"]
     tests = [test | {"id": name} for name in ("a", "b", "a", "A")]
     assert dangling(document() | {"tests": tests}) == [
-        (("tests", 2, "id"), '"a": This id is used twice. Give every test its own id.'),
-        (("tests", 3, "id"), '"A": It differs from "a" only in upper and lower case. Give every test its own id.'),
+        (
+            ("tests", index, "id"),
+            f'"{name}": a test is called "a", and upper and lower case do not tell ids apart. Give every test its own id.',
+        )
+        for index, name in ((2, "a"), (3, "A"))
     ]
 
 

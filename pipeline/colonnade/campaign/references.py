@@ -30,9 +30,8 @@ def dangling(campaign: CampaignFile) -> Problems:
         if assessment.specimen in campaign.specimens:
             yield from _assessed(campaign, name, assessment)
     for index, test_id, earlier in clashes(test.id for test in campaign.tests):
-        only = f'It differs from "{earlier}" only in upper and lower case'
-        same = "This id is used twice" if test_id == earlier else only
-        yield ("tests", index, "id"), f"{shown(test_id)}: {same}. Give every test its own id."
+        message = f'{shown(test_id)}: a test is called "{earlier}", and upper and lower case do not tell ids apart.'
+        yield ("tests", index, "id"), f"{message} Give every test its own id."
     for index, test in enumerate(campaign.tests):
         yield from unknown(("tests", index, "specimen"), "specimen", test.specimen, campaign.specimens)
         yield from unknown(("tests", index, "setup"), "setup", test.setup, campaign.setups)

@@ -54,7 +54,7 @@ def test_what_is_written_becomes_its_si_value(kind, value, found):
     [
         (fields.Length, 86, "86 has no unit. A quantity in quotes was expected"),
         (fields.Length, "? mm", "A number with its unit was expected"),
-        (fields.Length, "-86 mm", "A value above zero was expected"),
+        (fields.Length, "-86 mm", "A value between 0.001 m and 1000 m was expected"),
         (fields.Length, "1e400 m", "is too large"),
         (fields.Frequency, "86 mm", "frequency"),
         (fields.Sided[fields.PositiveAngle], ["0.2 rad"], "A list of 2 was expected: what it is for."),
@@ -273,7 +273,7 @@ def test_any_finite_number_above_zero_makes_a_usable_campaign_or_is_refused(fold
         ("specimens.prism.inertia", 1e-9, "give a frequency parameter of"),
         ("setups.frame.channels.top.gain", 1e30, "was expected."),
         ("setups.frame.channels.top.offset", 1e300, "was expected."),
-        ("setups.frame.channels.top.at.0", 1e300, "At most 10000 m was expected."),
+        ("setups.frame.channels.top.at.0", 1e300, "A value between -10000 m and 10000 m was expected."),
     ],
 )
 def test_what_was_met_is_refused_with_what_was_expected(folder, key, value, expected):

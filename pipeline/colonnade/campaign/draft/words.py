@@ -20,7 +20,6 @@ AXES = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
 _LATIN = "a v g d e z i th i k l m n x o p r s s t y f ch ps o"
 _GREEK = dict(zip("αβγδεζηθικλμνξοπρσςτυφχψω", _LATIN.split(" "), strict=True))
-_SHORT_ENDINGS = ("weg", "acc")  # as in Tischweg, tableacc
 
 
 def line(key: str, value: object, reason: str = "", question: str = "") -> str:
@@ -89,7 +88,7 @@ def _is_in(part: str, word: str) -> bool:
     if len(word) == 4:
         return part.startswith(word) or part.endswith(word)
     plural = len(part) == len(word) + 1 and part.startswith(word) and part[-1] in (*AXES, "s")
-    return part == word or plural or (word in _SHORT_ENDINGS and part.endswith(word))
+    return part == word or plural
 
 
 def axis(name: str) -> str | None:

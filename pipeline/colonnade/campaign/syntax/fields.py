@@ -151,14 +151,10 @@ class Quantity:
             )
         number, unit = units.to_si(value, self.dimension), UNITS[self.dimension]
         low, high = self.bounds
-        if self.signed:
-            expected = "" if abs(number) <= high else f"At most {high:g} {unit} was expected."
-        elif number <= 0.0:
-            expected = "A value above zero was expected."
-        else:
-            expected = outside(number, (low, high), unit)
-        if expected:
-            raise ValueError(f"{shown(value)} was found. {expected}")
+        if not low <= number <= high:
+            raise ValueError(
+                f"{shown(value)} was found. A value between {low:g} {unit} and {high:g} {unit} was expected."
+            )
         return number
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
