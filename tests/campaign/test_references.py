@@ -92,7 +92,8 @@ def test_equal_ids_of_tests_clash():
     assert dangling(document() | {"tests": tests}) == [
         (
             ("tests", index, "id"),
-            f'"{name}": a test is called "a", and upper and lower case do not tell ids apart. Give every test its own id.',
+            f'"{name}": a test is called "a", and upper and lower case do not tell ids apart. '
+            "Give every test its own id.",
         )
         for index, name in ((2, "a"), (3, "A"))
     ]

@@ -53,7 +53,7 @@ def test_what_is_written_becomes_its_si_value(kind, value, found):
     ("kind", "value", "told"),
     [
         (fields.Length, 86, "86 has no unit. A quantity in quotes was expected"),
-        (fields.Length, "? mm", "A number with its unit was expected"),
+        (fields.Length, "? mm", "has no number. A quantity in quotes was expected, such as"),
         (fields.Length, "-86 mm", "A value between 0.001 m and 1000 m was expected"),
         (fields.Length, "1e400 m", "is too large"),
         (fields.Frequency, "86 mm", "frequency"),

@@ -145,9 +145,10 @@ class Quantity:
 
     def take(self, value: object) -> float:
         """Take what is written."""
-        if not isinstance(value, str):
+        if not isinstance(value, str) or "?" in value:
+            lacking = "number" if isinstance(value, str) else "unit"
             raise ValueError(
-                f'{shown(value)} has no unit. A quantity in quotes was expected, such as "{self.such_as}".'
+                f'{shown(value)} has no {lacking}. A quantity in quotes was expected, such as "{self.such_as}".'
             )
         number, unit = units.to_si(value, self.dimension), UNITS[self.dimension]
         low, high = self.bounds
