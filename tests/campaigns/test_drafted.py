@@ -22,8 +22,6 @@ def test_the_shake_table_recordings_of_others_run(shared_data, tmp_path):
     def answer(owner, key):
         if key in PRISM and owner == "specimen":
             return PRISM[key]
-        if key == "at":
-            return '["43 mm", "0 mm", "440 mm"]'
         if key == "quantity":
             return '"acceleration"' if owner == "column_1" else '"other"'
         return {"sampling_rate": '"100 Hz"', "unit": '"m/s^2"', "on": '"table"'}[key]

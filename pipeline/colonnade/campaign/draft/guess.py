@@ -111,9 +111,8 @@ def channel_lines(each: Meaning, others: Sequence[Column]) -> Iterator[str]:
     if quantity == "force":
         return
     yield line("on", each.place, each.place_word) if each.place_word else asked(Channel, "on", each.place)
-    if each.place == "specimen" and quantity in ("displacement", "acceleration"):
-        yield asked(Channel, "at", ["? mm", "0 mm", "? mm"])
     if each.place == "specimen" and quantity == "displacement":
+        yield asked(Channel, "at", ["? mm", "0 mm", "? mm"])
         yield asked(Channel, "relative_to", "?")
     direction = AXES[each.axis or ("y" if quantity in ("angle", "angular_velocity") else "x")]
     question = f"of a positive reading; {[-part or 0 for part in direction]} if it is reversed"
