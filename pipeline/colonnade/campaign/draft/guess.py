@@ -144,8 +144,6 @@ def kind_lines(name: str) -> Iterator[str]:
     yield line("kind", kind, _from(word), "" if word else doubt)
     if kind in ("sine", "pulse") and frequency:
         yield line("frequency", f"{frequency:g} Hz", "from its name")
-    elif kind in ("sine", "pulse"):
-        yield comment('frequency = "3 Hz"      if it is known')
     elif kind == "earthquake":
         yield comment(
             'motion = "El Centro 1940 NS", span = 2.0      the motion that the table was given, and how strongly'

@@ -27,14 +27,7 @@ MOST_TOLD = 5
 _FIRST_LINES = (
     comment("Drafted by `colonnade init` from the raw files. The text after each # says why a value was chosen."),
     comment('Fill in each "?" in a value before the first run; check each guess that is marked "# ?".'),
-    comment("`colonnade check` lists what is still open, with its line."),
-    comment(
-        'A test may also have date = 2013-04-26, operator = "…", photos = ["photos/….jpg"], a channel offset, range'
-    ),
-    comment("and delay; `colonnade schema campaign` lists all keys."),
-)
-_STACK = comment(
-    'bodies on each other are an assembly: [assemblies.column] stack = ["specimen", "specimen"], with bodies "1", "2"'
+    comment("`colonnade check` lists what is still open, with its line; `colonnade schema campaign` lists all keys."),
 )
 _SPECIMEN = (
     "",
@@ -147,7 +140,6 @@ def written(name: str, setups: Sequence[DraftSetup], refused: Sequence[tuple[str
         comment('facility = "…"         the laboratory and its table'),
         *_SPECIMEN,
     ]
-    lines += [_STACK] if any(each.markers for each in setups) else []
     for each in setups:
         some = listed([test[MAIN].relative for test in each.tests], 3)
         how_many = count(len(each.tests), "test", "tests, all recorded in the same way")
