@@ -3,7 +3,7 @@ What the virtual laboratory tests, and how it records it: the paper's programme,
 
 The sine tests climb a ladder of amplitudes at each frequency, through both boundaries of the map. Within 1 % in A of a
 step the true outcome does not change, so that what becomes of a test does not hang on the last digits of the table's
-motion; tests/laboratory/test_ladder.py looks at every step's neighbourhood. At 1 and 2 Hz a specimen that rocks at all
+motion; tests/laboratory/test_runs.py looks at every step's neighbourhood. At 1 and 2 Hz a specimen that rocks at all
 overturns: no band of lasting rocking is wide enough for a step. From 3 Hz on rocking lasts, at large amplitudes also
 sub-harmonic, and beyond the first overturning amplitude islands are survived: of 3 Hz the step at 1.80 is one.
 """
