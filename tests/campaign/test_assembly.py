@@ -79,7 +79,11 @@ def test_a_frame_rocks_in_the_plane_by_its_columns(edited):
     ("old", "new", "said"),
     [
         ('["drum", "drum", "drum"]', '["drum", "drm"]', 'Unknown specimen "drm". Did you mean "drum"?'),
-        ("[assemblies.column]", "[assemblies.drum]", '"drum" cannot be the id of an assembly: a specimen has it.'),
+        (
+            "[assemblies.column]",
+            "[assemblies.drum]",
+            '"drum" cannot be the id of an assembly or a body: a specimen has it.',
+        ),
         ("[assemblies.column]", "[assemblies.table]", '"table" cannot be the id of an assembly'),
         (
             "[setups.drums.channels]",

@@ -68,5 +68,6 @@ def _value(key: str, index: int, text: str, table: SmallTable) -> Any:
             return float(text)
     if not kinds & {"interval", "list"}:
         return text
-    parts = [part.strip(" \"'") for part in re.split("[;,]", text.strip("[]")) if part.strip()]
+    between = r"[;,]|\bto\b" if "interval" in kinds else "[;,]"
+    parts = [part.strip(" \"'") for part in re.split(between, text.strip("[]")) if part.strip()]
     return parts if len(parts) > 1 or "list" in kinds else text

@@ -72,8 +72,8 @@ class Pattern:
                 yield f"{{{name}}} is there {names.count(name)} times. Each part may be there once."
             elif not units.is_of(unit, dimension) if dimension else unit:
                 example = f"{name}:{units.DIMENSIONS[dimension][1]}" if dimension else name
-                written = f"{name}:{unit}" if unit else name
-                yield f"{{{written}}} was found. The unit of its number was expected: {{{example}}}."
+                found_unit, wanted = f":{unit}" if unit else "", "The unit of its number" if dimension else "No unit"
+                yield f"{{{name}{found_unit}}} was found. {wanted} was expected: {{{example}}}."
 
     def match(self, path: str, names: Mapping[str, Mapping[str, str]]) -> dict[str, str | float] | None:
         """

@@ -92,7 +92,9 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     setups = [DraftSetup(tests) for tests in arranged]
     for each in setups:
         files = [] if each.channels else [file for test in each.tests for file in test.values()]
-        refused += [(file.relative, f"no column measures anything: {'; '.join(each.left_out)}") for file in files]
+        refused += [
+            (file.relative, f"none of its columns measures anything: {'; '.join(each.left_out)}") for file in files
+        ]
     setups = [each for each in setups if each.channels]
     for number, each in enumerate(setups, start=1):
         each.name = "setup" if len(setups) == 1 else f"setup-{number}"
