@@ -177,7 +177,7 @@ def test_a_start_that_was_measured_is_as_uncertain_as_the_angle():
 def test_the_low_pass_is_the_lowest_of_the_transducers_on_the_specimen():
     assert errors_of(rocking()).cutoff_hz is None
     measured = rocking()
-    measured["rocking_angle"].attrs["lowest_cutoff_hz"] = 25.0
+    measured["rocking_angle"].attrs["cutoff_hz"] = 25.0
     assert errors_of(measured).cutoff_hz == 25.0
 
 

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 
 import chain
 from colonnade.errors import StageError
@@ -65,9 +64,8 @@ def test_a_free_vibration_without_transducers_is_refused(small_campaign, rocking
         chain.identified(small_campaign, rocking.drop_vars("rocking_angle"))
 
 
-def test_the_fit_takes_a_low_pass_into_account_unless_it_is_of_another_order(small_campaign, rocking, identified):
-    other = chain.identified(small_campaign, rocking, filter_order=2)
-    assert float(other["estimate"][0]) != float(identified["estimate"][0])
+def test_the_fit_takes_the_low_pass_into_account(small_campaign, rocking, identified):
     unfiltered = rocking.copy()
     del unfiltered["rocking_angle"].attrs["cutoff_hz"]
-    xr.testing.assert_identical(other, chain.identified(small_campaign, unfiltered))
+    other = chain.identified(small_campaign, unfiltered)
+    assert float(other["estimate"][0]) != float(identified["estimate"][0])

@@ -181,7 +181,7 @@ def measurement_errors(rocking: Dataset, beginning: Beginning, inputs: EnsembleI
     error, drift, cutoff, is_integrated = 0.0, 0.0, None, "angle_deviation" in rocking
     if "rocking_angle" in rocking:
         error, drift = (float(rocking[f"rocking_angle_{each}"]) for each in ("standard_error", "drift"))
-        drift, cutoff = drift / np.sqrt(3), rocking["rocking_angle"].attrs.get("lowest_cutoff_hz")
+        drift, cutoff = drift / np.sqrt(3), rocking["rocking_angle"].attrs.get("cutoff_hz")
     start = beginning.theta0 if inputs.prediction.free_vibration else None
     return Measurement(
         interval=float(time[1] - time[0]),

@@ -16,7 +16,6 @@ from colonnade.dynamics.uncertainty import Uncertainty
 from colonnade.errors import StageError
 from colonnade.findings import MEASUREMENT, Finding, warning
 from colonnade.identification.restitution.identify import identify_restitution
-from colonnade.identification.restitution.noise import ORDER
 from colonnade.identification.restitution.result import Restitution
 from colonnade.store.provenance import Inputs
 
@@ -44,14 +43,11 @@ class RestitutionInputs(Inputs):
     settings : RestitutionSettings
     known : Uncertainty
         How well α, p and the calibration of the angle are known.
-    filter_order : int
-        Of the low-pass.
     """
 
     block: Block
     settings: RestitutionSettings
     known: Uncertainty
-    filter_order: int = ORDER
 
     @classmethod
     def of(cls, campaign: Campaign, test: Test) -> RestitutionInputs:
@@ -61,7 +57,6 @@ class RestitutionInputs(Inputs):
             block=campaign.block(test.specimen),
             settings=campaign.processing.restitution,
             known=Uncertainty(critical_angle=known.critical_angle, p=known.p, angle_gain=known.angle_gain),
-            filter_order=campaign.processing.filter_order,
         )
 
 
@@ -145,8 +140,7 @@ def _identified(rocking: Dataset, inputs: RestitutionInputs) -> Restitution:
         level=inputs.settings.level,
         lowest_amplitude=inputs.settings.lowest_amplitude,
         noise=float(np.nanmedian(rocking["rocking_angle_standard_error"])),
-        # A filter of another order is not the one that the fit knows: it finds the nearest one itself.
-        lowpass=rocking["rocking_angle"].attrs.get("cutoff_hz") if inputs.filter_order == ORDER else None,
+        lowpass=rocking["rocking_angle"].attrs.get("cutoff_hz"),
         uncertainty=inputs.known,
         **beside,
     )

@@ -240,17 +240,13 @@ def _of_transducers(conditioned: Dataset, motion: SpecimenMotion, used: list[str
     """
     The angle and the residuals of its transducers.
 
-    Its `cutoff_hz` is that of all transducers that it is from, if they share one and nothing else smoothed it; the
-    `lowest_cutoff_hz` is that of any on the specimen.
+    Its `cutoff_hz` is the lowest of the transducers on the specimen.
     """
-    entered = [name for name, counts in zip(used, motion.entered, strict=True) if counts]
-    cutoffs = {float(conditioned[name].attrs["cutoff_hz"]) for name in entered}
-    is_shared = not motion.is_integrated and len(cutoffs) == 1
-    lowpass = {"lowest_cutoff_hz": min(conditioned[name].attrs["cutoff_hz"] for name in used)}
+    cutoff = min(conditioned[name].attrs["cutoff_hz"] for name in used)
     moved = np.array([float(np.nanstd(conditioned[name].to_numpy())) for name in used])
     noise = np.array([max(float(conditioned[name].attrs.get("noise", 0.0)), LEAST_NOISE) for name in used])
     return {
-        "rocking_angle": ("elapsed", motion.angle, lowpass | ({"cutoff_hz": min(cutoffs)} if is_shared else {})),
+        "rocking_angle": ("elapsed", motion.angle, {"cutoff_hz": cutoff}),
         "transducer": ("transducer", [str(conditioned[name].attrs.get("channel", name)) for name in used]),
         "residual_to_noise": ("transducer", motion.residual_size / noise),
         "residual_to_reading": ("transducer", motion.residual_size / np.maximum(moved, 1e-300)),

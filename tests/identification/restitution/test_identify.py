@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import rock
 from colonnade.identification.restitution import identify
 from colonnade.identification.restitution.identify import identify_restitution
@@ -54,9 +55,10 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
 
 
 def test_restitution_that_differs_from_impact_to_impact_widens_the_interval():
+    speeds = np.linspace(0, 5, 2001)
     steady, uneven = (
         rock(PRISM, restitution=law, theta0=0.5 * ALPHA, duration=12.0, model="nonlinear")
-        for law in (0.976, lambda speed: 0.976 + 0.003 * np.sin(400 * np.asarray(speed)))
+        for law in (0.976, RestitutionLaw.table(speeds, 0.976 + 0.003 * np.sin(400 * speeds)))
     )
     steady, uneven = (identify_restitution(each.time, each.angle, PRISM) for each in (steady, uneven))
     assert uneven.standard_error > 20 * steady.standard_error

@@ -25,13 +25,7 @@ FEWEST_LATER = 6
 """Arcs that are left where the first ones are left out."""
 
 SURE = 4.5
-"""Standard errors from which on first impacts differ from later ones (several numbers are tried), or sides do, ..."""
-
-LEAST_LOSS = 0.15
-"""... if the first impacts lose more by this share of 1 − e, ..."""
-
-BETTER = 6.0
-"""... and a step explains it better by this, in χ², than a change with the speed of impact."""
+"""Standard errors from which on the sides differ."""
 
 LEAST_LIFT = 0.02
 """Share of the half-width by which the base is lifted off both edges in a bounce."""
@@ -54,19 +48,15 @@ LARGEST_SCATTER, SURELY = 0.01, 0.99
 LEAST_FALL = 2.0
 """Times by which the residual of a history falls with the base turned round, from which it is recorded so."""
 
-THREE_DIMENSIONAL, UNEQUAL_SIDES, MOVING = "three-dimensional rocking", "unequal sides", "moving table"
+MOVING = "moving table"
 
 
-def find_beside(
-    time: Array, measured: dict[str, Array], record: Record, found: Estimated | None
-) -> Iterator[Departure]:
-    """Look for departures in what was measured beside the angle, and in the first impacts, on a table at rest."""
+def find_beside(time: Array, measured: dict[str, Array], record: Record) -> Iterator[Departure]:
+    """Look for departures in what was measured beside the angle, on a table at rest."""
     if record.counted.start.size < FEWEST_ARCS:
         return
     if "out_of_plane" in measured:
         yield from find_rotation(time, measured["out_of_plane"], record)
-    elif found is not None:
-        yield from find_first_loss(found, record)
     if "slide" in measured:
         yield from find_sliding(time, measured["angle"] - record.zero, measured["slide"], record)
     if "uplift" in measured:
@@ -89,46 +79,12 @@ def find_rotation(time: Array, out_of_plane: Array, record: Record) -> Iterator[
             f"The block turns out of its plane by up to {format_percent(size)} of the rocking angle (measured); more "
             f"than {format_percent(LARGEST_SHARE)}"
         )
-        yield _spatial(record, int(np.flatnonzero(large)[-1]) + 1, size, error, finding)
-
-
-def find_first_loss(found: Estimated, record: Record) -> Iterator[Departure]:
-    """Look for first cycles that lose more than later ones, as large ones do that turn out of the plane."""
-    impacts = found.path.count - 1
-    most = min(impacts - FEWEST_LATER, impacts // 2)
-    if most < 2:
-        return
-    deviations = found.path.deviations
-    after = np.cumsum(deviations)
-    counts = np.arange(2, most + 1)
-    # The step by which the squares become least, before it is fitted with all else.
-    first, later = after[counts - 1] / counts, (after[-1] - after[counts - 1]) / (impacts - counts)
-    count = int(counts[np.argmax((later - first) ** 2 * counts * (impacts - counts))])
-    change, error = found.along((np.arange(impacts) < count).astype(np.float64))
-    slope, slope_error = found.trend
-    e = found.restitution * float(np.exp(-change * count / impacts))
-    loss = -e * float(np.expm1(min(change, 1.0)))
-    is_step = (change / error) ** 2 >= (slope / slope_error) ** 2 + BETTER
-    if loss < LEAST_LOSS * (1 - e) or abs(change) < SURE * error or not is_step:
-        return
-    # The part from the release on ends with an impact that no arc seen begins.
-    count = max(count - (1 if found.path.from_release else 0), 1)
-    yield _spatial(
-        record, count, loss, error * e,
-        f"The first {count} impacts lose more than the later ones, e is lower by {loss:.4f} ± {e * error:.4f}, in a "
-        "step and not gradually with the speed of impact, as large cycles that turn out of the plane do",
-    )  # fmt: skip
-
-
-def _spatial(record: Record, count: int, size: float, error: float, finding: str) -> Departure:
-    """Leave the first `count` arcs out, and say so."""
-    number = np.flatnonzero(record.usable)
-    total = number.size
-    first = f"the first {f'{count} ' if count > 1 else ''}of {total} arcs"
-    refuses = total - count < FEWEST_LATER
-    end = f"; too few are left without {first}." if refuses else f"; left out: {first}."
-    left_out = int(number[count - 1]) + 1
-    return Departure(THREE_DIMENSIONAL, size, error, "1", finding + end, left_out, refuses)
+        number, count = np.flatnonzero(record.usable), int(np.flatnonzero(large)[-1]) + 1
+        first = f"the first {f'{count} ' if count > 1 else ''}of {number.size} arcs"
+        refuses = number.size - count < FEWEST_LATER
+        end = f"; too few are left without {first}." if refuses else f"; left out: {first}."
+        left_out = int(number[count - 1]) + 1
+        yield Departure("three-dimensional rocking", size, error, "1", finding + end, left_out, refuses)
 
 
 def find_sliding(time: Array, angle: Array, slide: Array, record: Record) -> Iterator[Departure]:
@@ -226,7 +182,7 @@ def find_within(found: Estimated, *, driven: bool) -> Iterator[Departure]:
     if not driven and abs(tilt) >= max(SURE * error, LEAST_TILT):
         critical = float(np.prod([side.critical_angle for side in found.path.block.sides]) ** 0.5)
         yield Departure(
-            UNEQUAL_SIDES, tilt * critical, error * critical, "rad",
+            "unequal sides", tilt * critical, error * critical, "rad",
             f"The critical angles of the two sides differ by 2 × ({1e3 * tilt * critical:+.2f} ± "
             f"{1e3 * error * critical:.2f}) mrad from those of the block: arcs on one side last longer than on the "
             "other at the same peak. The table is tilted by as much, or the block is not as symmetric as given "

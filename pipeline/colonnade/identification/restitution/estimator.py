@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from math import exp
 
@@ -12,7 +12,7 @@ import scipy
 
 from colonnade.arrays import Array
 from colonnade.identification.restitution.follower import FIXED, GAIN, MEAN, TILT, ZERO
-from colonnade.identification.restitution.noise import FINEST_CUTOFF, Filter, filter_of, find_cutoff, find_knee
+from colonnade.identification.restitution.noise import find_knee
 from colonnade.identification.restitution.path import LIKELY_SCATTER, Path, UnfollowedError
 from colonnade.identification.restitution.result import Joint
 from colonnade.identification.restitution.scatter import LinearModel, Solved
@@ -24,7 +24,7 @@ LEAST_NOISE = 1e-6
 """Of α, standard deviation: less is the rounding of computed records."""
 
 MISFIT = 4.0
-"""Times as much residual power with a low-pass, or with the part from the release on, from which there is no such."""
+"""Times as much residual power with the part from the release on, from which the block was not released from rest."""
 
 FEWEST_SAMPLES = 64
 """From which a spectrum is looked at."""
@@ -125,15 +125,13 @@ class Estimated:
         return float(solved.mean[-1]), float(np.sqrt(solved.covariance[-1, -1]))
 
 
-def estimate(path: Path, lowpass: float | None, lowest: float, *, whole: bool) -> Estimated:
+def estimate(path: Path, lowest: float, *, whole: bool) -> Estimated:
     """
     Follow a record from a path of its first arcs on, and say what is known of the unknowns then.
 
     Parameters
     ----------
     path : Path
-    lowpass : float or None
-        Hz, of the record; found from the residual if None.
     lowest : float
         rad; lower peaks are not followed.
     whole : bool
@@ -150,11 +148,11 @@ def estimate(path: Path, lowpass: float | None, lowest: float, *, whole: bool) -
     released = path.with_release() if whole else None
     if released is not None:
         with suppress(UnfollowedError):
-            found = _estimated(released, lowpass)
+            found = _estimated(released)
             # On a table that moves, a release at rest may lead astray.
             if found.path.power < MISFIT * path.power and not _is_odd(found.path):
                 return found
-    return _estimated(path, lowpass)
+    return _estimated(path)
 
 
 def _is_odd(path: Path) -> bool:
@@ -170,41 +168,31 @@ def _least(path: Path) -> float:
     return float((LEAST_NOISE * path.sides[0].min()) ** 2)
 
 
-def _estimated(path: Path, lowpass: float | None) -> Estimated:
+def _estimated(path: Path) -> Estimated:
     if path.count < FEWEST_ARCS:
         raise UnfollowedError(f"{FEWEST_ARCS} arcs are needed, and {path.count} could be followed")
-    samples, scatter, trend = path.samples, LIKELY_SCATTER, None
-    has_spectrum = samples.is_even and path.counted.sum() >= FEWEST_SAMPLES
-    if lowpass is None and has_spectrum:
-        path = path.laid(scatter)
-        lowpass = find_cutoff(path.residual, filter_of(None, samples.step, samples.group))
-        rounded = replace(path, passed=filter_of(lowpass, samples.step, samples.group))
-        if rounded.power > MISFIT * path.power:
-            lowpass = None
-    if lowpass is not None and not (samples.is_even and lowpass * samples.interval <= FINEST_CUTOFF):
-        lowpass = None
-    passed = filter_of(lowpass, samples.step, samples.group)
-    path = replace(path, passed=passed)
+    scatter, trend, passed = LIKELY_SCATTER, None, path.passed
     for _ in range(MOST_LAID):
         path = path.laid(scatter, trend)
-        found = _linear(path, passed)
+        found = _linear(path)
         now, trend = max(found.answer.scatter, 1e-6), found.speeds if found.has_trend else None
         if abs(now - scatter) < 0.1 * scatter:
             break
         scatter = now
+    has_spectrum = path.samples.is_even and path.counted.sum() >= FEWEST_SAMPLES
     if not (has_spectrum and passed.bands(path.residual).is_coloured):
         return found
     rows, frequency, _ = passed.whitened(path.columns, 0.0)
     knee = find_knee(rows, frequency, path.precision(now), found.model.level)
-    return found if knee == 0 else _linear(path, passed, knee)
+    return found if knee == 0 else _linear(path, knee)
 
 
-def _linear(path: Path, passed: Filter, knee: float = 0.0) -> Estimated:
+def _linear(path: Path, knee: float = 0.0) -> Estimated:
     count = float(path.counted.sum())
-    if knee == 0 and passed.cutoff_hz is None:
+    if knee == 0 and path.passed.cutoff_hz is None:
         both = path.products
     else:
-        rows, _, share = passed.whitened(path.columns, knee)
+        rows, _, share = path.passed.whitened(path.columns, knee)
         both, count = rows @ rows.T, count * share
     # As seen from the mean: what the impacts' own departures explain is left in the values.
     turn = np.eye(both.shape[0])

@@ -88,7 +88,7 @@ def identify_restitution(
         Standard deviation of the angle at rest, rad; default: from the record itself.
     lowpass : float, optional
         Cut-off of the zero-phase low-pass (Butterworth, order 4, both ways) that the record went through, Hz; default:
-        found from the residuals of the fit.
+        none.
     uncertainty : Uncertainty, optional
         Of the block and the angle: `critical_angle`, `p` and `angle_gain` count. `Uncertainty()` is an exactly known
         block.
@@ -152,7 +152,7 @@ def identify_restitution(
         found, why = (recorded, why_not) if driven else (found, why)
     if not driven:
         record = record if found is None else replace(record, zero=found.zero)
-        departing += departures.find_beside(times, measured, record, found)
+        departing += departures.find_beside(times, measured, record)
         if left_out := max((each.left_out for each in departing), default=0):
             record = replace(record, left_out=left_out)
             found, why = follow(record)
@@ -165,8 +165,8 @@ def identify_restitution(
 def _followed(record: Record, *, widths: Array, lowpass: float | None) -> tuple[Estimated | None, str]:
     """Follow a record from the first arc that enters; what is found, or why nothing is."""
     try:
-        path = Path.through(record.samples, record.block, widths, *record.run())
-        return estimate(path, lowpass, record.least, whole=record.left_out == 0), ""
+        path = Path.through(record.samples, record.block, widths, lowpass, *record.run())
+        return estimate(path, record.least, whole=record.left_out == 0), ""
     except (UnfollowedError, np.linalg.LinAlgError) as error:
         return None, f"No simulated history follows the record: {error}."
 

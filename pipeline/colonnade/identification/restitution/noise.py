@@ -23,14 +23,8 @@ ABOUT_FILTER = 4.0
 FINEST_CUTOFF = 0.45
 """Of the sampling rate of the samples fitted: a filter above it rounds nothing that they see."""
 
-KNEES, CUTOFFS = 12, 40
-"""Frequencies tried below which noise of power 1/f exceeds white noise; cut-offs tried if the low-pass is not known."""
-
-FLOOR = 1e-4
-"""Share of the power that a recorder adds after its low-pass."""
-
-SURE = 10.0
-"""Gain of the logarithm of the likelihood by which a low-pass that was not given is believed."""
+KNEES = 12
+"""Frequencies tried below which noise of power 1/f exceeds white noise."""
 
 BAND = 0.1
 """Width of a band of frequencies, as a share of its lowest, over which a spectrum is averaged."""
@@ -65,9 +59,9 @@ class Bands:
         knees = np.append(0.0, np.geomspace(frequency[0], 3 * frequency[-1], KNEES))
         return cls(middle, total / weight, weight, knees)
 
-    def likelihoods(self, left: Array | float = 1.0) -> Array:
-        """Logarithm of Whittle's likelihood of each of `knees`, at the likeliest level; a low-pass leaves (…, b)."""
-        shape = np.atleast_1d(left)[..., None, :] * (1 + self.knees[:, None] / self.frequency)
+    def likelihoods(self) -> Array:
+        """Logarithm of Whittle's likelihood of each of `knees`, at the likeliest level."""
+        shape = 1 + self.knees[:, None] / self.frequency
         level = (self.freedom * self.power / shape).sum(axis=-1, keepdims=True) / self.freedom.sum()
         return np.asarray(-0.5 * (self.freedom * np.log(level * shape)).sum(axis=-1))
 
@@ -183,16 +177,6 @@ def corners(
             total[i] += jumps[k] * (of_speed[low] + share * (of_speed[low + 1] - of_speed[low]))
             total[i] += bends[k] * (of_acceleration[low] + share * (of_acceleration[low + 1] - of_acceleration[low]))
     return total
-
-
-def find_cutoff(residual: Array, plain: Filter) -> float | None:
-    """Cut-off (Hz) of the low-pass that a residual, NaN where not counted, went through; None if it shows none."""
-    bands = plain.bands(residual)
-    cutoffs = np.geomspace(4 * bands.frequency[0], FINEST_CUTOFF / plain.interval, CUTOFFS)
-    left = np.array([passed(bands.frequency, cutoff, plain.step) for cutoff in cutoffs]) ** 2 + FLOOR
-    found = bands.likelihoods(left).max(axis=-1)
-    best = int(np.argmax(found))
-    return float(cutoffs[best]) if found[best] > bands.likelihoods().max() + SURE else None
 
 
 def find_knee(rows: Array, frequency: Array, precision: Array, level: float) -> float:

@@ -26,13 +26,13 @@ from colonnade.identification.restitution.follower import (
     P,
     follow,
 )
-from colonnade.identification.restitution.noise import Filter, corners
+from colonnade.identification.restitution.noise import FINEST_CUTOFF, Filter, corners, filter_of
 from colonnade.identification.restitution.peaks import angle_of_energy, half_duration, lift
 from colonnade.identification.restitution.record import AngleSamples
 from colonnade.identification.restitution.result import EXACT, FittedHistory
 
 BLURRED = 0.08
-"""Over p: margin about impacts while the record's low-pass is not known; 1 / (2 × default cut-off)."""
+"""Over p: margin after the impact that began the first arc; 1 / (2 × default cut-off)."""
 
 RELEASED = 0.15
 """Share of the way from release to the first impact that is not followed: how the block was let go is not known."""
@@ -82,8 +82,8 @@ class Path:
         By `MEAN`, …, `DRIFT`, then the departure of ln e of each impact between m arcs.
     from_release : bool
         Whether the first peak is a release at rest.
-    passed : Filter or None
-        Low-pass of the record; None while it is not known, when samples near impacts are left out.
+    passed : Filter
+        What the record went through.
     """
 
     block: Block
@@ -91,13 +91,17 @@ class Path:
     widths: Array
     side: int
     values: Array
+    passed: Filter
     from_release: bool = False
-    passed: Filter | None = None
 
     @classmethod
-    def through(cls, samples: AngleSamples, block: Block, widths: Array, peaks: Array, times: Array) -> Path:
+    def through(
+        cls, samples: AngleSamples, block: Block, widths: Array, lowpass: float | None, peaks: Array, times: Array
+    ) -> Path:
         """
         Return the path of a run of arcs on alternating sides, by their peaks (rad, signed) and times (s), shape (n,).
+
+        `lowpass` is the cut-off of the record, Hz.
 
         Raises
         ------
@@ -111,7 +115,9 @@ class Path:
         slope, _ = np.polyfit(np.arange(peaks.size), np.log(energies), 1, w=np.abs(peaks))
         values = np.zeros(FIXED)
         values[[PEAK, TIME, MEAN]] = abs(peaks[0]), times[0], np.clip(slope / 2, np.log(0.3), np.log(0.9999))
-        return cls(block, samples, widths, int(peaks[0] > 0), values).with_arcs(min(peaks.size, FIRST_ARCS))
+        is_seen = lowpass is not None and samples.is_even and lowpass * samples.interval <= FINEST_CUTOFF
+        passed = filter_of(lowpass if is_seen else None, samples.step, samples.group)
+        return cls(block, samples, widths, int(peaks[0] > 0), values, passed).with_arcs(min(peaks.size, FIRST_ARCS))
 
     @property
     def count(self) -> int:
@@ -165,29 +171,25 @@ class Path:
     @cached_property
     def seen(self) -> Array:
         """Angle as the record shows it, rad; NaN where it is not followed."""
-        followed, values, angle = self.followed, self.values, self.followed.angle
-        if self.passed is not None:
-            (critical, p), signs, passed = self.sides, self.signs, self.passed
-            # The last impact has the e of the one before.
-            e = np.append(self.restitution, self.restitution[-1:] if self.count > 1 else 1.0)
-            jumps = signs * followed.speeds * (1 - e)
-            # Where the first arc was seen from its start on, it began with an impact too.
-            jumps, ends = np.append(-jumps[0] / e[0], jumps), np.append(self.start, followed.ends)
-            bends = np.append(-signs[0], signs) * float((p**2 * np.sin(critical)).sum())
-            rounding = passed.time, passed.of_speed, passed.of_acceleration
-            angle = angle + corners(self.samples.time, ends, jumps, bends, *rounding)
+        followed, values, passed = self.followed, self.values, self.passed
+        (critical, p), signs = self.sides, self.signs
+        # The last impact has the e of the one before.
+        e = np.append(self.restitution, self.restitution[-1:] if self.count > 1 else 1.0)
+        jumps = signs * followed.speeds * (1 - e)
+        # Where the first arc was seen from its start on, it began with an impact too.
+        jumps, ends = np.append(-jumps[0] / e[0], jumps), np.append(self.start, followed.ends)
+        bends = np.append(-signs[0], signs) * float((p**2 * np.sin(critical)).sum())
+        rounding = passed.time, passed.of_speed, passed.of_acceleration
+        angle = followed.angle + corners(self.samples.time, ends, jumps, bends, *rounding)
         return np.asarray(exp(values[GAIN]) * angle + values[ZERO] + values[DRIFT] * self.samples.along)
 
     @cached_property
     def residual(self) -> Array:
         """Measured less seen, rad; NaN where not counted."""
         residual = self.samples.angle - self.seen
-        top, ends, time = self.followed.times[0], self.followed.ends, self.samples.time
-        margin = BLURRED / float(self.sides[1].max())
-        start = top + RELEASED * (ends[0] - top) if self.from_release else self.start + margin
-        residual[time < start] = np.nan
-        if self.passed is None:
-            residual[np.searchsorted(ends, time - margin) != np.searchsorted(ends, time + margin)] = np.nan
+        top, end = self.followed.times[0], self.followed.ends[0]
+        start = self.start + BLURRED / float(self.sides[1].max())
+        residual[self.samples.time < (top + RELEASED * (end - top) if self.from_release else start)] = np.nan
         return residual
 
     @property
