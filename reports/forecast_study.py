@@ -12,10 +12,10 @@ from joblib import Parallel, delayed
 from numpy.typing import ArrayLike
 
 from colonnade.figures.style import blank_figure, styled
-from colonnade.identification.calibration import coverage, randomised_pit, reliability
+from colonnade.identification.calibration import coverage, randomised_pit
 from colonnade.identification.forecasts import Forecast, base_rates, score, skill
 from forecast_trial import FORECASTS, HEIGHTS, MODEL, PILOTS, RESTITUTION, SCATTER, WRONG, Campaign, run_campaign
-from study import Cells, Study, columns, table
+from study import Study, table
 
 FEWEST_CAMPAIGNS = 6
 """Of an interval: of fewer no resampling shows how much campaigns differ."""
@@ -100,7 +100,7 @@ def judge(campaigns: Sequence[Campaign]) -> dict[str, Any]:
     found : dict
         `tests` with their number, `undecided` (overturning probability between 0 and 1) and outcomes; by forecast its
         mean `scores`, and the `difference` of each from the identified e with its interval; `skill` of the identified
-        e over rigid-body e and base rate, by score; `reliability` and `coverage` of identified and wrong e.
+        e over rigid-body e and base rate, by score; `coverage` of identified and wrong e.
     """
     tests = [test for campaign in campaigns for test in campaign.tests]
     number = np.repeat(np.arange(len(campaigns)), [len(campaign.tests) for campaign in campaigns])
@@ -130,7 +130,6 @@ def judge(campaigns: Sequence[Campaign]) -> dict[str, Any]:
             for name in others
         },
         "skill": {name: {key: skill(own[key], columns[name][key]) for key in own} for name in others},
-        "reliability": {name: _plain(reliability(forecasts[name], observed, number)) for name in FORECASTS},
         "coverage": {
             name: _plain(coverage(randomised_pit(forecasts[name], observed), forecasts[name], number))
             for name in FORECASTS
@@ -176,19 +175,13 @@ Skill of the forecasts with the identified e (1 is perfect, 0 as good as the ref
 
 {skill}
 
-## Reliability of the probability of overturning
-
-With the identified e. Consistency bars: where the frequency is in 95 % of the cases if the forecasts are right.
-
-{reliability}
-
-![Reliability and PIT]({figure})
-
 ## Coverage of the amplitude's central bands
 
 Share of the tests in each band; in brackets where 95 % of such shares are if the forecasts are right.
 
 {coverage}
+
+![PIT]({figure})
 """
 
 SCORES = {
@@ -229,7 +222,6 @@ def page(found: dict[str, Any], figure: str) -> str:
             {name: {key: _interval(each) for key, each in row.items()} for name, row in judged["difference"].items()},
         ),
         skill=_table("over", {name: _cells(row, "{:.2f}") for name, row in judged["skill"].items()}),
-        reliability=_reliability(judged["reliability"]["identified"]),
         coverage=_coverage(judged["coverage"]),
         figure=figure,
     )
@@ -247,18 +239,6 @@ def _table(first: str, rows: dict[str, dict[str, str]]) -> str:
     return table((first, *SCORES.values()), ((NAMES[name], *map(row.get, SCORES)) for name, row in rows.items()))
 
 
-def _reliability(found: dict[str, list[float]]) -> str:
-    cells: Cells = {
-        "tests": "{tests}",
-        "mean probability": "{probability:.3f}",
-        "overturned": "{frequency:.3f}",
-        "consistency bar": "{low:.3f} to {high:.3f}",
-    }
-    names = ("tests", "probability", "frequency", "low", "high")
-    rows = zip(*(found[name] for name in names), strict=True)
-    return columns(cells, [dict(zip(names, row, strict=True)) for row in rows])
-
-
 def _coverage(found: dict[str, dict[str, list[float]]]) -> str:
     rows = []
     for name, row in found.items():
@@ -271,26 +251,18 @@ COLOURS = {"identified": "#0b6bb0", "too high": "#d1490f", "too low": "#7a5195"}
 
 
 def draw(found: dict[str, Any]) -> Any:
-    """Draw the reliability of the probability of overturning, and the distribution of PIT values."""
+    """Draw the distribution of PIT values."""
     judged = found["judged"]
     with styled():
         figure = blank_figure(3.2)
-        left, right = figure.subplots(1, 2)
-        shown = judged["reliability"]["identified"]
-        mean, low, high = (np.array(shown[name]) for name in ("probability", "low", "high"))
-        left.vlines(mean, low, high, color="0.75", linewidth=5, label="consistency bar, 95 %")
+        axes = figure.subplots()
         for name, colour in COLOURS.items():
-            each = judged["reliability"][name]
-            look = {"color": colour, "markersize": 3, "linewidth": 0.8, "label": NAMES[name]}
-            left.plot(each["probability"], each["frequency"], "o-", **look)
             values = np.sort(judged["pit"][name])
-            right.step(values, np.arange(1, values.size + 1) / values.size, where="post", color=colour, linewidth=1.0)
-        for axes in (left, right):
-            axes.plot([0, 1], [0, 1], color="0.6", linewidth=0.8, linestyle="--")
-            axes.set(xlim=(0, 1), ylim=(0, 1))
-        left.set(xlabel="forecast probability of overturning", ylabel="share that overturned")
-        left.legend(fontsize=6, loc="upper left", frameon=False)
-        right.set(xlabel="PIT of the amplitude", ylabel="share of the tests")
+            shares = np.arange(1, values.size + 1) / values.size
+            axes.step(values, shares, where="post", color=colour, linewidth=1.0, label=NAMES[name])
+        axes.plot([0, 1], [0, 1], color="0.6", linewidth=0.8, linestyle="--")
+        axes.set(xlim=(0, 1), ylim=(0, 1), xlabel="PIT of the amplitude", ylabel="share of the tests")
+        axes.legend(fontsize=6, loc="upper left", frameon=False)
     return figure
 
 
@@ -309,8 +281,8 @@ STUDY = Study(
     "forecast-study",
     page,
     draw,
-    "Reliability of forecasts of overturning, and PIT of their amplitudes",
-    "Frequency of overturning over its forecast probability, and the share of tests up to each PIT value.",
+    "PIT of the amplitudes of forecasts",
+    "Share of the tests up to each PIT value.",
 )
 
 if __name__ == "__main__":

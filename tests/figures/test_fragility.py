@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from colonnade.figures.agreement import Calibration, reliability_and_pit
+from colonnade.figures.agreement import pit_histogram
 from colonnade.figures.fragility import COLUMNS, Curve, fragility, response_spectra, twenty_columns
-from colonnade.identification.calibration import Reliability
 
 CURVE = Curve(
     np.array([1.0, 2.0, 4.0]), np.array([0.0, 0.4, 1.0]), np.array([0.0, 0.2, 0.8]), np.array([0.1, 0.6, 1.0])
@@ -45,22 +44,17 @@ def test_spectra_are_drawn_with_their_median():
     assert median.get_ydata().tolist() == [0.3, 0.4]
 
 
-def calibration(tests=20):
-    values = np.array([0.1, 0.5, 0.9])
-    diagram = Reliability(values, values**2, np.array([5, 7, 8]), values - 0.1, values + 0.1)
-    return Calibration(diagram, (np.arange(tests) + 0.5) / tests)
+def evenly(tests):
+    return (np.arange(tests) + 0.5) / tests
 
 
-def test_marks_are_at_the_shares_and_the_histogram_is_even():
-    left, right = reliability_and_pit({"linear": calibration()}).axes
-    drawn = next(line for line in left.lines if line.get_marker() == "o")
-    assert drawn.get_ydata() == pytest.approx([0.01, 0.25, 0.81])
-    assert sorted(text.get_text() for text in left.texts) == ["5", "7", "8"]
-    (histogram,) = (patch for patch in right.patches if patch.get_label() == "linear model")
+def test_the_histogram_of_an_even_pit_is_even():
+    [axes] = pit_histogram({"linear": evenly(20)}).axes
+    (histogram,) = (patch for patch in axes.patches if patch.get_label() == "linear model")
     assert histogram.get_data().values == pytest.approx(np.full(5, 0.2))
 
 
 def test_more_tests_get_more_bins():
-    right = reliability_and_pit({"linear": calibration(200), "nonlinear": calibration(200)}).axes[1]
-    (histogram,) = (patch for patch in right.patches if patch.get_label() == "nonlinear model")
+    [axes] = pit_histogram({"linear": evenly(200), "nonlinear": evenly(200)}).axes
+    (histogram,) = (patch for patch in axes.patches if patch.get_label() == "nonlinear model")
     assert histogram.get_data().values.size == 10

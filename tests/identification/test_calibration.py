@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from colonnade.identification import calibration
-from colonnade.identification.calibration import BINS, FEW, FEW_BINS, coverage, randomised_pit, reliability
+from colonnade.identification.calibration import coverage, randomised_pit
 from colonnade.identification.forecasts import Forecast, Response
 
 TESTS, MEMBERS = 600, 19
@@ -74,73 +73,3 @@ def test_a_campaign_whose_tests_share_their_error_has_a_wider_interval():
     alone = coverage(random.random(50), forecasts, np.arange(50))
     assert (shared.low[0], shared.high[0]) == pytest.approx((0.0, 1.0), abs=0.2)
     assert alone.high[0] - alone.low[0] < 0.35
-
-
-RESAMPLED = 100
-
-
-def overturning_forecast(overturned):
-    outcomes = np.where(overturned, 2, 1).astype(np.int8)
-    return Forecast(outcomes, outcomes / 2)
-
-
-def certain(share):
-    """A forecast of exactly this share of the members."""
-    return overturning_forecast(np.arange(RESAMPLED) < round(share * RESAMPLED))
-
-
-def seen(happened):
-    return [Response(2, 1.0) if each else Response(1, 0.5) for each in happened]
-
-
-def test_bins_have_the_mean_probability_and_the_share_that_overturned():
-    shares = [0.0, 0.1, 0.4, 0.5, 0.9, 1.0]
-    found = reliability([certain(each) for each in shares], seen([0, 1, 0, 1, 1, 1]), np.arange(6))
-    assert found.probability == pytest.approx([0.05, 0.45, 0.95])
-    assert found.frequency == pytest.approx([0.5, 0.5, 1.0])
-    assert found.tests.tolist() == [2, 2, 2]
-
-
-def test_bins_without_a_test_are_left_out():
-    found = reliability([certain(0.1), certain(1.0)], seen([0, 1]), [0, 1])
-    assert found.probability.tolist() == [0.1, 1.0]
-
-
-@pytest.mark.parametrize(("tests", "bins"), [(FEW - 1, FEW_BINS), (FEW, BINS)], ids=["few", "many"])
-def test_few_tests_have_fewer_bins(tests, bins):
-    forecasts = [certain(each) for each in np.linspace(0, 1, tests)]
-    assert reliability(forecasts, seen(np.zeros(tests)), np.arange(tests)).tests.size == bins
-
-
-def test_the_bar_of_tests_on_their_own_is_the_binomial_one():
-    forecasts = [certain(0.3)] * 60
-    found = reliability(forecasts, seen(np.zeros(60)), np.arange(60))
-    low, high = stats.binom.interval(0.95, 60, 0.3)
-    assert (found.low[0], found.high[0]) == pytest.approx((low / 60, high / 60), abs=0.02)
-    assert found.frequency[0] < found.low[0]
-
-
-def test_the_bar_of_a_certain_forecast_has_no_width():
-    found = reliability([certain(1.0)] * 5, seen([1] * 5), np.arange(5))
-    assert (found.low[0], found.high[0]) == (1.0, 1.0)
-
-
-@pytest.mark.parametrize("shared", [0.0, 0.7], ids=["each test its own error", "campaigns share their error"])
-def test_bars_hold_the_frequency_as_often_as_they_say(monkeypatch, shared):
-    """
-    100 studies of 12 campaigns with 10 tests: overturned where a common and an own error together pass a limit, the
-    members with the same common error k in all tests of a campaign. One bin, whose bar has to hold 95 %.
-    """
-    monkeypatch.setattr(calibration, "BINS", 1)
-    random = np.random.default_rng(4)
-    campaigns = np.repeat(np.arange(12), 10)
-    held = 0
-    for _ in range(100):
-        common = np.repeat(random.standard_normal((12, RESAMPLED + 1)), 10, axis=0)
-        errors = shared * common + np.sqrt(1 - shared**2) * random.standard_normal((120, RESAMPLED + 1))
-        passed = errors > random.normal(0.0, 1.0, (120, 1))
-        forecasts = [overturning_forecast(each) for each in passed[:, 1:]]
-        found = reliability(forecasts, seen(passed[:, 0]), campaigns)
-        held += found.low[0] <= found.frequency[0] <= found.high[0]
-    assert stats.binom.sf(held - 1, 100, 0.95) > 1e-3
-    assert stats.binom.cdf(held, 100, 0.95) > 1e-3

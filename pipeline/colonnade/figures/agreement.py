@@ -1,4 +1,4 @@
-"""How good predictions are: peaks over those measured, reliability of the probability of overturning, and PIT."""
+"""How good predictions are: peaks over those measured, and PIT."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ from matplotlib.figure import Figure
 from colonnade.arrays import Array
 from colonnade.figures.files.output import link_to
 from colonnade.figures.panels.layout import legend_outside, note, plain_decades
-from colonnade.figures.style import LIMIT, SOFT, blank_figure, is_narrow, model_style, styled, width
-from colonnade.identification.calibration import FEW, Reliability
+from colonnade.figures.style import LIMIT, SOFT, blank_figure, model_style, styled, width
 
 LEAST_SPAN = 0.1, 1.0
 """Of both axes, at least."""
@@ -158,83 +157,29 @@ def _free_place(place: Array, taken: Array, side: float) -> Array:
     return np.asarray(shifts[np.argmax(np.minimum(room, CLEAR))])
 
 
-FEW_BINS, BINS = 5, 10
-"""Bins of the PIT histogram of fewer than `FEW` tests, and of more."""
-
-
-class Calibration(NamedTuple):
-    """Of the scored forecasts of a model: their reliability diagram, and the PIT of each, shape (n,)."""
-
-    reliability: Reliability
-    pit: Array
+FEW, FEW_BINS, BINS = 100, 5, 10
+"""Bins of the PIT histogram of fewer tests than the first number, and of more."""
 
 
 @styled()
-def reliability_and_pit(models: Mapping[str, Calibration]) -> Figure:
+def pit_histogram(models: Mapping[str, Array]) -> Figure:
     """
-    Draw the reliability diagram of overturning and the PIT histogram of the amplitude.
+    Draw the histogram of the PIT of the measured amplitudes, by model.
 
-    Parameters
-    ----------
-    models : mapping of str to Calibration
-
-    Returns
-    -------
-    figure : Figure
-
-    Raises
-    ------
-    ValueError
-        If there is no model.
-
-    Notes
-    -----
-    Grey in the histogram: 95 % of the shares if the forecasts are right and the tests share no error.
+    Grey: 95 % of the shares if the forecasts are right and the tests share no error.
     """
-    figure = blank_figure(6.0 if is_narrow() else 3.3)
-    left, right = figure.subplots(2, 1) if is_narrow() else figure.subplots(1, 2)
-    left.plot([0, 1], [0, 1], **LIMIT)
-    for place, (model, each) in enumerate(models.items()):
-        _draw_reliability(left, model, each.reliability, aside=0.012 * (place - (len(models) - 1) / 2))
-    left.set(
-        xlim=(-0.03, 1.03),
-        ylim=(-0.03, 1.03),
-        xlabel="forecast probability of overturning",
-        ylabel="share of the tests that overturned",
-    )
-    _draw_pit(right, models)
-    legend_outside(figure, [left])
-    return figure
-
-
-def _draw_reliability(axes: Axes, model: str, diagram: Reliability, *, aside: float) -> None:
-    style, across = model_style(model), diagram.probability + aside
-    bars = axes.vlines(across, diagram.low, diagram.high, color=style["color"], linewidth=4.0, alpha=0.3)
-    bars.set_gid(f"{model}, consistency bar")
-    axes.plot(
-        across,
-        diagram.frequency,
-        color=style["color"],
-        linestyle="none",
-        marker="o",
-        markersize=4,
-        markerfacecolor="white",
-        label=f"{model} model",
-    )
-    shift, side = ((5.0, 2.0), "left") if aside >= 0 else ((-5.0, 2.0), "right")
-    for place, frequency, tests in zip(across, diagram.frequency, diagram.tests, strict=True):
-        note(axes, str(tests), (place, frequency), shift, ha=side, fontsize=7, color=SOFT)
-
-
-def _draw_pit(axes: Axes, models: Mapping[str, Calibration]) -> None:
-    tests = max(each.pit.size for each in models.values())
+    figure = blank_figure(3.3)
+    axes = figure.subplots()
+    tests = max(each.size for each in models.values())
     count = FEW_BINS if tests < FEW else BINS
     edges = np.linspace(0.0, 1.0, count + 1)
     low, high = (scipy.stats.binom.ppf(level, tests, 1 / count) / tests for level in (0.025, 0.975))
     axes.axhspan(low, high, color=SOFT, alpha=0.15, linewidth=0)
     axes.axhline(1 / count, **LIMIT)
     for model, each in models.items():
-        shares = np.histogram(each.pit, edges)[0] / each.pit.size
+        shares = np.histogram(each, edges)[0] / each.size
         axes.stairs(shares, edges, label=f"{model} model", baseline=None, **model_style(model))
     axes.set(xlim=(0, 1), xlabel="PIT of the measured amplitude", ylabel="share of the tests")
     axes.set_ylim(0, max(axes.get_ylim()[1], 1.15 * high))
+    legend_outside(figure, [axes])
+    return figure

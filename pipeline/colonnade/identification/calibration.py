@@ -1,4 +1,4 @@
-"""Whether tests turn out as often as they were forecast to: amplitudes among members, and the chance of overturning."""
+"""Whether amplitudes turn out as often as they were forecast to: where they are among members."""
 
 from __future__ import annotations
 
@@ -9,10 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from colonnade.arrays import Array
-from colonnade.identification.forecasts import OVERTURNED, Forecast, Response
-
-FEW, FEW_BINS, BINS = 100, 3, 5
-"""Bins, of equal width from 0 to 1, of fewer tests than the first number, and of more."""
+from colonnade.identification.forecasts import Forecast, Response
 
 RESAMPLES = 1000
 
@@ -113,70 +110,6 @@ def _pits_of_members(members: Array, random: np.random.Generator) -> Array:
     ranked = np.sort(members)
     below, most = (np.searchsorted(ranked, members, side) for side in ("left", "right"))
     return np.asarray((below + random.random(members.size) * (most - below)) / members.size)
-
-
-@dataclass(frozen=True)
-class Reliability:
-    """
-    A reliability diagram; bins without a test are left out.
-
-    Attributes
-    ----------
-    probability : ndarray, shape (k,)
-        Mean forecast probability of the tests in a bin.
-    frequency : ndarray, shape (k,)
-        Share of them that overturned.
-    tests : ndarray of int, shape (k,)
-    low, high : ndarray, shape (k,)
-        Consistency bar: where the frequency is in 95 % of the cases if the forecasts are right.
-    """
-
-    probability: Array
-    frequency: Array
-    tests: NDArray[np.intp]
-    low: Array
-    high: Array
-
-
-def reliability(forecasts: Sequence[Forecast], observed: Sequence[Response], campaigns: ArrayLike) -> Reliability:
-    """
-    Compare forecast probabilities of overturning with what happened.
-
-    Parameters
-    ----------
-    forecasts : sequence of Forecast, length n
-    observed : sequence of Response, length n
-    campaigns
-        As of `surrogate_members`.
-
-    Returns
-    -------
-    diagram : Reliability
-
-    Notes
-    -----
-    Consistency bars by resampling (Bröcker and Smith 2007), with two differences: the forecasts are those that were
-    made, and surrogate observations of one campaign share what is wrong about it (`surrogates`). A member is held
-    against the m − 1 others, as an observation is against m members.
-    """
-    count = FEW_BINS if len(forecasts) < FEW else BINS
-    members = surrogate_members(forecasts, campaigns)
-    probability = np.array([each.overturning_probability for each in forecasts])
-    happened = np.array([each.outcome == OVERTURNED for each in observed], dtype=np.float64)
-    place = np.minimum((probability * count).astype(np.intp), count - 1)
-    used, place, tests = np.unique(place, return_inverse=True, return_counts=True)
-    mean = np.bincount(place, weights=probability) / tests
-    # Of each test, what a surrogate differs by from the share of the other members.
-    departures = np.column_stack(
-        [
-            (forecast.outcomes[chosen] == OVERTURNED) - share
-            for forecast, chosen, share in zip(forecasts, members.T, probability, strict=True)
-        ]
-    ) * np.array([each.outcomes.size / (each.outcomes.size - 1) for each in forecasts])
-    in_bin = place[:, None] == np.arange(used.size)
-    edges = np.quantile(departures @ in_bin / tests, [0.025, 0.975], axis=0)
-    low, high = np.clip(mean + edges, 0.0, 1.0)
-    return Reliability(mean, np.bincount(place, weights=happened) / tests, tests, low, high)
 
 
 def surrogate_members(forecasts: Sequence[Forecast], campaigns: ArrayLike) -> NDArray[np.intp]:

@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-import numpy as np
-
+from colonnade.arrays import Array
 from colonnade.campaign.forms.forecast import ForecastFile
 from colonnade.campaign.forms.foreseen import ForecastEntry, ForecastOfModel
 from colonnade.campaign.forms.summary import Summary, TestSummary
 from colonnade.errors import StoreError, count
-from colonnade.figures.agreement import Calibration, reliability_and_pit
+from colonnade.figures.agreement import pit_histogram
 from colonnade.figures.files.output import Picture
-from colonnade.identification.calibration import reliability
 from colonnade.store import files
 from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
@@ -78,8 +76,8 @@ def _happened(test: TestSummary) -> str:
     return f"{test.outcome}, max |θ|/α {number(test.peak_ratio)}" if test.outcome == "rocking" else test.outcome
 
 
-def calibrations_of(layout: Layout, summary: Summary | None) -> dict[str, Calibration]:
-    """Gather by model how probabilities and amplitudes of enough scored tests agree with what was measured."""
+def calibrations_of(layout: Layout, summary: Summary | None) -> dict[str, Array]:
+    """Gather by model the PIT of the amplitudes of enough scored tests."""
     if summary is None or summary.forecasts is None:
         return {}
     there, scores = {known.sha256: known.forecast for known in read_forecasts(layout).known}, {}
@@ -97,14 +95,13 @@ def calibrations_of(layout: Layout, summary: Summary | None) -> dict[str, Calibr
     for model in dict.fromkeys(model for test in scores for model in forecasts[test].models):
         found = scored_of(model, forecasts, scores)
         if len(found.observed) >= FEWEST:
-            diagram = reliability(found.forecasts, found.observed, np.zeros(len(found.observed)))
-            drawn[model] = Calibration(diagram, found.pit)
+            drawn[model] = found.pit
     return drawn
 
 
-def calibration(drawn: Mapping[str, Calibration]) -> Picture | None:
+def calibration(drawn: Mapping[str, Array]) -> Picture | None:
     """Draw calibrations by model; None without any."""
     if not drawn:
         return None
-    described = ", ".join(f"{count(each.pit.size, 'test')} by the {model} model" for model, each in drawn.items())
-    return Picture(reliability_and_pit(drawn), "calibration", "Reliability and PIT of forecasts", f"{described}.")
+    described = ", ".join(f"{count(each.size, 'test')} by the {model} model" for model, each in drawn.items())
+    return Picture(pit_histogram(drawn), "calibration", "PIT of forecasts", f"{described}.")

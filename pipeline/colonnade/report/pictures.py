@@ -13,12 +13,12 @@ from inspect import cleandoc
 from math import isfinite
 from typing import Any, Literal, NamedTuple
 
+from colonnade.arrays import Array
 from colonnade.campaign import Campaign
 from colonnade.campaign.forms.summary import IdentifiedSummary, TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps import StabilityMap
 from colonnade.figures import base_motion, channels, closer, moving
-from colonnade.figures.agreement import Calibration
 from colonnade.figures.drawing import described
 from colonnade.figures.files.output import Movie, Picture
 from colonnade.figures.maps import response_orders
@@ -116,7 +116,7 @@ class OfCampaign:
 
     campaign: Campaign
     rows: Sequence[TestRow]
-    calibrations: Mapping[str, Calibration] = field(default_factory=dict)
+    calibrations: Mapping[str, Array] = field(default_factory=dict)
     failures: Sequence[Failure] = ()
 
 
@@ -316,7 +316,7 @@ def _agreement(one: OfCampaign) -> Picture | None:
 
 
 def _calibration(one: OfCampaign) -> Picture | None:
-    """Reliability and PIT of forecasts."""
+    """PIT of forecasts."""
     return forecasts_page.calibration(one.calibrations)
 
 

@@ -41,9 +41,6 @@ FEWEST_SAMPLES = 8
 LARGEST_ERROR = 0.01
 """Standard error of e above which no value is given."""
 
-DISAGREEMENT, NEGLIGIBLE = 3.0, 0.01
-"""Standard errors of both together beyond which history and peaks disagree, if by more than this share of 1 − e."""
-
 WIDEST = 2.0
 """ln e at most, where an interval ends; above 0 there is no e."""
 
@@ -197,17 +194,13 @@ def _result(
         reason = f"At least {peaks.FEWEST_PEAKS} peaks between two impacts, above the noise, are needed."
     of_history = _estimate("history", ASSUMPTIONS, level, why if found is None else found.answer)
     of_peaks = _estimate("peaks", peaks.ASSUMPTIONS, level, reason if fit is None else fit.solved)
-    zero, history, joint, doubts = 0.0, None, None, list[tuple[str, str]]()
+    chosen, zero, joint = of_peaks, 0.0, None
     if found is not None:
         chosen, zero, joint = of_history, found.zero - record.zero, found.joint
-        history = found.path.history
-        doubts += _doubts(joint, uncertainty, of_history, of_peaks)
-    else:
-        chosen = of_peaks
-        if chosen.value is not None and chosen.standard_error is not None:
-            # Peaks say nothing of α and p.
-            widths = np.array([chosen.standard_error / chosen.value, uncertainty.critical_angle, uncertainty.p])
-            joint = Joint(np.array([log(chosen.value), 0.0, 0.0]), np.diag(widths**2))
+    elif chosen.value is not None and chosen.standard_error is not None:
+        # Peaks say nothing of α and p.
+        widths = np.array([chosen.standard_error / chosen.value, uncertainty.critical_angle, uncertainty.p])
+        joint = Joint(np.array([log(chosen.value), 0.0, 0.0]), np.diag(widths**2))
     zero = zero if fit is None else fit.zero
     refused = next((each.sentence for each in departing if each.refuses), "") or _objection(chosen, why)
     value, low, high, error = chosen.value, chosen.low, chosen.high, chosen.standard_error
@@ -220,12 +213,12 @@ def _result(
         peaks=record.peaks if fit is None else fit.peaks,
         impacts=NO_IMPACTS if driven else record.single_impacts(zero),
         estimates=(of_history, of_peaks),
-        history=history,
+        history=None if found is None else found.path.history,
         departures=tuple(departing),
         recommended="" if refused else chosen.name,
         constancy=Constancy() if found is None else Constancy(*found.slope),
         joint=None if refused else joint,
-        doubts=tuple(doubts),
+        doubts=() if found is None else tuple(_doubts(found.joint, uncertainty)),
     )
 
 
@@ -258,8 +251,8 @@ def _objection(chosen: Estimate, why: str) -> str:
     return ""
 
 
-def _doubts(joint: Joint, uncertainty: Uncertainty, history: Estimate, of_peaks: Estimate) -> Iterator[tuple[str, str]]:
-    """Doubts if the record asks for another block or angle than given, or the peaks for another e."""
+def _doubts(joint: Joint, uncertainty: Uncertainty) -> Iterator[tuple[str, str]]:
+    """Doubts if the record asks for another block or angle than given."""
     scale, known = float(joint.mean[1]) + joint.gain, hypot(uncertainty.critical_angle, uncertainty.angle_gain)
     for kind, fitted, shift, width, check in (
         ("critical angle or gain", "a critical angle, or a gain of the angle,", scale, known,
@@ -273,18 +266,6 @@ def _doubts(joint: Joint, uncertainty: Uncertainty, history: Estimate, of_peaks:
                 f"The record fits {fitted} that differs by {format_percent(shift, 1, signed=True)} from what was "
                 f"given, {abs(shift) / width:.2g} times what its uncertainty allows. Check {check}.",
             )
-    if history.value is None or of_peaks.value is None:
-        return
-    difference = abs(history.value - of_peaks.value)
-    error = hypot(history.standard_error or 0.0, of_peaks.standard_error or 0.0)
-    if difference > max(DISAGREEMENT * error, NEGLIGIBLE * (1 - of_peaks.value)):
-        yield (
-            "two values of e",
-            f"The whole history gives e = {history.value:.5f}, the peaks alone {of_peaks.value:.5f}: "
-            f"{difference / error:.2g} standard errors apart; at most {DISAGREEMENT:g} were expected. The times of "
-            "impact are not quite those of this block: check the sampling rate, its dimensions and mass, and for slide "
-            "or rotation out of plane. The value of the whole history is used.",
-        )
 
 
 def _refused(reason: str, level: float, seen: Peaks) -> Restitution:

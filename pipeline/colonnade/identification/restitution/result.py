@@ -168,8 +168,7 @@ class Restitution(Digested):
     joint : Joint or None
         Of e, α and p; None if refused.
     doubts : tuple of (str, str)
-        Kind and sentence of what makes the value doubtful: α, p or the gain far from what was given, or peaks that say
-        otherwise.
+        Kind and sentence of what makes the value doubtful: α, p or the gain far from what was given.
 
     Examples
     --------

@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 FEWEST = 10
-"""Scored tests, for skill, coverage and reliability."""
+"""Scored tests, for skill and coverage."""
 
 SCORES = tuple(ForecastScores.model_fields)
 
