@@ -209,9 +209,9 @@ def test_a_specimen_gives_each_restitution_and_why_one_was_refused(texts):
     assert text.count("<svg xmlns") == 3  # estimators, peaks, impacts
 
 
-def test_a_free_vibration_tells_what_was_assumed_and_how_it_departs_from_the_model(texts):
+def test_a_free_vibration_tells_its_method_and_how_it_departs_from_the_model(texts):
     words = words_of(texts["tests/free-01.html"])
-    assert "from whole history assumptions plane rocking without slide" in words
+    assert "from whole history method whole history: penalised least squares" in words
     assert "whole history (given) 0.93" in words
     assert "Departures" not in words
     refused = words_of(texts["tests/free-refused.html"])

@@ -112,7 +112,6 @@ def restitution(rocking: Dataset, inputs: RestitutionInputs) -> Dataset:
             "method": result.method,
             "reason": result.reason,
             "recommended": result.recommended,
-            "estimate_assumptions": [each.assumptions for each in estimates],
             "estimate_reasons": [each.reason for each in estimates],
             "departures": [found.sentence for found in result.departures],
             "table_moves": "" if result.table_moves is None else str(result.table_moves).lower(),

@@ -106,7 +106,7 @@ def test_time_that_does_not_increase_is_an_error():
 
 def test_an_interval_beyond_all_numbers_ends_above_one():
     solved = SimpleNamespace(mean=[-0.05], quantile=lambda share: 4000.0 * (share - 0.5) - 0.05)
-    found = identify._estimate("peaks", "", 0.95, solved)
+    found = identify._estimate("peaks", 0.95, solved)
     assert (found.low, found.value) == (0.0, pytest.approx(np.exp(-0.05)))
     assert 1.0 < found.high < 10.0
 

@@ -58,7 +58,6 @@ def test_the_recommended_estimator_gives_the_value_with_its_interval(reported):
     assert "refused" not in facts
     (chosen,) = (each for each in estimate_rows(one.stored) if each.recommended)
     assert facts["from"] == chosen.name
-    assert facts["assumptions"] == chosen.assumptions
     assert "interval" not in chosen.text
 
 

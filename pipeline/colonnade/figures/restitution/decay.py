@@ -45,7 +45,6 @@ class EstimateRow(NamedTuple):
     low: float
     high: float
     recommended: bool = False
-    assumptions: str = ""
     reason: str = ""
 
     @property

@@ -41,10 +41,10 @@ def estimate_rows(stored: Stored) -> list[EstimateRow]:
     """Return what each estimator gives of a free vibration, in the order in which they are stored."""
     values, low, high = (stored.by("estimator", STAGE, f"estimate{end}") for end in ("", "_low", "_high"))
     recommended = stored.text(STAGE, "recommended")
-    assumptions, reasons = (stored.texts(STAGE, f"estimate_{each}") for each in ("assumptions", "reasons"))
+    reasons = stored.texts(STAGE, "estimate_reasons")
     return [
-        EstimateRow(LABELS[name], values[name], low[name], high[name], name == recommended, *texts)
-        for name, *texts in zip(values, assumptions, reasons, strict=True)
+        EstimateRow(LABELS[name], values[name], low[name], high[name], name == recommended, reason)
+        for name, reason in zip(values, reasons, strict=True)
     ]
 
 

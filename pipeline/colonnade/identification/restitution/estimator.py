@@ -41,11 +41,6 @@ SURE_TREND = 0.003
 FEWEST_OF_TREND = 5
 """Impacts."""
 
-ASSUMPTIONS = (
-    "plane rocking without slide or bounce; e of each impact about one mean, independent of the others; α, p and the "
-    "angle's gain as uncertain as given; both sides about one zero, that may drift; noise white or of power 1/f, and "
-    "low-passed as given"
-)
 METHOD = (
     "whole history: penalised least squares on the samples, with an e of its own at each impact about one mean, and "
     "α, p and the gain of the angle as uncertain as given; interval over all scatters of e by restricted likelihood"

@@ -18,7 +18,7 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.uncertainty import Uncertainty
 from colonnade.identification.response.base_motion import table_moves
 from colonnade.identification.restitution import departures, peaks
-from colonnade.identification.restitution.estimator import ASSUMPTIONS, METHOD, Estimated, estimate
+from colonnade.identification.restitution.estimator import METHOD, Estimated, estimate
 from colonnade.identification.restitution.path import Path, UnfollowedError, prior_widths
 from colonnade.identification.restitution.record import Record, objection, thinned
 from colonnade.identification.restitution.result import (
@@ -192,8 +192,8 @@ def _result(
         with suppress(np.linalg.LinAlgError):
             fit = peaks.fit_peaks(record.peaks, record.block, record.noise, uncertainty)
         reason = f"At least {peaks.FEWEST_PEAKS} peaks between two impacts, above the noise, are needed."
-    of_history = _estimate("history", ASSUMPTIONS, level, why if found is None else found.answer)
-    of_peaks = _estimate("peaks", peaks.ASSUMPTIONS, level, reason if fit is None else fit.solved)
+    of_history = _estimate("history", level, why if found is None else found.answer)
+    of_peaks = _estimate("peaks", level, reason if fit is None else fit.solved)
     chosen, zero, joint = of_peaks, 0.0, None
     if found is not None:
         chosen, zero, joint = of_history, found.zero - record.zero, found.joint
@@ -222,15 +222,15 @@ def _result(
     )
 
 
-def _estimate(name: str, assumptions: str, level: float, solved: Solved | str) -> Estimate:
+def _estimate(name: str, level: float, solved: Solved | str) -> Estimate:
     """Return e from the distribution of ln e, or the reason why it is missing."""
     if isinstance(solved, str):
-        return Estimate(name, level, assumptions, solved)
+        return Estimate(name, level, solved)
     # A record that says next to nothing has an interval beyond all numbers.
     low, high = (exp(min(solved.quantile(0.5 + sign * level / 2), WIDEST)) for sign in (-1, 1))
     # Of the normal distribution whose interval is as wide.
     error = (high - low) / 2 / float(scipy.special.ndtri((1 + level) / 2))
-    return Estimate(name, level, assumptions, "", exp(min(float(solved.mean[0]), WIDEST)), low, high, error)
+    return Estimate(name, level, "", exp(min(float(solved.mean[0]), WIDEST)), low, high, error)
 
 
 def _objection(chosen: Estimate, why: str) -> str:
@@ -271,7 +271,7 @@ def _doubts(joint: Joint, uncertainty: Uncertainty) -> Iterator[tuple[str, str]]
 def _refused(reason: str, level: float, seen: Peaks) -> Restitution:
     """Return a result without a value."""
     why = f"No value to start from: {reason}"
-    estimates = _estimate("history", ASSUMPTIONS, level, why), _estimate("peaks", peaks.ASSUMPTIONS, level, why)
+    estimates = _estimate("history", level, why), _estimate("peaks", level, why)
     return Restitution(None, None, None, None, level, METHOD, reason, peaks=seen, estimates=estimates)
 
 

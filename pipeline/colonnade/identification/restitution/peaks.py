@@ -21,10 +21,6 @@ LEAST_ERROR = 1e-3
 
 MOST_ROUNDS = 6
 
-ASSUMPTIONS = (
-    "plane rocking without slide or bounce; e of each impact about one mean; both sides about one zero; "
-    "p does not enter"
-)
 METHOD = "peaks: ln of their energy against the impact number, with a common zero and a scatter of e"
 
 

@@ -23,8 +23,6 @@ class Estimate:
     name : {"history", "peaks"}
         From the samples of the whole history; from the peaks alone, the cross-check.
     level : float
-    assumptions : str
-        What has to be true for the value to be that of the specimen.
     reason : str
         Why refused; empty otherwise.
     value, low, high, standard_error : float or None
@@ -33,7 +31,6 @@ class Estimate:
 
     name: str
     level: float
-    assumptions: str
     reason: str = ""
     value: float | None = None
     low: float | None = None
