@@ -12,8 +12,7 @@ from joblib import Parallel, delayed
 from numpy.typing import ArrayLike
 
 from colonnade.figures.style import blank_figure, styled
-from colonnade.identification.calibration import coverage, randomised_pit
-from colonnade.identification.forecasts import Forecast, base_rates, score, skill
+from colonnade.identification.forecasts import Forecast, base_rates, coverage, randomised_pit, score, skill
 from forecast_trial import FORECASTS, HEIGHTS, MODEL, PILOTS, RESTITUTION, SCATTER, WRONG, Campaign, run_campaign
 from study import Study, table
 

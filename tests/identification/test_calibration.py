@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from colonnade.identification.calibration import coverage, randomised_pit
-from colonnade.identification.forecasts import Forecast, Response
+from colonnade.identification.forecasts import Forecast, Response, coverage, randomised_pit
 
 TESTS, MEMBERS = 600, 19
 

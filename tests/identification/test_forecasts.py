@@ -8,7 +8,6 @@ from colonnade.dynamics.ensemble import ensemble
 from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.uncertainty import Uncertainty
-from colonnade.identification.calibration import surrogate_members
 from colonnade.identification.forecasts import (
     OUTCOMES,
     OVERTURNED,
@@ -17,6 +16,7 @@ from colonnade.identification.forecasts import (
     base_rates,
     forecast_of,
     score,
+    surrogate_members,
 )
 
 NAN = float("nan")

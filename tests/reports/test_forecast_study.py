@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import forecast_study
-from colonnade.identification.calibration import randomised_pit
+from colonnade.identification.forecasts import randomised_pit
 from forecast_study import FEWEST_CAMPAIGNS, MAIN, score_difference
 from forecast_trial import WRONG, run_campaign
 

@@ -9,8 +9,7 @@ from colonnade.campaign.forms.forecast import ForecastFile, ForecastInputs
 from colonnade.dynamics.ensemble import PlanePlan
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import StageError
-from colonnade.identification.calibration import randomised_pit
-from colonnade.identification.forecasts import Response, forecast_of, forecast_of_peaks, score
+from colonnade.identification.forecasts import Response, forecast_of, forecast_of_peaks, randomised_pit, score
 from colonnade.stages.parts.beginning import base_acceleration
 from colonnade.store.provenance import Inputs
 

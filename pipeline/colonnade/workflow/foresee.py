@@ -260,8 +260,7 @@ def _table(motion: Motion) -> forms.ForecastTable:
 
 
 def _by_model(inputs: forms.ForecastInputs, model: str, motion: Motion) -> forms.ModelForecast:
-    from colonnade.identification.calibration import BANDS
-    from colonnade.identification.forecasts import OUTCOMES, forecast_of
+    from colonnade.identification.forecasts import BANDS, OUTCOMES, forecast_of
     from colonnade.stages.forecast import felt, plan_of
 
     shaken = felt(inputs, motion)

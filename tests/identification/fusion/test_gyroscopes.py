@@ -5,7 +5,7 @@ import pytest
 
 from colonnade.dynamics.kinematics import Pose
 from colonnade.dynamics.rock import rock
-from colonnade.identification.fusion.inertial import (
+from colonnade.identification.fusion.motion import (
     LARGEST_BIAS,
     REST_ERROR,
     angle_from_rate,

@@ -11,8 +11,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.campaign.forms.forecast import ForecastBand, ForecastFile, ForecastTable, ModelForecast
 from colonnade.campaign.forms.foreseen import ForecastCoverage, ForecastScores, JudgedForecasts
-from colonnade.identification.calibration import coverage
-from colonnade.identification.forecasts import Forecast, Response, base_rates, forecast_of_peaks, score, skill
+from colonnade.identification.forecasts import Forecast, Response, base_rates, coverage, forecast_of_peaks, score, skill
 from colonnade.units.text import format_percent, number, quantity
 
 BANDS = [f"{share} % of max |θ|/α" for share in (50, 80, 95)]
