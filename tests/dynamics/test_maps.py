@@ -1,6 +1,5 @@
 """The stability map: the paper's statements, the rules of its limits, and independence of how it is computed."""
 
-import json
 import math
 from functools import cache
 
@@ -9,7 +8,6 @@ import pytest
 
 from colonnade.dynamics.maps import MapPlan, map_part, stability_map
 from colonnade.dynamics.plane.run import Harmonic, harmonic_outcomes
-from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.search import LEAST_EDGE, MOST_STEPS, STEPS_A_WIDTH
 from every import every
 from prism import PRISM
@@ -76,20 +74,6 @@ def test_columns_are_the_same_to_the_last_bit_in_any_order():
             assert values.tobytes() == getattr(backwards, name)[::-1].tobytes()
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_a_law_of_e_over_speed_gives_its_own_map_and_stands_in_the_result(model):
-    options = {"frequency_ratio": [5.0, 6.0], "amplitude_ratio": np.linspace(1.0, 6.0, 26), "model": model}
-    lossy, law = stability_map(PRISM, restitution=0.8, **options), RestitutionLaw.table([0.0, 5.0], [0.8, 0.8])
-    same = stability_map(PRISM, restitution=law, **options)
-    np.testing.assert_array_equal(same.outcome, lossy.outcome)
-    np.testing.assert_array_equal(same.lower, lossy.lower)
-    assert (same.options["restitution_speeds"], same.options["restitution_values"]) == ([0.0, 5.0], [0.8, 0.8])
-    assert "restitution_negative" not in same.options
-    falling = stability_map(PRISM, restitution=RestitutionLaw.table([0.0, 1.0], [1.0, 0.85]), **options)
-    assert not np.array_equal(falling.outcome, lossy.outcome)
-    json.dumps(falling.options)
-
-
 def test_a_ramp_raises_the_upper_limit():
     options = {"restitution": 0.976, "frequency_ratio": [7.81], "amplitude_ratio": np.linspace(1.0, 60.0, 60)}
     abrupt, ramped = (stability_map(PRISM, width=0.2, ramp=ramp, **options) for ramp in (0, 3))
@@ -138,8 +122,6 @@ def test_its_options_say_all_that_a_map_depends_on():
     found = plan(restitution=(0.9, 0.8), phase=7.0, cycles=5).options
     assert found["phase"] == pytest.approx(7.0 - 2 * np.pi)
     assert (found["restitution_negative"], found["restitution_positive"], found["cycles"]) == (0.9, 0.8, 5.0)
-    law = plan(restitution=RestitutionLaw.table([0.0, 9.0], [1.0, 0.7])).options
-    assert law["restitution_values"] == [1.0, 0.7]
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,6 @@ from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.models import plane_model_of
 from colonnade.dynamics.plane.march import propagate
 from colonnade.dynamics.plane.sides import sides_of
-from colonnade.dynamics.restitution_law import law_of
 
 
 def harmonic_run(block, motion, amplitude_ratio, restitution, *, model="linear", samples=0, interval=1.0):
@@ -18,7 +17,7 @@ def harmonic_run(block, motion, amplitude_ratio, restitution, *, model="linear",
     forcing = motion.forcing(*times)
     angles, velocities, impact_times, impact_velocities, end = propagate(
         forcing._replace(levels=forcing.levels * (amplitude_ratio * tan(block.critical_angle))),
-        sides_of(block, law_of(block, restitution)),
+        sides_of(block, restitution),
         is_linearised=plane_model_of(model).is_linearised,
         since=0,
         floor=inf,

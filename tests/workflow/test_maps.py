@@ -148,8 +148,8 @@ def test_they_are_those_of_the_library_and_made_once(small):
     result = responses_made(small)
     stored = as_response(files.read(result.responses))
     e = tuple(float(value) for value in files.read(small.layout.stage("prism", "specimen"))["side_restitution"])
-    expected = steady_response(PRISM, restitution=e, frequency_ratio=np.linspace(2.0, 5.0, 6),
-                               amplitude_ratio=np.linspace(0.8, 2.0, 10))  # fmt: skip
+    axes = {"frequency_ratio": np.linspace(2.0, 5.0, 6), "amplitude_ratio": np.linspace(0.8, 2.0, 10)}
+    expected = steady_response(MapPlan(PRISM, restitution=e, **axes), range(6), SETTLING)
     assert set(np.unique(expected.order)) >= {-2, 0, 1}
     for name in ("order", "period", "amplitude"):
         np.testing.assert_array_equal(getattr(stored, name), getattr(expected, name), err_msg=name)

@@ -17,6 +17,7 @@ from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.history import History, capped
 from colonnade.dynamics.models import DEFAULT
 from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.restitution_law import of_sides
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE, rock
 from colonnade.dynamics.uncertainty import (
     INPUTS,
@@ -27,7 +28,7 @@ from colonnade.dynamics.uncertainty import (
     member_restitution,
 )
 from colonnade.units.text import Digested, written
-from colonnade.validation import instance, number, sided, whole
+from colonnade.validation import instance, number, whole
 
 if TYPE_CHECKING:
     from colonnade.dynamics.contact.history import AssemblyHistory
@@ -317,7 +318,6 @@ class PlanePlan(Plan):
     def __post_init__(self) -> None:
         super().__post_init__()
         instance("uncertainty", self.uncertainty, Uncertainty)
-        sided("restitution", self.restitution, "a number between 0 and 1", low=0.0, high=1.0)
 
     def central(self) -> History:
         """Run the model on what was recorded, nothing varied."""
@@ -397,11 +397,10 @@ def ensemble(
     >>> result.bands.shape, result.overturning_probability
     ((5, 600), 0.0)
     """
-    e = instance("block", block, Block).restitution if restitution is None else restitution
     plan = PlanePlan(
         block=block,
         motion=motion,
-        restitution=e,
+        restitution=of_sides(instance("block", block, Block), restitution),
         uncertainty=uncertainty,
         count=count,
         seed=seed,

@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Codes
-from colonnade.dynamics.block import Block
+from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.contact.body import InSpace
 from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.models import DEFAULT, model_of, plane_model_of
 from colonnade.dynamics.plane.run import SAMPLES_A_CYCLE, Harmonic
-from colonnade.dynamics.restitution_law import Given, law_of
+from colonnade.dynamics.restitution_law import of_sides
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.dynamics.search import (
     MOST_STEPS,
@@ -27,7 +27,6 @@ from colonnade.dynamics.search import (
     limits_of,
     onset_of,
     over_frequency,
-    restitution_options,
     runs_of,
     scan_over,
 )
@@ -61,7 +60,7 @@ class MapPlan:
         *,
         frequency_ratio: ArrayLike,
         amplitude_ratio: ArrayLike,
-        restitution: Given = None,
+        restitution: Sided | None = None,
         cycles: float = 20,
         phase: float = 0.0,
         ramp: float = 0,
@@ -81,7 +80,7 @@ class MapPlan:
             raise ValueError(
                 f"amplitude_ratio and frequency_ratio make {cells} cells; at most {MOST_STEPS} were expected"
             )
-        self.restitution = law_of(block, restitution)
+        self.restitution = of_sides(block, restitution)
         expected = f"at least one cycle and at most {MOST_CYCLES}"
         self.cycles = number("cycles", cycles, expected, low=1.0, high=MOST_CYCLES)
         expected = f"a number of cycles from 0 for none to {MOST_CYCLES}"
@@ -99,7 +98,8 @@ class MapPlan:
         """Everything else that the result depends on, apart from block and axes, by name."""
         return {
             **{name: getattr(self, name) for name in ("model", "cycles", "phase", "ramp", "width", "edge")},
-            **restitution_options(self.restitution),
+            "restitution_negative": self.restitution[0],
+            "restitution_positive": self.restitution[1],
             "scan_step": float(np.diff(self.scan).max()),
             "rest_angle": DEFAULT_REST_ANGLE,
             "no_rocking_ratio": NO_ROCKING_RATIO,
@@ -201,26 +201,13 @@ class StabilityMap(OverFrequency):
     overturning_fraction: Array
     no_rocking: Array
 
-    def digest(self) -> dict[str, str]:
-        """
-        Return model, axes, and the range of the lower limit.
-
-        Returns
-        -------
-        digest : dict of str to str
-            Names and values with their units, as a notebook shows them.
-        """
-        amplitudes = self.amplitude_ratio
-        levels = f"{amplitudes[0]:.3g} to {amplitudes[-1]:.3g} in {amplitudes.size}"
-        return {"model": str(self.options["model"]), "A": levels} | self._limits_digest()
-
 
 def stability_map(
     block: Block,
     *,
     frequency_ratio: ArrayLike,
     amplitude_ratio: ArrayLike,
-    restitution: Given = None,
+    restitution: Sided | None = None,
     cycles: float = 20,
     phase: float = 0.0,
     ramp: float = 0,
@@ -236,7 +223,7 @@ def stability_map(
     block : Block
     frequency_ratio, amplitude_ratio : array_like, shape (n,) and (m,)
         Ω = ω / p and A = a / (g tan α), positive and increasing.
-    restitution : float, pair of float or RestitutionLaw, optional
+    restitution : float or pair of float, optional
         e, see `rock`; default the rigid-body value.
     cycles : float, optional
         Number of cycles at full amplitude, at least 1.

@@ -12,7 +12,7 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.models import DEFAULT, plane_model_of
 from colonnade.dynamics.plane.run import Harmonic
-from colonnade.dynamics.restitution_law import law_of
+from colonnade.dynamics.restitution_law import of_sides
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.dynamics.search import (
     LARGEST_RATIO,
@@ -23,7 +23,6 @@ from colonnade.dynamics.search import (
     checked_widths,
     limits_of,
     over_frequency,
-    restitution_options,
     runs_of,
     scan_over,
 )
@@ -191,17 +190,6 @@ class OverturningSpectrum(OverFrequency):
     pulse: str
     model: str
 
-    def digest(self) -> dict[str, str]:
-        """
-        Return pulse, model and the range of the lower limit.
-
-        Returns
-        -------
-        digest : dict of str to str
-            Names and values with their units, as a notebook shows them.
-        """
-        return {"pulse": self.pulse, "model": self.model} | self._limits_digest()
-
 
 def overturning_spectrum(
     block: Block,
@@ -268,18 +256,19 @@ def overturning_spectrum(
     phase = number("phase", phase, "a finite angle in rad")
     largest = number("largest", largest, "a positive A", above=0.0, high=LARGEST_RATIO)
     width, edge = checked_widths(width, edge, largest)
-    e = law_of(block, restitution)
+    e = of_sides(block, restitution)
     scan = scan_over(np.array([0.0, largest]), width)[1:]
 
     limits = []
     for ratio in omegas.tolist():
         motion = kind.motion(ratio * block.p, block.uplift_acceleration, cycles, phase)
         limits.append(limits_of(scan, runs_of(block, motion, e, model), width=width, edge=edge))
+    ends = {"restitution_negative": e[0], "restitution_positive": e[1], "rest_angle": DEFAULT_REST_ANGLE}
     shaped = {"cycles": cycles, "phase": phase} if kind is MAVROEIDIS_PAPAGEORGIOU else {}
     searched = {"largest": largest, "width": width, "edge": edge}
     return OverturningSpectrum(
         **over_frequency(omegas, limits),
-        options={**restitution_options(e), **shaped, "rest_angle": DEFAULT_REST_ANGLE, **searched},
+        options={"model": model, **ends, **shaped, **searched},
         pulse=pulse,
         model=model,
     )

@@ -84,13 +84,8 @@ class RestitutionLaw:
 Given = Sided | RestitutionLaw | None
 """e as it may be given: one value, a pair, or a law; None for the rigid-body value."""
 
-Restitution = tuple[float, float] | RestitutionLaw
-"""e of impacts that end an arc at θ < 0, and at θ > 0; or e over the speed of the impact."""
 
-
-def law_of(block: Block, restitution: Given) -> Restitution:
-    """Put e into one of two forms; ValueError if it is not between 0 and 1."""
-    if isinstance(restitution, RestitutionLaw):
-        return restitution
+def of_sides(block: Block, restitution: Sided | None) -> tuple[float, float]:
+    """Give e of impacts that end an arc at θ < 0, and at θ > 0; ValueError if it is not between 0 and 1."""
     given = block.restitution if restitution is None else restitution
     return sided("restitution", given, "a number between 0 and 1", low=0.0, high=1.0)

@@ -16,11 +16,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Codes, Mask
-from colonnade.dynamics.block import Block
+from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.contact.body import InSpace
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.run import OUTCOMES, OVERTURNS, Harmonic, ends_of, expect_usable, harmonic_outcomes
-from colonnade.dynamics.restitution_law import Restitution, RestitutionLaw
 from colonnade.units.text import Digested
 from colonnade.validation import number, samples
 
@@ -100,7 +99,7 @@ def scan_over(amplitudes: Array, width: float) -> Array:
 def runs_of(
     block: Block,
     motion: Harmonic | tuple[Array, float],
-    restitution: Restitution,
+    restitution: Sided,
     model: str,
     space: InSpace | None = None,
 ) -> Runs:
@@ -196,10 +195,18 @@ class OverFrequency(Digested):
         rows = np.column_stack([self.interval_frequency_ratio, self.interval_start, self.interval_end])
         return np.asarray(rows[self.interval_end - self.interval_start < self.options["width"]])
 
-    def _limits_digest(self) -> dict[str, str]:
-        """Return the range of Ω and of the lower limit."""
+    def digest(self) -> dict[str, str]:
+        """
+        Return what it is of, and the range of Ω and of the lower limit.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values, as a notebook shows them.
+        """
         known, omegas = self.lower[np.isfinite(self.lower)], self.frequency_ratio
         return {
+            "model": str(self.options["model"]),
             "Ω": f"{omegas[0]:.3g} to {omegas[-1]:.3g} in {omegas.size}",
             "lower limit": f"A = {known.min():.3g} to {known.max():.3g}" if known.size else "above the largest A",
         }
@@ -216,11 +223,3 @@ def over_frequency(frequency_ratio: Array, limits: Sequence[Limits]) -> dict[str
         "interval_start": intervals[:, 0],
         "interval_end": intervals[:, 1],
     }
-
-
-def restitution_options(restitution: Restitution) -> dict[str, Any]:
-    """Give e by the names that options have for it."""
-    if isinstance(restitution, RestitutionLaw):
-        speeds, values = restitution.speeds.tolist(), restitution.values.tolist()
-        return {"restitution_speeds": speeds, "restitution_values": values}
-    return dict(zip(("restitution_negative", "restitution_positive"), restitution, strict=True))

@@ -14,7 +14,6 @@ from colonnade.dynamics.block import STANDARD_GRAVITY, Block, Sided
 from colonnade.dynamics.models import NONLINEAR, plane_model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.run import ends_of, expect_usable
-from colonnade.dynamics.restitution_law import law_of
 from colonnade.units.text import Digested
 from colonnade.validation import instance, number, samples
 
@@ -136,7 +135,7 @@ def rocking_spectrum(
     # The kernels are decorated on import.
     from colonnade.dynamics.plane.sides import sides_of
 
-    sides = [sides_of(block, law_of(block, restitution)) for block in blocks]
+    sides = [sides_of(block, restitution) for block in blocks]
     peak = ends_of(motion, sides, gravity=gravity, model=model)[1].reshape(angles.size, periods.size)
     return RockingSpectrum(angles, periods, peak, np.isnan(peak), model)
 

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf, pi, tan
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from colonnade.arrays import Array
-from colonnade.dynamics.block import Block
-from colonnade.dynamics.models import DEFAULT, plane_model_of
+from colonnade.dynamics.maps import MapPlan
+from colonnade.dynamics.models import plane_model_of
 from colonnade.dynamics.plane.run import Harmonic
-from colonnade.dynamics.restitution_law import Given, law_of
-from colonnade.dynamics.search import checked_ratios
 
 AT_REST, IRREGULAR, OVERTURNED = 0, -1, -2
 """Orders of responses that do not repeat as rocking."""
@@ -52,75 +51,44 @@ class SteadyResponse:
     amplitude: Array
 
 
-def steady_response(
-    block: Block,
-    *,
-    frequency_ratio: ArrayLike,
-    amplitude_ratio: ArrayLike,
-    restitution: Given = None,
-    settling: int = 400,
-    phase: float = 0.0,
-    ramp: float = 0.0,
-    model: str = DEFAULT,
-) -> SteadyResponse:
+def steady_response(plan: MapPlan, columns: Sequence[int], settling: int) -> SteadyResponse:
     """
-    Find the steady response, from rest, over Ω and A.
+    Find the steady responses, from rest, at some Ω and all A of a map, by a model in the plane.
 
     Parameters
     ----------
-    block : Block
-    frequency_ratio, amplitude_ratio : array_like, shape (n,) and (m,)
-        Ω = ω / p and A = a / (g tan α).
-    restitution : float, pair of float or RestitutionLaw, optional
-        e, see `rock`; default the rigid-body value.
-    settling : int, optional
+    plan : MapPlan
+        Its sine rises over `ramp` cycles and does not fall; its `cycles` do not count.
+    columns : sequence of int
+        By their Ω in the plan.
+    settling : int
         Cycles at full amplitude before the response is looked at. A deviation dies out as e² a cycle where there are
         two impacts in it: at e = 0.976 to 4e-9 within 400 cycles.
-    phase : float, optional
-        rad.
-    ramp : float, optional
-        Cycles over which the amplitude rises at first.
-    model : str, optional
-        A plane one.
 
     Returns
     -------
     response : SteadyResponse
-
-    Raises
-    ------
-    ValueError
-        If an argument is out of its range or the model is not known.
     """
-    omegas = checked_ratios("frequency_ratio", frequency_ratio)
-    amplitudes = checked_ratios("amplitude_ratio", amplitude_ratio)
-    if settling < 1:
-        raise ValueError(f"settling is {settling}; at least one cycle was expected")
-    linearised = plane_model_of(model).is_linearised
     # The kernels are decorated on import.
     from colonnade.dynamics.plane.march import propagate
     from colonnade.dynamics.plane.sides import sides_of
 
-    sides = sides_of(block, law_of(block, restitution))
-    first = round(ramp) + settling
+    block, sides = plan.block, sides_of(plan.block, plan.restitution)
+    linearised = plane_model_of(plan.model).is_linearised
+    omegas, levels = plan.frequency_ratio[list(columns)], tan(block.critical_angle) * plan.amplitude_ratio
+    first = round(plan.ramp) + settling
     count, cycles = first + LARGEST_ORDER * (REPEATS + 1), 2 * pi / (omegas * block.p)
-    order = np.zeros((omegas.size, amplitudes.size), dtype=np.int8)
+    order = np.zeros((omegas.size, levels.size), dtype=np.int8)
     amplitude = np.full(order.shape, np.nan)
-    for row, cycle in enumerate(cycles.tolist()):
+    for row, omega in enumerate(omegas * block.p):
+        cycle = 2 * pi / omega
         times = cycle * np.arange(count)
-        forcing = Harmonic(2 * pi / cycle, phase, (ramp * cycle, count * cycle, count * cycle)).forcing(*times)
-        at, since = (
-            np.searchsorted(forcing.times, times),
-            int(np.searchsorted(forcing.times, times[first + LARGEST_ORDER])),
-        )
-        for column, level in enumerate((tan(block.critical_angle) * amplitudes).tolist()):
-            angles, velocities, _, _, end = propagate(
-                forcing._replace(levels=level * forcing.levels),
-                sides,
-                is_linearised=linearised,
-                since=since,
-                floor=inf,
-            )
+        forcing = Harmonic(omega, plan.phase, (plan.ramp * cycle, count * cycle, count * cycle)).forcing(*times)
+        at = np.searchsorted(forcing.times, times)
+        since = int(at[first + LARGEST_ORDER])
+        for column, level in enumerate(levels.tolist()):
+            scaled = forcing._replace(levels=level * forcing.levels)
+            angles, velocities, _, _, end = propagate(scaled, sides, is_linearised=linearised, since=since, floor=inf)
             if np.isfinite(end.time):
                 order[row, column] = OVERTURNED
                 continue
@@ -128,7 +96,7 @@ def steady_response(
             states = np.column_stack([angles[at], velocities[at] / block.p])[first:] / block.critical_angle
             order[row, column] = AT_REST if end.peak == 0.0 else _order(states)
     period = np.where(order > 0, order * cycles[:, None], np.nan)
-    return SteadyResponse(omegas, amplitudes, order, period, amplitude)
+    return SteadyResponse(omegas, plan.amplitude_ratio, order, period, amplitude)
 
 
 def _order(states: Array) -> int:

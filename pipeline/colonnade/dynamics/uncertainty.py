@@ -176,22 +176,18 @@ class MotionDraws:
     def __init__(self, motion: Motion, uncertainty: Uncertainty) -> None:
         from scipy.fft import next_fast_len
 
-        self._motion, self._uncertainty = motion, uncertainty
-        self._cutoff = uncertainty.cutoff
-        memory = 0.0 if self._cutoff is None else min(4.0 / (self._cutoff * motion.dt), MOST_SAMPLES)
+        self._motion, cutoff = motion, uncertainty.cutoff
+        memory = 0.0 if cutoff is None else min(4.0 / (cutoff * motion.dt), MOST_SAMPLES)
         self._length = next_fast_len(motion.acceleration.size + int(memory), real=True)
-        self._frequency = np.fft.rfftfreq(self._length, motion.dt)
+        frequency = np.fft.rfftfreq(self._length, motion.dt)
         # (f/f_c)²ⁿ of the given filter; with f_c multiplied by k it is k⁻²ⁿ times that.
         self._order = 2 * uncertainty.filter_order
-        self._power = np.zeros_like(self._frequency)
-        if self._cutoff is not None:
-            self._power = (self._frequency / self._cutoff) ** self._order
+        self._power = np.zeros_like(frequency) if cutoff is None else (frequency / cutoff) ** self._order
         response = 1.0 / (1.0 + self._power)
-        self._passing = max(int(np.count_nonzero(response > _NEGLIGIBLE)), 2)
-        shape = response[: self._passing].copy()
+        shape = response[: max(int(np.count_nonzero(response > _NEGLIGIBLE)), 2)].copy()
         shape[0] = 0.0  # the mean of the noise was taken off with the zero
-        power = 2.0 * float(np.sum(shape**2))
-        self._noise = uncertainty.noise * shape * self._length / np.sqrt(2.0 * power) if power > 0.0 else 0.0 * shape
+        power = max(2.0 * float(np.sum(shape**2)), 1e-300)  # 0 where nothing passes
+        self._noise = uncertainty.noise * shape * self._length / np.sqrt(2.0 * power)
         # The record without its filter, to be filtered again.
         self._spectrum = None
         if uncertainty.filter > 0.0:
@@ -199,20 +195,14 @@ class MotionDraws:
 
     def draw(self, random: np.random.Generator, *, gain: float, clock: float, cutoff: float) -> Motion:
         """Return one motion: factors of calibration, sampling interval and cut-off as drawn, and noise of its own."""
-        recorded, acceleration = self._motion, self._motion.acceleration
-        spectrum = None
+        recorded, size = self._motion, self._motion.acceleration.size
+        acceleration, spectrum = recorded.acceleration, np.zeros(self._power.size, dtype=np.complex128)
         if self._spectrum is not None:
-            # A complex number over a real one, part by part: numpy divides by it as by a complex one.
             response = 1.0 / (1.0 + self._power * cutoff**-self._order)
-            filtered = self._spectrum.view(np.float64).reshape(-1, 2) * response[:, None]
-            spectrum = filtered.view(np.complex128)[:, 0]
-        if self._uncertainty.noise > 0.0:
-            parts = random.standard_normal((2, self._passing))
-            noise = self._noise * (parts[0] + 1j * parts[1])
-            if spectrum is None:
-                spectrum = np.zeros(self._frequency.size, dtype=np.complex128)
-            spectrum[: self._passing] += noise
-        if spectrum is not None:
-            changed = np.fft.irfft(spectrum, self._length)[: acceleration.size]
-            acceleration = changed if self._spectrum is not None else acceleration + changed
+            acceleration, spectrum = np.zeros(size), self._spectrum * response
+        if self._noise.any():
+            parts = random.standard_normal((2, self._noise.size))
+            spectrum[: self._noise.size] += self._noise * (parts[0] + 1j * parts[1])
+        if spectrum.any():
+            acceleration = acceleration + np.fft.irfft(spectrum, self._length)[:size]
         return Motion(gain * acceleration, clock * recorded.dt, recorded.vertical, recorded.transverse)

@@ -306,16 +306,7 @@ def _steady_columns(plan: MapPlan, indices: range) -> Arrays:
     """Work of a block: the responses at some Ω, as arrays."""
     from colonnade.dynamics.steady import steady_response
 
-    response = steady_response(
-        plan.block,
-        settling=SETTLING,
-        phase=plan.phase,
-        ramp=plan.ramp,
-        model=plan.model,
-        frequency_ratio=plan.frequency_ratio[indices.start : indices.stop],
-        amplitude_ratio=plan.amplitude_ratio,
-        restitution=plan.restitution,
-    )
+    response = steady_response(plan, indices, SETTLING)
     return {name: getattr(response, own) for own, name in STEADY.items()}
 
 

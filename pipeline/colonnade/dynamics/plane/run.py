@@ -14,7 +14,7 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import NO_ROCKING_RATIO, History
 from colonnade.dynamics.models import Model, plane_model_of
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.restitution_law import Given, Restitution, RestitutionLaw, law_of
+from colonnade.dynamics.restitution_law import Given
 
 if TYPE_CHECKING:
     from colonnade.dynamics.plane.march import Forcing
@@ -41,13 +41,14 @@ def run(
     from colonnade.dynamics.plane.march import propagate
     from colonnade.dynamics.plane.sides import sides_of
 
-    law = law_of(block, restitution)
+    sides = sides_of(block, restitution, rest_angle)
     expect_usable(block, motion)
-    forcing, sides = forcing_of(motion, block.gravity), sides_of(block, law, rest_angle)
+    forcing = forcing_of(motion, block.gravity)
     angle, velocity, times, before, end = propagate(
         forcing, sides, is_linearised=model.is_linearised, angle=theta0, velocity=omega0
     )
-    e = law(np.abs(before)) if isinstance(law, RestitutionLaw) else np.where(before > 0.0, *law)
+    negative, positive = sides.restitution.reshape(2, -1)
+    e = np.where(before > 0.0, *(np.interp(np.abs(before), sides.speeds, each) for each in (negative, positive)))
     return History(block, motion.time, angle, velocity, times, before, e * before, end.time, model.name)
 
 
@@ -188,9 +189,7 @@ class Harmonic:
         return Forcing(self.omega, self.phase, 0.0, knots, self.level(knots), NONE)
 
 
-def harmonic_outcomes(
-    block: Block, motion: Harmonic, amplitude_ratio: Array, restitution: Restitution, model: str
-) -> Codes:
+def harmonic_outcomes(block: Block, motion: Harmonic, amplitude_ratio: Array, restitution: Given, model: str) -> Codes:
     """Outcomes of many A under one motion, indices into `OUTCOMES`, shape (n,)."""
     from colonnade.dynamics.plane.march import column
     from colonnade.dynamics.plane.series import empty_series

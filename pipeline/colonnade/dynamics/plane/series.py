@@ -102,14 +102,9 @@ def excess_rise(z: float) -> tuple[float, float]:
     # Every second term, and those between: two sums that do not wait for each other.
     square = z * z
     odd, even, odd_between, even_between = ODD[9], EVEN[9], ODD[10], EVEN[10]
-    odd, even = odd * square + ODD[7], even * square + EVEN[7]
-    odd_between, even_between = odd_between * square + ODD[8], even_between * square + EVEN[8]
-    odd, even = odd * square + ODD[5], even * square + EVEN[5]
-    odd_between, even_between = odd_between * square + ODD[6], even_between * square + EVEN[6]
-    odd, even = odd * square + ODD[3], even * square + EVEN[3]
-    odd_between, even_between = odd_between * square + ODD[4], even_between * square + EVEN[4]
-    odd, even = odd * square + ODD[1], even * square + EVEN[1]
-    odd_between, even_between = odd_between * square + ODD[2], even_between * square + EVEN[2]
+    for k in range(7, 0, -2):
+        odd, even = odd * square + ODD[k], even * square + EVEN[k]
+        odd_between, even_between = odd_between * square + ODD[k + 1], even_between * square + EVEN[k + 1]
     return z * (odd + z * odd_between), EVEN[0] + z * (even + z * even_between)
 
 

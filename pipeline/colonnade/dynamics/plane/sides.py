@@ -11,7 +11,7 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kernel import kernel_in_place
 from colonnade.dynamics.plane.series import excess_rise
-from colonnade.dynamics.restitution_law import Restitution, RestitutionLaw
+from colonnade.dynamics.restitution_law import Given, RestitutionLaw, of_sides
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 
 Pair = tuple[float, float]
@@ -33,11 +33,15 @@ class Sides(NamedTuple):
     rest_angle: float
 
 
-def sides_of(block: Block, restitution: Restitution, rest_angle: float = DEFAULT_REST_ANGLE) -> Sides:
-    """Put a block, its restitution and its rule of rest into the form that the kernels take."""
-    speeds, values = np.zeros(1), np.array(restitution)
+def sides_of(block: Block, restitution: Given, rest_angle: float = DEFAULT_REST_ANGLE) -> Sides:
+    """
+    Put a block, its restitution and its rule of rest into the form that the kernels take; ValueError if e is not
+    between 0 and 1.
+    """
     if isinstance(restitution, RestitutionLaw):
         speeds, values = restitution.speeds, np.tile(restitution.values, 2)
+    else:
+        speeds, values = np.zeros(1), np.array(of_sides(block, restitution))
     left, right = block.sides
     critical, p = (left.critical_angle, right.critical_angle), (block.side_p(left), block.side_p(right))
     return Sides(critical, p, values, speeds, rest_angle)

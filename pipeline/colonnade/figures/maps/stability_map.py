@@ -204,9 +204,6 @@ def words_of_sine(options: Mapping[str, Any]) -> str:
 
 def words_of_restitution(options: Mapping[str, Any]) -> str:
     """Return in words the e of a map or of steady responses."""
-    if "restitution_values" in options:
-        values = options["restitution_values"]
-        return f"e = {values[0]:.4g} … {values[-1]:.4g} over the speed of the impact"
     negative, positive = options["restitution_negative"], options["restitution_positive"]
     return f"e = {negative:.4g}" if negative == positive else f"e = {negative:.4g} | {positive:.4g}"
 
