@@ -14,9 +14,9 @@ from pydantic import AfterValidator, BeforeValidator, Field
 from colonnade.campaign.syntax import fields
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.contact.body import DEFAULT_STEP, STATIC_PENETRATION
-from colonnade.dynamics.models import MODELS
+from colonnade.dynamics.models import MODELS, PLANE_MODELS
 
-DEFAULT_MODELS = tuple(name for name, model in MODELS.items() if model.is_default)
+DEFAULT_MODELS = tuple(PLANE_MODELS)
 """Models that `predict` runs unless the campaign names others."""
 
 

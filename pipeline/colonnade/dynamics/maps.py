@@ -19,7 +19,6 @@ from colonnade.dynamics.plane.run import SAMPLES_A_CYCLE, Harmonic
 from colonnade.dynamics.restitution_law import of_sides
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.dynamics.search import (
-    MOST_STEPS,
     WIDTH,
     OverFrequency,
     checked_ratios,
@@ -73,13 +72,8 @@ class MapPlan:
         if space is None:
             plane_model_of(model)
         self.block, self.model, self.space = block, model, space
-        self.frequency_ratio = _axis("frequency_ratio", frequency_ratio, 1)
-        self.amplitude_ratio = amplitudes = _axis("amplitude_ratio", amplitude_ratio, 2)
-        cells = self.frequency_ratio.size * amplitudes.size
-        if cells > MOST_STEPS:
-            raise ValueError(
-                f"amplitude_ratio and frequency_ratio make {cells} cells; at most {MOST_STEPS} were expected"
-            )
+        self.frequency_ratio = checked_ratios("frequency_ratio", frequency_ratio)
+        self.amplitude_ratio = amplitudes = checked_ratios("amplitude_ratio", amplitude_ratio, fewest=2)
         self.restitution = of_sides(block, restitution)
         expected = f"at least one cycle and at most {MOST_CYCLES}"
         self.cycles = number("cycles", cycles, expected, low=1.0, high=MOST_CYCLES)
@@ -107,13 +101,6 @@ class MapPlan:
             "p": self.block.p,
             **({} if self.space is None else self.space.options | {"samples_a_cycle": SAMPLES_A_CYCLE}),
         }
-
-
-def _axis(name: str, values: ArrayLike, fewest: int) -> Array:
-    axis = checked_ratios(name, values, fewest=fewest)
-    if not (np.diff(axis) > 0).all():
-        raise ValueError(f"{name} has to be increasing")
-    return axis.copy()
 
 
 def map_part(plan: MapPlan, columns: Sequence[int]) -> StabilityMap:

@@ -51,8 +51,6 @@ class Model:
         needs e.
     is_linearised : bool
         Whether its equation is linear in θ.
-    is_default : bool
-        Whether a campaign uses it unless its settings name others.
     map_points : tuple of int
         Default number of Ω and of A of a stability map.
     """
@@ -64,7 +62,6 @@ class Model:
     engine: str = "colonnade.dynamics.plane.run"
     in_space: bool = False
     is_linearised: bool = False
-    is_default: bool = True
     map_points: tuple[int, int] = (24, 150)
 
     def uplift_threshold(self, critical_angle: float) -> float:
@@ -91,7 +88,6 @@ CONTACT = Model(
     definition="a body in space on base nodes, with penalty stiffness, critical damping fraction and Coulomb friction",
     engine="colonnade.dynamics.contact",
     in_space=True,
-    is_default=False,
     map_points=(14, 31),
 )
 
@@ -99,7 +95,7 @@ MODELS: dict[str, Model] = {model.name: model for model in (LINEAR, NONLINEAR, C
 """All models, in the order of tables and figures."""
 
 PLANE_MODELS = {model.name: model for model in (LINEAR, NONLINEAR)}
-"""Those that kernels solve, also under harmonic motion."""
+"""Those that kernels solve, also under harmonic motion; a campaign uses them unless its settings name others."""
 
 DEFAULT = LINEAR.name
 """Default model of a single run of the library: the fastest."""

@@ -33,7 +33,7 @@ STEPS_A_WIDTH = 4
 """Scan steps a width, at least: nothing wider than a fourth of a width is passed over."""
 
 MOST_STEPS = 1_000_000
-"""Of the scan over A, and cells of a map; a thousand times what a map has."""
+"""Of the scan over A; a thousand times what a map has."""
 
 LARGEST_RATIO = 1e6
 """Of Ω and A, and one over their least."""
@@ -65,14 +65,16 @@ class Limits(NamedTuple):
 
 
 def checked_ratios(name: str, values: ArrayLike, *, fewest: int = 1) -> Array:
-    """Check values of Ω or A; ValueError if one is out of the range of all motions and blocks."""
+    """Check rising values of Ω or A; ValueError if one is out of the range of all motions and blocks."""
     ratios = samples(name, values, dimensions=(0, 1), fewest=fewest).ravel()
     if not (ratios.min() >= 1 / LARGEST_RATIO and ratios.max() <= LARGEST_RATIO):
         raise ValueError(
             f"{name} goes from {ratios.min():g} to {ratios.max():g}; positive numbers from {1 / LARGEST_RATIO:g} to "
             f"{LARGEST_RATIO:g} were expected"
         )
-    return ratios
+    if not (np.diff(ratios) > 0).all():
+        raise ValueError(f"{name} has to be increasing")
+    return ratios.copy()
 
 
 def checked_widths(width: float, edge: float, height: float) -> tuple[float, float]:

@@ -38,8 +38,6 @@ class SteadyResponse:
     order : ndarray of int8, shape (n, m)
         k ≥ 1: the response repeats every k cycles of the base (sub-harmonic 1/k for k > 1); 0 at rest, −1 irregular,
         −2 overturned.
-    period : ndarray, shape (n, m)
-        s; NaN if nothing repeats.
     amplitude : ndarray, shape (n, m)
         Largest |θ|/α over the last `LARGEST_ORDER` · `REPEATS` cycles; NaN where the block overturned.
     """
@@ -47,7 +45,6 @@ class SteadyResponse:
     frequency_ratio: Array
     amplitude_ratio: Array
     order: NDArray[np.int8]
-    period: Array
     amplitude: Array
 
 
@@ -77,7 +74,7 @@ def steady_response(plan: MapPlan, columns: Sequence[int], settling: int) -> Ste
     linearised = plane_model_of(plan.model).is_linearised
     omegas, levels = plan.frequency_ratio[list(columns)], tan(block.critical_angle) * plan.amplitude_ratio
     first = round(plan.ramp) + settling
-    count, cycles = first + LARGEST_ORDER * (REPEATS + 1), 2 * pi / (omegas * block.p)
+    count = first + LARGEST_ORDER * (REPEATS + 1)
     order = np.zeros((omegas.size, levels.size), dtype=np.int8)
     amplitude = np.full(order.shape, np.nan)
     for row, omega in enumerate(omegas * block.p):
@@ -95,8 +92,7 @@ def steady_response(plan: MapPlan, columns: Sequence[int], settling: int) -> Ste
             amplitude[row, column] = end.peak
             states = np.column_stack([angles[at], velocities[at] / block.p])[first:] / block.critical_angle
             order[row, column] = AT_REST if end.peak == 0.0 else _order(states)
-    period = np.where(order > 0, order * cycles[:, None], np.nan)
-    return SteadyResponse(omegas, plan.amplitude_ratio, order, period, amplitude)
+    return SteadyResponse(omegas, plan.amplitude_ratio, order, amplitude)
 
 
 def _order(states: Array) -> int:

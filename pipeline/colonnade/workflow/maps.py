@@ -283,7 +283,7 @@ def _draw(stored: Sequence[xr.Dataset], points: Sequence[MapPoint], path: Path, 
     files.write_text(path, response_orders.computed(specimen, [as_map(each) for each in stored], points).svg)
 
 
-STEADY = {"order": "steady_order", "period": "steady_period", "amplitude": "steady_peak_ratio"}
+STEADY = {"order": "steady_order", "amplitude": "steady_peak_ratio"}
 """What steady responses are, and the variable of each in their result."""
 
 

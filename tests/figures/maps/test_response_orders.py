@@ -15,7 +15,7 @@ def response():
     """At rest below, every cycle, then a third, irregular and overturned above."""
     order = np.tile(np.array([0, 1, 3, -1, -2], dtype=np.int8), (7, 1))
     amplitude = np.tile(np.array([0.0, 0.2, 0.5, 0.6, np.nan]), (7, 1)) * (10.0 / OMEGAS)[:, None] / 5.0
-    return SteadyResponse(OMEGAS, LEVELS, order, np.full(order.shape, np.nan), amplitude)
+    return SteadyResponse(OMEGAS, LEVELS, order, amplitude)
 
 
 def test_every_order_has_the_colour_that_its_legend_names():
@@ -42,7 +42,7 @@ def test_curves_break_where_the_order_changes_and_dots_mark_what_is_not_every_cy
 
 def test_a_block_that_nowhere_rocks_has_no_curves():
     order = np.zeros((7, 5), dtype=np.int8)
-    resting = SteadyResponse(OMEGAS, LEVELS, order, np.full(order.shape, np.nan), np.zeros(order.shape))
+    resting = SteadyResponse(OMEGAS, LEVELS, order, np.zeros(order.shape))
     figure = response_orders(resting, [], OPTIONS)
     assert [len(axes.lines) for axes in figure.axes[1:]] == [0, 0]
 
@@ -53,6 +53,6 @@ def test_what_the_responses_depend_on_stands_above():
 
 
 def test_a_single_column_is_no_map():
-    one = SteadyResponse(OMEGAS[:1], LEVELS, *(np.zeros((1, 5)) for _ in range(3)))
+    one = SteadyResponse(OMEGAS[:1], LEVELS, *(np.zeros((1, 5)) for _ in range(2)))
     with pytest.raises(ValueError, match="at least two of each"):
         response_orders(one, [], OPTIONS)

@@ -11,12 +11,11 @@ from colonnade.arrays import Array
 from colonnade.dynamics.history import History
 from colonnade.dynamics.models import MODELS
 from colonnade.dynamics.motion import Motion
-from colonnade.units.text import Digested, written
 from colonnade.validation import instance
 
 
-@dataclass(frozen=True, repr=False)
-class Reactions(Digested):
+@dataclass(frozen=True)
+class Reactions:
     """
     Forces of the base on the block.
 
@@ -41,8 +40,6 @@ class Reactions(Digested):
     >>> forces = colonnade.reactions(colonnade.rock(block, motion, restitution=0.9), motion)
     >>> float(forces.required_friction[1].round(4)), round(float(forces.vertical[0]), 2)
     (0.0383, 256.04)
-    >>> forces.digest()["at impacts"]
-    '0.2791'
     """
 
     time: Array
@@ -51,21 +48,6 @@ class Reactions(Digested):
     required_friction: Array
     impact_times: Array
     impact_friction: Array
-
-    def digest(self) -> dict[str, str]:
-        """
-        Return the friction that is needed between impacts and at them.
-
-        Returns
-        -------
-        digest : dict of str to str
-            Names and values with their units, as a notebook shows them.
-        """
-        known = self.required_friction[np.isfinite(self.required_friction)]
-        return {
-            "friction needed": written(float(known.max(initial=0.0))),
-            "at impacts": written(float(self.impact_friction.max(initial=0.0))),
-        }
 
 
 def reactions(history: History, motion: Motion) -> Reactions:

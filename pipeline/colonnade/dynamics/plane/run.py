@@ -167,12 +167,7 @@ class Harmonic:
     def level(self, time: Array) -> Array:
         """Give l at times up to its end, s."""
         rise, full, end = self.edges
-        level = np.ones_like(time)
-        if rise > 0.0:
-            level = np.minimum(level, time / rise)
-        if end > full:
-            level = np.minimum(level, (end - time) / (end - full))
-        return level
+        return np.interp(time, (0.0, rise, full, end), (float(rise == 0.0), 1.0, 1.0, float(end == full)))
 
     def sampled(self, largest: float) -> tuple[Array, float]:
         """Sample it with its largest acceleration (m/s²), shape (n,), and give the sampling interval, s."""
