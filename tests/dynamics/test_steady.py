@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.maps import MapPlan
+from colonnade.dynamics.maps import MapPlan, steady_response
 from colonnade.dynamics.plane.run import Harmonic
-from colonnade.dynamics.steady import steady_response
 from harmonic import harmonic_run
 from prism import PRISM
 

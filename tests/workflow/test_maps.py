@@ -9,8 +9,7 @@ import pytest
 from colonnade.campaign import load
 from colonnade.campaign.forms.summary import Summary
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.maps import MapPlan, stability_map
-from colonnade.dynamics.steady import steady_response
+from colonnade.dynamics.maps import MapPlan, stability_map, steady_response
 from colonnade.errors import CampaignError, StoreError
 from colonnade.store import files
 from colonnade.store.results import ResultId

@@ -20,7 +20,6 @@ STANDARD_GRAVITY = 9.81
 Sided = float | tuple[float, float]
 """One value for both sides, or a pair (for θ < 0, for θ > 0)."""
 
-
 MOST_COLUMNS = 10_000
 """Of a frame."""
 LEAST, LARGEST = 1e-60, 1e60
@@ -147,14 +146,7 @@ class Block(Digested):
         number("beam_ratio", self.beam_ratio, "a share of the mass of the columns from 0 on", low=0.0, high=LARGEST)
 
     def digest(self) -> dict[str, str]:
-        """
-        Return α, R, I₀, p and the rigid-body e of the governing side, and the mass.
-
-        Returns
-        -------
-        digest : dict of str to str
-            Names and values with their units, as a notebook shows them.
-        """
+        """Return α, R, I₀, p and the rigid-body e of the governing side, and the mass, as a notebook shows them."""
         return {
             "α": written(self.critical_angle, "rad"),
             "R": written(self.pole_distance, "m"),
@@ -237,19 +229,7 @@ class Block(Digested):
         return self._at(angle, *(side.critical_angle for side in self.sides))
 
     def p_at(self, angle: ArrayLike) -> Array:
-        """
-        Frequency parameter of the side that each angle is on.
-
-        Parameters
-        ----------
-        angle : array_like
-            θ, rad; an angle of 0 or NaN counts as θ > 0.
-
-        Returns
-        -------
-        p : ndarray, shape of `angle`
-            rad/s.
-        """
+        """Give the frequency parameter p, rad/s, of the side that each angle is on; as `critical_angle_at`."""
         return self._at(angle, *(self.side_p(side) for side in self.sides))
 
     @staticmethod
@@ -309,25 +289,16 @@ class Block(Digested):
     @classmethod
     def cylinder(cls, *, diameter: float, height: float, mass: float, gravity: float = STANDARD_GRAVITY) -> Block:
         """
-        Build a solid upright cylinder that rocks about its base circle.
+        Build a solid upright cylinder that rocks about its base circle; mass, gravity and errors are as of `prism`.
 
         Parameters
         ----------
         diameter, height : float
             m.
-        mass : float
-            kg.
-        gravity : float, optional
-            m/s².
 
         Returns
         -------
         block : Block
-
-        Raises
-        ------
-        ValueError
-            If a dimension, the mass or gravity is not positive.
 
         Examples
         --------
@@ -342,25 +313,16 @@ class Block(Digested):
         cls, *, base_diameter: float, top_diameter: float, height: float, mass: float, gravity: float = STANDARD_GRAVITY
     ) -> Block:
         """
-        Build a solid truncated cone, standing on the circle of `base_diameter`.
+        Build a solid truncated cone, standing on the circle of `base_diameter`; the rest is as of `prism`.
 
         Parameters
         ----------
         base_diameter, top_diameter, height : float
             m.
-        mass : float
-            kg.
-        gravity : float, optional
-            m/s².
 
         Returns
         -------
         block : Block
-
-        Raises
-        ------
-        ValueError
-            If a dimension, the mass or gravity is not positive.
 
         Notes
         -----
@@ -530,12 +492,5 @@ def expect_positive(**values: float) -> None:
 
 
 def pair(value: Sided) -> tuple[float, float]:
-    """
-    Spread one value to both sides, or pass a pair through.
-
-    Examples
-    --------
-    >>> pair(0.2), pair((0.2, 0.3))
-    ((0.2, 0.2), (0.2, 0.3))
-    """
+    """Spread one value to both sides, or pass a pair through."""
     return sided("value", value, "a number")

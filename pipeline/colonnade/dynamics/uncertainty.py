@@ -90,14 +90,13 @@ class Uncertainty:
     def __post_init__(self) -> None:
         for name in ("restitution", "critical_angle", "p", "gain", "clock", "noise", "filter", "theta0", "angle_gain"):
             number(name, getattr(self, name), "a standard deviation, zero or more,", low=0.0)
-        if self.restitution_freedom is not None:
-            number("restitution_freedom", self.restitution_freedom, "a positive number, or None,", above=0.0)
         given = samples("correlations", self.correlations)
         if given.shape != (3,) or np.linalg.eigvalsh(self._correlation).min() < -_ROUNDING:
             raise ValueError(f"correlations are {self.correlations}; those of three quantities were expected")
         whole("filter_order", self.filter_order, 1, HIGHEST_ORDER)
-        if self.cutoff is not None:
-            number("cutoff", self.cutoff, "a positive frequency in Hz, or None,", above=0.0)
+        for name in ("restitution_freedom", "cutoff"):
+            if getattr(self, name) is not None:
+                number(name, getattr(self, name), "a positive number, or None,", above=0.0)
         if self.filter > 0.0 and self.cutoff is None:
             raise ValueError("filter is uncertain, but no cutoff is given; the frequency of the low-pass was expected")
 

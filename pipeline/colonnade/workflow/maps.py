@@ -33,8 +33,7 @@ from colonnade.workflow.walk import Walk, walking
 if TYPE_CHECKING:
     import xarray as xr
 
-    from colonnade.dynamics.maps import MapPlan
-    from colonnade.dynamics.steady import SteadyResponse
+    from colonnade.dynamics.maps import MapPlan, SteadyResponse
 
 MADE_BY = ("colonnade.dynamics.maps", "colonnade.workflow.maps")
 """Modules whose code makes maps and steady responses; what they import counts too."""
@@ -289,7 +288,7 @@ STEADY = {"order": "steady_order", "amplitude": "steady_peak_ratio"}
 
 def as_response(stored: xr.Dataset) -> SteadyResponse:
     """Return stored responses as the library gives them."""
-    from colonnade.dynamics.steady import SteadyResponse
+    from colonnade.dynamics.maps import SteadyResponse
 
     axes = (stored[name].to_numpy() for name in ("frequency_ratio", "amplitude_ratio"))
     return SteadyResponse(*axes, **{own: stored[name].to_numpy() for own, name in STEADY.items()})
@@ -304,7 +303,7 @@ def _settings(plan: MapPlan) -> dict[str, Any]:
 
 def _steady_columns(plan: MapPlan, indices: range) -> Arrays:
     """Work of a block: the responses at some Ω, as arrays."""
-    from colonnade.dynamics.steady import steady_response
+    from colonnade.dynamics.maps import steady_response
 
     response = steady_response(plan, indices, SETTLING)
     return {name: getattr(response, own) for own, name in STEADY.items()}

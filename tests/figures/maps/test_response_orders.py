@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.steady import SteadyResponse
+from colonnade.dynamics.maps import SteadyResponse
 from colonnade.figures.maps.response_orders import response_orders
 
 OMEGAS, LEVELS = np.linspace(2.0, 8.0, 7), np.linspace(0.8, 3.0, 5)

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.dynamics.history import NO_ROCKING_RATIO
-from colonnade.dynamics.maps import StabilityMap
-from colonnade.dynamics.steady import AT_REST, IRREGULAR, LARGEST_ORDER, OVERTURNED, SteadyResponse
+from colonnade.dynamics.maps import AT_REST, IRREGULAR, LARGEST_ORDER, OVERTURNED, StabilityMap, SteadyResponse
 from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import SMALLEST_RATIO
 from colonnade.figures.maps.stability_map import (
