@@ -66,7 +66,7 @@ def _told(text, load_text, kind):
 @pytest.mark.parametrize(
     ("changed", "severity", "said"),
     [
-        (('height = "456 mm"', 'height = "456 m"'), "serious", "give 7.7 kg/m³; .* one of the lengths in mm"),
+        (('height = "456 mm"', 'height = "456 m"'), "serious", "give 7.7 kg/m³; .* its lengths .mm read as m"),
         (('height = "456 mm"', 'height = "456 cm"'), None, ""),
         (('mass = "26.10 kg"', 'mass = "0.1 kg"'), "warning", "give 30 kg/m³"),
         (('mass = "26.10 kg"', 'mass = "100000 kg"'), "serious", "give 30000000 kg/m³; .* check the units"),

@@ -125,7 +125,7 @@ MISTAKES = {
     ),
     "mm for m": (
         in_campaign(r'height = "456 mm"', 'height = "456 m"'),
-        r"serious \(specimen\): campaign file: .* give 7.7 kg/m³; .* one of the lengths in mm read as m",
+        r"serious \(specimen\): campaign file: .* give 7.7 kg/m³; .* its lengths .mm read as m",
     ),
     "wrapped rows": (_wrap, r"quake[\s\S]*quake.csv: .*runs on from row to row"),
     "gain of the table": (

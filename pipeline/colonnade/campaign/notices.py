@@ -45,15 +45,13 @@ def _density(name: str, specimen: Specimen) -> Iterator[Finding]:
     if specimen.volume is None:
         return
     found = specimen.mass / specimen.volume
-    if size.is_likely(found):
+    if size.LIGHTEST <= found <= size.HEAVIEST:
         return
-    unit, count = size.mistaken_lengths(found)
-    lengths = {1: "one of the lengths", 2: "two of the lengths", 3: "the lengths"}
-    cause = f"were {lengths[count]} in {unit} read as m?" if count else "check the units of its lengths and mass."
     sizes = ", ".join(f"{key} {quantity(value, 'm', 4)}" for key, value in specimen.sizes().items())
     yield Finding(
         f"specimens.{name}: {sizes} and {quantity(specimen.mass, 'kg', 4)} give {number(found, 2)} kg/m³; "
-        f"{size.LIGHTEST:g} to {size.HEAVIEST:g} kg/m³ was expected: {cause}",
+        f"{size.LIGHTEST:g} to {size.HEAVIEST:g} kg/m³ was expected: check the units of its lengths (mm read as m?) "
+        "and of its mass.",
         "specimen",
         Severity.WARNING if size.FOAM <= found <= size.HEAVIEST else Severity.SERIOUS,
         about=f"specimens.{name}",

@@ -1,4 +1,4 @@
-"""Sizes of bodies: whether lengths, mass and inertia fit one body, and from model to prototype."""
+"""Sizes of bodies: what density and inertia a body may have, and from model to prototype."""
 
 from __future__ import annotations
 
@@ -13,42 +13,10 @@ FOAM = 20.0
 HOLLOW = 0.9
 """Of m R²; no body has a smaller moment of inertia about its pole, whatever its shape and the errors of measurement."""
 
-_SMALLER = {"mm": 1e3, "cm": 1e2}
-"""Units often mistaken for metres, and the number of them in a metre."""
-
 
 def cone_volume(base_diameter: float, top_diameter: float, height: float) -> float:
     """Volume of a truncated cone, m³; lengths in m. Of a cylinder both diameters are the same."""
     return pi * height * (base_diameter**2 + base_diameter * top_diameter + top_diameter**2) / 12
-
-
-def is_likely(density: float) -> bool:
-    """Whether a density, kg/m³, is that of a material."""
-    return LIGHTEST <= density <= HEAVIEST
-
-
-def mistaken_lengths(density: float) -> tuple[str, int]:
-    """
-    Find in which unit lengths were, and how many of the three, so that a density that is not likely becomes so.
-
-    Returns
-    -------
-    unit : str
-        "mm" or "cm" mistaken for m; empty where neither explains it.
-    count : int
-        How many of the three lengths: all of them if that explains it, else fewer.
-
-    Examples
-    --------
-    >>> mistaken_lengths(7.7e-6), mistaken_lengths(7.7), mistaken_lengths(7700.0)
-    (('mm', 3), ('mm', 1), ('', 0))
-    """
-    if not is_likely(density):
-        for count in (3, 1, 2):
-            for unit, factor in _SMALLER.items():
-                if is_likely(density * factor**count):
-                    return unit, count
-    return "", 0
 
 
 def expect_inertia(inertia: float, mass: float, pole_distance: float) -> None:
