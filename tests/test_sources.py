@@ -107,7 +107,7 @@ def test_a_change_in_a_reader_makes_no_prediction_anew(package):
 def test_an_engine_counts_unless_its_models_are_left_out(package):
     others = [MODELS["linear"].engine]
     linear, contact = of("predict"), of("predict", without=others)
-    (package / "dynamics/plane/series.py").open("a", encoding="utf-8").write("\nONE_MORE = 1\n")
+    (package / "dynamics/plane/arc.py").open("a", encoding="utf-8").write("\nONE_MORE = 1\n")
     forget()
     assert of("predict") != linear
     assert of("predict", without=others) == contact

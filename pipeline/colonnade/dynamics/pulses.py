@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi
+from functools import partial
+from math import ceil, pi
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -35,8 +36,8 @@ SAMPLE = 0.0125
 RICKER_REACH = 10.0
 """In ω t: where Ricker's wavelet, fallen to 7e-10, is cut off."""
 
-FINE = 20_000
-"""Points a cycle among which the largest acceleration of a pulse is found, to 1e-8 of it."""
+FINE = 3e-4
+"""In ω t: step at which the largest acceleration of a pulse is looked for; it is found to 1e-8."""
 
 MOST_CYCLES = 50.0
 """Largest γ."""
@@ -100,15 +101,11 @@ def sampled_pulse(name: str, cycles: float, phase: float) -> tuple[Array, float]
     samples, so that the motion that is linear between them has the pulse's own integrals to fourth order. Limits of
     overturning by either pulse are then 1.5e-7 in A at most off those of a step of 0.002, in 20 random blocks.
     """
-    reach = RICKER_REACH if name == RICKER.name else pi * cycles
-    count = 2 * int(np.ceil(reach / SAMPLE)) + 1
-    angle = np.linspace(-reach, reach, count)
+    reach, shape = pi * cycles, partial(mavroeidis_papageorgiou, cycles, phase)
     if name == RICKER.name:
-        values = ricker(angle)
-    else:
-        fine = np.linspace(-reach, reach, FINE * int(np.ceil(cycles)) + 1)
-        values = mavroeidis_papageorgiou(cycles, phase, angle)
-        values /= np.abs(mavroeidis_papageorgiou(cycles, phase, fine)).max()
+        reach, shape = RICKER_REACH, partial(ricker)
+    angle, fine = (np.linspace(-reach, reach, 2 * ceil(reach / step) + 1) for step in (SAMPLE, FINE))
+    values = shape(angle) / np.abs(shape(fine)).max()
     values[1:-1] -= np.diff(values, 2) / 12
     return values, float(angle[1] - angle[0])
 

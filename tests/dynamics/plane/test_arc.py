@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from colonnade.dynamics.plane import arc, series, sides
-from colonnade.dynamics.plane.arc import follow, verdict
-from colonnade.dynamics.plane.series import LONGEST_STEP, Push, empty_series
+from colonnade.dynamics.plane import arc, sides
+from colonnade.dynamics.plane.arc import LONGEST_STEP, Push, empty_series, follow, verdict
 from every import every
 from prism import PRISM
 
@@ -20,7 +19,7 @@ MODELS = {"linear": None, "nonlinear": empty_series(), "linearised": empty_serie
 
 @pytest.fixture(autouse=True)
 def as_python(interpreted):
-    interpreted(arc, series, sides)
+    interpreted(arc, sides)
 
 
 def followed(model, height, rate, *, angle=0.4, level=STEADY, ratio=RATIO, weight=(1.0, 0.0), remaining=2.0, top=False):
@@ -123,11 +122,11 @@ def test_where_it_passes_alpha_is_given():
 
 @pytest.mark.parametrize("x", [1e-6, 1e-3, 0.3, LONGEST_STEP])
 def test_ten_terms_are_the_functions_to_rounding_up_to_the_longest_step(x):
-    excess, rise = series.excess_rise(x * x)
+    excess, rise = arc.excess_rise(x * x)
     assert 1 + excess == pytest.approx(sinh(x) / x, rel=1e-15)
     assert rise == pytest.approx(2 * sinh(x / 2) ** 2 / x**2, rel=1e-15)
     assert x * x * rise == pytest.approx(cosh(x) - 1, rel=1e-3 if x < 1e-5 else 1e-9)
-    excess, rise = series.excess_rise(-x * x)
+    excess, rise = arc.excess_rise(-x * x)
     assert 1 + excess == pytest.approx(sin(x) / x, rel=1e-15)
     assert rise == pytest.approx(2 * sin(x / 2) ** 2 / x**2, rel=1e-15)
 

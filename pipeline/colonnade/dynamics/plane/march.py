@@ -9,9 +9,8 @@ import numpy as np
 
 from colonnade.arrays import Array, Codes
 from colonnade.dynamics.kernel import kernel, kernel_in_place
-from colonnade.dynamics.plane.arc import follow
+from colonnade.dynamics.plane.arc import Push, Series, empty_series, follow
 from colonnade.dynamics.plane.run import OVERTURNS, ROCKS, STANDS
-from colonnade.dynamics.plane.series import Push, Series, empty_series
 from colonnade.dynamics.plane.sides import (
     LONGEST_SAMPLE,
     Part,

@@ -186,8 +186,8 @@ class Harmonic:
 
 def harmonic_outcomes(block: Block, motion: Harmonic, amplitude_ratio: Array, restitution: Given, model: str) -> Codes:
     """Outcomes of many A under one motion, indices into `OUTCOMES`, shape (n,)."""
+    from colonnade.dynamics.plane.arc import empty_series
     from colonnade.dynamics.plane.march import column
-    from colonnade.dynamics.plane.series import empty_series
     from colonnade.dynamics.plane.sides import sides_of
 
     scales = amplitude_ratio * tan(block.critical_angle)

@@ -10,7 +10,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kernel import kernel_in_place
-from colonnade.dynamics.plane.series import excess_rise
+from colonnade.dynamics.plane.arc import excess_rise
 from colonnade.dynamics.restitution_law import Given, RestitutionLaw, of_sides
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 
