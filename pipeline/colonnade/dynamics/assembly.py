@@ -11,11 +11,9 @@ from math import cos
 
 import numpy as np
 
-from colonnade.dynamics.block import Block
+from colonnade.dynamics.block import MOST_COLUMNS, Block
 from colonnade.units.text import Digested, written
 from colonnade.validation import described, instance, number, samples, whole
-
-MOST_COLUMNS = 1000
 
 LEVEL = 1e-6
 """m: tops that one block stands on may differ by as much."""

@@ -20,8 +20,8 @@ STANDARD_GRAVITY = 9.81
 Sided = float | tuple[float, float]
 """One value for both sides, or a pair (for θ < 0, for θ > 0)."""
 
-MOST_COLUMNS = 10_000
-"""Of a frame."""
+MOST_COLUMNS = 1000
+"""Of a frame or a colonnade."""
 LEAST, LARGEST = 1e-60, 1e60
 """Of a length, a mass or an inertia in SI: products of several stay in the range of floating-point numbers."""
 
@@ -33,12 +33,9 @@ class Side:
 
     Attributes
     ----------
-    critical_angle : float
-        α, rad: the rotation that brings the centre of mass above the pole.
-    pole_distance : float
-        R, m, from the pole to the centre of mass.
-    inertia : float
-        I₀, kg m², about the pole.
+    critical_angle, pole_distance, inertia : float
+        α, rad: the rotation that brings the centre of mass above the pole; R, m, from there to the centre of mass; I₀,
+        kg m², about the pole.
     """
 
     critical_angle: float
@@ -63,12 +60,10 @@ class Solid:
     Attributes
     ----------
     base : {"rectangle", "circle"}
-    half_depth : float
-        m, along y; of a round base its radius.
+    half_depth, height : float
+        m, along y, of a round base its radius; from the base to the top.
     inertia_x, inertia_z : float
         kg m², about the axes through the centre of mass.
-    height : float
-        m, from the base to the top; 0 where it is not known.
     top : (float, float)
         m, half width and half depth of the flat top, on which other blocks may stand; of a round one its radius, twice.
     """
@@ -77,8 +72,8 @@ class Solid:
     half_depth: float
     inertia_x: float
     inertia_z: float
-    height: float = 0.0
-    top: tuple[float, float] = (0.0, 0.0)
+    height: float
+    top: tuple[float, float]
 
     def is_uniform(self, side: Side, mass: float) -> bool:
         """Whether a side is that of an upright prism or cylinder of uniform density."""
@@ -91,7 +86,8 @@ class Solid:
 @dataclass(frozen=True, repr=False)
 class Block(Digested):
     """
-    A rigid block that rocks in the plane x–z about the two edges of its base.
+    A rigid block that rocks in the plane x–z about the two edges of its base. Its α, R, I₀, p and e are those of the
+    governing side, the one with the smaller critical angle.
 
     Attributes
     ----------
@@ -106,11 +102,6 @@ class Block(Digested):
     beam_ratio : float
         γ, dimensionless: mass of the beam over that of all columns of a frame; 0 for a block. The pole
         distance of a frame is that of a column, its inertia that of all columns and, at 2 R, the beam.
-
-    Notes
-    -----
-    `critical_angle`, `pole_distance`, `inertia`, `p` and `restitution` are those of the governing side, the one with
-    the smaller critical angle; for a symmetric block both are the same.
 
     Examples
     --------
@@ -146,7 +137,14 @@ class Block(Digested):
         number("beam_ratio", self.beam_ratio, "a share of the mass of the columns from 0 on", low=0.0, high=LARGEST)
 
     def digest(self) -> dict[str, str]:
-        """Return α, R, I₀, p and the rigid-body e of the governing side, and the mass, as a notebook shows them."""
+        """
+        Return α, R, I₀, p and rigid-body e of the governing side, and the mass.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
         return {
             "α": written(self.critical_angle, "rad"),
             "R": written(self.pole_distance, "m"),
@@ -229,7 +227,19 @@ class Block(Digested):
         return self._at(angle, *(side.critical_angle for side in self.sides))
 
     def p_at(self, angle: ArrayLike) -> Array:
-        """Give the frequency parameter p, rad/s, of the side that each angle is on; as `critical_angle_at`."""
+        """
+        Frequency parameter p of the side that each angle is on, as `critical_angle_at`.
+
+        Parameters
+        ----------
+        angle : array_like
+            θ, rad.
+
+        Returns
+        -------
+        p : ndarray
+            rad/s.
+        """
         return self._at(angle, *(self.side_p(side) for side in self.sides))
 
     @staticmethod
@@ -265,10 +275,8 @@ class Block(Digested):
         ----------
         width, depth, height : float
             Along x, y, z, m. The depth does not enter plane rocking.
-        mass : float
-            kg.
-        gravity : float, optional
-            m/s².
+        mass, gravity : float
+            kg; m/s².
 
         Returns
         -------
@@ -289,12 +297,12 @@ class Block(Digested):
     @classmethod
     def cylinder(cls, *, diameter: float, height: float, mass: float, gravity: float = STANDARD_GRAVITY) -> Block:
         """
-        Build a solid upright cylinder that rocks about its base circle; mass, gravity and errors are as of `prism`.
+        Build a solid upright cylinder that rocks about its base circle; errors are those of `prism`.
 
         Parameters
         ----------
-        diameter, height : float
-            m.
+        diameter, height, mass, gravity : float
+            m, m, kg and m/s².
 
         Returns
         -------
@@ -313,12 +321,12 @@ class Block(Digested):
         cls, *, base_diameter: float, top_diameter: float, height: float, mass: float, gravity: float = STANDARD_GRAVITY
     ) -> Block:
         """
-        Build a solid truncated cone, standing on the circle of `base_diameter`; the rest is as of `prism`.
+        Build a solid truncated cone, standing on the circle of `base_diameter`; errors are those of `prism`.
 
         Parameters
         ----------
-        base_diameter, top_diameter, height : float
-            m.
+        base_diameter, top_diameter, height, mass, gravity : float
+            m, m, m, kg and m/s².
 
         Returns
         -------
@@ -326,8 +334,7 @@ class Block(Digested):
 
         Notes
         -----
-        Moments of the cross-sections are integrated over the height, where the radius changes linearly:
-        centre of mass ∫z r² / ∫r², transverse inertia about the base ∫(r⁴/4 + z² r²) / ∫r².
+        The radius r changes linearly: centre of mass ∫z r² / ∫r², inertia about the base ∫(r⁴/4 + z² r²) / ∫r².
 
         Examples
         --------
@@ -369,12 +376,10 @@ class Block(Digested):
 
         Parameters
         ----------
-        mass : float
-            kg.
+        mass, gravity : float
+            kg; m/s².
         pole_distance, critical_angle, inertia : float or pair of float
             R in m, α in rad, I₀ in kg m² about the pole; a pair is (for θ < 0, for θ > 0).
-        gravity : float, optional
-            m/s².
 
         Returns
         -------
@@ -383,8 +388,7 @@ class Block(Digested):
         Raises
         ------
         ValueError
-            If a value is not positive, an angle is not below π/2, or the inertia is smaller than that of the mass
-            alone at the pole distance, which no body has.
+            If a value is out of its range, or the inertia less than that of the mass alone at the pole distance.
         """
         expect_positive(mass=mass, gravity=gravity)
         angles = sided("critical_angle", critical_angle, "an angle between 0 and π/2 rad", above=0.0, below=pi / 2)
@@ -412,7 +416,7 @@ class Block(Digested):
         Returns
         -------
         block : Block
-            Its angle is that of every column. For histories, maps, spectra and fragilities in the plane.
+            Its angle is that of every column.
 
         Raises
         ------
@@ -425,10 +429,10 @@ class Block(Digested):
         pole, and the beam, on equal columns, moves without turning. With γ its mass over that of all columns, and m,
         R, I₀ of one, potential and kinetic energy of the frame over the number of columns are
         (1 + 2γ) m g R cos(α − |θ|) and (I₀ + 4γ m R²) θ̇²/2: a block of the same α with
-        p̂ = p sqrt((1 + 2γ)/(1 + 4γ m R²/I₀)) (Makris and Vassiliou 2013). At an impact the poles change, below and
-        above the columns. About the new pole of a column the angular momentum of the column and its share of the beam,
-        a point on the new edge of its top, is kept: (I₀ − 2 m R² sin²α + 4γ m R² cos 2α) ω before, (I₀ + 4γ m R²) ω
-        after, so that e = 1 − 2 (1 + 4γ) m R² sin²α/(I₀ + 4γ m R²).
+        p̂ = p sqrt((1 + 2γ)/(1 + 4γ m R²/I₀)) (Makris and Vassiliou 2013). At an impact the poles change. About the new
+        one of a column the angular momentum of it and its share of the beam is kept:
+        (I₀ − 2 m R² sin²α + 4γ m R² cos 2α) ω before, (I₀ + 4γ m R²) ω after, so that
+        e = 1 − 2 (1 + 4γ) m R² sin²α/(I₀ + 4γ m R²).
 
         Examples
         --------
