@@ -92,7 +92,7 @@ def test_a_ramp_raises_the_upper_limit():
         ({"cycles": 0.5}, "at least one cycle"),
         ({"ramp": -1}, "ramp is -1"),
         ({"phase": math.inf}, "phase is inf"),
-        ({"width": 1e-5}, "edge is 0.0001 and width 1e-05"),
+        ({"width": 1e-5}, "edge is 0.0001; a number in A from 1e-09 to the width, 1e-05"),
         ({"model": "contact"}, 'Unknown plane model "contact"'),
     ],
 )

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from math import ceil, log2
 from typing import Any, NamedTuple
 
@@ -83,19 +82,16 @@ def checked_widths(width: float, edge: float, height: float) -> tuple[float, flo
     """
     finest = STEPS_A_WIDTH * height / MOST_STEPS
     width = number("width", width, f"a width in A, at least {finest:.3g} for the scan to end,", above=0.0, low=finest)
-    edge = number("edge", edge, f"a number in A, at least {LEAST_EDGE:g},", low=LEAST_EDGE)
-    if not edge <= width:
-        raise ValueError(f"edge is {edge} and width {width}; 0 < edge ≤ width was expected, in units of A")
+    expected = f"a number in A from {LEAST_EDGE:g} to the width, {width:g},"
+    edge = number("edge", edge, expected, low=LEAST_EDGE, high=width)
     return width, edge
 
 
 def scan_over(amplitudes: Array, width: float) -> Array:
     """Give the A to run: the rising ones given, and between them as many as make steps of width / 4."""
-    parts = []
-    for low, high in pairwise(amplitudes.tolist()):
-        steps = max(1, int(np.ceil((high - low) / (width / STEPS_A_WIDTH) * (1 - 1e-9))))
-        parts.append(low + (high - low) / steps * np.arange(steps))
-    return np.concatenate([*parts, amplitudes[-1:]])
+    steps = np.maximum(np.ceil(np.diff(amplitudes) / (width / STEPS_A_WIDTH) * (1 - 1e-9)), 1.0)
+    knots = np.concatenate([[0.0], np.cumsum(steps)])
+    return np.interp(np.arange(knots[-1] + 1.0), knots, amplitudes)
 
 
 def runs_of(
