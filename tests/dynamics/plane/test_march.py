@@ -5,7 +5,7 @@ from math import acosh, sqrt
 import numpy as np
 import pytest
 
-from colonnade.dynamics.plane import arc, march, series, sides
+from colonnade.dynamics.plane import arc, march, sides
 from colonnade.dynamics.plane.march import FIRST_ROOM, NONE, Forcing
 from colonnade.dynamics.plane.sides import sides_of
 from prism import PRISM
@@ -17,7 +17,7 @@ DT = 0.2 / P
 
 @pytest.fixture(autouse=True)
 def as_python(interpreted):
-    interpreted(arc, march, series, sides)
+    interpreted(arc, march, sides)
 
 
 def propagate(base, angle=0.0, velocity=0.0, *, vertical=None, e=(E, E), rest_angle=1e-6):
