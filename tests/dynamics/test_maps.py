@@ -130,6 +130,7 @@ def test_its_options_say_all_that_a_map_depends_on():
         ({"frequency_ratio": [1e7]}, "positive numbers from 1e-06 to 1e\\+06 were expected"),
         ({"amplitude_ratio": [1.0, 1e5], "width": 0.1}, "width is 0.1; a width in A, at least 0.4"),
         ({"edge": LEAST_EDGE / 2}, "edge is 5e-10"),
+        ({"frequency_ratio": np.linspace(1, 2, 2000), "amplitude_ratio": np.linspace(1, 2, 501)}, "1002000 cells"),
     ],
 )
 def test_what_would_not_end_is_refused(given, message):

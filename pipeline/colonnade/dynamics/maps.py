@@ -19,6 +19,7 @@ from colonnade.dynamics.plane.run import SAMPLES_A_CYCLE, Harmonic
 from colonnade.dynamics.restitution_law import of_sides
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.dynamics.search import (
+    MOST_STEPS,
     WIDTH,
     OverFrequency,
     checked_ratios,
@@ -74,6 +75,11 @@ class MapPlan:
         self.block, self.model, self.space = block, model, space
         self.frequency_ratio = checked_ratios("frequency_ratio", frequency_ratio)
         self.amplitude_ratio = amplitudes = checked_ratios("amplitude_ratio", amplitude_ratio, fewest=2)
+        cells = self.frequency_ratio.size * amplitudes.size
+        if cells > MOST_STEPS:
+            raise ValueError(
+                f"amplitude_ratio and frequency_ratio make {cells} cells; at most {MOST_STEPS} were expected"
+            )
         self.restitution = of_sides(block, restitution)
         expected = f"at least one cycle and at most {MOST_CYCLES}"
         self.cycles = number("cycles", cycles, expected, low=1.0, high=MOST_CYCLES)

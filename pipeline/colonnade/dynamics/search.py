@@ -32,7 +32,7 @@ STEPS_A_WIDTH = 4
 """Scan steps a width, at least: nothing wider than a fourth of a width is passed over."""
 
 MOST_STEPS = 1_000_000
-"""Of the scan over A; a thousand times what a map has."""
+"""Of the scan over A, and cells of a map; a thousand times what a map has."""
 
 LARGEST_RATIO = 1e6
 """Of Ω and A, and one over their least."""
