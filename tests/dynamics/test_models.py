@@ -46,7 +46,7 @@ FREE = {"model": "contact", "theta0": 0.5 * PRISM.critical_angle, "duration": 0.
 
 
 def test_without_a_law_the_table_is_stiff():
-    law = ContactLaw.stiff(rigid_body(PRISM), PRISM.gravity)
+    law = ContactLaw().bearing(rigid_body(PRISM), PRISM.gravity)
     plain, named = rock(PRISM, **FREE), rock(PRISM, **FREE, contact=law)
     np.testing.assert_array_equal(plain.angle, named.angle)
     soft = rock(PRISM, **FREE, contact=replace(law, stiffness=law.stiffness / 100))

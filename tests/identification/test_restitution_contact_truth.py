@@ -135,7 +135,7 @@ def test_the_pooled_e_of_several_releases_agrees_with_all_velocity_ratios():
 
 def free_rocking(body, *, damping_fraction, released, duration):
     """Free rocking from a share of α, as a recorder of 1 kHz sees it."""
-    law = ContactLaw.stiff(body, PRISM.gravity, damping_fraction=damping_fraction, penetration=1e-6)
+    law = ContactLaw(damping_fraction=damping_fraction, penetration=1e-6).bearing(body, PRISM.gravity)
     still = Motion(np.zeros(round(1e3 * duration) + 1), 1e-3)
     return simulate(body, still, law=law, theta0=released * PRISM.critical_angle)
 

@@ -76,13 +76,11 @@ def contact(specimen: Dataset, inputs: ContactInputs) -> Dataset:
     """
     settings, body = inputs.settings, _whole_body(inputs)
     given = settings.damping_fraction != "auto"
-    law = ContactLaw.stiff(
-        body,
-        inputs.block.gravity,
+    law = ContactLaw(
         damping_fraction=float(settings.damping_fraction) if given else 0.0,
         friction=settings.friction,
         penetration=settings.penetration,
-    )
+    ).bearing(body, inputs.block.gravity)
     with refusals():
         found = calibrate(
             body,

@@ -112,7 +112,7 @@ def predict(
         assert inputs.assembly is not None  # whose bodies were moved
         # Its rocking angle is the lean of the lowest body with all that it carries.
         peak, ratio = int(np.argmax(np.abs(history.angle))), history.peak_ratio
-        impacts = next(iter(history.bodies.values())).impact_times
+        impacts = history.impact_times
         variables |= {"energy_residual": history.energies.relative_residual, "impact_count": impacts.size}
         variables |= predicted_variables(history, beginning, inputs.assembly)
     else:

@@ -55,7 +55,7 @@ def test_nodes_that_carry_half_an_element_have_the_effective_damping_of_their_me
 def test_the_stiff_law_lets_bodies_of_all_sizes_sink_alike():
     for size in (0.1, 10.0):
         body = rigid_body(Block.prism(width=0.2 * size, depth=0.3 * size, height=size, mass=5.0))
-        law = ContactLaw.stiff(body, 9.81)
+        law = ContactLaw().bearing(body, 9.81)
         assert 5.0 * 9.81 / law.node_stiffness(body).sum() == pytest.approx(STATIC_PENETRATION * 0.5 * size, rel=1e-9)
 
 
@@ -130,7 +130,7 @@ def test_dropping_modes_keeps_the_low_ones_and_ends_at_the_rigid_body():
 
 def test_a_step_of_ten_microseconds_keeps_modes_that_the_engine_advances_with_closed_energy():
     reduced = reduce_body(ELASTIC)
-    law = ContactLaw.stiff(reduced, 9.81, penetration=1e-6)
+    law = ContactLaw(penetration=1e-6).bearing(reduced, 9.81)
     kept = keep_modes_for_step(reduced, law, 1e-5)
     count = kept.frequencies.size
     assert count >= 4
@@ -138,12 +138,12 @@ def test_a_step_of_ten_microseconds_keeps_modes_that_the_engine_advances_with_cl
     assert longest_step(_on(law, keep_modes(reduced, reduced.frequencies[count + 1]))) < 1e-5 / FOLLOWED
     history = simulate(kept, law=law, theta0=0.05, duration=0.3, step=1e-5)
     assert history.impact_times.size == 1
-    assert history.energies.closes
+    assert history.energies.relative_residual < 0.01
 
 
 def test_a_step_that_not_even_the_rigid_body_allows_is_refused():
     reduced = reduce_body(ELASTIC, vibration_modes=6)
-    law = ContactLaw.stiff(reduced, 9.81)
+    law = ContactLaw().bearing(reduced, 9.81)
     kept = keep_modes_for_step(reduced, law, 1e-2)
     assert kept.frequencies.size == 0
     with pytest.raises(ValueError, match=r"at most .* s was expected"):

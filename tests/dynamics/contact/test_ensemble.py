@@ -14,7 +14,7 @@ from colonnade.dynamics.motion import at_rest
 from prism import PRISM
 
 BODY = rigid_body(PRISM, grid=3)
-LAW = ContactLaw.stiff(BODY, PRISM.gravity, penetration=1e-5)
+LAW = ContactLaw(penetration=1e-5).bearing(BODY, PRISM.gravity)
 BLOCK = plane_block(BODY, PRISM.gravity)
 PLAN = ContactPlan(
     block=BLOCK,

@@ -54,12 +54,11 @@ def test_no_contact_gives_no_impact():
 
 def test_a_balance_that_does_not_close_is_told():
     body = rigid_body(PRISM)
-    law = ContactLaw.stiff(body, 9.81)
+    law = ContactLaw().bearing(body, 9.81)
     history = simulate(body, Motion(np.zeros(11), 0.005), law=law, theta0=0.1 * ALPHA)
     assert history.warnings == ()
     part = {name: getattr(history.energies, name) for name in vars(history.energies)}
     leaking = EnergyBalance(**{**part, "kinetic": 0.9 * part["kinetic"]})
-    assert not leaking.closes
     told = type(history)(**{**vars(history), "energies": leaking}).warnings
     assert "does not close" in told[0]
     assert "Try a step shorter than 5e-06 s" in told[0]
@@ -69,7 +68,7 @@ def test_what_cannot_lift_the_block_is_not_missing():
     """Shaken below its threshold, the block has hardly any energy to compare with, and the balance closes."""
     body = rigid_body(PRISM)
     shaken = Motion(0.8 * PRISM.uplift_acceleration * np.sin(2 * np.pi * 3 * 0.005 * np.arange(401)), 0.005)
-    history = simulate(body, shaken, law=ContactLaw.stiff(body, 9.81), step=2e-5)
+    history = simulate(body, shaken, law=ContactLaw().bearing(body, 9.81), step=2e-5)
     assert history.outcome == "no-rocking"
     assert history.energies.relative_residual < 1e-3
     assert history.warnings == ()
@@ -77,8 +76,8 @@ def test_what_cannot_lift_the_block_is_not_missing():
     part = {name: getattr(history.energies, name) for name in vars(history.energies)}
 
     def told(share):
-        lost = part["dissipated_contact"] + np.linspace(0.0, share * overturning, 401)
-        leaking = EnergyBalance(**{**part, "dissipated_contact": lost})
+        lost = part["dissipated"] + np.linspace(0.0, share * overturning, 401)
+        leaking = EnergyBalance(**{**part, "dissipated": lost})
         return type(history)(**{**vars(history), "energies": leaking}).warnings
 
     assert told(0.0015) == ()

@@ -87,7 +87,7 @@ def test_area_mass_and_stiffness_are_spread_and_the_meshs_nodes_stay(meshed):
     assert on_rim.sum() == 104  # the next multiple of 8
     assert fine.node_area.sum() == pytest.approx(meshed.node_area.sum(), rel=1e-12)
     assert fine.node_mass.sum() == pytest.approx(meshed.node_mass.sum(), rel=1e-12)
-    law = ContactLaw.stiff(meshed, GRAVITY, penetration=1e-6)
+    law = ContactLaw(penetration=1e-6).bearing(meshed, GRAVITY)
     assert law.effective_damping(fine) == pytest.approx(law.effective_damping(meshed), rel=1e-9)
     for node, modes in zip(meshed.nodes, meshed.modes, strict=True):
         same = np.argmin(np.abs(fine.nodes - node).sum(axis=1))
@@ -105,7 +105,7 @@ def test_modes_are_linear_between_the_nodes_of_the_mesh(meshed):
 def test_an_elastic_cylinder_stays_in_its_plane_as_its_rim_gets_nodes(meshed):
     """Released with a rotation about x of 0.25 % of α, which stays what it is on a whole rim."""
     elastic = keep_modes(meshed, meshed.frequencies[6])
-    law = ContactLaw.stiff(meshed, GRAVITY, penetration=1e-6)
+    law = ContactLaw(penetration=1e-6).bearing(meshed, GRAVITY)
     largest = []
     for body in (elastic, refine_rim(elastic, 72), refine_rim(elastic)):
         history = simulate(

@@ -71,7 +71,7 @@ def _angle_in_mujoco(motion, theta0=0.0):
 
 def _angle_in_contact(motion, theta0=0.0):
     body = rigid_body(PRISM, grid=2)
-    law = ContactLaw.stiff(body, PRISM.gravity, damping_fraction=2.0, friction=2.0, penetration=1e-7)
+    law = ContactLaw(damping_fraction=2.0, friction=2.0, penetration=1e-7).bearing(body, PRISM.gravity)
     return simulate(body, motion, law=law, theta0=theta0).angle
 
 
@@ -107,7 +107,7 @@ def test_a_cylinder_pushed_sideways_leaves_its_plane_as_in_mujoco(push, share):
     Over the release and the arc after it; the tolerances, in α, are twice what was found.
     """
     body = rigid_body(CYLINDER, rings=1)
-    law = ContactLaw.stiff(body, CYLINDER.gravity, damping_fraction=1.0, friction=2.0, penetration=1e-7)
+    law = ContactLaw(damping_fraction=1.0, friction=2.0, penetration=1e-7).bearing(body, CYLINDER.gravity)
     alpha = CYLINDER.critical_angle
     still = alone(body, law, CYLINDER.gravity, theta0=0.5 * alpha)
     angular = np.array([push * CYLINDER.p * alpha, 0.0, 0.0])

@@ -20,7 +20,7 @@ CYLINDER = Block.cylinder(diameter=0.097, height=0.455, mass=26.30, gravity=GRAV
 CONE = Block.cone(base_diameter=0.097, top_diameter=0.0755, height=0.480, mass=21.94, gravity=GRAVITY)
 ALPHA = CYLINDER.critical_angle
 BODY = rigid_body(CYLINDER)
-LAW = ContactLaw.stiff(BODY, GRAVITY, damping_fraction=0.4, penetration=1e-6)
+LAW = ContactLaw(damping_fraction=0.4, penetration=1e-6).bearing(BODY, GRAVITY)
 STEP = 2e-5
 PUSH = 0.01
 """Angular velocity about x at the start, over p α: the sideways push of a hand."""
@@ -101,7 +101,7 @@ def test_nodes_come_nearer_to_the_whole_ring_with_their_number():
 @pytest.mark.parametrize("tilt", [0.02, 0.1])
 def test_the_arc_bears_the_weight_of_the_closed_form(tilt):
     """The start is put as deep as the closed form of the arc says; the engine integrates the arc at points."""
-    law = ContactLaw.stiff(BODY, GRAVITY, damping_fraction=0.0, friction=0.0)
+    law = ContactLaw(damping_fraction=0.0, friction=0.0).bearing(BODY, GRAVITY)
     start = alone(BODY, law, GRAVITY, theta0=tilt)
     history = simulate(BODY, Motion(np.zeros(3), 1e-8), law=law, gravity=GRAVITY, start=start)
     assert history.base_force[1, 2] == pytest.approx(CYLINDER.mass * GRAVITY, rel=1e-3)
@@ -112,7 +112,7 @@ def test_the_arc_bears_the_weight_of_the_closed_form(tilt):
 
 
 def test_plane_rocking_is_the_analytical_one_with_the_runs_own_restitution():
-    law = ContactLaw.stiff(BODY, GRAVITY, damping_fraction=1.0, friction=2.0, penetration=1e-7)
+    law = ContactLaw(damping_fraction=1.0, friction=2.0, penetration=1e-7).bearing(BODY, GRAVITY)
     theta0 = 0.5 * ALPHA
     history = simulate(BODY, law=law, gravity=GRAVITY, theta0=theta0, duration=1.2, step=1e-5)
     own = history.impact_restitution
@@ -176,7 +176,7 @@ def test_peaks_of_a_rolling_ring_pass_without_the_loss_of_a_flat_impact():
 def test_friction_on_rings_slows_a_cylinder_that_spins():
     squat = Block.cylinder(diameter=0.5, height=0.1, mass=10.0, gravity=GRAVITY)
     body = rigid_body(squat)
-    law = ContactLaw.stiff(body, GRAVITY, damping_fraction=0.5, friction=0.2)
+    law = ContactLaw(damping_fraction=0.5, friction=0.2).bearing(body, GRAVITY)
     start = Start(alone(body, law, GRAVITY).position, angular_velocity=np.array([0.0, 0.0, 2.0]))
     spun = simulate(body, Motion(np.zeros(101), 0.004), law=law, gravity=GRAVITY, start=start)
     # Friction on rings turns it back with µ m g times the mean radius that bears.

@@ -23,7 +23,7 @@ REST = Motion(np.zeros(3), 0.01)
 def test_free_rocking_is_the_analytical_one_with_the_runs_own_restitution(block, released):
     """Two edges of nodes and strong damping: the block does not bounce."""
     body = rigid_body(block, grid=2)
-    law = ContactLaw.stiff(body, GRAVITY, damping_fraction=2.0, friction=2.0, penetration=1e-6)
+    law = ContactLaw(damping_fraction=2.0, friction=2.0, penetration=1e-6).bearing(body, GRAVITY)
     theta0 = released * block.critical_angle
     history = simulate(body, law=law, theta0=theta0, duration=11.0 / block.p)
     own = history.impact_restitution
@@ -40,7 +40,7 @@ def test_free_rocking_is_the_analytical_one_with_the_runs_own_restitution(block,
 
 def test_forced_rocking_is_the_analytical_one_with_the_runs_own_restitution():
     body = rigid_body(PRISM, grid=2)
-    law = ContactLaw.stiff(body, GRAVITY, damping_fraction=2.0, friction=2.0, penetration=3e-7)
+    law = ContactLaw(damping_fraction=2.0, friction=2.0, penetration=3e-7).bearing(body, GRAVITY)
     time = np.arange(301) * 0.005
     base = np.where(time < 1.0, 1.6 * PRISM.uplift_acceleration * np.sin(2 * np.pi * 3.0 * time), 0.0)
     history = simulate(body, Motion(base, 0.005), law=law)
@@ -53,7 +53,7 @@ def test_forced_rocking_is_the_analytical_one_with_the_runs_own_restitution():
 
 def test_the_mirror_image_of_a_motion_gives_the_mirror_image():
     body = rigid_body(PRISM)
-    law = ContactLaw.stiff(body, GRAVITY)
+    law = ContactLaw().bearing(body, GRAVITY)
     base = 2.5 * np.sin(2 * np.pi * 2.5 * np.arange(101) * 0.005)
     there, back = (simulate(body, Motion(sign * base, 0.005), law=law) for sign in (1.0, -1.0))
     assert np.abs(there.angle).max() > 0.05 * ALPHA
@@ -62,7 +62,7 @@ def test_the_mirror_image_of_a_motion_gives_the_mirror_image():
 
 def test_shaking_across_rocks_a_square_block_as_shaking_along_does():
     body = rigid_body(PRISM)
-    law = ContactLaw.stiff(body, GRAVITY)
+    law = ContactLaw().bearing(body, GRAVITY)
     base = 2.5 * np.sin(2 * np.pi * 2.5 * np.arange(81) * 0.005)
     along = simulate(body, Motion(base, 0.005), law=law)
     across = simulate(body, Motion(np.zeros(81), 0.005, transverse=base), law=law)
@@ -94,7 +94,7 @@ def test_a_block_past_its_critical_angle_at_the_end_is_followed_until_it_falls()
 @pytest.mark.parametrize("angles", [(0.1, 0.05), (-0.2, 0.1), (0.0, 0.0)], ids=["tilted", "other way", "upright"])
 def test_a_body_starts_where_it_was_put(angles):
     body = rigid_body(PRISM)
-    law = ContactLaw.stiff(body, GRAVITY)
+    law = ContactLaw().bearing(body, GRAVITY)
     history = simulate(body, REST, law=law, theta0=angles[0], out_of_plane=angles[1], step=2e-5)
     assert history.angle[0] == pytest.approx(angles[0], abs=1e-12)
     assert history.out_of_plane_angle[0] == pytest.approx(angles[1], abs=1e-12)
@@ -109,7 +109,7 @@ def test_a_mode_rings_at_its_frequency_and_fades_as_damped():
     modes[:, 2, 0] = 0.1
     soft = ContactBody(**{**vars(body), "modes": modes, "frequencies": np.array([2000.0]),
                           "modal_damping": np.array([0.02])})  # fmt: skip
-    law = ContactLaw.stiff(body, GRAVITY, damping_fraction=0.1, penetration=1e-6)
+    law = ContactLaw(damping_fraction=0.1, penetration=1e-6).bearing(body, GRAVITY)
     start = Start(np.array([0.0, 0.0, soft.height + 1e-6]), np.array([0.0, 0.0, -0.05]))
     history = simulate(soft, Motion(np.zeros(401), 1e-5), law=law, step=1e-6, start=start)
     assert history.energies.relative_residual < 1e-4
@@ -136,7 +136,7 @@ def test_a_mode_rings_at_its_frequency_and_fades_as_damped():
 )
 def test_arguments_out_of_range_are_refused(arguments, message):
     body = rigid_body(PRISM)
-    law = ContactLaw.stiff(body, GRAVITY)
+    law = ContactLaw().bearing(body, GRAVITY)
     given = {"motion": Motion(np.zeros(3), 0.02), "law": law, **arguments}
     with pytest.raises(ValueError, match=message):
         simulate(body, given.pop("motion"), **given)
@@ -159,7 +159,7 @@ def test_rock_refuses_what_a_model_cannot_take(arguments, message):
 def test_an_undisturbed_block_begins_to_rock_at_the_uplift_acceleration(frequency, amplitude):
     """On springs ten times as soft the lean of the standing block is enough to rock from A = 0.93 to 0.97 on."""
     body = rigid_body(PRISM)
-    law = ContactLaw.stiff(body, GRAVITY, damping_fraction=0.155)
+    law = ContactLaw(damping_fraction=0.155).bearing(body, GRAVITY)
     time = np.arange(1501) / (100 * frequency)
     base = amplitude * PRISM.uplift_acceleration * np.sin(2 * np.pi * frequency * time)
     history = simulate(body, Motion(base, time[1]), law=law, step=1e-5)

@@ -13,7 +13,7 @@ CYLINDER = rigid_body(Block.cylinder(diameter=0.2, height=0.9, mass=70.0))
 
 
 def law_of(body):
-    return ContactLaw.stiff(body, GRAVITY)
+    return ContactLaw().bearing(body, GRAVITY)
 
 
 def heights(body, start):

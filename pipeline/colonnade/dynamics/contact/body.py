@@ -138,7 +138,7 @@ def rigid_body(block: Block, *, grid: int = GRID, rings: int = RINGS) -> Contact
         about_x, (nodes, area) = about_y, round_nodes(half_width, rings)
         radii, told = nodes[:, 0], f"round base, {rings} whole {'ring' if rings == 1 else 'rings'}"
     else:
-        nodes, area = grid_nodes(-widths[0], widths[1], half_depth, grid)
+        nodes, area = grid_nodes(np.array([-widths[0], -half_depth]), np.array([widths[1], half_depth]), grid)
         taken = " taken to be as deep as wide" if solid is None else ""
         radii, told = np.zeros(len(nodes)), f"rectangular base{taken}, {len(nodes)} nodes"
     return ContactBody(
@@ -152,13 +152,13 @@ def rigid_body(block: Block, *, grid: int = GRID, rings: int = RINGS) -> Contact
     )
 
 
-def grid_nodes(left: float, right: float, half_depth: float, count: int) -> tuple[Array, Array]:
+def grid_nodes(low: Array, high: Array, count: int) -> tuple[Array, Array]:
     """Give equally spaced nodes of a rectangle, `count` along x and along y, shape (n, 2), and the area of each."""
-    x, y = np.meshgrid(np.linspace(left, right, count), np.linspace(-half_depth, half_depth, count), indexing="ij")
+    x, y = np.meshgrid(*np.linspace(low, high, count).T, indexing="ij")
     shares = np.ones(count)
     shares[[0, -1]] = 0.5
     shares /= shares.sum()
-    return np.column_stack((x.ravel(), y.ravel())), np.outer(shares, shares).ravel() * (right - left) * 2.0 * half_depth
+    return np.column_stack((x.ravel(), y.ravel())), np.outer(shares, shares).ravel() * np.prod(high - low)
 
 
 def round_nodes(radius: float, rings: int) -> tuple[Array, Array]:
@@ -171,13 +171,11 @@ def round_nodes(radius: float, rings: int) -> tuple[Array, Array]:
 
 def rotation_matrices(orientation: Array) -> Array:
     """Return the rotation matrices, shape (…, 3, 3), of unit quaternions, shape (…, 4)."""
-    w, x, y, z = np.moveaxis(orientation, -1, 0)
-    rows = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+    from scipy.spatial.transform import Rotation  # the check of a campaign file must not load it
+
+    # Its quaternions have the scalar last.
+    turned = Rotation.from_quat(np.roll(orientation, -1, axis=-1).reshape(-1, 4))
+    return np.asarray(turned.as_matrix()).reshape(*orientation.shape[:-1], 3, 3)
 
 
 def propagators(body: ContactBody, step: float) -> Array:
@@ -239,11 +237,6 @@ class ContactLaw:
         number("damping_fraction", self.damping_fraction, "a number from 0 on", low=0.0)
         number("friction", self.friction, "a number from 0 on", low=0.0, finite=False)
 
-    @classmethod
-    def stiff(cls, body: ContactBody, gravity: float, **law: float) -> ContactLaw:
-        """Choose the stiffness by how deep a standing body sinks; `law`: the other attributes."""
-        return cls(**law).bearing(body, gravity)
-
     def bearing(self, body: ContactBody, gravity: float) -> ContactLaw:
         """Return the law with its stiffness under a body that stands on the table."""
         return self.under(body.mass * gravity / float(body.node_area.sum()), body.height)
@@ -255,7 +248,7 @@ class ContactLaw:
     def node_stiffness(self, body: Nodes) -> Array:
         """Normal stiffness of each base node, N/m, shape (n,)."""
         if self.stiffness is None:
-            raise ValueError("The law has no stiffness yet; `under` gives it one, or `ContactLaw.stiff` of a body")
+            raise ValueError("The law has no stiffness yet; `under` gives it one, or `bearing` a body")
         return self.stiffness * body.node_area
 
     def node_damping(self, body: Nodes) -> Array:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
 import numpy as np
+from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.dynamics.assembly import Assembly
@@ -16,14 +17,16 @@ from colonnade.dynamics.models import CONTACT
 from colonnade.units.text import PERCENT, Digested, written
 from colonnade.validation import instance, number
 
+Whole = NDArray[np.intp]
+
 LARGEST_RESIDUAL = 0.01
 """Of the energy balance, over its largest part; beyond it the run says that the balance does not close."""
 
-CHATTER = 0.05
-"""An arc between two contacts that rises less than this share of what its speed allows does not count."""
-
 SMALLEST_ARC = 1e-4
-"""Of α: neither is a smaller one."""
+"""Of α: a body that leans by less is on neither side."""
+
+BETWEEN = 3
+"""Samples at most from one side to the other: a body that takes longer has come to rest."""
 
 
 @dataclass(frozen=True)
@@ -39,8 +42,8 @@ class EnergyBalance:
         Stored in the elastic modes; in the contact's springs, normal and tangential.
     work : ndarray
         Of the table's acceleration on the body, as seen from the table, since the start.
-    dissipated_contact, dissipated_friction, dissipated_bulk : ndarray
-        By the contact's damping, by sliding, by the modes' damping, since the start.
+    dissipated : ndarray
+        By contact, friction and the modes' damping, since the start.
     """
 
     kinetic: Array
@@ -48,19 +51,12 @@ class EnergyBalance:
     strain: Array
     contact: Array
     work: Array
-    dissipated_contact: Array
-    dissipated_friction: Array
-    dissipated_bulk: Array
+    dissipated: Array
 
     @property
     def stored(self) -> Array:
         """Kinetic, potential, strain and contact energy, J, shape (n,)."""
         return np.asarray(self.kinetic + self.potential + self.strain + self.contact)
-
-    @property
-    def dissipated(self) -> Array:
-        """What contact, friction and bulk have taken since the start, J, shape (n,)."""
-        return np.asarray(self.dissipated_contact + self.dissipated_friction + self.dissipated_bulk)
 
     @property
     def residual(self) -> Array:
@@ -73,11 +69,6 @@ class EnergyBalance:
         parts = [getattr(self, part.name) for part in fields(self) if part.name != "potential"]
         largest = max(float(np.abs(part).max()) for part in (*parts, self.potential - self.potential[0]))
         return float(np.abs(self.residual).max()) / largest if largest > 0.0 else 0.0
-
-    @property
-    def closes(self) -> bool:
-        """Whether the balance is kept to `LARGEST_RESIDUAL`."""
-        return self.relative_residual <= LARGEST_RESIDUAL
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -134,8 +125,8 @@ class BodyHistory(Pose):
 
     Attributes
     ----------
-    supports : mapping of str to Pose
-        Relative to each body that it stands on, by name; empty on the table.
+    below : Pose, optional
+        Relative to the body that it stands on, or the first of several; None on the table.
     lean : ndarray, shape (n,)
         Angle with the vertical, over α, of the line from the base to the common centre of mass of the body and all that
         stands on it alone; α is that of this part of the assembly (`Assembly.critical_angles`).
@@ -147,32 +138,23 @@ class BodyHistory(Pose):
         Unit quaternion (scalar first), body to table.
     turning : ndarray, shape (n, 3)
         Angular velocity in the table's axes, rad/s.
-    impact_times, impact_velocities, rebound_velocities : ndarray, shape (m,)
-        s; rad/s about the pole relative to what it stands on, just before and after.
-    dissipated_contact, dissipated_friction : ndarray, shape (n,)
-        J, taken where it stands since the start.
     overturning_time : float
         s, when it began to fall for good; NaN if it stands.
     """
 
-    supports: Mapping[str, Pose]
     lean: Array
     arm: Array
     position: Array
     velocity: Array
     orientation: Array
     turning: Array
-    impact_times: Array
-    impact_velocities: Array
-    rebound_velocities: Array
-    dissipated_contact: Array
-    dissipated_friction: Array
     overturning_time: float
+    below: Pose | None = None
 
     @property
     def relative(self) -> Pose:
         """Relative to what it stands on: the table, a body, or the first of several."""
-        return next(iter(self.supports.values()), self)
+        return self.below or self
 
     @property
     def residual(self) -> tuple[float, float, float]:
@@ -205,44 +187,49 @@ class ContactHistory(History, BodyHistory, Together):
         # What cannot lift the block to where rocking counts is not missed.
         lift = np.cos((1.0 - NO_ROCKING_RATIO) * alpha) - np.cos(alpha)
         least = weight * self.block.pole_distance * lift
-        if self.energies.closes or np.abs(self.energies.residual).max() <= least:
+        missing = self.energies.relative_residual
+        if missing <= LARGEST_RESIDUAL or np.abs(self.energies.residual).max() <= least:
             return ()
         return (
-            f"The energy balance does not close: {100 * self.energies.relative_residual:.2g}{PERCENT} of the largest "
+            f"The energy balance does not close: {100 * missing:.2g}{PERCENT} of the largest "
             f"energy is missing, {100 * LARGEST_RESIDUAL:g}{PERCENT} is allowed. "
             f"Try a step shorter than {self.step:.3g} s.",
         )
 
 
-def impacts_of(table: Array, block: Block) -> Array:
+def passages(time: Array, angle: Array, critical_angle: float) -> tuple[Whole, Whole, Array]:
+    """Find where a body rocks over to its other side: the last sample before, the first after, and when, s."""
+    clear = np.flatnonzero(np.abs(angle) > SMALLEST_ARC * critical_angle)
+    before, after = clear[:-1], clear[1:]
+    passes = (angle[before] * angle[after] < 0.0) & (after - before <= BETWEEN)
+    before, after = before[passes], after[passes]
+    share = angle[before] / (angle[before] - angle[after])
+    return before, after, time[before] + share * (time[after] - time[before])
+
+
+def impacts_of(
+    block: Block, time: Array, angle: Array, speed: Array, base: Array, lasts: float
+) -> tuple[Array, Array, Array]:
     """
-    Turn contacts on both sides (rows of the engine's table) into impacts between two arcs of a symmetric block, shape
-    (3, k): times (s, of their begin), velocities before and rebounds after (rad/s).
+    Find the impacts of a symmetric block: times (s), velocities before and rebounds after (rad/s).
 
-    An impact lasts. Speeds at its two ends are carried to θ = 0 by the energy of rocking about the pole at the base's
-    acceleration of that instant, so that they are those of an impact without duration. Contacts that follow each other
-    without an arc between them are one impact. A rebound that did not end within the run, or that leaves the block at
-    rest, is 0.
+    `speed` is the angular momentum about the pole on the side of the angle, over the inertia about it, which the
+    contact's own vibration does not change. An impact lasts (s): speeds of samples on either side are carried to θ = 0
+    by the energy of rocking about the pole at the base's acceleration (m/s²), so that they are those of an impact
+    without duration.
     """
-    alpha = block.critical_angle
-    kept = table[:0]
-    for row in table:
-        if len(kept):
-            rebound = _at_zero(block, *kept[-1, [5, 6, 3, 7]])
-            reachable = alpha * (1.0 - np.sqrt(np.maximum(0.0, 1.0 - (rebound / (block.p * alpha)) ** 2)))
-            if row[8] < max(CHATTER * reachable, SMALLEST_ARC * alpha):
-                kept[-1, 5:8] = row[5:8]
-                continue
-        kept = np.vstack((kept, row))
-    before, after = (_at_zero(block, *kept[:, columns].T) for columns in ([1, 2, 3, 4], [5, 6, 3, 7]))
-    return np.stack((kept[:, 0], before, after))
-
-
-def _at_zero(block: Block, angle: Array, speed: Array, base: Array, pole: Array) -> Array:
-    """Carry speeds of rocking about poles (±1) from angles to 0."""
-    alpha, lean = block.critical_angle, block.critical_angle - pole * angle
-    rise = np.cos(lean) - np.cos(alpha) + pole * base / block.gravity * (np.sin(alpha) - np.sin(lean))
-    return np.asarray(np.copysign(np.sqrt(np.maximum(0.0, speed**2 + 2.0 * block.p**2 * rise)), speed))
+    before, after, times = passages(time, angle, block.critical_angle)
+    before = np.clip(np.searchsorted(time, times - lasts) - 1, 0, before)
+    after = np.clip(np.searchsorted(time, times + lasts), after, time.size - 1)
+    alpha, at_impact = block.critical_angle, np.interp(times, time, base)
+    found = []
+    for sample in (before, after):
+        side, lean = np.sign(angle[sample]), alpha - np.abs(angle[sample])
+        accelerated = side * 0.5 * (base[sample] + at_impact) / block.gravity
+        rise = np.cos(lean) - np.cos(alpha) + accelerated * (np.sin(alpha) - np.sin(lean))
+        square = speed[sample] ** 2 + 2.0 * block.p**2 * rise
+        found.append(np.copysign(np.sqrt(np.maximum(0.0, square)), speed[sample]))
+    return times, found[0], found[1]
 
 
 PARTED = 0.2
@@ -299,6 +286,12 @@ class AssemblyHistory(Together, Digested):
         """
         name, body = next(iter(self.bodies.items()))
         return np.copysign(body.lean * self.assembly.critical_angles[name], body.arm[:, 0])
+
+    @property
+    def impact_times(self) -> Array:
+        """When the lowest body rocks over to its other side, s, shape (m,)."""
+        name, body = next(iter(self.bodies.items()))
+        return passages(self.time, body.angle, self.assembly.critical_angles[name])[2]
 
     @property
     def overturned_bodies(self) -> tuple[str, ...]:

@@ -24,7 +24,7 @@ def kick(system: System, state: State, step: float) -> None:
     """Take the contact's impulse on all bodies, and book it."""
     rigid, matrix, change, total, strain = state.rigid, state.matrix, state.change, state.total, state.strain
     mass, sides = system.mass, system.carrier.size
-    change[:, :], total[:, :], strain[2:, :], state.held[:] = 0.0, 0.0, 0.0, 0.0
+    change[:, :], total[:, :], strain[2:, :], state.work[2] = 0.0, 0.0, 0.0, 0.0
     if state.listed[sides] == 0:
         return
     for turn in range(PASSES + 1):
@@ -134,8 +134,8 @@ def _shorten(load: Array, row: int, column: int, stiffness: float, limit: float)
 @kernel_in_place
 def _add_forces(system: System, state: State, side: int, step: float) -> None:
     """Add the forces of an interface's points and their moments to its bodies, equal and opposite, and to the modes."""
-    load, lever, frame, listed, rigid = state.load, state.lever, state.frame, state.listed, state.rigid
-    strain, turned, modes, nodes = state.strain, state.turned, system.modes, state.node
+    load, lever, listed, frame, apart = state.load, state.lever, state.listed, state.frame, state.apart
+    strain, turned, modes, nodes, total = state.strain, state.turned, system.modes, state.node, state.total
     upper, lower = system.carrier[side], system.target[side]
     u, v, w, p, q, r = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for index in range(listed[side], listed[side + 1]):
@@ -148,54 +148,34 @@ def _add_forces(system: System, state: State, side: int, step: float) -> None:
             impulse = step * (turned[side, 0, own] * x + turned[side, 1, own] * y + turned[side, 2, own] * z)
             for mode in range(strain.shape[1]):
                 strain[2, mode] += modes[nodes[index], own, mode] * impulse
-    u, v, w = _turned(frame, side, u, v, w)
-    p, q, r = _turned(frame, side, p, q, r)
-    x, y, z = rigid[upper, 0] - rigid[lower, 0], rigid[upper, 1] - rigid[lower, 1], rigid[upper, 2] - rigid[lower, 2]
-    _add(state.total, lower, -u, -v, -w, z * v - y * w - p, x * w - z * u - q, y * u - x * v - r)
-    _add(state.total, upper, u, v, w, p, q, r)
-
-
-@kernel_in_place
-def _turned(frame: Array, side: int, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Turn a vector from the axes of an interface's target to the table's."""
-    return (
-        frame[side, 0, 0] * x + frame[side, 0, 1] * y + frame[side, 0, 2] * z,
-        frame[side, 1, 0] * x + frame[side, 1, 1] * y + frame[side, 1, 2] * z,
-        frame[side, 2, 0] * x + frame[side, 2, 1] * y + frame[side, 2, 2] * z,
-    )
-
-
-@kernel_in_place
-def _add(total: Array, body: int, u: float, v: float, w: float, p: float, q: float, r: float) -> None:
-    """Add a force and a moment to those of a body."""
-    total[body, 0] += u
-    total[body, 1] += v
-    total[body, 2] += w
-    total[body, 3] += p
-    total[body, 4] += q
-    total[body, 5] += r
+    # About the carrier, and of the opposite forces about the target: from there on to the carrier's centre of mass.
+    x, y, z = apart[side, 0], apart[side, 1], apart[side, 2] + system.face[side, 4]
+    for axis in range(3):
+        a, b, c = frame[side, axis, 0], frame[side, axis, 1], frame[side, axis, 2]
+        push, turn = a * u + b * v + c * w, a * p + b * q + c * r
+        total[upper, axis] += push
+        total[upper, 3 + axis] += turn
+        total[lower, axis] -= push
+        total[lower, 3 + axis] -= turn + a * (y * w - z * v) + b * (z * u - x * w) + c * (x * v - y * u)
 
 
 @kernel_in_place
 def _settle(state: State, side: int, step: float) -> None:
-    """Book what the contact of an interface took, and keep the slip."""
-    slip, lost, load, listed, touched = state.slip, state.lost, state.load, state.listed, state.touched
+    """Book what contact and friction of an interface took, and keep the slip."""
+    slip, work, load, listed, touched = state.slip, state.work, state.load, state.listed, state.touched
     for index in range(listed[side], listed[side + 1]):
         slot, stiffness = state.slot[index], state.stiffness[index]
         half = 0.5 * stiffness
         # Normal damping; and the energy of the slip that the normal force held no longer, which friction took.
-        lost[side, 0] += step * (load[index, 3] - load[index, 2]) * load[index, 11]
-        held = half * (load[index, 7] ** 2 + load[index, 8] ** 2)
-        lost[side, 1] += half * (slip[slot, 0] ** 2 + slip[slot, 1] ** 2) - held
-        if load[index, 6] == 1.0:
-            # It sticks: what its damper took.
-            for axis in range(2):
-                damping = load[index, axis] + stiffness * load[index, 4 + axis]
-                lost[side, 0] -= step * damping * load[index, 9 + axis]
-        else:
-            # It slides: the work of the force, less what the spring gained.
-            lost[side, 1] -= step * (load[index, 0] * load[index, 9] + load[index, 1] * load[index, 10])
-            lost[side, 1] += held - half * (load[index, 4] ** 2 + load[index, 5] ** 2)
+        work[1] += step * (load[index, 3] - load[index, 2]) * load[index, 11]
+        held, kept = load[index, 7] ** 2 + load[index, 8] ** 2, load[index, 4] ** 2 + load[index, 5] ** 2
+        work[1] += half * (slip[slot, 0] ** 2 + slip[slot, 1] ** 2 - held)
+        sticks = load[index, 6] == 1.0
+        for axis in range(2):
+            # Of one that sticks what its damper took, of one that slides the work less what the spring gained.
+            force = load[index, axis] + (stiffness * load[index, 4 + axis] if sticks else 0.0)
+            work[1] -= step * force * load[index, 9 + axis]
+        work[1] += 0.0 if sticks else half * (held - kept)
         slip[slot, 0], slip[slot, 1] = load[index, 4], load[index, 5]
         touched[slot] = 1 if load[index, 3] > 0.0 else 0
-        state.held[side] += touched[slot] * half * (slip[slot, 0] ** 2 + slip[slot, 1] ** 2)
+        work[2] += touched[slot] * half * kept

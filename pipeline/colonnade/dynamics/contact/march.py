@@ -14,57 +14,32 @@ paper's prism one impact later, a step of 10 µs costs 2e-5 to 1e-4 of α.
 
 from __future__ import annotations
 
-from math import atan2, cos, sin
+from math import cos, sin
 
 from colonnade.arrays import Array
 from colonnade.dynamics.contact.kick import kick
 from colonnade.dynamics.contact.state import TABLE, State, System
-from colonnade.dynamics.contact.touch import fill_twists, place
+from colonnade.dynamics.contact.touch import place
 from colonnade.dynamics.kernel import kernel_in_place
-
-POLE = 0.75
-"""In half widths: a block that touches only outside of this on one side rocks about the pole there."""
 
 
 @kernel_in_place
-def march(
-    system: System,
-    state: State,
-    motion: Array,
-    interval: float,
-    parts: int,
-    samples: Array,
-    sums: Array,
-    found: Array,
-    begin: int,
-) -> int:
+def march(system: System, state: State, motion: Array, interval: float, parts: int, samples: Array, sums: Array) -> int:
     """
-    Fill the samples from `begin` on along a motion (shape (n, 3)), and the impacts; return how many were reached.
+    Fill the samples along a motion (shape (n, 3)), `parts` steps an interval; return how many were reached.
 
-    `parts` steps an interval. samples, shape (n, b, 15): of the bodies, as `rigid`, but with the angular velocity, and
-    what contact and friction took where each stands. sums, shape (n, 11): of all, as of `EnergyBalance`, then the force
-    of the table (mean since the sample before). A body has fallen that lies at a tilt of π/2 or is too low. The run
-    ends where all have, and pauses where the next interval might find more impacts than `found`, shape (k, IMPACT), has
-    room for.
+    samples, shape (n, b, 13): of the bodies, as `rigid`, but with the angular velocity. sums, shape (n, 9): of all, as
+    of `EnergyBalance`, then the force of the table (mean since the sample before). A body has fallen that lies at a
+    tilt of π/2 or is too low. The run ends where all have.
     """
-    step, bodies, count = interval / parts, system.mass.size, state.watch.shape[0]
-    watch, stands, total = state.watch, state.stands, state.total
-    for sample in range(begin, motion.shape[0]):
-        if state.hits[0] + count * parts > found.shape[0]:
-            return sample
+    step, bodies, stands, total = interval / parts, system.mass.size, state.stands, state.total
+    for sample in range(motion.shape[0]):
         for part in range(parts if sample > 0 else 0):
             _drift(system, state, motion, sample, (part + 0.25) / parts, 0.5 * step)
             place(system, state, step)
-            for joint in range(count):
-                watch[joint, 3], watch[joint, 4] = _about_pole(system, state, joint, watch[joint, 0])
-                watch[joint, 2] = max(watch[joint, 2], abs(watch[joint, 3]))
             kick(system, state, step)
-            time = (sample - 1) * interval + (part + 0.5) * step
-            base = _table(motion, sample, (part + 0.5) / parts, 0)
-            for joint in range(count):
-                _watch(system, state, joint, base, time, found)
             for axis in range(3):
-                sums[sample, 8 + axis] -= total[TABLE, axis] / parts
+                sums[sample, 6 + axis] -= total[TABLE, axis] / parts
             _drift(system, state, motion, sample, (part + 0.75) / parts, 0.5 * step)
         _fill_sample(system, state, samples[sample], sums[sample])
         left = 0
@@ -78,18 +53,12 @@ def march(
 
 
 @kernel_in_place
-def _table(motion: Array, sample: int, share: float, axis: int) -> float:
-    """Give the table's acceleration at a share of the interval that ends at `sample`."""
-    before = motion[sample - 1, axis]
-    return float(before + (motion[sample, axis] - before) * share)
-
-
-@kernel_in_place
 def _drift(system: System, state: State, motion: Array, sample: int, share: float, step: float) -> None:
-    """Move without contact for `step`, half a step of the scheme, with the table's acceleration at its middle."""
+    """Move without contact for `step`, half a step of the scheme, whose middle is at a share of a sample's interval."""
     inertia, modal, rigid, strain, work = system.inertia, system.propagators, state.rigid, state.strain, state.work
     for axis in range(3):
-        state.pull[axis] = -_table(motion, sample, share, axis)
+        before = motion[sample - 1, axis]
+        state.pull[axis] = -(before + (motion[sample, axis] - before) * share)
     for body in range(system.mass.size):
         if state.stands[body] == 1:
             # Translation at a constant acceleration; the work of the table is booked.
@@ -101,13 +70,8 @@ def _drift(system: System, state: State, motion: Array, sample: int, share: floa
                 work[0] += system.mass[body] * state.pull[axis] * moved
             # Rotation: half a turn about x, half about y, a whole one about z, and back.
             for turn in range(5):
-                axis = 2 - abs(turn - 2)
-                _turn(
-                    rigid,
-                    body,
-                    axis,
-                    (step if turn == 2 else 0.5 * step) * rigid[body, 10 + axis] / inertia[body, axis],
-                )
+                axis, share = 2 - abs(turn - 2), 1.0 if turn == 2 else 0.5
+                _turn(rigid, body, axis, share * step * rigid[body, 10 + axis] / inertia[body, axis])
             _fill_rotation(rigid, state.matrix, body)
     # Each mode swings freely; what its damping takes is booked.
     for mode in range(strain.shape[1]):
@@ -148,66 +112,11 @@ def _turn(rigid: Array, body: int, axis: int, angle: float) -> None:
 
 
 @kernel_in_place
-def _about_pole(system: System, state: State, joint: int, pole: float) -> tuple[float, float]:
-    """Give angle about y and speed about a pole of a joint: the angular momentum about it over the inertia about it."""
-    mass, inertia, poles, turned, twist = system.mass, system.inertia, system.poles, state.turned, state.twist
-    side = system.sides[joint]
-    body = system.carrier[side]
-    along, below = poles[joint, 0] + pole * poles[joint, 1], poles[joint, 2]
-    arm_x = -(along * turned[side, 0, 0] - below * turned[side, 0, 2])
-    arm_z = -(along * turned[side, 2, 0] - below * turned[side, 2, 2])
-    momentum = mass[body] * (arm_z * twist[side, 0] - arm_x * twist[side, 2])
-    for own in range(3):
-        spin = turned[side, 0, own] * twist[side, 3]
-        spin += turned[side, 1, own] * twist[side, 4] + turned[side, 2, own] * twist[side, 5]
-        momentum += turned[side, 1, own] * inertia[body, own] * spin
-    about = inertia[body, 1] + mass[body] * (along**2 + below**2)
-    return atan2(turned[side, 0, 2], turned[side, 2, 2]), momentum / about
-
-
-@kernel_in_place
-def _watch(system: System, state: State, joint: int, base: float, time: float, found: Array) -> None:
-    """Note in `found` where an arc of rocking ends and the next begins."""
-    watch, hits = state.watch, state.hits
-    left, right, inner = _where_it_touches(system, state, joint)
-    pole, hit = watch[joint, 0], int(watch[joint, 1])
-    now = 0.0 if inner else (1.0 if right else 0.0) - (1.0 if left else 0.0)
-    # The arc ends where the body touches anywhere but at its pole.
-    if abs(pole) == 1.0 and (now == -pole or inner or (left and right)):
-        hit = hits[0]
-        found[hit, 0], found[hit, 1], found[hit, 2], found[hit, 3] = time, watch[joint, 3], watch[joint, 4], base
-        found[hit, 4], found[hit, 8], found[hit, 9] = pole, watch[joint, 2], system.carrier[system.sides[joint]]
-        hits[0], pole = hit + 1, 2.0
-    # The next begins where it touches at one pole only.
-    if now != 0.0 and abs(pole) != 1.0:
-        if pole == 2.0:
-            fill_twists(system, state, 0.0)
-            found[hit, 5], found[hit, 6] = _about_pole(system, state, joint, now)
-            found[hit, 7] = now
-        pole, watch[joint, 2] = now, 0.0
-    watch[joint, 0], watch[joint, 1] = pole, hit
-
-
-@kernel_in_place
-def _where_it_touches(system: System, state: State, joint: int) -> tuple[bool, bool, bool]:
-    """Say whether a joint touches at its left pole (beyond −`POLE`), at its right one, and between them."""
-    left, right, inner, edge = False, False, False, POLE * system.poles[joint, 1]
-    for side in range(system.sides[joint], system.sides[joint + 1]):
-        is_upper = system.carrier[side] > system.target[side]
-        for index in range(state.listed[side], state.listed[side + 1]):
-            if state.load[index, 3] > 0.0:
-                x = state.lever[index, 3] if is_upper else state.lever[index, 0] + state.apart[side, 0]
-                x -= system.poles[joint, 0]
-                left, right, inner = left or x < -edge, right or x > edge, inner or abs(x) <= edge
-    return left, right, inner
-
-
-@kernel_in_place
 def _fill_sample(system: System, state: State, sample: Array, sums: Array) -> None:
     """Fill the rows of a sample except the table's force, which is added up along the run."""
     place(system, state, 0.0)
     rigid, inertia, strain = state.rigid, system.inertia, state.strain
-    sums[4], sums[7] = state.work[0], state.work[1]
+    sums[4], sums[5], sums[3] = state.work[0], state.work[1], state.work[2]
     for body in range(sample.shape[0]):
         for column in range(10):
             sample[body, column] = rigid[body, column]
@@ -221,10 +130,5 @@ def _fill_sample(system: System, state: State, sample: Array, sums: Array) -> No
         sums[0] += 0.5 * strain[1, mode] ** 2
         sums[2] += 0.5 * (system.frequencies[mode] * strain[0, mode]) ** 2
     for side in range(system.carrier.size):
-        sums[3] += state.held[side]
         for index in range(state.listed[side], state.listed[side + 1]):
             sums[3] += 0.5 * state.stiffness[index] * max(state.depth[index], 0.0) ** 2
-        upper = max(system.carrier[side], system.target[side])
-        for way in range(2):
-            sample[upper, 13 + way] += state.lost[side, way]
-            sums[5 + way] += state.lost[side, way]

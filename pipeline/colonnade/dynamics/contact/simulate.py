@@ -24,7 +24,7 @@ from colonnade.dynamics.contact.history import (
 from colonnade.dynamics.contact.march import march
 from colonnade.dynamics.contact.stability import longest_step
 from colonnade.dynamics.contact.start import Start, standing
-from colonnade.dynamics.contact.state import IMPACT, TABLE, State
+from colonnade.dynamics.contact.state import TABLE, State
 from colonnade.dynamics.contact.structure import Structure
 from colonnade.dynamics.motion import Motion, at_rest
 from colonnade.validation import number
@@ -86,20 +86,30 @@ def simulate(
     >>> from colonnade.dynamics.contact.body import rigid_body
     >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
     >>> body = rigid_body(block)
-    >>> law = ContactLaw.stiff(body, block.gravity, damping_fraction=0.4)
+    >>> law = ContactLaw(damping_fraction=0.4).bearing(body, block.gravity)
     >>> simulate(body, law=law, theta0=0.3 * block.critical_angle, duration=0.2).outcome
     'rocking'
     """
     structure = Structure.of_body(body, law, gravity)
     starts = standing(structure, **tilts) if start is None else [start]
     together, (own,) = _run(structure, starts, motion, duration, step)
-    axis = rotation_matrices(own.orientation)[:, :, 2]
+    matrices, block = rotation_matrices(own.orientation), plane_block(body, gravity)
+    axis = matrices[:, :, 2]
     rate = np.cross(own.turning, axis)
     speed = (rate[:, 0] * axis[:, 2] - axis[:, 0] * rate[:, 2]) / (axis[:, 0] ** 2 + axis[:, 2] ** 2)
+    # About the pole on the side of the angle: the angular momentum over the inertia.
+    spin = np.einsum("nj,j,nkj,nk->n", matrices[:, 1], body.inertia, matrices, own.turning)
+    orbit = np.cross(-_poles(body, matrices, own.angle), own.velocity)[:, 1]
+    about = (spin + body.mass * orbit) / block.inertia
+    base = np.zeros(own.angle.size) if motion is None else motion.acceleration
+    # An impact is given a period of the body that bounces on all its nodes.
+    lasts = 2.0 * np.pi * float(np.sqrt(body.mass / together.law.node_stiffness(body).sum()))
+    found = impacts_of(block, together.time, own.angle, about, base, lasts)
+    impacts = dict(zip(("impact_times", "impact_velocities", "rebound_velocities"), found, strict=True))
     # One that lies has its angle there.
     lies = np.abs(own.angle) >= 0.5 * np.pi
     lying = {"angle": np.clip(own.angle, -0.5 * np.pi, 0.5 * np.pi), "angular_velocity": np.where(lies, 0.0, speed)}
-    return ContactHistory(**vars(together) | vars(own) | lying, block=plane_block(body, gravity), body=body)
+    return ContactHistory(**vars(together) | vars(own) | lying | impacts, block=block, body=body)
 
 
 def simulate_assembly(
@@ -169,7 +179,7 @@ def _run(
     along = motion.acceleration, motion.transverse, motion.vertical
     table = np.column_stack([nothing if values is None else values for values in along])
     rows = np.array([start.row for start in starts])
-    samples, sums, impacts, stands = _march(structure, rows, table, motion.dt, parts)
+    samples, sums, stands = _march(structure, rows, table, motion.dt, parts)
     matrices, arms = rotation_matrices(samples[:, :, 6:10]), np.zeros((*samples.shape[:2], 3))
     for row, (body, names) in enumerate(zip(structure.bodies, structure.together, strict=True)):
         masses = np.array([structure.bodies[other].mass for other in names])
@@ -178,34 +188,31 @@ def _run(
     leans = np.arctan2(np.hypot(arms[:, :, 0], arms[:, :, 1]), arms[:, :, 2]) / structure.critical_angles
     if (stands & (leans[-1] > 1.0)).any():
         still = np.zeros((ceil(AFTERMATH / (first.p * motion.dt)) + 1, 3))
-        *_, stands = _march(structure, samples[-1, :, :13], still, motion.dt, parts)
+        *_, stands = _march(structure, samples[-1], still, motion.dt, parts)
     upright = np.where(leans <= 1.0, np.arange(len(leans))[:, None], -1).max(axis=0)
     times = np.where(stands, np.nan, motion.time[np.minimum(upright + 1, len(leans) - 1)])
     bodies = []
     for row, body in enumerate(structure.bodies):
-        place, supports = samples[:, row, :3], {}
-        for side in (joint.sides[0] for joint in structure.joints[row] if joint.sides[0].target != TABLE):
+        place, below = samples[:, row, :3], None
+        side = structure.joints[row][0].sides[0]
+        if side.target != TABLE:
             turned = np.swapaxes(matrices[:, side.target], 1, 2)
             apart = np.einsum("nij,nj->ni", turned, place - samples[:, side.target, :3]) - side.apart
-            supports[structure.names[side.target]] = Pose(**_pose(body, turned @ matrices[:, row], apart))
-        found = impacts_of(impacts[impacts[:, -1] == row], plane_block(body, structure.gravity))
+            below = Pose(**_pose(body, turned @ matrices[:, row], apart))
         own = BodyHistory(
             **_pose(body, matrices[:, row], place - structure.rest[row]),
-            **dict(zip(("impact_times", "impact_velocities", "rebound_velocities"), found, strict=True)),
-            supports=supports,
+            below=below,
             lean=leans[:, row],
             arm=arms[:, row],
             position=place,
             velocity=samples[:, row, 3:6],
             orientation=samples[:, row, 6:10],
             turning=np.einsum("nij,nj->ni", matrices[:, row], samples[:, row, 10:13]),
-            dissipated_contact=samples[:, row, 13],
-            dissipated_friction=samples[:, row, 14],
             overturning_time=float(times[row]),
         )
         bodies.append(own)
-    law, energies = structure.interfaces[0].law, EnergyBalance(*sums[:, :8].T)
-    common = Together(law=law, time=motion.time, energies=energies, base_force=sums[:, 8:], step=motion.dt / parts)
+    law, energies = structure.interfaces[0].law, EnergyBalance(*sums[:, :6].T)
+    common = Together(law=law, time=motion.time, energies=energies, base_force=sums[:, 6:], step=motion.dt / parts)
     return common, bodies
 
 
@@ -230,30 +237,29 @@ def _parts(structure: Structure, motion: Motion, step: float | None) -> int:
     return parts
 
 
-def _march(
-    structure: Structure, rows: Array, table: Array, interval: float, parts: int
-) -> tuple[Array, Array, Array, Mask]:
-    """Call the engine from the bodies' rows, as of `Start`; give samples, sums, impacts, stands."""
+def _march(structure: Structure, rows: Array, table: Array, interval: float, parts: int) -> tuple[Array, Array, Mask]:
+    """Call the engine from the bodies' rows, as of `Start`; give samples, sums, stands."""
     system = structure.system(interval / parts)
-    state, size = State.begin(system, rows), 2 * len(system.poles) * parts
-    samples, sums, found = np.zeros((len(table), len(rows), 15)), np.zeros((len(table), 11)), np.zeros((size, IMPACT))
-    reached, stands = 0, state.stands[:TABLE]
-    while reached < len(table) and stands.any():
-        reached = march(system, state, table, interval, parts, samples, sums, found, reached)
-        found = np.concatenate((found, np.zeros_like(found)))
+    state, samples, sums = State.begin(system, rows), np.zeros((len(table), len(rows), 13)), np.zeros((len(table), 9))
+    reached = march(system, state, table, interval, parts, samples, sums)
     # Where all have fallen before the end, the last sample is held.
     for values in (samples, sums):
         values[reached:] = values[reached - 1]
-    return samples, sums, found[: state.hits[0]], stands > 0
+    return samples, sums, state.stands[:TABLE] > 0
+
+
+def _poles(body: ContactBody, matrices: Array, angle: Array) -> Array:
+    """Give the pole on the side of an angle from the centre of mass, in the axes that a body is turned from, (n, 3)."""
+    side = np.where(angle < 0.0, -body.half_width, body.half_width)
+    return side[:, None] * matrices[:, :, 0] - body.height * matrices[:, :, 2]
 
 
 def _pose(body: ContactBody, matrices: Array, moved: Array) -> dict[str, Array]:
     """Give the pose of a body, turned by matrices and with its centre of mass `moved` from where it is at rest."""
     axis, upward = matrices[:, :, 2], matrices[:, 2]
     angle = np.arctan2(axis[:, 0], axis[:, 2])
-    pole = np.zeros((len(angle), 3))
-    pole[:, 0], pole[:, 2] = np.where(angle < 0.0, -1.0, 1.0) * body.half_width, -body.height
-    slide = moved + np.einsum("nij,nj->ni", matrices, pole) - pole
+    upright = np.broadcast_to(np.eye(3), matrices.shape)
+    slide = moved + _poles(body, matrices, angle) - _poles(body, upright, angle)
     # Of a ring, whose point at +x is its node, the lowest point is where it goes down most.
     rings = np.outer(upward[:, 2], body.nodes[:, 2]) - np.outer(np.hypot(*upward.T[:2]), body.ring_radii)
     lowest = np.where(body.ring_radii > 0.0, rings, upward @ body.nodes.T).min(axis=1)

@@ -18,11 +18,6 @@ TABLE = -1
 POINTS = 8
 """At which a ring's arc of contact is integrated (Gauss and Legendre)."""
 
-IMPACT = 10
-"""Columns of the impacts: begin, angle, speed, base acceleration, pole (±1); angle, speed and pole (0 where it does not
-end) at its end; largest |angle| since the impact before; body. A speed is the angular momentum about the pole over the
-inertia about it, which the contact's own vibration does not change."""
-
 
 class System(NamedTuple):
     """
@@ -38,9 +33,6 @@ class System(NamedTuple):
     Of each node: place in the carrier's axes; radius, 0 of a point; slots, shape (n + 1,), where its points begin, one
     of a point and as many as `arc` has of a ring; stiffness and damping, of a ring all around. arc, shape (2, k):
     places of a ring's points along half an arc either way, and their weights, which add up to 2.
-
-    Of each joint, which is one interface or two: sides, shape (j + 1,), where they begin; poles, shape (j, 3): middle
-    along x, half width and depth below the centre of mass in the upper body's axes.
 
     Of the elastic modes of a single body: modes, shape (n, 3, m); frequencies; propagators, shape (4, m), over half a
     step exactly: η → a η + b η̇ and η̇ → c η + d η̇; bend, the largest shape at a node.
@@ -62,8 +54,6 @@ class System(NamedTuple):
     stiffness: Array
     damping: Array
     arc: Array
-    sides: Whole
-    poles: Array
     modes: Array
     frequencies: Array
     propagators: Array
@@ -72,7 +62,7 @@ class System(NamedTuple):
 
 class State(NamedTuple):
     """
-    What changes, and work space for a step; of b bodies and the table, s interfaces, j joints, n nodes, p points, k
+    What changes, and work space for a step; of b bodies and the table, s interfaces, n nodes, p points, k
     points of a ring, m modes.
 
     rigid: position, velocity, quaternion, angular momentum in the body's axes; matrix: rotation, body to table; stands:
@@ -80,9 +70,7 @@ class State(NamedTuple):
     elastic slip of each point; touched: 1 where the point touched in the last step; entry: how deep it was as it came
     over the outline of a face from below (m), from where on it bears, and −1 less that where it is off the face; arcs:
     direction of a ring's lowest point in the carrier and half the arc (rad) that its points span, 0 where it is off the
-    face; work: of the table and lost by the modes; lost: taken by contact and friction; held: energy of the slip;
-    watch: pole rocked on (±1; 0 at first, 2 in an impact), its last impact, largest |angle| since then, angle and speed
-    about the pole before the kick; hits: number of impacts of all joints. The rest is of one step.
+    face; work: of the table, taken by contact, friction and the modes, and held by the slip. The rest is of one step.
 
     Of each interface: frame: the target's axes to the table's; turned and apart: carrier to target, from the face's
     middle; twist: v and ω of the carrier relative to the target, in its axes; listed: where its points begin in the
@@ -101,11 +89,7 @@ class State(NamedTuple):
     touched: Annotated[Whole, "p"]
     entry: Annotated[Array, "p"]
     arcs: Annotated[Array, "n", 2]
-    work: Annotated[Array, 2]
-    lost: Annotated[Array, "s", 2]
-    held: Annotated[Array, "s"]
-    watch: Annotated[Array, "j", 5]
-    hits: Annotated[Whole, 1]
+    work: Annotated[Array, 3]
     frame: Annotated[Array, "s", 3, 3]
     turned: Annotated[Array, "s", 3, 3]
     apart: Annotated[Array, "s", 3]
@@ -131,7 +115,6 @@ class State(NamedTuple):
             "b": len(system.mass) + 1,
             "s": len(system.carrier),
             "s + 1": len(system.first),
-            "j": len(system.poles),
             "n": len(system.nodes),
             "p": int(system.slots[-1]),
             "k": system.arc.shape[1],

@@ -74,15 +74,11 @@ class Joint(NamedTuple):
     ----------
     sides : list of Interface
         Its nodes on what is below, and the nodes of that on its base.
-    pole : tuple of float
-        In the upper body's axes, m: the middle of the contact along x, its half width, and how far the base is below
-        the centre of mass.
     load : float
         What it bears at rest, N.
     """
 
     sides: list[Interface]
-    pole: tuple[float, float, float]
     load: float
 
 
@@ -143,13 +139,14 @@ class Structure:
                 stiff = law.under(weight / float(body.node_area.sum()), height)
                 own.append(_on_table(body, row, stiff, rest[row], weight))
             for below, share in supports(assembly, name).items():
-                patch, load = _Patch(placed, assembly.bodies[below], grid), mass * share * assembly.gravity
-                sides = patch.sides((row, numbers[below]), law)
+                load, (base, top) = mass * share * assembly.gravity, _faces(placed, assembly.bodies[below])
+                ends = (row, base, numbers[below], top), (numbers[below], top, row, base)
+                sides = [_side(*each, law, grid) for each in ends]
                 area = sum(float(side.at.node_area @ side.on_face) for side in sides)
                 for k, side in enumerate(sides):
                     at = replace(side.at, node_mass=share * body.mass * side.at.node_area / area)
                     sides[k] = replace(side, at=at, law=law.under(load / area, height))
-                own.append(Joint(sides, (*patch.across, body.height), load))
+                own.append(Joint(sides, load))
             joints.append(own)
         return cls(
             assembly.gravity,
@@ -163,10 +160,9 @@ class Structure:
 
     def system(self, step: float) -> System:
         """Give the engine's arrays for a step, s."""
-        sides, joints, first = self.interfaces, [joint for own in self.joints for joint in own], self.bodies[0]
+        sides, first = self.interfaces, self.bodies[0]
         radii = np.concatenate([side.at.ring_radii for side in sides])
         nodes = np.concatenate([side.at.nodes for side in sides])
-        modes = first.modes if first.frequencies.size else np.zeros((len(nodes), 3, 0))
         on_table = [own[0].sides[0].target == TABLE for own in self.joints]
         bases = self.rest[:, 2] - [body.height for body in self.bodies]
         return System(
@@ -186,92 +182,83 @@ class Structure:
             np.concatenate([side.law.node_stiffness(side.at) for side in sides]),
             np.concatenate([side.law.node_damping(side.at) for side in sides]),
             np.array(np.polynomial.legendre.leggauss(POINTS)),
-            _begins([len(joint.sides) for joint in joints]),
-            np.array([joint.pole for joint in joints]),
-            np.ascontiguousarray(modes),
+            np.ascontiguousarray(first.modes),
             first.frequencies,
             propagators(first, 0.5 * step),
-            float(np.sqrt((modes**2).sum(axis=(1, 2)).max(initial=0.0))),
+            float(np.sqrt((first.modes**2).sum(axis=(1, 2)).max(initial=0.0))),
         )
 
 
-class _Patch:
-    """Where a block stands on another: nodes of each on the face of the other, in the upper one's axes."""
+class _Face(NamedTuple):
+    """
+    A face in a joint: half lengths and middle along x and y in the upper body's axes, m; whether it is a circle; its
+    height over its body's centre of mass, m; whether the nodes within the joint are its own, or only those of its edge.
+    """
 
-    def __init__(self, upper: Placed, lower: Placed, grid: int) -> None:
-        above, below = upper.block.solid, lower.block.solid
-        assert above is not None  # the assembly has seen to it
-        assert below is not None
-        self._grid = grid
-        self._offset = np.subtract(lower.position, upper.position)
-        self._sizes = np.array([[upper.block.governing.half_width, above.half_depth], below.top])
-        self._round = above.base == "circle", below.base == "circle"
-        self._depths = -upper.centre_height, below.height - lower.centre_height
-        self._low = np.maximum(-self._sizes[0], self._offset - self._sizes[1])
-        self._high = np.minimum(self._sizes[0], self._offset + self._sizes[1])
+    sizes: Array
+    middle: Array
+    is_round: bool
+    height: float
+    bears: bool
 
-    @property
-    def across(self) -> tuple[float, float]:
-        """Middle of the patch along x in the upper body's axes, and its half width, m."""
-        return 0.5 * float(self._low[0] + self._high[0]), 0.5 * float(self._high[0] - self._low[0])
+    def at_edge(self, places: Array) -> Mask:
+        """Say which places are at the edge, of a rectangle."""
+        inside = self.sizes - np.abs(places - self.middle)
+        return np.asarray((inside.min(axis=1) < 1e-6 * self.sizes.min()) & (not self.is_round))
 
-    def sides(self, bodies: tuple[int, int], law: ContactLaw) -> list[Interface]:
-        """Give the nodes of the upper body on the lower one's top, those of that on the upper one's base."""
-        band, apart = BAND * float(self._sizes.min()), np.append(self._offset, self._depths[0] - self._depths[1])
-        found = []
-        for which, other in ((0, 1), (1, 0)):
-            nodes, areas = self._nodes(which)
-            heights = np.full(len(nodes), self._depths[which])
-            radii = nodes[:, 0] if self._round[which] else np.zeros(len(nodes))
-            side = Interface(
-                at=Nodes(np.column_stack((nodes, heights)), areas, areas, radii),
-                carrier=bodies[which],
-                target=bodies[other],
-                law=law,
-                face=(*self._sizes[other], band, float(self._round[other]), (self._depths[1], -self._depths[0])[which]),
-                apart=(2.0 * which - 1.0) * apart,
-            )
-            found.append(side)
-        return found
+    def nodes(self, other: _Face, grid: int) -> Nodes:
+        """Give the nodes that can touch the other face, about the own centre of mass."""
+        if self.is_round:
+            places, areas = round_nodes(float(self.sizes[0]), RINGS)
+            rings = slice(0 if self.bears else -1, None)
+            places, areas, radii = places[rings], areas[rings], places[rings, 0]
+        else:
+            low = np.maximum(self.middle - self.sizes, other.middle - other.sizes)
+            high = np.minimum(self.middle + self.sizes, other.middle + other.sizes)
+            shared, shared_areas = grid_nodes(low, high, grid)
+            kept = self.at_edge(shared) | (self.bears & ~other.at_edge(shared))
+            # And those of its edges that bear only once it has slid onto another rectangle.
+            whole, whole_areas = grid_nodes(self.middle - self.sizes, self.middle + self.sizes, grid)
+            beyond = (np.abs(whole - other.middle) / other.sizes).max(axis=1)
+            slides = self.at_edge(whole) & (beyond > 1.0 + 1e-6) & (beyond < (0.0 if other.is_round else SLIDES))
+            places = np.concatenate((shared[kept], whole[slides])) - self.middle
+            areas, radii = np.concatenate((shared_areas[kept], whole_areas[slides])), np.zeros(len(places))
+        return Nodes(np.column_stack((places, np.full(len(places), self.height))), areas, areas, radii)
 
-    def _nodes(self, which: int) -> tuple[Array, Array]:
-        """Give the nodes along x and y of the upper (0) or the lower body (1) about its own middle, and their areas."""
-        reach, size, origin = self._high - self._low, self._sizes[which], which * self._offset
-        fits = [bool(np.allclose(reach, 2.0 * own, rtol=1e-6)) for own in self._sizes]
-        if self._round[which]:
-            nodes, areas = round_nodes(float(size[0]), RINGS)
-            # Only the rim of one that is not the smaller face.
-            return (nodes, areas) if fits[which] and not (which == 1 and fits[0]) else (nodes[-1:], areas[-1:])
-        if which == 1 and self._round[0] and fits[0]:
-            nodes, areas = grid_nodes(-size[0], size[0], size[1], self._grid)
-            edge = self._at_edge(nodes + origin, 1)
-            return nodes[edge], areas[edge]
-        places, areas = grid_nodes(-0.5 * reach[0], 0.5 * reach[0], 0.5 * reach[1], self._grid)
-        places = places + 0.5 * (self._low + self._high)
-        # A node within the patch is the one's whose face is the patch; one at an edge is whose edge it is, or of both.
-        on_upper, on_lower = self._at_edge(places, 0), self._at_edge(places, 1)
-        own = on_lower | (fits[1] & ~on_upper) if which else on_upper | ~(on_lower | fits[1])
-        nodes, areas = places[own], areas[own]
-        if not any(self._round):
-            # And those of its edges that bear only once it has slid onto the other.
-            off, off_areas = grid_nodes(-size[0], size[0], size[1], self._grid)
-            off = off + origin
-            beyond = (np.abs(off - (1 - which) * self._offset) / self._sizes[1 - which]).max(axis=1)
-            kept = self._at_edge(off, which) & (beyond > 1.0 + 1e-6) & (beyond < SLIDES)
-            nodes, areas = np.concatenate((nodes, off[kept])), np.concatenate((areas, off_areas[kept]))
-        return nodes - origin, areas
 
-    def _at_edge(self, places: Array, which: int) -> Mask:
-        """Say which places are at the edge of a rectangular face, the upper's (0) or the lower's (1)."""
-        if self._round[which]:
-            return np.zeros(len(places), dtype=bool)
-        inside = self._sizes[which] - np.abs(places - which * self._offset)
-        return np.asarray(inside.min(axis=1) < 1e-6 * self._sizes.min())
+def _faces(upper: Placed, lower: Placed) -> tuple[_Face, _Face]:
+    """Give the base of a block and the top of the one on which it stands."""
+    above, below = upper.block.solid, lower.block.solid
+    assert above is not None  # the assembly has seen to it
+    assert below is not None
+    base, top = np.array([upper.block.governing.half_width, above.half_depth]), np.array(below.top)
+    offset = np.subtract(lower.position, upper.position)
+    # The upper one has the nodes within, unless the lower one alone lies wholly in the joint.
+    fits = [bool((np.abs(offset) + own <= other * (1.0 + 1e-6)).all()) for own, other in ((base, top), (top, base))]
+    bears = fits[0] or not fits[1]
+    return (
+        _Face(base, np.zeros(2), above.base == "circle", -upper.centre_height, bears),
+        _Face(top, offset, below.base == "circle", below.height - lower.centre_height, not bears),
+    )
+
+
+def _side(carrier: int, face: _Face, target: int, other: _Face, law: ContactLaw, grid: int) -> Interface:
+    """Let the nodes of a body's face meet the face of another, which is turned over if that is the upper one."""
+    turned = 1.0 if carrier > target else -1.0
+    band = BAND * float(min(face.sizes.min(), other.sizes.min()))
+    return Interface(
+        at=face.nodes(other, grid),
+        carrier=carrier,
+        target=target,
+        law=law,
+        face=(*other.sizes, band, float(other.is_round), turned * other.height),
+        apart=np.append(face.middle - other.middle, other.height - face.height),
+    )
 
 
 def _on_table(body: ContactBody, number: int, law: ContactLaw, rest: Array, load: float) -> Joint:
     side = Interface(at=body, carrier=number, target=TABLE, law=law, face=(inf, inf, 0.0, 0.0, 0.0), apart=rest)
-    return Joint([side], (0.0, body.half_width, body.height), load)
+    return Joint([side], load)
 
 
 def _begins(counts: Sequence[int] | NDArray[np.int64]) -> NDArray[np.int64]:

@@ -153,7 +153,9 @@ def _place_ring(system: System, state: State, side: int, node: int, step: float)
     """List the points of a ring's arc that may touch within the step."""
     turned, twist, arc, arcs = state.turned, state.twist, system.arc, state.arcs
     radius, z = system.radii[node], system.nodes[node, 2]
-    depth, rise = _lowest(system, state, side, node)
+    # How deep its lowest point is, and half of what its highest is above that.
+    rise = radius * sqrt(turned[side, 2, 0] ** 2 + turned[side, 2, 1] ** 2)
+    depth = rise - state.apart[side, 2] - turned[side, 2, 2] * z
     # How fast the ring can sink anywhere: at its middle, and by its turning at the radius.
     p, q = twist[side, 3], twist[side, 4]
     sinking = abs(twist[side, 2] + z * (p * turned[side, 1, 2] - q * turned[side, 0, 2]))
@@ -161,7 +163,9 @@ def _place_ring(system: System, state: State, side: int, node: int, step: float)
     across = p * turned[side, 1, 1] - q * turned[side, 0, 1]
     sinking += radius * sqrt(along**2 + across**2)
     # The arc about the lowest point that touches at the end of half a step of it.
-    half = half_arc(depth + 0.5 * step * sinking, rise)
+    depth, half = depth + 0.5 * step * sinking, 0.0
+    if depth > 0.0:
+        half = pi if depth >= 2.0 * rise else 2.0 * asin(sqrt(0.5 * depth / rise))
     angle = atan2(-turned[side, 2, 1], -turned[side, 2, 0]) if rise > 0.0 else arcs[node, 0]
     if step > 0.0 and (angle != arcs[node, 0] or half != arcs[node, 1]):
         _move_arc(system, state, side, node, angle, half)
@@ -169,22 +173,6 @@ def _place_ring(system: System, state: State, side: int, node: int, step: float)
         about = angle + half * arc[0, point]
         weight = half * arc[1, point] / (2.0 * pi)
         _list(system, state, side, node, point, weight, radius * cos(about), radius * sin(about), z)
-
-
-@kernel_in_place
-def _lowest(system: System, state: State, side: int, node: int) -> tuple[float, float]:
-    """Give the depth of a ring's lowest point, and what its highest is above it, over 2."""
-    turned, apart, radii, nodes = state.turned, state.apart, system.radii, system.nodes
-    rise = radii[node] * sqrt(turned[side, 2, 0] ** 2 + turned[side, 2, 1] ** 2)
-    return rise - apart[side, 2] - turned[side, 2, 2] * nodes[node, 2], rise
-
-
-@kernel_in_place
-def half_arc(depth: float, rise: float) -> float:
-    """Give the angle from a ring's lowest point to where its depth is 0."""
-    if depth <= 0.0:
-        return 0.0
-    return pi if depth >= 2.0 * rise else 2.0 * asin(sqrt(0.5 * depth / rise))
 
 
 @kernel_in_place
@@ -210,7 +198,7 @@ def _move_arc(system: System, state: State, side: int, node: int, angle: float, 
         held -= half * weights[point] * (carried[point, 0] ** 2 + carried[point, 1] ** 2)
         slip[first + point, 0], slip[first + point, 1] = carried[point, 0], carried[point, 1]
         touched[first + point] = any_touched if half > 0.0 else 0
-    state.lost[side, 1] += 0.5 * system.stiffness[node] * held / (2.0 * pi)
+    state.work[1] += 0.5 * system.stiffness[node] * held / (2.0 * pi)
 
 
 @kernel_in_place
