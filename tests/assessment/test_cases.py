@@ -99,12 +99,6 @@ def test_what_counts_as_overturned_is_a_multiple_of_the_critical_angle():
     assert fallen.sum() < half.sum() < outcomes.is_run.sum()
 
 
-def test_a_record_without_the_measure_is_not_run():
-    factors = factors_at(np.array([1.0, 2.0]), np.array([[0.0, 4.0], [np.nan, 0.5]]))
-    np.testing.assert_array_equal(factors[:, :, 1], [[0.25, 0.5], [2.0, 4.0]])
-    assert np.isnan(factors[:, :, 0]).all()
-
-
 @pytest.mark.parametrize(
     ("changed", "message"),
     [

@@ -37,15 +37,6 @@ def test_the_auc_is_the_share_of_pairs_in_their_order(outcomes, measures):
     assert found == pytest.approx(np.mean((fell[:, None] > stood) + 0.5 * (fell[:, None] == stood)))
 
 
-def test_the_scatter_is_that_of_a_straight_line(outcomes, measures):
-    found = compare_measures(outcomes, {"noisy": measures["noisy"]}, Resampling(2))[0].scatter
-    stood = ~outcomes.overturned
-    x = np.log(np.broadcast_to(measures["noisy"][:, :, None], outcomes.peak.shape)[stood])
-    y = np.log(outcomes.peak[stood])
-    left = y - np.polyval(np.polyfit(x, y, 1), x)
-    assert found == pytest.approx(np.sqrt((left**2).sum() / (left.size - 2)))
-
-
 def test_a_measure_that_leaves_magnitude_to_explain_is_not_sufficient(outcomes, measures):
     magnitude = np.random.default_rng(6).uniform(5, 7.5, 30)
     without = measures["pgv"] * np.exp(-0.8 * (magnitude - 6))[:, None, None]

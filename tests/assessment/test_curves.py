@@ -13,9 +13,9 @@ from fragility_trial import Population
 from virtual_capacities import BETA, MEDIAN, lognormal, names, outcomes_of, two_kinds
 
 
-def single(peaks, intensity=(1.0, 2.0, 3.0)):
+def single(peaks):
     peaks = np.asarray(peaks, dtype=float)
-    return gather(names(len(peaks)), intensity, peaks)
+    return gather(names(len(peaks)), np.arange(1.0, peaks.shape[1] + 1), peaks)
 
 
 def test_median_beta_and_probabilities_are_near_the_truth_and_inside_their_intervals():
@@ -52,6 +52,7 @@ def test_a_record_at_more_levels_or_draws_does_not_narrow_the_interval_as_more_r
         pytest.param([[0.5, 0.5, 0.5], [0.5, 0.2, 0.1]], "never", id="nothing overturns"),
         pytest.param([[2, 2, 2], [2, 2, 2]], "always", id="everything overturns"),
         pytest.param([[2, 0.5, 0.5], [2, 0.5, 2]], "falling", id="less at more"),
+        pytest.param([[0.5], [2.0]], "one intensity", id="one intensity"),
     ],
 )
 def test_no_curve_is_given_if_the_outcomes_have_none(peaks, reason):
@@ -86,10 +87,6 @@ def test_intervals_of_few_records_at_few_levels_hold_the_truth_as_often_as_they_
     for name, truth in (("median", MEDIAN), ("beta", population.beta)):
         held = np.mean([getattr(fit, name).low <= truth <= getattr(fit, name).high for fit in given])
         assert held > 0.95 - 3 * np.sqrt(0.95 * 0.05 / len(given))
-
-
-def test_one_intensity_gives_no_curve():
-    assert fit_lognormal(single([[0.5], [2.0]], [1.0]), Resampling(20)).reason == "one intensity"
 
 
 @settings(deadline=None, max_examples=10)

@@ -42,11 +42,6 @@ def test_a_constant_error_of_the_acceleration_is_taken_off_while_it_is_small():
     assert drift > 0.25
 
 
-def test_a_table_at_rest_has_no_intensity():
-    found, drift = table_measures(np.zeros(100), 0.01)
-    assert (found, drift) == ({"pgv": 0.0, "pgd": 0.0, "arias": 0.0}, 0.0)
-
-
 @pytest.mark.parametrize("error", [0.0, 0.005, 0.04, 0.1])
 def test_a_motion_has_one_pgv_whoever_asks(error):
     """The measures of a motion known to rest at its ends are those of a table; of the ground the rule is another."""

@@ -104,8 +104,7 @@ def rigid_body(block: Block, *, grid: int = GRID, rings: int = RINGS) -> Contact
     ----------
     block : Block
         Half width, height of the centre of mass and inertia about y follow from its α, R and I₀ (of both sides, in the
-        mean); depth and the other inertias from its `solid`. A block without one is assumed to be as deep as wide, its
-        inertia about x as that about y, and about z as of a prism of that base.
+        mean); depth and the other inertias from its `solid`.
     grid : int, optional
         Nodes along each side of a rectangular base, at least 2. Equal spacing with nodes on the edges; corners stand
         for a quarter of the area of an inner node.
@@ -120,10 +119,11 @@ def rigid_body(block: Block, *, grid: int = GRID, rings: int = RINGS) -> Contact
     Raises
     ------
     ValueError
-        If the inertia about the pole is less than that of the mass at the pole distance.
+        If the block has no shape, or its inertia about the pole is less than that of the mass at the pole distance.
     """
     solid, widths = block.solid, [side.half_width for side in block.sides]
-    half_width = 0.5 * sum(widths)
+    if solid is None:
+        raise ValueError("block has no shape; a prism, a cylinder or a cone was expected by the contact model")
     height = 0.5 * sum(side.pole_distance * cos(side.critical_angle) for side in block.sides)
     about_y = 0.5 * sum(side.inertia - block.mass * side.pole_distance**2 for side in block.sides)
     if not about_y > 0.0:
@@ -131,23 +131,20 @@ def rigid_body(block: Block, *, grid: int = GRID, rings: int = RINGS) -> Contact
             f"I₀ − m R² is {about_y:.4g} kg m²; more than 0 was expected: the inertia about the pole "
             "has to exceed that of the mass at the pole distance"
         )
-    about_x, about_z, half_depth = about_y, 2.0 * block.mass * half_width**2 / 3.0, half_width
-    if solid is not None:
-        about_x, about_z, half_depth = solid.inertia_x, solid.inertia_z, solid.half_depth
-    if solid is not None and solid.base == "circle":
-        about_x, (nodes, area) = about_y, round_nodes(half_width, rings)
+    if solid.base == "circle":
+        about_x, (nodes, area) = about_y, round_nodes(0.5 * sum(widths), rings)
         radii, told = nodes[:, 0], f"round base, {rings} whole {'ring' if rings == 1 else 'rings'}"
     else:
-        nodes, area = grid_nodes(np.array([-widths[0], -half_depth]), np.array([widths[1], half_depth]), grid)
-        taken = " taken to be as deep as wide" if solid is None else ""
-        radii, told = np.zeros(len(nodes)), f"rectangular base{taken}, {len(nodes)} nodes"
+        low, high = np.array([-widths[0], -solid.half_depth]), np.array([widths[1], solid.half_depth])
+        about_x, (nodes, area) = solid.inertia_x, grid_nodes(low, high, grid)
+        radii, told = np.zeros(len(nodes)), f"rectangular base, {len(nodes)} nodes"
     return ContactBody(
         nodes=np.column_stack((nodes, np.full(len(nodes), -height))),
         node_mass=block.mass * area / area.sum(),
         node_area=area,
         ring_radii=radii,
         mass=block.mass,
-        inertia=np.array([about_x, about_y, about_z]),
+        inertia=np.array([about_x, about_y, solid.inertia_z]),
         description=f"rigid, {told}",
     )
 

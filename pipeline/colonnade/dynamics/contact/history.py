@@ -176,19 +176,14 @@ class ContactHistory(History, BodyHistory, Together):
 
         Negative where the block went back to the same side, NaN where it came without velocity.
         """
-        unknown = np.full(self.impact_velocities.shape, np.nan)
-        moving = self.impact_velocities != 0.0
-        return np.asarray(np.divide(self.rebound_velocities, self.impact_velocities, out=unknown, where=moving))
+        arriving = np.where(self.impact_velocities == 0.0, np.nan, self.impact_velocities)
+        return np.asarray(self.rebound_velocities / arriving)
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """What the reader of this history has to know, one sentence each."""
-        alpha, weight = self.block.critical_angle, self.block.mass * self.block.gravity
-        # What cannot lift the block to where rocking counts is not missed.
-        lift = np.cos((1.0 - NO_ROCKING_RATIO) * alpha) - np.cos(alpha)
-        least = weight * self.block.pole_distance * lift
         missing = self.energies.relative_residual
-        if missing <= LARGEST_RESIDUAL or np.abs(self.energies.residual).max() <= least:
+        if missing <= LARGEST_RESIDUAL:
             return ()
         return (
             f"The energy balance does not close: {100 * missing:.2g}{PERCENT} of the largest "

@@ -57,11 +57,8 @@ def fill_twists(system: System, state: State, share: float) -> None:
                 speeds[body, 3 + axis] += matrix[body, axis, own] * turning
     for side in range(system.carrier.size):
         upper, lower = system.carrier[side], system.target[side]
-        x, y, z = (
-            rigid[upper, 0] - rigid[lower, 0],
-            rigid[upper, 1] - rigid[lower, 1],
-            rigid[upper, 2] - rigid[lower, 2],
-        )
+        x, y = rigid[upper, 0] - rigid[lower, 0], rigid[upper, 1] - rigid[lower, 1]
+        z = rigid[upper, 2] - rigid[lower, 2]
         p, q, r = speeds[lower, 3], speeds[lower, 4], speeds[lower, 5]
         u = speeds[upper, 0] - speeds[lower, 0] - (q * z - r * y)
         v = speeds[upper, 1] - speeds[lower, 1] - (r * x - p * z)
