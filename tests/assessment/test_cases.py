@@ -90,15 +90,6 @@ def test_of_a_symmetric_column_the_opposite_motion_is_not_run_as_it_does_the_sam
     np.testing.assert_allclose(outcomes.peak_ratio, opposite.peak_ratio, rtol=1e-9)
 
 
-def test_what_counts_as_overturned_is_a_multiple_of_the_critical_angle():
-    outcomes = run_cases(CASES)
-    fallen = outcomes.outcome == 2
-    np.testing.assert_array_equal(outcomes.exceeds(1e9), fallen)
-    half = outcomes.exceeds(0.5)
-    np.testing.assert_array_equal(half, fallen | (np.nan_to_num(outcomes.peak_ratio) > 0.5))
-    assert fallen.sum() < half.sum() < outcomes.is_run.sum()
-
-
 @pytest.mark.parametrize(
     ("changed", "message"),
     [

@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy import stats
 
 from colonnade.assessment.curves import IsotonicCurve, fit_isotonic, fit_lognormal, lognormal_misfit
@@ -87,16 +85,6 @@ def test_intervals_of_few_records_at_few_levels_hold_the_truth_as_often_as_they_
     for name, truth in (("median", MEDIAN), ("beta", population.beta)):
         held = np.mean([getattr(fit, name).low <= truth <= getattr(fit, name).high for fit in given])
         assert held > 0.95 - 3 * np.sqrt(0.95 * 0.05 / len(given))
-
-
-@settings(deadline=None, max_examples=10)
-@given(factor=st.floats(1e-6, 1e6))
-def test_the_unit_of_the_intensity_does_not_matter(factor):
-    outcomes = lognormal(7)
-    scaled = gather(outcomes.records, outcomes.levels * factor, outcomes.peak)
-    one, other = (fit_lognormal(each, Resampling(50)) for each in (outcomes, scaled))
-    assert np.array(other.median) == pytest.approx(np.array(one.median) * factor)
-    assert np.array(other.beta) == pytest.approx(np.array(one.beta))
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -92,16 +92,11 @@ def test_the_gravity_of_the_arias_intensity_is_that_of_the_block():
     assert heavy == pytest.approx(intensity_measures(SINE, **measures).values["arias"] / 2)
 
 
-def test_a_motion_at_rest_has_reasons_and_no_error():
-    measured = intensity_measures(Motion(np.zeros(500), 0.01))
-    assert measured.values["pga"] == 0.0
-    assert "the motion is at rest" in measured.reasons["d5_95"]
-
-
-@pytest.mark.parametrize("values", [[1.0], [1.0, -1.0], np.full(500, 1e200)], ids=["one sample", "two", "huge"])
+@pytest.mark.parametrize("values", [np.zeros(500), [1.0], np.full(500, 1e200)], ids=["at rest", "one sample", "huge"])
 def test_a_motion_of_no_use_has_reasons_and_no_error(values):
     measured = intensity_measures(Motion(values, 0.01), drift=2.0)
     assert all(math.isfinite(value) != (name in measured.reasons) for name, value in measured.values.items())
+    assert "the motion is at rest" in measured.reasons["d5_95"]
 
 
 def test_the_result_is_shown_with_units():

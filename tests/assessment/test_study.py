@@ -38,10 +38,12 @@ def test_a_scaled_record_has_the_level_of_its_measure(measure, record):
 
 
 def test_a_record_that_drifts_has_no_velocity_and_is_left_out_unless_it_is_corrected():
-    drifting = MOTIONS | {"drifts": Motion(ground_motion(7) + 0.05, 1 / RATE)}
+    off = ground_motion(7) + 0.05
+    half = Motion(ground_motion(6), 1 / RATE, transverse=off)
+    drifting = MOTIONS | {"drifts": Motion(off, 1 / RATE), "half": half}
     study = plan_study(COLUMN, drifting, levels=[1.0], draws=1)
-    assert study.left_out.keys() == {"drifts, component x"}
-    assert "drifts" not in study.names
+    assert study.left_out.keys() == {"drifts, component x", "half, component y"}
+    assert ("drifts" in study.names, "half" in study.names) == (False, True)
     corrected = plan_study(COLUMN, drifting, levels=[1.0], draws=1, baseline="linear")
     assert "drifts" in corrected.names
     assert corrected.drift[corrected.names.index("drifts")] < 0.1
@@ -64,14 +66,6 @@ def test_outcomes_are_judged_as_they_are():
 def test_a_measure_that_does_not_grow_is_refused():
     with pytest.raises(ValueError, match="does not grow"):
         plan_study(COLUMN, MOTIONS, measure="d5_95")
-
-
-def test_a_component_that_drifts_is_named_while_its_record_is_run():
-    still, drifts = ground_motion(7), ground_motion(6) + 0.05
-    motions = MOTIONS | {"half": Motion(still, 1 / RATE, transverse=drifts)}
-    study = plan_study(COLUMN, motions, levels=[1.0], draws=1)
-    assert study.left_out.keys() == {"half, component y"}
-    assert "half" in study.names
 
 
 def test_records_without_a_history_leave_no_answer_if_there_are_no_others():

@@ -148,15 +148,9 @@ class Structure:
                     sides[k] = replace(side, at=at, law=law.under(load / area, height))
                 own.append(Joint(sides, load))
             joints.append(own)
-        return cls(
-            assembly.gravity,
-            list(numbers),
-            bodies,
-            rest,
-            joints,
-            [[numbers[other] for other in standing_on(assembly, name)] for name in numbers],
-            list(assembly.critical_angles.values()),
-        )
+        together = [[numbers[other] for other in standing_on(assembly, name)] for name in numbers]
+        angles = list(assembly.critical_angles.values())
+        return cls(assembly.gravity, list(numbers), bodies, rest, joints, together, angles)
 
     def system(self, step: float) -> System:
         """Give the engine's arrays for a step, s."""
