@@ -74,7 +74,9 @@ def contact(specimen: Dataset, inputs: ContactInputs) -> Dataset:
     StageError
         If the specimen cannot be meshed, or the step is too long for the contact.
     """
-    settings, body = inputs.settings, _whole_body(inputs)
+    settings = inputs.settings
+    with refusals():
+        body = _whole_body(inputs)
     given = settings.damping_fraction != "auto"
     law = ContactLaw(
         damping_fraction=float(settings.damping_fraction) if given else 0.0,
@@ -169,13 +171,13 @@ def refusals() -> Iterator[None]:
 def _whole_body(inputs: ContactInputs) -> ContactBody:
     """Build the body with all its modes; meshing takes its time, so the last few are kept."""
     settings, sizes = inputs.settings, dict(inputs.sizes)
-    if not sizes:
-        raise StageError(
-            f'The contact model needs dimensions, and this specimen is of shape "{inputs.shape}". A prism, a cylinder '
-            "or a cone was expected, with the measured values that replace what follows from its dimensions."
-        )
     if settings.mesh == "rigid":
         return rigid_body(inputs.block)
+    if not sizes:
+        raise StageError(
+            f"processing.predict.contact.mesh is {settings.mesh}, but this specimen is of shape "
+            f'"{inputs.shape}" and has no dimensions to mesh. A prism, a cylinder or a cone was expected.'
+        )
     from colonnade.dynamics.contact.elastic import elastic_body
 
     return elastic_body(
