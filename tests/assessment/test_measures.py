@@ -96,7 +96,8 @@ def test_the_gravity_of_the_arias_intensity_is_that_of_the_block():
 def test_a_motion_of_no_use_has_reasons_and_no_error(values):
     measured = intensity_measures(Motion(values, 0.01), drift=2.0)
     assert all(math.isfinite(value) != (name in measured.reasons) for name, value in measured.values.items())
-    assert "the motion is at rest" in measured.reasons["d5_95"]
+    assert all(reason.startswith("the motion is at rest") for reason in measured.reasons.values())
+    assert measured.reasons
 
 
 def test_the_result_is_shown_with_units():
