@@ -49,8 +49,7 @@ def test_a_member_is_the_run_with_what_it_drew_whoever_runs_it_and_when():
     assert replace(PLAN, seed=6).member(7)[0][0] != friction
 
 
-def test_more_damping_takes_more_at_an_impact(ensemble):
-    assert ensemble.correlations(ensemble.peak_ratio).keys() == set(PLAN.names)
+def test_more_damping_takes_more_at_an_impact():
     plan = replace(PLAN, ranges=PLAN.ranges | {"friction": (0.6, 0.6), "out_of_plane": (0.0, 0.0)})
     inputs, histories = zip(*(plan.member(member) for member in range(plan.count)), strict=True)
     restitution = np.array([free_restitution(history) for history in histories])
