@@ -1,7 +1,5 @@
 """The law of contact of a specimen, and the bands of its model."""
 
-from functools import partial
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -75,8 +73,8 @@ def test_a_law_says_which_e_it_gives(law):
 
 def test_each_law_keeps_the_modes_that_the_step_follows_with_it():
     read = inputs((("depth", 0.086), ("height", 0.456), ("width", 0.086)), mesh=1224, step="5 us")
-    stiff = partial(ContactLaw.stiff, rigid_body(PRISM), PRISM.gravity)
-    slight, strong = (calibrating.body_of(read, stiff(damping_fraction=fraction)) for fraction in (0.1, 2.0))
+    laws = [ContactLaw(damping_fraction=each).bearing(rigid_body(PRISM), PRISM.gravity) for each in (0.1, 2.0)]
+    slight, strong = (calibrating.body_of(read, law) for law in laws)
     assert slight.frequencies.size > strong.frequencies.size
     np.testing.assert_array_equal(strong.frequencies, slight.frequencies[: strong.frequencies.size])
 

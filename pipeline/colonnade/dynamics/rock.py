@@ -91,7 +91,7 @@ def rock(
         Fraction of α. After an impact whose next arc, under the base acceleration of that instant, would not rise above
         it, the block is at rest until it is uplifted again. Not for the contact model.
     contact : ContactLaw, optional
-        Of the contact model. Default: `ContactLaw.stiff` of the block.
+        Of the contact model. Default: `ContactLaw()`, with its stiffness under the block.
     out_of_plane : float, optional
         Initial rotation about x, rad, of the contact model.
 
