@@ -14,7 +14,7 @@ from colonnade.campaign.forms.foreseen import ForecastCoverage, ForecastScores, 
 from colonnade.identification.forecasts import Forecast, Response, base_rates, coverage, forecast_of_peaks, score, skill
 from colonnade.units.text import format_percent, number, quantity
 
-BANDS = [f"{share} % of max |θ|/α" for share in (50, 80, 95)]
+BANDS = ["50 % of max |θ|/α", "80 % of max |θ|/α", "95 % of max |θ|/α"]
 FORESEEN = ("no rocking", "rocking", "overturned", *BANDS, "friction needed")
 """What `shown_model` writes."""
 
