@@ -197,6 +197,19 @@ def test_components_are_cut_to_the_shortest_and_may_not_differ_in_step(tmp_path)
     assert "0.01 s and 0.02 s" in found.left_out["b"]
 
 
+@pytest.mark.parametrize(
+    ("name", "most", "message"),
+    [("LARGEST_FILE", 1000, "bytes are too many for a record"), ("MOST_SAMPLES", 300, "Divide the set")],
+)
+def test_what_is_too_large_is_left_out(tmp_path, monkeypatch, name, most, message):
+    columns(tmp_path / "a.csv", size=20)
+    columns(tmp_path / "b.csv", size=290)
+    monkeypatch.setattr(record_set, name, most)
+    found = read_record_set(tmp_path)
+    assert [record.name for record in found.records] == ["a"]
+    assert message in found.left_out["b.csv"]
+
+
 def test_a_set_of_too_many_files_is_refused(tmp_path, monkeypatch):
     columns(tmp_path / "a.csv")
     columns(tmp_path / "b.csv")

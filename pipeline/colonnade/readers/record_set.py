@@ -23,6 +23,10 @@ COLUMNS = ("file", "unit", "interval", "scale", "component", "record", "column",
 NUMBERS = {"interval": "time", "scale": "dimensionless", "magnitude": "dimensionless", "distance": "length"}
 """Those of numbers, with their dimensions."""
 MOST_FILES = 2000
+LARGEST_FILE = 200_000_000
+"""Bytes."""
+MOST_SAMPLES = 20_000_000
+"""Of all records together."""
 FEWEST_SAMPLES = 10
 LONGEST_INTERVAL = 0.2
 """s; nothing coarser is a record of a column's base."""
@@ -151,9 +155,14 @@ def read_record_set(path: Path | str) -> RecordSet:
     if len(entries) > MOST_FILES:
         raise ReadError(f"{path.name}: {len(entries)} files are too many; a set of at most {MOST_FILES} was expected.")
     grouped: dict[str, list[_Component]] = {}
+    samples = 0
     for entry in entries:
         try:
-            for component in list(_components(entry, notes)):
+            found = list(_components(entry, notes)) if samples <= MOST_SAMPLES else []
+            samples += sum(component.motion.acceleration.size for component in found)
+            if samples > MOST_SAMPLES:
+                raise ReadError(f"with it the set has more than {MOST_SAMPLES:.3g} samples. Divide the set.")
+            for component in found:
                 grouped.setdefault(component.entry.record, []).append(component)
         except (ColonnadeError, ValueError) as error:
             left_out[entry.place] = str(error).removeprefix(f"{entry.place}: ")
@@ -292,6 +301,8 @@ class _Component(NamedTuple):
 def _components(entry: Entry, notes: list[str]) -> Iterator[_Component]:
     """Read what an entry names; each column that may be an acceleration is a component."""
     path = entry.path
+    if path.is_file() and (size := path.stat().st_size) > LARGEST_FILE:
+        raise ReadError(f"{size:.3g} bytes are too many for a record; at most {LARGEST_FILE:.3g} were expected.")
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         column = int(entry.column) if entry.column.isdecimal() else entry.column or None
