@@ -195,9 +195,14 @@ class Walk:
     def _results(self, name: str, since: str = "ingest", until: str = "compare") -> list[Product]:
         """Return the results of a test from one stage to another; gathering what they read of the campaign is slow."""
         if name not in self._known:
-            self._known[name] = self.graph.of_test(self.graph.campaign.tests[name], self.where)
+            where = self.where._replace(progress=partial(self._tell_members, name))
+            self._known[name] = self.graph.of_test(self.graph.campaign.tests[name], where)
         first, last = RUN_STAGES.index(since), RUN_STAGES.index(until)
         return [product for product in self._known[name] if first <= product.result.order <= last]
+
+    def _tell_members(self, name: str, done: int, total: int) -> None:
+        if self.progress is not None:
+            self.progress(StageRun(name, "ensemble", "done"), done, total)
 
     def _free_vibrations(self, specimens: Collection[str]) -> list[str]:
         free = (test for test in self.graph.campaign.tests.values() if test.kind == "free-vibration")
