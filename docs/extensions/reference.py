@@ -32,8 +32,8 @@ GROUPS = {
 LIBRARY = """# Library
 
 Everything that the commands do to one record works on plain arrays, without a campaign: `import colonnade`. Values are
-in SI, angles in rad, and a missing sample is NaN. A wrong argument raises a `ValueError` that names it. In a notebook
-each result shows itself as a small table, and `colonnade.plot(result)` draws it.
+in SI, angles in rad, and a missing sample is NaN. A wrong argument raises a `ValueError` that names it. Each
+result shows itself in a line, and `colonnade.plot(result)` draws it.
 
 """
 

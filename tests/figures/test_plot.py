@@ -106,12 +106,9 @@ def test_a_history_is_animated_and_can_be_written(history, tmp_path):
     assert moving._fig is pyplot.gcf()
 
 
-def test_a_result_shows_itself_in_a_line_and_as_a_small_table(result):
+def test_a_result_shows_itself_in_a_line(result):
     assert len(repr(result)) < 200
     assert repr(result).startswith(f"<{type(result).__name__}: ")
-    table = result._repr_html_()
-    assert table.count("<tr>") == len(result.digest()) > 1
-    assert len(table) < 2000
 
 
 def test_an_assembly_is_drawn_joint_by_joint_and_moves_body_by_body():

@@ -3,7 +3,6 @@
 import re
 from math import inf, nan
 from pathlib import Path
-from xml.etree import ElementTree
 
 import pytest
 from hypothesis import given
@@ -61,8 +60,6 @@ def test_percentages_are_written_in_one_form_that_no_line_breaks():
         (text.interval(nan, nan, nan, 0.95), "–"),
         (text.ratio(9.99e-4), "< 0.001"),
         (text.ratio(1e-3), "0.001"),
-        (text.signed_ratio(-9.99e-4), "< 0.001"),
-        (text.signed_ratio(0.25), "+0.25"),
     ],
 )
 def test_values_at_the_ends_of_what_is_written(found, said):
@@ -79,12 +76,6 @@ class Told(text.Digested):
 
     def digest(self):
         return self.said
-
-
-@given(st.dictionaries(TEXT, TEXT, max_size=4))
-def test_any_text_is_shown_as_text(said):
-    rows = ElementTree.fromstring(Told(said)._repr_html_()).iter("tr")
-    assert {row[0].text or "": row[1].text or "" for row in rows} == said
 
 
 def test_a_line_names_the_kind_and_the_values():

@@ -127,13 +127,25 @@ def _environment() -> Environment:
         "by_bodies": wording.by_bodies,
         "table": shown_table,
         "ratio": text.ratio,
-        "signed_ratio": text.signed_ratio,
+        "signed_ratio": signed_ratio,
         "percent": format_percent,
         "drawn": _svg,
     }
     for name in ("parts", "groups"):
         environment.globals |= vars(environment.get_template(f"{name}.html.jinja").module)
     return environment
+
+
+def signed_ratio(value: float) -> str:
+    """
+    Write a difference of angles over the critical angle with its sign, as `ratio` does.
+
+    Examples
+    --------
+    >>> signed_ratio(0.0123), signed_ratio(-0.5), signed_ratio(-4e-6), signed_ratio(float("nan"))
+    ('+0.012', '−0.5', '< 0.001', '–')
+    """
+    return text.with_minus(f"{value:+.2g}") if text.LEAST_RATIO <= abs(value) < np.inf else text.ratio(value)
 
 
 def _setting(setting: Mapping[str, Any]) -> str:

@@ -8,6 +8,7 @@ here, so that rad/s and Hz are not taken for each other.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from functools import cache, lru_cache
 from math import isclose, isfinite, prod
@@ -77,7 +78,6 @@ _SPELLINGS = str.maketrans("⁰¹²³⁴⁻−·⋅×ºμ", "01234--***°µ")
 
 NUMBER_PATTERN = r"[+\-−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+\-−]?[0-9]+)?"
 _QUANTITY = re.compile(rf"({NUMBER_PATTERN})\s*(.*)", re.DOTALL)
-_DECIMAL_COMMA = re.compile(r"[+\-−]?[0-9]+,[0-9]+.*", re.DOTALL)
 
 
 class Unit(NamedTuple):
@@ -106,10 +106,8 @@ def parse(text: str) -> tuple[float, str]:
     match = _QUANTITY.fullmatch(text)
     if match is None:
         raise UnitError(f'{quoted(text)} is not a quantity. A number with its unit was expected, such as "86 mm".')
-    if _DECIMAL_COMMA.fullmatch(text):
-        raise UnitError(
-            f"{quoted(text)} has a decimal comma. Write it with a point: {quoted(text.replace(',', '.', 1))}."
-        )
+    if match[2].startswith(","):
+        raise UnitError(f"{quoted(text)} has a decimal comma; {quoted(text.replace(',', '.', 1))} was expected.")
     value = float(match[1].replace("−", "-"))
     if not isfinite(value):
         raise UnitError(f"{quoted(text)} is too large.")
@@ -139,10 +137,7 @@ def to_si(text: str, dimension: str) -> float:
     value, unit = parse(text)
     if not unit and dimension != "dimensionless":
         raise UnitError(f"{quoted(text)} has no unit. {expected(dimension, value)}")
-    try:
-        return _times(value, factor_to_si(unit, dimension))
-    except UnitError as error:
-        raise UnitError(f"{quoted(text)}: {error}") from None
+    return _times(value, factor_to_si(unit, dimension))
 
 
 def from_si(value: float, unit: str) -> float:
@@ -283,9 +278,9 @@ def resolve(text: str, dimension: str | None = None) -> Unit:
 
 def _collected(factors: Iterable[tuple[str, int]]) -> dict[str, int]:
     """Add the exponents of each symbol; what cancels is left out."""
-    powers: dict[str, int] = {}
+    powers = Counter[str]()
     for name, power in factors:
-        powers[name] = powers.get(name, 0) + power
+        powers[name] += power
     return {name: power for name, power in powers.items() if power}
 
 

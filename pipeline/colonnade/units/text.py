@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from html import escape
-from math import ceil, floor, inf, isfinite, log10, nan
+from math import ceil, floor, isfinite, log10, nan
 
 from colonnade.units import from_si
 
@@ -72,18 +71,6 @@ def ratio(value: float | None, digits: int = 3) -> str:
     return f"< {LEAST_RATIO:g}" if value and abs(value) < LEAST_RATIO else number(value, digits)
 
 
-def signed_ratio(value: float) -> str:
-    """
-    Write a difference of angles over the critical angle with its sign, as `ratio` does.
-
-    Examples
-    --------
-    >>> signed_ratio(0.0123), signed_ratio(-0.5), signed_ratio(-4e-6), signed_ratio(float("nan"))
-    ('+0.012', '−0.5', '< 0.001', '–')
-    """
-    return with_minus(f"{value:+.2g}") if LEAST_RATIO <= abs(value) < inf else ratio(value)
-
-
 def quantity(value: float | None, unit: str, digits: int = 3) -> str:
     """
     Write an SI value in a unit.
@@ -146,8 +133,7 @@ def format_uncertain(value: float, half_width: float, unit: str = "") -> str:
     if not (isfinite(half_width) and half_width > 0.0 and isfinite(value)):
         return written(value, unit)
     decimals = -floor(log10(half_width))
-    if round(half_width * 10.0**decimals, 1) < 2.0:
-        decimals += 1
+    decimals += round(half_width * 10.0**decimals, 1) < 2.0
     shown, width = (f"{round(each, decimals):.{max(decimals, 0)}f}" for each in (value, half_width))
     return f"{with_minus(shown)} ± {width} {unit}".rstrip()
 
@@ -199,9 +185,7 @@ def with_minus(number: str) -> str:
     >>> with_minus("-0.5"), with_minus("1.2e-05 m"), with_minus("3e+06")
     ('−0.5', '1.2·10⁻⁵ m', '3·10⁶')
     """
-    if number.startswith("-"):
-        number = MINUS + number[1:]
-    return _EXPONENT.sub(lambda found: f"·10{str(int(found[1])).translate(_RAISED)}", number)
+    return _EXPONENT.sub(lambda found: f"·10{str(int(found[1])).translate(_RAISED)}", re.sub("^-", MINUS, number))
 
 
 def listed(names: Sequence[str], longest: int = 8, what: str = "") -> str:
@@ -230,7 +214,7 @@ def joined(names: Sequence[str], last: str = "and") -> str:
 
 
 class Digested(ABC):
-    """A result that gives its essence by `digest`: shown by `repr` in a line and by a notebook as a table."""
+    """A result that gives its essence by `digest`: `repr` shows it in a line, also in a notebook."""
 
     @abstractmethod
     def digest(self) -> Mapping[str, str]:
@@ -241,26 +225,16 @@ class Digested(ABC):
         said = ", ".join(f"{name} {text}" for name, text in self.digest().items())
         return f"<{type(self).__name__}: {said}>"
 
-    def _repr_html_(self) -> str:
-        """Write it as a table; whatever a text holds, it is shown as text."""
-        rows = "".join(
-            f'<tr><th scope="row" style="text-align: left">{escape(name)}</th><td>{escape(text)}</td></tr>'
-            for name, text in self.digest().items()
-        )
-        return f"<table><caption>{escape(type(self).__name__)}</caption><tbody>{rows}</tbody></table>"
-
 
 def shown(value: object) -> str:
     """
-    Write a value of any kind: nothing for None, four digits for a number, a list in one line.
+    Write a value of any kind: four digits of a number, a list in one line.
 
     Examples
     --------
     >>> shown(None), shown(0.123456), shown([1, 2.5]), shown(True)
-    ('', '0.1235', '1; 2.5', 'True')
+    ('–', '0.1235', '1; 2.5', 'True')
     """
-    if value is None:
-        return ""
-    if isinstance(value, float):
-        return f"{value:.4g}"
-    return "; ".join(map(shown, value)) if isinstance(value, (list, tuple)) else str(value)
+    if isinstance(value, (list, tuple)):
+        return "; ".join(map(shown, value))
+    return number(value, 4) if value is None or isinstance(value, float) else str(value)

@@ -91,7 +91,7 @@ def test_without_a_known_outcome_nothing_is_said(tests):
 def test_what_is_told_of_a_body_has_its_units():
     told = dict(wording.lines_of({"bodies": {"top": {"residual_x": -0.0021, "opening_time": 3.2, "peak_ratio": 0.5}}}))
     assert told == {
-        "bodies.top.residual_x": "-2.1 mm",
+        "bodies.top.residual_x": "−2.1 mm",
         "bodies.top.opening_time": "3.2 s",
         "bodies.top.peak_ratio": "0.5 α",
     }
